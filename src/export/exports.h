@@ -1,0 +1,76 @@
+#pragma once
+// What a scene asked for -> files. Only what it asked for is made: no table, no buffer, no picture else.
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "export/run_folder.h"
+#include "export/timeline.h"
+#include "physics/collision.h"
+#include "physics/state.h"
+#include "physics/tally.h"
+#include "render/image.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+/// One sequence of pictures of one size and quality; frames, video and sheet share one where theirs are the same.
+struct PictureStream {
+  Size size;
+  int samples = 4;
+  int timeline_stream = 0;
+};
+
+/// summary.csv's row, in the order of its columns.
+struct Summary {
+  std::string run, title, engine, status;
+  double duration = 0;
+  std::uint64_t bodies = 0, collisions = 0, body_body = 0, body_fixed = 0;
+  double first_collision = 0, last_collision = 0;  // s, NaN: empty
+  double energy_start = 0, energy_end = 0, energy_lost = 0, work = 0, energy_residual = 0;  // J
+  double momentum_drift = 0;  // kg m/s, |p(end) - p(start)|
+  double max_overlap = 0, max_speed = 0;
+  std::uint64_t resting = 0, frames = 0;
+};
+
+/// How the run went, for manifest.json alone (nothing here may stand in a CSV).
+struct RunFacts {
+  double load_s = 0, simulate_s = 0, render_s = 0, export_s = 0;  // wall times
+  std::uint64_t peak_memory = 0;                                  // bytes
+};
+
+/// How many trajectory rows, pictures and, roughly, bytes a run of this scene will write.
+struct Forecast {
+  std::uint64_t rows = 0, frames = 0, bytes = 0;
+};
+Forecast forecast(const Scene& scene);
+
+class Exports {
+ public:
+  /// Opens only what scene.output asks for, in `folder`, which is made if need be. Removes what a former run left there
+  /// (by its manifest). `scene` must outlive this. Throws ExportError.
+  Exports(const Scene& scene, const std::string& folder);
+  /// Without finish(): what was not whole is removed.
+  ~Exports();
+  Exports(const Exports&) = delete;
+  Exports& operator=(const Exports&) = delete;
+
+  Timeline& timeline();
+  bool wants_state() const;  // at the timeline's present instant: anything due at all
+  void record(std::span<const Collision> collisions);
+  void sample(const State& state);  // writes the rows that are due now
+  const std::vector<PictureStream>& pictures() const;
+  void picture(std::size_t stream, const Image& image);  // the picture due now of pictures()[stream]
+  std::uint64_t frames() const;                          // pictures taken so far
+
+  /// Completes every file, then writes summary.csv, scene.yaml and last manifest.json. Throws ExportError.
+  void finish(const Summary& summary, const RunFacts& facts);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace carom

@@ -1,0 +1,25 @@
+#pragma once
+// The folder that a run writes: what is in it already, and files that appear whole or not at all.
+#include <stdexcept>
+#include <string>
+
+#include "scene/scene.h"
+
+namespace carom {
+
+/// Writing cannot go on, or must not begin. The text is for the user.
+struct ExportError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+enum class FolderContent {
+  nothing,     // it is not there, or empty
+  this_run,    // this very run, by the same tool, whole: every file of the manifest has its size and hash
+  incomplete,  // this scene's, not whole: a run that was interrupted, or other outputs of the same scene
+  other_run    // another scene's run, or files that no run wrote
+};
+
+/// What stands in `folder`, read from its manifest.json. Changes nothing.
+FolderContent inspect_folder(const std::string& folder, const Scene& scene);
+
+}  // namespace carom

@@ -1,0 +1,31 @@
+#pragma once
+// A collision that happened. (One that is only predicted is an Event, and private to a simulator.)
+#include <cstdint>
+
+#include "physics/vec3.h"
+#include "physics/world.h"
+
+namespace carom {
+
+enum class CollisionKind : std::uint8_t {
+  body_body,   // two bodies struck each other
+  body_fixed,  // a body struck a fixed surface
+  rest,        // a body's bounces on a surface ended; from here on it rests or slides
+  merge        // two bodies became one
+};
+
+struct Collision {
+  double time;              // s
+  CollisionKind kind;
+  Entity a;                 // the body with the lower number, or the only one
+  Entity b;                 // the other body, or the fixed surface
+  Vec3 position;            // m, the point of contact
+  Vec3 normal;              // unit, from a to b
+  double approach_speed;    // m/s, along the normal, > 0: approaching
+  double separation_speed;  // m/s, along the normal, > 0: separating
+  double restitution;       // the pair's coefficient
+  double impulse;           // N s, along the normal
+  double energy_lost;       // J, < 0: made
+};
+
+}  // namespace carom

@@ -1,0 +1,12 @@
+#pragma once
+// Conserved sums of a State. Summed with compensation, in the order of the bodies.
+#include "physics/state.h"
+#include "physics/world.h"
+
+namespace carom {
+
+double kinetic_energy(const World& world, const State& state);    // J
+double potential_energy(const World& world, const State& state);  // J, of gravity; zero at the origin
+Vec3 momentum(const World& world, const State& state);            // kg m/s
+
+}  // namespace carom

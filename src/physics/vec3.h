@@ -1,0 +1,10 @@
+#pragma once
+// The one vector type. Eigen is built without its own vectorisation (EIGEN_DONT_VECTORIZE), so that sums have one order
+// and a result has the same bits in every build.
+#include <Eigen/Core>
+
+namespace carom {
+
+using Vec3 = Eigen::Vector3d;
+
+}  // namespace carom

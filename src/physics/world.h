@@ -1,0 +1,65 @@
+#pragma once
+// What never changes during a run. What does change is State (state.h).
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "physics/vec3.h"
+
+namespace carom {
+
+/// A body or a fixed surface, by number: bodies are 0 .. body_count()-1, then the planes, then the walls.
+using Entity = std::uint32_t;
+inline constexpr Entity no_entity = std::numeric_limits<Entity>::max();
+
+/// An unbounded one-sided surface. Free space is where (x - point) . normal > 0.
+struct Plane {
+  Vec3 point;                         // m
+  Vec3 normal;                        // unit, to the free side
+  std::optional<double> restitution;  // none: the moving body's
+};
+
+/// A two-sided rectangle without thickness.
+struct Wall {
+  Vec3 center;                        // m
+  Vec3 normal;                        // unit
+  Vec3 right;                         // unit, along the width; right x up = normal
+  Vec3 up;                            // unit, along the height
+  double half_width;                  // m
+  double half_height;                 // m
+  std::optional<double> restitution;  // none: the moving body's
+};
+
+/// How two bodies' coefficients of restitution make the pair's (restitution.h).
+enum class Combine : std::uint8_t { average, minimum, maximum, product, geometric_mean, mass_weighted, book };
+
+/// A coefficient that overrules the combination, for every pair with one entity in each range.
+struct PairRestitution {
+  Entity a_first, a_count;
+  Entity b_first, b_count;
+  double value;
+};
+
+/// Bodies, fixed surfaces and the laws between them. Arrays are indexed by body.
+struct World {
+  std::vector<double> mass;         // kg, > 0
+  std::vector<double> radius;       // m, > 0, of the bounding sphere
+  std::vector<double> restitution;  // >= 0; above 1 makes energy
+  std::vector<Vec3> impulse;        // N s, given at time 0; empty: none at all
+  std::vector<Plane> planes;
+  std::vector<Wall> walls;
+  Vec3 gravity = Vec3(0, -9.80665, 0);  // m/s^2
+  Combine combine = Combine::average;
+  std::vector<PairRestitution> pairs;  // the last one that fits wins
+
+  Entity body_count() const { return static_cast<Entity>(mass.size()); }
+  Entity fixed_count() const { return static_cast<Entity>(planes.size() + walls.size()); }
+  bool is_body(Entity e) const { return e < body_count(); }
+  bool is_plane(Entity e) const { return e >= body_count() && e - body_count() < planes.size(); }
+  const Plane& plane(Entity e) const { return planes[e - body_count()]; }
+  const Wall& wall(Entity e) const { return walls[e - body_count() - planes.size()]; }
+};
+
+}  // namespace carom

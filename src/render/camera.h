@@ -1,0 +1,21 @@
+#pragma once
+// The camera as numbers: which way it looks, what it sees. Needs no OpenGL, so that `check` can ask.
+#include "physics/state.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+/// The scene's camera, or where it names none, one that sees all bodies at time 0 (and the fixed things near them).
+Camera camera_of(const Scene& scene);
+
+/// The camera's right-handed frame and its angles.
+struct View {
+  Vec3 right, up, forward;  // unit; right = forward x up
+  double fov_x, fov_y;      // degrees, full angles
+};
+View view_of(const Camera& camera, Size size);
+
+/// Whether any part of a sphere is inside the picture (the view frustum, near and far included).
+bool sees_sphere(const Camera& camera, const View& view, const Vec3& center, double radius);
+
+}  // namespace carom

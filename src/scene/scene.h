@@ -1,0 +1,130 @@
+#pragma once
+// The whole request that a scene file makes, checked: const from here on. Types only; load.h reads files into them.
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "physics/state.h"
+#include "physics/vec3.h"
+#include "physics/world.h"
+
+namespace carom {
+
+/// sRGB as authors write it (not linear light), each 0 to 1.
+struct Color {
+  double r = 1, g = 1, b = 1;
+};
+
+/// A name of the scene file and the bodies it stands for: one ball, or a group's members name.0, name.1, ...
+struct BodyRange {
+  std::string name;
+  Entity first = 0;
+  Entity count = 1;
+  bool group = false;
+  Color color;
+};
+
+struct FixedName {
+  std::string name;  // room.x_min etc. for a room's planes
+  Color color;
+  bool visible = true;
+};
+
+/// Who is who, in the order of the file, which is the order of every output.
+struct Roster {
+  std::vector<BodyRange> bodies;   // by first
+  std::vector<FixedName> fixed;    // by entity: the planes, then the walls
+  std::string name(Entity e) const;             // "red", "gas.17", "lane"
+  const BodyRange& range_of(Entity body) const; // the range that holds this body
+};
+
+enum class Engine : std::uint8_t { automatic, exact, stepped, book };
+
+struct Simulate {
+  double duration = 0;                  // s
+  Engine engine = Engine::automatic;
+  std::optional<double> step;           // s
+  std::optional<double> rest_speed;     // m/s
+  std::optional<std::uint64_t> max_collisions;
+  bool as_printed = false;              // book only
+};
+
+struct Camera {
+  Vec3 eye;                // m
+  Vec3 target;             // m
+  Vec3 up = Vec3(0, 1, 0);
+  double fov = 45;         // degrees, along fov_horizontal's axis
+  bool fov_horizontal = false;
+  double near = 0.1;       // m
+  double far = 1000;       // m
+};
+
+struct Light {
+  std::string name;
+  std::optional<Vec3> direction;  // the way the light travels; exactly one of direction and position is set
+  std::optional<Vec3> position;   // m
+  Color color;
+  double intensity = 1;
+};
+
+struct Size {
+  int width = 1280, height = 720;  // pixels
+};
+
+struct TrajectoryOutput {
+  double every = 1.0 / 30;  // s
+  bool wide = false;
+};
+struct EnergyOutput {
+  double every = 1.0 / 30;  // s
+};
+struct FramesOutput {
+  double fps = 30;
+  Size size;
+  int samples = 4;                // per pixel
+  double from = 0;                // s
+  std::optional<double> until;    // s; none: the duration
+};
+struct VideoOutput {
+  std::string file = "animation.mp4";  // a plain file name
+  double fps = 30;
+  Size size;
+  int samples = 4;
+  int crf = 18;
+  double from = 0;
+  std::optional<double> until;
+};
+struct SheetOutput {
+  int columns = 4, rows = 3;
+};
+
+/// What the run shall write; absent means not wanted and nothing is made for it. summary, manifest and scene.yaml always are.
+struct Output {
+  std::optional<TrajectoryOutput> trajectory;
+  bool collisions = false;
+  std::optional<EnergyOutput> energy;
+  std::optional<FramesOutput> frames;
+  std::optional<VideoOutput> video;
+  std::optional<SheetOutput> sheet;
+  bool pictures() const { return frames || video || sheet; }
+};
+
+struct Scene {
+  std::string file;    // as named on the command line
+  std::string title;
+  std::uint64_t seed = 0;
+  World world;
+  State initial;       // at time 0, before impulses
+  Roster roster;
+  Simulate simulate;
+  std::optional<Camera> camera;
+  std::vector<Light> lights;             // empty: the renderer's own
+  std::optional<Color> ambient;
+  std::optional<Color> background;
+  Output output;
+  std::string resolved;  // YAML text: this scene with defaults and --set applied; running it gives the same bytes
+};
+
+}  // namespace carom

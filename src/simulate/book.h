@@ -1,0 +1,20 @@
+#pragma once
+// The source chapter's own program: frame by frame, overlap by overlap. See book.cpp.
+#include <cstdint>
+#include <memory>
+
+#include "simulate/simulator.h"
+
+namespace carom {
+
+struct BookOptions {
+  double step = 1.0 / 60;            // s, of a frame
+  bool as_printed = false;           // listings 8.3 and 8.4 with their slips
+  std::uint64_t max_collisions = 0;  // stop with an error after so many; 0: no limit
+  bool record_collisions = true;     // false: no buffer is made and collisions() stays empty
+};
+
+/// `world` must outlive the simulator. `initial` is at time 0, before the world's impulses (forces of the first frame).
+std::unique_ptr<Simulator> make_book_simulator(const World& world, const State& initial, const BookOptions& options);
+
+}  // namespace carom

@@ -1,0 +1,20 @@
+#pragma once
+// The exact simulator: from event to event along closed-form paths. See exact.cpp.
+#include <cstdint>
+#include <memory>
+
+#include "simulate/simulator.h"
+
+namespace carom {
+
+struct ExactOptions {
+  double duration = 0;                // s; nothing later is scheduled
+  double rest_speed = 0;              // m/s; slower impacts under load end in resting contact; 0: as slow as the clock resolves
+  std::uint64_t max_collisions = 0;   // stop with an error after so many; 0: no limit
+  bool record_collisions = true;      // false: no buffer is made and collisions() stays empty
+};
+
+/// `world` must outlive the simulator. `initial` is at time 0, before the world's impulses.
+std::unique_ptr<Simulator> make_exact_simulator(const World& world, const State& initial, const ExactOptions& options);
+
+}  // namespace carom

@@ -1,0 +1,32 @@
+#pragma once
+// The one door to every way of carrying a World forward in time. Crossed once per output time, never per event.
+#include <span>
+#include <stdexcept>
+
+#include "physics/collision.h"
+#include "physics/state.h"
+#include "physics/tally.h"
+#include "physics/world.h"
+
+namespace carom {
+
+/// The run cannot go on (a limit reached, a number no longer finite). The text is for the user.
+struct SimulationError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Carries a World forward from its initial State. Asking never changes what happens next.
+class Simulator {
+ public:
+  virtual ~Simulator() = default;
+
+  /// Goes on to `time` (s), or less far: until the collision buffer is full. Call again while time() < `time`.
+  /// Throws SimulationError.
+  virtual void advance_to(double time) = 0;
+  virtual double time() const = 0;                            // s
+  virtual const State& state() = 0;                           // at time(); valid until the next advance_to
+  virtual std::span<const Collision> collisions() const = 0;  // since the last advance_to, in order; empty if not recorded
+  virtual const Tally& tally() const = 0;                     // up to time()
+};
+
+}  // namespace carom
