@@ -1,0 +1,235 @@
+// Every #include below src/ against the README's table of who may include whom.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "architecture/source_tree.h"
+
+namespace carom::testing {
+namespace {
+
+/// The table's rule for one folder of src/ ("main" for main.cpp).
+struct Rule {
+  bool all = false;
+  std::set<std::string> folders;    // if all: those that it may not
+  std::set<std::string> headers;    // single headers of other folders
+  std::set<std::string> libraries;  // that no other folder includes
+};
+
+/// The table's words for single headers, and for libraries with the start of what is included.
+const std::map<std::string, std::string> header_words = {{"scene's types", "scene/scene.h"},
+                                                         {"render's Image", "render/image.h"}};
+const std::map<std::string, std::vector<std::string>> library_words = {
+    {"Eigen", {"Eigen/"}},
+    {"yaml-cpp", {"yaml-cpp/"}},
+    {"OSMesa/OpenGL", {"GL/", "KHR/", "EGL/"}},
+    {"assimp", {"assimp/"}},
+    {"PNG", {"png.h", "zlib.h"}},
+    {"nettle", {"nettle/"}},
+    {"nlohmann-json", {"nlohmann/"}},
+    {"libxlsxwriter", {"xlsxwriter"}},
+    {"CLI11", {"CLI/"}},
+    {"ffmpeg's pipe", {}},  // not a header: see OnlyExportStartsFfmpeg
+};
+/// What any folder may include: text, and the system's own headers.
+const std::vector<std::string> free_libraries = {"fmt/",   "sys/",     "unistd.h", "fcntl.h",
+                                                 "poll.h", "signal.h", "spawn.h"};
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts(1);
+  for (char c : text) {
+    if (c == at) {
+      parts.emplace_back();
+    } else if (c != '`') {
+      parts.back() += c;
+    }
+  }
+  for (std::string& part : parts) {
+    part = std::regex_replace(part, std::regex("^ +| +$"), "");
+  }
+  std::erase_if(parts, [](const std::string& part) { return part.empty() || part == "–"; });
+  return parts;
+}
+
+/// Throws where it meets a word that it does not know, so that no cell goes unheeded.
+Rule read_rule(const std::string& may_include, const std::string& only_place) {
+  Rule rule;
+  for (const std::string& word : split(may_include, ',')) {
+    if (word == "all") {
+      rule.all = true;
+    } else if (word.starts_with("all but ")) {
+      rule.all = true;
+      rule.folders.insert(word.substr(8));
+    } else if (header_words.contains(word)) {
+      rule.headers.insert(header_words.at(word));
+    } else if (std::filesystem::is_directory(SOURCE_DIR "/src/" + word)) {
+      rule.folders.insert(word);
+    } else {
+      throw std::runtime_error("the table says \"" + word + "\", which is no folder");
+    }
+  }
+  for (const std::string& word : split(only_place, ',')) {
+    if (!library_words.contains(word)) {
+      throw std::runtime_error("the table says \"" + word + "\", a library that this test does not know");
+    }
+    rule.libraries.insert(word);
+  }
+  return rule;
+}
+
+/// Stands in for the README where there is none.
+const char* const fallback = R"(
+| folder | may include | the only place that includes |
+| --- | --- | --- |
+| `physics/` | – | Eigen |
+| `simulate/` | physics | |
+| `scene/` | physics | yaml-cpp |
+| `render/` | physics, scene's types | OSMesa/OpenGL, assimp |
+| `export/` | physics, scene's types, render's `Image` | PNG, ffmpeg's pipe, nettle, nlohmann-json |
+| `commands/`, `main` | all | CLI11 |
+)";
+
+/// The README's table, by folder.
+std::map<std::string, Rule> read_table() {
+  SourceFile readme = read_source("README.md");
+  if (readme.text.empty()) {
+    readme.text = fallback;
+  }
+  std::map<std::string, Rule> table;
+  bool inside = false;
+  for (const std::string& line : readme.lines()) {
+    if (line.starts_with("| folder | may include | the only place that includes |")) {
+      inside = true;
+    } else if (!line.starts_with("|")) {
+      inside = false;
+    } else if (inside && !line.starts_with("| ---")) {
+      const std::size_t second = line.find('|', 1), third = line.find('|', second + 1),
+                        last = line.find('|', third + 1);
+      const Rule rule =
+          read_rule(line.substr(second + 1, third - second - 1), line.substr(third + 1, last - third - 1));
+      for (std::string folder : split(line.substr(1, second - 1), ',')) {
+        std::erase(folder, '/');
+        table[folder] = rule;
+      }
+    }
+  }
+  return table;
+}
+
+struct Include {
+  std::string path;
+  bool own;  // in quotes
+};
+
+std::vector<Include> includes_of(const SourceFile& file) {
+  static const std::regex directive(R"(^\s*#\s*include\s*(["<])([^">]+)[">].*)");
+  std::vector<Include> includes;
+  for (const std::string& line : file.lines()) {
+    if (std::smatch match; std::regex_match(line, match, directive)) {
+      includes.push_back({match[2], match[1] == "\""});
+    }
+  }
+  return includes;
+}
+
+/// "physics" of "src/physics/world.h", "main" of "src/main.cpp".
+std::string folder_of(const SourceFile& file) {
+  const std::string below = file.path.substr(4);
+  return below.substr(0, below.find_first_of("/."));
+}
+
+bool starts_with_any(const std::string& path, const std::vector<std::string>& starts) {
+  return std::any_of(starts.begin(), starts.end(), [&](const std::string& start) { return path.starts_with(start); });
+}
+
+/// All own headers that a file includes, directly or through others.
+void add_reach(const SourceFile& file, std::set<std::string>& reach) {
+  for (const Include& include : includes_of(file)) {
+    if (include.own && reach.insert(include.path).second) {
+      for (const SourceFile& other : program_files()) {
+        if (other.path == "src/" + include.path) {
+          add_reach(other, reach);
+        }
+      }
+    }
+  }
+}
+
+TEST(Includes, EveryFolderHasARowInTheReadmesTable) {
+  const auto table = read_table();
+  ASSERT_FALSE(table.empty())
+      << "README.md has no table that begins | folder | may include | the only place that includes |";
+  for (const SourceFile& file : program_files()) {
+    EXPECT_TRUE(table.contains(folder_of(file))) << file.path;
+  }
+}
+
+TEST(Includes, OwnHeadersOnlyAsTheTableAllows) {
+  const auto table = read_table();
+  for (const SourceFile& file : program_files()) {
+    const Rule& rule = table.at(folder_of(file));
+    for (const Include& include : includes_of(file)) {
+      if (!include.own) {
+        continue;
+      }
+      EXPECT_TRUE(std::filesystem::exists(SOURCE_DIR "/src/" + include.path))
+          << file.path << " includes \"" << include.path << "\", which is not below src/";
+      const std::string folder = include.path.substr(0, include.path.find('/'));
+      EXPECT_TRUE(folder == folder_of(file) || rule.headers.contains(include.path) ||
+                  rule.all != rule.folders.contains(folder))
+          << file.path << " includes " << include.path;
+    }
+  }
+}
+
+TEST(Includes, LibrariesOnlyAtTheirOnlyPlace) {
+  const auto table = read_table();
+  for (const SourceFile& file : program_files()) {
+    for (const Include& include : includes_of(file)) {
+      const bool standard = include.path.find_first_of("/.") == std::string::npos;
+      if (include.own || standard || starts_with_any(include.path, free_libraries)) {
+        continue;
+      }
+      bool placed = false;
+      for (const auto& [folder, rule] : table) {
+        for (const std::string& library : rule.libraries) {
+          if (starts_with_any(include.path, library_words.at(library))) {
+            placed = placed || folder == folder_of(file);
+          }
+        }
+      }
+      EXPECT_TRUE(placed) << file.path << " includes <" << include.path << ">, which the table does not place there";
+    }
+  }
+}
+
+TEST(Includes, OnlyExportStartsFfmpeg) {
+  for (const SourceFile& file : program_files()) {
+    EXPECT_TRUE(file.text.find("\"ffmpeg\"") == std::string::npos || folder_of(file) == "export") << file.path;
+  }
+}
+
+TEST(Includes, SimulatorsExportsAndLoaderNeverReachOneAnother) {
+  const std::map<std::string, std::vector<std::string>> never = {{"simulate", {"export/", "scene/"}},
+                                                                 {"export", {"simulate/", "scene/load.h"}},
+                                                                 {"scene", {"simulate/", "export/"}}};
+  for (const SourceFile& file : program_files()) {
+    if (!never.contains(folder_of(file))) {
+      continue;
+    }
+    std::set<std::string> reach;
+    add_reach(file, reach);
+    for (const std::string& header : reach) {
+      EXPECT_FALSE(starts_with_any(header, never.at(folder_of(file)))) << file.path << " reaches " << header;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom::testing
