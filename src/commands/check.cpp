@@ -1,0 +1,221 @@
+#include "commands/check.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "commands/plan.h"
+#include "commands/preview.h"
+#include "commands/report.h"
+#include "commands/text.h"
+
+namespace carom {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::size_t names_shown = 10;
+
+// "red, blue and gas (1,000)".
+std::string bodies_text(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const BodyRange& range : scene.roster.bodies) {
+    names.push_back(range.group ? fmt::format("{} ({})", range.name, grouped(range.count)) : range.name);
+  }
+  const std::string count = counted(scene.world.body_count(), "body", "bodies");
+  return names.empty() ? count : fmt::format("{}: {}", count, listed(names, names_shown));
+}
+
+std::string fixed_text(const World& world) {
+  return fmt::format("{}, {}", counted(world.planes.size(), "plane", "planes"),
+                     counted(world.walls.size(), "wall", "walls"));
+}
+
+std::string engine_text(const PlannedScene& planned) {
+  const Simulate& simulate = planned.scene->simulate;
+  std::string text = planned.engine.name;
+  if (simulate.as_printed) text += ", as printed";
+  if (!planned.engine.why.empty()) text += fmt::format(" ({})", planned.engine.why);
+  return text + fmt::format(", {} of motion", quantity(simulate.duration, "s"));
+}
+
+std::string first_collision_text(const PlannedScene& planned, const FirstCollision& first) {
+  if (!first.trouble.empty()) return "not known: " + first.trouble;
+  if (!first.collision) return fmt::format("none within {}", quantity(planned.scene->simulate.duration, "s"));
+  const Collision& c = *first.collision;
+  const Roster& roster = planned.scene->roster;
+  std::string text = fmt::format("{} and {} at {}, at ({:.4g}, {:.4g}, {:.4g}) m, closing at {}", roster.name(c.a),
+                                 roster.name(c.b), quantity(c.time, "s"), c.position.x() + 0.0, c.position.y() + 0.0,
+                                 c.position.z() + 0.0, quantity(c.approach_speed, "m/s"));
+  if (planned.engine.name == "book") text += " (exact; the book engine sees it at a later frame)";
+  return text;
+}
+
+std::string plus_x_text(const std::string& direction) {
+  if (direction == "left" || direction == "right") return fmt::format("+x points to the {} of the picture", direction);
+  if (direction == "up" || direction == "down") return fmt::format("+x points {} in the picture", direction);
+  return direction == "away" ? "+x points away from the eye" : "+x points toward the eye";
+}
+
+std::string out_of_view_text(const PlannedScene& planned, const CameraPreview& view) {
+  if (view.out_of_view.empty()) return "no body at time 0";
+  std::vector<std::string> names;
+  for (const Entity body : view.out_of_view) {
+    if (names.size() == names_shown) break;
+    names.push_back(planned.scene->roster.name(body));
+  }
+  const std::size_t more = view.out_of_view.size() - names.size();
+  return more == 0 ? listed(names) + " at time 0"
+                   : fmt::format("{} and {} more at time 0", fmt::join(names, ", "), grouped(more));
+}
+
+std::string content_text(const PlannedScene& planned) {
+  switch (planned.content) {
+    case FolderContent::nothing:
+      return "new";
+    case FolderContent::this_run:
+      return "up to date";
+    case FolderContent::incomplete:
+      return "incomplete, will be run again";
+    case FolderContent::other_run:
+      break;
+  }
+  return "holds another run, or files that no run wrote: run needs --force or another -o";
+}
+
+std::string content_name(FolderContent content) {
+  switch (content) {
+    case FolderContent::nothing:
+      return "new";
+    case FolderContent::this_run:
+      return "up to date";
+    case FolderContent::incomplete:
+      return "incomplete";
+    case FolderContent::other_run:
+      break;
+  }
+  return "other run";
+}
+
+struct Findings {
+  FirstCollision first;
+  std::optional<CameraPreview> camera;  // none where no picture is wanted and no camera set
+};
+
+Findings examine(const Scene& scene) {
+  Findings findings{predict_first_collision(scene), std::nullopt};
+  if (scene.camera || scene.output.pictures()) findings.camera = preview_camera(scene);
+  return findings;
+}
+
+std::string as_text(const PlannedScene& planned, const Findings& findings, const Palette& palette, std::size_t width) {
+  Block block(palette, width);
+  block.heading(planned.name, planned.scene->title);
+  block.line("bodies", bodies_text(*planned.scene));
+  block.line("fixed", fixed_text(planned.scene->world));
+  block.line("engine", engine_text(planned));
+  block.line("first hit", first_collision_text(planned, findings.first));
+  if (findings.camera) {
+    block.line("camera", fmt::format("{}; fields of view {:.4g} x {:.4g} degrees", plus_x_text(findings.camera->plus_x),
+                                     findings.camera->fov_x, findings.camera->fov_y));
+    block.line("unseen", out_of_view_text(planned, *findings.camera));
+  } else {
+    block.line("camera", "none, no pictures are wanted");
+  }
+  block.line("to come", fmt::format("{}, {}, about {}", counted(planned.forecast.frames, "picture", "pictures"),
+                                    counted(planned.forecast.rows, "trajectory row", "trajectory rows"),
+                                    bytes_text(planned.forecast.bytes)));
+  block.line("folder", fmt::format("{}: {}", printable(planned.folder), content_text(planned)));
+  return block.text();
+}
+
+Json collision_json(const Scene& scene, const Collision& c) {
+  return {{"time_s", c.time},
+          {"kind", c.kind == CollisionKind::body_fixed ? "body-fixed"
+                   : c.kind == CollisionKind::merge    ? "merge"
+                                                       : "body-body"},
+          {"a", scene.roster.name(c.a)},
+          {"b", scene.roster.name(c.b)},
+          {"x_m", c.position.x()},
+          {"y_m", c.position.y()},
+          {"z_m", c.position.z()},
+          {"approach_speed_m_per_s", c.approach_speed}};
+}
+
+Json camera_json(const Scene& scene, const CameraPreview& camera) {
+  Json names = Json::array();
+  for (const Entity body : camera.out_of_view) {
+    if (names.size() == names_shown) break;
+    names.push_back(scene.roster.name(body));
+  }
+  return {{"plus_x", camera.plus_x},
+          {"fov_x_degrees", camera.fov_x},
+          {"fov_y_degrees", camera.fov_y},
+          {"out_of_view", camera.out_of_view.size()},
+          {"out_of_view_names", names}};
+}
+
+Json as_json(const PlannedScene& planned, const Findings& findings) {
+  const Scene& scene = *planned.scene;
+  Json entry = {{"scene", planned.file},
+                {"status", "right"},
+                {"title", scene.title},
+                {"bodies", scene.world.body_count()},
+                {"planes", scene.world.planes.size()},
+                {"walls", scene.world.walls.size()},
+                {"engine", planned.engine.name},
+                {"why", planned.engine.why},
+                {"duration_s", scene.simulate.duration}};
+  entry["first_collision"] =
+      findings.first.collision ? collision_json(scene, *findings.first.collision) : Json(nullptr);
+  if (!findings.first.trouble.empty()) entry["first_collision_trouble"] = findings.first.trouble;
+  entry["camera"] = findings.camera ? camera_json(scene, *findings.camera) : Json(nullptr);
+  entry["pictures"] = planned.forecast.frames;
+  entry["trajectory_rows"] = planned.forecast.rows;
+  entry["bytes"] = planned.forecast.bytes;
+  entry["folder"] = planned.folder;
+  entry["content"] = content_name(planned.content);
+  return entry;
+}
+
+}  // namespace
+
+const CommandText& check_text() {
+  static const CommandText text = {
+      "check", "shows what a run would do and all that is wrong with scenes, and writes nothing",
+      "  carom check scenes/two_bowling_balls.yaml\n"
+      "  carom check scenes/*.yaml -q                          only what is wrong\n"
+      "  carom check scene.yaml --set simulate.duration=60     is it still of a size to run?\n",
+      "Exit codes: 0 all scenes are right, 2 the command line or a scene is wrong.", false};
+  return text;
+}
+
+int check_command(const Options& options) {
+  const std::vector<PlannedScene> scenes = plan_scenes(options);
+  const Palette palette(wants_color(options.color, STDOUT_FILENO));
+  Json entries = Json::array();
+  for (const PlannedScene& planned : scenes) {
+    if (planned.errors > 0) {
+      flush_out();
+      write_err(planned.error);
+      entries.push_back(
+          {{"scene", planned.file}, {"status", "wrong"}, {"errors", planned.errors}, {"error", planned.error}});
+      continue;
+    }
+    if (options.quiet) continue;
+    const Findings findings = examine(*planned.scene);
+    if (options.json) {
+      entries.push_back(as_json(planned, findings));
+    } else {
+      write_out(as_text(planned, findings, palette, terminal_width(STDOUT_FILENO)));
+    }
+  }
+  if (options.json) write_out(document("check", entries));
+  const std::string errors = error_count(scenes);
+  if (errors.empty()) return 0;
+  flush_out();
+  complain(options, errors);
+  return 2;
+}
+
+}  // namespace carom

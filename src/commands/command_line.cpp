@@ -1,0 +1,219 @@
+#include "commands/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+
+#include "commands/text.h"
+
+namespace carom {
+
+namespace {
+
+// Examples first, then usage, and option lines without CLI11's notes on types and repetition.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  explicit HelpFormatter(const CommandText& command) : command_(command) {
+    column_width(26);
+    label("Positionals", "Scenes");
+  }
+  std::string make_description(const CLI::App*) const override {
+    return fmt::format("carom {}: {}\n\nExamples:\n{}", command_.name, command_.line, command_.examples);
+  }
+  std::string make_usage(const CLI::App*, std::string) const override {
+    return fmt::format("\nUsage:\n  carom {} SCENE... [OPTIONS]\n", command_.name);
+  }
+  std::string make_option_opts(const CLI::Option* option) const override {
+    const std::string value = option->get_type_name();
+    return value.empty() || option->get_positional() ? "" : " " + value;
+  }
+
+ private:
+  const CommandText& command_;
+};
+
+/// Words of the command line by option; every option that takes a value may come several times until it is read.
+struct Words {
+  std::vector<std::string> scenes, output, set, only, seed, progress, color;
+  bool force = false, quiet = false, json = false;
+};
+
+CLI::Option* add_value(CLI::App& app, const std::string& names, std::vector<std::string>& words,
+                       const std::string& type, const std::string& help) {
+  return app.add_option(names, words, help)
+      ->type_name(type)
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_options(CLI::App& app, const CommandText& command, Words& words) {
+  app.add_option("SCENE", words.scenes, "scene files (YAML)")->type_name("");
+  add_value(app, "-o,--output", words.output, "DIR",
+            "the run's folder; with several scenes, the folder that\nholds theirs (output/<scene file's stem>)");
+  add_value(app, "--set", words.set, "PATH=VALUE",
+            "change a value of the scene, balls.red.mass=2 say;\nmay be repeated");
+  add_value(app, "--only", words.only, "LIST",
+            "write these outputs alone, of trajectory, collisions,\n"
+            "energy, frames, video, sheet; one that the scene does\nnot ask for is written with default settings");
+  add_value(app, "--seed", words.seed, "N", "the scene's seed");
+  if (command.progress) {
+    app.add_flag("--force", words.force,
+                 "overwrite other content of the folder, run again what\nis up to date, lift the budget")
+        ->disable_flag_override();
+    add_value(app, "--progress", words.progress, "HOW",
+              "auto, bar, lines or none (auto: a bar on a terminal,\nlines elsewhere)");
+  } else {
+    app.add_flag("--force", words.force, "lift the budget")->disable_flag_override();
+  }
+  add_value(app, "--color", words.color, "WHEN",
+            "auto, always or never (auto: on a terminal, unless\nNO_COLOR is set)");
+  app.add_flag("--json", words.json, "results as one JSON document")->disable_flag_override();
+  app.add_flag("-q,--quiet", words.quiet, "nothing but errors")->disable_flag_override();
+}
+
+std::string did_you_mean(const std::optional<std::string>& name) {
+  return name ? fmt::format("; did you mean \"{}\"?", *name) : "";
+}
+
+// "-output x" would read as "-o utput": a long option after a single dash is never meant so.
+void refuse_single_dash(const CLI::App& app, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (word == "--") return;
+    if (word.size() < 4 || word[0] != '-' || word[1] == '-') continue;
+    const std::string name = word.substr(1, word.find('=') - 1);
+    for (const CLI::Option* option : app.get_options()) {
+      if (option->check_lname(name)) {
+        throw UsageError(fmt::format("no option \"{}\"; did you mean \"--{}\"?", printable(word), name));
+      }
+    }
+  }
+}
+
+void refuse_unknown(const CLI::App& app) {
+  const std::vector<std::string> extras = app.remaining();
+  if (extras.empty()) return;
+  std::vector<std::string> known;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) known.push_back("-" + name);
+  }
+  const std::string word = extras.front().substr(0, extras.front().find('='));
+  throw UsageError(fmt::format("no option \"{}\"{}", printable(word), did_you_mean(near_name(word, known))));
+}
+
+std::optional<std::string> single(const std::vector<std::string>& words, std::string_view option) {
+  if (words.empty()) return std::nullopt;
+  if (words.size() > 1) throw UsageError(fmt::format("{} is given {} times", option, words.size()));
+  if (words.front().empty()) throw UsageError(fmt::format("{} is given an empty value", option));
+  return words.front();
+}
+
+template <typename Choice>
+Choice chosen(const std::vector<std::string>& words, std::string_view option, const std::vector<std::string>& names) {
+  const std::optional<std::string> word = single(words, option);
+  if (!word) return Choice{};
+  const auto found = std::find(names.begin(), names.end(), *word);
+  if (found == names.end()) {
+    throw UsageError(fmt::format("{} is {}, not \"{}\"{}", option, fmt::join(names, ", "), printable(*word),
+                                 did_you_mean(near_name(*word, names))));
+  }
+  return static_cast<Choice>(found - names.begin());
+}
+
+std::optional<std::uint64_t> read_seed(const std::vector<std::string>& words) {
+  const std::optional<std::string> word = single(words, "--seed");
+  if (!word) return std::nullopt;
+  std::uint64_t seed = 0;
+  const char* end = word->data() + word->size();
+  const auto [stop, error] = std::from_chars(word->data(), end, seed);
+  if (error != std::errc() || stop != end) {
+    throw UsageError(
+        fmt::format("--seed is a whole number from 0 to 18446744073709551615, not \"{}\"", printable(*word)));
+  }
+  return seed;
+}
+
+std::optional<std::vector<std::string>> read_only(const std::vector<std::string>& words) {
+  if (words.empty()) return std::nullopt;
+  std::vector<std::string> only;
+  for (const std::string& list : words) {
+    for (std::size_t begin = 0; begin <= list.size();) {
+      const std::size_t end = std::min(list.find(',', begin), list.size());
+      const std::string name = list.substr(begin, end - begin);
+      begin = end + 1;
+      const auto& known = output_names();
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        throw UsageError(fmt::format("--only takes {}, not \"{}\"{}", fmt::join(known, ", "), printable(name),
+                                     did_you_mean(near_name(name, known))));
+      }
+      if (std::find(only.begin(), only.end(), name) == only.end()) only.push_back(name);
+    }
+  }
+  return only;
+}
+
+Options read(const CommandText& command, const Words& words) {
+  Options options;
+  options.scenes = words.scenes;
+  options.output = single(words.output, "--output");
+  options.set = words.set;
+  for (const std::string& set : words.set) {
+    if (const std::size_t equals = set.find('='); equals == std::string::npos || equals == 0) {
+      throw UsageError(fmt::format("--set takes path=value, balls.red.mass=2 say, not \"{}\"", printable(set)));
+    }
+  }
+  options.only = read_only(words.only);
+  options.seed = read_seed(words.seed);
+  options.progress = chosen<ProgressChoice>(words.progress, "--progress", {"auto", "bar", "lines", "none"});
+  options.color = chosen<ColorChoice>(words.color, "--color", {"auto", "always", "never"});
+  options.force = words.force;
+  options.quiet = words.quiet;
+  options.json = words.json;
+  if (options.quiet && options.json) throw UsageError("--quiet and --json exclude each other");
+  if (options.scenes.empty()) {
+    throw UsageError(fmt::format("no scene is named: carom {} scenes/two_bowling_balls.yaml", command.name));
+  }
+  return options;
+}
+
+// CLI11's texts begin with the option's name; what it minds is either a value too few or one too many.
+std::string in_our_words(const CLI::ParseError& error) {
+  const std::string text = error.what();
+  const std::string name = text.substr(0, text.find_first_of(": "));
+  if (text.find("disallowed flag override") != std::string::npos) return fmt::format("{} takes no value", name);
+  if (error.get_name() == "ArgumentMismatch") return fmt::format("{} needs a value", name);
+  return text;
+}
+
+}  // namespace
+
+const std::vector<std::string>& output_names() {
+  static const std::vector<std::string> names = {"trajectory", "collisions", "energy", "frames", "video", "sheet"};
+  return names;
+}
+
+ParsedOptions parse_options(const CommandText& command, const std::vector<std::string>& words) {
+  CLI::App app;
+  app.formatter(std::make_shared<HelpFormatter>(command));
+  app.set_help_flag("-h,--help", "this text");
+  app.allow_extras();
+  if (!command.notes.empty()) app.footer(command.notes);
+  Words found;
+  add_options(app, command, found);
+  refuse_single_dash(app, words);
+  try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 reads from the back
+  } catch (const CLI::CallForHelp&) {
+    return {{}, app.help()};
+  } catch (const CLI::ParseError& error) {
+    refuse_unknown(app);
+    throw UsageError(in_our_words(error));
+  }
+  refuse_unknown(app);
+  return {read(command, found), std::nullopt};
+}
+
+}  // namespace carom

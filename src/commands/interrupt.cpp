@@ -1,0 +1,36 @@
+#include "commands/interrupt.h"
+
+#include <csignal>
+#include <initializer_list>
+
+namespace carom {
+
+namespace {
+
+volatile std::sig_atomic_t received = 0;
+
+void remember(int signal) {
+  received = signal;
+}
+
+}  // namespace
+
+void catch_signals() {
+  std::signal(SIGPIPE, SIG_IGN);
+  struct sigaction action {};
+  action.sa_handler = remember;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction before {};
+    // A signal that the parent has set to be ignored (nohup, a background job of a plain shell) stays ignored.
+    if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+void stop_if_interrupted() {
+  if (received != 0) throw Interrupted{received};
+}
+
+}  // namespace carom

@@ -1,0 +1,106 @@
+#include "commands/plan.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <new>
+
+#include "commands/interrupt.h"
+#include "commands/outputs.h"
+#include "commands/text.h"
+#include "scene/load.h"
+
+namespace carom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string folder_of(const Options& options, const std::string& name) {
+  if (!options.output) return (fs::path("output") / name).string();
+  return options.scenes.size() == 1 ? *options.output : (fs::path(*options.output) / name).string();
+}
+
+// Two runs in one folder would overwrite each other.
+void refuse_shared_folders(const std::vector<PlannedScene>& scenes) {
+  std::map<std::string, const PlannedScene*> owner;
+  for (const PlannedScene& scene : scenes) {
+    std::error_code ignored;
+    const fs::path place = fs::weakly_canonical(scene.folder, ignored);
+    const auto [found, is_new] = owner.emplace((place.empty() ? fs::path(scene.folder) : place).string(), &scene);
+    if (is_new) continue;
+    throw UsageError(fmt::format("{} and {} would both be written to {}: run one of them with another -o",
+                                 printable(found->second->file), printable(scene.file), printable(scene.folder)));
+  }
+}
+
+void fail(PlannedScene& planned, std::size_t errors, const std::string& text) {
+  planned.scene.reset();
+  planned.errors = errors;
+  planned.error = text;
+  if (planned.error.empty() || planned.error.back() != '\n') planned.error += '\n';
+}
+
+LoadOptions load_options(const Options& options) {
+  LoadOptions load;
+  load.set = options.set;
+  load.seed = options.seed;
+  load.budget.enforced = !options.force;
+  load.color = !options.json && wants_color(options.color, STDERR_FILENO);
+  return load;
+}
+
+void check(PlannedScene& planned, const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  planned.scene = std::make_unique<Scene>(load_scene(planned.file, load_options(options)));
+  if (options.only) restrict_outputs(*planned.scene, *options.only);
+  planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  planned.engine = choose_engine(planned.scene->simulate);
+  planned.forecast = forecast(*planned.scene);
+  std::error_code ignored;
+  if (fs::exists(planned.folder, ignored) && !fs::is_directory(planned.folder, ignored)) {
+    throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
+  }
+  planned.content = inspect_folder(planned.folder, *planned.scene);
+}
+
+}  // namespace
+
+std::vector<PlannedScene> plan_scenes(const Options& options) {
+  std::vector<PlannedScene> scenes(options.scenes.size());
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    scenes[i].file = options.scenes[i];
+    scenes[i].name = fs::path(options.scenes[i]).stem().string();
+    scenes[i].folder = folder_of(options, scenes[i].name);
+  }
+  refuse_shared_folders(scenes);
+  for (PlannedScene& planned : scenes) {
+    stop_if_interrupted();
+    try {
+      check(planned, options);
+    } catch (const SceneError& error) {
+      fail(planned, error.count, error.what());
+    } catch (const std::bad_alloc&) {
+      fail(planned, 1, fmt::format("{}: not enough memory for this scene", printable(planned.file)));
+    } catch (const std::exception& error) {
+      fail(planned, 1, fmt::format("{}: {}", printable(planned.file), error.what()));
+    }
+  }
+  return scenes;
+}
+
+std::string error_count(const std::vector<PlannedScene>& scenes) {
+  std::size_t errors = 0, wrong = 0;
+  for (const PlannedScene& scene : scenes) {
+    errors += scene.errors;
+    wrong += scene.errors > 0 ? 1 : 0;
+  }
+  if (errors == 0) return "";
+  const std::string text = counted(errors, "error", "errors");
+  return scenes.size() == 1 ? text : fmt::format("{} in {} of {} scenes", text, wrong, scenes.size());
+}
+
+}  // namespace carom

@@ -1,0 +1,34 @@
+#pragma once
+// All checks of all scenes on the command line, which come before the first is simulated and change nothing.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands/command_line.h"
+#include "commands/engine.h"
+#include "export/exports.h"
+
+namespace carom {
+
+/// A scene of the command line, checked: either `scene` and what follows from it, or `error`.
+struct PlannedScene {
+  std::string file;    // as on the command line
+  std::string name;    // the file's stem
+  std::string folder;  // where its run goes
+  std::string error;   // for the terminal, whole lines; empty: none
+  std::size_t errors = 0;
+  std::unique_ptr<Scene> scene;
+  double load_s = 0;  // wall time
+  EngineChoice engine;
+  Forecast forecast;
+  FolderContent content = FolderContent::nothing;
+};
+
+/// Loads and checks every scene, a wrong one too far as it goes, so that all errors of all files are shown in one run.
+/// Throws UsageError where two scenes would share a folder.
+std::vector<PlannedScene> plan_scenes(const Options& options);
+
+/// "2 errors in 1 of 3 scenes", or empty if there is none.
+std::string error_count(const std::vector<PlannedScene>& scenes);
+
+}  // namespace carom

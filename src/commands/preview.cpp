@@ -1,0 +1,68 @@
+#include "commands/preview.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands/engine.h"
+#include "commands/interrupt.h"
+#include "render/camera.h"
+
+namespace carom {
+
+namespace {
+
+Size picture_size(const Output& output) {
+  if (output.frames) return output.frames->size;
+  if (output.video) return output.video->size;
+  return {};
+}
+
+// The picture's axis that +x lies along most; ahead and back only where it has no length in the picture at all.
+std::string direction_of_plus_x(const View& view) {
+  const double right = view.right.x(), up = view.up.x();
+  if (std::max(std::abs(right), std::abs(up)) < 1e-9) return view.forward.x() > 0 ? "away" : "toward";
+  if (std::abs(right) >= std::abs(up)) return right > 0 ? "right" : "left";
+  return up > 0 ? "up" : "down";
+}
+
+}  // namespace
+
+FirstCollision predict_first_collision(const Scene& scene) {
+  FirstCollision result;
+  try {
+    const std::unique_ptr<Simulator> oracle = make_oracle(scene);
+    // Each step doubles the time reached, so that little is simulated beyond the first collision.
+    for (int halvings = 20; halvings >= 0; --halvings) {
+      const double time = std::ldexp(scene.simulate.duration, -halvings);
+      while (oracle->time() < time) {
+        stop_if_interrupted();
+        oracle->advance_to(time);
+        for (const Collision& collision : oracle->collisions()) {
+          if (collision.kind == CollisionKind::rest) continue;
+          result.collision = collision;
+          return result;
+        }
+      }
+    }
+  } catch (const SimulationError& error) {
+    result.trouble = error.what();
+  }
+  return result;
+}
+
+CameraPreview preview_camera(const Scene& scene) {
+  const Camera camera = camera_of(scene);
+  const View view = view_of(camera, picture_size(scene.output));
+  CameraPreview preview;
+  preview.plus_x = direction_of_plus_x(view);
+  preview.fov_x = view.fov_x;
+  preview.fov_y = view.fov_y;
+  for (Entity body = 0; body < scene.world.body_count(); ++body) {
+    if (!sees_sphere(camera, view, scene.initial.position[body], scene.world.radius[body])) {
+      preview.out_of_view.push_back(body);
+    }
+  }
+  return preview;
+}
+
+}  // namespace carom

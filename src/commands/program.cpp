@@ -1,0 +1,140 @@
+#include "commands/program.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+
+#include "commands/check.h"
+#include "commands/interrupt.h"
+#include "commands/report.h"
+#include "commands/run.h"
+#include "commands/text.h"
+
+namespace carom {
+
+namespace {
+
+struct Command {
+  const CommandText& text;
+  int (*run)(const Options&);
+};
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> all = {{run_text(), run_command}, {check_text(), check_command}};
+  return all;
+}
+
+// Commands of the scene format that this version does not have.
+const std::vector<std::string> commands_of_the_format = {"sweep", "gather", "compare", "render",
+                                                         "bench", "new",    "schema"};
+
+std::string program_help() {
+  std::string text =
+      "carom turns scenes of balls, walls and planes into exact motion, data and pictures.\n\n"
+      "Examples:\n"
+      "  carom check scenes/two_bowling_balls.yaml     what would happen, and all that is wrong\n"
+      "  carom run scenes/two_bowling_balls.yaml       writes output/two_bowling_balls/\n"
+      "  carom run scenes/*.yaml --only collisions     many scenes, only their collisions\n\n"
+      "Usage:\n"
+      "  carom COMMAND SCENE... [OPTIONS]\n\n"
+      "Commands:\n";
+  for (const Command& command : commands()) text += fmt::format("  {:24}{}\n", command.text.name, command.text.line);
+  text +=
+      "\nOptions:\n"
+      "  -h, --help              this text; after a command, its own\n"
+      "  --version               the version\n";
+  return text;
+}
+
+const Command* find_command(const std::string& name) {
+  for (const Command& command : commands()) {
+    if (command.text.name == name) return &command;
+  }
+  return nullptr;
+}
+
+[[noreturn]] void refuse_command(const std::string& word) {
+  const auto& later = commands_of_the_format;
+  if (std::find(later.begin(), later.end(), word) != later.end()) {
+    throw UsageError(fmt::format("this version has no command \"{}\"; it has run and check", word));
+  }
+  if (word.starts_with('-')) {
+    throw UsageError(fmt::format("options stand after the command: carom run SCENE {}", printable(word)));
+  }
+  std::vector<std::string> names = {"help"};
+  for (const Command& command : commands()) names.push_back(command.text.name);
+  const std::optional<std::string> near = near_name(word, names);
+  if (near) throw UsageError(fmt::format("no command \"{}\"; did you mean \"{}\"?", printable(word), *near));
+  if (word.ends_with(".yaml") || word.ends_with(".yml")) {
+    throw UsageError(fmt::format("name a command first: carom run {}", printable(word)));
+  }
+  throw UsageError(fmt::format("no command \"{}\"; it has run and check", printable(word)));
+}
+
+int usage_error(const std::string& command, const UsageError& error) {
+  const std::string program = command.empty() ? "carom" : "carom " + command;
+  write_err(fmt::format("{}: {}\n  {} --help shows how it is used\n", program, error.what(), program));
+  return 2;
+}
+
+int dispatch(const std::vector<std::string>& words) {
+  std::string name;
+  try {
+    if (words.empty()) {
+      write_err(program_help());
+      return 2;
+    }
+    std::string first = words.front();
+    std::vector<std::string> rest(words.begin() + 1, words.end());
+    if (first == "--version") {
+      write_out("carom " CAROM_VERSION "\n");
+      return 0;
+    }
+    if (first == "help" && !rest.empty()) {  // carom help run
+      first = rest.front();
+      rest = {"--help"};
+    }
+    if (first == "--help" || first == "-h" || first == "help") {
+      write_out(program_help());
+      return 0;
+    }
+    const Command* command = find_command(first);
+    if (command == nullptr) refuse_command(first);
+    name = first;
+    const ParsedOptions parsed = parse_options(command->text, rest);
+    if (parsed.help) {
+      write_out(*parsed.help);
+      return 0;
+    }
+    return command->run(parsed.options);
+  } catch (const UsageError& error) {
+    return usage_error(name, error);
+  }
+}
+
+int guarded(const std::vector<std::string>& words) {
+  try {
+    return dispatch(words);
+  } catch (const Interrupted& interrupted) {
+    write_err("carom: interrupted\n");
+    return interrupted.exit_code();
+  } catch (const std::bad_alloc&) {
+    write_err("carom: not enough memory\n");
+  } catch (const std::exception& error) {
+    write_err(fmt::format("carom: {}\n", error.what()));
+  }
+  return 1;
+}
+
+}  // namespace
+
+int run_program(const std::vector<std::string>& words) {
+  const int code = guarded(words);
+  std::string reason;
+  if (finish_output(reason)) return code;
+  write_err(fmt::format("carom: cannot write to standard output: {}\n", reason));
+  return code == 0 ? 1 : code;
+}
+
+}  // namespace carom

@@ -1,0 +1,11 @@
+#pragma once
+// The program but for main(): which command, and what becomes of what goes wrong.
+#include <string>
+#include <vector>
+
+namespace carom {
+
+/// `words`: the command line without the program's own name. Gives the exit code; throws nothing.
+int run_program(const std::vector<std::string>& words);
+
+}  // namespace carom

@@ -1,0 +1,74 @@
+#include "commands/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "commands/text.h"
+
+namespace carom {
+
+Progress::Progress(ProgressChoice choice, bool color, std::string name, double duration, std::uint64_t frames)
+    : choice_(choice), color_(color), name_(std::move(name)), duration_(duration), frames_to_come_(frames) {}
+
+Progress::~Progress() {
+  clear();
+}
+
+void Progress::clear() {
+  if (drawn_) write_err("\r\x1b[K");
+  drawn_ = false;
+}
+
+std::string Progress::counts(double elapsed, double done) const {
+  std::string text = fmt::format("{:.4g} of {:.4g} s", time_, duration_);
+  if (frames_to_come_ > 0) text += fmt::format(", {} of {} pictures", grouped(frames_), grouped(frames_to_come_));
+  text += ", " + counted(collisions_, "collision", "collisions");
+  if (done > 0) text += fmt::format(", {} left", wait_text(elapsed / done * (1 - done)));
+  return text;
+}
+
+void Progress::draw_bar(double done, double elapsed) {
+  // One line, never wider than the terminal: a line that wraps could not be drawn over.
+  const std::size_t width = terminal_width(STDERR_FILENO) - 1;
+  constexpr std::size_t bar_width = 20;
+  std::string text = fmt::format("{} ", name_);
+  if (columns_of(text) + bar_width + 8 < width) {
+    const auto full = static_cast<std::size_t>(done * bar_width);
+    const Palette palette(color_);
+    std::string rest = fmt::format(" {:3.0f} % ", std::min(99.0, done * 100));
+    const std::string tail = counts(elapsed, done);
+    const std::size_t taken = columns_of(text) + bar_width + 2 + rest.size();
+    if (taken + columns_of(tail) <= width) rest += tail;
+    text += fmt::format("[{}{}{}{:{}}]{}", palette.green, std::string(full, '='), palette.reset, "", bar_width - full,
+                        rest);
+  } else {
+    text = fmt::format("{:3.0f} %", done * 100);
+  }
+  write_err("\r" + text + "\x1b[K");
+  drawn_ = true;
+}
+
+void Progress::update(double time, std::uint64_t collisions, std::uint64_t frames) {
+  if (choice_ == ProgressChoice::none) return;
+  const Clock::time_point now = Clock::now();
+  const double since_last = std::chrono::duration<double>(now - last_).count();
+  if (since_last < (choice_ == ProgressChoice::bar ? 0.1 : 1.0)) return;
+  time_ = time;
+  collisions_ = collisions;
+  frames_ = frames;
+  const double done = duration_ > 0 ? std::clamp(time / duration_, 0.0, 1.0) : 1;
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  if (choice_ == ProgressChoice::bar) {
+    draw_bar(done, elapsed);
+  } else {
+    const int tenth = static_cast<int>(done * 10);
+    if (tenth == tenth_ && since_last < 5) return;
+    tenth_ = tenth;
+    write_err(fmt::format("{}: {:.0f} %, {}\n", name_, done * 100, counts(elapsed, done)));
+  }
+  last_ = now;
+}
+
+}  // namespace carom

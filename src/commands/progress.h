@@ -1,0 +1,42 @@
+#pragma once
+// How far a run is, on stderr: a bar on a terminal, lines in a log, or nothing.
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "commands/command_line.h"
+
+namespace carom {
+
+class Progress {
+ public:
+  /// `name`: the scene's; `duration`: simulated seconds to go through; `frames`: pictures to come, 0: none.
+  Progress(ProgressChoice choice, bool color, std::string name, double duration, std::uint64_t frames);
+  ~Progress();  // clears the bar
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Cheap: writes at most ten times a second (bar), or a line at each tenth of the way and after five seconds, but
+  /// never two within a second.
+  void update(double time, std::uint64_t collisions, std::uint64_t frames);
+  /// The bar's line is free again; to be called before anything else is written to the terminal.
+  void clear();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void draw_bar(double done, double elapsed);
+  std::string counts(double elapsed, double done) const;
+
+  ProgressChoice choice_;
+  bool color_;
+  std::string name_;
+  double duration_;  // s
+  std::uint64_t frames_to_come_;
+  Clock::time_point start_ = Clock::now(), last_ = start_;
+  double time_ = 0;  // s
+  std::uint64_t collisions_ = 0, frames_ = 0;
+  int tenth_ = 0;
+  bool drawn_ = false;
+};
+
+}  // namespace carom

@@ -1,0 +1,141 @@
+#include "commands/report.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "commands/text.h"
+
+namespace carom {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::size_t label_width = 12;
+
+// "a.csv, b.csv and 60 pictures in frames/".
+std::string file_list(const std::string& folder) {
+  std::vector<std::string> names;
+  std::uint64_t frames = 0;
+  for (const std::string& file : files_in(folder)) {
+    if (file.starts_with("frames/")) {
+      ++frames;
+    } else {
+      names.push_back(printable(file));
+    }
+  }
+  if (frames > 0) names.push_back(counted(frames, "picture", "pictures") + " in frames/");
+  return listed(names, names.size());
+}
+
+std::string collisions_text(const Summary& summary) {
+  if (summary.collisions == 0) return "none";
+  std::string text = fmt::format("{} ({} body-body, {} body-fixed)", grouped(summary.collisions),
+                                 grouped(summary.body_body), grouped(summary.body_fixed));
+  if (summary.collisions == 1) return text + fmt::format(", at {}", quantity(summary.first_collision, "s"));
+  return text + fmt::format(", first at {}, last at {}", quantity(summary.first_collision, "s"),
+                            quantity(summary.last_collision, "s"));
+}
+
+std::string energy_text(const Summary& summary) {
+  std::string text = summary.energy_lost == 0  ? "none lost"
+                     : summary.energy_lost > 0 ? quantity(summary.energy_lost, "J lost")
+                                               : quantity(-summary.energy_lost, "J made by collisions");
+  text += fmt::format(", {} -> {}", quantity(summary.energy_start, "J"), quantity(summary.energy_end, "J"));
+  if (summary.work != 0) text += fmt::format(" with {} of work", quantity(summary.work, "J"));
+  return text + fmt::format(", residual {}", quantity(summary.energy_residual, "J"));
+}
+
+Json number_or_null(double value) {
+  return std::isfinite(value) ? Json(value == 0 ? 0.0 : value) : Json(nullptr);
+}
+
+}  // namespace
+
+void Block::heading(std::string_view name, std::string_view title) {
+  text_ += fmt::format("{}{}{}", palette_.bold, printable(name), palette_.reset);
+  if (!title.empty() && title != name) text_ += ": " + wrapped(printable(title), columns_of(name) + 2, width_);
+  text_ += '\n';
+}
+
+void Block::line(std::string_view label, std::string_view text) {
+  text_ += fmt::format("  {}{:{}}{}{}\n", palette_.dim, label, label_width, palette_.reset,
+                       wrapped(text, label_width + 2, width_));
+}
+
+std::vector<std::string> files_in(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (fs::recursive_directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
+    std::error_code ignored;
+    if (i->is_regular_file(ignored)) files.push_back(i->path().lexically_relative(folder).generic_string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+void describe(Block& block, const PlannedScene& planned, const RunResult& result) {
+  const Summary& summary = result.summary;
+  block.line("engine", planned.engine.why.empty() ? planned.engine.name
+                                                  : fmt::format("{} ({})", planned.engine.name, planned.engine.why));
+  block.line("collisions", collisions_text(summary));
+  block.line("rest",
+             fmt::format("{} of {} at the end", grouped(summary.resting), counted(summary.bodies, "body", "bodies")));
+  block.line("energy", energy_text(summary));
+  block.line("overlap", summary.max_overlap > 0 ? quantity(summary.max_overlap, "m at most") : "none");
+  block.line("wrote", fmt::format("{}: {}", printable(planned.folder), file_list(planned.folder)));
+  block.line(
+      "time",
+      fmt::format("{}: load {}, simulate {}, draw {}, write {}", wait_text(result.wall_s),
+                  wait_text(result.facts.load_s), wait_text(result.facts.simulate_s), wait_text(result.facts.render_s),
+                  wait_text(std::max(0.0, result.wall_s - result.facts.simulate_s - result.facts.render_s))));
+}
+
+Json summary_json(const Summary& s) {
+  return {{"title", s.title},
+          {"engine", s.engine},
+          {"status", s.status},
+          {"duration_s", s.duration},
+          {"bodies", s.bodies},
+          {"collisions", s.collisions},
+          {"body_body", s.body_body},
+          {"body_fixed", s.body_fixed},
+          {"first_collision_s", number_or_null(s.first_collision)},
+          {"last_collision_s", number_or_null(s.last_collision)},
+          {"energy_start_J", number_or_null(s.energy_start)},
+          {"energy_end_J", number_or_null(s.energy_end)},
+          {"energy_lost_J", number_or_null(s.energy_lost)},
+          {"work_J", number_or_null(s.work)},
+          {"energy_residual_J", number_or_null(s.energy_residual)},
+          {"momentum_drift_kg_m_per_s", number_or_null(s.momentum_drift)},
+          {"max_overlap_m", number_or_null(s.max_overlap)},
+          {"max_speed_m_per_s", number_or_null(s.max_speed)},
+          {"resting", s.resting},
+          {"frames", s.frames}};
+}
+
+Json facts_json(const RunResult& result) {
+  return {{"wall_s", result.wall_s},
+          {"load_s", result.facts.load_s},
+          {"simulate_s", result.facts.simulate_s},
+          {"draw_s", result.facts.render_s},
+          {"write_s", std::max(0.0, result.wall_s - result.facts.simulate_s - result.facts.render_s)},
+          {"peak_memory_bytes", result.facts.peak_memory}};
+}
+
+std::string document(std::string_view command, Json scenes) {
+  Json whole = {{"carom", CAROM_VERSION}, {"command", std::string(command)}, {"scenes", std::move(scenes)}};
+  // A file's name may hold any bytes; those that are no UTF-8 are replaced.
+  return whole.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void complain(const Options& options, std::string_view text) {
+  const Palette palette(wants_color(options.color, STDERR_FILENO));
+  write_err(fmt::format("{}carom:{} {}\n", palette.red, palette.reset, text));
+}
+
+}  // namespace carom

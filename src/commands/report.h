@@ -1,0 +1,43 @@
+#pragma once
+// How results look: aligned lines for a person, one JSON document for a program.
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "commands/command_line.h"
+#include "commands/plan.h"
+#include "commands/run_scene.h"
+
+namespace carom {
+
+/// A block of "label  text" lines under a heading, wrapped to the width of stdout's terminal.
+class Block {
+ public:
+  Block(const Palette& palette, std::size_t width) : palette_(palette), width_(width) {}
+  void heading(std::string_view name, std::string_view title);
+  void line(std::string_view label, std::string_view text);
+  const std::string& text() const { return text_; }
+
+ private:
+  Palette palette_;
+  std::size_t width_;
+  std::string text_;
+};
+
+/// Names of the files in a run's folder, sorted, those of frames/ included.
+std::vector<std::string> files_in(const std::string& folder);
+
+/// Lines about a run that was done.
+void describe(Block& block, const PlannedScene& planned, const RunResult& result);
+/// The same as JSON members, named as summary.csv's columns are.
+nlohmann::ordered_json summary_json(const Summary& summary);
+nlohmann::ordered_json facts_json(const RunResult& result);
+
+/// {"carom": version, "command": ..., "scenes": [...]}, the whole of what --json prints.
+std::string document(std::string_view command, nlohmann::ordered_json scenes);
+
+/// One error or remark to stderr, after the program's name.
+void complain(const Options& options, std::string_view text);
+
+}  // namespace carom
