@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "commands/text.h"
+#include "scene/diagnostics.h"
 
 namespace carom {
 
@@ -71,11 +72,12 @@ void add_options(CLI::App& app, const CommandText& command, Words& words) {
   add_value(app, "--color", words.color, "WHEN",
             "auto, always or never (auto: on a terminal, unless\nNO_COLOR is set)");
   app.add_flag("--json", words.json, "results as one JSON document")->disable_flag_override();
-  app.add_flag("-q,--quiet", words.quiet, "nothing but errors")->disable_flag_override();
+  app.add_flag("-q,--quiet", words.quiet, "nothing but errors, and the document of --json")->disable_flag_override();
 }
 
-std::string did_you_mean(const std::optional<std::string>& name) {
-  return name ? fmt::format("; did you mean \"{}\"?", *name) : "";
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
+  const std::string name = nearest(word, {known.begin(), known.end()});
+  return name.empty() ? "" : fmt::format("; did you mean {}?", carom::quoted(name));
 }
 
 // "-output x" would read as "-o utput": a long option after a single dash is never meant so.
@@ -86,7 +88,7 @@ void refuse_single_dash(const CLI::App& app, const std::vector<std::string>& wor
     const std::string name = word.substr(1, word.find('=') - 1);
     for (const CLI::Option* option : app.get_options()) {
       if (option->check_lname(name)) {
-        throw UsageError(fmt::format("no option \"{}\"; did you mean \"--{}\"?", printable(word), name));
+        throw UsageError(fmt::format("no option {}; did you mean `--{}`?", carom::quoted(word), name));
       }
     }
   }
@@ -98,10 +100,10 @@ void refuse_unknown(const CLI::App& app) {
   std::vector<std::string> known;
   for (const CLI::Option* option : app.get_options()) {
     for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-    for (const std::string& name : option->get_snames()) known.push_back("-" + name);
   }
   const std::string word = extras.front().substr(0, extras.front().find('='));
-  throw UsageError(fmt::format("no option \"{}\"{}", printable(word), did_you_mean(near_name(word, known))));
+  throw UsageError(
+      fmt::format("no option {}{}", carom::quoted(word), word.starts_with("--") ? did_you_mean(word, known) : ""));
 }
 
 std::optional<std::string> single(const std::vector<std::string>& words, std::string_view option) {
@@ -117,8 +119,8 @@ Choice chosen(const std::vector<std::string>& words, std::string_view option, co
   if (!word) return Choice{};
   const auto found = std::find(names.begin(), names.end(), *word);
   if (found == names.end()) {
-    throw UsageError(fmt::format("{} is {}, not \"{}\"{}", option, fmt::join(names, ", "), printable(*word),
-                                 did_you_mean(near_name(*word, names))));
+    throw UsageError(fmt::format("{} is {}, not {}{}", option, fmt::join(names, ", "), carom::quoted(*word),
+                                 did_you_mean(*word, names)));
   }
   return static_cast<Choice>(found - names.begin());
 }
@@ -131,7 +133,7 @@ std::optional<std::uint64_t> read_seed(const std::vector<std::string>& words) {
   const auto [stop, error] = std::from_chars(word->data(), end, seed);
   if (error != std::errc() || stop != end) {
     throw UsageError(
-        fmt::format("--seed is a whole number from 0 to 18446744073709551615, not \"{}\"", printable(*word)));
+        fmt::format("--seed is a whole number from 0 to 18446744073709551615, not {}", carom::quoted(*word)));
   }
   return seed;
 }
@@ -146,8 +148,8 @@ std::optional<std::vector<std::string>> read_only(const std::vector<std::string>
       begin = end + 1;
       const auto& known = output_names();
       if (std::find(known.begin(), known.end(), name) == known.end()) {
-        throw UsageError(fmt::format("--only takes {}, not \"{}\"{}", fmt::join(known, ", "), printable(name),
-                                     did_you_mean(near_name(name, known))));
+        throw UsageError(fmt::format("--only takes {}, not {}{}", fmt::join(known, ", "), carom::quoted(name),
+                                     did_you_mean(name, known)));
       }
       if (std::find(only.begin(), only.end(), name) == only.end()) only.push_back(name);
     }
@@ -162,7 +164,7 @@ Options read(const CommandText& command, const Words& words) {
   options.set = words.set;
   for (const std::string& set : words.set) {
     if (const std::size_t equals = set.find('='); equals == std::string::npos || equals == 0) {
-      throw UsageError(fmt::format("--set takes path=value, balls.red.mass=2 say, not \"{}\"", printable(set)));
+      throw UsageError(fmt::format("--set takes path=value, balls.red.mass=2 say, not {}", carom::quoted(set)));
     }
   }
   options.only = read_only(words.only);
@@ -172,9 +174,8 @@ Options read(const CommandText& command, const Words& words) {
   options.force = words.force;
   options.quiet = words.quiet;
   options.json = words.json;
-  if (options.quiet && options.json) throw UsageError("--quiet and --json exclude each other");
   if (options.scenes.empty()) {
-    throw UsageError(fmt::format("no scene is named: carom {} scenes/two_bowling_balls.yaml", command.name));
+    throw UsageError(fmt::format("name a scene file: carom {} scenes/two_bowling_balls.yaml", command.name));
   }
   return options;
 }
@@ -182,7 +183,8 @@ Options read(const CommandText& command, const Words& words) {
 // CLI11's texts begin with the option's name; what it minds is either a value too few or one too many.
 std::string in_our_words(const CLI::ParseError& error) {
   const std::string text = error.what();
-  const std::string name = text.substr(0, text.find_first_of(": "));
+  std::string name = text.substr(0, text.find_first_of(": "));
+  if (!name.starts_with('-')) name = "--" + name;
   if (text.find("disallowed flag override") != std::string::npos) return fmt::format("{} takes no value", name);
   if (error.get_name() == "ArgumentMismatch") return fmt::format("{} needs a value", name);
   return text;
@@ -204,8 +206,9 @@ ParsedOptions parse_options(const CommandText& command, const std::vector<std::s
   Words found;
   add_options(app, command, found);
   refuse_single_dash(app, words);
+  const auto mark = std::find(words.begin(), words.end(), "--");  // all that follows is scenes
   try {
-    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 reads from the back
+    app.parse(std::vector<std::string>(std::reverse_iterator(mark), words.rend()));  // CLI11 reads from the back
   } catch (const CLI::CallForHelp&) {
     return {{}, app.help()};
   } catch (const CLI::ParseError& error) {
@@ -213,6 +216,7 @@ ParsedOptions parse_options(const CommandText& command, const std::vector<std::s
     throw UsageError(in_our_words(error));
   }
   refuse_unknown(app);
+  if (mark != words.end()) found.scenes.insert(found.scenes.end(), mark + 1, words.end());
   return {read(command, found), std::nullopt};
 }
 

@@ -10,6 +10,7 @@
 #include "commands/report.h"
 #include "commands/run.h"
 #include "commands/text.h"
+#include "scene/diagnostics.h"
 
 namespace carom {
 
@@ -42,7 +43,7 @@ std::string program_help() {
   for (const Command& command : commands()) text += fmt::format("  {:24}{}\n", command.text.name, command.text.line);
   text +=
       "\nOptions:\n"
-      "  -h, --help              this text; after a command, its own\n"
+      "  -h,--help               this text; after a command, its own\n"
       "  --version               the version\n";
   return text;
 }
@@ -57,19 +58,20 @@ const Command* find_command(const std::string& name) {
 [[noreturn]] void refuse_command(const std::string& word) {
   const auto& later = commands_of_the_format;
   if (std::find(later.begin(), later.end(), word) != later.end()) {
-    throw UsageError(fmt::format("this version has no command \"{}\"; it has run and check", word));
+    throw UsageError(fmt::format("this version has no command {}; it has run and check", carom::quoted(word)));
   }
   if (word.starts_with('-')) {
     throw UsageError(fmt::format("options stand after the command: carom run SCENE {}", printable(word)));
   }
-  std::vector<std::string> names = {"help"};
+  std::vector<std::string_view> names = {"help"};
   for (const Command& command : commands()) names.push_back(command.text.name);
-  const std::optional<std::string> near = near_name(word, names);
-  if (near) throw UsageError(fmt::format("no command \"{}\"; did you mean \"{}\"?", printable(word), *near));
+  if (const std::string near = nearest(word, names); !near.empty()) {
+    throw UsageError(fmt::format("no command {}; did you mean {}?", carom::quoted(word), carom::quoted(near)));
+  }
   if (word.ends_with(".yaml") || word.ends_with(".yml")) {
     throw UsageError(fmt::format("name a command first: carom run {}", printable(word)));
   }
-  throw UsageError(fmt::format("no command \"{}\"; it has run and check", printable(word)));
+  throw UsageError(fmt::format("no command {}; it has run and check", carom::quoted(word)));
 }
 
 int usage_error(const std::string& command, const UsageError& error) {

@@ -91,37 +91,4 @@ std::string printable(std::string_view text) {
   return result;
 }
 
-namespace {
-
-// Edits (insert, delete, replace, swap of neighbours) that turn a into b: Damerau's distance, in rows.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-    before.swap(last);
-    last.swap(row);
-  }
-  return last[b.size()];
-}
-
-}  // namespace
-
-std::optional<std::string> near_name(std::string_view word, const std::vector<std::string>& candidates) {
-  if (word.size() > 100) return std::nullopt;
-  std::optional<std::string> nearest;
-  std::size_t least = 0;
-  for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(word, candidate);
-    // A third of the letters may be wrong: "frmes" is near "frames", "sheet" is not near "energy".
-    if (distance > std::max<std::size_t>(1, std::max(word.size(), candidate.size()) / 3)) continue;
-    if (!nearest || distance < least) nearest = candidate, least = distance;
-  }
-  return nearest;
-}
-
 }  // namespace carom

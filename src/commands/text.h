@@ -1,7 +1,6 @@
 #pragma once
 // Numbers, lists and names as a person reads them. Not for files: those carry every digit.
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,7 +25,5 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
 std::size_t columns_of(std::string_view text);
 /// `text` with control characters (a file's name may hold any) made harmless for a terminal.
 std::string printable(std::string_view text);
-/// The candidate that `word` was probably meant to be; none if nothing is near.
-std::optional<std::string> near_name(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace carom
