@@ -2,6 +2,7 @@
 // The one vector type. Eigen is built without its own vectorisation (EIGEN_DONT_VECTORIZE), so that sums have one order
 // and a result has the same bits in every build.
 #include <Eigen/Core>
+#include <Eigen/Geometry>  // the cross product
 
 namespace carom {
 

@@ -1,0 +1,34 @@
+#pragma once
+// Roots of the polynomials that paths of degree two make: degree 4 at most. By the derivative cascade: the roots of f'
+// part the line into pieces on which f is monotone, each with one root or none, so that no root can be missed.
+#include <array>
+#include <limits>
+
+namespace carom {
+
+/// c[0] + c[1] t + ... + c[degree] t^degree.
+struct Polynomial {
+  static constexpr int max_degree = 4;
+  std::array<double, max_degree + 1> c{};
+  int degree = 0;
+
+  double operator()(double t) const;
+  Polynomial derivative() const;
+};
+
+/// Real roots in ascending order; a root at which the sign does not change may be left out.
+struct Roots {
+  std::array<double, Polynomial::max_degree> at{};
+  int count = 0;
+};
+
+/// The roots of f in (low, high), both finite.
+Roots roots_between(const Polynomial& f, double low, double high);
+
+inline constexpr double never = std::numeric_limits<double>::infinity();
+
+/// The first t in [0, horizon] from which f is at most zero and falls: f comes down through zero there, or was not above
+/// zero and begins to fall. `never` if there is none. A descent that only touches zero is none.
+double first_descent(const Polynomial& f, double horizon);
+
+}  // namespace carom

@@ -1,0 +1,188 @@
+// The source chapter's program (ParticleBounce, listings 8.3 and 8.4): each frame tests for overlap, handles what overlaps,
+// then moves every body by semi-implicit Euler, v += a dt, x += v dt.
+//
+// By default it does what the text means: the average of the two coefficients (or the scene's rule), the sum of both radii, the
+// velocity changed once, only bodies that approach. `as_printed` does what the listings print instead:
+//   e = (e1 e2) / 2, where the text says average;
+//   |d|^2 < (r0 + r0)^2, the first body's radius twice;
+//   after v' is set, the acceleration becomes v'/dt, so that the same frame's update adds v' once more;
+//   no test that the bodies approach, so that a pair still overlapping in the next frame is handled again.
+#include "simulate/book.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/compensated.h"
+#include "physics/contact_time.h"
+#include "physics/impact.h"
+#include "physics/restitution.h"
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t collision_buffer = 4096;
+
+class BookSimulator final : public Simulator {
+ public:
+  BookSimulator(const World& world, const State& initial, const BookOptions& options);
+
+  void advance_to(double time) override;
+  double time() const override { return time_; }
+  const State& state() override;
+  std::span<const Collision> collisions() const override { return collisions_; }
+  const Tally& tally() const override { return tally_; }
+
+ private:
+  double frame_time(std::uint64_t frame) const { return static_cast<double>(frame) * options_.step; }
+  void do_frame();
+  void handle_pair(Entity a, Entity b);
+  void handle_fixed(Entity i, Entity surface, const Vec3& point, const Vec3& normal);
+  void record(const Collision& collision);
+
+  const World& world_;
+  const BookOptions options_;
+  std::uint64_t frames_ = 0;  // done; the bodies are at frame_time(frames_)
+  double time_ = 0;           // s, asked for: within the last frame done
+  std::vector<Vec3> x_, v_, force_;
+  State state_;
+  std::vector<Collision> collisions_;
+  Tally tally_;
+  Sum energy_lost_, work_;
+};
+
+BookSimulator::BookSimulator(const World& world, const State& initial, const BookOptions& options)
+    : world_(world), options_(options), x_(initial.position), v_(initial.velocity), force_(world.body_count()) {
+  if (options.record_collisions) collisions_.reserve(collision_buffer);
+  for (const Vec3& v : v_) tally_.max_speed = std::max(tally_.max_speed, v.norm());
+}
+
+void BookSimulator::record(const Collision& c) {
+  ++(c.kind == CollisionKind::body_body ? tally_.body_body : tally_.body_fixed);
+  if (std::isnan(tally_.first_collision)) tally_.first_collision = c.time;
+  tally_.last_collision = c.time;
+  energy_lost_.add(c.energy_lost);
+  tally_.energy_lost = energy_lost_.value();
+  if (options_.record_collisions) collisions_.push_back(c);
+  if (options_.max_collisions > 0 && tally_.collisions() > options_.max_collisions)
+    throw SimulationError(fmt::format("more than simulate.max_collisions = {} collisions, reached at t = {} s",
+                                      options_.max_collisions, c.time));
+}
+
+/// Listing 8.4, HandleCollision.
+void BookSimulator::handle_pair(Entity a, Entity b) {
+  const Vec3 d = x_[b] - x_[a];
+  const double distance = d.norm();
+  if (distance == 0)
+    throw SimulationError(fmt::format(
+        "at t = {} s two centres coincide and the line of centres, d/|d|, is undefined: use a smaller simulate.step, or "
+        "engine: exact",
+        frame_time(frames_)));
+  const Vec3 n = d / distance;
+  const double ua = v_[a].dot(n), ub = v_[b].dot(n);
+  tally_.max_overlap = std::max(tally_.max_overlap, world_.radius[a] + world_.radius[b] - distance);
+  if (ua <= ub && !options_.as_printed) return;
+  const double ma = world_.mass[a], mb = world_.mass[b];
+  const double e = options_.as_printed ? combine_restitution(Combine::book, world_.restitution[a], ma, world_.restitution[b], mb)
+                                       : pair_restitution(world_, a, b);
+  const double after_a = ((ma - e * mb) * ua + (1 + e) * mb * ub) / (ma + mb);
+  const double after_b = ((mb - e * ma) * ub + (1 + e) * ma * ua) / (ma + mb);
+  v_[a] += (after_a - ua) * n;
+  v_[b] += (after_b - ub) * n;
+  if (options_.as_printed) {
+    force_[a] = v_[a] / options_.step * ma;
+    force_[b] = v_[b] / options_.step * mb;
+  }
+  const double approach = ua - ub, separation = after_b - after_a;
+  record({frame_time(frames_), CollisionKind::body_body, a, b, x_[a] + world_.radius[a] * n, n, approach, separation, e,
+          impact_impulse(ma, mb, approach, separation), impact_loss(ma, mb, approach, separation)});
+}
+
+/// The plane test of the text: above it, nearer than the radius: collided. `normal` points to the body's side.
+void BookSimulator::handle_fixed(Entity i, Entity surface, const Vec3& point, const Vec3& normal) {
+  const double height = (x_[i] - point).dot(normal);
+  if (height < 0 || height >= world_.radius[i]) return;
+  tally_.max_overlap = std::max(tally_.max_overlap, world_.radius[i] - height);
+  const double approach = -v_[i].dot(normal);
+  if (approach <= 0) return;
+  const double e = pair_restitution(world_, i, surface);
+  v_[i] += (1 + e) * approach * normal;
+  record({frame_time(frames_), CollisionKind::body_fixed, i, surface, x_[i] - world_.radius[i] * normal, -normal, approach,
+          e * approach, e, impact_impulse(world_.mass[i], never, approach, e * approach),
+          impact_loss(world_.mass[i], never, approach, e * approach)});
+}
+
+/// Listing 8.3: forces, overlaps, update. A frame's impulse is a force that lasts for the first frame only.
+void BookSimulator::do_frame() {
+  const Entity n = world_.body_count();
+  const double dt = options_.step;
+  for (Entity i = 0; i < n; ++i) {
+    force_[i] = world_.mass[i] * world_.gravity;
+    if (frames_ == 0 && !world_.impulse.empty()) force_[i] += world_.impulse[i] / dt;
+  }
+  for (Entity a = 0; a + 1 < n; ++a)
+    for (Entity b = a + 1; b < n; ++b) {
+      const double reach = world_.radius[a] + (options_.as_printed ? world_.radius[a] : world_.radius[b]);
+      if ((x_[a] - x_[b]).squaredNorm() < reach * reach) handle_pair(a, b);
+    }
+  for (Entity i = 0; i < n; ++i) {
+    for (std::size_t k = 0; k < world_.planes.size(); ++k)
+      handle_fixed(i, n + static_cast<Entity>(k), world_.planes[k].point, world_.planes[k].normal);
+    for (std::size_t k = 0; k < world_.walls.size(); ++k) {
+      // A wall is a plane as far as it reaches; round its rim, the direction from its nearest point.
+      const Vec3 nearest = nearest_on_wall(world_.walls[k], x_[i]);
+      const Vec3 away = x_[i] - nearest;
+      if (away.squaredNorm() > 0)
+        handle_fixed(i, n + static_cast<Entity>(world_.planes.size() + k), nearest, away / away.norm());
+    }
+  }
+  for (Entity i = 0; i < n; ++i) {
+    const Vec3 before = v_[i];
+    v_[i] += force_[i] / world_.mass[i] * dt;
+    x_[i] += v_[i] * dt;
+    const double speed = v_[i].norm();
+    if (!(speed < never))
+      throw SimulationError(fmt::format("at t = {} s a body's speed is no longer finite: use a smaller simulate.step, or "
+                                        "engine: exact", frame_time(frames_)));
+    tally_.max_speed = std::max(tally_.max_speed, speed);
+    // Work of every force but gravity: of the impulse, and of the printed listing's second helping of velocity.
+    const Vec3 other = force_[i] - world_.mass[i] * world_.gravity;
+    if (!other.isZero(0)) work_.add(0.5 * other.dot(before + v_[i]) * dt);
+  }
+  tally_.work = work_.value();
+  ++frames_;
+}
+
+void BookSimulator::advance_to(double time) {
+  collisions_.clear();
+  // A time within rounding of a frame's is that frame's.
+  while (frame_time(frames_) < time - 1e-9 * options_.step) {
+    do_frame();
+    if (options_.record_collisions && collisions_.size() >= collision_buffer / 2) {
+      time_ = std::min(frame_time(frames_), time);
+      return;
+    }
+  }
+  time_ = std::max(time, time_);
+}
+
+/// Between frames a body is on the straight line that the frame's update took it along.
+const State& BookSimulator::state() {
+  state_.time = time_;
+  state_.position = x_;
+  state_.velocity = v_;
+  const double ahead = frame_time(frames_) - time_;
+  if (ahead > 1e-9 * options_.step)
+    for (Entity i = 0; i < world_.body_count(); ++i) state_.position[i] -= ahead * v_[i];
+  return state_;
+}
+
+}  // namespace
+
+std::unique_ptr<Simulator> make_book_simulator(const World& world, const State& initial, const BookOptions& options) {
+  return std::make_unique<BookSimulator>(world, initial, options);
+}
+
+}  // namespace carom

@@ -1,0 +1,169 @@
+#include "simulate/exact.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/contact_time.h"
+#include "simulate/exact_simulator.h"
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t collision_buffer = 4096;
+
+}  // namespace
+
+std::unique_ptr<Simulator> make_exact_simulator(const World& world, const State& initial, const ExactOptions& options) {
+  return std::make_unique<ExactSimulator>(world, initial, options);
+}
+
+ExactSimulator::ExactSimulator(const World& world, const State& initial, const ExactOptions& options)
+    : world_(world),
+      options_(options),
+      flight_(world.body_count()),
+      origin_(world.body_count()),
+      version_(world.body_count()),
+      event_(world.body_count()),
+      region_(world.body_count()),
+      near_(world.body_count()),
+      contacts_(world.fixed_count() > 0 && !world.gravity.isZero(0) ? world.body_count() : 0),
+      grid_(world.body_count()),
+      queue_(world.body_count(), Before{this}) {
+  const Entity n = world.body_count();
+  state_.position.resize(n);
+  state_.velocity.resize(n);
+  if (options.record_collisions) collisions_.reserve(collision_buffer);
+  Sum work;
+  for (Entity i = 0; i < n; ++i) {
+    Vec3 v = initial.velocity[i];
+    if (!world.impulse.empty()) {
+      const Vec3 change = world.impulse[i] / world.mass[i];
+      work.add(world.impulse[i].dot(v + 0.5 * change));
+      v += change;
+    }
+    flight_[i] = {{}, initial.position[i], v, world.gravity};
+    region_[i] = {initial.position[i], 0.5 * world.radius[i], 0};
+    region_[i].half = region_[i].room + world.radius[i];
+    grid_.put(i, region_[i].center, region_[i].half);
+    tally_.max_speed = std::max(tally_.max_speed, v.norm());
+  }
+  tally_.work = work.value();
+  for (Entity i = 0; i < n; ++i) {
+    find_neighbours(i);
+    if (!contacts_.empty()) touch_down(i);
+  }
+  for (Entity i = 0; i < n; ++i) predict(i);
+}
+
+/// Events in their total order: time, kind, the lower and the higher number of those concerned.
+bool ExactSimulator::before(Entity i, Entity j) const {
+  const Event &p = event_[i], &q = event_[j];
+  if (p.time < q.time) return true;
+  if (q.time < p.time) return false;
+  if (p.kind != q.kind) return p.kind < q.kind;
+  const Entity pa = std::min(i, p.partner), qa = std::min(j, q.partner);
+  if (pa != qa) return pa < qa;
+  return std::max(i, p.partner) < std::max(j, q.partner);
+}
+
+void ExactSimulator::advance_to(double time) {
+  collisions_.clear();
+  state_fresh_ = false;
+  const Instant until{std::min(time, options_.duration), 0};
+  for (Entity i = queue_.first(); i != no_entity && event_[i].time <= until; i = queue_.first()) {
+    process(i);
+    // A full buffer: stop short of the instant reached, for more may happen in it.
+    if (collisions_.size() >= collision_buffer - 8) {
+      time_ = std::max(time_, std::nextafter(now_.hi, 0));
+      return;
+    }
+  }
+  time_ = std::max(time, time_);
+}
+
+void ExactSimulator::process(Entity i) {
+  const Event event = event_[i];
+  events_at_once_ = event.time.hi > now_.hi ? 0 : events_at_once_ + 1;
+  if (now_ < event.time) now_ = event.time;
+  switch (event.kind) {
+    case Kind::body_body:
+      if (version_[event.partner] == event.partner_version)
+        collide_pair(std::min(i, event.partner), std::max(i, event.partner));
+      else
+        predict(i);  // the other one has changed its path since
+      break;
+    case Kind::body_fixed: collide_fixed(i, event.partner, event.feature); break;
+    case Kind::rest: finish_rest(i); break;
+    case Kind::release: release(i, event.partner, event.feature); break;
+    case Kind::leave_region:
+      rebuild_region(i);
+      predict(i);
+      break;
+    case Kind::none: break;
+  }
+  check_limits();
+}
+
+/// Begins a new flight of body i, here and now.
+void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin origin) {
+  const double speed = v.norm();
+  if (!(speed < never))
+    throw SimulationError(fmt::format(
+        "at t = {} s a body's speed is no longer finite: restitution above 1 makes energy at every collision; lower it, or "
+        "shorten simulate.duration",
+        now_.hi));
+  tally_.max_speed = std::max(tally_.max_speed, speed);
+  flight_[i].start = now_;
+  flight_[i].x = x;
+  flight_[i].v = v;
+  flight_[i].a = contact_acceleration(i);
+  origin_[i] = origin;
+  ++version_[i];
+}
+
+void ExactSimulator::record(const Collision& collision) {
+  if (collision.kind != CollisionKind::rest) {
+    ++(collision.kind == CollisionKind::body_body ? tally_.body_body : tally_.body_fixed);
+    if (std::isnan(tally_.first_collision)) tally_.first_collision = collision.time;
+    tally_.last_collision = collision.time;
+  }
+  if (options_.record_collisions) collisions_.push_back(collision);
+}
+
+/// Kinetic energy (J) that a collision or a contact took.
+void ExactSimulator::lose(double energy) {
+  energy_lost_.add(energy);
+  tally_.energy_lost = energy_lost_.value();
+}
+
+void ExactSimulator::check_limits() {
+  if (options_.max_collisions > 0 && tally_.collisions() > options_.max_collisions)
+    throw SimulationError(fmt::format("more than simulate.max_collisions = {} collisions, reached at t = {} s",
+                                      options_.max_collisions, now_.hi));
+  if (events_at_once_ > 1'000'000 + 1000ull * world_.body_count())
+    throw SimulationError(fmt::format(
+        "at t = {} s bodies collide without end in one instant (inelastic collapse): raise their restitution, or "
+        "simulate.rest_speed",
+        now_.hi));
+}
+
+const State& ExactSimulator::state() {
+  if (state_fresh_) return state_;
+  state_.time = time_;
+  const Instant at{time_, 0};
+  for (Entity i = 0; i < world_.body_count(); ++i) {
+    const double t = at - flight_[i].start;
+    state_.position[i] = flight_[i].position(t);
+    state_.velocity[i] = flight_[i].velocity(t);
+  }
+  // Between collisions a speed is greatest at a flight's ends: the last flights end here.
+  if (time_ >= options_.duration)
+    for (const Vec3& v : state_.velocity) tally_.max_speed = std::max(tally_.max_speed, v.norm());
+  state_fresh_ = true;
+  return state_;
+}
+
+}  // namespace carom

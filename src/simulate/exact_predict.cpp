@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <cmath>
+
+#include "physics/contact_time.h"
+#include "simulate/exact_simulator.h"
+
+namespace carom {
+
+namespace {
+
+double sum_of_speeds(const Vec3& v) { return v.cwiseAbs().sum(); }  // at least |v|
+
+}  // namespace
+
+/// Finds body i's next event among its neighbours. Other bodies' events stay as they are: a pair's collision stands with
+/// whichever of the two was predicted last.
+void ExactSimulator::predict(Entity i) {
+  Event best;
+  if (near_[i].size() > 96 + world_.fixed_count() && region_[i].room > 0.05 * world_.radius[i]) {
+    region_[i].room *= 0.5;
+    rebuild_region(i);
+  }
+  for (Entity e : near_[i]) {
+    if (world_.is_body(e)) {
+      offer(i, best, {pair_time(i, e), e, version_[e], Kind::body_body, no_feature});
+    } else if (!in_contact(i, e)) {
+      std::uint8_t feature = no_feature;
+      const Instant time = fixed_time(i, e, feature);
+      offer(i, best, {time, e, 0, Kind::body_fixed, feature});
+    }
+  }
+  if (!contacts_.empty()) {
+    for (std::size_t k = 0; k < contacts_[i].count; ++k) {
+      const Contact& contact = contacts_[i].at[k];
+      if (contact.settling) offer(i, best, {contact.rest_time, contact.surface, 0, Kind::rest, contact.feature});
+      if (world_.is_plane(contact.surface)) continue;
+      const Flight& f = flight_[i];
+      const WallContact rim =
+          wall_release_time(world_.wall(contact.surface), f.x, f.v, f.a, Instant{options_.duration, 0} - f.start);
+      if (rim.time < never) offer(i, best, {f.start + rim.time, contact.surface, 0, Kind::release, rim.feature});
+    }
+  }
+  offer(i, best, {leave_time(i), no_entity, 0, Kind::leave_region, no_feature});
+  event_[i] = best;
+  queue_.update(i);
+}
+
+/// Keeps the earlier of two events of body i, by the total order.
+void ExactSimulator::offer(Entity i, Event& best, Event candidate) const {
+  if (!(candidate.time.hi <= options_.duration)) return;
+  if (candidate.time < now_) candidate.time = now_;  // by rounding only
+  if (best.time < candidate.time) return;
+  if (candidate.time == best.time) {
+    if (best.kind < candidate.kind) return;
+    if (best.kind == candidate.kind) {
+      const auto key = [i](const Event& e) { return std::pair(std::min(i, e.partner), std::max(i, e.partner)); };
+      if (key(best) < key(candidate)) return;
+    }
+  }
+  best = candidate;
+}
+
+/// When bodies i and j collide: reckoned from the later of their own clocks, lower number first.
+Instant ExactSimulator::pair_time(Entity i, Entity j) const {
+  const Entity a = std::min(i, j), b = std::max(i, j);
+  const Flight &p = flight_[a], &q = flight_[b];
+  const bool p_earlier = p.start < q.start;
+  const Instant base = p_earlier ? q.start : p.start;
+  const double tp = base - p.start, tq = base - q.start;  // one of them is zero
+  RelativeMotion m;
+  m.w = q.velocity(tq) - p.velocity(tp);
+  m.d = q.position(tq) - p.position(tp);
+  m.a = q.a - p.a;
+  if (m.a.isZero(0) && m.d.dot(m.w) >= 0) return {never, 0};
+  m.speeds = sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a);
+  m.just_separated = p.start == q.start && origin_[a].partner == b && origin_[b].partner == a;
+  const double t = sphere_contact_time(m, world_.radius[a] + world_.radius[b], Instant{options_.duration, 0} - base);
+  return t == never ? Instant{never, 0} : base + t;
+}
+
+/// When body i strikes a surface: reckoned from its flight's start.
+Instant ExactSimulator::fixed_time(Entity i, Entity surface, std::uint8_t& feature) const {
+  const Flight& f = flight_[i];
+  const double horizon = Instant{options_.duration, 0} - f.start;
+  const bool left = origin_[i].partner == surface;
+  double t;
+  if (world_.is_plane(surface)) {
+    const Plane& plane = world_.plane(surface);
+    const double noise = 0x1p-49 * sum_of_speeds(f.v);
+    t = plane_contact_time(plane_gap(f.x, plane.point, plane.normal, world_.radius[i]), plane.normal.dot(f.v),
+                           plane.normal.dot(f.a), noise, left, horizon);
+  } else {
+    const WallContact contact = wall_contact_time(world_.wall(surface), f.x, f.v, f.a, world_.radius[i],
+                                                  left ? origin_[i].feature : no_feature, horizon);
+    t = contact.time;
+    feature = contact.feature;
+  }
+  return t == never ? Instant{never, 0} : f.start + t;
+}
+
+/// A time before which body i is surely within its region: each axis at its greatest possible haste.
+Instant ExactSimulator::leave_time(Entity i) const {
+  const Region& region = region_[i];
+  const Flight& f = flight_[i];
+  const double since = now_ - f.start;
+  const Vec3 x = f.position(since), v = f.velocity(since);
+  double t = never;
+  for (int k = 0; k < 3; ++k) {
+    const double room = std::max(region.room - std::abs(x[k] - region.center[k]), 0.0);
+    const double haste = std::abs(v[k]) + std::sqrt(v[k] * v[k] + 2 * std::abs(f.a[k]) * room);
+    if (haste > 0) t = std::min(t, 2 * room / haste);
+  }
+  return t == never ? Instant{never, 0} : now_ + t;
+}
+
+}  // namespace carom

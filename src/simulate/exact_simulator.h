@@ -1,0 +1,140 @@
+#pragma once
+// The exact simulator's own parts. Its four source files share this class: exact.cpp (the loop), exact_predict.cpp (what comes
+// next for a body), exact_resolve.cpp (what an event does), exact_region.cpp (who is near).
+//
+// Each body keeps its Flight and is not moved when somebody else collides. Each body keeps one Event, the first of its own; the
+// first of all of these is the next thing to happen. A predicted collision is a function of the two flights alone, so it has the
+// same bits from whichever side, and whenever, it is computed: neither outputs nor the search for neighbours can change it.
+//
+// Neighbours: a body lives in a region, a box that it cannot leave unnoticed; bodies whose regions overlap know each other, and
+// so do a body and the surfaces within its region (near-neighbour lists: Donev, Torquato & Stillinger, J. Comput. Phys. 202
+// (2005) 737). A region grows while it is lonely, so a ball that flies off costs a few events, however far it goes.
+#include <array>
+#include <vector>
+
+#include "simulate/exact.h"
+#include "simulate/flight.h"
+#include "simulate/region_grid.h"
+#include "simulate/tournament.h"
+
+namespace carom {
+
+class ExactSimulator final : public Simulator {
+ public:
+  ExactSimulator(const World& world, const State& initial, const ExactOptions& options);
+
+  void advance_to(double time) override;
+  double time() const override { return time_; }
+  const State& state() override;
+  std::span<const Collision> collisions() const override { return collisions_; }
+  const Tally& tally() const override { return tally_; }
+
+ private:
+  // In the order in which events of one instant happen.
+  enum class Kind : std::uint8_t {
+    rest,          // bounces end: a line in the record
+    release,       // a body slides off a wall's face
+    body_fixed,    //
+    body_body,     //
+    leave_region,  // no physics
+    none
+  };
+
+  struct Event {
+    Instant time{never, 0};
+    Entity partner = no_entity;
+    std::uint32_t partner_version = 0;
+    Kind kind = Kind::none;
+    std::uint8_t feature = no_feature;
+  };
+
+  /// What a flight began with: whom the body has just struck.
+  struct Origin {
+    Entity partner = no_entity;
+    std::uint8_t feature = no_feature;
+  };
+
+  struct Region {
+    Vec3 center;      // m
+    double room = 0;  // m, how far the body's centre may go from the region's, along each axis
+    double half = 0;  // m, half width: room and radius
+  };
+
+  /// Flat surfaces that carry a body.
+  struct Contact {
+    Entity surface;
+    std::uint8_t feature;   // of a wall
+    bool settling;          // its `rest` is still to come, at
+    Instant rest_time;      //
+    double residual_speed;  // m/s, what the last bounce left
+  };
+  static constexpr std::size_t max_contacts = 4;
+  struct Contacts {
+    std::array<Contact, max_contacts> at;
+    std::size_t count = 0;
+  };
+
+  bool before(Entity i, Entity j) const;
+  struct Before {
+    const ExactSimulator* simulator;
+    bool operator()(std::uint32_t i, std::uint32_t j) const { return simulator->before(i, j); }
+  };
+
+  // exact.cpp
+  void process(Entity i);
+  void restart(Entity i, const Vec3& x, const Vec3& v, Origin origin);
+  void record(const Collision& collision);
+  void lose(double energy);
+  void check_limits();
+
+  // exact_predict.cpp
+  void predict(Entity i);
+  Instant pair_time(Entity i, Entity j) const;
+  Instant fixed_time(Entity i, Entity surface, std::uint8_t& feature) const;
+  void offer(Entity i, Event& best, Event candidate) const;
+  Instant leave_time(Entity i) const;
+
+  // exact_resolve.cpp
+  void collide_pair(Entity a, Entity b);
+  void collide_fixed(Entity i, Entity surface, std::uint8_t feature);
+  void settle(Entity i, const Contact& contact);
+  void release(Entity i, Entity surface, std::uint8_t edge);
+  void finish_rest(Entity i);
+  Vec3 keep_contacts(Entity i, Vec3 v, bool absorb);
+  Vec3 contact_acceleration(Entity i);
+  Vec3 free_acceleration(Entity i, Entity without) const;
+  void touch_down(Entity i);
+  bool in_contact(Entity i, Entity surface) const;
+  Vec3 contact_normal(const Contact& contact) const;
+  double slow_speed(double press, double length) const;
+  bool is_flat(Entity surface, std::uint8_t feature) const { return world_.is_plane(surface) || feature < wall_edges; }
+
+  // exact_region.cpp
+  void rebuild_region(Entity i);
+  void find_neighbours(Entity i);
+  void forget_neighbours(Entity i);
+
+  const World& world_;
+  const ExactOptions options_;
+  Instant now_;
+  double time_ = 0;  // s, how far advance_to has come
+
+  std::vector<Flight> flight_;
+  std::vector<Origin> origin_;
+  std::vector<std::uint32_t> version_;  // counts a body's flights
+  std::vector<Event> event_;
+  std::vector<Region> region_;
+  std::vector<std::vector<Entity>> near_;  // bodies and surfaces that may be met within the region
+  std::vector<Contacts> contacts_;         // empty where nothing can rest: no gravity or no surface
+  RegionGrid grid_;
+  Tournament<Before> queue_;
+
+  State state_;
+  bool state_fresh_ = false;
+  std::vector<Collision> collisions_;
+  Tally tally_;
+  Sum energy_lost_;  // J
+  std::uint64_t events_at_once_ = 0;  // since the clock last moved
+};
+
+}  // namespace carom
