@@ -10,7 +10,9 @@ struct Image {
   int width = 0, height = 0;         // pixels
   std::vector<std::uint8_t> pixels;  // RGB, 3 bytes a pixel, top row first, sRGB-encoded
 
-  const std::uint8_t* row(int y) const { return pixels.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width) * 3; }
+  const std::uint8_t* row(int y) const {
+    return pixels.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width) * 3;
+  }
 };
 
 }  // namespace carom

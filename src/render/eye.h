@@ -1,0 +1,52 @@
+#pragma once
+// The camera's frame as the passes use it: x to the right, y up, z ahead, the eye at the origin. A ray through a
+// picture point is (x, y, 1). World coordinates turn into this frame in double precision; only then does float begin.
+#include <cmath>
+#include <numbers>
+
+#include "render/camera.h"
+
+namespace carom {
+
+struct Eye {
+  Eye(const Camera& c, Size s) : camera(c), view(view_of(c, s)), size(s) {
+    tan_x = std::tan(view.fov_x * std::numbers::pi / 360);
+    tan_y = std::tan(view.fov_y * std::numbers::pi / 360);
+    pixel = 2 * tan_x / s.width;
+  }
+  Vec3 direction(const Vec3& world) const {
+    return Vec3(view.right.dot(world), view.up.dot(world), view.forward.dot(world));
+  }
+  Vec3 point(const Vec3& world) const { return direction(world - camera.eye); }
+
+  Camera camera;
+  View view;
+  Size size;
+  double tan_x, tan_y;  // of half the angles of view
+  double pixel;         // a pixel's side in the plane z = 1
+};
+
+/// The ellipse as which the plane z = 1 shows a sphere, from the origin.
+struct Outline {
+  double x, y;    // centre
+  double ax, ay;  // the longer half axis
+  double bx, by;  // the shorter half axis
+  double depth2;  // (half the chord of the ray through the centre)^2 x |ray|^2
+};
+/// False: the sphere reaches behind the plane z = 0, so that its outline is no ellipse.
+inline bool outline_of(const Vec3& center, double radius, Outline& out) {
+  // The tangent cone (x.k)^2 = cos^2(alpha) |x|^2, cut by z = 1; theta is the angle between k and z.
+  const double distance2 = center.squaredNorm();
+  const double sin2 = radius * radius / distance2, cos2 = 1 - sin2;
+  const double lateral2 = center.x() * center.x() + center.y() * center.y();
+  const double q = cos2 - lateral2 / distance2;
+  if (!(center.z() > 0 && q > 1e-4)) return false;
+  const double lateral = std::sqrt(lateral2);
+  const double ex = lateral > 0 ? center.x() / lateral : 1, ey = lateral > 0 ? center.y() / lateral : 0;
+  const double m = lateral * center.z() / (distance2 * q);
+  const double a = std::sqrt(sin2 * cos2) / q, b = std::sqrt(sin2 / q);
+  out = {m * ex, m * ey, a * ex, a * ey, -b * ey, b * ex, radius * radius * cos2 / q};
+  return true;
+}
+
+}  // namespace carom

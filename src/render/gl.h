@@ -1,0 +1,124 @@
+#pragma once
+// The little of OpenGL that the passes use: an off-screen context, and objects that free themselves. OSMesa exports the
+// functions of OpenGL 4.5 by name, so nothing has to be looked up at run time.
+#define GL_GLEXT_PROTOTYPES
+#include <GL/osmesa.h>
+
+#include <array>
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace carom::gl {
+
+/// One off-screen OpenGL 4.5 core context on llvmpipe. Throws RenderError.
+class Context {
+ public:
+  Context();
+  ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  void make_current();
+
+ private:
+  OSMesaContext context_;
+  std::array<unsigned char, 4 * 8 * 8> window_{};  // OSMesa wants one; pictures are drawn into textures instead
+};
+
+/// An object's name; freed with its owner, whose context must be current then.
+template <void (*release)(GLuint)>
+class Handle {
+ public:
+  Handle() = default;
+  explicit Handle(GLuint name) : name_(name) {}
+  Handle(Handle&& other) noexcept : name_(other.name_) { other.name_ = 0; }
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  ~Handle() {
+    if (name_) release(name_);
+  }
+  GLuint name() const { return name_; }
+
+ private:
+  GLuint name_ = 0;
+};
+
+inline void release_texture(GLuint name) {
+  glDeleteTextures(1, &name);
+}
+inline void release_buffer(GLuint name) {
+  glDeleteBuffers(1, &name);
+}
+inline void release_framebuffer(GLuint name) {
+  glDeleteFramebuffers(1, &name);
+}
+inline void release_vertices(GLuint name) {
+  glDeleteVertexArrays(1, &name);
+}
+inline void release_program(GLuint name) {
+  glDeleteProgram(name);
+}
+
+using Texture = Handle<release_texture>;
+using Buffer = Handle<release_buffer>;
+using Framebuffer = Handle<release_framebuffer>;
+using Vertices = Handle<release_vertices>;
+
+/// A picture-sized texture without mipmaps, read by texelFetch.
+Texture make_texture(GLenum format, int width, int height);
+/// Draws into `colors` in this order, and tests against `depth` (0: none). Throws RenderError.
+Framebuffer make_framebuffer(std::span<const GLuint> colors, GLuint depth);
+
+/// A vertex and a fragment shader. Throws RenderError with the compiler's own text.
+class Program {
+ public:
+  /// `parts` are joined behind the version line.
+  Program(std::initializer_list<std::string_view> vertex, std::initializer_list<std::string_view> fragment);
+  void use() const { glUseProgram(handle_.name()); }
+  GLint at(const char* uniform) const { return glGetUniformLocation(handle_.name(), uniform); }
+
+ private:
+  Handle<release_program> handle_;
+};
+
+/// One quadrilateral an instance, each with one Row of a buffer that is filled anew for every picture.
+class Instances {
+ public:
+  /// Attribute i takes `floats[i]` floats of the row, in order.
+  explicit Instances(std::initializer_list<int> floats);
+  void draw(std::span<const float> rows);  // uploads and draws
+  void draw_again() const;                 // the same once more
+
+ private:
+  Vertices vertices_;
+  Buffer buffer_;
+  std::size_t stride_ = 0;  // bytes
+  GLsizei count_ = 0;
+};
+
+/// Four floats a texel, read by texelFetch from a samplerBuffer.
+class TexelBuffer {
+ public:
+  TexelBuffer();
+  void fill(std::span<const float> values);
+  void bind(GLuint unit) const;
+
+ private:
+  Buffer buffer_;
+  Texture texture_;
+};
+
+/// One quadrilateral without attributes, for a vertex shader that covers the picture.
+void draw_picture();
+
+void bind_texture(GLuint unit, const Texture& texture);
+
+/// Throws RenderError if an OpenGL call failed since the last check. `doing` says what was under way.
+void check(const char* doing);
+
+}  // namespace carom::gl

@@ -1,0 +1,106 @@
+#include "render/lighting.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/renderer.h"
+
+namespace carom {
+namespace {
+
+constexpr std::size_t most_lights = 32;
+
+// A matt surface that faces a light of intensity 1 gives back its own colour. Light does not weaken with distance.
+const char* const functions = R"(
+const float softness = SOFTNESS;
+uniform vec4 light_vector[LIGHTS + 1];    // position (w = 1) or unit direction towards the light (w = 0)
+uniform vec3 light_radiance[LIGHTS + 1];
+uniform vec3 ambient;
+uniform vec3 world_up;
+
+vec3 towards_light(int i, vec3 p) {
+  return light_vector[i].w > 0 ? normalize(light_vector[i].xyz - p) : light_vector[i].xyz;
+}
+
+// Ambient light comes from above somewhat more than from below.
+vec3 hemisphere(vec3 n) { return ambient * (0.8 + 0.2 * dot(n, world_up)); }
+
+// The part of the key light that a ball lets through to p; `to_ball` from p to its centre.
+// The light is a disc of angular radius `softness`, the ball one of about radius / along.
+float through_ball(vec3 p, vec3 l, vec3 to_ball, float radius) {
+  float along = dot(to_ball, l);
+  float aside2 = dot(to_ball, to_ball) - along * along;
+  float blur = softness * along;
+  float reach = radius + blur;
+  if (along <= 0 || aside2 >= reach * reach) return 1;
+  if (light_vector[0].w > 0 && along > length(light_vector[0].xyz - p)) return 1;
+  float clear = smoothstep(-blur, blur, sqrt(max(aside2, 0)) - radius);
+  return 1 - (1 - clear) * min(1, radius * radius / (blur * blur));
+}
+
+// The part of the key light that a wall lets through to p.
+float through_wall(vec3 p, vec3 l, vec3 normal, vec3 center, vec3 right, float half_width, vec3 up, float half_height) {
+  float slope = dot(normal, l);
+  float along = dot(normal, center - p) / (abs(slope) > 1e-6 ? slope : 1e-6);
+  if (along <= 1e-4 * (half_width + half_height)) return 1;
+  if (light_vector[0].w > 0 && along > length(light_vector[0].xyz - p)) return 1;
+  vec3 q = p + along * l - center;
+  float blur = softness * along;
+  float across = smoothstep(-blur, blur, half_width - abs(dot(q, right)));
+  float upward = smoothstep(-blur, blur, half_height - abs(dot(q, up)));
+  return 1 - across * upward;
+}
+)";
+
+double decode(double c) {
+  c = std::clamp(c, 0.0, 1.0);
+  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+}  // namespace
+
+std::array<float, 3> linear(const Color& srgb) {
+  return {static_cast<float>(decode(srgb.r)), static_cast<float>(decode(srgb.g)), static_cast<float>(decode(srgb.b))};
+}
+
+Lighting::Lighting(const Scene& scene, const Eye& eye) : up_(eye.direction(Vec3(0, 1, 0))) {
+  if (scene.lights.size() > most_lights)
+    throw RenderError(fmt::format("the scene names {} lights; pictures can have {}", scene.lights.size(), most_lights));
+  for (const Light& light : scene.lights) {
+    Source source{light.position.has_value(), Vec3::Zero(), linear(light.color)};
+    source.vector = source.near ? eye.point(*light.position) : -eye.direction(light.direction->normalized());
+    for (float& c : source.radiance) c *= static_cast<float>(light.intensity);
+    lights_.push_back(source);
+  }
+  if (scene.lights.empty()) {
+    // From above, left of and behind the camera, in the world's own upright frame, so that a steep camera keeps the sun
+    // high.
+    Vec3 ahead = Vec3(eye.view.forward.x(), 0, eye.view.forward.z());
+    if (!(ahead.norm() > 1e-3)) ahead = Vec3(eye.view.up.x(), 0, eye.view.up.z());
+    ahead.normalize();
+    const Vec3 right = Vec3(-ahead.z(), 0, ahead.x());
+    const Vec3 towards = (-0.55 * right + 1.0 * Vec3(0, 1, 0) - 0.45 * ahead).normalized();
+    lights_.push_back({false, eye.direction(towards), {0.82F, 0.80F, 0.76F}});
+  }
+  ambient_ = scene.ambient ? linear(*scene.ambient) : std::array<float, 3>{0.26F, 0.28F, 0.31F};
+  shader_ = fmt::format("#define LIGHTS {}\n#define SOFTNESS {:.6f}\n{}", lights_.size(), softness, functions);
+}
+
+void Lighting::set(const gl::Program& program) const {
+  std::vector<float> vectors, radiance;
+  for (const Source& light : lights_) {
+    for (int i = 0; i < 3; ++i) vectors.push_back(static_cast<float>(light.vector[i]));
+    vectors.push_back(light.near ? 1 : 0);
+    radiance.insert(radiance.end(), light.radiance.begin(), light.radiance.end());
+  }
+  const auto count = static_cast<GLsizei>(lights_.size());
+  glUniform4fv(program.at("light_vector"), count, vectors.data());
+  glUniform3fv(program.at("light_radiance"), count, radiance.data());
+  glUniform3fv(program.at("ambient"), 1, ambient_.data());
+  glUniform3f(program.at("world_up"), static_cast<float>(up_.x()), static_cast<float>(up_.y()),
+              static_cast<float>(up_.z()));
+}
+
+}  // namespace carom

@@ -1,0 +1,45 @@
+#pragma once
+// Light: what a scene names, or a key light from above left behind the camera. In linear light; authors' colours are
+// sRGB.
+#include <array>
+#include <string>
+#include <vector>
+
+#include "render/eye.h"
+#include "render/gl.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+/// An authored colour in linear light (IEC 61966-2-1).
+std::array<float, 3> linear(const Color& srgb);
+
+class Lighting {
+ public:
+  /// Throws RenderError if there are more lights than can be drawn.
+  Lighting(const Scene& scene, const Eye& eye);
+
+  /// Declares, for a fragment shader in the camera's frame, the lights and functions on them (lighting.cpp).
+  const std::string& shader() const { return shader_; }
+  void set(const gl::Program& program) const;  // the program must be in use
+
+  bool has_key() const { return !lights_.empty(); }
+  bool key_is_near() const { return has_key() && lights_[0].near; }
+  const Vec3& key() const { return lights_[0].vector; }
+
+  /// Half the angle (radians) under which the key light is seen: how soft shadows are.
+  static constexpr double softness = 0.02;
+
+ private:
+  struct Source {
+    bool near;    // has a position; else it is infinitely far
+    Vec3 vector;  // camera frame: the position (m), or the unit direction towards the light
+    std::array<float, 3> radiance;
+  };
+  std::vector<Source> lights_;  // the first one is the key light, which casts shadows
+  std::array<float, 3> ambient_;
+  Vec3 up_;  // the world's up in the camera's frame
+  std::string shader_;
+};
+
+}  // namespace carom

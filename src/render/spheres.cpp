@@ -1,0 +1,217 @@
+#include "render/spheres.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/renderer.h"
+
+namespace carom {
+namespace {
+
+const char* const vertex_shader = R"(
+layout(location = 0) in vec4 ball_in;       // centre, radius
+layout(location = 1) in vec4 outline_in;    // centre and longer half axis in the plane z = 1; a zero axis: no ellipse
+layout(location = 2) in vec4 shape_in;      // shorter half axis' length, depth2, opacity, -
+layout(location = 3) in vec4 color_in;      // linear colour, -
+layout(location = 4) in vec2 occluders_in;  // first, count
+flat out vec4 ball, outline, shape;
+flat out vec3 color;
+flat out ivec2 occluders;
+out vec2 at;     // in the plane z = 1
+out vec2 local;  // in half axes
+uniform vec2 tangent;
+uniform float pixel;
+
+void main() {
+  ball = ball_in; outline = outline_in; shape = shape_in; color = color_in.rgb; occluders = ivec2(occluders_in);
+  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2 - 1;
+  float a = length(outline.zw), b = shape.x;
+  if (a > 0) {
+    vec2 along = outline.zw / a;
+    local = corner * (1 + 1.0 * pixel / vec2(a, b));  // a margin for the soft edge
+    at = outline.xy + local.x * outline.zw + local.y * b * vec2(-along.y, along.x);
+  } else {
+    local = vec2(0);
+    at = corner * tangent;
+  }
+  gl_Position = vec4(at / tangent * vec2(1, -1), 0, 1);
+}
+)";
+
+const char* const fragment_shader = R"(
+flat in vec4 ball, outline, shape;
+flat in vec3 color;
+flat in ivec2 occluders;
+in vec2 at, local;
+uniform float pixel, near;
+uniform samplerBuffer occluder_rows;
+layout(location = 0) out vec4 color_out;
+#ifdef WALLS
+uniform samplerBuffer rows;
+uniform sampler2D edges;
+vec4 texel(int surface, int column) { return texelFetch(rows, surface * 5 + column); }
+#endif
+
+float key_light(vec3 p, vec3 l) {
+  float open = 1;
+  for (int k = occluders.x; k < occluders.x + occluders.y; ++k) {
+    vec4 other = texelFetch(occluder_rows, k);
+#ifdef WALLS
+    if (other.w < 0) {
+      int i = int(other.x);
+      vec4 right = texel(i, 1), up = texel(i, 2), plane = texel(i, 0);
+      vec3 center = -right.w * right.xyz - up.w * up.xyz - plane.w * plane.xyz;
+      open *= through_wall(p, l, plane.xyz, center, right.xyz, texel(i, 4).x, up.xyz, texel(i, 4).y);
+      continue;
+    }
+#endif
+    open *= through_ball(p, l, other.xyz - p, other.w);
+  }
+  return open;
+}
+
+void main() {
+  // The ray t (at, 1) meets the sphere where d.d t^2 - 2 d.c t + c.c - r^2 = 0; its discriminant is 0 on the outline. Of
+  // small and distant balls the outline's own coordinates give it without cancellation.
+  vec3 d = vec3(at, 1);
+  float dd = dot(d, d), dc = dot(d, ball.xyz);
+  float disc, inside;  // inside: pixels from the outline, to first order
+  if (shape.x > 0) {
+    float rest = 1 - dot(local, local);
+    vec2 slope = local / vec2(length(outline.zw), shape.x);
+    disc = shape.y * rest;
+    inside = rest / (2 * length(slope) * pixel + 1e-20);
+  } else {
+    float power = dot(ball.xyz, ball.xyz) - ball.w * ball.w;
+    disc = dc * dc - dd * power;
+    inside = disc / (2 * length(dc * ball.xy - power * at) * pixel + 1e-20);
+  }
+#ifdef SMOOTH
+  float cover = clamp(inside + 0.5, 0, 1) * shape.z;
+#else
+  float cover = inside >= 0 ? 1 : 0;
+#endif
+  if (cover <= 0) discard;
+
+  float half_chord = sqrt(max(disc, 0)) / dd, middle = dc / dd;
+  float t = middle - half_chord;
+  bool cut = t < near;  // the near plane cuts the ball open: its inside shows
+  if (cut) t = middle + half_chord;
+  if (t < near) discard;
+  gl_FragDepth = near / t;
+#ifdef WALLS
+  vec2 edge = texelFetch(edges, ivec2(gl_FragCoord.xy), 0).rg;
+  if (near / t < edge.r) cover *= 1 - edge.g;
+#endif
+
+  vec3 p = d * t;
+  vec3 n = normalize(p - ball.xyz);
+  if (cut) {
+    color_out = vec4(color * 0.4 * hemisphere(-n), cover);
+    return;
+  }
+  vec3 v = normalize(-d);
+  vec3 matt = hemisphere(n), shine = vec3(0);
+  for (int i = 0; i < LIGHTS; ++i) {
+    vec3 l = towards_light(i, p);
+    float facing = dot(n, l);
+    if (facing <= 0) continue;
+    vec3 light = light_radiance[i] * (i == 0 ? key_light(p, l) : 1);
+    matt += light * facing;
+    float glint = max(dot(n, normalize(l + v)), 0);
+    glint *= glint; glint *= glint; glint *= glint; glint *= glint; glint *= glint; glint *= glint;  // ^64
+    shine += light * glint * 0.35;
+  }
+  float grazing = 1 - max(dot(n, v), 0);
+  grazing *= grazing;
+  shine += ambient * grazing * grazing * 0.35;
+  color_out = vec4(color * matt + shine, cover);
+}
+)";
+
+// Row numbers pass through float attributes, which count exactly so far. The balls in front come last and would go
+// without shadows upon them; a picture of so many shows none that could be told apart.
+constexpr std::size_t most_rows = (std::size_t{1} << 24) - 4096;
+
+std::vector<float> colors_of(const Scene& scene) {
+  std::vector<float> colors(3 * scene.world.body_count(), 1.0F);
+  for (const BodyRange& range : scene.roster.bodies) {
+    const auto c = linear(range.color);
+    for (std::size_t i = range.first; i < range.first + std::size_t{range.count} && i < scene.world.body_count(); ++i)
+      std::copy(c.begin(), c.end(), colors.begin() + static_cast<std::ptrdiff_t>(3 * i));
+  }
+  return colors;
+}
+
+}  // namespace
+
+Spheres::Spheres(const Scene& scene, const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, bool smooth)
+    : eye_(eye),
+      lighting_(lighting),
+      surfaces_(surfaces),
+      smooth_(smooth),
+      colors_(colors_of(scene)),
+      program_({vertex_shader}, {smooth ? "#define SMOOTH\n" : "", surfaces.walls() ? "#define WALLS\n" : "",
+                                 lighting.shader(), fragment_shader}),
+      instances_({4, 4, 4, 4, 2}) {
+  program_.use();
+  lighting.set(program_);
+  glUniform2f(program_.at("tangent"), static_cast<float>(eye.tan_x), static_cast<float>(eye.tan_y));
+  glUniform1f(program_.at("pixel"), static_cast<float>(eye.pixel));
+  glUniform1f(program_.at("near"), static_cast<float>(eye.camera.near));
+  glUniform1i(program_.at("occluder_rows"), 0);
+  glUniform1i(program_.at("rows"), 1);
+  glUniform1i(program_.at("edges"), 2);
+}
+
+void Spheres::draw(std::span<const Ball> balls, std::span<const std::uint32_t> seen, const Backdrop& backdrop,
+                   const gl::TexelBuffer& rows) {
+  if (seen.empty()) return;
+  Occluders occluders(lighting_.has_key() ? balls : balls.first(0), lighting_);
+  row_.clear();
+  occluder_row_.clear();
+  const auto f = [](double x) { return static_cast<float>(x); };
+  for (std::uint32_t i : seen) {
+    const Ball& ball = balls[i];
+    const std::size_t first = occluder_row_.size() / 4;
+    if (lighting_.has_key() && first < most_rows) {
+      occluders.find(i, found_);
+      for (std::uint32_t k : found_)
+        for (double x : {balls[k].center.x(), balls[k].center.y(), balls[k].center.z(), balls[k].radius})
+          occluder_row_.push_back(f(x));
+      for (std::size_t w = surfaces_.planes(); w < surfaces_.all().size(); ++w)
+        for (float x : {static_cast<float>(w), 0.0F, 0.0F, -1.0F}) occluder_row_.push_back(x);
+    }
+    Outline o{};
+    double opacity = 1, a = 0, b = 0;
+    if (outline_of(ball.center, ball.radius, o)) {
+      a = std::hypot(o.ax, o.ay), b = std::hypot(o.bx, o.by);
+      // Below a pixel a disc cannot be drawn: a larger one, and fainter, covers as much.
+      const double least = smooth_ ? 0.8 * eye_.pixel : 0;
+      const double wide_a = std::max(a, least), wide_b = std::max(b, least);
+      opacity = a * b / (wide_a * wide_b);
+      o.ax *= wide_a / a, o.ay *= wide_a / a;
+      b = wide_b;
+    }
+    for (double x : {ball.center.x(), ball.center.y(), ball.center.z(), ball.radius, o.x, o.y, o.ax, o.ay, b, o.depth2,
+                     opacity, 0.0})
+      row_.push_back(f(x));
+    for (std::size_t k = 0; k < 3; ++k) row_.push_back(colors_[3 * i + k]);
+    row_.push_back(0);
+    row_.push_back(static_cast<float>(first));
+    row_.push_back(static_cast<float>(occluder_row_.size() / 4 - first));
+  }
+  program_.use();
+  if (!occluder_row_.empty()) occluders_.fill(occluder_row_);
+  occluders_.bind(0);
+  rows.bind(1);
+  if (surfaces_.walls()) gl::bind_texture(2, backdrop.edge);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+  instances_.draw(row_);
+  gl::check("drawing balls");
+}
+
+}  // namespace carom

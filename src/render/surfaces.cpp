@@ -1,0 +1,82 @@
+#include "render/surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/lighting.h"
+
+namespace carom {
+namespace {
+
+const FixedName& name_of(const Scene& scene, std::size_t i) {
+  static const FixedName unnamed{"", {0.8, 0.8, 0.8}, true};
+  return i < scene.roster.fixed.size() ? scene.roster.fixed[i] : unnamed;
+}
+
+/// Two directions along a plane: world axes where the plane has some, so that lines stand at round coordinates.
+void pattern_axes(const Vec3& normal, Vec3& right, Vec3& up) {
+  Vec3 along(0, 0, -1);  // of a level plane
+  if (std::abs(normal.y()) < 0.999) along = Vec3(0, 1, 0);
+  right = along.cross(normal).normalized();
+  up = normal.cross(right);
+}
+
+}  // namespace
+
+Surfaces::Surfaces(const Scene& scene, const Eye& eye) {
+  reach_ = (eye.camera.target - eye.camera.eye).norm();
+  for (const Vec3& p : scene.initial.position) reach_ = std::max(reach_, (p - eye.camera.eye).norm());
+  reach_ = std::clamp(reach_, 1e-6, 1e12);
+  unit_ = std::pow(10, std::floor(std::log10(reach_ * eye.tan_x)));
+
+  for (std::size_t i = 0; i < scene.world.planes.size(); ++i) {
+    const FixedName& name = name_of(scene, i);
+    if (!name.visible) continue;
+    const Plane& plane = scene.world.planes[i];
+    Vec3 right, up;
+    pattern_axes(plane.normal, right, up);
+    Surface s;
+    s.height = plane.normal.dot(eye.camera.eye - plane.point);
+    s.normal = eye.direction(plane.normal);
+    s.right = eye.direction(right);
+    s.up = eye.direction(up);
+    // The pattern repeats after two squares: so much of the eye's own coordinates matters, and no more fits into a
+    // float.
+    add_row(s, std::fmod(right.dot(eye.camera.eye), 2 * unit_), std::fmod(up.dot(eye.camera.eye), 2 * unit_),
+            name.color);
+    all_.push_back(s);
+  }
+  planes_ = all_.size();
+  for (std::size_t i = 0; i < scene.world.walls.size(); ++i) {
+    const FixedName& name = name_of(scene, scene.world.planes.size() + i);
+    if (!name.visible) continue;
+    const Wall& wall = scene.world.walls[i];
+    const double height = wall.normal.dot(eye.camera.eye - wall.center);
+    Surface s;
+    s.wall = true;
+    s.height = std::abs(height);
+    s.normal = eye.direction(height < 0 ? Vec3(-wall.normal) : wall.normal);
+    s.center = eye.point(wall.center);
+    s.right = eye.direction(wall.right);
+    s.up = eye.direction(wall.up);
+    s.half_width = wall.half_width;
+    s.half_height = wall.half_height;
+    add_row(s, -s.right.dot(s.center), -s.up.dot(s.center), name.color);
+    all_.push_back(s);
+  }
+}
+
+void Surfaces::add_row(const Surface& s, double right_offset, double up_offset, const Color& color) {
+  const auto add = [&](const Vec3& v, double w) {
+    for (int i = 0; i < 3; ++i) rows_.push_back(static_cast<float>(v[i]));
+    rows_.push_back(static_cast<float>(w));
+  };
+  const auto c = linear(color);
+  add(s.normal, s.height);
+  add(s.right, right_offset);
+  add(s.up, up_offset);
+  add(Vec3(c[0], c[1], c[2]), 0);
+  add(Vec3(s.half_width, s.half_height, 0), 0);
+}
+
+}  // namespace carom
