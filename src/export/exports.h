@@ -28,7 +28,7 @@ struct Summary {
   std::string run, title, engine, status;
   double duration = 0;
   std::uint64_t bodies = 0, collisions = 0, body_body = 0, body_fixed = 0;
-  double first_collision = 0, last_collision = 0;  // s, NaN: empty
+  double first_collision = 0, last_collision = 0;                                           // s, NaN: empty
   double energy_start = 0, energy_end = 0, energy_lost = 0, work = 0, energy_residual = 0;  // J
   double momentum_drift = 0;  // kg m/s, |p(end) - p(start)|
   double max_overlap = 0, max_speed = 0;

@@ -9,8 +9,8 @@ namespace carom {
 /// The instants of one output, numbered first() .. last().
 class Ticks {
  public:
-  /// 0, interval, 2 interval, ... below `duration` (s), and last the duration itself. An interval that is a short decimal
-  /// (0.01) or one over a whole number (1/30) counts exactly: tick 7 of 0.01 is 0.07.
+  /// 0, interval, 2 interval, ... below `duration` (s), and last the duration itself. An interval that is a short
+  /// decimal (0.01) or one over a whole number (1/30) counts exactly: tick 7 of 0.01 is 0.07.
   static Ticks every(double interval, double duration);
   /// Tick i at i / per_second exactly, for every i that lies within from .. until (s).
   static Ticks rate(double per_second, double from, double until);
@@ -32,9 +32,9 @@ class Ticks {
 class Timeline {
  public:
   explicit Timeline(double duration);
-  int add(const Ticks& ticks);          // gives the stream's number
-  bool advance();                       // to the next instant; false: there is none
-  double time() const { return time_; }  // s
+  int add(const Ticks& ticks);                        // gives the stream's number
+  bool advance();                                     // to the next instant; false: there is none
+  double time() const { return time_; }               // s
   std::optional<std::int64_t> due(int stream) const;  // the tick's number if this stream is due now
 
  private:

@@ -1,0 +1,165 @@
+#include "export/child.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <thread>
+
+#include "export/run_folder.h"
+
+extern char** environ;
+
+namespace carom {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A file in memory: a program can write any amount to it and never waits for a reader.
+Descriptor memory_file() {
+  Descriptor file(memfd_create("carom", MFD_CLOEXEC));
+  if (!file) throw ExportError(std::string("cannot start a program: ") + std::strerror(errno));
+  return file;
+}
+
+std::string text_of(int file) {
+  std::string text(1 << 20, '\0');
+  const ssize_t size = pread(file, text.data(), text.size(), 0);
+  text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+  return text;
+}
+
+}  // namespace
+
+std::optional<std::string> find_program(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::string_view rest = path ? path : "";
+  while (!rest.empty()) {
+    const std::string_view folder = rest.substr(0, rest.find(':'));
+    rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
+    if (folder.empty()) continue;
+    std::error_code error;
+    const std::filesystem::path file = std::filesystem::absolute(std::filesystem::path(folder) / name, error);
+    struct stat info {};
+    if (!error && stat(file.c_str(), &info) == 0 && S_ISREG(info.st_mode) && access(file.c_str(), X_OK) == 0)
+      return file.string();
+  }
+  return std::nullopt;
+}
+
+Child::Child(const std::vector<std::string>& arguments, int folder, bool fed)
+    : output_(memory_file()), errors_(memory_file()) {
+  // A socket rather than a pipe: sending to it can be told to raise no SIGPIPE, so that no handler need be touched.
+  Descriptor theirs;
+  if (fed) {
+    int pair[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0)
+      throw ExportError("cannot start " + arguments[0] + ": " + std::strerror(errno));
+    input_ = Descriptor(pair[0]);
+    theirs = Descriptor(pair[1]);
+  } else {
+    theirs = Descriptor(open("/dev/null", O_RDONLY | O_CLOEXEC));
+  }
+
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addfchdir_np(&actions, folder);
+  posix_spawn_file_actions_adddup2(&actions, theirs.get(), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, output_.get(), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, errors_.get(), STDERR_FILENO);
+
+  // Signals as a program expects them, whatever this one ignores or blocks.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t none, pipe;
+  sigemptyset(&none);
+  sigemptyset(&pipe);
+  sigaddset(&pipe, SIGPIPE);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &pipe);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+
+  std::vector<char*> list;
+  for (const std::string& argument : arguments) list.push_back(const_cast<char*>(argument.c_str()));
+  list.push_back(nullptr);
+  const int error = posix_spawn(&id_, arguments[0].c_str(), &actions, &attributes, list.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) {
+    id_ = -1;
+    throw ExportError("cannot start " + arguments[0] + ": " + std::strerror(error));
+  }
+}
+
+Child::~Child() {
+  kill();
+}
+
+Child::Sent Child::send(const void* bytes, std::size_t size, std::chrono::milliseconds patience) {
+  const char* from = static_cast<const char*>(bytes);
+  while (size > 0) {
+    const ssize_t n = ::send(input_.get(), from, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (n >= 0) {
+      from += n;
+      size -= static_cast<std::size_t>(n);
+    } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+      pollfd wanted{input_.get(), POLLOUT, 0};
+      const int ready = poll(&wanted, 1, static_cast<int>(patience.count()));
+      if (ready == 0) return Sent::stuck;
+    } else if (errno != EINTR) {
+      return Sent::closed;
+    }
+  }
+  return Sent::all;
+}
+
+void Child::end_input() {
+  input_.reset();
+}
+
+std::optional<int> Child::wait(std::chrono::milliseconds patience) {
+  const auto limit = Clock::now() + patience;
+  std::chrono::microseconds pause(200);
+  while (!exit_code_) {
+    int status = 0;
+    const pid_t ended = waitpid(id_, &status, WNOHANG);
+    if (ended == id_) {
+      exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    } else if (ended < 0 && errno != EINTR) {
+      exit_code_ = 127;  // somebody else has waited for it
+    } else {
+      if (Clock::now() >= limit) break;
+      std::this_thread::sleep_for(pause);
+      pause = std::min(pause * 2, std::chrono::microseconds(20'000));
+    }
+  }
+  return exit_code_;
+}
+
+void Child::kill() {
+  if (id_ < 0 || exit_code_) return;
+  ::kill(id_, SIGKILL);
+  wait(std::chrono::hours(1));
+}
+
+std::string Child::output() const {
+  return text_of(output_.get());
+}
+std::string Child::errors() const {
+  return text_of(errors_.get());
+}
+
+}  // namespace carom

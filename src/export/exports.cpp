@@ -1,0 +1,171 @@
+#include "export/exports.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "export/film.h"
+#include "export/manifest.h"
+#include "export/open_folder.h"
+#include "export/picture_streams.h"
+#include "export/png.h"
+#include "export/sheet.h"
+#include "export/tables.h"
+
+namespace carom {
+namespace {
+
+/// The film's name comes from the scene: it must not be another file's.
+void check_film_name(const Output& output) {
+  if (!output.video) return;
+  const std::string& name = output.video->file;
+  for (const std::string taken : {"scene.yaml", "summary.csv", "trajectory.csv", "collisions.csv", "energy.csv",
+                                  "sheet.png", "frames", manifest_name})
+    if (name == taken) throw ExportError("cannot make the film " + name + ": another output has that name");
+  if (!is_plain_name(name)) throw ExportError("cannot make the film " + name + ": that is no plain file name");
+}
+
+}  // namespace
+
+struct Exports::Impl {
+  // What can be refused is refused here, before the folder is touched.
+  Impl(const Scene& the_scene, const std::string& path)
+      : scene(the_scene), timeline(the_scene.simulate.duration), plan(plan_pictures(the_scene)) {
+    const Output& output = scene.output;
+    check_film_name(output);
+    std::optional<FilmTools> tools;
+    if (output.video) tools = find_film_tools();
+
+    folder.emplace(path);
+    scene_record = folder->begin(scene);
+    const Place& place = folder->place();
+    if (output.trajectory) {
+      trajectory.emplace(place, scene);
+      trajectory_ticks = timeline.add(Ticks::every(output.trajectory->every, scene.simulate.duration));
+    }
+    if (output.collisions) collisions.emplace(place, scene);
+    if (output.energy) {
+      energy.emplace(place, scene);
+      energy_ticks = timeline.add(Ticks::every(output.energy->every, scene.simulate.duration));
+    }
+    if (output.frames) frames_place = folder->frames();
+    if (output.video) film.emplace(place, *output.video, std::move(*tools));
+    if (output.sheet) sheet.emplace(*output.sheet, sheet_model(output).size);
+    for (std::size_t i = 0; i < plan.streams.size(); ++i) plan.streams[i].timeline_stream = timeline.add(plan.ticks[i]);
+  }
+
+  void write_frame(std::int64_t number, const Image& image) {
+    OutputFile file(frames_place, fmt::format("frame_{:05}.png", number));
+    file.write(encode_png(image, PngEffort::fast));
+    file.publish();
+    folder->keep();
+    frame_records.push_back(file.record());
+    frame_records.back().name.insert(0, "frames/");
+  }
+
+  bool due(int stream) const { return stream >= 0 && timeline.due(stream); }
+
+  const Scene& scene;
+  Timeline timeline;
+  PictureStreams plan;
+  int trajectory_ticks = -1, energy_ticks = -1;  // the timeline's streams
+  std::uint64_t pictures = 0;
+  FileRecord scene_record;
+  std::vector<FileRecord> frame_records;
+  // What writes into the folder is gone before the folder is put in order.
+  std::optional<OpenFolder> folder;
+  Place frames_place;
+  std::optional<TrajectoryTable> trajectory;
+  std::optional<CollisionTable> collisions;
+  std::optional<EnergyTable> energy;
+  std::optional<Film> film;
+  std::optional<Sheet> sheet;
+};
+
+Exports::Exports(const Scene& scene, const std::string& folder) : impl_(std::make_unique<Impl>(scene, folder)) {}
+
+Exports::~Exports() = default;
+
+Timeline& Exports::timeline() {
+  return impl_->timeline;
+}
+
+bool Exports::wants_state() const {
+  const auto& streams = impl_->plan.streams;
+  return impl_->due(impl_->trajectory_ticks) || impl_->due(impl_->energy_ticks) ||
+         std::any_of(streams.begin(), streams.end(),
+                     [&](const PictureStream& s) { return impl_->due(s.timeline_stream); });
+}
+
+void Exports::record(std::span<const Collision> collisions) {
+  if (impl_->collisions) impl_->collisions->add(collisions);
+}
+
+void Exports::sample(const State& state) {
+  const double time = impl_->timeline.time();
+  if (impl_->due(impl_->trajectory_ticks)) impl_->trajectory->add(time, state);
+  if (impl_->due(impl_->energy_ticks)) impl_->energy->add(time, state);
+}
+
+const std::vector<PictureStream>& Exports::pictures() const {
+  return impl_->plan.streams;
+}
+
+void Exports::picture(std::size_t stream, const Image& image) {
+  const auto number = impl_->timeline.due(impl_->plan.streams.at(stream).timeline_stream);
+  if (!number) return;
+  const PictureUse& use = impl_->plan.uses[stream];
+  if (use.frames) impl_->write_frame(*number, image);
+  if (use.film) impl_->film->add(image);
+  if (use.sheet) impl_->sheet->put(*number, image);
+  impl_->pictures += use.frames || use.film;
+}
+
+std::uint64_t Exports::frames() const {
+  return impl_->pictures;
+}
+
+void Exports::finish(const Summary& summary, const RunFacts& facts) {
+  const Place& place = impl_->folder->place();
+  std::vector<FileRecord> records = {impl_->scene_record};
+  std::vector<OutputFile*> files;
+
+  // All bytes of all files, the manifest's included, still under the names of parts.
+  OutputFile summary_file(place, "summary.csv");
+  write_summary(summary_file, summary);
+  files.push_back(&summary_file);
+  if (impl_->trajectory) files.push_back(&impl_->trajectory->file());
+  if (impl_->collisions) files.push_back(&impl_->collisions->file());
+  if (impl_->energy) files.push_back(&impl_->energy->file());
+  std::optional<OutputFile> sheet_file;
+  if (impl_->sheet) {
+    sheet_file.emplace(place, "sheet.png");
+    sheet_file->write(encode_png(impl_->sheet->image(), PngEffort::small));
+    files.push_back(&*sheet_file);
+  }
+  for (OutputFile* file : files) {
+    file->complete();
+    records.push_back(file->record());
+  }
+  if (impl_->film) {
+    impl_->film->complete();
+    records.push_back(impl_->film->record());
+  }
+  records.insert(records.end(), impl_->frame_records.begin(), impl_->frame_records.end());
+  OutputFile manifest(place, manifest_name);
+  manifest.write(manifest_text(impl_->scene, summary, facts, records));
+  manifest.complete();
+
+  // One sync for all of them costs a fraction of one each. Names follow bytes, and the manifest's name the others'.
+  impl_->folder->sync_all();
+  impl_->folder->keep();
+  for (OutputFile* file : files) file->publish();
+  if (impl_->film) impl_->film->publish();
+  impl_->folder->sync_names();
+  manifest.publish();
+  impl_->folder->sync_names();
+}
+
+}  // namespace carom

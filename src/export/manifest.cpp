@@ -1,0 +1,131 @@
+#include "export/manifest.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "export/exports.h"
+#include "export/hash.h"
+#include "export/stored_file.h"
+
+namespace carom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* tool = "carom";
+constexpr std::uint64_t largest_manifest = 256 << 20;  // bytes; 100,000 frames take 14 million
+
+std::string to_text(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json size_json(Size size) {
+  return Json::array({size.width, size.height});
+}
+
+Json optional_json(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+
+Json outputs_json(const Output& output) {
+  Json json = Json::object();
+  if (const auto& t = output.trajectory)
+    json["trajectory"] = {{"every", t->every}, {"layout", t->wide ? "wide" : "long"}};
+  if (output.collisions) json["collisions"] = true;
+  if (const auto& e = output.energy) json["energy"] = {{"every", e->every}};
+  if (const auto& f = output.frames)
+    json["frames"] = {{"fps", f->fps},
+                      {"size", size_json(f->size)},
+                      {"samples", f->samples},
+                      {"from", f->from},
+                      {"until", optional_json(f->until)}};
+  if (const auto& v = output.video)
+    json["video"] = {{"file", v->file}, {"fps", v->fps},   {"size", size_json(v->size)},      {"samples", v->samples},
+                     {"crf", v->crf},   {"from", v->from}, {"until", optional_json(v->until)}};
+  if (const auto& s = output.sheet) json["sheet"] = {{"columns", s->columns}, {"rows", s->rows}};
+  return json;
+}
+
+/// A member that is text; empty if there is none.
+std::string text_member(const Json& json, const char* key) {
+  if (!json.is_object()) return {};
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::optional<FileRecord> file_record(const Json& json) {
+  FileRecord record{text_member(json, "name"), 0, text_member(json, "sha256")};
+  if (!is_run_file(record.name) || record.sha256.size() != 64) return std::nullopt;
+  const auto bytes = json.find("bytes");
+  if (bytes == json.end() || !bytes->is_number_unsigned()) return std::nullopt;
+  record.bytes = bytes->get<std::uint64_t>();
+  return record;
+}
+
+}  // namespace
+
+std::string outputs_text(const Output& output) {
+  return to_text(outputs_json(output), -1);
+}
+
+std::string manifest_text(const Scene& scene, const Summary& summary, const RunFacts& facts,
+                          const std::vector<FileRecord>& files) {
+  Json json;
+  json["tool"] = tool;
+  json["version"] = CAROM_VERSION;
+  json["scene"] = {{"file", std::filesystem::path(scene.file).filename().string()},
+                   {"title", scene.title},
+                   {"sha256", sha256(scene.resolved)}};
+  json["outputs"] = outputs_json(scene.output);
+  json["counts"] = {{"bodies", summary.bodies}, {"collisions", summary.collisions}, {"frames", summary.frames}};
+  json["wall_times_s"] = {
+      {"load", facts.load_s}, {"simulate", facts.simulate_s}, {"render", facts.render_s}, {"export", facts.export_s}};
+  json["peak_memory_bytes"] = facts.peak_memory;
+  Json list = Json::array();
+  for (const FileRecord& file : files)
+    list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
+  json["files"] = std::move(list);
+  return to_text(json, 2) + "\n";
+}
+
+std::optional<Manifest> read_manifest(int folder, const std::string& name) {
+  const auto text = read_text(folder, name, largest_manifest);
+  if (!text) return std::nullopt;
+  const Json json = Json::parse(*text, nullptr, false);
+  if (!json.is_object() || text_member(json, "tool") != tool) return std::nullopt;
+  const auto scene = json.find("scene"), outputs = json.find("outputs"), files = json.find("files");
+  if (scene == json.end() || outputs == json.end() || files == json.end() || !files->is_array()) return std::nullopt;
+  Manifest manifest{text_member(json, "version"), text_member(*scene, "sha256"), to_text(*outputs, -1), {}};
+  for (const Json& entry : *files) {
+    auto record = file_record(entry);
+    if (!record) return std::nullopt;
+    manifest.files.push_back(std::move(*record));
+  }
+  return manifest;
+}
+
+bool is_run_file(std::string_view name) {
+  constexpr std::string_view head = "frames/frame_", tail = ".png";
+  if (!name.starts_with(head)) return is_plain_name(name);
+  if (!name.ends_with(tail) || name.size() < head.size() + tail.size() + 5) return false;
+  const std::string_view digits = name.substr(head.size(), name.size() - head.size() - tail.size());
+  return std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+std::vector<std::string> run_files(const Output& output) {
+  std::vector<std::string> names = {"scene.yaml", "summary.csv"};
+  if (output.trajectory) names.push_back("trajectory.csv");
+  if (output.collisions) names.push_back("collisions.csv");
+  if (output.energy) names.push_back("energy.csv");
+  if (output.video) names.push_back(output.video->file);
+  if (output.sheet) names.push_back("sheet.png");
+  return names;
+}
+
+std::string valid_utf8(const std::string& text) {
+  return Json::parse(to_text(text, -1)).get<std::string>();
+}
+
+}  // namespace carom

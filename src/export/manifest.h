@@ -1,0 +1,47 @@
+#pragma once
+// manifest.json: what a run wrote, and of which request. Written last: with it a folder is whole.
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "export/output_file.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+struct RunFacts;
+struct Summary;
+
+inline constexpr const char* manifest_name = "manifest.json";
+
+/// What must be known of a run to tell whether another one is the same.
+struct Manifest {
+  std::string version;       // the tool's
+  std::string scene_sha256;  // of scene.yaml
+  std::string outputs;       // outputs_text()
+  std::vector<FileRecord> files;
+};
+
+/// The outputs that were chosen, as JSON: the scene's text alone does not tell, for the command line may have left some
+/// out.
+std::string outputs_text(const Output& output);
+
+/// The manifest's whole text.
+std::string manifest_text(const Scene& scene, const Summary& summary, const RunFacts& facts,
+                          const std::vector<FileRecord>& files);
+
+/// A manifest that this tool wrote; none if the file is not there, not whole, another program's, or names files that no
+/// run writes.
+std::optional<Manifest> read_manifest(int folder, const std::string& name);
+
+/// Whether a run may write a file of this name: a plain one, or frames/frame_<digits>.png.
+bool is_run_file(std::string_view name);
+
+/// The files of a run of these outputs, frames aside.
+std::vector<std::string> run_files(const Output& output);
+
+/// The text with whatever is not UTF-8 in it replaced.
+std::string valid_utf8(const std::string& text);
+
+}  // namespace carom

@@ -1,0 +1,146 @@
+#include "export/open_folder.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <vector>
+
+#include "export/folder_names.h"
+#include "export/manifest.h"
+#include "export/run_folder.h"
+#include "export/stored_file.h"
+
+namespace carom {
+namespace {
+
+/// Where a manifest is kept while the files that it names are removed, so that an interrupted removal can go on.
+constexpr const char* former_manifest = ".manifest.json.former";
+
+/// Removes the named files of a run, but for scene.yaml. What cannot be removed will be told when it is written anew.
+void remove_files(int folder, const std::vector<std::string>& names) {
+  const Descriptor frames = open_folder(folder, "frames", false);
+  for (const std::string& name : names) {
+    if (!is_run_file(name) || name == "scene.yaml") continue;
+    if (!name.starts_with("frames/"))
+      unlinkat(folder, name.c_str(), 0);
+    else if (frames)
+      unlinkat(frames.get(), name.c_str() + std::string_view("frames/").size(), 0);
+  }
+}
+
+void remove_parts(int folder) {
+  for (const std::string& name : folder_names(folder))
+    if (is_part_name(name)) unlinkat(folder, name.c_str(), 0);
+}
+
+void add_files(std::vector<std::string>& names, const std::optional<Manifest>& manifest) {
+  if (!manifest) return;
+  for (const FileRecord& file : manifest->files) names.push_back(file.name);
+}
+
+/// The files that an interrupted run of this scene may have left without a manifest that names them.
+void add_remains(std::vector<std::string>& names, int folder, const Scene& scene) {
+  Output all = scene.output;
+  all.trajectory.emplace();
+  all.collisions = true;
+  all.energy.emplace();
+  all.sheet.emplace();
+  if (!all.video) all.video.emplace();
+  for (std::string& name : run_files(all)) names.push_back(std::move(name));
+  if (const Descriptor frames = open_folder(folder, "frames", false))
+    for (const std::string& name : folder_names(frames.get())) names.push_back("frames/" + name);
+}
+
+}  // namespace
+
+Descriptor open_folder(int parent, const std::string& name, bool follow) {
+  return Descriptor(openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | (follow ? 0 : O_NOFOLLOW)));
+}
+
+OpenFolder::OpenFolder(const std::string& path) {
+  place_.path = path.empty() ? "." : path;
+  while (place_.path.size() > 1 && place_.path.ends_with('/')) place_.path.pop_back();
+  std::error_code error;
+  const auto parent = std::filesystem::path(place_.path).parent_path();
+  if (!parent.empty()) std::filesystem::create_directories(parent, error);
+  if (error) fail("make", {-1, parent.string()}, "", error.message());
+  // A run that fails removes the folder that it made; another one may just have opened it then. So: again.
+  for (int attempt = 0; attempt < 10; ++attempt) {
+    made_ = mkdir(place_.path.c_str(), 0777) == 0;
+    if (!made_ && errno != EEXIST) fail("make", place_, "");
+    folder_ = open_folder(AT_FDCWD, place_.path, true);
+    if (!folder_ && errno == ENOENT) continue;
+    if (!folder_) fail("open", place_, "");
+    // A file system that knows no locks (some network ones) is used without.
+    if (flock(folder_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+      fail("write", place_, "", "another run is writing into it; wait for it, or name another folder with -o");
+    struct stat info {};
+    if (fstat(folder_.get(), &info) == 0 && info.st_nlink > 0) break;
+    folder_.reset();
+  }
+  if (!folder_) fail("open", place_, "", "it is a link to nothing, or something else removes it");
+  place_.folder = folder_.get();
+}
+
+OpenFolder::~OpenFolder() {
+  if (keep_) return;
+  if (begun_) unlinkat(place_.folder, "scene.yaml", 0);
+  if (frames_) unlinkat(place_.folder, "frames", AT_REMOVEDIR);
+  if (made_) rmdir(place_.path.c_str());
+}
+
+FileRecord OpenFolder::begin(const Scene& scene) {
+  const int folder = place_.folder;
+  std::vector<std::string> names;
+  const auto manifest = read_manifest(folder, manifest_name);
+  const auto former = read_manifest(folder, former_manifest);
+  add_files(names, manifest);
+  add_files(names, former);
+  const auto stored_scene = read_record(folder, "scene.yaml");
+  if (!manifest && stored_scene && stored_scene->sha256 == sha256(scene.resolved)) add_remains(names, folder, scene);
+
+  // First of all the folder stops being a whole run; then it becomes an unfinished one of this scene; then the old
+  // goes.
+  const bool gone = manifest ? renameat(folder, manifest_name, folder, former_manifest) == 0
+                             : unlinkat(folder, manifest_name, 0) == 0 || errno == ENOENT;
+  if (!gone) fail("replace", place_, manifest_name);
+  OutputFile file(place_, "scene.yaml");
+  file.write(scene.resolved);
+  file.publish();
+  begun_ = true;
+  remove_files(folder, names);
+  remove_parts(folder);
+  if (const Descriptor frames = open_folder(folder, "frames", false)) {
+    remove_parts(frames.get());
+    unlinkat(folder, "frames", AT_REMOVEDIR);  // if it is empty
+  }
+  unlinkat(folder, former_manifest, 0);
+  return file.record();
+}
+
+Place OpenFolder::frames() {
+  const Place place{-1, place_.path + "/frames"};
+  if (mkdirat(place_.folder, "frames", 0777) != 0 && errno != EEXIST) fail("make", place, "");
+  frames_ = open_folder(place_.folder, "frames", false);
+  if (!frames_) fail("open", place, "", "it is no folder, or a link; remove it");
+  return {frames_.get(), place.path};
+}
+
+void OpenFolder::sync_all() {
+  if (syncfs(place_.folder) != 0) fail("write", place_, "");
+}
+
+void OpenFolder::sync_names() {
+  // Some file systems cannot sync a folder, and need not.
+  if (fsync(place_.folder) != 0 && errno != EINVAL && errno != ENOTSUP) fail("write", place_, "");
+}
+
+}  // namespace carom

@@ -1,0 +1,44 @@
+#pragma once
+// The run's folder while a run writes it: locked, freed of a former run, put in order when a run fails.
+#include <string>
+
+#include "export/output_file.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+/// A folder's descriptor; none if it is not there, or no folder, or (unless `follow`) a link. Sets errno.
+Descriptor open_folder(int parent, const std::string& name, bool follow);
+
+class OpenFolder {
+ public:
+  /// Makes the folder and its parents if need be, and locks it against other runs. Throws ExportError, as all of this
+  /// class does.
+  explicit OpenFolder(const std::string& path);
+  /// Without keep(): takes back scene.yaml, and the folders that are empty then and that this run made.
+  ~OpenFolder();
+  OpenFolder(const OpenFolder&) = delete;
+  OpenFolder& operator=(const OpenFolder&) = delete;
+
+  const Place& place() const { return place_; }
+
+  /// Removes what a former run left and puts this scene's scene.yaml there, in an order that leaves at every moment a
+  /// folder that inspect_folder judges rightly. Gives scene.yaml's record.
+  FileRecord begin(const Scene& scene);
+
+  /// Makes, if need be, and opens the folder of frames.
+  Place frames();
+
+  /// Something stands in the folder now that is worth keeping even if the run fails.
+  void keep() { keep_ = true; }
+
+  void sync_all();    // all that was written to its file system, to the disk
+  void sync_names();  // what was renamed in it
+
+ private:
+  Descriptor folder_, frames_;
+  Place place_;
+  bool made_ = false, keep_ = false, begun_ = false;
+};
+
+}  // namespace carom

@@ -1,0 +1,118 @@
+#include "export/output_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "export/run_folder.h"
+
+namespace carom {
+namespace {
+
+/// Large enough that system calls cost nothing, small enough to stay in a processor's cache while it is hashed.
+constexpr std::size_t buffer_size = 256 * 1024;
+
+}  // namespace
+
+Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
+  if (this != &other) {
+    reset();
+    number_ = other.release();
+  }
+  return *this;
+}
+
+int Descriptor::release() {
+  const int number = number_;
+  number_ = -1;
+  return number;
+}
+
+void Descriptor::reset() {
+  if (number_ >= 0) close(number_);
+  number_ = -1;
+}
+
+bool is_plain_name(std::string_view name) {
+  if (name.empty() || name.size() > 200 || name.front() == '.') return false;
+  return std::none_of(name.begin(), name.end(),
+                      [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ' || c == 127; });
+}
+
+std::string part_name(std::string_view name) {
+  return fmt::format(".{}.part", name);
+}
+
+void fail(const std::string& what, const Place& place, std::string_view name, const std::string& reason) {
+  const std::string why = reason.empty() ? std::strerror(errno) : reason;
+  const std::string slash = name.empty() || place.path.ends_with('/') ? "" : "/";
+  throw ExportError("cannot " + what + " " + place.path + slash + std::string(name) + ": " + why);
+}
+
+OutputFile::OutputFile(const Place& place, std::string name) : place_(place) {
+  if (!is_plain_name(name))
+    fail("write", place, name, "a file's name may hold no slash, no control character and no dot at its start");
+  record_.name = std::move(name);
+  const std::string part = part_name(record_.name);
+  // A part that an interrupted run left is another file: removed, never written through, for it may be a link.
+  if (unlinkat(place_.folder, part.c_str(), 0) != 0 && errno != ENOENT) fail("replace", place_, part);
+  file_ = Descriptor(openat(place_.folder, part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+  if (!file_) fail("write", place_, record_.name);
+  buffer_.resize(buffer_size);
+}
+
+OutputFile::~OutputFile() {
+  if (!published_) unlinkat(place_.folder, part_name(record_.name).c_str(), 0);
+}
+
+void OutputFile::write(std::string_view bytes) {
+  if (bytes.size() > buffer_.size() - used_) flush();
+  while (bytes.size() > buffer_.size()) {
+    std::memcpy(buffer_.data(), bytes.data(), buffer_.size());
+    used_ = buffer_.size();
+    bytes.remove_prefix(used_);
+    flush();
+  }
+  std::memcpy(buffer_.data() + used_, bytes.data(), bytes.size());
+  used_ += bytes.size();
+}
+
+void OutputFile::make_room(std::size_t size) {
+  flush();
+  if (size > buffer_.size()) buffer_.resize(size);
+}
+
+void OutputFile::flush() {
+  hash_.add({buffer_.data(), used_});
+  for (std::size_t done = 0; done < used_;) {
+    const ssize_t n = ::write(file_.get(), buffer_.data() + done, used_ - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) fail("write", place_, record_.name);
+    done += static_cast<std::size_t>(n);
+  }
+  record_.bytes += used_;
+  used_ = 0;
+}
+
+void OutputFile::complete() {
+  if (!file_) return;
+  flush();
+  record_.sha256 = hash_.hex();
+  buffer_ = {};
+  // Some file systems own up to a full disk only here.
+  if (close(file_.release()) != 0) fail("write", place_, record_.name);
+}
+
+void OutputFile::publish() {
+  complete();
+  if (renameat(place_.folder, part_name(record_.name).c_str(), place_.folder, record_.name.c_str()) != 0)
+    fail("write", place_, record_.name);
+  published_ = true;
+}
+
+}  // namespace carom

@@ -1,0 +1,78 @@
+#include "export/run_folder.h"
+
+#include <fcntl.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <vector>
+
+#include "export/folder_names.h"
+#include "export/manifest.h"
+#include "export/open_folder.h"
+#include "export/stored_file.h"
+
+namespace carom {
+namespace {
+
+/// Calls `check(folder, plain name, record)` for each file of the manifest until one fails.
+template <typename Check>
+bool all_files(int folder, const Manifest& manifest, const Check& check) {
+  const Descriptor frames = open_folder(folder, "frames", false);
+  return std::all_of(manifest.files.begin(), manifest.files.end(), [&](const FileRecord& file) {
+    const std::string_view head = "frames/";
+    return file.name.starts_with(head) ? frames && check(frames.get(), file.name.substr(head.size()), file)
+                                       : check(folder, file.name, file);
+  });
+}
+
+bool has_size(int folder, const std::string& name, const FileRecord& file) {
+  return stored_size(folder, name) == file.bytes;
+}
+
+bool has_hash(int folder, const std::string& name, const FileRecord& file) {
+  const auto stored = read_record(folder, name);
+  return stored && stored->bytes == file.bytes && stored->sha256 == file.sha256;
+}
+
+bool names_all(const Manifest& manifest, const std::vector<std::string>& names) {
+  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    return std::any_of(manifest.files.begin(), manifest.files.end(),
+                       [&](const FileRecord& f) { return f.name == name; });
+  });
+}
+
+/// Sizes before hashes: what is cut off is found without reading gigabytes.
+bool is_whole(int folder, const Manifest& manifest, const Output& output) {
+  return manifest.version == CAROM_VERSION && manifest.outputs == outputs_text(output) &&
+         names_all(manifest, run_files(output)) && all_files(folder, manifest, has_size) &&
+         all_files(folder, manifest, has_hash);
+}
+
+}  // namespace
+
+FolderContent inspect_folder(const std::string& path, const Scene& scene) {
+  const Descriptor folder = open_folder(AT_FDCWD, path.empty() ? "." : path, true);
+  if (!folder && errno == ENOENT) return FolderContent::nothing;
+  if (!folder && errno == ENOTDIR) return FolderContent::other_run;
+  if (!folder) fail("open", {-1, path}, "");
+  const std::vector<std::string> names = folder_names(folder.get());
+  if (names.empty()) return FolderContent::nothing;
+  const auto there = [&](const char* name) {
+    return std::binary_search(names.begin(), names.end(), std::string(name));
+  };
+
+  const std::string hash = sha256(scene.resolved);
+  if (there(manifest_name)) {
+    const auto manifest = read_manifest(folder.get(), manifest_name);
+    if (!manifest || manifest->scene_sha256 != hash) return FolderContent::other_run;
+    return is_whole(folder.get(), *manifest, scene.output) ? FolderContent::this_run : FolderContent::incomplete;
+  }
+  if (there("scene.yaml")) {
+    const auto stored = read_record(folder.get(), "scene.yaml");
+    return stored && stored->sha256 == hash ? FolderContent::incomplete : FolderContent::other_run;
+  }
+  // A run that was killed before its first file was whole.
+  return std::all_of(names.begin(), names.end(), is_part_name) ? FolderContent::incomplete : FolderContent::other_run;
+}
+
+}  // namespace carom

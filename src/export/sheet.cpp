@@ -1,0 +1,58 @@
+#include "export/sheet.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "export/run_folder.h"
+
+namespace carom {
+namespace {
+
+constexpr int gap = 8;                             // pixels between the pictures and around them
+constexpr int whole_width = 1920;                  // pixels, aimed at
+constexpr int most_width = 480;                    // pixels, of one picture
+constexpr int least_width = 32;                    // pixels, of one picture: below, nothing can be made out
+constexpr std::int64_t most_pixels = 100'000'000;  // 300 MB in memory
+constexpr std::uint8_t paper = 24;                 // grey, sRGB
+
+}  // namespace
+
+Sheet::Sheet(const SheetOutput& sheet, Size shape) : columns_(sheet.columns), rows_(sheet.rows) {
+  const std::int64_t columns = sheet.columns, rows = sheet.rows;
+  const std::int64_t width = std::clamp<std::int64_t>(
+      (whole_width - gap * (columns + 1)) / std::max<std::int64_t>(columns, 1), least_width, most_width);
+  const double exact_height = static_cast<double>(width) * shape.height / std::max(shape.width, 1);
+  const std::int64_t height = std::max<std::int64_t>(std::llround(std::min(exact_height, 1e6)), 1);
+  const std::int64_t total_width = columns * (width + gap) + gap, total_height = rows * (height + gap) + gap;
+  if (columns < 1 || rows < 1 || total_height > most_pixels || total_width * total_height > most_pixels)
+    throw ExportError("cannot make a contact sheet of " + std::to_string(columns) + " x " + std::to_string(rows) +
+                      " pictures: it would have " + std::to_string(total_width) + " x " + std::to_string(total_height) +
+                      " pixels; ask for fewer columns or rows");
+  picture_ = {static_cast<int>(width), static_cast<int>(height)};
+  whole_ = {static_cast<int>(total_width), static_cast<int>(total_height)};
+}
+
+void Sheet::prepare() {
+  if (!image_.pixels.empty()) return;
+  image_.width = whole_.width;
+  image_.height = whole_.height;
+  image_.pixels.assign(static_cast<std::size_t>(whole_.width) * static_cast<std::size_t>(whole_.height) * 3, paper);
+}
+
+void Sheet::put(std::int64_t number, const Image& picture) {
+  if (number < 0 || number >= count() || picture.width != picture_.width || picture.height != picture_.height)
+    throw ExportError("cannot put a picture into the contact sheet: it is of another size or number");
+  prepare();
+  const std::int64_t left = gap + number % columns_ * (picture_.width + gap);
+  const std::int64_t top = gap + number / columns_ * (picture_.height + gap);
+  for (int y = 0; y < picture.height; ++y)
+    std::copy_n(picture.row(y), std::size_t{3} * static_cast<std::size_t>(picture.width),
+                image_.pixels.begin() + ((top + y) * whole_.width + left) * 3);
+}
+
+const Image& Sheet::image() {
+  prepare();
+  return image_;
+}
+
+}  // namespace carom

@@ -1,0 +1,170 @@
+#include "export/tables.h"
+
+#include <algorithm>
+#include <array>
+
+#include "export/exports.h"
+#include "export/manifest.h"
+#include "physics/energy.h"
+
+namespace carom {
+namespace {
+
+constexpr std::array<std::string_view, 6> motion_columns = {"x_m",        "y_m",        "z_m",
+                                                            "vx_m_per_s", "vy_m_per_s", "vz_m_per_s"};
+
+/// The most characters of six numbers, each after its comma.
+constexpr std::size_t motion_size = 6 * (number_size + 1);
+
+/// The most characters of a member's name behind its group's: a dot and the member's number.
+constexpr std::size_t member_size = 1 + number_size;
+
+char* put_motion(char* to, const Vec3& position, const Vec3& velocity) {
+  for (int axis = 0; axis < 3; ++axis) {
+    *to++ = ',';
+    to = put_number(to, position[axis]);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    *to++ = ',';
+    to = put_number(to, velocity[axis]);
+  }
+  return to;
+}
+
+/// Names are [A-Za-z_][A-Za-z0-9_-]*, so that they are cells as they stand.
+char* put_member(char* to, const BodyRange& range, Entity body) {
+  to = put_text(to, range.name);
+  if (!range.group) return to;
+  *to++ = '.';
+  return put_number(to, std::uint64_t{body - range.first});
+}
+
+std::string_view kind_name(CollisionKind kind) {
+  switch (kind) {
+    case CollisionKind::body_body:
+      return "body-body";
+    case CollisionKind::body_fixed:
+      return "body-fixed";
+    case CollisionKind::rest:
+      return "rest";
+    case CollisionKind::merge:
+      return "merge";
+  }
+  return "";
+}
+
+}  // namespace
+
+TrajectoryTable::TrajectoryTable(const Place& place, const Scene& scene)
+    : scene_(scene), file_(place, "trajectory.csv") {
+  if (!scene.output.trajectory->wide) {
+    file_.write("time_s,body,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\n");
+    return;
+  }
+  file_.write("time_s");
+  for (const BodyRange& range : scene.roster.bodies) {
+    for (Entity i = 0; i < range.count; ++i) {
+      for (const std::string_view column : motion_columns) {
+        char* to = file_.room(range.name.size() + member_size + column.size() + 2);
+        *to++ = ',';
+        to = put_member(to, range, range.first + i);
+        *to++ = '.';
+        file_.written(put_text(to, column));
+      }
+    }
+  }
+  file_.write("\n");
+}
+
+void TrajectoryTable::add(double time, const State& state) {
+  if (scene_.output.trajectory->wide)
+    add_wide(time, state);
+  else
+    add_long(time, state);
+}
+
+void TrajectoryTable::add_long(double time, const State& state) {
+  // The time's digits are the same for all bodies: written once, copied then.
+  char time_text[number_size];
+  const std::string_view time_cell(time_text, static_cast<std::size_t>(put_number(time_text, time) - time_text));
+  for (const BodyRange& range : scene_.roster.bodies) {
+    for (Entity body = range.first; body < range.first + range.count; ++body) {
+      char* to = file_.room(number_size + range.name.size() + member_size + motion_size + 2);
+      to = put_text(to, time_cell);
+      *to++ = ',';
+      to = put_member(to, range, body);
+      to = put_motion(to, state.position[body], state.velocity[body]);
+      *to++ = '\n';
+      file_.written(to);
+    }
+  }
+}
+
+void TrajectoryTable::add_wide(double time, const State& state) {
+  file_.written(put_number(file_.room(number_size), time));
+  for (const BodyRange& range : scene_.roster.bodies)
+    for (Entity body = range.first; body < range.first + range.count; ++body)
+      file_.written(put_motion(file_.room(motion_size), state.position[body], state.velocity[body]));
+  file_.write("\n");
+}
+
+CollisionTable::CollisionTable(const Place& place, const Scene& scene)
+    : roster_(scene.roster), bodies_(scene.world.body_count()), file_(place, "collisions.csv") {
+  file_.write(
+      "time_s,kind,a,b,x_m,y_m,z_m,nx,ny,nz,approach_speed_m_per_s,separation_speed_m_per_s,restitution,impulse_N_s,"
+      "energy_lost_J\n");
+}
+
+void CollisionTable::add(std::span<const Collision> collisions) {
+  for (const Collision& collision : collisions) {
+    file_.written(put_number(file_.room(number_size), collision.time));
+    file_.write(",");
+    file_.write(kind_name(collision.kind));
+    for (const Entity entity : {collision.a, collision.b}) {
+      file_.write(",");
+      if (entity < bodies_) {
+        const BodyRange& range = roster_.range_of(entity);
+        file_.written(put_member(file_.room(range.name.size() + member_size), range, entity));
+      } else if (entity != no_entity) {
+        file_.write(roster_.fixed[entity - bodies_].name);
+      }
+    }
+    char* to = put_motion(file_.room(motion_size + 5 * (number_size + 1) + 1), collision.position, collision.normal);
+    for (const double value : {collision.approach_speed, collision.separation_speed, collision.restitution,
+                               collision.impulse, collision.energy_lost}) {
+      *to++ = ',';
+      to = put_number(to, value);
+    }
+    *to++ = '\n';
+    file_.written(to);
+  }
+}
+
+EnergyTable::EnergyTable(const Place& place, const Scene& scene) : world_(scene.world), file_(place, "energy.csv") {
+  file_.write("time_s,kinetic_J,potential_J,total_J,px_kg_m_per_s,py_kg_m_per_s,pz_kg_m_per_s\n");
+}
+
+void EnergyTable::add(double time, const State& state) {
+  const double kinetic = kinetic_energy(world_, state);
+  const double potential = potential_energy(world_, state);
+  const Vec3 p = momentum(world_, state);
+  CsvRow row(file_);
+  row.number(time).number(kinetic).number(potential).number(kinetic + potential);
+  row.number(p.x()).number(p.y()).number(p.z()).end();
+}
+
+void write_summary(OutputFile& file, const Summary& s) {
+  file.write(
+      "run,title,engine,status,duration_s,bodies,collisions,body_body,body_fixed,first_collision_s,last_collision_s,"
+      "energy_start_J,energy_end_J,energy_lost_J,work_J,energy_residual_J,momentum_drift_kg_m_per_s,max_overlap_m,"
+      "max_speed_m_per_s,resting,frames\n");
+  CsvRow row(file);
+  row.text(valid_utf8(s.run)).text(valid_utf8(s.title)).text(s.engine).text(s.status).number(s.duration);
+  row.count(s.bodies).count(s.collisions).count(s.body_body).count(s.body_fixed);
+  row.number(s.first_collision).number(s.last_collision);
+  row.number(s.energy_start).number(s.energy_end).number(s.energy_lost).number(s.work).number(s.energy_residual);
+  row.number(s.momentum_drift).number(s.max_overlap).number(s.max_speed);
+  row.count(s.resting).count(s.frames).end();
+}
+
+}  // namespace carom

@@ -1,0 +1,60 @@
+#pragma once
+// The CSV files of a run. Each is made only if the scene asks for it.
+#include <cstdint>
+#include <span>
+
+#include "export/csv.h"
+#include "export/output_file.h"
+#include "physics/collision.h"
+#include "physics/state.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+struct Summary;
+
+/// trajectory.csv. Long: a row a body and instant, by time then body. Wide: a row an instant, six columns a body:
+/// time_s,<name>.x_m,<name>.y_m,<name>.z_m,<name>.vx_m_per_s,<name>.vy_m_per_s,<name>.vz_m_per_s,...
+class TrajectoryTable {
+ public:
+  TrajectoryTable(const Place& place, const Scene& scene);
+  void add(double time, const State& state);  // s
+  OutputFile& file() { return file_; }
+
+ private:
+  void add_long(double time, const State& state);
+  void add_wide(double time, const State& state);
+
+  const Scene& scene_;
+  OutputFile file_;
+};
+
+/// collisions.csv: a row a collision, in the order in which they happened.
+class CollisionTable {
+ public:
+  CollisionTable(const Place& place, const Scene& scene);
+  void add(std::span<const Collision> collisions);
+  OutputFile& file() { return file_; }
+
+ private:
+  const Roster& roster_;
+  Entity bodies_;
+  OutputFile file_;
+};
+
+/// energy.csv: a row an instant.
+class EnergyTable {
+ public:
+  EnergyTable(const Place& place, const Scene& scene);
+  void add(double time, const State& state);  // s
+  OutputFile& file() { return file_; }
+
+ private:
+  const World& world_;
+  OutputFile file_;
+};
+
+/// summary.csv: its one row.
+void write_summary(OutputFile& file, const Summary& summary);
+
+}  // namespace carom

@@ -1,0 +1,145 @@
+#include "export/timeline.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+namespace carom {
+namespace {
+
+/// Beyond this a double no longer counts one by one, so no tick has a higher number.
+constexpr std::int64_t most_ticks = std::int64_t{1} << 53;
+
+/// The tick number nearest to `x`, kept within what can be counted.
+std::int64_t tick_number(double x) {
+  if (!(x > 0)) return 0;
+  if (x >= static_cast<double>(most_ticks)) return most_ticks;
+  return static_cast<std::int64_t>(x);
+}
+
+struct Ratio {
+  double numerator, denominator;
+};
+
+/// `value` as the short decimal m/10^k that an author wrote, if it is one: both parts are exact doubles, so that their
+/// quotient, and that of any multiple, is the double nearest to the decimal.
+std::optional<Ratio> as_decimal(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific).ptr;
+  std::int64_t digits = 0;
+  int exponent = 0, places = 0, count = 0;
+  bool after_point = false;
+  const char* c = text;
+  for (; c != end && *c != 'e'; ++c) {
+    if (*c == '.') {
+      after_point = true;
+      continue;
+    }
+    digits = digits * 10 + (*c - '0');
+    ++count;
+    places += after_point;
+  }
+  std::from_chars(c + (c[1] == '+' ? 2 : 1), end, exponent);
+  exponent -= places;
+  // 15 digits: more are the digits of a quotient like 1/30, not something that was written. 10^22 is the last exact
+  // power.
+  if (count > 15 || exponent > 0 || exponent < -22) return std::nullopt;
+  double power = 1;
+  for (int i = exponent; i < 0; ++i) power *= 10;
+  const Ratio ratio{static_cast<double>(digits), power};
+  return ratio.numerator / ratio.denominator == value ? std::optional(ratio) : std::nullopt;
+}
+
+Ratio as_ratio(double interval) {
+  if (const auto decimal = as_decimal(interval)) return *decimal;
+  const double n = std::round(1 / interval);
+  if (n < static_cast<double>(most_ticks) && 1 / n == interval) return {1, n};
+  return {interval, 1};
+}
+
+}  // namespace
+
+Ticks Ticks::every(double interval, double duration) {
+  if (!(interval > 0) || !(duration >= 0) || !std::isfinite(duration))
+    throw std::invalid_argument("Ticks::every: the interval must be positive, the duration finite and not negative");
+  Ticks ticks;
+  const Ratio ratio = as_ratio(interval);
+  ticks.numerator_ = ratio.numerator;
+  ticks.denominator_ = ratio.denominator;
+  // A tick so near to the end that only rounding keeps them apart is the end itself.
+  const double rounding = std::max(1e-9 * interval, 2 * std::numeric_limits<double>::epsilon() * duration);
+  const double limit = duration - std::min(rounding, interval / 2);
+  std::int64_t below = tick_number(duration / interval);  // the number of ticks below the limit, but for rounding
+  for (int i = 0; i < 3 && below > 0 && ticks.at(below - 1) >= limit; ++i) --below;
+  for (int i = 0; i < 3 && below < most_ticks && ticks.at(below) < limit; ++i) ++below;
+  ticks.last_ = duration > 0 ? std::max<std::int64_t>(below, 1) : 0;  // a start is never rounded away
+  ticks.end_ = duration;
+  return ticks;
+}
+
+Ticks Ticks::rate(double per_second, double from, double until) {
+  if (!(per_second > 0) || !std::isfinite(per_second))
+    throw std::invalid_argument("Ticks::rate: the rate must be positive and finite");
+  Ticks ticks;
+  ticks.denominator_ = per_second;
+  // The quotient decides, not the product: i/fps is what a tick's time is, and what `from` and `until` are held
+  // against.
+  std::int64_t first = tick_number(from * per_second);
+  for (int i = 0; i < 3 && first > 0 && ticks.at(first - 1) >= from; ++i) --first;
+  for (int i = 0; i < 3 && first < most_ticks && ticks.at(first) < from; ++i) ++first;
+  std::int64_t last = until >= 0 ? tick_number(until * per_second) : -1;
+  for (int i = 0; i < 3 && last >= 0 && ticks.at(last) > until; ++i) --last;
+  for (int i = 0; i < 3 && last >= 0 && last < most_ticks && ticks.at(last + 1) <= until; ++i) ++last;
+  ticks.first_ = first;
+  ticks.last_ = std::max(last, first - 1);
+  return ticks;
+}
+
+Ticks Ticks::even(std::int64_t count, double duration) {
+  Ticks ticks;
+  if (count <= 0) return ticks;
+  ticks.last_ = count - 1;
+  ticks.numerator_ = duration;
+  ticks.denominator_ = static_cast<double>(std::max<std::int64_t>(count - 1, 1));
+  ticks.end_ = duration;
+  return ticks;
+}
+
+double Ticks::at(std::int64_t i) const {
+  // The product is exact for every run that ends in a lifetime; one division then rounds once.
+  return end_ && i == last_ ? *end_ : static_cast<double>(i) * numerator_ / denominator_;
+}
+
+Timeline::Timeline(double duration) : duration_(duration) {}
+
+int Timeline::add(const Ticks& ticks) {
+  streams_.push_back({ticks, ticks.first(), false});
+  return static_cast<int>(streams_.size()) - 1;
+}
+
+bool Timeline::advance() {
+  // Whatever was due is done.
+  for (Stream& stream : streams_) {
+    stream.next += stream.due;
+    stream.due = false;
+  }
+  if (ended_) return false;
+  double next = duration_;
+  for (const Stream& stream : streams_)
+    if (stream.next <= stream.ticks.last()) next = std::min(next, stream.ticks.at(stream.next));
+  time_ = next;
+  for (Stream& stream : streams_)
+    stream.due = stream.next <= stream.ticks.last() && stream.ticks.at(stream.next) == next;
+  ended_ = next == duration_;
+  return true;
+}
+
+std::optional<std::int64_t> Timeline::due(int stream) const {
+  const Stream& s = streams_.at(static_cast<std::size_t>(stream));
+  return s.due ? std::optional(s.next) : std::nullopt;
+}
+
+}  // namespace carom

@@ -1,0 +1,116 @@
+#pragma once
+// What the tests of src/export share: folders of their own, small scenes, pictures.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "export/exports.h"
+
+namespace carom::testing_export {
+
+namespace fs = std::filesystem;
+
+/// A new folder, removed at the end.
+class TempFolder {
+ public:
+  TempFolder() {
+    std::string name = ::testing::TempDir() + "carom_export_XXXXXX";
+    if (!mkdtemp(name.data())) ADD_FAILURE() << "mkdtemp";
+    path_ = name;
+  }
+  ~TempFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+inline std::string read(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline void write(const std::string& path, const std::string& text) {
+  fs::create_directories(fs::path(path).parent_path());
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+/// All that stands beneath a folder, hidden files too, sorted.
+inline std::vector<std::string> names_in(const std::string& folder) {
+  std::vector<std::string> names;
+  if (fs::exists(folder))
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+      names.push_back(fs::relative(entry.path(), folder).string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Two balls and a group of two, a plane, no output at all, 0.2 s.
+inline Scene small_scene() {
+  Scene scene;
+  scene.file = "scenes/small.yaml";
+  scene.title = "Small";
+  scene.world.mass = {2, 1, 1, 1};
+  scene.world.radius = {0.1, 0.1, 0.1, 0.1};
+  scene.world.restitution = {1, 1, 1, 1};
+  scene.world.gravity = Vec3(0, -10, 0);
+  scene.world.planes = {{Vec3(0, 0, 0), Vec3(0, 1, 0), {}}};
+  scene.initial.position = {Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(2, 1, 0), Vec3(3, 1, 0)};
+  scene.initial.velocity = {Vec3(1, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0), Vec3(0, 0, 0)};
+  scene.roster.bodies = {{"red", 0, 1, false, {}}, {"blue", 1, 1, false, {}}, {"gas", 2, 2, true, {}}};
+  scene.roster.fixed = {{"floor", {}, true}};
+  scene.simulate.duration = 0.2;
+  scene.resolved = "scene: 1\ntitle: Small\n";
+  return scene;
+}
+
+/// A smooth picture that differs from pixel to pixel and from `phase` to `phase`.
+inline Image picture(Size size, int phase) {
+  Image image{size.width, size.height, {}};
+  image.pixels.reserve(static_cast<std::size_t>(size.width * size.height) * 3);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x)
+      for (const int value : {x + phase, y + 2 * phase, x + y})
+        image.pixels.push_back(static_cast<std::uint8_t>(value));
+  return image;
+}
+
+/// Runs through a timeline as `run` does, with the scene's initial state all along.
+inline void play(const Scene& scene, Exports& exports) {
+  while (exports.timeline().advance()) {
+    exports.sample(scene.initial);
+    for (std::size_t i = 0; i < exports.pictures().size(); ++i)
+      if (const auto due = exports.timeline().due(exports.pictures()[i].timeline_stream))
+        exports.picture(i, picture(exports.pictures()[i].size, static_cast<int>(*due)));
+  }
+}
+
+inline Summary some_summary(const Scene& scene) {
+  Summary summary;
+  summary.run = "small";
+  summary.title = scene.title;
+  summary.engine = "exact";
+  summary.status = "done";
+  return summary;
+}
+
+/// A whole run.
+inline void run(const Scene& scene, const std::string& folder) {
+  Exports exports(scene, folder);
+  play(scene, exports);
+  Summary summary = some_summary(scene);
+  summary.frames = exports.frames();
+  exports.finish(summary, {});
+}
+
+}  // namespace carom::testing_export

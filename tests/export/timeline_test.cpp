@@ -1,0 +1,179 @@
+#include "export/timeline.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace carom {
+namespace {
+
+std::vector<double> times(const Ticks& ticks) {
+  std::vector<double> all;
+  for (std::int64_t i = ticks.first(); i <= ticks.last(); ++i) all.push_back(ticks.at(i));
+  return all;
+}
+
+TEST(Ticks, ShortDecimalsCountExactly) {
+  const Ticks ticks = Ticks::every(0.01, 10);
+  EXPECT_EQ(ticks.at(7), 0.07);   // 7 * 0.01 is 0.07 + 1 ulp
+  EXPECT_EQ(ticks.at(29), 0.29);  // 29 * 0.01 is 0.29 - 1 ulp
+  EXPECT_EQ(ticks.at(57), 0.57);
+  EXPECT_EQ(ticks.at(100), 1.0);
+  EXPECT_EQ(Ticks::every(0.07, 10).at(3), 0.21);
+  EXPECT_EQ(Ticks::every(1e-7, 10).at(3), 3e-7);
+  EXPECT_EQ(Ticks::every(0.0333333, 10).at(3), 0.0999999);
+}
+
+TEST(Ticks, OneOverAWholeNumberCountsExactly) {
+  const Ticks ticks = Ticks::every(1.0 / 30, 10);
+  EXPECT_EQ(ticks.at(3), 0.1);  // 3 * (1.0 / 30) is 0.1, but
+  EXPECT_EQ(ticks.at(30), 1.0);
+  for (int i = 0; i < 300; ++i) EXPECT_EQ(ticks.at(i), i / 30.0) << i;
+  EXPECT_EQ(Ticks::every(1.0 / 7, 10).at(21), 3.0);
+}
+
+TEST(Ticks, AnyOtherIntervalIsMultipliedNotSummed) {
+  const double interval = std::sqrt(2) / 100;
+  const Ticks ticks = Ticks::every(interval, 1e4);
+  EXPECT_EQ(ticks.at(100'000), 100'000 * interval);
+}
+
+TEST(Ticks, NothingDriftsInAMillionSteps) {
+  const Ticks ticks = Ticks::every(0.001, 1e6);
+  for (std::int64_t second = 0; second < 1'000'000; second += 997)
+    EXPECT_EQ(ticks.at(second * 1000), static_cast<double>(second));
+}
+
+TEST(Ticks, TheLastOneIsTheDurationAndNoneIsBesideIt) {
+  EXPECT_EQ(times(Ticks::every(0.5, 2)), (std::vector<double>{0, 0.5, 1, 1.5, 2}));
+  EXPECT_EQ(times(Ticks::every(0.6, 2)), (std::vector<double>{0, 0.6, 1.2, 1.8, 2}));
+  EXPECT_EQ(times(Ticks::every(5, 2)), (std::vector<double>{0, 2}));
+  EXPECT_EQ(times(Ticks::every(2, 2)), (std::vector<double>{0, 2}));
+  // 3 * 0.1 is above 0.3, and 0.3 - 1 ulp is the same instant to an author.
+  EXPECT_EQ(Ticks::every(0.1, 0.3).count(), 4);
+  EXPECT_EQ(Ticks::every(0.1, std::nextafter(0.3, 0)).count(), 4);
+  EXPECT_EQ(Ticks::every(0.1, std::nextafter(0.3, 1)).count(), 4);
+  EXPECT_EQ(Ticks::every(0.1, std::nextafter(0.3, 1)).at(3), std::nextafter(0.3, 1));
+  EXPECT_EQ(Ticks::every(0.01, 2).count(), 201);
+  EXPECT_EQ(Ticks::every(1.0 / 30, 2).count(), 61);
+  EXPECT_EQ(Ticks::every(1.0 / 3, 1e6).count(), 3'000'001);
+  const double odd = std::sqrt(2) / 100;
+  EXPECT_EQ(Ticks::every(odd, 1000 * odd).count(), 1001);
+  EXPECT_EQ(Ticks::every(odd, std::nextafter(1000 * odd, 100)).count(), 1001);
+}
+
+TEST(Ticks, EveryCountOfDecimalStepsIsRight) {
+  for (int n = 1; n <= 2000; ++n) {
+    const Ticks ticks = Ticks::every(0.01, n / 100.0);
+    ASSERT_EQ(ticks.count(), n + 1) << n;
+    ASSERT_LT(ticks.at(n - 1), ticks.at(n)) << n;
+  }
+}
+
+TEST(Ticks, NoDurationIsOneTickAtZero) {
+  EXPECT_EQ(times(Ticks::every(0.1, 0)), (std::vector<double>{0}));
+}
+
+TEST(Ticks, HugeCountsNeitherLoopNorOverflow) {
+  EXPECT_GT(Ticks::every(1e-300, 1e300).count(), std::int64_t{1} << 52);
+  EXPECT_EQ(Ticks::every(1e-300, 1e300).at(Ticks::every(1e-300, 1e300).last()), 1e300);
+  EXPECT_GT(Ticks::rate(1e300, 0, 1e300).count(), std::int64_t{1} << 52);
+  EXPECT_EQ(Ticks::every(1e300, 1).count(), 2);
+  EXPECT_EQ(Ticks::every(5e-324, 1e-323).count(), 3);
+}
+
+TEST(Ticks, SenselessIntervalsAreRefused) {
+  EXPECT_THROW(Ticks::every(0, 1), std::invalid_argument);
+  EXPECT_THROW(Ticks::every(-1, 1), std::invalid_argument);
+  EXPECT_THROW(Ticks::every(std::nan(""), 1), std::invalid_argument);
+  EXPECT_THROW(Ticks::every(1, std::numeric_limits<double>::infinity()), std::invalid_argument);
+  EXPECT_THROW(Ticks::rate(0, 0, 1), std::invalid_argument);
+}
+
+TEST(Ticks, FrameIStandsAtIOverFps) {
+  const Ticks ticks = Ticks::rate(30, 0, 2);
+  EXPECT_EQ(ticks.first(), 0);
+  EXPECT_EQ(ticks.last(), 60);
+  for (int i = 0; i <= 60; ++i) EXPECT_EQ(ticks.at(i), i / 30.0);
+  EXPECT_EQ(Ticks::rate(29.97, 0, 10).at(100), 100 / 29.97);
+}
+
+TEST(Ticks, FramesLieWithinFromAndUntilEndsIncluded) {
+  const Ticks ticks = Ticks::rate(30, 0.1, 0.7);  // 0.1 * 30 and 0.7 * 30 are no whole numbers in doubles
+  EXPECT_EQ(ticks.first(), 3);
+  EXPECT_EQ(ticks.last(), 21);
+  EXPECT_EQ(Ticks::rate(30, 0.11, 0.69).first(), 4);
+  EXPECT_EQ(Ticks::rate(30, 0.11, 0.69).last(), 20);
+  EXPECT_EQ(Ticks::rate(10, 5, 5).count(), 1);
+  EXPECT_EQ(Ticks::rate(10, 0.01, 0.09).count(), 0);
+  EXPECT_EQ(Ticks::rate(10, 5, 4).count(), 0);
+  EXPECT_EQ(Ticks::rate(10, -5, 0.2).first(), 0);
+  EXPECT_EQ(Ticks::rate(10, -5, -1).count(), 0);
+  for (const double fps : {24.0, 25.0, 29.97, 30.0, 59.94, 60.0, 120.0})
+    for (int i = 0; i < 3000; i += 7) {
+      const Ticks one = Ticks::rate(fps, i / fps, i / fps);
+      ASSERT_EQ(one.first(), i) << fps;
+      ASSERT_EQ(one.last(), i) << fps;
+    }
+}
+
+TEST(Ticks, EvenOnesIncludeBothEnds) {
+  EXPECT_EQ(times(Ticks::even(5, 2)), (std::vector<double>{0, 0.5, 1, 1.5, 2}));
+  EXPECT_EQ(times(Ticks::even(12, 0.7)).back(), 0.7);
+  EXPECT_EQ(times(Ticks::even(1, 2)), (std::vector<double>{2}));
+  EXPECT_EQ(Ticks::even(0, 2).count(), 0);
+}
+
+TEST(Timeline, WithoutOutputsItStillEndsAtTheDuration) {
+  Timeline timeline(3);
+  EXPECT_TRUE(timeline.advance());
+  EXPECT_EQ(timeline.time(), 3);
+  EXPECT_FALSE(timeline.advance());
+  EXPECT_FALSE(timeline.advance());
+}
+
+TEST(Timeline, MergesStreamsInOrderAndJoinsEqualInstants) {
+  Timeline timeline(0.5);
+  const int a = timeline.add(Ticks::every(0.2, 0.5));     // 0 0.2 0.4 0.5
+  const int b = timeline.add(Ticks::rate(10, 0.1, 0.4));  // 0.1 0.2 0.3 0.4: ticks 1 .. 4
+  struct Step {
+    double time;
+    std::int64_t a, b;  // -1: not due
+    bool operator==(const Step&) const = default;
+  };
+  std::vector<Step> steps;
+  EXPECT_FALSE(timeline.due(a));
+  while (timeline.advance())
+    steps.push_back({timeline.time(), timeline.due(a).value_or(-1), timeline.due(b).value_or(-1)});
+  const std::vector<Step> expected = {{0, 0, -1}, {0.1, -1, 1}, {0.2, 1, 2}, {0.3, -1, 3}, {0.4, 2, 4}, {0.5, 3, -1}};
+  EXPECT_TRUE(steps == expected);
+  EXPECT_FALSE(timeline.due(a));
+}
+
+TEST(Timeline, DecimalAndRateTicksMeetBitForBit) {
+  Timeline timeline(10);
+  timeline.add(Ticks::every(0.1, 10));
+  timeline.add(Ticks::rate(30, 0, 10));
+  timeline.add(Ticks::every(1.0 / 60, 10));
+  int instants = 0;
+  while (timeline.advance()) ++instants;
+  EXPECT_EQ(instants, 601);  // all of them are sixtieths
+}
+
+TEST(Timeline, TicksAfterTheDurationAreNeverDue) {
+  Timeline timeline(1);
+  const int stream = timeline.add(Ticks::rate(10, 0.9, 5));
+  std::vector<std::int64_t> due;
+  double last = 0;
+  while (timeline.advance()) {
+    if (const auto i = timeline.due(stream)) due.push_back(*i);
+    last = timeline.time();
+  }
+  EXPECT_EQ(due, (std::vector<std::int64_t>{9, 10}));
+  EXPECT_EQ(last, 1);
+}
+
+}  // namespace
+}  // namespace carom
