@@ -95,7 +95,7 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
     const double left = separation == 0 ? 0 : 2 * separation / (press * (1 - e));
     rests = now_.hi + left == now_.hi || approach < options_.rest_speed;
     contact.rest_time = now_ + left;
-    contact.settling = rests && approach > 0;
+    contact.settling = rests;
   }
   if (approach > 0) {
     const double lost = impact_loss(mass, immovable, approach, separation);

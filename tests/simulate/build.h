@@ -1,0 +1,85 @@
+#pragma once
+// Short ways to build a world and to run it whole.
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "physics/energy.h"
+#include "simulate/book.h"
+#include "simulate/exact.h"
+
+namespace carom {
+
+struct Problem {
+  World world;
+  State initial;
+  ExactOptions options;
+
+  Problem() {
+    world.gravity = Vec3::Zero();
+    options.duration = 10;
+  }
+  Entity ball(Vec3 x, Vec3 v, double mass = 1, double radius = 0.5, double e = 1) {
+    world.mass.push_back(mass);
+    world.radius.push_back(radius);
+    world.restitution.push_back(e);
+    initial.position.push_back(x);
+    initial.velocity.push_back(v);
+    return world.body_count() - 1;
+  }
+  void plane(Vec3 point, Vec3 normal) { world.planes.push_back({point, normal.normalized(), std::nullopt}); }
+  void wall(Vec3 center, Vec3 normal, double width, double height, Vec3 up = Vec3(0, 1, 0)) {
+    const Vec3 n = normal.normalized(), u = (up - n * n.dot(up)).normalized();
+    world.walls.push_back({center, n, u.cross(n), u, width / 2, height / 2, std::nullopt});
+  }
+  void room(Vec3 min, Vec3 max) {
+    for (int k = 0; k < 3; ++k) {
+      plane(min, Vec3::Unit(k));
+      plane(max, -Vec3::Unit(k));
+    }
+  }
+};
+
+struct Outcome {
+  std::vector<Collision> all;         // every record
+  std::vector<Collision> collisions;  // without `rest`
+  State end;
+  Tally tally;
+};
+
+inline Outcome run_to_end(Simulator& simulator, double duration) {
+  Outcome run;
+  do {
+    simulator.advance_to(duration);
+    for (const Collision& c : simulator.collisions()) {
+      run.all.push_back(c);
+      if (c.kind != CollisionKind::rest) run.collisions.push_back(c);
+    }
+  } while (simulator.time() < duration);
+  run.end = simulator.state();
+  run.tally = simulator.tally();
+  return run;
+}
+
+inline Outcome run_exact(const Problem& problem) {
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  return run_to_end(*simulator, problem.options.duration);
+}
+
+inline nlohmann::json reference(const std::string& name) {
+  std::ifstream file(std::string(DATA_DIR) + "/references/" + name + ".json");
+  return nlohmann::json::parse(file);
+}
+
+inline Vec3 vec3(const nlohmann::json& j) { return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()}; }
+
+/// "3073/1024" or 1.5.
+inline double number(const nlohmann::json& j) {
+  if (j.is_number()) return j.get<double>();
+  const std::string s = j.get<std::string>();
+  const auto slash = s.find('/');
+  return slash == std::string::npos ? std::stod(s) : std::stod(s.substr(0, slash)) / std::stod(s.substr(slash + 1));
+}
+
+}  // namespace carom
