@@ -1,0 +1,370 @@
+#include "scene/check.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <tuple>
+
+#include "scene/colors.h"
+#include "scene/values.h"
+
+namespace carom {
+namespace {
+
+std::string later_text(std::string_view name) {
+  return fmt::format("{} is part of the scene format but not of this version of carom", quoted(name));
+}
+
+std::vector<std::string_view> keys_of(const Kind& kind) {
+  std::vector<std::string_view> keys;
+  for (const Field& field : kind.fields) {
+    if (field.later.empty()) keys.push_back(field.key);
+  }
+  if (!kind.also.empty()) keys.push_back(kind.also);
+  return keys;
+}
+
+class Checker {
+ public:
+  Checker(const Node& root, const std::string& folder, Diagnostics& diagnostics)
+      : root_(root), folder_(folder), diagnostics_(diagnostics) {}
+
+  /// A map of `kind`. `what` names it in messages, `where` is its key. `partial`: nothing is missing.
+  void map(Node& node, const Kind& kind, const std::string& what, Place where, bool partial) {
+    if (!node.is(Node::Kind::map)) {
+      wrong_type(node, what, "expected a map of keys");
+      return;
+    }
+    for (std::size_t i = 0; i < node.keys.size(); ++i) entry(node.keys[i], node.items[i], node, kind, what, partial);
+    if (partial) return;
+    const Node* defaults = defaults_for(root_, kind);
+    for (const Field& field : kind.fields) {
+      if (!field.needed) continue;
+      if (has(node, defaults, field.key) || (!field.instead.empty() && has(node, defaults, field.instead))) continue;
+      const Field* other = field.instead.empty() ? nullptr : find_field(kind, field.instead);
+      diagnostics_.add(where,
+                       fmt::format("{} has no {}{}", what, quoted(field.key),
+                                   other ? fmt::format(" and no {}", quoted(other->key)) : ""),
+                       fmt::format("expected {}: {}", quoted(field.key), expected(field)) +
+                           (other ? fmt::format("\nor {}: {}", quoted(other->key), expected(*other)) : ""));
+      node.bad = true;
+    }
+  }
+
+ private:
+  static bool has(const Node& node, const Node* defaults, std::string_view key) {
+    return node.find_key(key) != nullptr || (defaults != nullptr && defaults->find_key(key) != nullptr);
+  }
+
+  void refuse(Node& node, std::string message, std::string remedy) {
+    node.bad = true;
+    diagnostics_.add(node.place, std::move(message), std::move(remedy));
+  }
+
+  void wrong_type(Node& node, const std::string& what, const std::string& wanted) {
+    if (node.bad) return;
+    switch (node.kind) {
+      case Node::Kind::null:
+        refuse(node, what + " has no value", wanted);
+        break;
+      case Node::Kind::scalar:
+        refuse(node, fmt::format("{} is {}", what, quoted(node.text)), wanted);
+        break;
+      case Node::Kind::sequence:
+        refuse(node, what + " is a list", wanted);
+        break;
+      case Node::Kind::map:
+        refuse(node, what + " is a map of keys", wanted);
+        break;
+    }
+  }
+
+  void unknown_key(const Key& key, const Node& value, const Kind& kind, const std::string& what) {
+    // `radius 0.1` and `radius:0.1` are keys without a value to YAML.
+    const std::size_t gap = key.text.find_first_of(": ");
+    if (value.is(Node::Kind::null) && gap != std::string::npos && gap > 0) {
+      const std::string_view head = std::string_view(key.text).substr(0, gap);
+      const std::size_t tail = key.text.find_first_not_of(": ", gap);
+      const std::string suggestion = find_field(kind, head) != nullptr || is_name(head) ? std::string(head) : "key";
+      diagnostics_.add(key.place, fmt::format("{} is a key without a value", quoted(key.text)),
+                       tail == std::string::npos ? "expected `key: value`"
+                                                 : fmt::format("did you mean {}? A ':' and a space part key and value",
+                                                               quoted(suggestion + ": " + key.text.substr(tail))));
+      return;
+    }
+    diagnostics_.add(key.place, fmt::format("unknown key {} in {}", quoted(key.text), what),
+                     suggest_key(key.text, kind));
+  }
+
+  void entry(const Key& key, Node& value, const Node& map_node, const Kind& kind, const std::string& what,
+             bool partial) {
+    const Field* field = find_field(kind, key.text);
+    if (field == nullptr) {
+      unknown_key(key, value, kind, what);
+      return;
+    }
+    if (!field->later.empty()) {
+      value.bad = true;
+      if (field->type == Type::file && !file_is_there(value, *field)) return;
+      diagnostics_.add(key.place, later_text(field->key), std::string(field->later));
+      return;
+    }
+    // Both of two keys that exclude one another: said once, at the second.
+    if (!field->instead.empty()) {
+      const Key* other = map_node.find_key(field->instead);
+      if (other != nullptr &&
+          std::tie(other->place.source, other->place.offset) < std::tie(key.place.source, key.place.offset)) {
+        diagnostics_.add(key.place, fmt::format("{} has both {} and {}", what, quoted(other->text), quoted(key.text)),
+                         "remove one of them");
+      }
+    }
+    check_value(value, *field, key, partial);
+  }
+
+  /// False: it was reported missing.
+  bool file_is_there(Node& value, const Field& field) {
+    if (!value.is(Node::Kind::scalar) || value.text.empty()) {
+      wrong_type(value, quoted(field.key), "expected " + expected(field));
+      return false;
+    }
+    const std::string path = value.text.starts_with('/') || folder_.empty() ? value.text : folder_ + "/" + value.text;
+    struct stat info {};
+    if (stat(path.c_str(), &info) == 0 && S_ISREG(info.st_mode)) return true;
+    diagnostics_.add(value.place, fmt::format("there is no file {}", quoted(value.text)),
+                     fmt::format("looked for {}; paths start at the folder of the scene", quoted(path)));
+    return false;
+  }
+
+  void check_value(Node& value, const Field& field, const Key& key, bool partial) {
+    if (value.bad) return;
+    const std::string name = quoted(field.key);
+    const std::string wanted = "expected " + expected(field);
+    switch (field.type) {
+      case Type::number:
+        number(value, field, name);
+        break;
+      case Type::whole:
+        whole(value, field, name);
+        break;
+      case Type::flag:
+        if (!value.is(Node::Kind::scalar) || value.quoted || (value.text != "true" && value.text != "false")) {
+          wrong_type(value, name, wanted);
+        }
+        break;
+      case Type::text:
+      case Type::file:
+        if (!value.is(Node::Kind::scalar)) {
+          wrong_type(value, name, wanted);
+        } else if (value.text.find('\n') != std::string::npos) {
+          refuse(value, name + " has more than one line", "expected one line");
+        }
+        break;
+      case Type::choice:
+        choice(value, field, name);
+        break;
+      case Type::vector:
+      case Type::direction:
+        if (numbers(value, field, name, 3) && field.type == Type::direction) {
+          bool zero = true;
+          for (const Node& item : value.items) zero = zero && parse_number(item.text).value_or(1) == 0;
+          if (zero) refuse(value, name + " has no length", wanted);
+        }
+        break;
+      case Type::extent:
+        numbers(value, field, name, 2);
+        break;
+      case Type::pixels:
+        numbers(value, field, name, 2);
+        break;
+      case Type::color:
+        color(value, name);
+        break;
+      case Type::names:
+        if (!value.is(Node::Kind::sequence) || value.items.size() != 2) {
+          wrong_type(value, name, wanted);
+          if (!value.bad) refuse(value, fmt::format("{} has {} entries", name, value.items.size()), wanted);
+        } else {
+          for (Node& item : value.items) {
+            if (!item.is(Node::Kind::scalar)) wrong_type(item, "an entry of " + name, "expected a name");
+          }
+        }
+        break;
+      case Type::part_or_flag:
+        if (value.is(Node::Kind::scalar) && !value.quoted && (value.text == "true" || value.text == "false")) break;
+        if (!value.is(Node::Kind::map)) {
+          wrong_type(value, name, wanted);
+          break;
+        }
+        [[fallthrough]];
+      case Type::part:
+        part(value, field, key, partial);
+        break;
+      case Type::named:
+        named(value, field, name);
+        break;
+      case Type::list:
+        if (!value.is(Node::Kind::sequence)) {
+          wrong_type(value, name, wanted);
+          break;
+        }
+        for (Node& item : value.items) {
+          map(item, kind_named(field.of), "this entry of " + name, item.place, false);
+        }
+        break;
+    }
+  }
+
+  void part(Node& value, const Field& field, const Key& key, bool partial) {
+    const Kind& kind = kind_named(field.of);
+    // `defaults: {ball: ...}` is partial; so is what stands in it.
+    const bool in_defaults = partial || kind.name == "defaults" || inside_defaults_;
+    const bool before = inside_defaults_;
+    inside_defaults_ = before || kind.name == "defaults";
+    map(value, kind, quoted(key.text), key.place, in_defaults);
+    inside_defaults_ = before;
+  }
+
+  void named(Node& value, const Field& field, const std::string& name) {
+    if (!value.is(Node::Kind::map)) {
+      wrong_type(value, name, "expected " + expected(field));
+      return;
+    }
+    const Kind& kind = kind_named(field.of);
+    for (std::size_t i = 0; i < value.keys.size(); ++i) {
+      const Key& key = value.keys[i];
+      if (!kind.also.empty() && key.text == kind.also) {
+        color(value.items[i], quoted(key.text));
+        continue;
+      }
+      if (!is_name(key.text)) {
+        diagnostics_.add(key.place, fmt::format("{} is not a name", quoted(key.text)),
+                         "expected letters, digits, _ and -, a letter or _ first");
+      }
+      map(value.items[i], kind, fmt::format("{} {}", kind.name, quoted(key.text)), key.place, false);
+    }
+  }
+
+  bool number(Node& value, const Field& field, const std::string& name) {
+    if (value.bad) return false;
+    if (!value.is(Node::Kind::scalar)) {
+      wrong_type(value, name, "expected " + expected(field));
+      return false;
+    }
+    const std::optional<double> parsed = value.quoted ? std::nullopt : parse_number(value.text);
+    if (!parsed) {
+      Complaint complaint = explain_number(value, field);
+      refuse(value, std::move(complaint.message), std::move(complaint.remedy));
+      return false;
+    }
+    if (!contains(field.range, *parsed)) {
+      refuse(value, fmt::format("{} is {}", name, value.text), "expected " + expected(field));
+      return false;
+    }
+    return true;
+  }
+
+  bool whole(Node& value, const Field& field, const std::string& name) {
+    if (value.is(Node::Kind::scalar) && !value.quoted && !value.bad) {
+      const std::optional<std::uint64_t> parsed = parse_whole(value.text);
+      if (parsed && contains(field.range, static_cast<double>(*parsed))) return true;
+      if (parse_number(value.text)) {
+        refuse(value, fmt::format("{} is {}", name, value.text), "expected " + expected(field));
+        return false;
+      }
+    }
+    return number(value, field, name);
+  }
+
+  bool numbers(Node& value, const Field& field, const std::string& name, std::size_t count) {
+    if (!value.is(Node::Kind::sequence)) {
+      wrong_type(value, name, "expected " + expected(field));
+      return false;
+    }
+    if (value.items.size() != count) {
+      refuse(value, fmt::format("{} has {} number{}", name, value.items.size(), value.items.size() == 1 ? "" : "s"),
+             "expected " + expected(field));
+      return false;
+    }
+    bool good = true;
+    Field each = field;
+    each.type = field.type == Type::pixels ? Type::whole : Type::number;
+    for (Node& item : value.items) {
+      const std::string part = "a number of " + name;
+      good = (field.type == Type::pixels ? whole(item, each, part) : number(item, each, part)) && good;
+    }
+    if (!good) value.bad = true;
+    return good;
+  }
+
+  void choice(Node& value, const Field& field, const std::string& name) {
+    const std::string wanted = "expected " + expected(field);
+    if (!value.is(Node::Kind::scalar)) {
+      wrong_type(value, name, wanted);
+      return;
+    }
+    const std::vector<std::string_view> all = choices(field);
+    for (const std::string_view one : all) {
+      if (value.text == one) return;
+    }
+    if (!field.later_choice.empty() && value.text == field.later_choice) {
+      refuse(value, later_text(fmt::format("{}: {}", field.key, value.text)), wanted);
+      return;
+    }
+    const std::string near = nearest(value.text, all);
+    refuse(value, fmt::format("{} is {}", name, quoted(value.text)),
+           near.empty() ? wanted : fmt::format("did you mean {}?\n{}", quoted(near), wanted));
+  }
+
+  void color(Node& value, const std::string& name) {
+    static constexpr Field component{.key = "color", .range = {0, 1}};
+    const std::string wanted = "expected a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
+    if (value.is(Node::Kind::sequence)) {
+      numbers(value, component, name, 3);
+    } else if (!value.is(Node::Kind::scalar)) {
+      // An unquoted # begins a comment, so that the value is lost.
+      wrong_type(value, name,
+                 value.is(Node::Kind::null) ? wanted + "\na colour that begins with # needs quotes" : wanted);
+    } else if (!parse_color(value.text)) {
+      const std::string near = nearest(value.text, color_names());
+      refuse(value, fmt::format("{} is not a colour", quoted(value.text)),
+             near.empty() ? wanted : fmt::format("did you mean {}?", quoted(near)));
+    }
+  }
+
+  const Node& root_;
+  const std::string& folder_;
+  Diagnostics& diagnostics_;
+  bool inside_defaults_ = false;
+};
+
+}  // namespace
+
+void check_scene(Node& root, const std::string& folder, Diagnostics& diagnostics) {
+  const Place start = root.keys.empty() ? root.place : root.keys.front().place;
+  Checker(root, folder, diagnostics).map(root, kind_named("scene"), "the scene", start, false);
+}
+
+const Node* defaults_for(const Node& root, const Kind& kind) {
+  const std::string_view key = kind.name == "member" ? "ball" : kind.name;
+  if (key != "ball" && key != "group" && key != "plane" && key != "wall") return nullptr;
+  const Node* defaults = root.find("defaults");
+  const Node* node = defaults == nullptr ? nullptr : defaults->find(key);
+  return node != nullptr && node->is(Node::Kind::map) ? node : nullptr;
+}
+
+std::string suggest_key(std::string_view wrong, const Kind& kind) {
+  const std::vector<std::string_view> keys = keys_of(kind);
+  if (const std::string near = nearest(wrong, keys); !near.empty())
+    return fmt::format("did you mean {}?", quoted(near));
+  std::vector<std::string_view> owners;
+  std::vector<std::string> shown;
+  for (const Kind& other : kinds()) {
+    if (other.name == kind.name || other.name == "member" || find_field(other, wrong) == nullptr) continue;
+    shown.push_back(other.name == "scene" ? "the scene itself" : quoted(other.name));
+  }
+  for (const std::string& owner : shown) owners.push_back(owner);
+  const std::string known = "expected " + listed(keys);
+  return owners.empty() ? known : fmt::format("{} is a key of {}\n{}", quoted(wrong), listed(owners), known);
+}
+
+}  // namespace carom

@@ -1,0 +1,21 @@
+#pragma once
+// A tree of nodes against the table of fields: unknown, missing and misplaced keys, wrong types, numbers out of range.
+#include <string>
+
+#include "scene/diagnostics.h"
+#include "scene/document.h"
+#include "scene/fields.h"
+
+namespace carom {
+
+/// Checks the whole tree of a scene and adds every error. Values that failed are marked bad; map entries whose key is
+/// wrong stay and are ignored by whoever looks up known keys. `folder` is that of the scene file, for its meshes.
+void check_scene(Node& root, const std::string& folder, Diagnostics& diagnostics);
+
+/// The defaults that a map of `kind` falls back on: scene -> defaults -> kind; null: none.
+const Node* defaults_for(const Node& root, const Kind& kind);
+
+/// "did you mean `x`?", or what a key of `kind` can be.
+std::string suggest_key(std::string_view wrong, const Kind& kind);
+
+}  // namespace carom

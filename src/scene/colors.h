@@ -1,0 +1,24 @@
+#pragma once
+// Colours by name and colours for things that name none.
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace carom {
+
+/// A CSS name (any case), "#rgb" or "#rrggbb".
+std::optional<Color> parse_color(std::string_view text);
+
+/// All 148 CSS names, in alphabetical order.
+std::vector<std::string_view> color_names();
+
+/// The colour, as "#rrggbb", of the i-th ball or group that names none: neighbours differ clearly.
+std::string_view body_color(std::size_t i);
+inline constexpr std::string_view plane_color = "#b8bcc2";
+inline constexpr std::string_view wall_color = "#9aa3ad";
+inline constexpr std::string_view room_color = "#c9ccd1";
+
+}  // namespace carom

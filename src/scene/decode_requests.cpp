@@ -1,0 +1,252 @@
+// What is wanted of a scene: how to simulate, what to look at, what to write.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/decode.h"
+#include "scene/values.h"
+
+namespace carom {
+namespace {
+
+Size size_of(const View& view, Size fallback) {
+  const Node* node = view.find("size");
+  if (node == nullptr || node->bad || node->items.size() != 2) return fallback;
+  const auto side = [](const Node& item, int otherwise) {
+    const std::optional<std::uint64_t> value = as_whole(&item);
+    return value && *value <= 16384 ? static_cast<int>(*value) : otherwise;
+  };
+  return {side(node->items[0], fallback.width), side(node->items[1], fallback.height)};
+}
+
+int samples_of(const View& view) {
+  return view.text("samples").value_or("4")[0] - '0';
+}
+
+class Requests {
+ public:
+  Requests(const Node& root, const Inventory& inventory, const Budget& budget, Scene& scene, Diagnostics& diagnostics)
+      : root_(root), inventory_(inventory), budget_(budget), scene_(scene), diagnostics_(diagnostics) {}
+
+  void run() {
+    simulate();
+    if (root_.find("camera") != nullptr) camera();
+    lights();
+    scene_.background = View(&root_, kind_named("scene"), Place{}).color("background");
+    output();
+    if (budget_.enforced) check_budget();
+  }
+
+ private:
+  void simulate() {
+    const View view = scene_part(root_, "simulate");
+    Simulate& s = scene_.simulate;
+    s.duration = view.number("duration").value_or(0);
+    const std::string engine = view.text("engine").value_or("auto");
+    s.engine = engine == "exact" ? Engine::exact : engine == "book" ? Engine::book : Engine::automatic;
+    s.step = view.number("step");
+    if (s.engine == Engine::book && view.given("step") == nullptr) s.step = 1.0 / 60;
+    s.rest_speed = view.number("rest_speed");
+    s.max_collisions = view.whole("max_collisions");
+    s.as_printed = view.flag("as_printed").value_or(false);
+    if (s.as_printed && s.engine != Engine::book) {
+      diagnostics_.add(view.place("as_printed"), "`as_printed` needs `engine: book`",
+                       "only that engine follows the printed listings");
+    }
+  }
+
+  void camera() {
+    const View view = scene_part(root_, "camera");
+    Camera camera;
+    camera.eye = view.vector("eye").value_or(camera.eye);
+    camera.up = view.vector("up").value_or(camera.up);
+    camera.fov = view.number("fov").value_or(camera.fov);
+    camera.fov_horizontal = view.text("fov_axis") == "horizontal";
+    camera.near = view.number("near").value_or(camera.near);
+    camera.far = view.number("far").value_or(camera.far);
+    const bool aimed = view.vector("eye") && view.vector("target");
+    camera.target = view.vector("target").value_or(camera.eye + Vec3(0, 0, 1));
+    const Vec3 sight = camera.target - camera.eye;
+    if (aimed && sight.isZero(0)) {
+      diagnostics_.add(view.place("target"), "the camera's target is where its eye is", "expected a point to look at");
+    } else if (aimed && unit(sight).cross(unit(camera.up)).norm() < 1e-9) {
+      const bool said = view.given("up") != nullptr;
+      diagnostics_.add(
+          view.place(said ? "up" : "target"), "the camera looks along its up direction",
+          said ? "expected another direction" : "expected `up` across the line of sight, such as up: [0, 0, 1]");
+    }
+    if (view.number("near") && view.number("far") && camera.near >= camera.far) {
+      diagnostics_.add(view.place(view.given("far") != nullptr ? "far" : "near"),
+                       fmt::format("far ({}) is not beyond near ({})", shortest(camera.far), shortest(camera.near)),
+                       "expected near < far");
+    }
+    scene_.camera = camera;
+  }
+
+  void lights() {
+    const Node* node = root_.find("lights");
+    if (node == nullptr || !node->is(Node::Kind::map)) return;
+    for (std::size_t i = 0; i < node->keys.size(); ++i) {
+      if (node->keys[i].text == "ambient") {
+        scene_.ambient = as_color(&node->items[i]);
+        continue;
+      }
+      const View view(&node->items[i], kind_named("light"), node->keys[i].place);
+      scene_.lights.push_back({node->keys[i].text, view.vector("direction"), view.vector("position"),
+                               view.color("color").value_or(Color{}), view.number("intensity").value_or(1)});
+    }
+  }
+
+  void output() {
+    Output& out = scene_.output;
+    const Node* node = root_.find("output");
+    if (node == nullptr) {
+      out.trajectory.emplace();
+      out.collisions = true;
+      out.energy.emplace();
+      return;
+    }
+    const Key& key = *root_.find_key("output");
+    const View view(node, kind_named("output"), key.place);
+    out.collisions = view.flag("collisions").value_or(false);
+    if (wanted(view, "trajectory")) {
+      const View part = view.part("trajectory", "trajectory");
+      out.trajectory = TrajectoryOutput{part.number("every").value_or(1), part.text("layout") == "wide"};
+    }
+    if (wanted(view, "energy")) out.energy = EnergyOutput{view.part("energy", "energy").number("every").value_or(1)};
+    if (wanted(view, "frames")) {
+      const View part = view.part("frames", "frames");
+      out.frames = FramesOutput{part.number("fps").value_or(30), size_of(part, {}), samples_of(part),
+                                part.number("from").value_or(0), part.number("until")};
+      check_window(part, out.frames->from, out.frames->until);
+    }
+    if (wanted(view, "video")) video(video_view(view));
+    if (wanted(view, "sheet")) {
+      const View part = view.part("sheet", "sheet");
+      out.sheet = SheetOutput{static_cast<int>(part.whole("columns").value_or(4)),
+                              static_cast<int>(part.whole("rows").value_or(3))};
+    }
+  }
+
+  void video(const View& part) {
+    VideoOutput video;
+    video.file = part.text("file").value_or(video.file);
+    video.fps = part.number("fps").value_or(30);
+    video.size = size_of(part, {});
+    video.samples = samples_of(part);
+    video.crf = static_cast<int>(part.whole("crf").value_or(18));
+    video.from = part.number("from").value_or(0);
+    video.until = part.number("until");
+    const bool plain = std::all_of(video.file.begin(), video.file.end(), [](char c) {
+      return static_cast<unsigned char>(c) >= 0x20 && c != '/' && c != '\\';
+    });
+    if (!plain || !video.file.ends_with(".mp4") || video.file.size() < 5 || video.file.size() > 200 ||
+        video.file[0] == '.' || video.file[0] == '-') {
+      diagnostics_.add(part.place("file"), fmt::format("{} is not a name for a video", quoted(video.file)),
+                       "expected a plain file name such as animation.mp4, without folders");
+    }
+    if (video.size.width % 2 != 0 || video.size.height % 2 != 0) {
+      diagnostics_.add(part.place("size"),
+                       fmt::format("a video of {} x {} pixels", video.size.width, video.size.height),
+                       "expected an even width and height: its colours (yuv420p) are stored for 2 x 2 pixels");
+    }
+    check_window(part, video.from, video.until);
+    scene_.output.video = video;
+  }
+
+  void check_window(const View& part, double from, const std::optional<double>& until) {
+    const double duration = scene_.simulate.duration;
+    if (!scene_part(root_, "simulate").number("duration")) return;
+    const auto beyond = [&](std::string_view key, double value) {
+      diagnostics_.add(
+          part.place(key),
+          fmt::format("{} is {} but the scene ends at {} s", quoted(key), shortest(value), shortest(duration)),
+          fmt::format("expected at most {}", shortest(duration)));
+    };
+    if (from > duration) beyond("from", from);
+    if (until && *until > duration) beyond("until", *until);
+    if (until && *until < from) {
+      diagnostics_.add(part.place("until"),
+                       fmt::format("`until` is {} but `from` is {}", shortest(*until), shortest(from)),
+                       "expected from <= until");
+    }
+  }
+
+  double pictures(double fps, double from, const std::optional<double>& until) const {
+    return std::max(0.0, std::floor(until.value_or(scene_.simulate.duration) * fps) - std::ceil(from * fps) + 1);
+  }
+
+  void check_budget() {
+    const Output& out = scene_.output;
+    const View view(root_.find("output"), kind_named("output"),
+                    root_.find_key("output") ? root_.find_key("output")->place : Place{});
+    const auto refuse = [&](Place place, double figure, std::string_view what, std::uint64_t limit,
+                            std::string_view change) {
+      diagnostics_.add(place, fmt::format("the run would write {:.15g} {}; the limit is {}", figure, what, limit),
+                       fmt::format("expected {}, or --force if that is meant", change));
+    };
+    if (out.trajectory && inventory_.fits) {
+      const double rows = (std::ceil(scene_.simulate.duration / out.trajectory->every) + 1) *
+                          static_cast<double>(inventory_.body_count);
+      if (rows > static_cast<double>(budget_.rows)) {
+        const View part = view.part("trajectory", "trajectory");
+        const View simulate = scene_part(root_, "simulate");
+        refuse(view.own() == nullptr ? simulate.place("duration") : part.place("every"), rows, "rows of trajectory.csv",
+               budget_.rows,
+               view.own() == nullptr ? "`output: {trajectory: {every: ...}}` with a longer time between rows"
+                                     : "a longer `every`, a shorter duration or fewer bodies");
+      }
+    }
+    // Frames and a video of the same pictures share them.
+    double total = 0, most = -1;
+    std::string_view largest = "frames";
+    const auto count = [&](double n, std::string_view key) {
+      total += n;
+      if (n > most) {
+        most = n;
+        largest = key;
+      }
+    };
+    if (out.frames) count(pictures(out.frames->fps, out.frames->from, out.frames->until), "frames");
+    const bool shared = out.frames && out.video && out.frames->fps == out.video->fps &&
+                        out.frames->from == out.video->from && out.frames->until == out.video->until &&
+                        out.frames->size.width == out.video->size.width &&
+                        out.frames->size.height == out.video->size.height && out.frames->samples == out.video->samples;
+    if (out.video && !shared) count(pictures(out.video->fps, out.video->from, out.video->until), "video");
+    if (out.sheet) count(static_cast<double>(out.sheet->columns) * out.sheet->rows, "sheet");
+    if (total > static_cast<double>(budget_.frames)) {
+      const Key* key = view.own() == nullptr ? nullptr : view.own()->find_key(largest);
+      refuse(key == nullptr ? view.where() : view.part(largest, largest).place("fps"), total, "pictures",
+             budget_.frames, "a lower `fps` or a shorter duration");
+    }
+  }
+
+  const Node& root_;
+  const Inventory& inventory_;
+  const Budget& budget_;
+  Scene& scene_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+bool wanted(const View& output, std::string_view part) {
+  const Node* node = output.given(part);
+  return node != nullptr && !node->bad &&
+         (node->is(Node::Kind::map) || (node->is(Node::Kind::scalar) && node->text == "true"));
+}
+
+View video_view(const View& output) {
+  const Node* frames = output.given("frames");
+  const Key* key = output.own() == nullptr ? nullptr : output.own()->find_key("video");
+  return View(output.given("video"), kind_named("video"), key == nullptr ? output.where() : key->place,
+              frames != nullptr && frames->is(Node::Kind::map) ? frames : nullptr);
+}
+
+void decode_requests(const Node& root, const Inventory& inventory, const Budget& budget, Scene& scene,
+                     Diagnostics& diagnostics) {
+  Requests(root, inventory, budget, scene, diagnostics).run();
+}
+
+}  // namespace carom

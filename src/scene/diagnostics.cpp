@@ -1,0 +1,183 @@
+#include "scene/diagnostics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+namespace carom {
+namespace {
+
+constexpr std::size_t max_shown = 50;   // errors
+constexpr std::size_t max_width = 100;  // characters of a line that are shown
+constexpr std::size_t lead_width = 60;  // of them before the caret, at most
+
+/// Cells a character takes on a terminal: 2 for East Asian wide ones, 0 for combining ones.
+int cells(char32_t c) {
+  if ((c >= 0x0300 && c <= 0x036F) || (c >= 0x200B && c <= 0x200F) || (c >= 0x20D0 && c <= 0x20FF) ||
+      (c >= 0xFE00 && c <= 0xFE0F)) {
+    return 0;
+  }
+  const bool wide = (c >= 0x1100 && c <= 0x115F) || (c >= 0x2E80 && c <= 0xA4CF) || (c >= 0xAC00 && c <= 0xD7A3) ||
+                    (c >= 0xF900 && c <= 0xFAFF) || (c >= 0xFE30 && c <= 0xFE6F) || (c >= 0xFF00 && c <= 0xFF60) ||
+                    (c >= 0xFFE0 && c <= 0xFFE6) || (c >= 0x1F300 && c <= 0x1FAFF) || (c >= 0x20000 && c <= 0x3FFFD);
+  return wide ? 2 : 1;
+}
+
+struct Character {
+  std::string text;  // as shown: '?' for what cannot be
+  int width;         // cells
+  std::size_t at;    // byte offset in the line
+};
+
+std::vector<Character> characters(std::string_view line) {
+  std::vector<Character> out;
+  for (std::size_t i = 0; i < line.size();) {
+    char32_t code = 0;
+    const int length = utf8_length(line, i, code);
+    if (length == 0 || is_control(code)) {
+      out.push_back({code == '\t' ? " " : "?", 1, i});
+      i += static_cast<std::size_t>(std::max(length, 1));
+    } else {
+      out.push_back({std::string(line.substr(i, static_cast<std::size_t>(length))), cells(code), i});
+      i += static_cast<std::size_t>(length);
+    }
+  }
+  return out;
+}
+
+std::string printable(std::string_view text) {
+  std::string out;
+  for (const Character& c : characters(text)) out += c.text;
+  return out;
+}
+
+std::string paint(std::string_view text, std::string_view code, bool color) {
+  return color ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : std::string(text);
+}
+
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+}
+
+/// Letters inserted, removed, replaced or swapped with their neighbour to make b of a (optimal string alignment).
+std::size_t edits(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    now[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
+      if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1])) {
+        now[j] = std::min(now[j], before[j - 2] + 1);
+      }
+    }
+    before.swap(last);
+    last.swap(now);
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+std::string quoted(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  const std::vector<Character> all = characters(text);
+  std::string out = "`";
+  for (std::size_t i = 0; i < std::min(all.size(), longest); ++i) out += all[i].text;
+  return out + (all.size() > longest ? "...`" : "`");
+}
+
+std::string nearest(std::string_view name, const std::vector<std::string_view>& candidates) {
+  if (name.empty() || name.size() > 64) return {};
+  std::size_t best = std::min<std::size_t>(3, (name.size() + 2) / 3);
+  std::string_view found;
+  for (const std::string_view candidate : candidates) {
+    if (candidate.size() > name.size() + best || name.size() > candidate.size() + best) continue;
+    const std::size_t distance = edits(name, candidate);
+    const bool nothing_kept = distance >= std::max(name.size(), candidate.size());
+    if (!nothing_kept && (distance < best || (distance == best && found.empty()))) {
+      best = distance;
+      found = candidate;
+    }
+  }
+  return std::string(found);
+}
+
+void Diagnostics::add(Place place, std::string message, std::string remedy) {
+  errors_.push_back({true, place, {}, std::move(message), std::move(remedy)});
+}
+
+void Diagnostics::add_unplaced(std::string name, std::string message, std::string remedy) {
+  errors_.push_back({false, {}, std::move(name), std::move(message), std::move(remedy)});
+}
+
+std::string Diagnostics::show(const Error& error, bool color) const {
+  const std::string label = paint("error:", "1;31", color);
+  std::string gutter = "   ";
+  std::string out;
+  if (!error.placed) {
+    out = fmt::format("{}: {} {}\n", paint(printable(error.name), "1", color), label, error.message);
+  } else {
+    // The line that holds the place, and how many characters of it come before.
+    const Source& source = sources_[error.place.source];
+    const std::string_view text = source.text;
+    const std::size_t offset = std::min<std::size_t>(error.place.offset, text.size());
+    const std::size_t begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;  // npos + 1 is 0
+    const std::size_t end = std::min(text.find('\n', offset), text.size());
+    const auto line_number = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
+    const std::vector<Character> line = characters(text.substr(begin, end - begin));
+    const auto index_of = [&](std::size_t at) {
+      return static_cast<std::size_t>(
+          std::partition_point(line.begin(), line.end(), [&](const Character& c) { return c.at < at; }) - line.begin());
+    };
+    const std::size_t caret = index_of(offset - begin);
+    const std::size_t last = std::max(caret + 1, index_of(offset - begin + error.place.length));
+
+    const std::string where = source.option ? printable(source.name)
+                                            : fmt::format("{}:{}:{}", printable(source.name), line_number, caret + 1);
+    out = fmt::format("{}: {} {}\n", paint(where, "1", color), label, error.message);
+
+    // A long line is shown through a window around the caret.
+    const std::size_t from = line.size() > max_width && caret > lead_width ? caret - lead_width : 0;
+    const std::size_t to = std::min(line.size(), from + max_width);
+    std::string shown = from > 0 ? "..." : "", under = from > 0 ? "   " : "";
+    for (std::size_t i = from; i < to; ++i) {
+      shown += line[i].text;
+      if (i < caret) under.append(static_cast<std::size_t>(line[i].width), ' ');
+    }
+    if (to < line.size()) shown += "...";
+    std::string marks = "^";
+    for (std::size_t i = caret; i < std::min(last, to); ++i) {
+      marks.append(static_cast<std::size_t>(line[i].width), '~');
+    }
+    if (marks.size() > 1) marks.pop_back();
+    const std::string number = source.option ? "" : std::to_string(line_number);
+    gutter = std::string(std::max<std::size_t>(number.size(), 4), ' ');
+    out += fmt::format("{:>4} | {}\n", number, shown);
+    out += fmt::format("{} | {}{}\n", gutter, under, paint(marks, "1;32", color));
+  }
+  for (std::size_t i = 0; i < error.remedy.size();) {
+    const std::size_t end = std::min(error.remedy.find('\n', i), error.remedy.size());
+    out += fmt::format("{} = {}\n", gutter, std::string_view(error.remedy).substr(i, end - i));
+    i = end + 1;
+  }
+  return out;
+}
+
+std::string Diagnostics::text(bool color) const {
+  std::vector<const Error*> order;
+  for (const Error& error : errors_) order.push_back(&error);
+  // Errors of the file as a whole come first, then the file's in its order, then those of each --set.
+  std::stable_sort(order.begin(), order.end(), [](const Error* a, const Error* b) {
+    return std::tuple(a->placed, a->place.source, a->place.offset) <
+           std::tuple(b->placed, b->place.source, b->place.offset);
+  });
+  std::string out;
+  for (std::size_t i = 0; i < std::min(order.size(), max_shown); ++i) out += show(*order[i], color);
+  if (order.size() > max_shown) out += fmt::format("and {} more errors\n", order.size() - max_shown);
+  return out;
+}
+
+}  // namespace carom

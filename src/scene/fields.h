@@ -1,0 +1,80 @@
+#pragma once
+// The scene format as plain data: every kind of map a scene holds and every key of it. The decoder, the messages about
+// wrong keys and values, and whatever describes the format to people or editors are made from this one table.
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace carom {
+
+enum class Type : std::uint8_t {
+  number,        // finite
+  whole,         // >= 0
+  flag,          // true or false
+  text,          // one line
+  choice,        // one of Field::of, separated by |
+  vector,        // [x, y, z], numbers
+  direction,     // [x, y, z], not all zero; any length
+  extent,        // [width, height], numbers in range
+  pixels,        // [width, height], wholes in range
+  color,         // CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1
+  file,          // path, from the scene file's folder
+  names,         // [name, name] of bodies or fixed things
+  part,          // a map of kind Field::of
+  part_or_flag,  // the same, or true: a map of defaults, or false: absent
+  named,         // a map from names to kind Field::of
+  list           // a list of maps of kind Field::of
+};
+
+/// Numbers from `min` to `max`, ends included unless told otherwise.
+struct Range {
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  bool above_min = false;  // min itself is not allowed
+  bool below_max = false;  // max itself is not allowed
+};
+
+struct Field {
+  std::string_view key;
+  Type type = Type::number;
+  std::string_view unit = {};
+  Range range = {};
+  std::string_view initial = {};       // the default as YAML; empty: absent unless given
+  std::string_view of = {};            // kind, or choices
+  std::string_view instead = {};       // another key of the kind that excludes this one
+  bool needed = false;                 // this or `instead`
+  std::string_view later = {};         // part of the format, refused by this version: what to do instead
+  std::string_view later_choice = {};  // a choice of which the same holds
+  std::string_view doc = {};
+};
+
+struct Kind {
+  std::string_view name;     // as Field::of has it
+  std::string_view article;  // for messages: "a", "an", or "" before a name that is the key itself
+  std::string_view doc;
+  std::span<const Field> fields;
+  std::string_view also = {};  // a named map of this kind may hold this key of another type too (lights: ambient)
+};
+
+/// Every kind, "scene" first.
+std::span<const Kind> kinds();
+const Kind& kind_named(std::string_view name);  // there must be one
+const Field* find_field(const Kind& kind, std::string_view key);
+
+/// "> 0", "1 to 8", "at least 0"; empty: any.
+std::string describe(const Range& range);
+bool contains(const Range& range, double value);
+
+/// What a value of this field looks like: "a number > 0, in kg", "[x, y, z] in m", "average, minimum or maximum".
+std::string expected(const Field& field);
+
+/// The choices that this version serves, one by one.
+std::vector<std::string_view> choices(const Field& field);
+
+/// "a", "a or b", "a, b or c"
+std::string listed(const std::vector<std::string_view>& words);
+
+}  // namespace carom

@@ -1,0 +1,66 @@
+#include "scene/random.h"
+
+namespace carom {
+namespace {
+
+std::uint64_t mix(std::uint64_t z) {
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+  return z ^ (z >> 31);
+}
+
+}  // namespace
+
+Random::Random(std::uint64_t seed, std::string_view stream) {
+  std::uint64_t hash = 0xCBF29CE484222325ULL;  // FNV-1a of the name
+  for (const char c : stream) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
+  state_ = mix(mix(seed + 0x9E3779B97F4A7C15ULL) ^ hash);
+}
+
+std::uint64_t Random::bits() {
+  state_ += 0x9E3779B97F4A7C15ULL;
+  return mix(state_);
+}
+
+std::uint64_t Random::below(std::uint64_t n) {
+  // Values from the last, incomplete run of n are thrown again.
+  const std::uint64_t limit = ~std::uint64_t{0} - (~std::uint64_t{0} % n + 1) % n;
+  for (;;) {
+    const std::uint64_t value = bits();
+    if (value <= limit) return value % n;
+  }
+}
+
+double Random::normal() {
+  if (has_spare_) {
+    has_spare_ = false;
+    return spare_;
+  }
+  for (;;) {
+    const double u = 2 * uniform() - 1;
+    const double v = 2 * uniform() - 1;
+    const double s = u * u + v * v;
+    if (s >= 1 || s == 0) continue;
+    const double factor = std::sqrt(-2 * reproducible_log(s) / s);
+    spare_ = v * factor;
+    has_spare_ = true;
+    return u * factor;
+  }
+}
+
+double reproducible_log(double x) {
+  int exponent = 0;
+  double m = std::frexp(x, &exponent);  // exact; 0.5 <= m < 1
+  if (m < 0.70710678118654752) {
+    m *= 2;
+    --exponent;
+  }
+  // |z| < 0.172, so that z^2k falls by 33 a term.
+  const double z = (m - 1) / (m + 1);
+  const double z2 = z * z;
+  double sum = 0;
+  for (int k = 23; k >= 3; k -= 2) sum = (sum + 1.0 / k) * z2;
+  return exponent * 0.693147180559945309 + 2 * (z + z * sum);
+}
+
+}  // namespace carom

@@ -1,0 +1,188 @@
+#include "scene/resolve.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "scene/colors.h"
+#include "scene/values.h"
+
+namespace carom {
+namespace {
+
+/// Texts that replace what a View gives, by key; an empty one leaves the key out.
+using Overrides = std::map<std::string_view, std::string>;
+
+std::string in_quotes(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
+
+std::string flow(const Node& node) {
+  if (node.is(Node::Kind::scalar)) {
+    const bool plain = !node.quoted && (is_name(node.text) || parse_number(node.text));
+    return plain ? node.text : in_quotes(node.text);
+  }
+  std::string out;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    if (i > 0) out += ", ";
+    if (node.is(Node::Kind::map)) out += node.keys[i].text + ": ";
+    out += flow(node.items[i]);
+  }
+  return node.is(Node::Kind::map) ? "{" + out + "}" : "[" + out + "]";
+}
+
+std::string flow(const View& view, const Overrides& overrides = {}) {
+  std::string out;
+  for (const Field& field : view.kind().fields) {
+    std::string text;
+    if (const auto it = overrides.find(field.key); it != overrides.end()) {
+      text = it->second;
+    } else if (const Node* node = view.find(field.key)) {
+      text = flow(*node);
+    }
+    if (text.empty()) continue;
+    if (!out.empty()) out += ", ";
+    out += fmt::format("{}: {}", field.key, text);
+  }
+  return "{" + out + "}";
+}
+
+class Resolver {
+ public:
+  Resolver(const Node& root, const Inventory& inventory, const Scene& scene)
+      : root_(root), inventory_(inventory), scene_(scene) {}
+
+  std::string run() {
+    const Kind& kind = kind_named("scene");
+    const View whole(&root_, kind, Place{});
+    line("scene", "1");
+    line("title", flow(*whole.find("title")));
+    line("seed", std::to_string(scene_.seed));
+    line("gravity", flow(*whole.find("gravity")));
+    line("restitution", flow(scene_part(root_, "restitution")));
+    // The order of these five in the file is the order of the bodies and of the planes.
+    for (const Key& key : root_.keys) {
+      if (key.text == "balls") bodies("balls", false);
+      if (key.text == "groups") bodies("groups", true);
+      if (key.text == "planes") fixed("planes", "plane");
+      if (key.text == "room") room();
+      if (key.text == "walls") fixed("walls", "wall");
+    }
+    simulate();
+    if (root_.find("camera") != nullptr) line("camera", flow(scene_part(root_, "camera")));
+    lights();
+    if (const Node* background = root_.find("background")) line("background", flow(*background));
+    output();
+    return std::move(out_);
+  }
+
+ private:
+  void line(std::string_view key, std::string_view text) { out_ += fmt::format("{}: {}\n", key, text); }
+  void entry(std::string_view key, std::string_view text) { out_ += fmt::format("  {}: {}\n", key, text); }
+
+  /// A line `key:` for entries to follow, or `key: {}`.
+  void heading(std::string_view key, bool empty) {
+    out_ += empty ? fmt::format("{}: {{}}\n", key) : fmt::format("{}:\n", key);
+  }
+
+  std::string default_restitution() const { return flow(*scene_part(root_, "restitution").find("default")); }
+
+  void bodies(std::string_view key, bool group) {
+    heading(key, root_.find(key)->items.empty());
+    for (std::size_t i = 0; i < inventory_.bodies.size(); ++i) {
+      const BodyEntry& body = inventory_.bodies[i];
+      if (body.group != group) continue;
+      Overrides overrides;
+      const View view =
+          group ? group_view(root_, *body.node, body.key->place) : ball_view(root_, *body.node, body.key->place);
+      const View ball = group ? member_view(root_, view) : view;
+      if (ball.find("restitution") == nullptr) overrides["restitution"] = default_restitution();
+      if (ball.find("color") == nullptr) overrides["color"] = in_quotes(body_color(i));
+      if (!group) {
+        entry(body.key->text, flow(ball, overrides));
+        continue;
+      }
+      // A group's velocity is said once, by the group.
+      overrides["velocity"] = "";
+      Overrides group_overrides{{"ball", flow(ball, overrides)}, {"in", flow(view.part("in", "box"))}};
+      if (view.find("speed") == nullptr && view.find("velocity") == nullptr)
+        group_overrides["velocity"] = flow(*ball.find("velocity"));
+      entry(body.key->text, flow(view, group_overrides));
+    }
+  }
+
+  void fixed(std::string_view key, std::string_view kind) {
+    heading(key, root_.find(key)->items.empty());
+    for (const FixedEntry& thing : inventory_.fixed) {
+      if (thing.kind->name != kind) continue;
+      const View view = fixed_view(root_, thing);
+      Overrides overrides;
+      if (view.find("color") == nullptr) overrides["color"] = in_quotes(kind == "plane" ? plane_color : wall_color);
+      if (kind == "wall" && view.find("up") == nullptr) {
+        const Vec3 up = default_up(unit(*view.vector("normal")));
+        overrides["up"] = up.y() == 1 ? "[0, 1, 0]" : "[0, 0, 1]";
+      }
+      entry(thing.key->text, flow(view, overrides));
+    }
+  }
+
+  void room() {
+    const View view = scene_part(root_, "room");
+    Overrides overrides;
+    if (view.find("color") == nullptr) overrides["color"] = in_quotes(room_color);
+    line("room", flow(view, overrides));
+  }
+
+  void simulate() {
+    const View view = scene_part(root_, "simulate");
+    Overrides overrides;
+    if (scene_.simulate.engine == Engine::book && view.find("step") == nullptr)
+      overrides["step"] = shortest(*scene_.simulate.step);
+    line("simulate", flow(view, overrides));
+  }
+
+  void lights() {
+    const Node* node = root_.find("lights");
+    if (node == nullptr) return;
+    heading("lights", node->items.empty());
+    for (std::size_t i = 0; i < node->keys.size(); ++i) {
+      const bool ambient = node->keys[i].text == "ambient";
+      entry(node->keys[i].text,
+            ambient ? flow(node->items[i]) : flow(View(&node->items[i], kind_named("light"), Place{})));
+    }
+  }
+
+  void output() {
+    const View view(root_.find("output"), kind_named("output"), Place{});
+    heading("output", false);
+    const bool unsaid = view.own() == nullptr;
+    for (const Field& field : view.kind().fields) {
+      if (field.key == "collisions") {
+        entry("collisions", scene_.output.collisions ? "true" : "false");
+        continue;
+      }
+      const bool is_wanted =
+          wanted(view, field.key) || (unsaid && (field.key == "trajectory" || field.key == "energy"));
+      if (!is_wanted) continue;
+      entry(field.key, flow(field.key == "video" ? video_view(view) : view.part(field.key, field.of)));
+    }
+  }
+
+  const Node& root_;
+  const Inventory& inventory_;
+  const Scene& scene_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string resolved_text(const Node& root, const Inventory& inventory, const Scene& scene) {
+  return Resolver(root, inventory, scene).run();
+}
+
+}  // namespace carom

@@ -1,0 +1,13 @@
+#pragma once
+// A scene -> the YAML text that says the same without defaults.
+#include <string>
+
+#include "scene/decode.h"
+
+namespace carom {
+
+/// The scene with every default written out, numbers as authored. Loading it gives the same Scene, and the same text
+/// again. Keys stand in the order of the table; things in the order of the file. Groups stay groups.
+std::string resolved_text(const Node& root, const Inventory& inventory, const Scene& scene);
+
+}  // namespace carom

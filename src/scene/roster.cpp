@@ -1,0 +1,24 @@
+#include <algorithm>
+
+#include "scene/scene.h"
+
+namespace carom {
+
+const BodyRange& Roster::range_of(Entity body) const {
+  // The last range that begins at or before this body. Empty groups begin where the next range does, and come before
+  // it.
+  const auto after = std::upper_bound(bodies.begin(), bodies.end(), body,
+                                      [](Entity e, const BodyRange& range) { return e < range.first; });
+  return *(after - 1);
+}
+
+std::string Roster::name(Entity e) const {
+  if (!bodies.empty() && e < bodies.back().first + bodies.back().count) {
+    const BodyRange& range = range_of(e);
+    return range.group ? range.name + "." + std::to_string(e - range.first) : range.name;
+  }
+  const Entity body_count = bodies.empty() ? 0 : bodies.back().first + bodies.back().count;
+  return fixed.at(e - body_count).name;
+}
+
+}  // namespace carom

@@ -1,0 +1,218 @@
+#include "scene/settings.h"
+
+#include <fmt/format.h>
+
+#include "scene/check.h"
+#include "scene/fields.h"
+#include "scene/values.h"
+#include "scene/view.h"
+
+namespace carom {
+namespace {
+
+struct Step {
+  std::string text;
+  Place place;
+};
+
+std::vector<Step> split_path(std::string_view path, std::uint32_t index) {
+  std::vector<Step> steps;
+  for (std::size_t i = 0; i <= path.size();) {
+    const std::size_t end = std::min(path.find('.', i), path.size());
+    const std::size_t length = end - i;
+    steps.push_back(
+        {std::string(path.substr(i, length)),
+         {index, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(std::max<std::size_t>(length, 1))}});
+    i = end + 1;
+  }
+  return steps;
+}
+
+std::vector<std::string_view> names_in(const Node& node) {
+  std::vector<std::string_view> names;
+  for (const Key& key : node.keys) names.push_back(key.text);
+  return names;
+}
+
+void erase(Node& map, std::string_view key) {
+  for (std::size_t i = 0; i < map.keys.size(); ++i) {
+    if (map.keys[i].text != key) continue;
+    map.keys.erase(map.keys.begin() + static_cast<std::ptrdiff_t>(i));
+    map.items.erase(map.items.begin() + static_cast<std::ptrdiff_t>(i));
+    return;
+  }
+}
+
+/// Walks down one path. Every step either moves `node` on or reports and gives false.
+class Walk {
+ public:
+  Walk(Node& root, Diagnostics& diagnostics)
+      : root_(root), node_(&root), kind_(&kind_named("scene")), diagnostics_(diagnostics) {}
+
+  Node& node() { return *node_; }
+
+  bool step(const Step& step, bool last) {
+    if (done_) return refuse(step, fmt::format("{} has no parts", quoted(before_)), "end the path before it");
+    if (step.text.empty())
+      return refuse(step, "a name is missing in the path", "expected names with single dots between them");
+    const bool moved = kind_ != nullptr ? into_key(step, last) : into_value(step);
+    before_ = step.text;
+    return moved;
+  }
+
+ private:
+  bool refuse(const Step& step, std::string message, std::string remedy) {
+    diagnostics_.add(step.place, std::move(message), std::move(remedy));
+    return false;
+  }
+
+  /// A key of a map of kind_.
+  bool into_key(const Step& step, bool last) {
+    if (!node_->is(Node::Kind::map)) {
+      // What stands in the file is no map: its own error follows. A flag or nothing gives way.
+      if (node_->is(Node::Kind::sequence))
+        return refuse(step, fmt::format("{} is a list", quoted(before_)), "expected a map of keys");
+      const Place place = node_->place;
+      *node_ = Node{};
+      node_->kind = Node::Kind::map;
+      node_->place = place;
+    }
+    const Field* field = find_field(*kind_, step.text);
+    if (field == nullptr) {
+      return refuse(step,
+                    fmt::format("unknown key {} in {}", quoted(step.text),
+                                kind_->name == "scene" ? "the scene" : quoted(kind_->name)),
+                    suggest_key(step.text, *kind_));
+    }
+    if (!field->instead.empty()) erase(*node_, field->instead);
+    Node* child = node_->find(field->key);
+    if (child == nullptr) {
+      node_->keys.push_back({step.text, step.place});
+      node_->items.push_back(last ? Node{} : fallback(*field));
+      child = &node_->items.back();
+      child->place = step.place;
+    } else if (last) {
+      for (Key& key : node_->keys) {
+        if (key.text == field->key) key.place = step.place;
+      }
+    }
+    node_ = child;
+    field_ = field;
+    const bool is_part = field->later.empty() && (field->type == Type::part || field->type == Type::part_or_flag);
+    kind_ = is_part ? &kind_named(field->of) : nullptr;
+    done_ = !field->later.empty();
+    return true;
+  }
+
+  /// What a part of a missing value starts from: the defaults' value, the table's, or nothing.
+  Node fallback(const Field& field) const {
+    const Node* defaults = defaults_for(root_, *kind_);
+    if (defaults != nullptr && defaults != node_) {
+      if (const Node* node = defaults->find(field.key)) return *node;
+    }
+    return field.initial.empty() ? Node{} : initial_node(field);
+  }
+
+  /// A part of a value of field_.
+  bool into_value(const Step& step) {
+    switch (field_->type) {
+      case Type::named:
+        return into_named(step);
+      case Type::list: {
+        const std::optional<std::uint64_t> i = parse_whole(step.text);
+        if (!i || *i >= node_->items.size() || !node_->is(Node::Kind::sequence)) {
+          return refuse(step, fmt::format("{} has no entry {}", quoted(before_), quoted(step.text)),
+                        fmt::format("it has {} entries, the first is 0", node_->items.size()));
+        }
+        node_ = &node_->items[static_cast<std::size_t>(*i)];
+        kind_ = &kind_named(field_->of);
+        return true;
+      }
+      case Type::vector:
+      case Type::direction:
+        return into_numbers(step, {"x", "y", "z"});
+      case Type::extent:
+      case Type::pixels:
+        return into_numbers(step, {"width", "height"});
+      default:
+        return refuse(step, fmt::format("{} has no parts", quoted(before_)), "end the path before it");
+    }
+  }
+
+  bool into_named(const Step& step) {
+    const Kind& kind = kind_named(field_->of);
+    Node* child = node_->is(Node::Kind::map) ? node_->find(step.text) : nullptr;
+    if (child == nullptr) {
+      const std::string near = nearest(step.text, names_in(*node_));
+      return refuse(step, fmt::format("there is no {} {}", kind.name, quoted(step.text)),
+                    near.empty() ? "--set changes what is there; it makes nothing new"
+                                 : fmt::format("did you mean {}?", quoted(near)));
+    }
+    node_ = child;
+    if (!kind.also.empty() && step.text == kind.also) {
+      done_ = true;
+    } else {
+      kind_ = &kind;
+    }
+    return true;
+  }
+
+  bool into_numbers(const Step& step, const std::vector<std::string_view>& names) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (step.text != names[i]) continue;
+      if (!node_->is(Node::Kind::sequence) || node_->items.size() != names.size()) {
+        return refuse(step, fmt::format("{} has no numbers yet", quoted(before_)),
+                      fmt::format("set all of {}", quoted(before_)));
+      }
+      node_ = &node_->items[i];
+      done_ = true;
+      return true;
+    }
+    return refuse(step, fmt::format("{} has no {}", quoted(before_), quoted(step.text)), "expected " + listed(names));
+  }
+
+  const Node& root_;
+  Node* node_;
+  const Kind* kind_;  // of the map that node_ is; null: node_ is a value of field_
+  const Field* field_ = nullptr;
+  bool done_ = false;  // node_ has no parts
+  std::string before_ = "scene";
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+void apply_setting(Node& root, std::vector<Source>& sources, std::uint32_t index, Diagnostics& diagnostics) {
+  const std::string& text = sources[index].text;
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    diagnostics.add({index, 0, static_cast<std::uint32_t>(std::max<std::size_t>(text.size(), 1))}, "this sets nothing",
+                    "expected path=value, such as simulate.duration=2");
+    return;
+  }
+  const Place value_place{index, static_cast<std::uint32_t>(std::min(equals + 1, text.size())), 1};
+  if (!check_text(sources[index], index, diagnostics)) return;
+  std::optional<Node> value;
+  if (text.compare(equals + 1, 1, "#") == 0) {
+    // In a file an unquoted # begins a comment; here it can only be a colour.
+    value = Node{};
+    value->kind = Node::Kind::scalar;
+    value->text = text.substr(equals + 1);
+    value->place = {index, value_place.offset, static_cast<std::uint32_t>(value->text.size())};
+  } else {
+    value = parse_document(sources, index, equals + 1, diagnostics);
+  }
+  if (!value) return;
+  if (value->is(Node::Kind::null)) {
+    diagnostics.add(value_place, "there is no value", "expected path=value");
+    return;
+  }
+  const std::vector<Step> steps = split_path(std::string_view(text).substr(0, equals), index);
+  Walk walk(root, diagnostics);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (!walk.step(steps[i], i + 1 == steps.size())) return;
+  }
+  walk.node() = std::move(*value);
+}
+
+}  // namespace carom

@@ -1,0 +1,123 @@
+#include "scene/view.h"
+
+#include <map>
+
+#include "scene/colors.h"
+#include "scene/diagnostics.h"
+#include "scene/values.h"
+
+namespace carom {
+namespace {
+
+/// Every default of the table, parsed once.
+std::map<std::string_view, Node> parse_initials() {
+  std::map<std::string_view, Node> nodes;
+  std::vector<Source> sources(1);
+  Diagnostics diagnostics(sources);
+  for (const Kind& kind : kinds()) {
+    for (const Field& field : kind.fields) {
+      if (field.initial.empty() || nodes.contains(field.initial)) continue;
+      sources[0].text = field.initial;
+      if (std::optional<Node> node = parse_document(sources, 0, 0, diagnostics))
+        nodes.emplace(field.initial, std::move(*node));
+    }
+  }
+  return nodes;
+}
+
+bool usable(const Node* node, Node::Kind kind) {
+  return node != nullptr && !node->bad && node->is(kind);
+}
+
+}  // namespace
+
+const Node& initial_node(const Field& field) {
+  static const std::map<std::string_view, Node> nodes = parse_initials();
+  return nodes.at(field.initial);
+}
+
+std::optional<double> as_number(const Node* node) {
+  return usable(node, Node::Kind::scalar) ? parse_number(node->text) : std::nullopt;
+}
+
+std::optional<std::uint64_t> as_whole(const Node* node) {
+  return usable(node, Node::Kind::scalar) ? parse_whole(node->text) : std::nullopt;
+}
+
+std::optional<Vec3> as_vector(const Node* node) {
+  if (!usable(node, Node::Kind::sequence) || node->items.size() != 3) return std::nullopt;
+  Vec3 v;
+  for (int i = 0; i < 3; ++i) {
+    const std::optional<double> x = as_number(&node->items[static_cast<std::size_t>(i)]);
+    if (!x) return std::nullopt;
+    v[i] = *x;
+  }
+  return v;
+}
+
+std::optional<Color> as_color(const Node* node) {
+  if (const std::optional<Vec3> v = as_vector(node)) return Color{v->x(), v->y(), v->z()};
+  return usable(node, Node::Kind::scalar) ? parse_color(node->text) : std::nullopt;
+}
+
+Place place_of(const Node& node) {
+  for (const Node& item : node.items) {
+    if (item.place.source > node.place.source) return item.place;
+  }
+  return node.place;
+}
+
+const Node* View::given(std::string_view key) const {
+  const Field* field = find_field(*kind_, key);
+  if (field == nullptr) return nullptr;
+  for (const Node* layer : {own_, defaults_}) {
+    if (layer == nullptr) continue;
+    if (const Node* node = layer->find(key)) return node;
+    if (!field->instead.empty() && layer->find_key(field->instead) != nullptr) return nullptr;
+  }
+  return nullptr;
+}
+
+const Node* View::find(std::string_view key) const {
+  if (const Node* node = given(key)) return node;
+  const Field* field = find_field(*kind_, key);
+  if (field == nullptr || field->initial.empty()) return nullptr;
+  return &initial_node(*field);
+}
+
+std::optional<double> View::number(std::string_view key) const {
+  return as_number(find(key));
+}
+std::optional<std::uint64_t> View::whole(std::string_view key) const {
+  return as_whole(find(key));
+}
+std::optional<Vec3> View::vector(std::string_view key) const {
+  return as_vector(find(key));
+}
+std::optional<Color> View::color(std::string_view key) const {
+  return as_color(find(key));
+}
+
+std::optional<bool> View::flag(std::string_view key) const {
+  const Node* node = find(key);
+  if (!usable(node, Node::Kind::scalar)) return std::nullopt;
+  return node->text == "true";
+}
+
+std::optional<std::string> View::text(std::string_view key) const {
+  const Node* node = find(key);
+  if (!usable(node, Node::Kind::scalar)) return std::nullopt;
+  return node->text;
+}
+
+View View::part(std::string_view key, std::string_view kind) const {
+  const Key* name = own_ == nullptr ? nullptr : own_->find_key(key);
+  return View(given(key), kind_named(kind), name == nullptr ? where_ : name->place);
+}
+
+Place View::place(std::string_view key) const {
+  const Node* node = given(key);
+  return node == nullptr ? where_ : place_of(*node);
+}
+
+}  // namespace carom
