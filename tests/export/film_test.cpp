@@ -1,0 +1,304 @@
+#include "export/film.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sched.h>
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <functional>
+
+#include "export_testing.h"
+
+namespace carom {
+namespace {
+
+using namespace testing_export;
+using std::chrono::milliseconds;
+
+constexpr Size small = {64, 36};
+
+Scene scene_with_film(const std::string& file = "animation.mp4") {
+  Scene scene = small_scene();
+  VideoOutput video;
+  video.file = file;
+  video.fps = 25;
+  video.size = small;
+  scene.output.video = video;
+  return scene;
+}
+
+std::string error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const ExportError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// What ffprobe says of a film's picture stream.
+std::string probe(const std::string& film, const std::string& entries) {
+  const Descriptor folder(open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  Child child({find_film_tools().ffprobe, "-v", "error", "-select_streams", "v:0", "-count_frames", "-show_entries",
+               "stream=" + entries, "-of", "default=noprint_wrappers=1:nokey=1", "file:" + film},
+              folder.get(), false);
+  EXPECT_EQ(child.wait(std::chrono::seconds(60)), 0) << child.errors();
+  return child.output();
+}
+
+/// The pixels of a film's first frame, as ffmpeg decodes them.
+std::string first_frame(const std::string& film) {
+  const Descriptor folder(open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  Child child({find_film_tools().ffmpeg, "-nostdin", "-v", "error", "-i", "file:" + film, "-frames:v", "1", "-vf",
+               "scale=in_color_matrix=bt709:in_range=tv:flags=accurate_rnd+full_chroma_int", "-pix_fmt", "rgb24", "-f",
+               "rawvideo", "pipe:1"},
+              folder.get(), false);
+  EXPECT_EQ(child.wait(std::chrono::seconds(60)), 0) << child.errors();
+  return child.output();
+}
+
+TEST(Film, IsWhatEveryPlayerPlays) {
+  TempFolder temp;
+  Scene scene = scene_with_film();
+  scene.simulate.duration = 1;
+  run(scene, temp / "run");
+  EXPECT_EQ(names_in(temp / "run"),
+            (std::vector<std::string>{"animation.mp4", "manifest.json", "scene.yaml", "summary.csv"}));
+  EXPECT_EQ(probe(temp / "run/animation.mp4", "codec_name,width,height,pix_fmt"), "h264\n64\n36\nyuv420p\n");
+  EXPECT_EQ(probe(temp / "run/animation.mp4", "color_range,color_space,color_transfer,color_primaries"),
+            "tv\nbt709\nbt709\nbt709\n");
+  EXPECT_EQ(probe(temp / "run/animation.mp4", "avg_frame_rate,duration,nb_read_frames"), "25/1\n1.040000\n26\n");
+  const std::string bytes = read(temp / "run/animation.mp4");
+  EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));  // the index in front, so that it plays while it loads
+  EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::this_run);
+}
+
+TEST(Film, FrameRatesAreKept) {
+  TempFolder temp;
+  Scene scene = scene_with_film();
+  for (const auto& [fps, expected] : std::vector<std::pair<double, std::string>>{{30, "30/1\n"},
+                                                                                 {29.97, "2997/100\n"},
+                                                                                 {23.976, "2997/125\n"},
+                                                                                 {30000 / 1001.0, "30000/1001\n"},
+                                                                                 {12.5, "25/2\n"}}) {
+    scene.output.video->fps = fps;
+    run(scene, temp / "run");
+    EXPECT_EQ(probe(temp / "run/animation.mp4", "r_frame_rate"), expected) << fps;
+  }
+}
+
+TEST(Film, ColoursComeBack) {
+  TempFolder temp;
+  const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  VideoOutput video;
+  video.size = {16, 16};
+  video.crf = 1;
+  for (const auto& colour : std::vector<std::array<int, 3>>{{255, 255, 255},
+                                                            {0, 0, 0},
+                                                            {128, 128, 128},
+                                                            {255, 0, 0},
+                                                            {0, 255, 0},
+                                                            {0, 0, 255},
+                                                            {220, 20, 60},
+                                                            {65, 105, 225}}) {
+    Image image{16, 16, {}};
+    for (int i = 0; i < 16 * 16; ++i)
+      for (const int c : colour) image.pixels.push_back(static_cast<std::uint8_t>(c));
+    Film film({folder.get(), temp.path()}, video, find_film_tools());
+    film.add(image);
+    film.complete();
+    film.publish();
+    const std::string pixels = first_frame(temp / "animation.mp4");
+    ASSERT_EQ(pixels.size(), 16u * 16 * 3);
+    for (std::size_t c = 0; c < 3; ++c)  // measured: at most 2, what 8-bit Y'CbCr of limited range can hold
+      EXPECT_NEAR(static_cast<unsigned char>(pixels[3 * 136 + c]), colour[c], 3)
+          << colour[0] << ' ' << colour[1] << ' ' << colour[2];
+  }
+}
+
+TEST(Film, OddSizesRepeatTheirLastPixel) {
+  TempFolder temp;
+  Scene scene = scene_with_film();
+  scene.output.video->size = {65, 37};
+  scene.output.video->crf = 1;
+  run(scene, temp / "run");
+  EXPECT_EQ(probe(temp / "run/animation.mp4", "width,height"), "66\n38\n");
+  const std::string pixels = first_frame(temp / "run/animation.mp4");
+  ASSERT_EQ(pixels.size(), 66u * 38 * 3);
+  EXPECT_NEAR(static_cast<unsigned char>(pixels[3 * (66 * 20 + 65)]),
+              static_cast<unsigned char>(pixels[3 * (66 * 20 + 64)]), 3);
+  scene.output.video->size = {1, 1};
+  run(scene, temp / "run");
+  EXPECT_EQ(probe(temp / "run/animation.mp4", "width,height"), "2\n2\n");
+}
+
+TEST(Film, TheSamePicturesGiveTheSameBytesOnAnyNumberOfCores) {
+  TempFolder temp;
+  Scene scene = scene_with_film();
+  scene.output.video->size = {320, 180};
+  scene.simulate.duration = 1;
+  run(scene, temp / "a");
+  cpu_set_t all, one;
+  ASSERT_EQ(sched_getaffinity(0, sizeof all, &all), 0);
+  CPU_ZERO(&one);
+  for (int cpu = 0; cpu < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++cpu)
+    if (CPU_ISSET(cpu, &all)) CPU_SET(cpu, &one);
+  ASSERT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+  run(scene, temp / "b");
+  sched_setaffinity(0, sizeof all, &all);
+  EXPECT_TRUE(read(temp / "a/animation.mp4") == read(temp / "b/animation.mp4"));
+}
+
+TEST(Film, FramesAndFilmOfOneKindAreDrawnOnce) {
+  TempFolder temp;
+  Scene scene = scene_with_film();
+  scene.output.frames = FramesOutput{25, small, 4, 0, 0.2};  // until: the duration, by another way
+  {
+    const Exports exports(scene, temp / "run");
+    EXPECT_EQ(exports.pictures().size(), 1u);
+  }
+  run(scene, temp / "run");
+  EXPECT_EQ(probe(temp / "run/animation.mp4", "nb_read_frames"), "6\n");
+  EXPECT_TRUE(fs::exists(temp / "run/frames/frame_00005.png"));
+  for (const FramesOutput& frames :
+       {FramesOutput{50, small, 4, 0, {}}, FramesOutput{25, {64, 38}, 4, 0, {}}, FramesOutput{25, small, 1, 0, {}},
+        FramesOutput{25, small, 4, 0.1, {}}, FramesOutput{25, small, 4, 0, 0.1}}) {
+    scene.output.frames = frames;
+    const Exports exports(scene, temp / "other");
+    EXPECT_EQ(exports.pictures().size(), 2u);
+  }
+}
+
+TEST(Film, AFilmOfNothingIsRefusedBeforeAnythingIsWritten) {
+  TempFolder temp;
+  Scene scene = scene_with_film();
+  scene.output.video->from = 0.13;
+  scene.output.video->until = 0.15;
+  EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }),
+            "cannot make animation.mp4: no picture falls between `from` and `until`");
+  EXPECT_FALSE(fs::exists(temp / "run"));
+}
+
+TEST(Film, WithoutFfmpegNothingIsBegun) {
+  TempFolder temp;
+  const Scene scene = scene_with_film();
+  const std::string path = std::getenv("PATH");
+  const std::string remedy =
+      " is not on this machine's PATH: install it (on Debian: apt install ffmpeg), or leave the video out";
+  setenv("PATH", "", 1);
+  EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }), "the scene asks for a video, but ffmpeg" + remedy);
+  unsetenv("PATH");
+  EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }), "the scene asks for a video, but ffmpeg" + remedy);
+  write(temp / "bin/ffmpeg", "#!/bin/sh\n");
+  chmod((temp / "bin/ffmpeg").c_str(), 0755);
+  setenv("PATH", (temp / "bin").c_str(), 1);
+  EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }),
+            "the scene asks for a video, but ffprobe" + remedy);
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_FALSE(fs::exists(temp / "run"));
+}
+
+TEST(Film, AnyFileNameIsJustAName) {
+  TempFolder temp;
+  for (const std::string name :
+       {"-i.mp4", "a b;touch x.mp4", "$(touch x).mp4", "http:x.mp4", "%d.mp4", "'\"`.mp4", "film"}) {
+    run(scene_with_film(name), temp / "run");
+    EXPECT_EQ(names_in(temp / "run"), ([&] {
+                std::vector<std::string> names = {name, "manifest.json", "scene.yaml", "summary.csv"};
+                std::sort(names.begin(), names.end());
+                return names;
+              }()));
+  }
+}
+
+TEST(Film, ANameThatIsNoPlainOneOrAnotherOutputsIsRefused) {
+  TempFolder temp;
+  for (const std::string name : {"../x.mp4", "/tmp/x.mp4", "a/b.mp4", "..", ".x", "", "a\nb.mp4"})
+    EXPECT_EQ(error_of([&] { Exports exports(scene_with_film(name), temp / "run"); }),
+              "cannot make the film " + name + ": that is no plain file name");
+  for (const std::string name : {"summary.csv", "manifest.json", "frames", "scene.yaml"})
+    EXPECT_EQ(error_of([&] { Exports exports(scene_with_film(name), temp / "run"); }),
+              "cannot make the film " + name + ": another output has that name");
+  EXPECT_FALSE(fs::exists(temp / "run"));
+}
+
+/// A film whose ffmpeg is a shell script, in a folder of its own.
+class ScriptedFfmpeg : public ::testing::Test {
+ protected:
+  std::string film(const std::string& script, int pictures, FilmPatience patience = {}) {
+    write(temp_ / "ffmpeg", "#!/bin/sh\n" + script + "\n");
+    chmod((temp_ / "ffmpeg").c_str(), 0755);
+    fs::create_directory(temp_ / "out");
+    const Descriptor folder(open((temp_ / "out").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    VideoOutput video;
+    video.size = {320, 180};
+    const std::string error = error_of([&] {
+      Film film({folder.get(), "out"}, video, {temp_ / "ffmpeg", find_film_tools().ffprobe}, patience);
+      for (int i = 0; i < pictures; ++i) film.add(picture(video.size, i));
+      film.complete();
+      film.publish();
+    });
+    EXPECT_EQ(names_in(temp_ / "out"),
+              error == "no error" ? std::vector<std::string>{"animation.mp4"} : std::vector<std::string>{});
+    return error;
+  }
+  std::string real() const { return find_film_tools().ffmpeg + " \"$@\""; }
+  TempFolder temp_;
+};
+
+TEST_F(ScriptedFfmpeg, TheRealOneMakesAFilm) {
+  EXPECT_EQ(film("exec " + real(), 5), "no error");
+}
+
+TEST_F(ScriptedFfmpeg, OneThatEndsTooEarlyIsQuotedAndKillsNobody) {
+  ASSERT_NE(signal(SIGPIPE, SIG_DFL), SIG_ERR);  // sending must not raise it
+  EXPECT_EQ(film("echo 'Unknown encoder libx264' >&2; exit 1", 50),
+            "cannot make the film out/animation.mp4: ffmpeg ended too early: Unknown encoder libx264");
+}
+
+TEST_F(ScriptedFfmpeg, OneThatFailsAtTheEndIsQuoted) {
+  EXPECT_EQ(film("cat >/dev/null; echo 'No space left' >&2; echo again >&2; exit 7", 3),
+            "cannot make the film out/animation.mp4: ffmpeg failed with code 7: No space left;again");
+}
+
+TEST_F(ScriptedFfmpeg, AKilledOneIsTold) {
+  EXPECT_EQ(film("cat >/dev/null; kill -9 $$", 3),
+            "cannot make the film out/animation.mp4: ffmpeg failed with code 137: it said nothing");
+}
+
+TEST_F(ScriptedFfmpeg, HalfAFilmIsNoticed) {
+  EXPECT_EQ(film("head -c " + std::to_string(3 * 320 * 180 * 3) + " | " + real() + "; cat >/dev/null", 5),
+            "cannot make the film out/animation.mp4: ffmpeg wrote 3 of 5 frames");
+}
+
+TEST_F(ScriptedFfmpeg, NoFilmAtAllIsNoticed) {
+  const std::string error = film("cat >/dev/null", 3);
+  EXPECT_TRUE(error.starts_with("cannot make the film out/animation.mp4: ffprobe cannot read it: ")) << error;
+}
+
+TEST_F(ScriptedFfmpeg, OneThatTakesNothingIsStopped) {
+  EXPECT_EQ(film("exec sleep 1000", 50, {milliseconds(1000), milliseconds(1000)}),
+            "cannot make the film out/animation.mp4: ffmpeg took no picture for 1 s and was stopped");
+}
+
+TEST_F(ScriptedFfmpeg, OneThatDoesNotEndIsStopped) {
+  EXPECT_EQ(film("cat >/dev/null; exec sleep 1000", 3, {milliseconds(1000), milliseconds(1000)}),
+            "cannot make the film out/animation.mp4: ffmpeg did not end within 1 s and was stopped");
+}
+
+TEST_F(ScriptedFfmpeg, OneThatTalksAndTalksBlocksNothing) {
+  EXPECT_EQ(film("head -c 3000000 /dev/zero | tr '\\0' x >&2; head -c 3000000 /dev/zero; exec " + real(), 3),
+            "no error");
+}
+
+TEST_F(ScriptedFfmpeg, ItInheritsNoFileOfTheRun) {
+  // Its own script, three streams and what ls itself opens; the folder, the table and the lock stay with the run.
+  EXPECT_EQ(
+      film("n=$(ls /proc/$$/fd | wc -l); [ $n -le 4 ] || { echo $n descriptors >&2; exit 9; }; exec " + real(), 2),
+      "no error");
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include "export_testing.h"
+
+namespace carom {
+namespace {
+
+using namespace testing_export;
+
+TEST(Forecast, CountsWhatARunWillWrite) {
+  Scene scene = small_scene();
+  EXPECT_EQ(forecast(scene).rows, 0u);
+  EXPECT_EQ(forecast(scene).frames, 0u);
+  scene.output.trajectory = TrajectoryOutput{0.01, false};
+  EXPECT_EQ(forecast(scene).rows, 84u);  // 21 instants of 4 bodies
+  scene.output.frames = FramesOutput{30, {1280, 720}, 4, 0, {}};
+  EXPECT_EQ(forecast(scene).frames, 7u);
+  scene.output.video = VideoOutput{};
+  EXPECT_EQ(forecast(scene).frames, 7u);  // the same pictures
+  scene.output.video->fps = 60;
+  EXPECT_EQ(forecast(scene).frames, 7u + 13u);
+  scene.output.sheet = SheetOutput{4, 3};
+  EXPECT_EQ(forecast(scene).frames, 7u + 13u + 12u);
+}
+
+TEST(Forecast, BytesAreOfTheRightSize) {
+  TempFolder temp;
+  Scene scene = small_scene();
+  scene.simulate.duration = 10;
+  scene.output.trajectory = TrajectoryOutput{0.01, false};
+  scene.output.energy = EnergyOutput{0.01};
+  for (auto* vectors : {&scene.initial.position, &scene.initial.velocity})
+    for (Vec3& v : *vectors) v = Vec3(1.0 / 3, 1.0 / 7, -1.0 / 11);
+  run(scene, temp / "run");
+  double bytes = 0;
+  for (const std::string& name : names_in(temp / "run"))
+    bytes += static_cast<double>(fs::file_size(temp / "run/" + name));
+  EXPECT_NEAR(static_cast<double>(forecast(scene).bytes) / bytes, 1, 0.2);
+}
+
+TEST(Forecast, SenselessWishesDoNotOverflow) {
+  Scene scene = small_scene();
+  scene.simulate.duration = 1e300;
+  scene.output.trajectory = TrajectoryOutput{1e-300, false};
+  scene.output.frames = FramesOutput{1e300, {16384, 16384}, 4, 0, {}};
+  EXPECT_GT(forecast(scene).rows, std::uint64_t{1} << 53);
+  EXPECT_GE(forecast(scene).frames, std::uint64_t{1} << 53);
+  EXPECT_EQ(forecast(scene).bytes, 9'000'000'000'000'000'000u);
+}
+
+}  // namespace
+}  // namespace carom
