@@ -1,0 +1,87 @@
+// What whole scenes cost: every file in scenes/benchmark loaded, simulated to its end without outputs, and drawn once.
+// Beside the time stands a hash of the final state: the same number is the same result, bit for bit.
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "export/png.h"
+#include "render/renderer.h"
+#include "scene/load.h"
+#include "simulate/exact.h"
+
+namespace carom {
+namespace {
+
+/// FNV-1a over the bits of all positions and velocities.
+std::uint64_t hash(const State& state) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const auto* vectors : {&state.position, &state.velocity}) {
+    for (const Vec3& v : *vectors) {
+      for (double x : v) {
+        hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3;
+      }
+    }
+  }
+  return hash;
+}
+
+void load(benchmark::State& state, const std::string& file) {
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(load_scene(file));
+  }
+}
+
+void simulate(benchmark::State& state, const std::string& file) {
+  const Scene scene = load_scene(file);
+  ExactOptions options;
+  options.duration = scene.simulate.duration;
+  options.rest_speed = scene.simulate.rest_speed.value_or(0);
+  options.record_collisions = false;
+  std::uint64_t collisions = 0, result = 0;
+  for (auto _ : state) {
+    const auto simulator = make_exact_simulator(scene.world, scene.initial, options);
+    while (simulator->time() < options.duration) {
+      simulator->advance_to(options.duration);
+    }
+    collisions = simulator->tally().collisions();
+    result = hash(simulator->state());
+  }
+  const double all = static_cast<double>(collisions);
+  state.counters["collisions"] = all;
+  state.counters["per_s"] = benchmark::Counter(all, benchmark::Counter::kIsIterationInvariantRate);
+  state.SetLabel(fmt::format("hash {:016x}", result));
+}
+
+void frame(benchmark::State& state, const std::string& file) {
+  const Scene scene = load_scene(file);
+  const FramesOutput frames = scene.output.frames.value_or(FramesOutput{});
+  Renderer renderer(scene, frames.size, frames.samples);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(encode_png(renderer.draw(scene.initial), PngEffort::fast));
+  }
+  state.counters["frames_per_s"] = benchmark::Counter(1, benchmark::Counter::kIsIterationInvariantRate);
+}
+
+/// Registers each scene before main() runs, so that --benchmark_filter knows them.
+const bool registered = [] {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(SCENES_DIR "/benchmark")) {
+    files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  for (const std::filesystem::path& file : files) {
+    const std::string name = "/" + file.stem().string();
+    benchmark::RegisterBenchmark(("load" + name).c_str(), load, file.string())->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(("simulate" + name).c_str(), simulate, file.string())->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(("frame" + name).c_str(), frame, file.string())->Unit(benchmark::kMillisecond);
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace carom
