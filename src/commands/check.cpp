@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cmath>
+
 #include "commands/plan.h"
 #include "commands/preview.h"
 #include "commands/report.h"
@@ -44,9 +46,11 @@ std::string first_collision_text(const PlannedScene& planned, const FirstCollisi
   if (!first.collision) return fmt::format("none within {}", quantity(planned.scene->simulate.duration, "s"));
   const Collision& c = *first.collision;
   const Roster& roster = planned.scene->roster;
+  const double nothing = 1e-9 * planned.scene->world.radius[c.a];  // a rounding error is no place
+  const auto shown = [&](double x) { return std::abs(x) < nothing ? 0.0 : x; };
   std::string text = fmt::format("{} and {} at {}, at ({:.4g}, {:.4g}, {:.4g}) m, closing at {}", roster.name(c.a),
-                                 roster.name(c.b), quantity(c.time, "s"), c.position.x() + 0.0, c.position.y() + 0.0,
-                                 c.position.z() + 0.0, quantity(c.approach_speed, "m/s"));
+                                 roster.name(c.b), quantity(c.time, "s"), shown(c.position.x()), shown(c.position.y()),
+                                 shown(c.position.z()), quantity(c.approach_speed, "m/s"));
   if (planned.engine.name == "book") text += " (exact; the book engine sees it at a later frame)";
   return text;
 }

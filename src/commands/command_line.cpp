@@ -184,7 +184,7 @@ Options read(const CommandText& command, const Words& words) {
 std::string in_our_words(const CLI::ParseError& error) {
   const std::string text = error.what();
   std::string name = text.substr(0, text.find_first_of(": "));
-  if (!name.starts_with('-')) name = "--" + name;
+  if (!name.starts_with('-')) name.insert(0, "--");
   if (text.find("disallowed flag override") != std::string::npos) return fmt::format("{} takes no value", name);
   if (error.get_name() == "ArgumentMismatch") return fmt::format("{} needs a value", name);
   return text;

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <new>
 
@@ -49,22 +50,44 @@ LoadOptions load_options(const Options& options) {
   load.set = options.set;
   load.seed = options.seed;
   load.budget.enforced = !options.force;
+  if (options.only) load.budget.frames = load.budget.rows = std::numeric_limits<std::uint64_t>::max();  // see below
   load.color = !options.json && wants_color(options.color, STDERR_FILENO);
   return load;
+}
+
+// With --only it is not the file's outputs that count, but those that are left or added.
+void hold_to_budget(const Forecast& forecast) {
+  const Budget budget;
+  if (forecast.frames > budget.frames) {
+    throw ExportError(fmt::format("--only asks for {}, more than the {} that a run may draw without --force",
+                                  counted(forecast.frames, "picture", "pictures"), grouped(budget.frames)));
+  }
+  if (forecast.rows > budget.rows) {
+    throw ExportError(fmt::format("--only asks for {}, more than the {} that a run may write without --force",
+                                  counted(forecast.rows, "trajectory row", "trajectory rows"), grouped(budget.rows)));
+  }
 }
 
 void check(PlannedScene& planned, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
   planned.scene = std::make_unique<Scene>(load_scene(planned.file, load_options(options)));
-  if (options.only) restrict_outputs(*planned.scene, *options.only);
+  const Output asked = planned.scene->output;
+  if (options.only) planned.scene->output = restricted(asked, *options.only);
   planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   planned.engine = choose_engine(planned.scene->simulate);
   planned.forecast = forecast(*planned.scene);
+  if (options.only && !options.force) hold_to_budget(planned.forecast);
   std::error_code ignored;
   if (fs::exists(planned.folder, ignored) && !fs::is_directory(planned.folder, ignored)) {
     throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
   }
   planned.content = inspect_folder(planned.folder, *planned.scene);
+  if (options.only && planned.content == FolderContent::incomplete && holds_all(asked, *options.only)) {
+    // A whole run of this scene has all that is named, and more.
+    Scene whole = *planned.scene;
+    whole.output = asked;
+    if (inspect_folder(planned.folder, whole) == FolderContent::this_run) planned.content = FolderContent::this_run;
+  }
 }
 
 }  // namespace

@@ -1,16 +1,18 @@
 #include "commands/report.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <cmath>
 
 #include "commands/text.h"
+#include "export/manifest.h"
+#include "export/open_folder.h"
 
 namespace carom {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 namespace {
@@ -69,11 +71,11 @@ void Block::line(std::string_view label, std::string_view text) {
 
 std::vector<std::string> files_in(const std::string& folder) {
   std::vector<std::string> files;
-  std::error_code error;
-  for (fs::recursive_directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
-    std::error_code ignored;
-    if (i->is_regular_file(ignored)) files.push_back(i->path().lexically_relative(folder).generic_string());
-  }
+  const Descriptor opened = open_folder(AT_FDCWD, folder, true);
+  const std::optional<Manifest> manifest = opened ? read_manifest(opened.get(), manifest_name) : std::nullopt;
+  if (!manifest) return files;
+  for (const FileRecord& record : manifest->files) files.push_back(record.name);
+  files.push_back(manifest_name);
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -90,7 +92,7 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   block.line("wrote", fmt::format("{}: {}", printable(planned.folder), file_list(planned.folder)));
   block.line(
       "time",
-      fmt::format("{}: load {}, simulate {}, draw {}, write {}", wait_text(result.wall_s),
+      fmt::format("{}: load {}, simulate {}, draw {}, write {}", wait_text(result.facts.load_s + result.wall_s),
                   wait_text(result.facts.load_s), wait_text(result.facts.simulate_s), wait_text(result.facts.render_s),
                   wait_text(std::max(0.0, result.wall_s - result.facts.simulate_s - result.facts.render_s))));
 }

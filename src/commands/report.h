@@ -25,7 +25,7 @@ class Block {
   std::string text_;
 };
 
-/// Names of the files in a run's folder, sorted, those of frames/ included.
+/// Names of a whole run's files, sorted, those of frames/ included; empty if there is no whole run.
 std::vector<std::string> files_in(const std::string& folder);
 
 /// Lines about a run that was done.

@@ -34,6 +34,8 @@ std::string bytes_text(std::uint64_t bytes) {
 
 std::string wait_text(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0) return "-";
+  if (seconds < 0.00995) return fmt::format("{:.1f} ms", seconds * 1000);
+  if (seconds < 0.9995) return fmt::format("{:.0f} ms", seconds * 1000);
   if (seconds < 9.995) return fmt::format("{:.2f} s", seconds);
   const auto whole = static_cast<std::uint64_t>(std::min(std::round(seconds), 1e15));
   if (whole < 60) return fmt::format("{} s", whole);

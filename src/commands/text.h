@@ -15,7 +15,7 @@ std::string counted(std::uint64_t count, std::string_view singular, std::string_
 std::string grouped(std::uint64_t count);
 /// "512 bytes", "3.2 MB" (powers of 1000).
 std::string bytes_text(std::uint64_t bytes);
-/// A time to wait, seconds in: "0.24 s", "3 min 20 s", "2 h 5 min".
+/// A time to wait, seconds in: "2.4 ms", "1.24 s", "3 min 20 s", "2 h 5 min".
 std::string wait_text(double seconds);
 /// "a", "a and b", "a, b and c"; beyond `most` names: "a, b and 7 more".
 std::string listed(const std::vector<std::string>& names, std::size_t most = 10);
