@@ -18,8 +18,8 @@ uniform int planes, walls;
 
 vec4 texel(int surface, int column) { return texelFetch(rows, surface * 5 + column); }
 
-// The number of the surface in direction d, 0 for none; s = 1 / z there, and s of what is behind if it is a wall.
-int surface_at(vec3 d, out float s, out float s_behind) {
+// The number of the surface in direction d, 0 for none; s = 1 / z there.
+int surface_at(vec3 d, out float s) {
   float entry = 1e30;
   int number = 0;
   s = 0;
@@ -34,7 +34,6 @@ int surface_at(vec3 d, out float s, out float s_behind) {
     }
   }
   if (s >= entry) { s = 0; number = 0; }
-  s_behind = s;
   for (int i = planes; i < planes + walls; ++i) {
     vec4 wall = texel(i, 0);
     float at = -dot(wall.xyz, d) / max(wall.w, 1e-30);
@@ -119,19 +118,16 @@ void shade(int number, float s, vec3 d, out vec3 lit, out vec3 shaded) {
     soft *= 1 - 0.30 * exp(-away / (0.35 * unit));
   }
   for (int k = 1; k < LIGHTS; ++k) soft += light_radiance[k] * max(dot(n, towards_light(k, p)), 0);
-  vec3 hard = vec3(0);
-  if (LIGHTS > 0) {
-    vec3 l = towards_light(0, p);
-    float open = 1;
-    for (int k = planes; k < planes + walls; ++k) {
-      if (k == i) continue;
-      vec4 right = texel(k, 1), up = texel(k, 2);
-      vec3 normal = texel(k, 0).xyz;
-      vec3 center = -right.w * right.xyz - up.w * up.xyz - texel(k, 0).w * normal;
-      open *= through_wall(p, l, normal, center, right.xyz, texel(k, 4).x, up.xyz, texel(k, 4).y);
-    }
-    hard = light_radiance[0] * max(dot(n, l), 0) * open;
+  vec3 l = towards_light(0, p);
+  float open = 1;
+  for (int k = planes; k < planes + walls; ++k) {
+    if (k == i) continue;
+    vec4 right = texel(k, 1), up = texel(k, 2);
+    vec3 normal = texel(k, 0).xyz;
+    vec3 center = -right.w * right.xyz - up.w * up.xyz - texel(k, 0).w * normal;
+    open *= through_wall(p, l, normal, center, right.xyz, texel(k, 4).x, up.xyz, texel(k, 4).y);
   }
+  vec3 hard = light_radiance[0] * max(dot(n, l), 0) * open;
   // An endless plane melts into the background long before its pattern could flicker.
   float away = i < planes ? length(p) / (8 * reach) : 0;
   float haze = 1 - exp(-away * away);
@@ -144,47 +140,49 @@ const char* const fragment_main = R"(
 uniform vec2 tangent, picture;
 uniform float near;
 layout(location = 0) out vec4 lit_out;
-layout(location = 1) out vec4 shaded_out;
-layout(location = 2) out uint number_out;
-layout(location = 3) out vec2 edge_out;
+layout(location = 1) out vec4 edge_out;
+layout(location = 2) out float edge_depth_out;
 
 vec3 ray(vec2 at) { return vec3((2 * at / picture - 1) * vec2(1, -1) * tangent, 1); }
 
 void main() {
   vec3 lit, shaded;
-  float s, behind;
-  int number = surface_at(ray(gl_FragCoord.xy), s, behind);
+  float s;
+  int number = surface_at(ray(gl_FragCoord.xy), s);
   shade(number, s, ray(gl_FragCoord.xy), lit, shaded);
-  number_out = uint(number);
-  edge_out = vec2(0);
+  edge_out = vec4(0);
+  edge_depth_out = 0;
   gl_FragDepth = clamp(near * s, 0, 1);
 
 #ifdef SMOOTH
   bool one = true;
   for (int k = 0; k < 4; ++k) {
-    float s_k, behind_k;
-    one = one && surface_at(ray(gl_FragCoord.xy + vec2(k & 1, k >> 1) - 0.5), s_k, behind_k) == number;
+    float s_k;
+    one = one && surface_at(ray(gl_FragCoord.xy + vec2(k & 1, k >> 1) - 0.5), s_k) == number;
   }
   if (!one) {
     lit = shaded = vec3(0);
     float farthest = 1e30, nearest = 0, covered = 0;
+    vec3 wall = vec3(0);
     for (int k = 0; k < 16; ++k) {
       vec3 d = ray(gl_FragCoord.xy + (vec2(k & 3, k >> 2) + 0.5) / 4 - 0.5);
-      float s_k, behind_k;
+      float s_k;
       vec3 lit_k, shaded_k;
-      int number_k = surface_at(d, s_k, behind_k);
+      int number_k = surface_at(d, s_k);
       shade(number_k, s_k, d, lit_k, shaded_k);
       lit += lit_k / 16;
       shaded += shaded_k / 16;
       farthest = min(farthest, s_k);
-      if (number_k > planes) { nearest = max(nearest, s_k); covered += 1.0 / 16; }
+      if (number_k > planes) { nearest = max(nearest, s_k); covered += 1; wall += lit_k; }
     }
     gl_FragDepth = clamp(near * farthest, 0, 1);
-    if (covered < 1) edge_out = vec2(clamp(near * nearest, 0, 1), covered);
+    if (covered > 0 && covered < 16) {
+      edge_out = vec4(wall / covered, covered / 16);
+      edge_depth_out = clamp(near * nearest, 0, 1);
+    }
   }
 #endif
-  lit_out = vec4(lit, 1);
-  shaded_out = vec4(shaded, 1);
+  lit_out = vec4(lit, light_mix(dot(shaded, vec3(1)) / max(dot(lit, vec3(1)), 1e-6)));
 }
 )";
 
@@ -195,13 +193,12 @@ Backdrop::Backdrop(const Scene& scene, const Eye& eye, const Lighting& lighting,
   const auto [width, height] = eye.size;
   const bool walls = surfaces.walls() > 0;
   lit = gl::make_texture(GL_SRGB8_ALPHA8, width, height);
-  shaded = gl::make_texture(GL_SRGB8_ALPHA8, width, height);
-  number = gl::make_texture(GL_R32UI, width, height);
   depth = gl::make_texture(GL_DEPTH_COMPONENT32F, width, height);
-  std::vector<GLuint> targets{lit.name(), shaded.name(), number.name()};
+  std::vector<GLuint> targets{lit.name()};
   if (walls) {
-    edge = gl::make_texture(GL_RG32F, width, height);
-    targets.push_back(edge.name());
+    edge = gl::make_texture(GL_SRGB8_ALPHA8, width, height);
+    edge_depth = gl::make_texture(GL_R32F, width, height);
+    targets.insert(targets.end(), {edge.name(), edge_depth.name()});
   }
   const gl::Framebuffer framebuffer = gl::make_framebuffer(targets, depth.name());
   const gl::Program program({picture_vertex_shader},

@@ -12,11 +12,10 @@ struct Backdrop {
   Backdrop(const Scene& scene, const Eye& eye, const Lighting& lighting, const Surfaces& surfaces,
            const gl::TexelBuffer& rows, bool smooth);
 
-  gl::Texture lit;     // sRGB: without any ball's shadow
-  gl::Texture shaded;  // sRGB: as if no key light came
-  gl::Texture number;  // which surface, + 1; 0: background
-  gl::Texture depth;   // near / z; 0: infinitely far. At a wall's edge: of what is behind it
-  gl::Texture edge;    // only with walls. At a wall's edge: near / z of the wall, and how much of the pixel it covers
+  gl::Texture lit;         // sRGB: without any ball's shadow; alpha: the mix that shade.cpp takes apart
+  gl::Texture depth;       // near / z; 0: infinitely far. At a wall's edge: of what is behind it
+  gl::Texture edge;        // only with walls. At a wall's edge: sRGB, its colour and how much of the pixel it covers
+  gl::Texture edge_depth;  // only with walls. At a wall's edge: near / z of the wall; else 0
 };
 
 /// The depth as stored: near / z, so that float's precision is spent where it is needed.

@@ -15,6 +15,7 @@ constexpr std::size_t most_lights = 32;
 // A matt surface that faces a light of intensity 1 gives back its own colour. Light does not weaken with distance.
 const char* const functions = R"(
 const float softness = SOFTNESS;
+uniform float lamp_radius;                // of a key light with a position
 uniform vec4 light_vector[LIGHTS + 1];    // position (w = 1) or unit direction towards the light (w = 0)
 uniform vec3 light_radiance[LIGHTS + 1];
 uniform vec3 ambient;
@@ -27,15 +28,26 @@ vec3 towards_light(int i, vec3 p) {
 // Ambient light comes from above somewhat more than from below.
 vec3 hemisphere(vec3 n) { return ambient * (0.8 + 0.2 * dot(n, world_up)); }
 
+// How much of a surface's light is not the key light's, in one number q, 0 to 1: as if it were lit by q times the ambient
+// and 1 - q times the key light. From the part that stays in shadow, summed over the channels; and back, by channel.
+float light_mix(float part) {
+  float a = dot(ambient, vec3(1)), k = dot(light_radiance[0], vec3(1));
+  return clamp(part * k / max(part * k + (1 - part) * a, 1e-12), 0, 1);
+}
+vec3 part_in_shadow(float q) { return q * ambient / max(q * ambient + (1 - q) * light_radiance[0], 1e-12); }
+
 // The part of the key light that a ball lets through to p; `to_ball` from p to its centre.
-// The light is a disc of angular radius `softness`, the ball one of about radius / along.
+// Seen from p the light is a disc of tangent `spread`, the ball one of about radius / along.
 float through_ball(vec3 p, vec3 l, vec3 to_ball, float radius) {
+  float spread = softness, reach = 1e30;
+  if (light_vector[0].w > 0) {
+    reach = length(light_vector[0].xyz - p);
+    spread = lamp_radius / reach;
+  }
   float along = dot(to_ball, l);
   float aside2 = dot(to_ball, to_ball) - along * along;
-  float blur = softness * along;
-  float reach = radius + blur;
-  if (along <= 0 || aside2 >= reach * reach) return 1;
-  if (light_vector[0].w > 0 && along > length(light_vector[0].xyz - p)) return 1;
+  float blur = spread * along;
+  if (along <= 0 || along >= reach || aside2 >= (radius + blur) * (radius + blur)) return 1;
   float clear = smoothstep(-blur, blur, sqrt(max(aside2, 0)) - radius);
   return 1 - (1 - clear) * min(1, radius * radius / (blur * blur));
 }
@@ -44,10 +56,14 @@ float through_ball(vec3 p, vec3 l, vec3 to_ball, float radius) {
 float through_wall(vec3 p, vec3 l, vec3 normal, vec3 center, vec3 right, float half_width, vec3 up, float half_height) {
   float slope = dot(normal, l);
   float along = dot(normal, center - p) / (abs(slope) > 1e-6 ? slope : 1e-6);
-  if (along <= 1e-4 * (half_width + half_height)) return 1;
-  if (light_vector[0].w > 0 && along > length(light_vector[0].xyz - p)) return 1;
+  float spread = softness, reach = 1e30;
+  if (light_vector[0].w > 0) {
+    reach = length(light_vector[0].xyz - p);
+    spread = lamp_radius / reach;
+  }
+  if (along <= 1e-4 * (half_width + half_height) || along >= reach) return 1;
   vec3 q = p + along * l - center;
-  float blur = softness * along;
+  float blur = spread * along;
   float across = smoothstep(-blur, blur, half_width - abs(dot(q, right)));
   float upward = smoothstep(-blur, blur, half_height - abs(dot(q, up)));
   return 1 - across * upward;
@@ -84,6 +100,7 @@ Lighting::Lighting(const Scene& scene, const Eye& eye) : up_(eye.direction(Vec3(
     const Vec3 towards = (-0.55 * right + 1.0 * Vec3(0, 1, 0) - 0.45 * ahead).normalized();
     lights_.push_back({false, eye.direction(towards), {0.82F, 0.80F, 0.76F}});
   }
+  if (lights_[0].near) lamp_radius_ = softness * (eye.point(eye.camera.target) - lights_[0].vector).norm();
   ambient_ = scene.ambient ? linear(*scene.ambient) : std::array<float, 3>{0.26F, 0.28F, 0.31F};
   shader_ = fmt::format("#define LIGHTS {}\n#define SOFTNESS {:.6f}\n{}", lights_.size(), softness, functions);
 }
@@ -98,6 +115,7 @@ void Lighting::set(const gl::Program& program) const {
   const auto count = static_cast<GLsizei>(lights_.size());
   glUniform4fv(program.at("light_vector"), count, vectors.data());
   glUniform3fv(program.at("light_radiance"), count, radiance.data());
+  glUniform1f(program.at("lamp_radius"), static_cast<float>(lamp_radius_));
   glUniform3fv(program.at("ambient"), 1, ambient_.data());
   glUniform3f(program.at("world_up"), static_cast<float>(up_.x()), static_cast<float>(up_.y()),
               static_cast<float>(up_.z()));

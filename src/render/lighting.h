@@ -23,12 +23,14 @@ class Lighting {
   const std::string& shader() const { return shader_; }
   void set(const gl::Program& program) const;  // the program must be in use
 
-  bool has_key() const { return !lights_.empty(); }
-  bool key_is_near() const { return has_key() && lights_[0].near; }
+  bool key_is_near() const { return lights_[0].near; }
   const Vec3& key() const { return lights_[0].vector; }
 
-  /// Half the angle (radians) under which the key light is seen: how soft shadows are.
+  /// Tangent of half the angle under which the key light is seen: how soft shadows are.
   static constexpr double softness = 0.02;
+  /// The same for a key light that has a position: its radius (m), so that it looks as large from what the camera looks
+  /// at.
+  double lamp_radius() const { return lamp_radius_; }
 
  private:
   struct Source {
@@ -37,6 +39,7 @@ class Lighting {
     std::array<float, 3> radiance;
   };
   std::vector<Source> lights_;  // the first one is the key light, which casts shadows
+  double lamp_radius_ = 0;
   std::array<float, 3> ambient_;
   Vec3 up_;  // the world's up in the camera's frame
   std::string shader_;

@@ -57,7 +57,11 @@ void Occluders::cells(const Rect& rect, Visit visit) const {
 }
 
 Occluders::Occluders(std::span<const Ball> balls, const Lighting& lighting)
-    : balls_(balls), near_(lighting.key_is_near()), key_(lighting.key()), seen_(balls.size(), 0) {
+    : balls_(balls),
+      near_(lighting.key_is_near()),
+      lamp_(lighting.lamp_radius()),
+      key_(lighting.key()),
+      seen_(balls.size(), 0) {
   side_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(balls.size()))), 1, 512);
   per_u_ = per_v_ = side_ / 2.0;
   across_u_ = key_.cross(std::abs(key_.x()) < 0.7 * key_.norm() ? Vec3(1, 0, 0) : Vec3(0, 1, 0)).normalized();
@@ -83,8 +87,7 @@ Occluders::Occluders(std::span<const Ball> balls, const Lighting& lighting)
   const auto each_cell = [&](auto visit) {
     for (std::uint32_t i = 0; i < balls_.size(); ++i) {
       const double radius = balls_[i].radius;
-      const double depth = near_ ? faint * radius / blur : extent_;
-      footprint(balls_[i].center, radius + std::min(blur * depth, near_ ? radius : faint * radius), rects_);
+      footprint(balls_[i].center, radius + (near_ ? lamp_ : std::min(blur * extent_, faint * radius)), rects_);
       for (const Rect& rect : rects_) cells(rect, [&](std::size_t cell) { visit(cell, i); });
     }
   };
@@ -112,8 +115,8 @@ void Occluders::find(std::uint32_t i, std::vector<std::uint32_t>& found) {
         const Ball& other = balls_[k];
         const double ahead = along(k);
         if (ahead <= -ball.radius || ahead - other.radius > reach) continue;
-        const double wide = std::max(ahead + ball.radius, 0.0) * blur;
-        if (wide > faint * other.radius) continue;
+        const double wide = near_ ? lamp_ : std::max(ahead + ball.radius, 0.0) * blur;
+        if (!near_ && wide > faint * other.radius) continue;
         // Lamp light spreads: seen along the ray to the ball's centre its edge strays by ball.radius * ahead / reach.
         const double apart =
             ball.radius + other.radius + wide + (near_ ? ball.radius * std::max(ahead, 0.0) / reach : 0);

@@ -37,6 +37,7 @@ class Occluders {
 
   std::span<const Ball> balls_;
   bool near_;
+  double lamp_;  // m, the lamp's radius
   Vec3 key_, across_u_, across_v_;
   int side_ = 1;  // cells along a face
   double origin_u_ = -1, origin_v_ = -1, per_u_ = 1, per_v_ = 1;

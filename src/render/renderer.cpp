@@ -131,7 +131,7 @@ const Image& Renderer::draw(const State& state) {
   glBindFramebuffer(GL_FRAMEBUFFER, impl_->framebuffer.name());
   glViewport(0, 0, impl_->eye.size.width, impl_->eye.size.height);
   glEnable(GL_FRAMEBUFFER_SRGB);
-  if (impl_->shade) impl_->shade->draw(impl_->balls, *impl_->backdrop, impl_->framebuffer);
+  if (impl_->shade) impl_->shade->draw(impl_->balls, *impl_->backdrop);
   if (impl_->spheres) impl_->spheres->draw(impl_->balls, impl_->seen, *impl_->backdrop, impl_->rows);
   impl_->read();
   return impl_->image;

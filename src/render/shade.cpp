@@ -1,72 +1,52 @@
 #include "render/shade.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace carom {
 namespace {
 
-// Each instance is a rectangle that lies on a surface and holds all of one ball's shadow there. The first pass
-// multiplies what the balls leave of the light, the second draws the surfaces with that light over the copy of the
-// backdrop.
+// Each instance is a rectangle that lies on a surface around the shadow that one ball casts there, or around the place
+// where it comes close; the backdrop's depth keeps it to where that surface is seen. The darkest of all balls' effects
+// on a pixel counts: shadows that overlap are not darker than one.
 const char* const vertex_shader = R"(
-layout(location = 0) in vec4 origin_in;  // middle of the rectangle; the surface's number
-layout(location = 1) in vec4 u_in;       // half side; 1: the key light's shadow, 0: closeness
-layout(location = 2) in vec3 v_in;       // half side
+layout(location = 0) in vec3 origin;     // middle of the rectangle
+layout(location = 1) in vec3 u;          // half side
+layout(location = 2) in vec3 v;          // half side
 layout(location = 3) in vec4 ball_in;    // centre, radius
 layout(location = 4) in vec3 normal_in;  // of the surface
 flat out vec4 ball;
 flat out vec3 normal;
-flat out ivec2 what;
 out vec3 p;
 uniform vec2 tangent;
 uniform float near;
 
 void main() {
-  ball = ball_in; normal = normal_in;
-  what = ivec2(origin_in.w, u_in.w);
+  ball = ball_in;
+  normal = normal_in;
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2 - 1;
-  p = origin_in.xyz + corner.x * u_in.xyz + corner.y * v_in;
-  gl_Position = vec4(p.xy / tangent * vec2(1, -1), p.z - 2 * near, p.z);
+  p = origin + corner.x * u + corner.y * v;
+  // The depth near / z as in the backdrop, a ten-thousandth nearer.
+  gl_Position = vec4(p.xy / tangent * vec2(1, -1), 2.0002 * near - p.z, p.z);
 }
 )";
 
-const char* const gather_shader = R"(
+const char* const fragment_shader = R"(
 flat in vec4 ball;
 flat in vec3 normal;
-flat in ivec2 what;
 in vec3 p;
-uniform usampler2D number;
-layout(location = 0) out vec2 left;
-
-void main() {
-  if (int(texelFetch(number, ivec2(gl_FragCoord.xy), 0).r) != what.x) discard;
-  vec3 to_ball = ball.xyz - p;
-  left = vec2(1);
-  if (what.y == 1) {
-    left.r = through_ball(p, towards_light(0, p), to_ball, ball.w);
-  } else {
-    // A sphere above the horizon takes cos(angle) (r / d)^2 of an even sky's light.
-    float d2 = max(dot(to_ball, to_ball), 1e-30);
-    float taken = dot(normal, to_ball) * ball.w * ball.w / (d2 * sqrt(d2));
-    left.g = 1 - 0.85 * clamp((taken - 0.015) / 0.985, 0, 1);
-  }
-}
-)";
-
-const char* const apply_shader = R"(
-flat in ivec2 what;
-uniform usampler2D number;
-uniform sampler2D lit, shaded, light;
+uniform sampler2D lit;
 layout(location = 0) out vec4 color;
 
 void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  vec2 left = texelFetch(light, at, 0).rg;
-  if (left == vec2(1) || int(texelFetch(number, at, 0).r) != what.x) discard;
-  vec3 a = texelFetch(lit, at, 0).rgb, b = texelFetch(shaded, at, 0).rgb;
-  color = vec4(b * left.g + (a - b) * left.r, 1);
+  vec4 now = texelFetch(lit, ivec2(gl_FragCoord.xy), 0);
+  vec3 to_ball = ball.xyz - p;
+  float open = through_ball(p, towards_light(0, p), to_ball, ball.w);
+  // A sphere above the horizon takes cos(angle) (r / d)^2 of an even sky's light.
+  float d2 = max(dot(to_ball, to_ball), 1e-30);
+  float taken = dot(normal, to_ball) * ball.w * ball.w / (d2 * sqrt(d2));
+  float sky = 1 - 0.85 * clamp((taken - 0.04) / 0.96, 0, 1);
+  color = vec4(now.rgb * mix(vec3(open), vec3(sky), part_in_shadow(now.a)), 1);
 }
 )";
 
@@ -78,22 +58,13 @@ Shade::Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces)
     : eye_(eye),
       lighting_(lighting),
       surfaces_(surfaces),
-      gather_({vertex_shader}, {lighting.shader(), gather_shader}),
-      apply_({vertex_shader}, {apply_shader}),
-      instances_({4, 4, 3, 4, 3}),
-      light_(gl::make_texture(GL_RG8, eye.size.width, eye.size.height)),
-      light_framebuffer_(gl::make_framebuffer(std::array{light_.name()}, 0)) {
-  for (const gl::Program* program : {&gather_, &apply_}) {
-    program->use();
-    glUniform2f(program->at("tangent"), static_cast<float>(eye.tan_x), static_cast<float>(eye.tan_y));
-    glUniform1f(program->at("near"), static_cast<float>(eye.camera.near));
-    glUniform1i(program->at("number"), 0);
-    glUniform1i(program->at("lit"), 1);
-    glUniform1i(program->at("shaded"), 2);
-    glUniform1i(program->at("light"), 3);
-  }
-  gather_.use();
-  lighting.set(gather_);
+      program_({vertex_shader}, {lighting.shader(), fragment_shader}),
+      instances_({3, 3, 3, 4, 3}) {
+  program_.use();
+  lighting.set(program_);
+  glUniform2f(program_.at("tangent"), static_cast<float>(eye.tan_x), static_cast<float>(eye.tan_y));
+  glUniform1f(program_.at("near"), static_cast<float>(eye.camera.near));
+  glUniform1i(program_.at("lit"), 0);
 }
 
 bool Shade::in_picture(const Vec3& center, double radius) const {
@@ -102,7 +73,7 @@ bool Shade::in_picture(const Vec3& center, double radius) const {
          (y - z * eye_.tan_y) < radius * std::hypot(1, eye_.tan_y);
 }
 
-void Shade::add(const Ball& ball, std::size_t surface, const Vec3& origin, const Vec3& u, const Vec3& v, bool shadow) {
+void Shade::add(const Ball& ball, std::size_t surface, const Vec3& origin, const Vec3& u, const Vec3& v) {
   const Surface& s = surfaces_.all()[surface];
   if (s.wall) {  // off the rectangle there is nothing to darken
     const Vec3 offset = origin - s.center;
@@ -114,20 +85,18 @@ void Shade::add(const Ball& ball, std::size_t surface, const Vec3& origin, const
   const auto push = [&](const Vec3& p) {
     for (int i = 0; i < 3; ++i) rows_.push_back(static_cast<float>(p[i]));
   };
-  push(origin), rows_.push_back(static_cast<float>(surface + 1));
-  push(u), rows_.push_back(shadow ? 1 : 0);
-  push(v);
+  push(origin), push(u), push(v);
   push(ball.center), rows_.push_back(static_cast<float>(ball.radius));
   push(s.normal);
 }
 
 void Shade::add_shadow(const Ball& ball, std::size_t surface) {
   const Surface& s = surfaces_.all()[surface];
-  const double blur = Lighting::softness;
   const double height = s.normal.dot(ball.center) + s.height;  // of the ball's centre above the surface
   if (!lighting_.key_is_near()) {
     // A round beam of the ball's radius, widening by the blur, cuts the surface in an ellipse.
     const Vec3& l = lighting_.key();
+    const double blur = Lighting::softness;
     const double slope = s.normal.dot(l);
     if (slope < least_slope || height < -ball.radius) return;
     const double along = std::max(height, 0.0) / slope, tilt = std::sqrt(std::max(0.0, 1 - slope * slope)) / slope;
@@ -136,8 +105,8 @@ void Shade::add_shadow(const Ball& ball, std::size_t surface) {
     if (along * blur > 12 * ball.radius) return;
     Vec3 down = l - slope * s.normal;  // along the surface, towards the light
     down = down.norm() > 1e-9 ? Vec3(down.normalized()) : s.right;
-    add(ball, surface, ball.center - height * s.normal - height / slope * slope * tilt * down, wide / slope * down,
-        wide * s.normal.cross(down), true);
+    add(ball, surface, ball.center - height * s.normal - height * tilt * down, wide / slope * down,
+        wide * s.normal.cross(down));
     return;
   }
   // A lamp throws the ball onto the surface as an eye would see it: the same ellipse.
@@ -149,52 +118,45 @@ void Shade::add_shadow(const Ball& ball, std::size_t surface) {
   const Vec3 seen(s.right.dot(from_lamp), across.dot(from_lamp), lamp_height - height);
   Outline o{};
   // The ellipse grows without bound as the shadow's end nears the horizon: from there on it is left open-ended.
-  double radius = ball.radius + blur * distance;
+  double radius = std::min(ball.radius + lighting_.lamp_radius(), 0.999 * distance);
   while (!outline_of(seen, radius, o) && radius > 1e-3 * ball.radius) radius *= 0.7;
   if (radius <= 1e-3 * ball.radius) return;
   const Vec3 foot = lighting_.key() - lamp_height * s.normal;
   const auto place = [&](double x, double y) { return Vec3(lamp_height * (x * s.right + y * across)); };
-  add(ball, surface, foot + place(o.x, o.y), place(o.ax, o.ay), place(o.bx, o.by), true);
+  add(ball, surface, foot + place(o.x, o.y), place(o.ax, o.ay), place(o.bx, o.by));
 }
 
 void Shade::add_closeness(const Ball& ball, std::size_t surface) {
-  // cos (r / d)^2 at the foot's distance x is h r^2 / (h^2 + x^2)^(3/2): where that falls to 0.015 it has faded out.
+  // cos (r / d)^2 at the foot's distance x is h r^2 / (h^2 + x^2)^(3/2): where that falls to 0.04 it has faded out.
   const Surface& s = surfaces_.all()[surface];
   const double height = s.normal.dot(ball.center) + s.height;
-  if (height <= 0 || height > 8 * ball.radius) return;
-  const double d = std::cbrt(height * ball.radius * ball.radius / 0.015);
+  if (height <= 0 || height > 5 * ball.radius) return;
+  const double d = std::cbrt(height * ball.radius * ball.radius / 0.04);
   if (d <= height) return;
   const double wide = std::sqrt(d * d - height * height);
-  add(ball, surface, ball.center - height * s.normal, wide * s.right, wide * s.normal.cross(s.right), false);
+  add(ball, surface, ball.center - height * s.normal, wide * s.right, wide * s.normal.cross(s.right));
 }
 
-void Shade::draw(std::span<const Ball> balls, const Backdrop& backdrop, const gl::Framebuffer& picture) {
+void Shade::draw(std::span<const Ball> balls, const Backdrop& backdrop) {
   rows_.clear();
   for (std::size_t k = 0; k < surfaces_.all().size(); ++k) {
     if (!surfaces_.all()[k].seen()) continue;
     for (const Ball& ball : balls) {
-      if (lighting_.has_key()) add_shadow(ball, k);
+      add_shadow(ball, k);
       add_closeness(ball, k);
     }
   }
   if (rows_.empty()) return;
-  glDisable(GL_DEPTH_TEST);
-  glBindFramebuffer(GL_FRAMEBUFFER, light_framebuffer_.name());
-  const float all[4] = {1, 1, 1, 1};
-  glClearBufferfv(GL_COLOR, 0, all);
+  program_.use();
+  gl::bind_texture(0, backdrop.lit);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_GREATER);
+  glDepthMask(GL_FALSE);
   glEnable(GL_BLEND);
-  glBlendFunc(GL_ZERO, GL_SRC_COLOR);
-  gather_.use();
-  gl::bind_texture(0, backdrop.number);
+  glBlendEquation(GL_MIN);
   instances_.draw(rows_);
-
-  glBindFramebuffer(GL_FRAMEBUFFER, picture.name());
-  glDisable(GL_BLEND);
-  apply_.use();
-  gl::bind_texture(1, backdrop.lit);
-  gl::bind_texture(2, backdrop.shaded);
-  gl::bind_texture(3, light_);
-  instances_.draw_again();
+  glBlendEquation(GL_FUNC_ADD);
+  glDepthMask(GL_TRUE);
   gl::check("drawing shadows");
 }
 

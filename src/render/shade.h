@@ -13,22 +13,20 @@ class Shade {
  public:
   Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces);
 
-  /// Darkens the bound framebuffer `picture`, a copy of the backdrop, where balls take light away from its surfaces.
-  void draw(std::span<const Ball> balls, const Backdrop& backdrop, const gl::Framebuffer& picture);
+  /// Darkens the bound framebuffer, a copy of the backdrop, where balls take light away from its surfaces.
+  void draw(std::span<const Ball> balls, const Backdrop& backdrop);
 
  private:
   void add_shadow(const Ball& ball, std::size_t surface);
   void add_closeness(const Ball& ball, std::size_t surface);
-  void add(const Ball& ball, std::size_t surface, const Vec3& origin, const Vec3& u, const Vec3& v, bool shadow);
+  void add(const Ball& ball, std::size_t surface, const Vec3& origin, const Vec3& u, const Vec3& v);
   bool in_picture(const Vec3& center, double radius) const;
 
   const Eye& eye_;
   const Lighting& lighting_;
   const Surfaces& surfaces_;
-  gl::Program gather_, apply_;
+  gl::Program program_;
   gl::Instances instances_;
-  gl::Texture light_;  // what is left: red of the key light, green of all other light
-  gl::Framebuffer light_framebuffer_;
   std::vector<float> rows_;
 };
 

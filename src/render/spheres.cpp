@@ -48,7 +48,7 @@ uniform samplerBuffer occluder_rows;
 layout(location = 0) out vec4 color_out;
 #ifdef WALLS
 uniform samplerBuffer rows;
-uniform sampler2D edges;
+uniform sampler2D edges, edge_depths;
 vec4 texel(int surface, int column) { return texelFetch(rows, surface * 5 + column); }
 #endif
 
@@ -100,16 +100,11 @@ void main() {
   if (t < near) discard;
   gl_FragDepth = near / t;
 #ifdef WALLS
-  vec2 edge = texelFetch(edges, ivec2(gl_FragCoord.xy), 0).rg;
-  if (near / t < edge.r) cover *= 1 - edge.g;
+  bool behind_edge = near / t < texelFetch(edge_depths, ivec2(gl_FragCoord.xy), 0).r;
 #endif
 
   vec3 p = d * t;
   vec3 n = normalize(p - ball.xyz);
-  if (cut) {
-    color_out = vec4(color * 0.4 * hemisphere(-n), cover);
-    return;
-  }
   vec3 v = normalize(-d);
   vec3 matt = hemisphere(n), shine = vec3(0);
   for (int i = 0; i < LIGHTS; ++i) {
@@ -125,7 +120,12 @@ void main() {
   float grazing = 1 - max(dot(n, v), 0);
   grazing *= grazing;
   shine += ambient * grazing * grazing * 0.35;
-  color_out = vec4(color * matt + shine, cover);
+  vec3 seen = cut ? color * 0.4 * hemisphere(-n) : color * matt + shine;
+#ifdef WALLS
+  vec4 edge = texelFetch(edges, ivec2(gl_FragCoord.xy), 0);
+  if (behind_edge) seen = mix(seen, edge.rgb, edge.a);
+#endif
+  color_out = vec4(seen, cover);
 }
 )";
 
@@ -162,19 +162,20 @@ Spheres::Spheres(const Scene& scene, const Eye& eye, const Lighting& lighting, c
   glUniform1i(program_.at("occluder_rows"), 0);
   glUniform1i(program_.at("rows"), 1);
   glUniform1i(program_.at("edges"), 2);
+  glUniform1i(program_.at("edge_depths"), 3);
 }
 
 void Spheres::draw(std::span<const Ball> balls, std::span<const std::uint32_t> seen, const Backdrop& backdrop,
                    const gl::TexelBuffer& rows) {
   if (seen.empty()) return;
-  Occluders occluders(lighting_.has_key() ? balls : balls.first(0), lighting_);
+  Occluders occluders(balls, lighting_);
   row_.clear();
   occluder_row_.clear();
   const auto f = [](double x) { return static_cast<float>(x); };
   for (std::uint32_t i : seen) {
     const Ball& ball = balls[i];
     const std::size_t first = occluder_row_.size() / 4;
-    if (lighting_.has_key() && first < most_rows) {
+    if (first < most_rows) {
       occluders.find(i, found_);
       for (std::uint32_t k : found_)
         for (double x : {balls[k].center.x(), balls[k].center.y(), balls[k].center.z(), balls[k].radius})
@@ -205,7 +206,10 @@ void Spheres::draw(std::span<const Ball> balls, std::span<const std::uint32_t> s
   if (!occluder_row_.empty()) occluders_.fill(occluder_row_);
   occluders_.bind(0);
   rows.bind(1);
-  if (surfaces_.walls()) gl::bind_texture(2, backdrop.edge);
+  if (surfaces_.walls()) {
+    gl::bind_texture(2, backdrop.edge);
+    gl::bind_texture(3, backdrop.edge_depth);
+  }
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glEnable(GL_DEPTH_TEST);

@@ -27,7 +27,7 @@ Surfaces::Surfaces(const Scene& scene, const Eye& eye) {
   reach_ = (eye.camera.target - eye.camera.eye).norm();
   for (const Vec3& p : scene.initial.position) reach_ = std::max(reach_, (p - eye.camera.eye).norm());
   reach_ = std::clamp(reach_, 1e-6, 1e12);
-  unit_ = std::pow(10, std::floor(std::log10(reach_ * eye.tan_x)));
+  unit_ = std::pow(10, std::floor(std::log10(reach_ * eye.tan_x / 3)));
 
   for (std::size_t i = 0; i < scene.world.planes.size(); ++i) {
     const FixedName& name = name_of(scene, i);
