@@ -15,7 +15,7 @@ enum class CollisionKind : std::uint8_t {
 };
 
 struct Collision {
-  double time;              // s
+  double time;  // s
   CollisionKind kind;
   Entity a;                 // the body with the lower number, or the only one
   Entity b;                 // the other body, or the fixed surface

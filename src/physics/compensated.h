@@ -1,8 +1,8 @@
 #pragma once
-// Arithmetic that keeps what rounding would lose: error-free sums and products and the few double-double operations that
-// contact times need. Dekker, "A floating-point technique for extending the available precision", Numer. Math. 18 (1971);
-// Ogita, Rump & Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005). No fused multiply-add is used, so
-// that every processor gives the same bits.
+// Arithmetic that keeps what rounding would lose: error-free sums and products and the few double-double operations
+// that contact times need. Dekker, "A floating-point technique for extending the available precision", Numer. Math. 18
+// (1971); Ogita, Rump & Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005). No fused multiply-add is
+// used, so that every processor gives the same bits.
 #include <cmath>
 
 #include "physics/vec3.h"
@@ -42,8 +42,12 @@ inline DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
   const DoubleDouble u = fast_two_sum(s.hi, s.lo + t.hi);
   return fast_two_sum(u.hi, u.lo + t.lo);
 }
-inline DoubleDouble operator-(DoubleDouble a) { return {-a.hi, -a.lo}; }
-inline DoubleDouble operator-(DoubleDouble a, DoubleDouble b) { return a + -b; }
+inline DoubleDouble operator-(DoubleDouble a) {
+  return {-a.hi, -a.lo};
+}
+inline DoubleDouble operator-(DoubleDouble a, DoubleDouble b) {
+  return a + -b;
+}
 inline DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
   const DoubleDouble p = two_product(a.hi, b.hi);
   return fast_two_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));

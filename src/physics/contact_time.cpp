@@ -12,8 +12,8 @@ namespace {
 /// Rounding of a relative velocity, in units of the speeds that it is the difference of.
 constexpr double velocity_noise = 16 * 0x1p-53;
 
-/// t = c / (-b + sqrt(b^2 - a c)), with the discriminant as a s^2 - |d x w|^2 (Lagrange), so that a long way does not swamp
-/// a small miss distance.
+/// t = c / (-b + sqrt(b^2 - a c)), with the discriminant as a s^2 - |d x w|^2 (Lagrange), so that a long way does not
+/// swamp a small miss distance.
 double straight_contact_time(const RelativeMotion& m, double s, double horizon) {
   const double b = m.d.dot(m.w);
   if (m.just_separated || b >= 0) return never;

@@ -1,7 +1,7 @@
 #pragma once
-// When moving spheres meet: each other, planes, and the faces, edges and corners of walls. Times are in seconds from the
-// instant at which the arguments hold; `never` (polynomial.h) means no contact. An approach slower than the rounding of the
-// velocities it comes from is none: touching bodies are not hit again by noise.
+// When moving spheres meet: each other, planes, and the faces, edges and corners of walls. Times are in seconds from
+// the instant at which the arguments hold; `never` (polynomial.h) means no contact. An approach slower than the
+// rounding of the velocities it comes from is none: touching bodies are not hit again by noise.
 #include <cstdint>
 
 #include "physics/polynomial.h"
@@ -18,8 +18,8 @@ struct RelativeMotion {
 };
 
 /// First t in [0, horizon] at which spheres with radii that sum to s (m) touch and approach.
-/// |d + w t + a t^2/2|^2 = s^2: a quadratic where a = 0, else a quartic (numerics: the Lagrange identity, the product form of
-/// the root and compensated dots make a grazing or nearly touching pair as exact as its data).
+/// |d + w t + a t^2/2|^2 = s^2: a quadratic where a = 0, else a quartic (numerics: the Lagrange identity, the product
+/// form of the root and compensated dots make a grazing or nearly touching pair as exact as its data).
 double sphere_contact_time(const RelativeMotion& motion, double s, double horizon);
 
 /// |d + w t + a t^2/2|^2 - s^2, m^2. just_separated: its constant term is zero.
@@ -47,16 +47,17 @@ struct WallContact {
   std::uint8_t feature;  // of the wall
 };
 
-/// First contact of a sphere at x (m) with velocity v and acceleration a with a wall. A wall fattened by the radius is convex:
-/// slabs over its faces, cylinders along its edges, balls at its corners; the first entry into any of them, on its own stretch,
-/// is the contact. `left`: the feature that the sphere has just bounced off, or no_feature.
+/// First contact of a sphere at x (m) with velocity v and acceleration a with a wall. A wall fattened by the radius is
+/// convex: slabs over its faces, cylinders along its edges, balls at its corners; the first entry into any of them, on
+/// its own stretch, is the contact. `left`: the feature that the sphere has just bounced off, or no_feature.
 WallContact wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double radius,
                               std::uint8_t left, double horizon);
 
 /// The wall's point nearest to x (m).
 Vec3 nearest_on_wall(const Wall& wall, const Vec3& x);
 
-/// First t in (0, horizon] at which a sphere sliding over a face leaves it: its point of contact crosses the rectangle's rim.
+/// First t in (0, horizon] at which a sphere sliding over a face leaves it: its point of contact crosses the
+/// rectangle's rim.
 WallContact wall_release_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double horizon);
 
 }  // namespace carom

@@ -4,9 +4,9 @@
 
 namespace carom {
 
-/// The impulse (N s) that two masses (kg) approaching at `approach` (m/s) exchange so that they separate at `separation`:
-/// J = (approach + separation) m1 m2 / (m1 + m2). With separation = e approach this is the chapter's
-/// v1' = ((m1 - e m2) v1 + (1 + e) m2 v2) / (m1 + m2).
+/// The impulse (N s) that two masses (kg) approaching at `approach` (m/s) exchange so that they separate at
+/// `separation`: J = (approach + separation) m1 m2 / (m1 + m2). With separation = e approach this is the chapter's v1'
+/// = ((m1 - e m2) v1 + (1 + e) m2 v2) / (m1 + m2).
 inline double impact_impulse(double m1, double m2, double approach, double separation) {
   return (approach + separation) / (1 / m1 + 1 / m2);
 }

@@ -27,8 +27,8 @@ Roots roots_between(const Polynomial& f, double low, double high);
 
 inline constexpr double never = std::numeric_limits<double>::infinity();
 
-/// The first t in [0, horizon] from which f is at most zero and falls: f comes down through zero there, or was not above
-/// zero and begins to fall. `never` if there is none. A descent that only touches zero is none.
+/// The first t in [0, horizon] from which f is at most zero and falls: f comes down through zero there, or was not
+/// above zero and begins to fall. `never` if there is none. A descent that only touches zero is none.
 double first_descent(const Polynomial& f, double horizon);
 
 }  // namespace carom

@@ -7,13 +7,20 @@ namespace carom {
 
 double combine_restitution(Combine rule, double e1, double m1, double e2, double m2) {
   switch (rule) {
-    case Combine::average: return (e1 + e2) / 2;
-    case Combine::minimum: return std::min(e1, e2);
-    case Combine::maximum: return std::max(e1, e2);
-    case Combine::product: return e1 * e2;
-    case Combine::geometric_mean: return std::sqrt(e1 * e2);
-    case Combine::mass_weighted: return (m1 * e1 + m2 * e2) / (m1 + m2);
-    case Combine::book: return e1 * e2 / 2;
+    case Combine::average:
+      return (e1 + e2) / 2;
+    case Combine::minimum:
+      return std::min(e1, e2);
+    case Combine::maximum:
+      return std::max(e1, e2);
+    case Combine::product:
+      return e1 * e2;
+    case Combine::geometric_mean:
+      return std::sqrt(e1 * e2);
+    case Combine::mass_weighted:
+      return (m1 * e1 + m2 * e2) / (m1 + m2);
+    case Combine::book:
+      return e1 * e2 / 2;
   }
   return 0;
 }
@@ -30,7 +37,8 @@ double pair_restitution(const World& world, Entity a, Entity b) {
   if (world.is_body(b)) return combine_restitution(world.combine, ea, ma, world.restitution[b], world.mass[b]);
   const std::optional<double>& own = world.is_plane(b) ? world.plane(b).restitution : world.wall(b).restitution;
   const double eb = own.value_or(ea);
-  if (world.combine == Combine::mass_weighted) return eb;  // the limit of (m1 e1 + m2 e2)/(m1 + m2) for m2 without bound
+  if (world.combine == Combine::mass_weighted)
+    return eb;  // the limit of (m1 e1 + m2 e2)/(m1 + m2) for m2 without bound
   return combine_restitution(world.combine, ea, ma, eb, ma);
 }
 

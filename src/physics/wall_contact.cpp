@@ -1,5 +1,5 @@
-// A sphere and a wall, in the wall's own frame: p = (along right, along up, along normal) from its centre. There every part
-// of the fattened wall is a sphere contact in two or three of the coordinates, or a plane's in one.
+// A sphere and a wall, in the wall's own frame: p = (along right, along up, along normal) from its centre. There every
+// part of the fattened wall is a sphere contact in two or three of the coordinates, or a plane's in one.
 #include <algorithm>
 #include <cmath>
 
@@ -22,8 +22,8 @@ LocalPath to_local(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a
 
 constexpr double rounding = 16 * 0x1p-53;
 
-/// The first entry into a cylinder about the line through `axis` in the direction `along`, on its stretch. A curved path can
-/// enter the endless cylinder twice, and beyond the stretch for a start.
+/// The first entry into a cylinder about the line through `axis` in the direction `along`, on its stretch. A curved
+/// path can enter the endless cylinder twice, and beyond the stretch for a start.
 double edge_contact_time(const LocalPath& path, int along, double half_length, const Vec3& axis, double radius,
                          bool just_left, double horizon) {
   const auto on_stretch = [&](double t) { return std::abs(path.at(along, t)) <= half_length; };
@@ -45,7 +45,7 @@ double edge_contact_time(const LocalPath& path, int along, double half_length, c
 
 /// The entry into the half-space behind a face moved out by the radius, where it falls on the rectangle.
 double face_contact_time(const LocalPath& path, double side, const double half[2], double radius, bool just_left,
-                         double horizon) {
+                         bool on_rim, double horizon) {
   const double gap = side * path.p.z() - radius, speed = side * path.v.z(), acceleration = side * path.a.z();
   const auto over = [&](double t) { return std::abs(path.at(0, t)) <= half[0] && std::abs(path.at(1, t)) <= half[1]; };
   double t = never;
@@ -56,6 +56,7 @@ double face_contact_time(const LocalPath& path, double side, const double half[2
     const double disc = speed * speed - 2 * acceleration * gap;
     if (disc > 0) t = (speed + std::sqrt(disc)) / -acceleration;
   }
+  if (on_rim && t == 0) return never;  // it has just left the face over its rim
   return t <= horizon && over(t) ? t : never;
 }
 
@@ -69,8 +70,9 @@ WallContact wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, co
   const auto offer = [&](double t, std::uint8_t feature) {
     if (t < first.time) first = {t, feature};
   };
+  const bool on_rim = left != no_feature && left >= wall_edges;
   for (std::uint8_t face : {wall_front, wall_back})
-    offer(face_contact_time(path, face == wall_front ? 1 : -1, half, radius, left == face, horizon), face);
+    offer(face_contact_time(path, face == wall_front ? 1 : -1, half, radius, left == face, on_rim, horizon), face);
   const double signs[2] = {1, -1};
   for (int k = 0; k < 4; ++k) {
     const auto feature = static_cast<std::uint8_t>(wall_edges + k);

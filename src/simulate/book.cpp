@@ -1,8 +1,8 @@
-// The source chapter's program (ParticleBounce, listings 8.3 and 8.4): each frame tests for overlap, handles what overlaps,
-// then moves every body by semi-implicit Euler, v += a dt, x += v dt.
+// The source chapter's program (ParticleBounce, listings 8.3 and 8.4): each frame tests for overlap, handles what
+// overlaps, then moves every body by semi-implicit Euler, v += a dt, x += v dt.
 //
-// By default it does what the text means: the average of the two coefficients (or the scene's rule), the sum of both radii, the
-// velocity changed once, only bodies that approach. `as_printed` does what the listings print instead:
+// By default it does what the text means: the average of the two coefficients (or the scene's rule), the sum of both
+// radii, the velocity changed once, only bodies that approach. `as_printed` does what the listings print instead:
 //   e = (e1 e2) / 2, where the text says average;
 //   |d|^2 < (r0 + r0)^2, the first body's radius twice;
 //   after v' is set, the acceleration becomes v'/dt, so that the same frame's update adds v' once more;
@@ -76,17 +76,19 @@ void BookSimulator::handle_pair(Entity a, Entity b) {
   const Vec3 d = x_[b] - x_[a];
   const double distance = d.norm();
   if (distance == 0)
-    throw SimulationError(fmt::format(
-        "at t = {} s two centres coincide and the line of centres, d/|d|, is undefined: use a smaller simulate.step, or "
-        "engine: exact",
-        frame_time(frames_)));
+    throw SimulationError(
+        fmt::format("at t = {} s two centres coincide and the line of centres, d/|d|, is undefined: use a smaller "
+                    "simulate.step, or "
+                    "engine: exact",
+                    frame_time(frames_)));
   const Vec3 n = d / distance;
   const double ua = v_[a].dot(n), ub = v_[b].dot(n);
   tally_.max_overlap = std::max(tally_.max_overlap, world_.radius[a] + world_.radius[b] - distance);
   if (ua <= ub && !options_.as_printed) return;
   const double ma = world_.mass[a], mb = world_.mass[b];
-  const double e = options_.as_printed ? combine_restitution(Combine::book, world_.restitution[a], ma, world_.restitution[b], mb)
-                                       : pair_restitution(world_, a, b);
+  const double e = options_.as_printed
+                       ? combine_restitution(Combine::book, world_.restitution[a], ma, world_.restitution[b], mb)
+                       : pair_restitution(world_, a, b);
   const double after_a = ((ma - e * mb) * ua + (1 + e) * mb * ub) / (ma + mb);
   const double after_b = ((mb - e * ma) * ub + (1 + e) * ma * ua) / (ma + mb);
   v_[a] += (after_a - ua) * n;
@@ -109,8 +111,8 @@ void BookSimulator::handle_fixed(Entity i, Entity surface, const Vec3& point, co
   if (approach <= 0) return;
   const double e = pair_restitution(world_, i, surface);
   v_[i] += (1 + e) * approach * normal;
-  record({frame_time(frames_), CollisionKind::body_fixed, i, surface, x_[i] - world_.radius[i] * normal, -normal, approach,
-          e * approach, e, impact_impulse(world_.mass[i], never, approach, e * approach),
+  record({frame_time(frames_), CollisionKind::body_fixed, i, surface, x_[i] - world_.radius[i] * normal, -normal,
+          approach, e * approach, e, impact_impulse(world_.mass[i], never, approach, e * approach),
           impact_loss(world_.mass[i], never, approach, e * approach)});
 }
 
@@ -144,8 +146,10 @@ void BookSimulator::do_frame() {
     x_[i] += v_[i] * dt;
     const double speed = v_[i].norm();
     if (!(speed < never))
-      throw SimulationError(fmt::format("at t = {} s a body's speed is no longer finite: use a smaller simulate.step, or "
-                                        "engine: exact", frame_time(frames_)));
+      throw SimulationError(
+          fmt::format("at t = {} s a body's speed is no longer finite: use a smaller simulate.step, or "
+                      "engine: exact",
+                      frame_time(frames_)));
     tally_.max_speed = std::max(tally_.max_speed, speed);
     // Work of every force but gravity: of the impulse, and of the printed listing's second helping of velocity.
     const Vec3 other = force_[i] - world_.mass[i] * world_.gravity;

@@ -95,14 +95,21 @@ void ExactSimulator::process(Entity i) {
       else
         predict(i);  // the other one has changed its path since
       break;
-    case Kind::body_fixed: collide_fixed(i, event.partner, event.feature); break;
-    case Kind::rest: finish_rest(i); break;
-    case Kind::release: release(i, event.partner, event.feature); break;
+    case Kind::body_fixed:
+      collide_fixed(i, event.partner, event.feature);
+      break;
+    case Kind::rest:
+      finish_rest(i);
+      break;
+    case Kind::release:
+      release(i, event.partner, event.feature);
+      break;
     case Kind::leave_region:
       rebuild_region(i);
       predict(i);
       break;
-    case Kind::none: break;
+    case Kind::none:
+      break;
   }
   check_limits();
 }
@@ -111,10 +118,11 @@ void ExactSimulator::process(Entity i) {
 void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin origin) {
   const double speed = v.norm();
   if (!(speed < never))
-    throw SimulationError(fmt::format(
-        "at t = {} s a body's speed is no longer finite: restitution above 1 makes energy at every collision; lower it, or "
-        "shorten simulate.duration",
-        now_.hi));
+    throw SimulationError(
+        fmt::format("at t = {} s a body's speed is no longer finite: restitution above 1 makes energy at every "
+                    "collision; lower it, or "
+                    "shorten simulate.duration",
+                    now_.hi));
   tally_.max_speed = std::max(tally_.max_speed, speed);
   flight_[i].start = now_;
   flight_[i].x = x;

@@ -8,12 +8,14 @@ namespace carom {
 
 namespace {
 
-double sum_of_speeds(const Vec3& v) { return v.cwiseAbs().sum(); }  // at least |v|
+double sum_of_speeds(const Vec3& v) {
+  return v.cwiseAbs().sum();
+}  // at least |v|
 
 }  // namespace
 
-/// Finds body i's next event among its neighbours. Other bodies' events stay as they are: a pair's collision stands with
-/// whichever of the two was predicted last.
+/// Finds body i's next event among its neighbours. Other bodies' events stay as they are: a pair's collision stands
+/// with whichever of the two was predicted last.
 void ExactSimulator::predict(Entity i) {
   Event best;
   if (near_[i].size() > 96 + world_.fixed_count() && region_[i].room > 0.05 * world_.radius[i]) {

@@ -8,7 +8,8 @@ namespace carom {
 
 namespace {
 
-// How many neighbours a region is sized for. Fewer: it grows and is left less often. More: it shrinks and tests fewer pairs.
+// How many neighbours a region is sized for. Fewer: it grows and is left less often. More: it shrinks and tests fewer
+// pairs.
 constexpr std::size_t few_neighbours = 8, many_neighbours = 24;
 constexpr double least_room = 0.02;  // of the radius
 
@@ -40,7 +41,8 @@ void ExactSimulator::find_neighbours(Entity i) {
   for (Entity e = world_.body_count(); e < world_.body_count() + world_.fixed_count(); ++e) {
     if (world_.is_plane(e)) {
       const Plane& plane = world_.plane(e);
-      if (plane_gap(region.center, plane.point, plane.normal, world_.radius[i]) <= slack * plane.normal.cwiseAbs().sum())
+      if (plane_gap(region.center, plane.point, plane.normal, world_.radius[i]) <=
+          slack * plane.normal.cwiseAbs().sum())
         list.push_back(e);
     } else {
       const Vec3 away = (region.center - nearest_on_wall(world_.wall(e), region.center)).cwiseAbs();
@@ -53,7 +55,8 @@ void ExactSimulator::find_neighbours(Entity i) {
 void ExactSimulator::rebuild_region(Entity i) {
   Region& region = region_[i];
   const auto bodies = [&] {
-    return static_cast<std::size_t>(std::count_if(near_[i].begin(), near_[i].end(), [&](Entity e) { return world_.is_body(e); }));
+    return static_cast<std::size_t>(
+        std::count_if(near_[i].begin(), near_[i].end(), [&](Entity e) { return world_.is_body(e); }));
   };
   const std::size_t known = bodies();
   if (known < few_neighbours) region.room *= 2;

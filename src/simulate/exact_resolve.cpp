@@ -1,12 +1,15 @@
 // What events do to velocities and contacts.
 //
-// Rest. On a flat surface a ball's bounces under load end at a time known in closed form: after an impact that leaves it with
-// the speed u, at 2u / (p (1 - e)) from then, where p is the acceleration that presses it on (a geometric series of flights).
-// When that is less than the clock can resolve, or the impact is slower than rest_speed, the ball is put to rest: from then on
-// it moves in the surface, with the reaction taken from its acceleration, and its path is a parabola again.
+// Rest. On a flat surface a ball's bounces under load end at a time known in closed form: after an impact that leaves
+// it with the speed u, at 2u / (p (1 - e)) from then, where p is the acceleration that presses it on (a geometric
+// series of flights). When that is less than the clock can resolve, or the impact is slower than rest_speed, the ball
+// is put to rest: from then on it moves in the surface, with the reaction taken from its acceleration, and its path is
+// a parabola again.
 //
-// Contact that is curved, a ball carried by a ball, an edge or a corner, has no such path. There the carried body hops: an
-// impact under load that would leave it with less than slow_speed leaves it with slow_speed.
+// Contact that is curved, a ball carried by a ball, an edge or a corner, has no such path. There the carried body hops:
+// an impact under load that would leave it with less than slow_speed leaves it with slow_speed, and as long as no
+// faster impact comes, hopping bodies come to rest on flat surfaces from any slower one. Such impacts are contact, not
+// collisions: they are neither counted nor recorded.
 #include <algorithm>
 #include <cmath>
 
@@ -26,10 +29,10 @@ constexpr double velocity_rounding = 0x1p-48;  // of the speeds that a component
 
 }  // namespace
 
-/// The speed (m/s) under which impacts in lasting contact no longer count one by one: rest_speed, or by default a thousandth
-/// of the speed gained over `length` (m) at the pressing acceleration (m/s^2).
+/// The speed (m/s) under which impacts in lasting contact no longer count one by one: rest_speed, or by default a
+/// hundredth of the speed gained over `length` (m) at the pressing acceleration (m/s^2).
 double ExactSimulator::slow_speed(double press, double length) const {
-  return options_.rest_speed > 0 ? options_.rest_speed : 1e-3 * std::sqrt(press * length);
+  return options_.rest_speed > 0 ? options_.rest_speed : 1e-2 * std::sqrt(press * length);
 }
 
 void ExactSimulator::collide_pair(Entity a, Entity b) {
@@ -46,18 +49,26 @@ void ExactSimulator::collide_pair(Entity a, Entity b) {
   const double e = pair_restitution(world_, a, b);
   double separation = e * approach;
   const Vec3 relative_a = q.a - p.a;
+  bool hop = false;
   if (!relative_a.isZero(0)) {
     const double press = -(w.squaredNorm() - approach * approach + d.dot(relative_a)) / distance;
-    if (press > 0) separation = std::max(separation, slow_speed(press, distance));
+    if (press > 0 && separation < slow_speed(press, distance)) {
+      separation = slow_speed(press, distance);
+      hop = true;
+    }
   }
   const double impulse = impact_impulse(ma, mb, approach, separation);
   const double lost = impact_loss(ma, mb, approach, separation);
   lose(lost);
   tally_.max_overlap = std::max(tally_.max_overlap, world_.radius[a] + world_.radius[b] - distance);
   tally_.max_speed = std::max({tally_.max_speed, va.norm(), vb.norm()});
-  record({now_.hi, CollisionKind::body_body, a, b, xa + world_.radius[a] * n, n, approach, separation, e, impulse, lost});
-  restart(a, xa, keep_contacts(a, va - (impulse / ma) * n, true), {b, no_feature});
-  restart(b, xb, keep_contacts(b, vb + (impulse / mb) * n, true), {a, no_feature});
+  const bool slow = approach < slow_speed(world_.gravity.norm(), distance);
+  const bool hopping_a = slow && (hop || origin_[a].hopping), hopping_b = slow && (hop || origin_[b].hopping);
+  if (!hopping_a && !hopping_b)
+    record({now_.hi, CollisionKind::body_body, a, b, xa + world_.radius[a] * n, n, approach, separation, e, impulse,
+            lost});
+  restart(a, xa, keep_contacts(a, va - (impulse / ma) * n, true), {b, no_feature, hopping_a});
+  restart(b, xb, keep_contacts(b, vb + (impulse / mb) * n, true), {a, no_feature, hopping_b});
   predict(a);
   predict(b);
 }
@@ -88,26 +99,29 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
   tally_.max_overlap = std::max(tally_.max_overlap, -gap);
   tally_.max_speed = std::max(tally_.max_speed, v.norm());
 
+  const bool hopping = origin_[i].hopping && approach < slow_speed(world_.gravity.norm(), radius);
   Contact contact{surface, feature, false, now_, separation};
   bool rests = false;
   if (press > 0 && !flat) separation = std::max(separation, slow_speed(press, radius));
   if (press > 0 && flat && !contacts_.empty() && contacts_[i].count < max_contacts && (e < 1 || approach == 0)) {
     const double left = separation == 0 ? 0 : 2 * separation / (press * (1 - e));
-    rests = now_.hi + left == now_.hi || approach < options_.rest_speed;
+    rests = now_.hi + left == now_.hi || approach < options_.rest_speed ||
+            (hopping && approach < slow_speed(press, radius));
     contact.rest_time = now_ + left;
-    contact.settling = rests;
+    contact.settling = rests && !hopping;
   }
   if (approach > 0) {
     const double lost = impact_loss(mass, immovable, approach, separation);
     lose(lost);
-    record({now_.hi, CollisionKind::body_fixed, i, surface, x + radius * n, n, approach, separation, e,
-            impact_impulse(mass, immovable, approach, separation), lost});
+    if (!hopping)
+      record({now_.hi, CollisionKind::body_fixed, i, surface, x + radius * n, n, approach, separation, e,
+              impact_impulse(mass, immovable, approach, separation), lost});
   }
   if (rests) {
     settle(i, contact);
-    restart(i, x + gap * n, keep_contacts(i, v - approach * n, false), {surface, feature});
+    restart(i, x + gap * n, keep_contacts(i, v - approach * n, false), {surface, feature, hopping});
   } else {
-    restart(i, x, keep_contacts(i, v - (approach + separation) * n, false), {surface, feature});
+    restart(i, x, keep_contacts(i, v - (approach + separation) * n, hopping), {surface, feature, hopping});
   }
   predict(i);
 }
@@ -151,8 +165,8 @@ void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
   predict(i);
 }
 
-/// A body's velocity has become v: which contacts still carry it? One that it leaves, or strikes, is given up (the strike
-/// comes next, as an event). `absorb`: a push into a surface slower than slow_speed is taken up by the contact.
+/// A body's velocity has become v: which contacts still carry it? One that it leaves, or strikes, is given up (the
+/// strike comes next, as an event). `absorb`: a push into a surface slower than slow_speed is taken up by the contact.
 /// Gives the velocity that the contacts allow.
 Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v, bool absorb) {
   if (contacts_.empty() || contacts_[i].count == 0) return v;
@@ -209,8 +223,8 @@ Vec3 ExactSimulator::free_acceleration(Entity i, Entity without) const {
   return project_to_cone(world_.gravity, {normals.data(), n}, active);
 }
 
-/// At the start: a body that touches a flat surface (but for rounding of the scene's numbers), does not move along its normal
-/// and is pressed on rests there from the first.
+/// At the start: a body that touches a flat surface (but for rounding of the scene's numbers), does not move along its
+/// normal and is pressed on rests there from the first.
 void ExactSimulator::touch_down(Entity i) {
   Flight& f = flight_[i];
   const double radius = world_.radius[i];

@@ -1,14 +1,16 @@
 #pragma once
-// The exact simulator's own parts. Its four source files share this class: exact.cpp (the loop), exact_predict.cpp (what comes
-// next for a body), exact_resolve.cpp (what an event does), exact_region.cpp (who is near).
+// The exact simulator's own parts. Its four source files share this class: exact.cpp (the loop), exact_predict.cpp
+// (what comes next for a body), exact_resolve.cpp (what an event does), exact_region.cpp (who is near).
 //
-// Each body keeps its Flight and is not moved when somebody else collides. Each body keeps one Event, the first of its own; the
-// first of all of these is the next thing to happen. A predicted collision is a function of the two flights alone, so it has the
-// same bits from whichever side, and whenever, it is computed: neither outputs nor the search for neighbours can change it.
+// Each body keeps its Flight and is not moved when somebody else collides. Each body keeps one Event, the first of its
+// own; the first of all of these is the next thing to happen. A predicted collision is a function of the two flights
+// alone, so it has the same bits from whichever side, and whenever, it is computed: neither outputs nor the search for
+// neighbours can change it.
 //
-// Neighbours: a body lives in a region, a box that it cannot leave unnoticed; bodies whose regions overlap know each other, and
-// so do a body and the surfaces within its region (near-neighbour lists: Donev, Torquato & Stillinger, J. Comput. Phys. 202
-// (2005) 737). A region grows while it is lonely, so a ball that flies off costs a few events, however far it goes.
+// Neighbours: a body lives in a region, a box that it cannot leave unnoticed; bodies whose regions overlap know each
+// other, and so do a body and the surfaces within its region (near-neighbour lists: Donev, Torquato & Stillinger, J.
+// Comput. Phys. 202 (2005) 737). A region grows while it is lonely, so a ball that flies off costs a few events,
+// however far it goes.
 #include <array>
 #include <vector>
 
@@ -52,6 +54,7 @@ class ExactSimulator final : public Simulator {
   struct Origin {
     Entity partner = no_entity;
     std::uint8_t feature = no_feature;
+    bool hopping = false;  // in lasting contact with other bodies: no impact faster than slow_speed since a hop
   };
 
   struct Region {
@@ -133,7 +136,7 @@ class ExactSimulator final : public Simulator {
   bool state_fresh_ = false;
   std::vector<Collision> collisions_;
   Tally tally_;
-  Sum energy_lost_;  // J
+  Sum energy_lost_;                   // J
   std::uint64_t events_at_once_ = 0;  // since the clock last moved
 };
 

@@ -1,7 +1,8 @@
 #pragma once
-// Boxes in unbounded space, found by place. Every box is kept in one cell, that of its centre, on the level whose cells are
-// just as wide as the box or a little wider: levels are quarter octaves, so boxes of all sizes live together. Cells are hashed;
-// empty space costs nothing. The order in which boxes are visited is the table's own: results must not depend on it.
+// Boxes in unbounded space, found by place. Every box is kept in one cell, that of its centre, on the level whose cells
+// are just as wide as the box or a little wider: levels are quarter octaves, so boxes of all sizes live together. Cells
+// are hashed; empty space costs nothing. The order in which boxes are visited is the table's own: results must not
+// depend on it.
 #include <cmath>
 #include <cstdint>
 #include <vector>

@@ -23,10 +23,11 @@ class Simulator {
   /// Goes on to `time` (s), or less far: until the collision buffer is full. Call again while time() < `time`.
   /// Throws SimulationError.
   virtual void advance_to(double time) = 0;
-  virtual double time() const = 0;                            // s
-  virtual const State& state() = 0;                           // at time(); valid until the next advance_to
-  virtual std::span<const Collision> collisions() const = 0;  // since the last advance_to, in order; empty if not recorded
-  virtual const Tally& tally() const = 0;                     // up to time()
+  virtual double time() const = 0;   // s
+  virtual const State& state() = 0;  // at time(); valid until the next advance_to
+  virtual std::span<const Collision> collisions()
+      const = 0;                           // since the last advance_to, in order; empty if not recorded
+  virtual const Tally& tally() const = 0;  // up to time()
 };
 
 }  // namespace carom

@@ -1,6 +1,6 @@
 #pragma once
-// A priority queue with one entry a body: a tournament tree, in which an entry that changes replays its games to the root,
-// log2(n) comparisons and no moves of the entries themselves.
+// A priority queue with one entry a body: a tournament tree, in which an entry that changes replays its games to the
+// root, log2(n) comparisons and no moves of the entries themselves.
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -12,7 +12,8 @@ Problem drop(const nlohmann::json& r) {
   Problem problem;
   problem.world.gravity = Vec3(0, -r["g"].get<double>(), 0);
   const double radius = r["radius"];
-  problem.ball({0, radius + r["height_above_contact"].get<double>(), 0}, {0, r["vz0"].get<double>(), 0}, 1, radius, r["e"]);
+  problem.ball({0, radius + r["height_above_contact"].get<double>(), 0}, {0, r["vz0"].get<double>(), 0}, 1, radius,
+               r["e"]);
   problem.plane({0, 0, 0}, {0, 1, 0});
   return problem;
 }
@@ -32,7 +33,8 @@ TEST(BouncingBall, ImpactsComeAtTheTimesOfTheClosedForm) {
       // Measured: at most 2.2e-16 relative for the first 20, 1.2e-15 for all of them.
       EXPECT_NEAR(c.time / impact["t"].get<double>(), 1, n <= 20 ? 1e-14 : 1e-13) << r["id"] << " impact " << n;
       const double speed = impact["speed_before"];
-      EXPECT_NEAR(c.approach_speed, speed, 1e-14 * speed * static_cast<double>(n) + 1e-15) << r["id"] << " impact " << n;
+      EXPECT_NEAR(c.approach_speed, speed, 1e-14 * speed * static_cast<double>(n) + 1e-15)
+          << r["id"] << " impact " << n;
     }
   }
 }
@@ -57,7 +59,8 @@ TEST(BouncingBall, DyadicDataGiveBitExactTimes) {
   const auto r = reference("bouncing_ball")["vertical"][0];
   Problem problem = drop(r);
   const Outcome run = run_exact(problem);
-  for (std::size_t n = 1; n <= 50; ++n) EXPECT_EQ(run.collisions[n - 1].time, 1.5 - std::ldexp(1.0, 1 - static_cast<int>(n)));
+  for (std::size_t n = 1; n <= 50; ++n)
+    EXPECT_EQ(run.collisions[n - 1].time, 1.5 - std::ldexp(1.0, 1 - static_cast<int>(n)));
   EXPECT_EQ(run.all.back().time, 1.5);
 }
 
@@ -99,7 +102,8 @@ TEST(BouncingBall, SlidesDownASlopeAfterTheBouncesEnd) {
       const Vec3 x = again->state().position[0] - start, v = again->state().velocity[0];
       const double along = -up_slope.dot(x), scale = std::abs(s["s_along"].get<double>());
       EXPECT_NEAR(along, s["s_along"].get<double>(), 1e-14 * scale) << r["id"] << " t = " << t;
-      EXPECT_NEAR(normal.dot(again->state().position[0]) - radius, s["h_perp"].get<double>(), 3e-14 * (1 + scale)) << r["id"] << t;
+      EXPECT_NEAR(normal.dot(again->state().position[0]) - radius, s["h_perp"].get<double>(), 3e-14 * (1 + scale))
+          << r["id"] << t;
       EXPECT_NEAR(-up_slope.dot(v), s["v_along"].get<double>(), 1e-14 * scale + 1e-14) << r["id"] << " t = " << t;
       EXPECT_NEAR(normal.dot(v), s["v_perp"].get<double>(), 2e-14 * (1 + v.norm())) << r["id"] << " t = " << t;
     }

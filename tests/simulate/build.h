@@ -72,7 +72,9 @@ inline nlohmann::json reference(const std::string& name) {
   return nlohmann::json::parse(file);
 }
 
-inline Vec3 vec3(const nlohmann::json& j) { return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()}; }
+inline Vec3 vec3(const nlohmann::json& j) {
+  return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()};
+}
 
 /// "3073/1024" or 1.5.
 inline double number(const nlohmann::json& j) {

@@ -9,7 +9,8 @@ namespace {
 constexpr double tight = 5e-15;  // relative, four units in the last place
 
 void expect_close(const Vec3& got, const Vec3& want, double tolerance, const std::string& what) {
-  EXPECT_LE((got - want).norm(), tolerance * want.norm()) << what << ": " << got.transpose() << " for " << want.transpose();
+  EXPECT_LE((got - want).norm(), tolerance * want.norm())
+      << what << ": " << got.transpose() << " for " << want.transpose();
 }
 
 void expect_case(const nlohmann::json& reference_case, const nlohmann::json& p, const Vec3& gravity) {
@@ -55,8 +56,9 @@ TEST(TwoBalls, IntegerDataGiveTheExactTime) {
   expect_case(all["case_B_exact"], all["case_B_exact"]["params"], Vec3::Zero());
 }
 
-// The last bits of the time move the normal by sqrt(eps)-sized angles here: n.x is as small as 2e-8 while its rounding is that
-// of the time, 4e-16. So velocities are held to absolute rounding, and time and the hit itself to the last bits.
+// The last bits of the time move the normal by sqrt(eps)-sized angles here: n.x is as small as 2e-8 while its rounding
+// is that of the time, 4e-16. So velocities are held to absolute rounding, and time and the hit itself to the last
+// bits.
 TEST(TwoBalls, GrazingHitsAreNeverMissed) {
   const auto all = reference("two_ball_oblique");
   for (const auto& r : all["case_C_grazing"]["results"]) {

@@ -1,0 +1,96 @@
+// Rest on several surfaces at once, and balls on balls.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simulate/build.h"
+
+namespace carom {
+namespace {
+
+TEST(Groove, ABallComesToRestInBothPlanesAndSlidesOnByTheClosedForm) {
+  // Two planes at 45 degrees meet along z, the whole tilted by gravity's z component.
+  Problem problem;
+  problem.world.gravity = Vec3(0, -9, 2);
+  problem.plane({0, 0, 0}, {1, 1, 0});
+  problem.plane({0, 0, 0}, {-1, 1, 0});
+  problem.ball({0.1, 1, 0}, {0.3, 0, 0.25}, 2, 0.1, 0.6);
+  problem.options.duration = 20;
+  const Outcome run = run_exact(problem);
+  const Vec3 x = run.end.position[0], v = run.end.velocity[0];
+  EXPECT_NEAR(x.z(), 0.25 * 20 + 0.5 * 2 * 400, 1e-12 * 405);
+  EXPECT_NEAR(v.z(), 0.25 + 2 * 20, 1e-13 * 40);
+  EXPECT_NEAR(x.x(), 0, 1e-12);
+  EXPECT_NEAR(x.y(), 0.1 * std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(std::hypot(v.x(), v.y()), 0, 1e-12);
+  EXPECT_EQ(run.tally.resting, 1u);
+  EXPECT_LT(run.tally.collisions(), 2000u);
+}
+
+TEST(Corner, ABallInACornerOfARoomStandsStill) {
+  Problem problem;
+  problem.world.gravity = Vec3(-1, -9, -2);
+  problem.room({0, 0, 0}, {3, 3, 3});
+  problem.ball({1, 1, 1}, {0.3, -0.2, 0.1}, 1, 0.25, 0.7);
+  problem.options.duration = 100;
+  const Outcome run = run_exact(problem);
+  EXPECT_EQ(run.end.velocity[0], Vec3(0, 0, 0));
+  EXPECT_LT((run.end.position[0] - Vec3(0.25, 0.25, 0.25)).norm(), 1e-15);
+}
+
+TEST(Room, ABallThatSlidesOnTheFloorBouncesBetweenTheWalls) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -10, 0);
+  problem.room({0, 0, 0}, {3, 3, 3});
+  problem.ball({1, 0.5, 1}, {1, 0, 0}, 1, 0.5, 1);
+  problem.options.duration = 10;
+  const Outcome run = run_exact(problem);
+  EXPECT_EQ(run.collisions.size(), 5u);  // at 1.5, 3.5, 5.5, 7.5, 9.5 s
+  EXPECT_EQ(run.end.position[0], Vec3(2, 0.5, 1));
+}
+
+TEST(RestingBall, StruckFromTheSideItSlidesAndStaysOnTheFloor) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -10, 0);
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  problem.ball({0, 0.5, 0}, {2, 0, 0}, 1, 0.5, 1);
+  problem.ball({3, 0.5, 0}, {0, 0, 0}, 1, 0.5, 1);
+  const Outcome run = run_exact(problem);
+  ASSERT_EQ(run.collisions.size(), 1u);
+  EXPECT_EQ(run.collisions[0].time, 1);
+  EXPECT_EQ(run.end.velocity[1], Vec3(2, 0, 0));
+  EXPECT_EQ(run.end.position[1].y(), 0.5);
+}
+
+TEST(RestingBall, IsStruckByAFallingOneAtTheClosedFormsTime) {
+  Problem problem;  // unequal accelerations: the falling ball's path against the resting one's is a parabola
+  problem.world.gravity = Vec3(0, -10, 0);
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  problem.ball({0, 0.5, 0}, {0, 0, 0}, 1, 0.5, 0.5);
+  problem.ball({0.6, 0.5 + 0.8 + 5, 0}, {0, 0, 0}, 1, 0.5, 0.5);  // at (0.6, 0.8) it touches: after falling 5 m, 1 s
+  problem.options.duration = 1;
+  const Outcome run = run_exact(problem);
+  ASSERT_GE(run.collisions.size(), 1u);
+  EXPECT_NEAR(run.collisions[0].time, 1, 1e-15);
+  EXPECT_LT((run.collisions[0].normal - Vec3(0.6, 0.8, 0)).norm(), 1e-14);
+}
+
+TEST(Pile, BallsThatSettleInABoxNeverOverlapNorGainEnergy) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -9.8, 0);
+  problem.room({0, 0, 0}, {0.6, 4, 0.6});
+  for (int i = 0; i < 9; ++i)
+    problem.ball({0.15 + 0.28 * (i % 2), 0.3 + 0.3 * (i / 4), 0.15 + 0.28 * (i / 2 % 2) + 0.01 * (i % 2)},
+                 {0.1 * (i % 2), 0, 0}, 1, 0.1 + 0.01 * (i % 4), 0.4);
+  problem.options.duration = 3;
+  const double start =
+      kinetic_energy(problem.world, problem.initial) + potential_energy(problem.world, problem.initial);
+  const Outcome run = run_exact(problem);
+  const double end = kinetic_energy(problem.world, run.end) + potential_energy(problem.world, run.end);
+  EXPECT_LT(kinetic_energy(problem.world, run.end), 1e-3);
+  EXPECT_LT(run.tally.max_overlap, 1e-12);
+  EXPECT_NEAR(end - start + run.tally.energy_lost, 0, 1e-9);
+}
+
+}  // namespace
+}  // namespace carom
