@@ -1,5 +1,7 @@
 #include "render/shade.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -36,9 +38,14 @@ flat in vec4 ball;
 flat in vec3 normal;
 in vec3 p;
 uniform sampler2D lit;
+uniform vec4 planes[PLANES + 1];  // normal, the eye's height
+uniform float slack;
 layout(location = 0) out vec4 color;
 
 void main() {
+  // Beyond another plane this surface is cut off, though nothing else may hide it there.
+  for (int k = 0; k < PLANES; ++k)
+    if (dot(planes[k].xyz, p) + planes[k].w < -slack) discard;
   vec4 now = texelFetch(lit, ivec2(gl_FragCoord.xy), 0);
   vec3 to_ball = ball.xyz - p;
   float open = through_ball(p, towards_light(0, p), to_ball, ball.w);
@@ -50,6 +57,11 @@ void main() {
 }
 )";
 
+/// A shader can test only so many; more are cut where the backdrop's depth says so.
+std::size_t cutting_planes(const Surfaces& surfaces) {
+  return surfaces.planes() > 1 ? std::min<std::size_t>(surfaces.planes(), 200) : 0;
+}
+
 constexpr double least_slope = 0.03;  // light that grazes a surface more than this lights it too little to cast shadows
 
 }  // namespace
@@ -58,13 +70,21 @@ Shade::Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces)
     : eye_(eye),
       lighting_(lighting),
       surfaces_(surfaces),
-      program_({vertex_shader}, {lighting.shader(), fragment_shader}),
+      program_({vertex_shader},
+               {fmt::format("#define PLANES {}\n", cutting_planes(surfaces)), lighting.shader(), fragment_shader}),
       instances_({3, 3, 3, 4, 3}) {
   program_.use();
   lighting.set(program_);
   glUniform2f(program_.at("tangent"), static_cast<float>(eye.tan_x), static_cast<float>(eye.tan_y));
   glUniform1f(program_.at("near"), static_cast<float>(eye.camera.near));
   glUniform1i(program_.at("lit"), 0);
+  std::vector<float> planes;
+  for (std::size_t k = 0; k < cutting_planes(surfaces); ++k) {
+    const Surface& s = surfaces.all()[k];
+    for (double x : {s.normal.x(), s.normal.y(), s.normal.z(), s.height}) planes.push_back(static_cast<float>(x));
+  }
+  if (!planes.empty()) glUniform4fv(program_.at("planes"), static_cast<GLsizei>(planes.size() / 4), planes.data());
+  glUniform1f(program_.at("slack"), static_cast<float>(1e-5 * surfaces.reach()));
 }
 
 bool Shade::in_picture(const Vec3& center, double radius) const {

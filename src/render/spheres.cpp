@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "render/renderer.h"
 
@@ -168,31 +169,35 @@ Spheres::Spheres(const Scene& scene, const Eye& eye, const Lighting& lighting, c
 void Spheres::draw(std::span<const Ball> balls, std::span<const std::uint32_t> seen, const Backdrop& backdrop,
                    const gl::TexelBuffer& rows) {
   if (seen.empty()) return;
-  Occluders occluders(balls, lighting_);
+  std::optional<Occluders> occluders;  // only if some ball is large enough to show a shadow upon it
   row_.clear();
   occluder_row_.clear();
   const auto f = [](double x) { return static_cast<float>(x); };
   for (std::uint32_t i : seen) {
     const Ball& ball = balls[i];
-    const std::size_t first = occluder_row_.size() / 4;
-    if (first < most_rows) {
-      occluders.find(i, found_);
-      for (std::uint32_t k : found_)
-        for (double x : {balls[k].center.x(), balls[k].center.y(), balls[k].center.z(), balls[k].radius})
-          occluder_row_.push_back(f(x));
-      for (std::size_t w = surfaces_.planes(); w < surfaces_.all().size(); ++w)
-        for (float x : {static_cast<float>(w), 0.0F, 0.0F, -1.0F}) occluder_row_.push_back(x);
-    }
     Outline o{};
-    double opacity = 1, a = 0, b = 0;
+    double opacity = 1, b = 0;
+    bool large = true;
     if (outline_of(ball.center, ball.radius, o)) {
-      a = std::hypot(o.ax, o.ay), b = std::hypot(o.bx, o.by);
+      const double a = std::hypot(o.ax, o.ay);
+      b = std::hypot(o.bx, o.by);
+      large = b > 1.5 * eye_.pixel;
       // Below a pixel a disc cannot be drawn: a larger one, and fainter, covers as much.
       const double least = smooth_ ? 0.8 * eye_.pixel : 0;
       const double wide_a = std::max(a, least), wide_b = std::max(b, least);
       opacity = a * b / (wide_a * wide_b);
       o.ax *= wide_a / a, o.ay *= wide_a / a;
       b = wide_b;
+    }
+    const std::size_t first = occluder_row_.size() / 4;
+    if (large && first < most_rows) {
+      if (!occluders) occluders.emplace(balls, lighting_);
+      occluders->find(i, found_);
+      for (std::uint32_t k : found_)
+        for (double x : {balls[k].center.x(), balls[k].center.y(), balls[k].center.z(), balls[k].radius})
+          occluder_row_.push_back(f(x));
+      for (std::size_t w = surfaces_.planes(); w < surfaces_.all().size(); ++w)
+        for (float x : {static_cast<float>(w), 0.0F, 0.0F, -1.0F}) occluder_row_.push_back(x);
     }
     for (double x : {ball.center.x(), ball.center.y(), ball.center.z(), ball.radius, o.x, o.y, o.ax, o.ay, b, o.depth2,
                      opacity, 0.0})
