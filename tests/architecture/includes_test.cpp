@@ -32,14 +32,13 @@ const std::map<std::string, std::vector<std::string>> library_words = {
     {"assimp", {"assimp/"}},
     {"PNG", {"png.h", "zlib.h"}},
     {"nettle", {"nettle/"}},
-    {"nlohmann-json", {"nlohmann/"}},
     {"libxlsxwriter", {"xlsxwriter"}},
     {"CLI11", {"CLI/"}},
     {"ffmpeg's pipe", {}},  // not a header: see OnlyExportStartsFfmpeg
 };
-/// What any folder may include: text, and the system's own headers.
-const std::vector<std::string> free_libraries = {"fmt/",   "sys/",     "unistd.h", "fcntl.h",
-                                                 "poll.h", "signal.h", "spawn.h"};
+/// What any folder may include: text and JSON, and the system's own headers.
+const std::vector<std::string> free_libraries = {"fmt/",   "nlohmann/", "sys/",    "dirent.h", "fcntl.h",
+                                                 "poll.h", "signal.h",  "spawn.h", "unistd.h"};
 
 std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> parts(1);
@@ -91,7 +90,7 @@ const char* const fallback = R"(
 | `simulate/` | physics | |
 | `scene/` | physics | yaml-cpp |
 | `render/` | physics, scene's types | OSMesa/OpenGL, assimp |
-| `export/` | physics, scene's types, render's `Image` | PNG, ffmpeg's pipe, nettle, nlohmann-json |
+| `export/` | physics, scene's types, render's `Image` | PNG, nettle, ffmpeg's pipe |
 | `commands/`, `main` | all | CLI11 |
 )";
 
