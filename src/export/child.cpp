@@ -21,8 +21,6 @@
 
 #include "export/run_folder.h"
 
-extern char** environ;
-
 namespace carom {
 namespace {
 
@@ -93,6 +91,7 @@ Child::Child(const std::vector<std::string>& arguments, int folder, bool fed)
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
 
   std::vector<char*> list;
+  list.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) list.push_back(const_cast<char*>(argument.c_str()));
   list.push_back(nullptr);
   const int error = posix_spawn(&id_, arguments[0].c_str(), &actions, &attributes, list.data(), environ);

@@ -49,10 +49,12 @@ Forecast forecast(const Scene& scene);
 
 class Exports {
  public:
-  /// Opens only what scene.output asks for, in `folder`, which is made if need be. Removes what a former run left there
-  /// (by its manifest). `scene` must outlive this. Throws ExportError.
+  /// Opens only what scene.output asks for, in `folder`, which is made if need be and locked against other runs.
+  /// Removes what a former run left there (by its manifest). What can be known to fail is refused before anything is
+  /// touched: ffmpeg missing, a video without pictures, a sheet too large. `scene` must outlive this. Throws
+  /// ExportError.
   Exports(const Scene& scene, const std::string& folder);
-  /// Without finish(): what was not whole is removed.
+  /// Without finish(): what was not whole is removed; frames that are whole stay.
   ~Exports();
   Exports(const Exports&) = delete;
   Exports& operator=(const Exports&) = delete;
@@ -63,9 +65,11 @@ class Exports {
   void sample(const State& state);  // writes the rows that are due now
   const std::vector<PictureStream>& pictures() const;
   void picture(std::size_t stream, const Image& image);  // the picture due now of pictures()[stream]
-  std::uint64_t frames() const;                          // pictures taken so far
+  std::uint64_t frames() const;  // pictures taken so far for frames and video; the sheet's do not count
 
-  /// Completes every file, then writes summary.csv, scene.yaml and last manifest.json. Throws ExportError.
+  /// Completes every file, then gives them their names, summary.csv's too and last manifest.json's. (scene.yaml stands
+  /// there from the beginning, so that the folder of an interrupted run is known to be this scene's.) Throws
+  /// ExportError.
   void finish(const Summary& summary, const RunFacts& facts);
 
  private:

@@ -92,8 +92,10 @@ OpenFolder::OpenFolder(const std::string& path) {
 
 OpenFolder::~OpenFolder() {
   if (keep_) return;
-  if (begun_) unlinkat(place_.folder, "scene.yaml", 0);
-  if (frames_) unlinkat(place_.folder, "frames", AT_REMOVEDIR);
+  if (begun_) {
+    unlinkat(place_.folder, "frames", AT_REMOVEDIR);  // if it is empty
+    unlinkat(place_.folder, "scene.yaml", 0);
+  }
   if (made_) rmdir(place_.path.c_str());
 }
 
@@ -130,7 +132,8 @@ Place OpenFolder::frames() {
   const Place place{-1, place_.path + "/frames"};
   if (mkdirat(place_.folder, "frames", 0777) != 0 && errno != EEXIST) fail("make", place, "");
   frames_ = open_folder(place_.folder, "frames", false);
-  if (!frames_) fail("open", place, "", "it is no folder, or a link; remove it");
+  const bool other = !frames_ && (errno == ENOTDIR || errno == ELOOP);
+  if (!frames_) fail("open", place, "", other ? "it is no folder, or a link; remove it" : "");
   return {frames_.get(), place.path};
 }
 

@@ -15,7 +15,7 @@ namespace carom {
 namespace {
 
 /// Large enough that system calls cost nothing, small enough to stay in a processor's cache while it is hashed.
-constexpr std::size_t buffer_size = 256 * 1024;
+constexpr std::size_t buffer_size = std::size_t{256} * 1024;
 
 }  // namespace
 

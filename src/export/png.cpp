@@ -51,7 +51,7 @@ bool encode(const Image& image, PngEffort effort, Sink& sink) {
   // fast makes smaller files; choosing a filter row by row takes twice as long and gains nothing.
   png_set_filter(png, 0, PNG_FILTER_SUB);
   png_set_compression_level(png, effort == PngEffort::fast ? 2 : 9);
-  png_set_compression_buffer_size(png, 64 * 1024);
+  png_set_compression_buffer_size(png, std::size_t{64} * 1024);
   png_write_info(png, info);
   for (int y = 0; y < image.height; ++y) png_write_row(png, image.row(y));
   png_write_end(png, nullptr);

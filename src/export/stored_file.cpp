@@ -39,7 +39,7 @@ std::optional<FileRecord> read_record(int folder, const std::string& name) {
   if (!file) return std::nullopt;
   FileRecord record{name, 0, {}};
   Sha256 hash;
-  std::vector<char> buffer(256 * 1024);
+  std::vector<char> buffer(std::size_t{256} * 1024);
   ssize_t n;
   while ((n = read_some(file.get(), buffer.data(), buffer.size())) > 0) {
     hash.add({buffer.data(), static_cast<std::size_t>(n)});
@@ -54,7 +54,7 @@ std::optional<std::string> read_text(int folder, const std::string& name, std::u
   const Descriptor file = open_stored(folder, name);
   if (!file) return std::nullopt;
   std::string text;
-  std::vector<char> buffer(64 * 1024);
+  std::vector<char> buffer(std::size_t{64} * 1024);
   ssize_t n;
   while ((n = read_some(file.get(), buffer.data(), buffer.size())) > 0) {
     text.append(buffer.data(), static_cast<std::size_t>(n));
