@@ -31,10 +31,10 @@ vec3 hemisphere(vec3 n) { return ambient * (0.8 + 0.2 * dot(n, world_up)); }
 // How much of a surface's light is not the key light's, in one number q, 0 to 1: as if it were lit by q times the ambient
 // and 1 - q times the key light. From the part that stays in shadow, summed over the channels; and back, by channel.
 float light_mix(float part) {
-  float a = dot(ambient, vec3(1)), k = dot(light_radiance[0], vec3(1));
+  float a = dot(ambient, vec3(1)), k = dot(light_radiance[0] + 1e-3, vec3(1));
   return clamp(part * k / max(part * k + (1 - part) * a, 1e-12), 0, 1);
 }
-vec3 part_in_shadow(float q) { return q * ambient / max(q * ambient + (1 - q) * light_radiance[0], 1e-12); }
+vec3 part_in_shadow(float q) { return q * ambient / max(q * ambient + (1 - q) * (light_radiance[0] + 1e-3), 1e-12); }
 
 // The part of the key light that a ball lets through to p; `to_ball` from p to its centre.
 // Seen from p the light is a disc of tangent `spread`, the ball one of about radius / along.

@@ -80,8 +80,9 @@ void main() {
   if (shape.x > 0) {
     float rest = 1 - dot(local, local);
     vec2 slope = local / vec2(length(outline.zw), shape.x);
-    disc = shape.y * rest;
-    inside = rest / (2 * length(slope) * pixel + 1e-20);
+    disc = shape.y * max(rest, 0.5 * pixel / shape.x);  // an edge pixel is shaded as the covered part of it, not as its rim
+    float out_at = length(local);
+    inside = (1 - out_at) * (out_at > 1e-4 ? out_at / length(slope) : shape.x) / pixel;
   } else {
     float power = dot(ball.xyz, ball.xyz) - ball.w * ball.w;
     disc = dc * dc - dd * power;
@@ -183,9 +184,10 @@ void Spheres::draw(std::span<const Ball> balls, std::span<const std::uint32_t> s
       b = std::hypot(o.bx, o.by);
       large = b > 1.5 * eye_.pixel;
       // Below a pixel a disc cannot be drawn: a larger one, and fainter, covers as much.
-      const double least = smooth_ ? 0.8 * eye_.pixel : 0;
+      const double least = smooth_ ? eye_.pixel : 0;
       const double wide_a = std::max(a, least), wide_b = std::max(b, least);
-      opacity = a * b / (wide_a * wide_b);
+      // The soft edge is a ramp one pixel wide, which adds the area of a disc of radius pixel / sqrt 12.
+      if (wide_b > b) opacity = a * b / (wide_a * wide_b + eye_.pixel * eye_.pixel / 12);
       o.ax *= wide_a / a, o.ay *= wide_a / a;
       b = wide_b;
     }

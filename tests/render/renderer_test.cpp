@@ -1,0 +1,139 @@
+// The renderer as a machine: the same bytes, sizes that it refuses, several at a time.
+#include "render/renderer.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+
+#include "render/scenes.h"
+
+namespace carom {
+namespace {
+
+std::uint64_t hash_of(const Image& image) {  // FNV-1a
+  std::uint64_t hash = 14695981039346656037U;
+  for (std::uint8_t byte : image.pixels) hash = (hash ^ byte) * 1099511628211U;
+  return hash;
+}
+
+Image drawn(const Scene& scene, Size size, int samples = 4) {
+  Renderer renderer(scene, size, samples);
+  return renderer.draw(scene.initial);
+}
+
+TEST(Bytes, AreTheSameAtEveryDraw) {
+  const Scene scene = test::gas(60);
+  Renderer renderer(scene, {320, 180}, 4);
+  const std::uint64_t first = hash_of(renderer.draw(scene.initial));
+  State moved = scene.initial;
+  for (Vec3& p : moved.position) p.y() += 0.5;
+  EXPECT_NE(hash_of(renderer.draw(moved)), first);
+  EXPECT_EQ(hash_of(renderer.draw(scene.initial)), first);
+  EXPECT_EQ(hash_of(drawn(scene, {320, 180})), first);
+}
+
+/// Not a claim of its own: prints a picture's hash for the test below, which runs it in processes of its own.
+TEST(Bytes, Probe) {
+  if (!std::getenv("CAROM_PRINT_HASH")) GTEST_SKIP();
+  std::printf("hash=%016llx\n", static_cast<unsigned long long>(hash_of(drawn(test::gas(60), {320, 180}))));
+}
+
+std::string hash_with_threads(const char* threads) {
+  std::array<char, 4096> program{};
+  if (readlink("/proc/self/exe", program.data(), program.size() - 1) < 0) return {};
+  const std::string command = std::string("CAROM_PRINT_HASH=1 LP_NUM_THREADS=") + threads + " '" + program.data() +
+                              "' --gtest_filter=Bytes.Probe 2>/dev/null";
+  std::string text;
+  FILE* pipe = popen(command.c_str(), "r");
+  if (!pipe) return {};
+  for (int c; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
+  pclose(pipe);
+  const std::size_t at = text.find("hash=");
+  return at == std::string::npos ? std::string() : text.substr(at, 21);
+}
+
+TEST(Bytes, AreTheSameForAnyNumberOfThreads) {
+  const std::string none = hash_with_threads("0");
+  ASSERT_EQ(none.size(), 21U);
+  EXPECT_EQ(hash_with_threads("1"), none);
+  EXPECT_EQ(hash_with_threads("2"), none);
+  EXPECT_EQ(hash_with_threads("7"), none);
+}
+
+TEST(Size, BeyondWhatCanBeDrawnIsRefused) {
+  const Scene scene;
+  for (const Size size : {Size{16385, 1}, Size{1, 16385}, Size{1000000000, 1}, Size{0, 5}, Size{5, -1}}) {
+    try {
+      Renderer renderer(scene, size, 4);
+      ADD_FAILURE() << size.width << " x " << size.height;
+    } catch (const RenderError& error) {
+      EXPECT_EQ(std::string(error.what()), "a picture of " + std::to_string(size.width) + " x " +
+                                               std::to_string(size.height) +
+                                               " pixels cannot be drawn: each side can be 1 to 16384");
+    }
+  }
+  EXPECT_THROW(Renderer(scene, {4, 4}, 0), RenderError);
+}
+
+TEST(Size, TheLongestSideIsPaintedToItsEnd) {
+  Scene scene;
+  scene.background = Color{1, 1, 1};
+  for (const Size size : {Size{16384, 2}, Size{2, 16384}, Size{1, 1}}) {
+    const Image image = drawn(scene, size);
+    EXPECT_EQ(image.width, size.width);
+    EXPECT_EQ(image.pixels.size(), 3U * static_cast<unsigned>(size.width) * static_cast<unsigned>(size.height));
+    EXPECT_EQ(image.pixels.front(), 255);
+    EXPECT_EQ(image.pixels.back(), 255);
+  }
+}
+
+TEST(Renderers, OfDifferentSizesTakeTurns) {
+  const Scene gas = test::gas(20), balls = test::bowling_balls();
+  const std::uint64_t small_alone = hash_of(drawn(gas, {64, 48})), large_alone = hash_of(drawn(balls, {200, 100}));
+  Renderer small(gas, {64, 48}, 4);
+  auto large = std::make_unique<Renderer>(balls, Size{200, 100}, 4);
+  EXPECT_EQ(hash_of(small.draw(gas.initial)), small_alone);
+  EXPECT_EQ(hash_of(large->draw(balls.initial)), large_alone);
+  EXPECT_EQ(hash_of(small.draw(gas.initial)), small_alone);
+  large.reset();
+  EXPECT_EQ(hash_of(small.draw(gas.initial)), small_alone);
+}
+
+TEST(Scenes, OfNothingAndOfExtremesAreDrawn) {
+  Scene empty;
+  EXPECT_EQ(drawn(empty, {32, 32}).pixels.size(), 3072U);
+  for (double scale : {1e-6, 1.0, 1e6}) {  // the same scene in other units gives nearly the same picture
+    Scene scene;
+    test::add_ball(scene, Vec3(0, 2 * scale, 0), 0.5 * scale, {1, 0, 0});
+    test::add_plane(scene, Vec3::Zero(), Vec3(0, 1, 0), {0.5, 0.5, 0.5});
+    const Image image = drawn(scene, {100, 100});
+    int red = 0;
+    for (int i = 0; i < 10000; ++i)
+      if (image.pixels[3U * static_cast<unsigned>(i)] > 2 * image.pixels[3U * static_cast<unsigned>(i) + 1]) ++red;
+    EXPECT_NEAR(red, 1000, 600) << scale;
+  }
+}
+
+TEST(Scenes, FarFromTheOriginLookTheSame) {
+  // Camera and bodies 1e7 m away, where float steps by a metre: the disc must not move by a pixel.
+  Scene near_scene;
+  test::add_ball(near_scene, Vec3(0.3, 0.2, 0), 0.5, {1, 1, 1});
+  Scene far_scene = near_scene;
+  const Vec3 shift(1e7, 0, -1e7);
+  far_scene.initial.position[0] += shift;
+  const Image a = drawn(near_scene, {120, 90}), b = drawn(far_scene, {120, 90});
+  int worst = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) worst = std::max(worst, std::abs(a.pixels[i] - b.pixels[i]));
+  EXPECT_LE(worst, 2);  // measured: 1
+}
+
+TEST(Scenes, ThousandsOfBallsAreDrawn) {
+  const Scene scene = test::gas(3000);
+  EXPECT_EQ(drawn(scene, {320, 180}).width, 320);
+}
+
+}  // namespace
+}  // namespace carom
