@@ -1,0 +1,70 @@
+#include "physics/polynomial.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace carom {
+namespace {
+
+Polynomial from_roots(std::initializer_list<double> roots) {
+  Polynomial p{{1}, 0};
+  for (double r : roots) {
+    Polynomial q{{}, p.degree + 1};
+    for (int k = 0; k <= p.degree; ++k) {
+      q.c[static_cast<std::size_t>(k + 1)] += p.c[static_cast<std::size_t>(k)];
+      q.c[static_cast<std::size_t>(k)] -= r * p.c[static_cast<std::size_t>(k)];
+    }
+    p = q;
+  }
+  return p;
+}
+
+TEST(Roots, FourRootsAreAllFound) {
+  const Roots roots = roots_between(from_roots({1, 2, 4, 8}), 0, 10);
+  ASSERT_EQ(roots.count, 4);
+  const double expected[] = {1, 2, 4, 8};
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(roots.at[k], expected[k], 4e-15 * expected[k]);
+}
+
+TEST(Roots, OnlyThoseInTheIntervalCount) {
+  EXPECT_EQ(roots_between(from_roots({1, 2, 4, 8}), 1.5, 5).count, 2);
+  EXPECT_EQ(roots_between(from_roots({1, 2, 4, 8}), 9, 50).count, 0);
+}
+
+TEST(Roots, TwoRootsAMillionthApartAreTwo) {
+  const Roots roots = roots_between(from_roots({1, 1 + 1e-6, 3}), 0, 10);
+  ASSERT_EQ(roots.count, 3);
+  EXPECT_NEAR(roots.at[1] - roots.at[0], 1e-6, 1e-9);
+}
+
+TEST(Roots, LeadingZerosLowerTheDegree) {
+  const Roots roots = roots_between({{-6, 2, 0, 0, 0}, 4}, 0, 10);
+  ASSERT_EQ(roots.count, 1);
+  EXPECT_EQ(roots.at[0], 3);
+  EXPECT_EQ(roots_between({{1, 0, 0, 0, 0}, 4}, 0, 10).count, 0);
+}
+
+TEST(FirstDescent, SkipsARiseThroughZero) {
+  EXPECT_NEAR(first_descent(from_roots({1, 2, 3, 5}), 10), 1, 1e-15);             // + - + - +
+  EXPECT_NEAR(first_descent({{-1, 2, -0.5}, 2}, 10), 2 + std::sqrt(2.0), 1e-15);  // rises at 0.59, falls at 3.41
+}
+
+TEST(FirstDescent, BelowZeroAndFallingIsNow) {
+  EXPECT_EQ(first_descent({{-1e-17, -1}, 1}, 10), 0);
+}
+
+TEST(FirstDescent, BelowZeroAndRisingWaitsForTheTurningPoint) {
+  EXPECT_EQ(first_descent({{-3, 2, -1}, 2}, 10), 1);  // greatest at t = 1, still below zero
+}
+
+TEST(FirstDescent, TouchingZeroFromAboveIsNone) {
+  EXPECT_EQ(first_descent({{4, -4, 1}, 2}, 10), never);
+}
+
+TEST(FirstDescent, BeyondTheHorizonIsNever) {
+  EXPECT_EQ(first_descent({{10, -1}, 1}, 9), never);
+}
+
+}  // namespace
+}  // namespace carom
