@@ -41,17 +41,32 @@ class Checker {
     for (const Field& field : kind.fields) {
       if (!field.needed) continue;
       if (has(node, defaults, field.key) || (!field.instead.empty() && has(node, defaults, field.instead))) continue;
+      node.bad = true;
+      if (is_misspelt_in(node, kind, field)) continue;  // said there
       const Field* other = field.instead.empty() ? nullptr : find_field(kind, field.instead);
       diagnostics_.add(where,
                        fmt::format("{} has no {}{}", what, quoted(field.key),
                                    other ? fmt::format(" and no {}", quoted(other->key)) : ""),
                        fmt::format("expected {}: {}", quoted(field.key), expected(field)) +
                            (other ? fmt::format("\nor {}: {}", quoted(other->key), expected(*other)) : ""));
-      node.bad = true;
     }
   }
 
  private:
+  /// Whether an unknown key of the map was probably meant to be this field: one error is enough for both.
+  static bool is_misspelt_in(const Node& node, const Kind& kind, const Field& field) {
+    for (const Key& key : node.keys) {
+      if (find_field(kind, key.text) != nullptr) continue;
+      const std::string near = meant(key.text, kind);
+      if (near == field.key || (!field.instead.empty() && near == field.instead)) return true;
+    }
+    return false;
+  }
+  static std::string meant(std::string_view key, const Kind& kind) {
+    const std::string_view head = key.substr(0, key.find_first_of(": "));
+    return find_field(kind, head) != nullptr ? std::string(head) : nearest(key, keys_of(kind));
+  }
+
   static bool has(const Node& node, const Node* defaults, std::string_view key) {
     return node.find_key(key) != nullptr || (defaults != nullptr && defaults->find_key(key) != nullptr);
   }
@@ -131,7 +146,7 @@ class Checker {
     struct stat info {};
     if (stat(path.c_str(), &info) == 0 && S_ISREG(info.st_mode)) return true;
     diagnostics_.add(value.place, fmt::format("there is no file {}", quoted(value.text)),
-                     fmt::format("looked for {}; paths start at the folder of the scene", quoted(path)));
+                     "paths start at the folder of the scene");
     return false;
   }
 
@@ -282,7 +297,8 @@ class Checker {
     }
     if (value.items.size() != count) {
       refuse(value, fmt::format("{} has {} number{}", name, value.items.size(), value.items.size() == 1 ? "" : "s"),
-             "expected " + expected(field));
+             "expected " + expected(field) +
+                 (value.items.size() > count ? "\nthe decimal point is a point: 1.5, not 1,5" : ""));
       return false;
     }
     bool good = true;

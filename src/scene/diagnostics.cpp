@@ -46,6 +46,22 @@ std::vector<Character> characters(std::string_view line) {
   return out;
 }
 
+std::size_t count_characters(std::string_view text) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < text.size(); ++count) {
+    char32_t code = 0;
+    i += static_cast<std::size_t>(std::max(utf8_length(text, i, code), 1));
+  }
+  return count;
+}
+
+/// Bytes of a character that was cut in front of `text`.
+std::size_t first_whole_character(std::string_view text) {
+  std::size_t i = 0;
+  while (i < std::min<std::size_t>(text.size(), 3) && (static_cast<unsigned char>(text[i]) & 0xC0) == 0x80) ++i;
+  return i;
+}
+
 std::string printable(std::string_view text) {
   std::string out;
   for (const Character& c : characters(text)) out += c.text;
@@ -127,32 +143,37 @@ std::string Diagnostics::show(const Error& error, bool color) const {
     const std::size_t begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;  // npos + 1 is 0
     const std::size_t end = std::min(text.find('\n', offset), text.size());
     const auto line_number = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
-    const std::vector<Character> line = characters(text.substr(begin, end - begin));
-    const auto index_of = [&](std::size_t at) {
-      return static_cast<std::size_t>(
-          std::partition_point(line.begin(), line.end(), [&](const Character& c) { return c.at < at; }) - line.begin());
-    };
-    const std::size_t caret = index_of(offset - begin);
-    const std::size_t last = std::max(caret + 1, index_of(offset - begin + error.place.length));
+    // A long line is shown through a window around the caret; its other characters are only counted.
+    const std::string_view before = text.substr(begin, offset - begin), after = text.substr(offset, end - offset);
+    const std::size_t column = 1 + count_characters(before);
+    const std::string_view near = before.substr(before.size() - std::min(before.size(), 4 * max_width));
+    std::vector<Character> left = characters(near.substr(first_whole_character(near)));
+    std::vector<Character> right = characters(after.substr(0, 4 * max_width));
 
-    const std::string where = source.option ? printable(source.name)
-                                            : fmt::format("{}:{}:{}", printable(source.name), line_number, caret + 1);
+    const std::string where =
+        source.option ? printable(source.name) : fmt::format("{}:{}:{}", printable(source.name), line_number, column);
     out = fmt::format("{}: {} {}\n", paint(where, "1", color), label, error.message);
 
-    // A long line is shown through a window around the caret.
-    const std::size_t from = line.size() > max_width && caret > lead_width ? caret - lead_width : 0;
-    const std::size_t to = std::min(line.size(), from + max_width);
-    std::string shown = from > 0 ? "..." : "", under = from > 0 ? "   " : "";
-    for (std::size_t i = from; i < to; ++i) {
-      shown += line[i].text;
-      if (i < caret) under.append(static_cast<std::size_t>(line[i].width), ' ');
+    const bool fits =
+        near.size() == before.size() && after.size() <= 4 * max_width && left.size() + right.size() <= max_width;
+    const bool cut_left = !fits && (near.size() < before.size() || left.size() > lead_width);
+    if (cut_left) left.erase(left.begin(), left.end() - static_cast<std::ptrdiff_t>(std::min(left.size(), lead_width)));
+    const std::size_t room = max_width - std::min(left.size(), lead_width);
+    const bool cut_right = !fits && (after.size() > 4 * max_width || right.size() > room);
+    if (cut_right) right.resize(std::min(right.size(), room));
+
+    std::string shown = cut_left ? "..." : "", under = cut_left ? "   " : "", marks;
+    for (const Character& c : left) {
+      shown += c.text;
+      under.append(static_cast<std::size_t>(c.width), ' ');
     }
-    if (to < line.size()) shown += "...";
-    std::string marks = "^";
-    for (std::size_t i = caret; i < std::min(last, to); ++i) {
-      marks.append(static_cast<std::size_t>(line[i].width), '~');
+    for (const Character& c : right) {
+      shown += c.text;
+      if (c.at < error.place.length) marks.append(static_cast<std::size_t>(c.width), '~');
     }
-    if (marks.size() > 1) marks.pop_back();
+    if (cut_right) shown += "...";
+    if (marks.empty()) marks = "~";
+    marks[0] = '^';
     const std::string number = source.option ? "" : std::to_string(line_number);
     gutter = std::string(std::max<std::size_t>(number.size(), 4), ' ');
     out += fmt::format("{:>4} | {}\n", number, shown);

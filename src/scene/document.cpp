@@ -103,7 +103,7 @@ class Builder : public YAML::EventHandler {
   struct Open {
     Node node;
     std::optional<Key> pending;                         // a map's key whose value comes next
-    std::unordered_map<std::string, std::size_t> seen;  // a large map's keys
+    std::unordered_map<std::string, std::size_t> seen;  // keys, once there are many
   };
 
   Place at(const YAML::Mark& mark, std::size_t length = 1) const {
@@ -212,15 +212,25 @@ class Builder : public YAML::EventHandler {
                fmt::format("it stands in line {} already", line));
         return;
       }
-      parent.seen.emplace(name.text, parent.node.keys.size());
       parent.node.keys.push_back(std::move(name));
+      remember(parent);
     }
     parent.node.items.push_back(std::move(node));
   }
 
+  static constexpr std::size_t many = 32;
+
   static const Key* first_with(const Open& open, const std::string& name) {
+    if (open.node.keys.size() < many) return open.node.find_key(name);
     const auto it = open.seen.find(name);
     return it == open.seen.end() ? nullptr : &open.node.keys[it->second];
+  }
+
+  static void remember(Open& open) {
+    const std::vector<Key>& keys = open.node.keys;
+    if (keys.size() < many) return;
+    for (std::size_t i = keys.size() == many ? 0 : keys.size() - 1; i < keys.size(); ++i)
+      open.seen.emplace(keys[i].text, i);
   }
 
   std::string_view text_;

@@ -239,10 +239,10 @@ std::string describe(const Range& range) {
   const bool low = range.min > -infinity, high = range.max < infinity;
   if (low && high) {
     return range.above_min || range.below_max ? fmt::format("between {} and {}", range.min, range.max)
-                                              : fmt::format("{} to {}", range.min, range.max);
+                                              : fmt::format("from {} to {}", range.min, range.max);
   }
-  if (low) return range.above_min ? fmt::format("above {}", range.min) : fmt::format("at least {}", range.min);
-  if (high) return fmt::format("at most {}", range.max);
+  if (low) return range.above_min ? fmt::format("above {}", range.min) : fmt::format("of at least {}", range.min);
+  if (high) return fmt::format("of at most {}", range.max);
   return {};
 }
 

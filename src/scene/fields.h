@@ -64,11 +64,11 @@ std::span<const Kind> kinds();
 const Kind& kind_named(std::string_view name);  // there must be one
 const Field* find_field(const Kind& kind, std::string_view key);
 
-/// "> 0", "1 to 8", "at least 0"; empty: any.
+/// For use after a noun: "above 0", "from 1 to 8", "of at least 0"; empty: any.
 std::string describe(const Range& range);
 bool contains(const Range& range, double value);
 
-/// What a value of this field looks like: "a number > 0, in kg", "[x, y, z] in m", "average, minimum or maximum".
+/// What a value of this field looks like: "a number above 0 in kg", "[x, y, z] in m", "average, minimum or maximum".
 std::string expected(const Field& field);
 
 /// The choices that this version serves, one by one.

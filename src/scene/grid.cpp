@@ -94,6 +94,12 @@ std::optional<BallGrid::Overlap> BallGrid::find_overlap(const Vec3& center, doub
       }
       continue;
     }
+    // The ball's own cell first: where there is an overlap, it is most often there.
+    for (std::uint32_t i = heads_[bucket(level.exponent, cell_of(center.x(), level.cell),
+                                         cell_of(center.y(), level.cell), cell_of(center.z(), level.cell))];
+         i != none; i = next_[i]) {
+      if (auto overlap = overlap_with(i, center, radius)) return overlap;
+    }
     for (std::int64_t z = low[2]; z <= high[2]; ++z) {
       for (std::int64_t y = low[1]; y <= high[1]; ++y) {
         for (std::int64_t x = low[0]; x <= high[0]; ++x) {

@@ -15,7 +15,7 @@
 namespace carom {
 namespace {
 
-constexpr std::uint64_t max_brackets = 4'000'000;  // all of []{},:? together: at about 200 bytes each while scanning
+constexpr std::uint64_t max_brackets = 4'000'000;  // and quotes, at about 200 bytes each while scanning
 constexpr int max_open_brackets = 1000;            // more than the depth cap, so that the cap's own message comes first
 constexpr int max_shown_tabs = 10;
 
@@ -103,11 +103,11 @@ bool read_source(const std::string& path, Source& source, Diagnostics& diagnosti
     return false;
   }
   if (S_ISDIR(info.st_mode)) {
-    refuse_file(diagnostics, path, "is a folder, not a scene file", "name the scene file in it");
+    refuse_file(diagnostics, path, "this is a folder, not a scene file", "name the scene file in it");
     return false;
   }
   if (!S_ISREG(info.st_mode)) {
-    refuse_file(diagnostics, path, "is not a regular file", "write the scene to a file and name that");
+    refuse_file(diagnostics, path, "this is not a regular file", "write the scene to a file and name that");
     return false;
   }
 
@@ -115,7 +115,7 @@ bool read_source(const std::string& path, Source& source, Diagnostics& diagnosti
   std::string& text = source.text;
   text.clear();
   const auto too_big = [&] {
-    refuse_file(diagnostics, path, fmt::format("is larger than {} MiB", max_source_bytes >> 20),
+    refuse_file(diagnostics, path, fmt::format("the file is larger than {} MiB", max_source_bytes >> 20),
                 "many balls of one kind are a group: `groups`");
     return false;
   };
@@ -134,7 +134,7 @@ bool read_source(const std::string& path, Source& source, Diagnostics& diagnosti
     if (text.size() > max_source_bytes) return too_big();
   }
   if (!looks_like_utf8(text)) {
-    refuse_file(diagnostics, path, "is not UTF-8 text (it looks like UTF-16 or UTF-32, or is no text at all)",
+    refuse_file(diagnostics, path, "this is not UTF-8 text (it looks like UTF-16 or UTF-32, or is no text at all)",
                 "save it as UTF-8");
     return false;
   }
@@ -177,7 +177,7 @@ bool check_text(Source& source, std::uint32_t index, Diagnostics& diagnostics) {
     } else if (code != ' ') {
       indenting = false;
     }
-    if (code < 0x80 && std::strchr("[]{},:?", static_cast<int>(code)) != nullptr && code != 0) {
+    if (code < 0x80 && std::strchr("[]{},:?\"'*&!", static_cast<int>(code)) != nullptr && code != 0) {
       ++brackets;
       if (code == '[' || code == '{') ++open_brackets;
       if ((code == ']' || code == '}') && open_brackets > 0) --open_brackets;
@@ -187,7 +187,7 @@ bool check_text(Source& source, std::uint32_t index, Diagnostics& diagnostics) {
         return false;
       }
       if (brackets > max_brackets) {
-        diagnostics.add(one_byte(index, i), fmt::format("more than {} brackets, commas and colons", max_brackets),
+        diagnostics.add(one_byte(index, i), fmt::format("more than {} brackets, quotes, commas and colons", max_brackets),
                         "many balls of one kind are a group: `groups`");
         return false;
       }

@@ -22,7 +22,7 @@ struct Source {
 
 class Diagnostics;
 
-inline constexpr std::uint64_t max_source_bytes = 64 << 20;
+inline constexpr std::uint64_t max_source_bytes = 32 << 20;
 
 /// The file's text without byte order mark and carriage returns at line ends. Never blocks on a FIFO, never reads a
 /// device. On failure adds an error without a place to `diagnostics` and gives false.

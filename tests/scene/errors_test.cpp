@@ -1,0 +1,303 @@
+// The texts of errors, whole: what an author sees is designed, not left to chance.
+#include "scene/scenes_in_text.h"
+
+namespace carom {
+namespace {
+
+TEST(SceneErrors, MisspeltKeyNamesTheNearOne) {
+  EXPECT_EQ(
+      errors_of("scene: 1\nballs:\n  red: {mass: 10, raduis: 0.11, position: [0, 0, 0]}\nsimulate: {duration: 1}\n"),
+      "scene.yaml:3:19: error: unknown key `raduis` in ball `red`\n"
+      "   3 |   red: {mass: 10, raduis: 0.11, position: [0, 0, 0]}\n"
+      "     |                   ^~~~~~\n"
+      "     = did you mean `radius`?\n");
+}
+
+TEST(SceneErrors, KeyOfAnotherPlaceSaysWhereItBelongs) {
+  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1, fov: 3}\n"),
+            "scene.yaml:2:25: error: unknown key `fov` in `simulate`\n"
+            "   2 | simulate: {duration: 1, fov: 3}\n"
+            "     |                         ^~~\n"
+            "     = `fov` is a key of `camera`\n"
+            "     = expected duration, engine, step, as_printed, rest_speed, max_collisions or contact\n");
+}
+
+TEST(SceneErrors, WrongTypeSaysWhatIsExpected) {
+  EXPECT_EQ(errors_of("scene: 1\nballs:\n  red: {mass: [1], radius: big, position: 7}\nsimulate: {duration: 1}\n"),
+            "scene.yaml:3:15: error: `mass` is a list\n"
+            "   3 |   red: {mass: [1], radius: big, position: 7}\n"
+            "     |               ^\n"
+            "     = expected a number above 0 in kg\n"
+            "scene.yaml:3:28: error: `big` is not a number\n"
+            "   3 |   red: {mass: [1], radius: big, position: 7}\n"
+            "     |                            ^~~\n"
+            "     = expected a number above 0 in m\n"
+            "scene.yaml:3:43: error: `position` is `7`\n"
+            "   3 |   red: {mass: [1], radius: big, position: 7}\n"
+            "     |                                           ^\n"
+            "     = expected [x, y, z], three numbers in m\n");
+}
+
+TEST(SceneErrors, MissingValueStandsUnderTheThingThatLacksIt) {
+  EXPECT_EQ(errors_of("scene: 1\nballs:\n  red: {radius: 0.11}\nsimulate: {duration: }\n"),
+            "scene.yaml:3:3: error: ball `red` has no `mass` and no `density`\n"
+            "   3 |   red: {radius: 0.11}\n"
+            "     |   ^~~\n"
+            "     = expected `mass`: a number above 0 in kg\n"
+            "     = or `density`: a number above 0 in kg/m^3\n"
+            "scene.yaml:3:3: error: ball `red` has no `position`\n"
+            "   3 |   red: {radius: 0.11}\n"
+            "     |   ^~~\n"
+            "     = expected `position`: [x, y, z], three numbers in m\n"
+            "scene.yaml:4:12: error: `duration` has no value\n"
+            "   4 | simulate: {duration: }\n"
+            "     |            ^~~~~~~~\n"
+            "     = expected a number of at least 0 in s\n");
+}
+
+TEST(SceneErrors, MissingColonIsNoticed) {
+  EXPECT_EQ(
+      errors_of("scene: 1\nballs:\n  red: {mass: 10, radius 0.1, position: [0, 0, 0]}\nsimulate: {duration: 1}\n"),
+      "scene.yaml:3:19: error: `radius 0.1` is a key without a value\n"
+      "   3 |   red: {mass: 10, radius 0.1, position: [0, 0, 0]}\n"
+      "     |                   ^~~~~~~~~~\n"
+      "     = did you mean `radius: 0.1`? A ':' and a space part key and value\n");
+}
+
+TEST(SceneErrors, OverlapAtTheStartPointsAtTheLaterBall) {
+  EXPECT_EQ(errors_of("scene: 1\n"
+                      "balls:\n"
+                      "  red:  {mass: 1, radius: 0.5, position: [0, 0, 0]}\n"
+                      "  blue: {mass: 1, radius: 0.5, position: [0.75, 0, 0]}\n"
+                      "planes: {floor: {point: [0, -0.25, 0], normal: [0, 2, 0]}}\n"
+                      "simulate: {duration: 1}\n"),
+            "scene.yaml:3:42: error: `red` overlaps `floor` by 0.25 m at the start\n"
+            "   3 |   red:  {mass: 1, radius: 0.5, position: [0, 0, 0]}\n"
+            "     |                                          ^\n"
+            "     = expected bodies apart, or just touching\n"
+            "scene.yaml:4:42: error: `blue` overlaps `red` by 0.25 m at the start\n"
+            "   4 |   blue: {mass: 1, radius: 0.5, position: [0.75, 0, 0]}\n"
+            "     |                                          ^\n"
+            "     = expected bodies apart, or just touching\n"
+            "scene.yaml:4:42: error: `blue` overlaps `floor` by 0.25 m at the start\n"
+            "   4 |   blue: {mass: 1, radius: 0.5, position: [0.75, 0, 0]}\n"
+            "     |                                          ^\n"
+            "     = expected bodies apart, or just touching\n");
+}
+
+TEST(SceneErrors, MeshThatIsNotThereIsAnErrorOfItsOwn) {
+  const std::string folder = test_folder();
+  EXPECT_EQ(errors_of("scene: 1\nballs:\n  pin: {mass: 1, radius: 1, position: [0, 0, 0], mesh: pin.stl}\nsimulate: "
+                      "{duration: 1}\n"),
+            "scene.yaml:3:56: error: there is no file `pin.stl`\n"
+            "   3 |   pin: {mass: 1, radius: 1, position: [0, 0, 0], mesh: pin.stl}\n"
+            "     |                                                        ^~~~~~~\n"
+            "     = paths start at the folder of the scene\n");
+}
+
+TEST(SceneErrors, MeshThatIsThereIsRefusedByThisVersion) {
+  const std::string path = write_file(
+      "scene: 1\nballs:\n  pin: {mass: 1, radius: 1, position: [0, 0, 0], mesh: pin.stl}\nsimulate: {duration: 1}\n");
+  write_file("solid\n", "pin.stl");
+  try {
+    load_scene(path);
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_EQ(std::string(error.what()).substr(path.size()),
+              ":3:50: error: `mesh` is part of the scene format but not of this version of carom\n"
+              "   3 |   pin: {mass: 1, radius: 1, position: [0, 0, 0], mesh: pin.stl}\n"
+              "     |                                                  ^~~~\n"
+              "     = remove `mesh`: the ball is drawn as a sphere\n");
+  }
+  std::filesystem::remove_all(test_folder());
+}
+
+TEST(SceneErrors, DuplicateKeySaysWhereTheFirstStands) {
+  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1}\nseed: 1\nseed: 2\n"),
+            "scene.yaml:4:1: error: `seed` is here twice\n"
+            "   4 | seed: 2\n"
+            "     | ^~~~\n"
+            "     = it stands in line 3 already\n");
+}
+
+TEST(SceneErrors, MergeKeyAliasAnchorAndTagAreRefused) {
+  EXPECT_EQ(errors_of("scene: 1\nseed: &s 3\nsimulate: {<<: {a: 1}, duration: !!int 1, step: *s}\n"),
+            "scene.yaml:2:7: error: an anchor\n"
+            "   2 | seed: &s 3\n"
+            "     |       ^~\n"
+            "     = remove it: scenes have no anchors and aliases\n"
+            "scene.yaml:3:12: error: `<<` merges maps in some YAML dialects, not in a scene\n"
+            "   3 | simulate: {<<: {a: 1}, duration: !!int 1, step: *s}\n"
+            "     |            ^~\n"
+            "     = write the keys out, or use `defaults`\n"
+            "scene.yaml:3:34: error: a tag\n"
+            "   3 | simulate: {<<: {a: 1}, duration: !!int 1, step: *s}\n"
+            "     |                                  ^~~~~\n"
+            "     = remove it: the key decides what kind of value it has\n"
+            "scene.yaml:3:49: error: an alias\n"
+            "   3 | simulate: {<<: {a: 1}, duration: !!int 1, step: *s}\n"
+            "     |                                                 ^~\n"
+            "     = expected the value itself: scenes have no anchors and aliases\n");
+}
+
+TEST(SceneErrors, TabIsAnError) {
+  EXPECT_EQ(errors_of("scene: 1\nsimulate:\n\tduration: 1\n"),
+            "scene.yaml:3:1: error: a tab\n"
+            "   3 |  duration: 1\n"
+            "     | ^\n"
+            "     = expected spaces: YAML does not allow tabs for indentation, and a scene has none at all\n");
+}
+
+TEST(SceneErrors, SecondDocumentIsAnError) {
+  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1}\n---\nscene: 1\n"),
+            "scene.yaml:3:1: error: a second document begins here\n"
+            "   3 | ---\n"
+            "     | ^\n"
+            "     = expected one scene a file\n");
+}
+
+std::string duration_error(const std::string& value) {
+  const std::string all = errors_of(std::string("scene: 1\nsimulate: {duration: ").append(value).append("}\n"));
+  const std::size_t message = all.find("error: ") + 7;
+  const std::size_t remedy = all.find("= ") + 2;
+  return all.substr(message, all.find('\n') - message) + " / " + all.substr(remedy, all.size() - remedy - 1);
+}
+
+TEST(SceneErrors, EveryWayToMissANumberHasItsHint) {
+  const std::string wanted = "expected a number of at least 0 in s";
+  EXPECT_EQ(duration_error(".nan"), "`.nan` is not a finite number / " + wanted);
+  EXPECT_EQ(duration_error("-.inf"), "`-.inf` is not a finite number / " + wanted);
+  EXPECT_EQ(duration_error("2 s"), "`2 s` carries a unit / `duration` is always in s: write 2");
+  EXPECT_EQ(duration_error("200ms"), "`200ms` carries a unit / `duration` is always in s: write the number alone");
+  EXPECT_EQ(duration_error("'2'"), "`2` in quotes is text, not a number / without quotes: 2");
+  EXPECT_EQ(duration_error("010"), "`010` has a leading zero / write 10");
+  EXPECT_EQ(duration_error("-00.5"), "`-00.5` has a leading zero / write -0.5");
+  EXPECT_EQ(duration_error("0x1F"), "`0x1F` is not a decimal number / " + wanted);
+  EXPECT_EQ(duration_error("1_000"), "`1_000` is not a number / write 1000");
+  EXPECT_EQ(duration_error("1e999"),
+            "`1e999` is too large for a double / " + wanted + "; the largest is about 1.8e308");
+  EXPECT_EQ(duration_error("1e-999"),
+            "`1e-999` is too small for a double / " + wanted + "; the smallest is about 5e-324");
+  EXPECT_EQ(duration_error("1/30"), "`1/30` is not a number / " + wanted);
+  EXPECT_EQ(duration_error("two"), "`two` is not a number / " + wanted);
+  EXPECT_EQ(duration_error("-1"), "`duration` is -1 / " + wanted);
+  EXPECT_EQ(errors_of("scene: 1\nsimulate:\n  duration: 1,5\n"),
+            "scene.yaml:3:13: error: `1,5` has a comma\n"
+            "   3 |   duration: 1,5\n"
+            "     |             ^~~\n"
+            "     = the decimal point is a point: 1.5\n");
+}
+
+TEST(SceneErrors, KeysOfLaterVersionsAreRefusedNotUnknown) {
+  EXPECT_EQ(errors_of(start + "obstacles: {}\n"),
+            "scene.yaml:3:1: error: `obstacles` is part of the scene format but not of this version of carom\n"
+            "   3 | obstacles: {}\n"
+            "     | ^~~~~~~~~\n"
+            "     = build it of `walls` and `planes`\n");
+  for (const char* key : {"bodies: {}", "forces: []", "defaults: {body: {}}", "defaults: {obstacle: {}}"}) {
+    EXPECT_NE(errors_of(start + key).find("but not of this version"), std::string::npos) << key;
+  }
+  for (const char* key : {"engine: stepped", "integrator: rk4", "contact: merge", "tolerance: 1"}) {
+    EXPECT_NE(errors_of("scene: 1\nsimulate: {duration: 1, " + std::string(key) + "}").find("but not of this version"),
+              std::string::npos)
+        << key;
+  }
+}
+
+TEST(SceneErrors, CaretStandsRightAfterCharactersOfSeveralBytesAndCells) {
+  EXPECT_EQ(errors_of("scene: 1\ntitle: {\"\xC3\xA9\xE6\x97\xA5\xE6\x9C\xAC\": 1, b: }\nsimulate: {duration: x}\n"),
+            "scene.yaml:2:8: error: `title` is a map of keys\n"
+            "   2 | title: {\"\xC3\xA9\xE6\x97\xA5\xE6\x9C\xAC\": 1, b: }\n"
+            "     |        ^\n"
+            "     = expected a text\n"
+            "scene.yaml:3:22: error: `x` is not a number\n"
+            "   3 | simulate: {duration: x}\n"
+            "     |                      ^\n"
+            "     = expected a number of at least 0 in s\n");
+  EXPECT_EQ(errors_of(start + "background: \"\xE6\x97\xA5\", sed: 1\n").substr(0, 16), "scene.yaml:3:16:");
+  // Two characters of two cells each and one of one: column 6 of characters stands 7 cells from the left.
+  EXPECT_EQ(errors_of(start + "{\xE6\x97\xA5\xE6\x9C\xAC: 1}\n").substr(0, 15), "scene.yaml:3:1:");
+  EXPECT_EQ(errors_of("{scene: 1, simulate: {duration: 1}, title: \xE6\x97\xA5\xE6\x9C\xAC\xC3\xA9, sed: 1}"),
+            "scene.yaml:1:49: error: unknown key `sed` in the scene\n"
+            "   1 | {scene: 1, simulate: {duration: 1}, title: \xE6\x97\xA5\xE6\x9C\xAC\xC3\xA9, sed: 1}\n"
+            "     |                                                   ^~~\n"
+            "     = did you mean `seed`?\n");
+}
+
+TEST(SceneErrors, LongLinesAreShownThroughAWindow) {
+  const std::string many(300, 'x');
+  EXPECT_EQ(errors_of(start + "title: {" + many + ": 1, b: *c, " + many + ": 2}\n"),
+            "scene.yaml:3:317: error: an alias\n"
+            "   3 | ..." +
+                many.substr(0, 52) + ": 1, b: *c, " + many.substr(0, 36) + "...\n" + "     |    " +
+                std::string(60, ' ') +
+                "^\n"
+                "     = expected the value itself: scenes have no anchors and aliases\n");
+}
+
+TEST(SceneErrors, AllErrorsOfAFileComeInItsOrder) {
+  const std::string all = errors_of(
+      "scene: 2\ntitel: x\nballs:\n  a: {mass: -1, radius: 1, position: [0, 0, 0]}\nsimulate: {duration: x}\n");
+  const std::size_t first = all.find(":1:8: error: `scene` is 2"),
+                    second = all.find(":2:1: error: unknown key `titel`"),
+                    third = all.find(":4:13: error: `mass` is -1"), fourth = all.find(":5:22: error: `x` is not");
+  EXPECT_TRUE(first < second && second < third && third < fourth && fourth != std::string::npos) << all;
+}
+
+TEST(SceneErrors, AtMostFiftyAreShown) {
+  std::string text = start;
+  for (int i = 0; i < 80; ++i) text += "unknown" + std::to_string(i) + "_key: 1\n";
+  const std::string all = errors_of(text);
+  EXPECT_TRUE(all.ends_with("and 30 more errors\n")) << all.substr(all.size() - 100);
+}
+
+TEST(SceneErrors, ManyOverlapsAreCountedNotListed) {
+  std::string text = start + "defaults: {ball: {mass: 1, radius: 1}}\nballs:\n";
+  for (int i = 0; i < 100; ++i) text += "  b" + std::to_string(i) + ": {position: [0, 0, 0]}\n";
+  try {
+    load_text(text);
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_EQ(error.count, 99u);
+    EXPECT_TRUE(std::string(error.what()).ends_with("     = and 79 more overlaps\n")) << error.what();
+  }
+}
+
+TEST(SceneErrors, ColourOnlyWhereAskedFor) {
+  LoadOptions options;
+  options.color = true;
+  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: x}\n").find('\x1b'), std::string::npos);
+  EXPECT_NE(errors_of("scene: 1\nsimulate: {duration: x}\n", options).find("\x1b[1;31merror:\x1b[0m"),
+            std::string::npos);
+}
+
+TEST(SceneErrors, SyntaxErrorsPointAtTheCause) {
+  EXPECT_EQ(errors_of("scene: 1\nballs: {a: {mass: 1\nsimulate: {duration: 1}\n"),
+            "scene.yaml:2:12: error: this `{` is never closed\n"
+            "   2 | balls: {a: {mass: 1\n"
+            "     |            ^\n"
+            "     = expected `}` before the next key\n");
+  EXPECT_EQ(errors_of("scene: 1\nsimulate:\n  duration 2\n  engine: exact\n"),
+            "scene.yaml:3:3: error: this line has no ':'\n"
+            "   3 |   duration 2\n"
+            "     |   ^~~~~~~~~~\n"
+            "     = expected `key: value`\n");
+  EXPECT_EQ(errors_of("scene: 1\ntitle: Bowling: two balls\nsimulate: {duration: 1}\n"),
+            "scene.yaml:2:15: error: a second ':' in this line\n"
+            "   2 | title: Bowling: two balls\n"
+            "     |               ^\n"
+            "     = expected one `key: value` a line; text that holds ': ' needs quotes\n");
+  EXPECT_EQ(errors_of("scene: 1\ntitle: \"no end\nsimulate: {duration: 1}\n"),
+            "scene.yaml:2:8: error: this `\"` is never closed\n"
+            "   2 | title: \"no end\n"
+            "     |        ^\n"
+            "     = expected `\"` before the next key\n");
+  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1 step: 2}\n"),
+            "scene.yaml:2:28: error: a value ends and another thing begins\n"
+            "   2 | simulate: {duration: 1 step: 2}\n"
+            "     |                            ^\n"
+            "     = expected ',' or the closing bracket; is a ',' missing?\n");
+}
+
+}  // namespace
+}  // namespace carom

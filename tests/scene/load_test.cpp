@@ -1,0 +1,332 @@
+// What a scene file means.
+#include <cmath>
+
+#include "scene/scenes_in_text.h"
+
+namespace carom {
+namespace {
+
+TEST(LoadScene, FormatPageExampleIsReadWhole) {
+  const Scene scene = load_text(R"(# yaml-language-server: $schema=scene.schema.json
+scene: 1                                  # kind of file and format version
+title: Two bowling balls meet near the origin
+gravity: [0, 0, 0]                        # m/s^2; default [0, -9.80665, 0]
+restitution: {combine: average}           # how two bodies' coefficients make the pair's
+defaults:
+  ball: {mass: 10, radius: 0.11, restitution: 0.9}
+balls:
+  red:  {position: [-1, 0,  0.025], velocity: [ 2, 0, 0], color: crimson}
+  blue: {position: [ 1, 0, -0.025], velocity: [-2, 0, 0], color: royalblue}
+planes:
+  lane: {point: [0, -0.11, 0], normal: [0, 1, 0], color: tan}
+simulate: {duration: 2, engine: exact}
+camera: {eye: [0, 3, -5], target: [0, 0, 0], fov: 45}
+output:
+  trajectory: {every: 0.01}
+  collisions: true
+  energy: {every: 0.01}
+  frames: {fps: 30, size: [1280, 720]}
+  video: true
+)");
+  EXPECT_EQ(scene.title, "Two bowling balls meet near the origin");
+  EXPECT_EQ(scene.seed, 0u);
+  EXPECT_EQ(scene.world.gravity, Vec3(0, 0, 0));
+  EXPECT_EQ(scene.world.mass, (std::vector<double>{10, 10}));
+  EXPECT_EQ(scene.world.radius, (std::vector<double>{0.11, 0.11}));
+  EXPECT_EQ(scene.world.restitution, (std::vector<double>{0.9, 0.9}));
+  EXPECT_TRUE(scene.world.impulse.empty());
+  EXPECT_EQ(scene.initial.position[0], Vec3(-1, 0, 0.025));
+  EXPECT_EQ(scene.initial.velocity[1], Vec3(-2, 0, 0));
+  EXPECT_EQ(scene.world.planes.size(), 1u);
+  EXPECT_FALSE(scene.world.planes[0].restitution);
+  EXPECT_EQ(scene.roster.name(0), "red");
+  EXPECT_EQ(scene.roster.name(1), "blue");
+  EXPECT_EQ(scene.roster.name(2), "lane");
+  EXPECT_EQ(scene.roster.bodies[0].color.r, 220 / 255.0);  // crimson is #dc143c
+  EXPECT_EQ(scene.simulate.engine, Engine::exact);
+  EXPECT_EQ(scene.simulate.duration, 2);
+  ASSERT_TRUE(scene.camera);
+  EXPECT_EQ(scene.camera->eye, Vec3(0, 3, -5));
+  ASSERT_TRUE(scene.output.trajectory && scene.output.energy && scene.output.frames && scene.output.video);
+  EXPECT_EQ(scene.output.trajectory->every, 0.01);
+  EXPECT_TRUE(scene.output.collisions);
+  EXPECT_EQ(scene.output.video->size.width, 1280);
+  EXPECT_FALSE(scene.output.sheet);
+}
+
+TEST(LoadScene, WithoutOutputThereAreTablesAndNoPictures) {
+  const Scene scene = load_text(start);
+  ASSERT_TRUE(scene.output.trajectory && scene.output.energy);
+  EXPECT_EQ(scene.output.trajectory->every, 1.0 / 30);
+  EXPECT_EQ(scene.output.energy->every, 1.0 / 30);
+  EXPECT_TRUE(scene.output.collisions);
+  EXPECT_FALSE(scene.output.pictures());
+}
+
+TEST(LoadScene, WithOutputThereIsOnlyWhatItNames) {
+  const Scene scene = load_text(start + "output: {energy: true, frames: false}\n");
+  EXPECT_TRUE(scene.output.energy);
+  EXPECT_FALSE(scene.output.trajectory || scene.output.collisions || scene.output.pictures());
+}
+
+TEST(LoadScene, VideoTakesFromFramesWhatItDoesNotSay) {
+  const Scene scene =
+      load_text(start + "output: {frames: {fps: 24, size: [320, 200], samples: 8, until: 0.5}, video: {fps: 12}}\n");
+  EXPECT_EQ(scene.output.video->fps, 12);
+  EXPECT_EQ(scene.output.video->size.width, 320);
+  EXPECT_EQ(scene.output.video->samples, 8);
+  EXPECT_EQ(scene.output.video->until, 0.5);
+}
+
+TEST(LoadScene, DensityMakesTheMass) {
+  // A steel ball: 7850 kg/m^3, 2 cm across. 4/3 pi r^3 rho = 0.0328820...
+  const Scene scene = load_text(start + "balls: {a: {density: 7850, radius: 0.01, position: [0, 0, 0]}}\n");
+  EXPECT_NEAR(scene.world.mass[0], 7850 * 4 / 3.0 * M_PI * 1e-6, 1e-17);
+}
+
+TEST(LoadScene, OwnDensityHidesTheDefaultMassAndTheOtherWayRound) {
+  const Scene scene = load_text(
+      start +
+      "defaults: {ball: {mass: 5, radius: 1}}\n"
+      "balls: {a: {density: 3, position: [0, 0, 0]}, b: {position: [3, 0, 0]}, c: {radius: 2, position: [9, 0, 0]}}\n");
+  EXPECT_DOUBLE_EQ(scene.world.mass[0], 4 * M_PI);
+  EXPECT_EQ(scene.world.mass[1], 5);
+  EXPECT_EQ(scene.world.radius[2], 2);
+  EXPECT_NE(errors_of(start + "balls: {a: {mass: 1, density: 3, radius: 1, position: [0, 0, 0]}}\n")
+                .find("ball `a` has both `mass` and `density`"),
+            std::string::npos);
+}
+
+TEST(LoadScene, BodiesStandInTheOrderOfTheFile) {
+  const Scene scene = load_text(start +
+                                "defaults: {ball: {mass: 1, radius: 0.1}}\n"
+                                "groups: {gas: {count: 3, ball: {}, in: {min: [5, 5, 5], max: [6, 6, 6]}}}\n"
+                                "balls: {a: {position: [0, 0, 0]}}\n");
+  EXPECT_EQ(scene.world.body_count(), 4u);
+  EXPECT_EQ(scene.roster.name(0), "gas.0");
+  EXPECT_EQ(scene.roster.name(2), "gas.2");
+  EXPECT_EQ(scene.roster.name(3), "a");
+  EXPECT_EQ(scene.roster.range_of(1).name, "gas");
+  EXPECT_EQ(scene.roster.range_of(3).name, "a");
+}
+
+TEST(LoadScene, EmptyGroupsNameNoBody) {
+  const Scene scene = load_text(start +
+                                "defaults: {ball: {mass: 1, radius: 0.1}}\n"
+                                "groups: {none: {count: 0, ball: {}, in: {min: [5, 5, 5], max: [6, 6, 6]}}, one: "
+                                "{count: 1, ball: {}, in: {min: [5, 5, 5], max: [6, 6, 6]}}}\n");
+  EXPECT_EQ(scene.world.body_count(), 1u);
+  EXPECT_EQ(scene.roster.name(0), "one.0");
+}
+
+TEST(LoadScene, RoomMakesSixInwardPlanesAmongThePlanesInFileOrder) {
+  const std::string room = "room: {min: [-1, -2, -3], max: [1, 2, 3], restitution: 0.5}\n";
+  const std::string planes = "planes: {floor: {point: [0, -9, 0], normal: [0, 3, 0]}}\n";
+  const std::string walls = "walls: {net: {center: [0, 0, 0], normal: [1, 0, 0], size: [2, 1]}}\n";
+  const Scene scene = load_text(start + walls + room + planes);
+  const char* names[] = {"room.x_min", "room.x_max", "room.y_min", "room.y_max",
+                         "room.z_min", "room.z_max", "floor",      "net"};
+  ASSERT_EQ(scene.roster.fixed.size(), 8u);
+  for (Entity i = 0; i < 8; ++i) EXPECT_EQ(scene.roster.name(i), names[i]);
+  EXPECT_EQ(scene.world.planes[2].normal, Vec3(0, 1, 0));
+  EXPECT_EQ(scene.world.planes[2].point.y(), -2);
+  EXPECT_EQ(scene.world.planes[5].normal, Vec3(0, 0, -1));
+  EXPECT_EQ(scene.world.planes[5].point.z(), 3);
+  EXPECT_EQ(scene.world.planes[5].restitution, 0.5);
+  EXPECT_EQ(scene.world.planes[6].normal, Vec3(0, 1, 0));
+  EXPECT_EQ(load_text(start + planes + room).roster.name(0), "floor");
+}
+
+TEST(LoadScene, WallFramesAreRightHanded) {
+  const Scene scene = load_text(start +
+                                "walls:\n"
+                                "  upright: {center: [0, 0, 0], normal: [0, 0, 2], size: [2, 1]}\n"
+                                "  level: {center: [0, 0, 0], normal: [0, 1, 0], size: [2, 1]}\n"
+                                "  tilted: {center: [0, 0, 0], normal: [1, 1, 0.5], size: [2, 1], up: [0.3, 1, 0]}\n");
+  EXPECT_EQ(scene.world.walls[0].up, Vec3(0, 1, 0));
+  EXPECT_EQ(scene.world.walls[0].right, Vec3(1, 0, 0));
+  EXPECT_EQ(scene.world.walls[0].half_width, 1);
+  EXPECT_EQ(scene.world.walls[0].half_height, 0.5);
+  EXPECT_EQ(scene.world.walls[1].up, Vec3(0, 0, 1));
+  for (const Wall& wall : scene.world.walls) {
+    EXPECT_LT((wall.right.cross(wall.up) - wall.normal).norm(), 3e-16);  // measured: 1.2e-16
+    EXPECT_LT(std::fabs(wall.up.dot(wall.normal)), 3e-16);
+    EXPECT_NEAR(wall.up.norm(), 1, 3e-16);
+  }
+  EXPECT_NE(errors_of(start + "walls: {a: {center: [0, 0, 0], normal: [0, 1, 0], size: [1, 1], up: [0, -2, 0]}}\n")
+                .find("up is parallel to the normal"),
+            std::string::npos);
+}
+
+TEST(LoadScene, NormalsOfAnyLengthBecomeUnit) {
+  const Scene scene = load_text(start +
+                                "planes: {a: {point: [0, 0, 0], normal: [3e-200, 4e-200, 0]}, b: {point: [0, 0, 0], "
+                                "normal: [3e200, 0, 4e200]}}\n");
+  EXPECT_LT((scene.world.planes[0].normal - Vec3(0.6, 0.8, 0)).norm(), 2e-16);
+  EXPECT_LT((scene.world.planes[1].normal - Vec3(0.6, 0, 0.8)).norm(), 2e-16);
+  EXPECT_NE(errors_of(start + "planes: {a: {point: [0, 0, 0], normal: [0, 0, -0.0]}}\n").find("`normal` has no length"),
+            std::string::npos);
+}
+
+TEST(LoadScene, PairsNameBodiesGroupsMembersAndFixedThings) {
+  const std::string things = start +
+                             "defaults: {ball: {mass: 1, radius: 0.1}}\n"
+                             "balls: {a: {position: [0, 0, 0]}}\n"
+                             "groups: {gas: {count: 5, ball: {}, in: {min: [5, 5, 5], max: [6, 6, 6]}}}\n"
+                             "room: {min: [-9, -9, -9], max: [9, 9, 9]}\n";
+  const Scene scene =
+      load_text(things +
+                "restitution: {default: 0.8, combine: mass_weighted, pairs: [{between: [a, gas], value: 0.1}, "
+                "{between: [gas.3, room.y_min], value: 2}, {between: [gas, room], value: 0}]}\n");
+  EXPECT_EQ(scene.world.combine, Combine::mass_weighted);
+  EXPECT_EQ(scene.world.restitution[4], 0.8);
+  ASSERT_EQ(scene.world.pairs.size(), 3u);
+  EXPECT_EQ(scene.world.pairs[0].b_first, 1u);
+  EXPECT_EQ(scene.world.pairs[0].b_count, 5u);
+  EXPECT_EQ(scene.world.pairs[1].a_first, 4u);
+  EXPECT_EQ(scene.world.pairs[1].a_count, 1u);
+  EXPECT_EQ(scene.world.pairs[1].b_first, 8u);
+  EXPECT_EQ(scene.world.pairs[2].b_first, 6u);
+  EXPECT_EQ(scene.world.pairs[2].b_count, 6u);
+  const std::string wrong = errors_of(things +
+                                      "restitution: {pairs: [{between: [a, gsa], value: 1}, {between: [gas.5, room], "
+                                      "value: 1}, {between: [room, room], value: 1}, {between: [a, a], value: 1}]}\n");
+  EXPECT_NE(wrong.find("nothing is named `gsa`"), std::string::npos);
+  EXPECT_NE(wrong.find("did you mean `gas`?"), std::string::npos);
+  EXPECT_NE(wrong.find("expected gas.0 to gas.4"), std::string::npos);
+  EXPECT_NE(wrong.find("`room` and `room` never move, so they never meet"), std::string::npos);
+  EXPECT_NE(wrong.find("`a` does not meet itself"), std::string::npos);
+}
+
+TEST(LoadScene, NamesAreUniqueAcrossKinds) {
+  const std::string ball = "balls: {room: {mass: 1, radius: 1, position: [0, 0, 0]}}\n";
+  EXPECT_EQ(errors_of(start + ball), "");
+  EXPECT_NE(errors_of(start + ball + "room: {min: [-2, -2, -2], max: [2, 2, 2]}\n")
+                .find(":4:1: error: the name `room` is taken"),
+            std::string::npos);
+  EXPECT_NE(errors_of(start + ball + "planes: {room: {point: [-5, 0, 0], normal: [1, 0, 0]}}\n")
+                .find(":4:10: error: the name `room` is taken"),
+            std::string::npos);
+}
+
+TEST(LoadScene, ImpulsesAreKeptOnlyIfThereAreAny) {
+  const Scene scene = load_text(start +
+                                "balls: {a: {mass: 1, radius: 1, position: [0, 0, 0]}, b: {mass: 1, radius: 1, "
+                                "position: [3, 0, 0], impulse: [0, 2, 0]}}\n");
+  ASSERT_EQ(scene.world.impulse.size(), 2u);
+  EXPECT_EQ(scene.world.impulse[0], Vec3(0, 0, 0));
+  EXPECT_EQ(scene.world.impulse[1], Vec3(0, 2, 0));
+}
+
+TEST(LoadScene, BookHasItsStep) {
+  EXPECT_EQ(load_text("scene: 1\nsimulate: {duration: 1, engine: book, as_printed: true}\n").simulate.step, 1.0 / 60);
+  EXPECT_FALSE(load_text(start).simulate.step);
+  EXPECT_NE(
+      errors_of("scene: 1\nsimulate: {duration: 1, as_printed: true}\n").find("`as_printed` needs `engine: book`"),
+      std::string::npos);
+}
+
+TEST(LoadScene, ColoursComeByNameHexAndNumbers) {
+  const Scene scene = load_text(start +
+                                "background: '#08f'\nlights: {sun: {direction: [0, -1, 0], color: [1, 0.5, 0]}, lamp: "
+                                "{position: [0, 3, 0], color: RebeccaPurple}, ambient: '#102030'}\n");
+  EXPECT_EQ(scene.background->g, 0x88 / 255.0);
+  EXPECT_EQ(scene.background->b, 1);
+  EXPECT_EQ(scene.lights[0].color.g, 0.5);
+  EXPECT_FALSE(scene.lights[0].position);
+  EXPECT_EQ(scene.lights[1].color.r, 0x66 / 255.0);
+  EXPECT_EQ(scene.ambient->b, 0x30 / 255.0);
+}
+
+TEST(LoadScene, TouchingByRoundingIsNoOverlap) {
+  // 0.1 + 0.2 > 0.3 in doubles; a cradle's balls at multiples of 0.2 m with radius 0.1.
+  std::string text = start + "defaults: {ball: {mass: 1, radius: 0.1}}\nballs:\n";
+  for (int i = 0; i < 9; ++i)
+    text += "  b" + std::to_string(i) + ": {position: [" + std::to_string(i * 2 / 10) + "." +
+            std::to_string(i * 2 % 10) + ", 0.1, 1000.3]}\n";
+  EXPECT_EQ(errors_of(text + "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n"), "");
+  EXPECT_NE(errors_of(start + "balls: {a: {mass: 1, radius: 0.1, position: [0, 0, 0]}, b: {mass: 1, radius: 0.1, "
+                              "position: [0.1999999999, 0, 0]}}\n")
+                .find("`b` overlaps `a` by 1e-10 m"),
+            std::string::npos);
+}
+
+TEST(LoadScene, OverlapsAreFoundBetweenVeryUnequalBalls) {
+  std::string text = start + "balls:\n  big: {mass: 1, radius: 1000, position: [0, 0, 0]}\n";
+  EXPECT_EQ(errors_of(text + "  dust: {mass: 1, radius: 1e-6, position: [1000.000001, 0, 0]}\n"), "");
+  EXPECT_NE(errors_of(text + "  dust: {mass: 1, radius: 1e-6, position: [0, 999.999, 0]}\n")
+                .find("`dust` overlaps `big` by 0.001001 m"),
+            std::string::npos);
+}
+
+TEST(LoadScene, BallsBehindAPlaneAndInAWallAreRefused) {
+  const std::string ball = "balls: {a: {mass: 1, radius: 0.5, position: [0, 0, 0]}}\n";
+  EXPECT_NE(errors_of(start + ball + "planes: {floor: {point: [0, 3, 0], normal: [0, 1, 0]}}\n")
+                .find("`a` is behind `floor` at the start"),
+            std::string::npos);
+  EXPECT_NE(errors_of(start + ball + "walls: {w: {center: [0, 0, 0.4], normal: [0, 0, 1], size: [1, 1]}}\n")
+                .find("`a` overlaps `w` by 0.1 m"),
+            std::string::npos);
+  EXPECT_EQ(errors_of(start + ball + "walls: {w: {center: [0, 2, 0], normal: [0, 0, 1], size: [1, 1]}}\n"), "");
+}
+
+TEST(LoadScene, BudgetIsCheckedBeforeAnythingIsMade) {
+  const std::string gas =
+      "groups: {gas: {count: 1e12, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 0], max: [1, 1, 1]}}}\n";
+  EXPECT_EQ(errors_of(start + gas),
+            "scene.yaml:3:23: error: the scene has more than 4000000000 bodies; the limit is 2000000\n"
+            "   3 | " +
+                gas +
+                "     |                       ^~~~\n"
+                "     = expected a smaller `count`, or --force if this machine has the memory\n");
+  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1e6}\noutput: {frames: {fps: 60}}\n"),
+            "scene.yaml:3:24: error: the run would write 60000001 pictures; the limit is 100000\n"
+            "   3 | output: {frames: {fps: 60}}\n"
+            "     |                        ^~\n"
+            "     = expected a lower `fps` or a shorter duration, or --force if that is meant\n");
+  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1e6}\nballs: {a: {mass: 1, radius: 1, position: [0, 0, "
+                      "0]}}\noutput: {trajectory: {every: 1e-3}}\n"),
+            "scene.yaml:4:30: error: the run would write 1000000001 rows of trajectory.csv; the limit is 200000000\n"
+            "   4 | output: {trajectory: {every: 1e-3}}\n"
+            "     |                              ^~~~\n"
+            "     = expected a longer `every`, a shorter duration or fewer bodies, or --force if that is meant\n");
+  LoadOptions force;
+  force.budget.enforced = false;
+  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1e6}\noutput: {frames: {fps: 60}}\n", force), "");
+  EXPECT_NE(errors_of(start + gas, force).find("the limit is 4000000000"), std::string::npos);
+}
+
+TEST(LoadScene, PicturesHaveLimits) {
+  EXPECT_NE(errors_of(start + "output: {video: {size: [17, 20]}}\n").find("expected an even width and height"),
+            std::string::npos);
+  EXPECT_NE(errors_of(start + "output: {frames: {size: [8, 20000]}}\n").find("from 16 to 16384"), std::string::npos);
+  EXPECT_NE(errors_of(start + "output: {frames: {samples: 3}}\n").find("expected 1, 2, 4 or 8"), std::string::npos);
+  EXPECT_NE(errors_of(start + "output: {frames: {from: 2}}\n").find("`from` is 2 but the scene ends at 1 s"),
+            std::string::npos);
+  EXPECT_NE(errors_of(start + "output: {sheet: {rows: 0}}\n").find("`rows` is 0"), std::string::npos);
+  for (const char* file : {"../x.mp4", ".mp4", "-x.mp4", ".x.mp4", "x.avi", "a/b.mp4", "\"\"", "\"a\\nb.mp4\""}) {
+    EXPECT_NE(errors_of(start + "output: {video: {file: " + file + "}}\n"), "") << file;
+  }
+}
+
+TEST(LoadScene, CameraMustSeeSomething) {
+  EXPECT_NE(errors_of(start + "camera: {eye: [0, 0, 0], target: [0, 0, 0]}\n")
+                .find("the camera's target is where its eye is"),
+            std::string::npos);
+  EXPECT_NE(errors_of(start + "camera: {eye: [0, 5, 0], target: [0, 0, 0]}\n")
+                .find("the camera looks along its up direction"),
+            std::string::npos);
+  EXPECT_NE(errors_of(start + "camera: {eye: [0, 5, 1], target: [0, 0, 0], near: 2, far: 1}\n")
+                .find("far (1) is not beyond near (2)"),
+            std::string::npos);
+  EXPECT_NE(errors_of(start + "camera: {eye: [0, 5, 1], target: [0, 0, 0], fov: 180}\n").find("between 0 and 180"),
+            std::string::npos);
+}
+
+TEST(LoadScene, WindowsFilesAreFine) {
+  EXPECT_EQ(load_text("\xEF\xBB\xBFscene: 1\r\ntitle: 'x y'\r\nsimulate: {duration: 1}\r\n").title, "x y");
+  EXPECT_EQ(errors_of("\xEF\xBB\xBFscene: 1\r\nsimulate: {duration: x}\r\n").substr(0, 16), "scene.yaml:2:22:");
+}
+
+}  // namespace
+}  // namespace carom
