@@ -54,7 +54,7 @@ void Progress::update(double time, std::uint64_t collisions, std::uint64_t frame
   if (choice_ == ProgressChoice::none) return;
   const Clock::time_point now = Clock::now();
   const double since_last = std::chrono::duration<double>(now - last_).count();
-  if (since_last < (choice_ == ProgressChoice::bar ? 0.1 : 1.0)) return;
+  if (since_last < (choice_ == ProgressChoice::bar ? 0.1 : 2.0)) return;
   time_ = time;
   collisions_ = collisions;
   frames_ = frames;

@@ -17,7 +17,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   /// Cheap: writes at most ten times a second (bar), or a line at each tenth of the way and after five seconds, but
-  /// never two within a second.
+  /// never two within two seconds.
   void update(double time, std::uint64_t collisions, std::uint64_t frames);
   /// The bar's line is free again; to be called before anything else is written to the terminal.
   void clear();

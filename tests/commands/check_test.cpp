@@ -1,0 +1,170 @@
+// carom check, by the real program.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "commands/program.h"
+
+namespace carom::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string camera = "camera: {eye: [0, 3, -5], target: [0, 0, 0], fov: 45}\n";
+
+TEST(Check, TellsWhatARunWouldDo) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("camera: {eye: [0, 3, -5], target: [0, 0, 0], fov: 45}\n"
+                                     "output: {trajectory: {every: 0.1}, frames: {fps: 4, size: [720, 720]}}\n"));
+  const Finished check = here.carom({"check", "balls.yaml"});
+  EXPECT_EQ(check.code, 0);
+  EXPECT_EQ(check.err, "");
+  EXPECT_EQ(check.out.substr(0, check.out.find(", about ")),
+            "balls: Two balls\n"
+            "  bodies      2 bodies: red and blue\n"
+            "  fixed       0 planes, 0 walls\n"
+            "  engine      exact (auto: every path of this scene has a closed form), 1 s of motion\n"
+            "  first hit   red and blue at 0.445 s, at (0, 0, 0) m, closing at 4 m/s\n"
+            "  camera      +x points to the left of the picture; fields of view 45 x 45 degrees\n"
+            "  unseen      no body at time 0\n"
+            "  to come     5 pictures, 22 trajectory rows");
+  EXPECT_TRUE(check.out.ends_with("\n  folder      output/balls: new\n")) << check.out;
+  EXPECT_FALSE(here.has("output"));
+}
+
+TEST(Check, SaysOnWhichSidePlusXIs) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(camera));
+  const auto plus_x = [&](const std::string& eye) {
+    const Finished check = here.carom({"check", "balls.yaml", "--json", "--set", "camera.eye=" + eye});
+    return Json::parse(check.out).at("scenes").at(0).at("camera").at("plus_x").get<std::string>();
+  };
+  EXPECT_EQ(plus_x("[0, 3, -5]"), "left");
+  EXPECT_EQ(plus_x("[0, 3, 5]"), "right");
+  EXPECT_EQ(plus_x("[5, 0, 0]"), "toward");
+  EXPECT_EQ(plus_x("[-5, 0, 0]"), "away");
+}
+
+TEST(Check, GivesBothFieldsOfView) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(camera));
+  const Json view = Json::parse(here.carom({"check", "balls.yaml", "--json"}).out).at("scenes").at(0).at("camera");
+  // Where no picture's size is given it is 1280 x 720: 2 atan(16/9 tan(22.5 degrees)).
+  EXPECT_NEAR(view.at("fov_x_degrees").get<double>(), 72.73435141004906, 1e-12);
+  EXPECT_NEAR(view.at("fov_y_degrees").get<double>(), 45, 1e-13);
+}
+
+TEST(Check, NamesAtMostTenBodiesOutOfView) {
+  const Workplace here;
+  here.write(
+      "behind.yaml",
+      "scene: 1\ngroups: {gas: {count: 30, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 10], max: [2, 2, 12]}, "
+      "arrange: lattice}}\n"
+      "simulate: {duration: 1}\ncamera: {eye: [0, 0, 5], target: [0, 0, 0]}\n");
+  const std::string out = here.carom({"check", "behind.yaml"}).out;
+  EXPECT_NE(out.find("  bodies      30 bodies: gas (30)\n"), std::string::npos) << out;
+  EXPECT_NE(
+      out.find("  unseen      gas.0, gas.1, gas.2, gas.3, gas.4, gas.5, gas.6, gas.7, gas.8, gas.9 and 20 more at\n"
+               "              time 0\n"),
+      std::string::npos)
+      << out;
+}
+
+TEST(Check, NoCollisionIsToldAsSuch) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  const Finished check = here.carom({"check", "balls.yaml", "--set", "simulate.duration=0.4"});
+  EXPECT_NE(check.out.find("  first hit   none within 0.4 s\n"), std::string::npos) << check.out;
+  const Finished json = here.carom({"check", "balls.yaml", "--json", "--set", "simulate.duration=0.4"});
+  EXPECT_EQ(Json::parse(json.out).at("scenes").at(0).at("first_collision"), nullptr);
+}
+
+TEST(Check, FirstCollisionIsTheOneThatTheRunWrites) {
+  const Workplace here;
+  here.write(
+      "gas.yaml",
+      "scene: 1\n"
+      "groups: {gas: {count: 50, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 0], max: [2, 2, 2]}, speed: 1}}\n"
+      "room: {min: [0, 0, 0], max: [2, 2, 2]}\n"
+      "simulate: {duration: 5}\noutput: {collisions: true}\n");
+  const Json check = Json::parse(here.carom({"check", "gas.yaml", "--json"}).out).at("scenes").at(0);
+  const Json run = Json::parse(here.carom({"run", "gas.yaml", "--json"}).out).at("scenes").at(0);
+  EXPECT_EQ(check.at("first_collision").at("time_s"), run.at("summary").at("first_collision_s"));
+  const std::string table = here.read("output/gas/collisions.csv");
+  const std::string names = "," + check.at("first_collision").at("kind").get<std::string>() + "," +
+                            check.at("first_collision").at("a").get<std::string>() + "," +
+                            check.at("first_collision").at("b").get<std::string>() + ",";
+  const std::size_t row = table.find('\n') + 1;
+  EXPECT_NE(table.substr(row, table.find('\n', row) - row).find(names), std::string::npos) << names;
+}
+
+TEST(Check, BookSceneGetsTheExactPrediction) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  const Finished check = here.carom({"check", "balls.yaml", "--set", "simulate.engine=book"});
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_NE(check.out.find(
+                "  engine      book, 1 s of motion\n"
+                "  first hit   red and blue at 0.445 s, at (0, 0, 0) m, closing at 4 m/s (exact; the book engine sees\n"
+                "              it at a later frame)\n"),
+            std::string::npos)
+      << check.out;
+}
+
+TEST(Check, TellsTheStateOfTheFolder) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  const auto folder = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"check", "balls.yaml"};
+    words.insert(words.end(), more.begin(), more.end());
+    const std::string out = here.carom(words).out;
+    const std::size_t at = out.find("  folder ");
+    return at == std::string::npos ? out : out.substr(at);
+  };
+  EXPECT_EQ(folder({}), "  folder      output/balls: new\n");
+  here.carom({"run", "balls.yaml"});
+  EXPECT_EQ(folder({}), "  folder      output/balls: up to date\n");
+  EXPECT_EQ(folder({"--only", "energy"}), "  folder      output/balls: up to date\n");
+  EXPECT_EQ(folder({"--only", "sheet"}), "  folder      output/balls: incomplete, will be run again\n");
+  EXPECT_EQ(folder({"--set", "seed=3"}),
+            "  folder      output/balls: holds another run, or files that no run wrote: run needs --force or\n"
+            "              another -o\n");
+}
+
+TEST(Check, ShowsAllErrorsOfAllFilesAndTheRightScenes) {
+  const Workplace here;
+  here.write("one.yaml", two_balls("outptu: {}\ncamera: {eye: 3, target: [0, 0, 0]}\n"));
+  here.write("two.yaml", two_balls());
+  here.write("three.yaml", "scene: 2\n");
+  const Finished check = here.carom({"check", "one.yaml", "two.yaml", "three.yaml"});
+  EXPECT_EQ(check.code, 2);
+  EXPECT_TRUE(check.out.starts_with("two: Two balls\n")) << check.out;
+  EXPECT_NE(check.err.find("one.yaml:8:1: error: "), std::string::npos) << check.err;
+  EXPECT_NE(check.err.find("one.yaml:9:15: error: "), std::string::npos) << check.err;
+  EXPECT_NE(check.err.find("three.yaml:1:8: error: "), std::string::npos) << check.err;
+  EXPECT_NE(check.err.find(" errors in 2 of 3 scenes\n"), std::string::npos) << check.err;
+}
+
+TEST(Check, QuietShowsOnlyWhatIsWrong) {
+  const Workplace here;
+  here.write("two.yaml", two_balls());
+  const Finished right = here.carom({"check", "two.yaml", "-q"});
+  EXPECT_EQ(right.code, 0);
+  EXPECT_EQ(right.out + right.err, "");
+  const Finished wrong = here.carom({"check", "two.yaml", "missing.yaml", "-q"});
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_EQ(wrong.out, "");
+  EXPECT_NE(wrong.err.find("missing.yaml"), std::string::npos);
+}
+
+TEST(Check, ScenesBeyondTheBudgetAreRefusedUnlessForced) {
+  const Workplace here;
+  here.write("big.yaml", two_balls("output: {frames: {fps: 1000000, size: [64, 36]}}\n"));
+  EXPECT_EQ(here.carom({"check", "big.yaml"}).code, 2);
+  const Finished forced = here.carom({"check", "big.yaml", "--force"});
+  EXPECT_EQ(forced.code, 0) << forced.err;
+  EXPECT_NE(forced.out.find("1,000,001 pictures"), std::string::npos) << forced.out;
+}
+
+}  // namespace
+}  // namespace carom::testing

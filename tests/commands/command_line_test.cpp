@@ -1,0 +1,181 @@
+// What the program says to a command line, whole.
+#include "commands/command_line.h"
+
+#include <gtest/gtest.h>
+
+#include "commands/program.h"
+
+namespace carom::testing {
+namespace {
+
+// The text on stderr of a command line that is wrong: exit code 2, nothing on stdout, no scene looked at.
+std::string complaint(const std::vector<std::string>& words) {
+  const Workplace here;
+  const Finished finished = here.carom(words);
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_EQ(finished.out, "");
+  EXPECT_TRUE(here.files().empty());
+  return finished.err;
+}
+
+TEST(CommandLine, MisspeltCommandGetsItsNearName) {
+  EXPECT_EQ(complaint({"rnu", "a.yaml"}),
+            "carom: no command `rnu`; did you mean `run`?\n"
+            "  carom --help shows how it is used\n");
+  EXPECT_EQ(complaint({"chekc", "a.yaml"}),
+            "carom: no command `chekc`; did you mean `check`?\n"
+            "  carom --help shows how it is used\n");
+}
+
+TEST(CommandLine, CommandThatIsNearNothingGetsTheList) {
+  EXPECT_EQ(complaint({"simulate"}),
+            "carom: no command `simulate`; it has run and check\n"
+            "  carom --help shows how it is used\n");
+}
+
+TEST(CommandLine, CommandsOfTheFormatThatThisVersionLacksAreNamedAsSuch) {
+  for (const std::string name : {"sweep", "gather", "compare", "render", "bench", "new", "schema"}) {
+    EXPECT_EQ(complaint({name, "x"}), "carom: this version has no command `" + name +
+                                          "`; it has run and check\n"
+                                          "  carom --help shows how it is used\n");
+  }
+}
+
+TEST(CommandLine, SceneWithoutCommandIsToldTheCommand) {
+  EXPECT_EQ(complaint({"balls.yaml"}),
+            "carom: name a command first: carom run balls.yaml\n"
+            "  carom --help shows how it is used\n");
+}
+
+TEST(CommandLine, OptionBeforeTheCommandIsToldItsPlace) {
+  EXPECT_EQ(complaint({"--quiet", "run", "a.yaml"}),
+            "carom: options stand after the command: carom run SCENE --quiet\n"
+            "  carom --help shows how it is used\n");
+}
+
+TEST(CommandLine, MisspeltOptionGetsItsNearName) {
+  EXPECT_EQ(complaint({"run", "a.yaml", "--ouput", "x"}),
+            "carom run: no option `--ouput`; did you mean `--output`?\n"
+            "  carom run --help shows how it is used\n");
+  EXPECT_EQ(complaint({"check", "a.yaml", "--forse"}),
+            "carom check: no option `--forse`; did you mean `--force`?\n"
+            "  carom check --help shows how it is used\n");
+  EXPECT_EQ(complaint({"run", "a.yaml", "--frobnicate=1"}),
+            "carom run: no option `--frobnicate`\n"
+            "  carom run --help shows how it is used\n");
+  EXPECT_EQ(complaint({"run", "a.yaml", "-z"}),
+            "carom run: no option `-z`\n"
+            "  carom run --help shows how it is used\n");
+}
+
+TEST(CommandLine, LongOptionAfterASingleDashIsNotReadAsAShortOneWithAValue) {
+  EXPECT_EQ(complaint({"run", "a.yaml", "-output", "x"}),
+            "carom run: no option `-output`; did you mean `--output`?\n"
+            "  carom run --help shows how it is used\n");
+}
+
+TEST(CommandLine, NoSceneIsAnError) {
+  EXPECT_EQ(complaint({"run"}),
+            "carom run: name a scene file: carom run scenes/two_bowling_balls.yaml\n"
+            "  carom run --help shows how it is used\n");
+}
+
+TEST(CommandLine, ValuesAreCheckedBeforeAnySceneIsRead) {
+  const std::string end = "\n  carom run --help shows how it is used\n";
+  EXPECT_EQ(complaint({"run", "a.yaml", "-o"}), "carom run: --output needs a value" + end);
+  EXPECT_EQ(complaint({"run", "a.yaml", "--set"}), "carom run: --set needs a value" + end);
+  EXPECT_EQ(complaint({"run", "a.yaml", "--set", "gravity"}),
+            "carom run: --set takes path=value, balls.red.mass=2 say, not `gravity`" + end);
+  EXPECT_EQ(complaint({"run", "a.yaml", "--set", "=1"}),
+            "carom run: --set takes path=value, balls.red.mass=2 say, not `=1`" + end);
+  EXPECT_EQ(complaint({"run", "a.yaml", "--seed", "-1"}),
+            "carom run: --seed is a whole number from 0 to 18446744073709551615, not `-1`" + end);
+  EXPECT_EQ(complaint({"run", "a.yaml", "--seed", "18446744073709551616"}),
+            "carom run: --seed is a whole number from 0 to 18446744073709551615, not `18446744073709551616`" + end);
+  EXPECT_EQ(complaint({"run", "a.yaml", "--seed", "1", "--seed", "2"}), "carom run: --seed is given 2 times" + end);
+  EXPECT_EQ(complaint({"run", "a.yaml", "--only", "frmes"}),
+            "carom run: --only takes trajectory, collisions, energy, frames, video, sheet, not `frmes`; "
+            "did you mean `frames`?" +
+                end);
+  EXPECT_EQ(complaint({"run", "a.yaml", "--only", "energy,"}),
+            "carom run: --only takes trajectory, collisions, energy, frames, video, sheet, not ``" + end);
+  EXPECT_EQ(complaint({"run", "a.yaml", "--color", "sometimes"}),
+            "carom run: --color is auto, always, never, not `sometimes`" + end);
+  EXPECT_EQ(complaint({"run", "a.yaml", "--progress", "bars"}),
+            "carom run: --progress is auto, bar, lines, none, not `bars`; did you mean `bar`?" + end);
+  EXPECT_EQ(complaint({"run", "a.yaml", "--force=yes"}), "carom run: --force takes no value" + end);
+}
+
+TEST(CommandLine, TwoScenesForOneFolderAreRefused) {
+  EXPECT_EQ(complaint({"run", "a/balls.yaml", "b/balls.yaml"}),
+            "carom run: a/balls.yaml and b/balls.yaml would both be written to output/balls: "
+            "run one of them with another -o\n"
+            "  carom run --help shows how it is used\n");
+  EXPECT_EQ(complaint({"run", "balls.yaml", "./balls.yaml", "-o", "x"}),
+            "carom run: balls.yaml and ./balls.yaml would both be written to x/balls: "
+            "run one of them with another -o\n"
+            "  carom run --help shows how it is used\n");
+}
+
+TEST(CommandLine, HelpOpensWithExamples) {
+  const Workplace here;
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--help"}, {"-h"}, {"help"}, {"run", "--help"}, {"check", "-h"}, {"help", "run"}}) {
+    const Finished help = here.carom(words);
+    EXPECT_EQ(help.code, 0);
+    EXPECT_EQ(help.err, "");
+    const std::size_t examples = help.out.find("\nExamples:\n  carom "), usage = help.out.find("\nUsage:\n");
+    EXPECT_LT(examples, 120u) << help.out;
+    EXPECT_LT(examples, usage) << help.out;
+    EXPECT_NE(usage, std::string::npos) << help.out;
+  }
+}
+
+TEST(CommandLine, HelpNamesEveryOption) {
+  const std::string help = Workplace().carom({"run", "--help"}).out;
+  for (const std::string option : {"-o,--output DIR", "--set PATH=VALUE", "--only LIST", "--seed N", "--force",
+                                   "--progress HOW", "--color WHEN", "--json", "-q,--quiet", "-h,--help"}) {
+    EXPECT_NE(help.find("\n  " + option + " "), std::string::npos) << option;
+  }
+}
+
+TEST(CommandLine, NothingAtAllGetsTheHelpAsAnError) {
+  const Finished finished = Workplace().carom({});
+  EXPECT_EQ(finished.code, 2);
+  EXPECT_EQ(finished.out, "");
+  EXPECT_TRUE(finished.err.starts_with("carom turns scenes")) << finished.err;
+}
+
+TEST(CommandLine, VersionIsOneLine) {
+  const Finished finished = Workplace().carom({"--version"});
+  EXPECT_EQ(finished.code, 0);
+  EXPECT_EQ(finished.out, "carom " CAROM_VERSION "\n");
+  EXPECT_EQ(finished.err, "");
+}
+
+TEST(CommandLine, WordsAfterTwoDashesAreScenes) {
+  const CommandText text{"run", "", "", "", true};
+  const Options options = parse_options(text, {"-q", "a.yaml", "--", "--force", "-o"}).options;
+  EXPECT_EQ(options.scenes, (std::vector<std::string>{"a.yaml", "--force", "-o"}));
+  EXPECT_TRUE(options.quiet);
+  EXPECT_FALSE(options.force);
+}
+
+TEST(CommandLine, EveryOptionIsRead) {
+  const CommandText text{"run", "", "", "", true};
+  const Options options = parse_options(text, {"a.yaml", "--set", "x=1", "b.yaml", "--set=y=2=3", "-oout", "--only",
+                                               "energy,sheet,energy", "--seed", "18446744073709551615", "--force",
+                                               "--json", "-q", "--progress=lines", "--color", "never"})
+                              .options;
+  EXPECT_EQ(options.scenes, (std::vector<std::string>{"a.yaml", "b.yaml"}));
+  EXPECT_EQ(options.set, (std::vector<std::string>{"x=1", "y=2=3"}));
+  EXPECT_EQ(options.output, "out");
+  EXPECT_EQ(options.only, (std::vector<std::string>{"energy", "sheet"}));
+  EXPECT_EQ(options.seed, 18446744073709551615u);
+  EXPECT_TRUE(options.force && options.json && options.quiet);
+  EXPECT_EQ(options.progress, ProgressChoice::lines);
+  EXPECT_EQ(options.color, ColorChoice::never);
+}
+
+}  // namespace
+}  // namespace carom::testing

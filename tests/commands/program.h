@@ -1,0 +1,47 @@
+#pragma once
+// The real program as a subprocess, in a folder of its own.
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom::testing {
+
+struct Finished {
+  int code = -1;  // exit code; 1000 + signal if a signal ended it
+  std::string out, err;
+};
+
+/// A fresh folder that a test's commands run in; removed at the end.
+class Workplace {
+ public:
+  Workplace();
+  ~Workplace();
+  Workplace(const Workplace&) = delete;
+  Workplace& operator=(const Workplace&) = delete;
+
+  void write(const std::string& name, const std::string& text) const;
+  std::string read(const std::string& name) const;  // empty if it is not there
+  bool has(const std::string& name) const;
+  /// Every file below `name`, by path: its bytes.
+  std::map<std::string, std::string> files(const std::string& name = ".") const;
+  std::string path(const std::string& name) const { return folder_ + "/" + name; }
+
+  /// Runs `carom words...` here, stdin empty, stdout and stderr files, NO_COLOR not set.
+  Finished carom(const std::vector<std::string>& words) const;
+  /// The same by a shell, "$CAROM" being the program.
+  Finished shell(const std::string& command) const;
+  /// Starts the program, sends `signal` as soon as the file or folder `sign` is there, and waits.
+  Finished interrupted(const std::vector<std::string>& words, const std::string& sign, int signal) const;
+
+ private:
+  int start(const std::vector<std::string>& words) const;
+  Finished finish(int process) const;
+  std::string folder_;
+};
+
+/// Two balls that meet at 0.4472... s, small enough for any test. `more`: further top-level lines.
+std::string two_balls(
+    const std::string& more = "output: {trajectory: {every: 0.1}, collisions: true, energy: {every: 0.1}}\n");
+
+}  // namespace carom::testing

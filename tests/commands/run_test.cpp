@@ -1,0 +1,345 @@
+// carom run, by the real program.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "commands/program.h"
+
+namespace carom::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string tables = "output: {trajectory: {every: 0.1}, collisions: true, energy: {every: 0.1}}\n";
+const std::string small_pictures = "output: {frames: {fps: 4, size: [64, 36], samples: 1}}\n";
+
+TEST(Run, WritesTheTablesThatTheSceneAsksForAndTellsWhere) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  const Finished run = here.carom({"run", "balls.yaml"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(run.err, "");
+  const std::size_t residual = run.out.find(", residual "), next = run.out.find("\n  overlap");  // rounding, not quoted
+  ASSERT_LT(residual, next) << run.out;
+  const std::string until_time = run.out.substr(0, residual) + run.out.substr(next, run.out.find("  time ") - next);
+  // They touch when their centres are 0.22 m apart: after 1.78 m at 4 m/s. Of 40 J, 1 - 0.9^2 is lost.
+  EXPECT_EQ(until_time,
+            "balls: Two balls\n"
+            "  engine      exact (auto: every path of this scene has a closed form)\n"
+            "  collisions  1 (1 body-body, 0 body-fixed), at 0.445 s\n"
+            "  rest        0 of 2 bodies at the end\n"
+            "  energy      7.6 J lost, 40 J -> 32.4 J\n"
+            "  overlap     none\n"
+            "  wrote       output/balls: collisions.csv, energy.csv, manifest.json, scene.yaml, summary.csv and\n"
+            "              trajectory.csv\n");
+  for (const std::string name :
+       {"summary.csv", "trajectory.csv", "collisions.csv", "energy.csv", "manifest.json", "scene.yaml"}) {
+    EXPECT_TRUE(here.has("output/balls/" + name)) << name;
+  }
+  EXPECT_EQ(here.files("output/balls").size(), 6u);
+}
+
+TEST(Run, SecondRunIsUpToDateAndTouchesNothing) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  here.carom({"run", "balls.yaml"});
+  const auto before = here.files("output");
+  const Finished again = here.carom({"run", "balls.yaml"});
+  EXPECT_EQ(again.code, 0);
+  EXPECT_EQ(again.err, "");
+  EXPECT_EQ(again.out,
+            "balls: Two balls\n"
+            "  up to date  output/balls\n");
+  EXPECT_EQ(here.files("output"), before);
+}
+
+TEST(Run, ForceRunsAgainWithTheSameBytes) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  here.carom({"run", "balls.yaml"});
+  auto before = here.files("output/balls");
+  const Finished again = here.carom({"run", "balls.yaml", "--force"});
+  EXPECT_EQ(again.code, 0);
+  EXPECT_NE(again.out.find("  wrote       output/balls: "), std::string::npos) << again.out;
+  auto after = here.files("output/balls");
+  before.erase("manifest.json");  // wall times stand in it
+  after.erase("manifest.json");
+  EXPECT_EQ(after, before);
+}
+
+TEST(Run, FolderOfAnotherRunIsRefusedWithoutForce) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  here.carom({"run", "balls.yaml"});
+  const auto before = here.files("output");
+  const Finished other = here.carom({"run", "balls.yaml", "--set", "balls.red.mass=11"});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_EQ(other.out, "");
+  EXPECT_EQ(other.err,
+            "balls.yaml: the folder output/balls holds another run, or files that no run wrote\n"
+            "  write elsewhere with -o, or overwrite it with --force\n"
+            "carom: 1 error; nothing was run\n");
+  EXPECT_EQ(here.files("output"), before);
+
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "--set", "balls.red.mass=11", "--force"}).code, 0);
+  EXPECT_NE(here.read("output/balls/scene.yaml").find("red: {mass: 11,"), std::string::npos);
+}
+
+TEST(Run, FilesThatNoRunWroteAreNeverOverwrittenUnasked) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  here.write("notes/mine.txt", "do not lose this");
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", "notes"}).code, 2);
+  EXPECT_EQ(here.files("notes").size(), 1u);
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", "notes", "--force"}).code, 0);
+  EXPECT_EQ(here.read("notes/mine.txt"), "do not lose this");
+}
+
+TEST(Run, FileInPlaceOfTheFolderIsRefused) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  const Finished run = here.carom({"run", "balls.yaml", "-o", "balls.yaml", "--force"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(run.err, "balls.yaml: balls.yaml is not a folder\ncarom: 1 error; nothing was run\n");
+  EXPECT_EQ(here.read("balls.yaml"), two_balls());
+}
+
+TEST(Run, AllScenesAreCheckedBeforeTheFirstIsRun) {
+  const Workplace here;
+  here.write("right.yaml", two_balls());
+  here.write("wrong.yaml", two_balls("outptu: {}\n"));
+  const Finished run = here.carom({"run", "right.yaml", "wrong.yaml", "missing.yaml"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(run.out, "");
+  EXPECT_TRUE(run.err.starts_with("wrong.yaml:8:1: error: ")) << run.err;
+  EXPECT_NE(run.err.find("output"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("missing.yaml: error: "), std::string::npos) << run.err;
+  EXPECT_TRUE(run.err.ends_with("carom: 2 errors in 2 of 3 scenes; nothing was run\n")) << run.err;
+  EXPECT_FALSE(here.has("output"));
+}
+
+TEST(Run, SeveralScenesGetAFolderEachAndATotal) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  here.write("b.yaml", two_balls());
+  here.carom({"run", "a.yaml", "-o", "all/a"});
+  const Finished run = here.carom({"run", "a.yaml", "b.yaml", "-o", "all"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_NE(run.out.find("a: Two balls\n  up to date  all/a\nb: Two balls\n  engine "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("\n2 scenes: 1 done, 1 up to date, in "), std::string::npos) << run.out;
+  EXPECT_TRUE(here.has("all/a/manifest.json") && here.has("all/b/manifest.json"));
+}
+
+TEST(Run, ResolvedSceneRunsToTheSameBytes) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  here.carom({"run", "balls.yaml", "--set", "balls.red.mass=11", "-o", "first"});
+  EXPECT_EQ(here.carom({"run", "first/scene.yaml", "-o", "second"}).code, 0);
+  auto first = here.files("first"), second = here.files("second");
+  first.erase("manifest.json");
+  second.erase("manifest.json");
+  EXPECT_EQ(first.size(), 5u);
+  EXPECT_EQ(first, second);
+}
+
+TEST(Run, MoreOutputTimesDoNotChangeACollision) {
+  const Workplace here;
+  const std::string gas =
+      "scene: 1\n"
+      "groups:\n"
+      "  gas: {count: 30, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 0], max: [2, 2, 2]}, arrange: random, speed: "
+      "1}\n"
+      "room: {min: [0, 0, 0], max: [2, 2, 2]}\n"
+      "simulate: {duration: 5}\n";
+  here.write("few.yaml", gas + "output: {collisions: true}\n");
+  here.write("many.yaml", gas + "output: {collisions: true, trajectory: {every: 0.001}, energy: {every: 0.0007}}\n");
+  const Finished run = here.carom({"run", "few.yaml", "many.yaml"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_GT(here.read("output/few/collisions.csv").size(), 10'000u);
+  EXPECT_EQ(here.read("output/few/collisions.csv"), here.read("output/many/collisions.csv"));
+}
+
+TEST(Run, OnlyRestrictsAndAddsOutputs) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "--only", "energy"}).code, 0);
+  EXPECT_EQ(here.files("output/balls").size(), 4u);
+  EXPECT_TRUE(here.has("output/balls/energy.csv"));
+
+  // The same scene's other outputs: no --force needed, and the folder then holds these alone.
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "--only", "collisions,trajectory"}).code, 0);
+  EXPECT_EQ(here.files("output/balls").size(), 5u);
+  EXPECT_FALSE(here.has("output/balls/energy.csv"));
+
+  // What the whole run holds is up to date for any part of it.
+  EXPECT_EQ(here.carom({"run", "balls.yaml"}).code, 0);
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "--only", "energy"}).out,
+            "balls: Two balls\n  up to date  output/balls\n");
+
+  // An output that the scene does not ask for comes with its defaults.
+  here.write("none.yaml", two_balls("output: {collisions: true}\n"));
+  EXPECT_EQ(here.carom({"run", "none.yaml", "--only", "trajectory"}).code, 0);
+  const std::string trajectory = here.read("output/none/trajectory.csv");
+  EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'),
+            1 + 31 * 2);  // every 1/30 s over 1 s, ends included
+  EXPECT_FALSE(here.has("output/none/collisions.csv"));
+}
+
+TEST(Run, OnlyIsHeldToTheBudgetByWhatItLeaves) {
+  const Workplace here;
+  here.write("long.yaml", two_balls("output: {frames: {fps: 1000000, size: [64, 36]}, collisions: true}\n"));
+  EXPECT_EQ(here.carom({"check", "long.yaml"}).code, 2);
+  EXPECT_EQ(here.carom({"run", "long.yaml", "--only", "collisions"}).code, 0);
+
+  here.write("short.yaml", two_balls("output: {collisions: true}\n"));
+  const Finished run = here.carom({"run", "short.yaml", "--set", "simulate.duration=100000", "--only", "frames"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(
+      run.err,
+      "short.yaml: --only asks for 3,000,001 pictures, more than the 100,000 that a run may draw without --force\n"
+      "carom: 1 error; nothing was run\n");
+}
+
+TEST(Run, SetAndSeedChangeTheScene) {
+  const Workplace here;
+  const std::string gas =
+      "scene: 1\n"
+      "groups:\n"
+      "  gas: {count: 5, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 0], max: [2, 2, 2]}, arrange: random, speed: "
+      "1}\n"
+      "simulate: {duration: 1}\n";
+  here.write("gas.yaml", gas);
+  EXPECT_EQ(here.carom({"run", "gas.yaml", "-o", "zero"}).code, 0);
+  EXPECT_EQ(here.carom({"run", "gas.yaml", "-o", "seven", "--seed", "7"}).code, 0);
+  EXPECT_EQ(here.carom({"run", "gas.yaml", "-o", "set", "--set", "seed=7"}).code, 0);
+  EXPECT_NE(here.read("zero/trajectory.csv"), here.read("seven/trajectory.csv"));
+  EXPECT_EQ(here.read("seven/trajectory.csv"), here.read("set/trajectory.csv"));
+  EXPECT_EQ(here.carom({"run", "gas.yaml", "-o", "bad", "--set", "groups.gas.cuont=6"}).code, 2);
+  EXPECT_FALSE(here.has("bad"));
+}
+
+TEST(Run, JsonIsOneDocumentWithTheSummarysFields) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  here.write("b.yaml", two_balls());
+  here.carom({"run", "b.yaml"});
+  const Finished run = here.carom({"run", "a.yaml", "b.yaml", "--json"});
+  EXPECT_EQ(run.code, 0);
+  const Json document = Json::parse(run.out);
+  EXPECT_EQ(document.at("carom"), CAROM_VERSION);
+  const Json& a = document.at("scenes").at(0);
+  EXPECT_EQ(a.at("status"), "done");
+  EXPECT_EQ(a.at("scene"), "a.yaml");
+  EXPECT_EQ(a.at("folder"), "output/a");
+  EXPECT_EQ(a.at("files"),
+            (Json{"collisions.csv", "energy.csv", "manifest.json", "scene.yaml", "summary.csv", "trajectory.csv"}));
+  EXPECT_EQ(a.at("summary").at("collisions"), 1);
+  EXPECT_EQ(a.at("summary").at("title"), "Two balls");
+  EXPECT_NEAR(a.at("summary").at("energy_lost_J").get<double>(), 7.6, 1e-14);
+  EXPECT_GE(a.at("time").at("wall_s").get<double>(), 0);
+  // Every column of summary.csv but the run's number, which a run by itself does not have.
+  const std::string summary = here.read("output/a/summary.csv");
+  std::string columns = "run";
+  const auto ordered = nlohmann::ordered_json::parse(run.out).at("scenes").at(0).at("summary");
+  for (const auto& item : ordered.items()) columns += "," + item.key();
+  EXPECT_EQ(columns, summary.substr(0, summary.find('\n')));
+  EXPECT_EQ(document.at("scenes").at(1).at("status"), "up to date");
+  EXPECT_FALSE(document.at("scenes").at(1).contains("summary"));
+}
+
+TEST(Run, JsonOfWrongScenesIsADocumentToo) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  const Finished run = here.carom({"run", "a.yaml", "missing.yaml", "--json", "--color", "always"});
+  EXPECT_EQ(run.code, 2);
+  const Json scenes = Json::parse(run.out).at("scenes");
+  EXPECT_EQ(scenes.at(0).at("status"), "not run");
+  EXPECT_EQ(scenes.at(1).at("status"), "wrong");
+  EXPECT_NE(scenes.at(1).at("error").get<std::string>().find("missing.yaml"), std::string::npos);
+  EXPECT_EQ(run.out.find("\\u001b"), std::string::npos);
+}
+
+TEST(Run, NoCollisionLeavesTheTimesNullAndTheCellsEmpty) {
+  const Workplace here;
+  here.write("apart.yaml", two_balls());
+  const Finished run = here.carom({"run", "apart.yaml", "--set", "simulate.duration=0.1", "--json"});
+  const Json summary = Json::parse(run.out).at("scenes").at(0).at("summary");
+  EXPECT_EQ(summary.at("first_collision_s"), nullptr);
+  EXPECT_EQ(summary.at("collisions"), 0);
+  EXPECT_NE(here.read("output/apart/summary.csv").find(",exact,done,0.1,2,0,0,0,,,"), std::string::npos);
+}
+
+TEST(Run, ImpulsesCountAsWorkAndNotAsDrift) {
+  const Workplace here;
+  here.write("push.yaml",
+             "scene: 1\ngravity: [0, 0, 0]\n"
+             "balls: {one: {mass: 2, radius: 0.1, position: [0, 0, 0], velocity: [1, 0, 0], impulse: [4, 0, 0]}}\n"
+             "simulate: {duration: 1}\n");
+  const Json summary = Json::parse(here.carom({"run", "push.yaml", "--json"}).out).at("scenes").at(0).at("summary");
+  EXPECT_EQ(summary.at("energy_start_J"), 1);  // 2 kg at 1 m/s
+  EXPECT_EQ(summary.at("energy_end_J"), 9);    // 2 kg at 3 m/s
+  EXPECT_EQ(summary.at("work_J"), 8);
+  EXPECT_EQ(summary.at("energy_residual_J"), 0);
+  EXPECT_EQ(summary.at("momentum_drift_kg_m_per_s"), 0);
+}
+
+TEST(Run, QuietSaysNothing) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  here.write("b.yaml", two_balls());
+  const Finished run = here.carom({"run", "a.yaml", "b.yaml", "-q"});
+  EXPECT_EQ(run.code, 0);
+  EXPECT_EQ(run.out + run.err, "");
+}
+
+TEST(Run, LimitOnCollisionsEndsTheRunWithAnErrorAndNoFiles) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  const Finished run =
+      here.carom({"run", "a.yaml", "--set", "balls.blue.velocity.x=-1", "--set", "simulate.max_collisions=1", "--set",
+                  "room={min: [-2, -2, -2], max: [2, 2, 2]}", "--set", "simulate.duration=100"});
+  EXPECT_EQ(run.code, 1) << run.out << run.err;
+  EXPECT_TRUE(run.err.starts_with("carom: a.yaml: the run failed: ")) << run.err;
+  EXPECT_TRUE(here.files("output").empty());
+  EXPECT_FALSE(here.has("output/a"));
+}
+
+TEST(Run, FailedRunDoesNotStopTheNext) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  here.write("b.yaml", two_balls());
+  here.write("taken/a/manifest.json/x", "");  // a folder where a file has to go
+  const Finished run = here.carom({"run", "a.yaml", "b.yaml", "-o", "taken", "--force"});
+  EXPECT_EQ(run.code, 1) << run.err;
+  EXPECT_NE(run.out.find("2 scenes: 1 done, 1 failed, in "), std::string::npos) << run.out;
+  EXPECT_TRUE(here.has("taken/b/manifest.json"));
+}
+
+// OSMesa's library is loaded with the program, but making a context costs memory and starts llvmpipe's threads.
+TEST(Run, NoPictureNoOpenGl) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  here.write("seen.yaml", two_balls(small_pictures));
+  const auto peak = [&](const std::string& scene) {
+    const Finished run = here.carom({"run", scene, "--json"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    return Json::parse(run.out).at("scenes").at(0).at("time").at("peak_memory_bytes").get<double>();
+  };
+  const double without = peak("balls.yaml"), with = peak("seen.yaml");
+  EXPECT_GT(with, without + 10e6) << without << " bytes without pictures, " << with << " with";
+}
+
+TEST(Run, PicturesAreNumberedAndCounted) {
+  const Workplace here;
+  here.write("seen.yaml", two_balls(small_pictures));
+  const Finished run = here.carom({"run", "seen.yaml", "--json"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json scene = Json::parse(run.out).at("scenes").at(0);
+  EXPECT_EQ(scene.at("summary").at("frames"), 5);  // 0, 1/4 ... 1 s
+  EXPECT_EQ(scene.at("files").at(0), "frames/frame_00000.png");
+  EXPECT_TRUE(here.has("output/seen/frames/frame_00004.png"));
+  EXPECT_FALSE(here.has("output/seen/trajectory.csv"));
+}
+
+}  // namespace
+}  // namespace carom::testing

@@ -1,0 +1,133 @@
+// Streams, colour, progress and signals, by the real program.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+
+#include "commands/program.h"
+
+namespace carom::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+// Long enough to be interrupted anywhere: 100,000 small pictures.
+const std::string long_scene =
+    "output: {frames: {fps: 1, size: [64, 36], samples: 1}, trajectory: {every: 1}, video: true}\n";
+
+bool colored(const std::string& text) {
+  return text.find("\x1b[") != std::string::npos;
+}
+
+TEST(Terminal, NoColourAndNoBarWhereThereIsNoTerminal) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  const Finished run = here.carom({"run", "a.yaml", "missing.yaml", "--progress", "bar"});
+  EXPECT_FALSE(colored(run.out + run.err));
+  const Finished right = here.carom({"run", "a.yaml", "--progress", "bar"});
+  EXPECT_FALSE(colored(right.out + right.err));
+}
+
+TEST(Terminal, ColourOnATerminalUnlessNoColor) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  const auto on_terminal = [&](const std::string& command) {
+    return here.shell("TERM=xterm script -qec '" + command + "' /dev/null").out;
+  };
+  EXPECT_TRUE(colored(on_terminal("$CAROM check a.yaml")));
+  EXPECT_FALSE(colored(on_terminal("NO_COLOR=1 $CAROM check a.yaml")));
+  EXPECT_TRUE(colored(on_terminal("NO_COLOR= $CAROM check a.yaml")));
+  EXPECT_TRUE(colored(on_terminal("NO_COLOR=1 $CAROM check a.yaml --color always")));
+  EXPECT_FALSE(colored(on_terminal("$CAROM check a.yaml --color never")));
+  EXPECT_FALSE(colored(on_terminal("TERM=dumb $CAROM check a.yaml")));
+  EXPECT_TRUE(colored(here.shell("NO_COLOR=1 $CAROM check a.yaml --color always").out));
+}
+
+TEST(Terminal, BarIsClearedBeforeTheResult) {
+  const Workplace here;
+  here.write("a.yaml", two_balls("output: {frames: {fps: 2000, size: [64, 36], samples: 1}}\n"));
+  const Finished run = here.shell("TERM=xterm script -qec '$CAROM run a.yaml --color never' /dev/null");
+  const std::size_t bar = run.out.find("\ra ["), clear = run.out.find("\r\x1b[K"),
+                    result = run.out.find("a: Two balls");
+  EXPECT_NE(bar, std::string::npos) << run.out;
+  EXPECT_LT(bar, clear);
+  EXPECT_LT(clear, result);
+  EXPECT_EQ(run.out.find("a [", result), std::string::npos);
+}
+
+TEST(Terminal, LostOutputIsAnError) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  const Finished full = here.shell("$CAROM check a.yaml > /dev/full");
+  EXPECT_EQ(full.code, 1);
+  EXPECT_EQ(full.err, "carom: cannot write to standard output: No space left on device\n");
+  const Finished closed = here.shell("$CAROM check a.yaml >&-");
+  EXPECT_EQ(closed.code, 1);
+  EXPECT_EQ(closed.err, "carom: cannot write to standard output: Bad file descriptor\n");
+  EXPECT_EQ(here.shell("$CAROM check a.yaml -q >&-").code, 0);
+}
+
+TEST(Terminal, ReaderThatGoesAwayIsAnErrorAndNoSignal) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  const Finished piped = here.shell("{ $CAROM check a.yaml; echo $? >&2; } | true");
+  EXPECT_TRUE(piped.err == "carom: cannot write to standard output: Broken pipe\n1\n" || piped.err == "0\n")
+      << piped.err;
+}
+
+TEST(Terminal, ClosedDescriptorsDoNotLetOutputIntoDataFiles) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  EXPECT_EQ(here.shell("$CAROM run a.yaml -q <&- >&- 2>&-").code, 0);
+  here.shell("$CAROM run a.yaml -o other <&- >&- 2>&-");
+  auto quiet = here.files("output/a"), closed = here.files("other");
+  quiet.erase("manifest.json");
+  closed.erase("manifest.json");
+  EXPECT_EQ(quiet.size(), 5u);
+  EXPECT_EQ(quiet, closed);
+}
+
+class Interrupt : public ::testing::TestWithParam<int> {};
+
+TEST_P(Interrupt, LeavesWhatIsFinishedAndNoPart) {
+  const Workplace here;
+  here.write("short.yaml", two_balls());
+  here.write("long.yaml", two_balls(long_scene));
+  here.write("never.yaml", two_balls());
+  const Finished run = here.interrupted(
+      {"run", "short.yaml", "long.yaml", "never.yaml", "--json", "--force", "--set", "simulate.duration=100000"},
+      "output/long/frames/frame_00002.png", GetParam());
+  EXPECT_EQ(run.code, 128 + GetParam());
+  EXPECT_EQ(run.err.substr(run.err.find("carom:")),
+            "carom: long.yaml: interrupted; the same command runs what is missing\n");
+  const Json scenes = Json::parse(run.out).at("scenes");
+  EXPECT_EQ(scenes.at(0).at("status"), "done");
+  EXPECT_EQ(scenes.at(1).at("status"), "interrupted");
+  EXPECT_EQ(scenes.at(2).at("status"), "not run");
+  EXPECT_TRUE(here.has("output/short/manifest.json"));
+  EXPECT_FALSE(here.has("output/long/manifest.json") || here.has("output/never"));
+  for (const auto& [name, bytes] : here.files("output")) {
+    EXPECT_EQ(name.find(".part"), std::string::npos) << name;
+    EXPECT_FALSE(name.ends_with(".csv") && name.starts_with("long/")) << name;
+    EXPECT_FALSE(name.ends_with(".mp4")) << name;
+  }
+  const Finished check = here.carom({"check", "long.yaml", "--force", "--set", "simulate.duration=100000"});
+  EXPECT_NE(check.out.find("  folder      output/long: incomplete, will be run again\n"), std::string::npos)
+      << check.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(BySignal, Interrupt, ::testing::Values(SIGINT, SIGTERM),
+                         [](const auto& signal) { return signal.param == SIGINT ? "SIGINT" : "SIGTERM"; });
+
+TEST(Terminal, IgnoredSignalStaysIgnored) {
+  const Workplace here;
+  here.write("a.yaml", two_balls("output: {frames: {fps: 100, size: [64, 36], samples: 1}}\n"));
+  const Finished run = here.shell(
+      "trap '' INT; $CAROM run a.yaml -q & p=$!; while [ ! -e output/a/frames ]; do sleep 0.01; done; kill -INT $p; "
+      "wait $p");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(here.has("output/a/manifest.json"));
+}
+
+}  // namespace
+}  // namespace carom::testing
