@@ -12,8 +12,11 @@ namespace {
 using Json = nlohmann::json;
 
 // Long enough to be interrupted anywhere: 100,000 small pictures.
-const std::string long_scene =
-    "output: {frames: {fps: 1, size: [64, 36], samples: 1}, trajectory: {every: 1}, video: true}\n";
+std::string long_scene() {
+  std::string text =
+      two_balls("output: {frames: {fps: 1, size: [64, 36], samples: 1}, trajectory: {every: 1}, video: true}\n");
+  return text.replace(text.find("duration: 1}"), 12, "duration: 99990}");
+}
 
 bool colored(const std::string& text) {
   return text.find("\x1b[") != std::string::npos;
@@ -45,7 +48,7 @@ TEST(Terminal, ColourOnATerminalUnlessNoColor) {
 
 TEST(Terminal, BarIsClearedBeforeTheResult) {
   const Workplace here;
-  here.write("a.yaml", two_balls("output: {frames: {fps: 2000, size: [64, 36], samples: 1}}\n"));
+  here.write("a.yaml", two_balls("output: {frames: {fps: 600, size: [64, 36], samples: 1}}\n"));
   const Finished run = here.shell("TERM=xterm script -qec '$CAROM run a.yaml --color never' /dev/null");
   const std::size_t bar = run.out.find("\ra ["), clear = run.out.find("\r\x1b[K"),
                     result = run.out.find("a: Two balls");
@@ -92,11 +95,10 @@ class Interrupt : public ::testing::TestWithParam<int> {};
 TEST_P(Interrupt, LeavesWhatIsFinishedAndNoPart) {
   const Workplace here;
   here.write("short.yaml", two_balls());
-  here.write("long.yaml", two_balls(long_scene));
+  here.write("long.yaml", long_scene());
   here.write("never.yaml", two_balls());
-  const Finished run = here.interrupted(
-      {"run", "short.yaml", "long.yaml", "never.yaml", "--json", "--force", "--set", "simulate.duration=100000"},
-      "output/long/frames/frame_00002.png", GetParam());
+  const Finished run = here.interrupted({"run", "short.yaml", "long.yaml", "never.yaml", "--json"},
+                                        "output/long/frames/frame_00002.png", GetParam());
   EXPECT_EQ(run.code, 128 + GetParam());
   EXPECT_EQ(run.err.substr(run.err.find("carom:")),
             "carom: long.yaml: interrupted; the same command runs what is missing\n");
@@ -111,7 +113,7 @@ TEST_P(Interrupt, LeavesWhatIsFinishedAndNoPart) {
     EXPECT_FALSE(name.ends_with(".csv") && name.starts_with("long/")) << name;
     EXPECT_FALSE(name.ends_with(".mp4")) << name;
   }
-  const Finished check = here.carom({"check", "long.yaml", "--force", "--set", "simulate.duration=100000"});
+  const Finished check = here.carom({"check", "long.yaml"});
   EXPECT_NE(check.out.find("  folder      output/long: incomplete, will be run again\n"), std::string::npos)
       << check.out;
 }
