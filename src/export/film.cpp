@@ -1,16 +1,21 @@
 #include "export/film.h"
 
-#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <charconv>
 
+#include "export/folder_names.h"
+#include "export/open_folder.h"
 #include "export/run_folder.h"
 #include "export/stored_file.h"
 
 namespace carom {
 namespace {
+
+/// The film's name in ffmpeg's own folder. (The name it will have is the scene's and never stands on a command line.)
+constexpr const char* film_name = "film.mp4";
 
 std::string decimal(double value) {
   char text[32];
@@ -37,7 +42,7 @@ std::vector<std::string> ffmpeg_arguments(const std::string& program, const Vide
           "-an", "-vf", filter, "-c:v", "libx264", "-preset", "medium", "-crf", std::to_string(video.crf), "-pix_fmt",
           "yuv420p", "-threads", "4", "-fps_mode", "passthrough", "-colorspace", "bt709", "-color_primaries", "bt709",
           "-color_trc", "bt709", "-color_range", "tv", "-movflags", "+faststart", "-fflags", "+bitexact", "-flags:v",
-          "+bitexact", "-map_metadata", "-1", "-f", "mp4", "file:" + part_name(video.file)};
+          "+bitexact", "-map_metadata", "-1", "-f", "mp4", std::string("file:") + film_name};
 }
 
 /// The last lines of what a program complained of, on one line.
@@ -70,8 +75,7 @@ Film::Film(const Place& place, const VideoOutput& video, FilmTools tools, const 
 
 Film::~Film() {
   ffmpeg_.reset();
-  if (published_) return;
-  unlinkat(place_.folder, part_name(record_.name).c_str(), 0);
+  if (!published_ && workshop_) remove_entry(place_.folder, part_name(record_.name));
 }
 
 void Film::fail_with(const std::string& reason) {
@@ -79,13 +83,14 @@ void Film::fail_with(const std::string& reason) {
 }
 
 void Film::start() {
-  // The file is made here, so that ffmpeg does not write through a link that stands in its place.
+  // ffmpeg opens its file by name, more than once, and outlives a run that is killed. In a folder of its own it meets
+  // no link, and once the next run has removed that folder it can touch nothing any more.
   const std::string part = part_name(record_.name);
-  if (unlinkat(place_.folder, part.c_str(), 0) != 0 && errno != ENOENT) fail("replace", place_, part);
-  const Descriptor file(
-      openat(place_.folder, part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
-  if (!file) fail("write", place_, record_.name);
-  ffmpeg_ = std::make_unique<Child>(ffmpeg_arguments(tools_.ffmpeg, video_), place_.folder, true);
+  remove_entry(place_.folder, part);
+  if (mkdirat(place_.folder, part.c_str(), 0777) != 0) fail("write", place_, record_.name);
+  workshop_ = open_folder(place_.folder, part, false);
+  if (!workshop_) fail("write", place_, record_.name);
+  ffmpeg_ = std::make_unique<Child>(ffmpeg_arguments(tools_.ffmpeg, video_), workshop_.get(), true);
 }
 
 void Film::add(const Image& image) {
@@ -115,8 +120,8 @@ void Film::complete() {
   if (*code != 0) fail_with("ffmpeg failed with code " + std::to_string(*code) + ": " + complaint(ffmpeg_->errors()));
 
   Child probe({tools_.ffprobe, "-v", "error", "-select_streams", "v:0", "-count_packets", "-show_entries",
-               "stream=nb_read_packets", "-of", "csv=p=0", "file:" + part_name(record_.name)},
-              place_.folder, false);
+               "stream=nb_read_packets", "-of", "csv=p=0", std::string("file:") + film_name},
+              workshop_.get(), false);
   const auto probed = probe.wait(patience_.end);
   if (!probed || *probed != 0) fail_with("ffprobe cannot read it: " + complaint(probe.errors()));
   const std::string counted = probe.output();
@@ -125,16 +130,17 @@ void Film::complete() {
   if (found != frames_)
     fail_with("ffmpeg wrote " + std::to_string(found) + " of " + std::to_string(frames_) + " frames");
 
-  const auto stored = read_record(place_.folder, part_name(record_.name));
-  if (!stored) fail("read", place_, part_name(record_.name));
+  const auto stored = read_record(workshop_.get(), film_name);
+  if (!stored) fail("read", place_, record_.name);
   record_.bytes = stored->bytes;
   record_.sha256 = stored->sha256;
 }
 
 void Film::publish() {
-  if (renameat(place_.folder, part_name(record_.name).c_str(), place_.folder, record_.name.c_str()) != 0)
+  if (renameat(workshop_.get(), film_name, place_.folder, record_.name.c_str()) != 0)
     fail("write", place_, record_.name);
   published_ = true;
+  remove_entry(place_.folder, part_name(record_.name));
 }
 
 }  // namespace carom

@@ -50,7 +50,8 @@ class Film {
   VideoOutput video_;
   FilmTools tools_;
   FilmPatience patience_;
-  std::unique_ptr<Child> ffmpeg_;  // from the first picture on
+  Descriptor workshop_;  // ffmpeg's own folder, from the first picture on
+  std::unique_ptr<Child> ffmpeg_;
   std::uint64_t frames_ = 0;
   FileRecord record_;
   bool published_ = false;

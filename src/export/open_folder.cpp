@@ -38,7 +38,7 @@ void remove_files(int folder, const std::vector<std::string>& names) {
 
 void remove_parts(int folder) {
   for (const std::string& name : folder_names(folder))
-    if (is_part_name(name)) unlinkat(folder, name.c_str(), 0);
+    if (is_part_name(name)) remove_entry(folder, name);
 }
 
 void add_files(std::vector<std::string>& names, const std::optional<Manifest>& manifest) {

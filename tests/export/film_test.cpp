@@ -5,6 +5,8 @@
 #include <sched.h>
 #include <signal.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -292,6 +294,29 @@ TEST_F(ScriptedFfmpeg, OneThatDoesNotEndIsStopped) {
 TEST_F(ScriptedFfmpeg, OneThatTalksAndTalksBlocksNothing) {
   EXPECT_EQ(film("head -c 3000000 /dev/zero | tr '\\0' x >&2; head -c 3000000 /dev/zero; exec " + real(), 3),
             "no error");
+}
+
+TEST(Film, AnFfmpegThatOutlivesItsKilledRunSpoilsNothing) {
+  TempFolder temp;
+  const Scene scene = scene_with_film();
+  run(scene, temp / "whole");
+  const std::string whole = read(temp / "whole/animation.mp4");
+  for (const int pictures : {1, 3, 6}) {
+    const pid_t child = fork();
+    if (child == 0) {
+      Exports exports(scene, temp / "run");
+      for (int i = 0; i < pictures; ++i) {
+        exports.timeline().advance();
+        exports.picture(0, picture(small, i));
+      }
+      kill(getpid(), SIGKILL);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    run(scene, temp / "run");  // its ffmpeg has just seen the end of its input
+    EXPECT_TRUE(read(temp / "run/animation.mp4") == whole) << pictures;
+    EXPECT_EQ(names_in(temp / "run"), names_in(temp / "whole")) << pictures;
+  }
 }
 
 TEST_F(ScriptedFfmpeg, ItInheritsNoFileOfTheRun) {
