@@ -66,6 +66,7 @@ class Run {
     stop_if_interrupted();
     while (simulator_->time() < time) {
       const double before = simulator_->time();
+      const std::uint64_t collisions_before = simulator_->tally().collisions();
       const double next = std::min(time, before + slice);
       {
         const Stopwatch watch(facts_.simulate_s);
@@ -75,7 +76,7 @@ class Run {
       if (!collisions.empty()) {
         const Stopwatch watch(facts_.export_s);
         exports_.record(collisions);
-      } else if (!(simulator_->time() > before)) {
+      } else if (!(simulator_->time() > before) && simulator_->tally().collisions() == collisions_before) {
         throw SimulationError("the simulator does not go on");
       }
       stop_if_interrupted();

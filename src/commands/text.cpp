@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "scene/source.h"
+
 namespace carom {
 
 std::string quantity(double value, std::string_view unit) {
@@ -82,13 +84,17 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
 
 std::string printable(std::string_view text) {
   std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7F) {
-      result += fmt::format("\\x{:02x}", byte);
+  for (std::size_t i = 0; i < text.size();) {
+    char32_t code = 0;
+    const int length = utf8_length(text, i, code);  // 0: no UTF-8 here
+    const auto bytes = static_cast<std::size_t>(std::max(length, 1));
+    if (length > 0 && !is_control(code)) {
+      result += text.substr(i, bytes);
     } else {
-      result += c;
+      for (std::size_t j = i; j < i + bytes; ++j)
+        result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[j]));
     }
+    i += bytes;
   }
   return result;
 }

@@ -23,7 +23,8 @@ std::string listed(const std::vector<std::string>& names, std::size_t most = 10)
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width);
 /// Columns that UTF-8 `text` takes, a code point counted as one.
 std::size_t columns_of(std::string_view text);
-/// `text` with control characters (a file's name may hold any) made harmless for a terminal.
+/// `text` with control characters and bytes that are no UTF-8 (a file's name may hold any) made harmless for a
+/// terminal.
 std::string printable(std::string_view text);
 
 }  // namespace carom

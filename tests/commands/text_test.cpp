@@ -63,6 +63,7 @@ TEST(Text, WidthCountsCharactersNotBytes) {
 
 TEST(Text, ControlCharactersDoNotReachTheTerminal) {
   EXPECT_EQ(printable("a\x1b[2Jb\n"), "a\\x1b[2Jb\\x0a");
+  EXPECT_EQ(printable("\xff \xc2\x9b ü"), "\\xff \\xc2\\x9b ü");
 }
 
 }  // namespace
