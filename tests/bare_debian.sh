@@ -22,7 +22,7 @@ trap 'exit 130' INT TERM
 # in_tree USER SCRIPT: mounts and processes end with the namespaces, however the script ends.
 in_tree() {
   unshare --mount --pid --fork --kill-child chroot "$bare/$1" /usr/bin/env -i \
-    PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin TERM=dumb ${http_proxy:+http_proxy="$http_proxy"} \
+    PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin TERM=dumb HOME=/root ${http_proxy:+http_proxy="$http_proxy"} \
     sh -euc "mount -t proc proc /proc; $2"
 }
 
@@ -54,7 +54,7 @@ for who in root user; do
   else
     enter='sh -c'
   fi
-  in_tree $who "$enter 'cd && git clone -q /srv/carom.bundle carom'"
+  in_tree $who "$enter 'cd && git -c advice.detachedHead=false clone -q /srv/carom.bundle carom'"
   timed "$who: ./dev run scenes/two_bowling_balls.yaml" in_tree $who "$enter 'cd && cd carom && ./dev run scenes/two_bowling_balls.yaml'"
   timed "$who: ./dev test" in_tree $who "$enter 'cd && cd carom && ./dev test'"
   timed "$who: ./dev run once more" in_tree $who "$enter 'cd && cd carom && ./dev run scenes/two_bowling_balls.yaml'"
