@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "commands/text.h"
 
@@ -21,12 +22,23 @@ void Progress::clear() {
   drawn_ = false;
 }
 
+namespace {
+
+// Whole seconds: an estimate has no more.
+std::string left_text(double elapsed, double done) {
+  if (!(done > 0)) return "";
+  const double left = std::ceil(elapsed / done * (1 - done));
+  return (left < 60 ? fmt::format("{:.0f} s", left) : wait_text(left)) + " left";
+}
+
+}  // namespace
+
 std::string Progress::counts(double elapsed, double done) const {
   std::string text = fmt::format("{:.4g} of {:.4g} s", time_, duration_);
   if (frames_to_come_ > 0) text += fmt::format(", {} of {} pictures", grouped(frames_), grouped(frames_to_come_));
   text += ", " + counted(collisions_, "collision", "collisions");
-  if (done > 0) text += fmt::format(", {} left", wait_text(elapsed / done * (1 - done)));
-  return text;
+  const std::string left = left_text(elapsed, done);
+  return left.empty() ? text : text + ", " + left;
 }
 
 void Progress::draw_bar(double done, double elapsed) {
@@ -34,13 +46,13 @@ void Progress::draw_bar(double done, double elapsed) {
   const std::size_t width = terminal_width(STDERR_FILENO) - 1;
   constexpr std::size_t bar_width = 20;
   std::string text = fmt::format("{} ", name_);
-  if (columns_of(text) + bar_width + 8 < width) {
+  if (columns_of(text) + bar_width + 24 < width) {
     const auto full = static_cast<std::size_t>(done * bar_width);
     const Palette palette(color_);
     std::string rest = fmt::format(" {:3.0f} % ", std::min(99.0, done * 100));
     const std::string tail = counts(elapsed, done);
     const std::size_t taken = columns_of(text) + bar_width + 2 + rest.size();
-    if (taken + columns_of(tail) <= width) rest += tail;
+    rest += taken + columns_of(tail) <= width ? tail : left_text(elapsed, done);
     text += fmt::format("[{}{}{}{:{}}]{}", palette.green, std::string(full, '='), palette.reset, "", bar_width - full,
                         rest);
   } else {
@@ -64,7 +76,7 @@ void Progress::update(double time, std::uint64_t collisions, std::uint64_t frame
     draw_bar(done, elapsed);
   } else {
     const int tenth = static_cast<int>(done * 10);
-    if (tenth == tenth_ && since_last < 5) return;
+    if (tenth == 10 || (tenth == tenth_ && since_last < 5)) return;  // the result tells the end
     tenth_ = tenth;
     write_err(fmt::format("{}: {:.0f} %, {}\n", name_, done * 100, counts(elapsed, done)));
   }
