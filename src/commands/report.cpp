@@ -85,8 +85,8 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   block.line("engine", planned.engine.why.empty() ? planned.engine.name
                                                   : fmt::format("{} ({})", planned.engine.name, planned.engine.why));
   block.line("collisions", collisions_text(summary));
-  block.line("rest",
-             fmt::format("{} of {} at the end", grouped(summary.resting), counted(summary.bodies, "body", "bodies")));
+  block.line("rest", fmt::format("{} of {} in resting contact at the end", grouped(summary.resting),
+                                 counted(summary.bodies, "body", "bodies")));
   block.line("energy", energy_text(summary));
   block.line("overlap", summary.max_overlap > 0 ? quantity(summary.max_overlap, "m at most") : "none");
   block.line("wrote", fmt::format("{}: {}", printable(planned.folder), file_list(planned.folder)));
