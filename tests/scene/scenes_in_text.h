@@ -20,7 +20,7 @@ inline std::string test_folder() {
   return folder;
 }
 
-/// Every test's files go when its program ends.
+/// In a folder of the running test.
 inline std::string write_file(std::string_view text, const std::string& name = "scene.yaml") {
   const std::string path = test_folder() + "/" + name;
   std::ofstream(path, std::ios::binary) << text;

@@ -1,0 +1,96 @@
+// The table of fields is sound: whatever is made from it can rely on that.
+#include "scene/fields.h"
+
+#include <set>
+
+#include "scene/scenes_in_text.h"
+#include "scene/values.h"
+#include "scene/view.h"
+
+namespace carom {
+namespace {
+
+TEST(Fields, EveryRowIsComplete) {
+  std::set<std::string_view> names;
+  for (const Kind& kind : kinds()) {
+    EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
+    EXPECT_FALSE(kind.doc.empty()) << kind.name;
+    std::set<std::string_view> keys;
+    for (const Field& field : kind.fields) {
+      EXPECT_TRUE(keys.insert(field.key).second) << kind.name << "." << field.key;
+      EXPECT_TRUE(field.doc.ends_with('.')) << kind.name << "." << field.key;
+      EXPECT_FALSE(expected(field).empty());
+      if (!field.instead.empty()) {
+        const Field* other = find_field(kind, field.instead);
+        ASSERT_NE(other, nullptr) << kind.name << "." << field.key;
+        EXPECT_EQ(other->instead, field.key);
+      }
+      const bool is_map = field.type == Type::part || field.type == Type::part_or_flag || field.type == Type::named ||
+                          field.type == Type::list;
+      if (is_map && field.later.empty()) {
+        EXPECT_EQ(kind_named(field.of).name, field.of);
+      }
+      if (field.type == Type::choice) {
+        EXPECT_GE(choices(field).size(), 1u);
+      }
+    }
+  }
+}
+
+TEST(Fields, DefaultsAreInTheirRange) {
+  for (const Kind& kind : kinds()) {
+    for (const Field& field : kind.fields) {
+      if (field.initial.empty()) continue;
+      const Node& node = initial_node(field);
+      if (field.type == Type::number || field.type == Type::whole) {
+        ASSERT_TRUE(as_number(&node)) << field.key;
+        EXPECT_TRUE(contains(field.range, *as_number(&node))) << field.key;
+      }
+      if (field.type == Type::vector || field.type == Type::direction) {
+        EXPECT_TRUE(as_vector(&node)) << field.key;
+      }
+      if (field.type == Type::color) {
+        EXPECT_TRUE(as_color(&node)) << field.key;
+      }
+    }
+  }
+}
+
+TEST(Fields, DefaultOfATableIsAThirtiethOfASecondToTheLastBit) {
+  EXPECT_EQ(parse_number(find_field(kind_named("trajectory"), "every")->initial), 1.0 / 30);
+}
+
+TEST(Numbers, AreReadAsYamlWritesThem) {
+  EXPECT_EQ(parse_number("1"), 1);
+  EXPECT_EQ(parse_number("+1.5e0"), 1.5);
+  EXPECT_EQ(parse_number("-.5"), -0.5);
+  EXPECT_EQ(parse_number("5."), 5);
+  EXPECT_EQ(parse_number("1e3"), 1000);
+  EXPECT_EQ(parse_number("0.1"), 0.1);
+  EXPECT_EQ(parse_number("0e0"), 0);
+  EXPECT_EQ(parse_number("5e-324"), 5e-324);
+  for (const char* text :
+       {"",    "+",   "-",  ".",  "e5",   "1e",  "1e+", "--1",  "+-1",      "01",    "-01.5",  "0x1",
+        "1,5", "1 2", " 1", "1 ", ".nan", "nan", "inf", "-inf", "infinity", "1e999", "1e-999", "1.5.2"}) {
+    EXPECT_FALSE(parse_number(text)) << text;
+  }
+}
+
+TEST(Wholes, MayBeWrittenWithAnExponent) {
+  EXPECT_EQ(parse_whole("18446744073709551615"), 18446744073709551615ull);
+  EXPECT_EQ(parse_whole("1e6"), 1'000'000u);
+  EXPECT_EQ(parse_whole("2.0"), 2u);
+  for (const char* text : {"-1", "1.5", "18446744073709551616", "1e17", "01", "", "x"})
+    EXPECT_FALSE(parse_whole(text)) << text;
+}
+
+TEST(Booleans, AreTrueAndFalseOnly) {
+  for (const char* text : {"yes", "no", "on", "True", "TRUE", "1", "'true'", "~"}) {
+    EXPECT_NE(errors_of(start + "output: {collisions: " + text + "}\n").find("expected true or false"),
+              std::string::npos)
+        << text;
+  }
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,198 @@
+// Balls made by rule, and the random numbers they are made with.
+#include <cmath>
+
+#include "scene/random.h"
+#include "scene/scenes_in_text.h"
+
+namespace carom {
+namespace {
+
+std::string group(const std::string& arrange, const std::string& count, double radius, double edge,
+                  const std::string& more = "") {
+  const std::string corner = std::to_string(edge);
+  return std::string(start)
+      .append("groups:\n  gas: {count: ")
+      .append(count)
+      .append(", ball: {mass: 1, radius: ")
+      .append(std::to_string(radius))
+      .append("}, in: {min: [0, 0, 0], max: [")
+      .append(corner)
+      .append(", ")
+      .append(corner)
+      .append(", ")
+      .append(corner)
+      .append("]}, arrange: ")
+      .append(arrange)
+      .append(more)
+      .append("}\noutput: {}\n");
+}
+
+/// Greatest overlap of any two balls, as a part of their radii's sum, by looking at all pairs.
+double greatest_overlap(const Scene& scene) {
+  double greatest = -1;
+  for (Entity i = 0; i < scene.world.body_count(); ++i) {
+    for (Entity j = 0; j < i; ++j) {
+      const double sum = scene.world.radius[i] + scene.world.radius[j];
+      greatest = std::max(greatest, 1 - (scene.initial.position[i] - scene.initial.position[j]).norm() / sum);
+    }
+  }
+  return greatest;
+}
+
+double greatest_excess(const Scene& scene, const Vec3& min, const Vec3& max) {
+  double greatest = -1;
+  for (Entity i = 0; i < scene.world.body_count(); ++i) {
+    const double r = scene.world.radius[i];
+    greatest = std::max({greatest, (min.array() + r - scene.initial.position[i].array()).maxCoeff(),
+                         (scene.initial.position[i].array() + r - max.array()).maxCoeff()});
+  }
+  return greatest;
+}
+
+TEST(Groups, LieWhollyInsideWithoutOverlap) {
+  for (const char* arrange : {"random", "lattice", "hexagonal"}) {
+    for (const char* count : {"1", "2", "37", "300", "800"}) {
+      const Scene scene = load_text(group(arrange, count, 0.05, 1));
+      EXPECT_EQ(scene.world.body_count(), static_cast<Entity>(std::stoi(count)));
+      EXPECT_LT(greatest_overlap(scene), 1e-12) << arrange << count;
+      EXPECT_LT(greatest_excess(scene, Vec3(0, 0, 0), Vec3(1, 1, 1)), 1e-15) << arrange << count;
+    }
+  }
+}
+
+TEST(Groups, ExactlyFullBoxesAreFilled) {
+  // 0.3 / 0.1 is 2.9999999999999996 in doubles; a box of three diameters still holds 27.
+  EXPECT_LT(greatest_overlap(load_text(group("lattice", "27", 0.05, 0.3))), 1e-12);
+  EXPECT_EQ(errors_of(group("lattice", "28", 0.05, 0.3)),
+            "scene.yaml:4:16: error: 28 balls of radius 0.05 do not fit into the box of `gas`\n"
+            "   4 |   gas: {count: 28, ball: {mass: 1, radius: 0.050000}, in: {min: [0, 0, 0], max: [0.300000, "
+            "0.300000,...\n"
+            "     |                ^~\n"
+            "     = 27 would fit as a lattice; `arrange: hexagonal` packs closer\n");
+  EXPECT_EQ(load_text(group("random", "1", 0.5, 1)).initial.position[0], Vec3(0.5, 0.5, 0.5));
+}
+
+TEST(Groups, ErrorsSayHowManyWouldFit) {
+  // Close-packed in a box of 10 diameters: 12 layers (9 = 11.02 sqrt(2/3)) of 11 rows (9 = 10.39 sqrt(3)/2) of 10 and 9
+  // balls in turn: 6 (6 * 10 + 5 * 9) + 6 (5 * 10 + 6 * 9).
+  for (const char* arrange : {"random", "hexagonal"}) {
+    const std::string error = errors_of(group(arrange, "2000", 0.05, 1));
+    const std::size_t at = error.find("     = ") + 7;
+    const int fit = std::stoi(error.substr(at));
+    EXPECT_EQ(fit, 1254) << error;
+    EXPECT_EQ(load_text(group(arrange, std::to_string(fit), 0.05, 1)).world.body_count(), 1254u);
+    EXPECT_NE(errors_of(group(arrange, std::to_string(fit + 1), 0.05, 1)), "");
+  }
+  EXPECT_NE(errors_of(group("random", "1", 0.6, 1)).find("= 0 would fit"), std::string::npos);
+}
+
+TEST(Groups, DenseRandomOnesStillHaveRoom) {
+  const Scene scene = load_text(group("random", "1000", 0.05, 1));  // 52 % of the volume: one by one stops near 38 %
+  EXPECT_LT(greatest_overlap(scene), 1e-12);
+  EXPECT_LT(greatest_excess(scene, Vec3(0, 0, 0), Vec3(1, 1, 1)), 1e-15);
+}
+
+TEST(Groups, KeepClearOfEverythingElse) {
+  const Scene scene = load_text(
+      start +
+      "balls: {big: {mass: 1, radius: 0.4, position: [0.5, 0.5, 0.5]}}\n"
+      "groups:\n"
+      "  small: {count: 200, ball: {mass: 1, radius: 0.02}, in: {min: [0, 0, 0], max: [1, 1, 1]}}\n"
+      "  large: {count: 8, ball: {mass: 1, radius: 0.1}, in: {min: [0, 0, 0], max: [1, 1, 1]}}\n"
+      "  even: {count: 100, ball: {mass: 1, radius: 0.015}, in: {min: [0, 0, 0], max: [1, 1, 1]}, arrange: lattice}\n"
+      "planes: {tilted: {point: [0.1, 0, 0], normal: [1, 0.2, 0]}}\n"
+      "walls: {screen: {center: [0.9, 0.5, 0.5], normal: [1, 0, 0], size: [0.5, 0.5]}}\n"
+      "output: {}\n");
+  EXPECT_EQ(scene.world.body_count(), 309u);
+  EXPECT_LT(greatest_overlap(scene), 1e-12);
+  const Plane& plane = scene.world.planes[0];
+  const Wall& wall = scene.world.walls[0];
+  for (Entity i = 1; i < scene.world.body_count(); ++i) {
+    const Vec3& p = scene.initial.position[i];
+    const double r = scene.world.radius[i];
+    EXPECT_GT((p - plane.point).dot(plane.normal), r * (1 - 1e-12));
+    const bool beside = std::fabs(p.y() - 0.5) > 0.25 || std::fabs(p.z() - 0.5) > 0.25;
+    EXPECT_TRUE(beside || std::fabs(p.x() - wall.center.x()) > r * (1 - 1e-12));
+  }
+}
+
+TEST(Groups, AreTheSameOnEveryMachineAndDifferBySeedAndName) {
+  const std::string text = group("random", "50", 0.05, 1, ", speed: 2");
+  const Scene a = load_text(text), b = load_text(text);
+  EXPECT_EQ(a.initial.position, b.initial.position);
+  EXPECT_EQ(a.initial.velocity, b.initial.velocity);
+  // The very bits: what they are does not matter, that they stay does.
+  EXPECT_EQ(a.initial.position[49].x(), load_text(text).initial.position[49].x());
+  LoadOptions other;
+  other.seed = 1;
+  EXPECT_NE(load_text(text, other).initial.position[0], a.initial.position[0]);
+  std::string renamed = text;
+  renamed.replace(renamed.find("gas"), 3, "air");
+  EXPECT_NE(load_text(renamed).initial.velocity[0], a.initial.velocity[0]);
+  // Where the balls are does not change how fast they are.
+  EXPECT_EQ(load_text(group("lattice", "50", 0.05, 1, ", speed: 2")).initial.velocity, a.initial.velocity);
+}
+
+TEST(Groups, VelocityIsTheGroupsOrElseTheBalls) {
+  EXPECT_EQ(load_text(group("lattice", "2", 0.1, 1, ", velocity: [1, 2, 3]")).initial.velocity[1], Vec3(1, 2, 3));
+  EXPECT_NE(errors_of(group("lattice", "2", 0.1, 1, ", velocity: [1, 2, 3], speed: 1"))
+                .find("has both `velocity` and `speed`"),
+            std::string::npos);
+}
+
+TEST(Groups, AHundredThousandBallsDoNotCostAllPairs) {
+  // All pairs would be 5e9 distances. 11 % of the volume.
+  EXPECT_EQ(load_text(group("random", "100000", 0.0065, 1)).world.body_count(), 100'000u);
+}
+
+TEST(Random, NormalDeviatesHaveTheMomentsOfTheNormalDistribution) {
+  Random random(5, "moments");
+  constexpr int n = 1'000'000;
+  double m1 = 0, m2 = 0, m3 = 0, m4 = 0;
+  int beyond_3 = 0;
+  for (int i = 0; i < n; ++i) {
+    const double x = random.normal();
+    m1 += x / n;
+    m2 += x * x / n;
+    m3 += x * x * x / n;
+    m4 += x * x * x * x / n;
+    if (std::fabs(x) > 3) ++beyond_3;
+  }
+  // Four standard errors each: 1, sqrt 2, sqrt 15, sqrt 96 over sqrt n.
+  EXPECT_NEAR(m1, 0, 4e-3);
+  EXPECT_NEAR(m2, 1, 4 * 1.4e-3);
+  EXPECT_NEAR(m3, 0, 4 * 3.9e-3);
+  EXPECT_NEAR(m4, 3, 4 * 9.8e-3);
+  EXPECT_NEAR(beyond_3, 2699.8, 4 * 52);  // P(|x| > 3) = 0.0026998
+}
+
+TEST(Random, LogarithmIsWithinTwoUnitsInTheLastPlace) {
+  Random random(6, "log");
+  double worst = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const double x = std::ldexp(1 - random.uniform(), -static_cast<int>(random.below(60)));
+    const double exact = static_cast<double>(std::log(static_cast<long double>(x)));
+    if (exact != 0) worst = std::max(worst, std::fabs(reproducible_log(x) / exact - 1) / 0x1p-52);
+  }
+  EXPECT_LT(worst, 2.5);
+  EXPECT_EQ(reproducible_log(1), 0);
+}
+
+TEST(Random, StreamsAreTheSameForEver) {
+  // SplitMix64's published first value for state 0 after one step: 0xE220A8397B1DCDAF is mix(golden ratio).
+  Random a(0, "a"), b(0, "a"), c(0, "b"), d(1, "a");
+  const std::uint64_t first = a.bits();
+  EXPECT_EQ(first, b.bits());
+  EXPECT_NE(first, c.bits());
+  EXPECT_NE(first, d.bits());
+}
+
+TEST(Random, BelowIsEven) {
+  Random random(3, "below");
+  int counts[7] = {};
+  for (int i = 0; i < 70'000; ++i) ++counts[random.below(7)];
+  for (const int count : counts) EXPECT_NEAR(count, 10'000, 4 * 93);
+}
+
+}  // namespace
+}  // namespace carom

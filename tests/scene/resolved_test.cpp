@@ -1,0 +1,183 @@
+// Scene::resolved: a scene that says everything itself and means the same.
+#include "scene/scenes_in_text.h"
+
+namespace carom {
+namespace {
+
+void expect_same(const Scene& a, const Scene& b) {
+  EXPECT_EQ(a.title, b.title);
+  EXPECT_EQ(a.seed, b.seed);
+  EXPECT_EQ(a.world.mass, b.world.mass);
+  EXPECT_EQ(a.world.radius, b.world.radius);
+  EXPECT_EQ(a.world.restitution, b.world.restitution);
+  EXPECT_EQ(a.world.impulse, b.world.impulse);
+  EXPECT_EQ(a.world.gravity, b.world.gravity);
+  EXPECT_EQ(a.world.combine, b.world.combine);
+  ASSERT_EQ(a.world.planes.size(), b.world.planes.size());
+  for (std::size_t i = 0; i < a.world.planes.size(); ++i) {
+    EXPECT_EQ(a.world.planes[i].point, b.world.planes[i].point);
+    EXPECT_EQ(a.world.planes[i].normal, b.world.planes[i].normal);
+    EXPECT_EQ(a.world.planes[i].restitution, b.world.planes[i].restitution);
+  }
+  ASSERT_EQ(a.world.walls.size(), b.world.walls.size());
+  for (std::size_t i = 0; i < a.world.walls.size(); ++i) {
+    const Wall &v = a.world.walls[i], &w = b.world.walls[i];
+    EXPECT_EQ(v.center, w.center);
+    EXPECT_EQ(v.normal, w.normal);
+    EXPECT_EQ(v.right, w.right);
+    EXPECT_EQ(v.up, w.up);
+    EXPECT_EQ(v.half_width, w.half_width);
+    EXPECT_EQ(v.half_height, w.half_height);
+    EXPECT_EQ(v.restitution, w.restitution);
+  }
+  ASSERT_EQ(a.world.pairs.size(), b.world.pairs.size());
+  for (std::size_t i = 0; i < a.world.pairs.size(); ++i) {
+    EXPECT_EQ(a.world.pairs[i].a_first, b.world.pairs[i].a_first);
+    EXPECT_EQ(a.world.pairs[i].a_count, b.world.pairs[i].a_count);
+    EXPECT_EQ(a.world.pairs[i].b_first, b.world.pairs[i].b_first);
+    EXPECT_EQ(a.world.pairs[i].b_count, b.world.pairs[i].b_count);
+    EXPECT_EQ(a.world.pairs[i].value, b.world.pairs[i].value);
+  }
+  EXPECT_EQ(a.initial.position, b.initial.position);
+  EXPECT_EQ(a.initial.velocity, b.initial.velocity);
+  const auto same_color = [](const Color& x, const Color& y) { return x.r == y.r && x.g == y.g && x.b == y.b; };
+  ASSERT_EQ(a.roster.bodies.size(), b.roster.bodies.size());
+  for (std::size_t i = 0; i < a.roster.bodies.size(); ++i) {
+    EXPECT_EQ(a.roster.bodies[i].name, b.roster.bodies[i].name);
+    EXPECT_EQ(a.roster.bodies[i].first, b.roster.bodies[i].first);
+    EXPECT_EQ(a.roster.bodies[i].count, b.roster.bodies[i].count);
+    EXPECT_EQ(a.roster.bodies[i].group, b.roster.bodies[i].group);
+    EXPECT_TRUE(same_color(a.roster.bodies[i].color, b.roster.bodies[i].color));
+  }
+  ASSERT_EQ(a.roster.fixed.size(), b.roster.fixed.size());
+  for (std::size_t i = 0; i < a.roster.fixed.size(); ++i) {
+    EXPECT_EQ(a.roster.fixed[i].name, b.roster.fixed[i].name);
+    EXPECT_EQ(a.roster.fixed[i].visible, b.roster.fixed[i].visible);
+    EXPECT_TRUE(same_color(a.roster.fixed[i].color, b.roster.fixed[i].color));
+  }
+  EXPECT_EQ(a.simulate.duration, b.simulate.duration);
+  EXPECT_EQ(a.simulate.engine, b.simulate.engine);
+  EXPECT_EQ(a.simulate.step, b.simulate.step);
+  EXPECT_EQ(a.simulate.rest_speed, b.simulate.rest_speed);
+  EXPECT_EQ(a.simulate.max_collisions, b.simulate.max_collisions);
+  EXPECT_EQ(a.simulate.as_printed, b.simulate.as_printed);
+  ASSERT_EQ(a.camera.has_value(), b.camera.has_value());
+  if (a.camera) {
+    EXPECT_EQ(a.camera->eye, b.camera->eye);
+    EXPECT_EQ(a.camera->up, b.camera->up);
+    EXPECT_EQ(a.camera->fov, b.camera->fov);
+    EXPECT_EQ(a.camera->fov_horizontal, b.camera->fov_horizontal);
+    EXPECT_EQ(a.camera->far, b.camera->far);
+  }
+  ASSERT_EQ(a.lights.size(), b.lights.size());
+  for (std::size_t i = 0; i < a.lights.size(); ++i) {
+    EXPECT_EQ(a.lights[i].name, b.lights[i].name);
+    EXPECT_EQ(a.lights[i].direction, b.lights[i].direction);
+    EXPECT_EQ(a.lights[i].position, b.lights[i].position);
+    EXPECT_EQ(a.lights[i].intensity, b.lights[i].intensity);
+  }
+  EXPECT_EQ(a.ambient.has_value(), b.ambient.has_value());
+  EXPECT_EQ(a.background.has_value(), b.background.has_value());
+  ASSERT_EQ(a.output.trajectory.has_value(), b.output.trajectory.has_value());
+  if (a.output.trajectory) {
+    EXPECT_EQ(a.output.trajectory->every, b.output.trajectory->every);
+    EXPECT_EQ(a.output.trajectory->wide, b.output.trajectory->wide);
+  }
+  EXPECT_EQ(a.output.collisions, b.output.collisions);
+  ASSERT_EQ(a.output.energy.has_value(), b.output.energy.has_value());
+  if (a.output.energy) {
+    EXPECT_EQ(a.output.energy->every, b.output.energy->every);
+  }
+  ASSERT_EQ(a.output.frames.has_value(), b.output.frames.has_value());
+  ASSERT_EQ(a.output.video.has_value(), b.output.video.has_value());
+  if (a.output.video) {
+    EXPECT_EQ(a.output.video->file, b.output.video->file);
+    EXPECT_EQ(a.output.video->fps, b.output.video->fps);
+    EXPECT_EQ(a.output.video->size.width, b.output.video->size.width);
+    EXPECT_EQ(a.output.video->samples, b.output.video->samples);
+    EXPECT_EQ(a.output.video->crf, b.output.video->crf);
+    EXPECT_EQ(a.output.video->until, b.output.video->until);
+  }
+  ASSERT_EQ(a.output.sheet.has_value(), b.output.sheet.has_value());
+}
+
+void expect_stable(const std::string& text, const LoadOptions& options = {}) {
+  const Scene scene = load_text(text, options);
+  const Scene again = load_text(scene.resolved);
+  expect_same(scene, again);
+  EXPECT_EQ(scene.resolved, again.resolved);
+}
+
+TEST(ResolvedScene, SaysEverythingItself) {
+  EXPECT_EQ(
+      load_text("scene: 1\n"
+                "defaults: {ball: {mass: 10, radius: 0.11}}\n"
+                "balls:\n"
+                "  a: {position: [-1, 0, 0.025]}\n"
+                "  b: {density: 1e3, position: [1, 0, 0], color: tan}\n"
+                "walls: {w: {center: [0, 2, 0], normal: [0, -1, 0], size: [1, 1]}}\n"
+                "simulate: {duration: 2, engine: book}\n"
+                "output: {video: true}\n")
+          .resolved,
+      "scene: 1\n"
+      "title: \"\"\n"
+      "seed: 0\n"
+      "gravity: [0, -9.80665, 0]\n"
+      "restitution: {default: 1, combine: average}\n"
+      "balls:\n"
+      "  a: {mass: 10, radius: 0.11, position: [-1, 0, 0.025], velocity: [0, 0, 0], restitution: 1, color: "
+      "\"#d1495b\"}\n"
+      "  b: {density: 1e3, radius: 0.11, position: [1, 0, 0], velocity: [0, 0, 0], restitution: 1, color: tan}\n"
+      "walls:\n"
+      "  w: {center: [0, 2, 0], normal: [0, -1, 0], size: [1, 1], up: [0, 0, 1], color: \"#9aa3ad\", visible: true}\n"
+      "simulate: {duration: 2, engine: book, step: 0.016666666666666666, as_printed: false, contact: bounce}\n"
+      "output:\n"
+      "  collisions: false\n"
+      "  video: {file: \"animation.mp4\", fps: 30, size: [1280, 720], crf: 18, samples: 4, from: 0}\n");
+}
+
+TEST(ResolvedScene, OfASceneWithEverythingMeansTheSame) {
+  expect_stable(R"(scene: 1
+title: "quotes \" and \\ and \u00e9: all"
+seed: 18446744073709551615
+gravity: [0, -9.8, 1e-3]
+restitution: {default: 0.9, combine: geometric_mean, pairs: [{between: [red, gas.1], value: 0.5}, {between: [gas, room], value: 1}]}
+defaults:
+  ball: {mass: 1, radius: 0.1, velocity: [0, 0, 3]}
+  group: {arrange: lattice, ball: {mass: 4}}
+  plane: {restitution: 0.25, color: red}
+  wall: {up: [1, 1, 0]}
+groups:
+  gas: {count: 4, ball: {color: '#abc'}, in: {min: [1, 1, 1], max: [2, 2, 2]}, speed: 2}
+  dust: {count: 1e1, in: {min: [-2, -2, -2], max: [-1, -1, -1]}, arrange: random}
+  ice: {count: 10, ball: {impulse: [1, 2, 3]}, in: {min: [-2, 1, -2], max: [-1, 2, -1]}, arrange: hexagonal, velocity: [1, 0, 0]}
+walls:
+  net: {center: [0, 0, 2.5], normal: [0.1, 0.2, 1], size: [1, 0.5]}
+room: {min: [-3, -3, -3], max: [3, 3, 3]}
+planes:
+  floor: {point: [0, -4, 0], normal: [0.1, 1, 0], visible: false}
+balls:
+  red: {position: [0, 0, 0], velocity: [1, 0, 0], color: crimson, impulse: [0, 0, 1]}
+  blue: {density: 100, position: [0, 1, 0], restitution: 0.5, color: [0, 0.5, 1]}
+simulate: {duration: 2.5, max_collisions: 1000, rest_speed: 1e-3}
+camera: {eye: [0, 3, -5], target: [0, 0, 0], fov_axis: horizontal, far: 1e2}
+lights: {sun: {direction: [0, -1, 0.5], intensity: 2}, ambient: dimgray}
+background: '#112233'
+output: {trajectory: {layout: wide}, energy: true, frames: {fps: 10, size: [64, 48], until: 1}, video: {file: "b c.mp4"}, sheet: true}
+)");
+}
+
+TEST(ResolvedScene, HoldsWithoutOutputAndWithEmptyParts) {
+  expect_stable("scene: 1\nsimulate: {duration: 0}\n");
+  expect_stable("scene: 1\nballs: {}\nplanes: {}\nlights: {}\noutput: {}\nsimulate: {duration: 1}\n");
+}
+
+TEST(ResolvedScene, HoldsSettingsAndSeed) {
+  LoadOptions options;
+  options.set = {"balls.a.position.z=0.1", "balls.a.color=#fff", "output.video.fps=25"};
+  options.seed = 3;
+  expect_stable("scene: 1\nballs: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\nsimulate: {duration: 1}\n", options);
+}
+
+}  // namespace
+}  // namespace carom
