@@ -3,17 +3,16 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <tuple>
 
-#include "scene/colors.h"
+#include "scene/check_values.h"
 #include "scene/values.h"
 
 namespace carom {
 namespace {
 
-std::string later_text(std::string_view name) {
-  return fmt::format("{} is part of the scene format but not of this version of carom", quoted(name));
-}
+constexpr std::size_t most_suggestions = 200;  // more errors than are shown: no time is spent on their near names
 
 std::vector<std::string_view> keys_of(const Kind& kind) {
   std::vector<std::string_view> keys;
@@ -24,10 +23,10 @@ std::vector<std::string_view> keys_of(const Kind& kind) {
   return keys;
 }
 
-class Checker {
+class Checker : ValueChecker {
  public:
   Checker(const Node& root, const std::string& folder, Diagnostics& diagnostics)
-      : root_(root), folder_(folder), diagnostics_(diagnostics) {}
+      : ValueChecker(diagnostics), root_(root), folder_(folder) {}
 
   /// A map of `kind`. `what` names it in messages, `where` is its key. `partial`: nothing is missing.
   void map(Node& node, const Kind& kind, const std::string& what, Place where, bool partial) {
@@ -55,7 +54,8 @@ class Checker {
  private:
   /// Whether an unknown key of the map was probably meant to be this field: one error is enough for both.
   static bool is_misspelt_in(const Node& node, const Kind& kind, const Field& field) {
-    for (const Key& key : node.keys) {
+    for (std::size_t i = 0; i < std::min(node.keys.size(), most_suggestions); ++i) {
+      const Key& key = node.keys[i];
       if (find_field(kind, key.text) != nullptr) continue;
       const std::string near = meant(key.text, kind);
       if (near == field.key || (!field.instead.empty() && near == field.instead)) return true;
@@ -69,29 +69,6 @@ class Checker {
 
   static bool has(const Node& node, const Node* defaults, std::string_view key) {
     return node.find_key(key) != nullptr || (defaults != nullptr && defaults->find_key(key) != nullptr);
-  }
-
-  void refuse(Node& node, std::string message, std::string remedy) {
-    node.bad = true;
-    diagnostics_.add(node.place, std::move(message), std::move(remedy));
-  }
-
-  void wrong_type(Node& node, const std::string& what, const std::string& wanted) {
-    if (node.bad) return;
-    switch (node.kind) {
-      case Node::Kind::null:
-        refuse(node, what + " has no value", wanted);
-        break;
-      case Node::Kind::scalar:
-        refuse(node, fmt::format("{} is {}", what, quoted(node.text)), wanted);
-        break;
-      case Node::Kind::sequence:
-        refuse(node, what + " is a list", wanted);
-        break;
-      case Node::Kind::map:
-        refuse(node, what + " is a map of keys", wanted);
-        break;
-    }
   }
 
   void unknown_key(const Key& key, const Node& value, const Kind& kind, const std::string& what) {
@@ -195,9 +172,10 @@ class Checker {
         color(value, name);
         break;
       case Type::names:
-        if (!value.is(Node::Kind::sequence) || value.items.size() != 2) {
+        if (!value.is(Node::Kind::sequence)) {
           wrong_type(value, name, wanted);
-          if (!value.bad) refuse(value, fmt::format("{} has {} entries", name, value.items.size()), wanted);
+        } else if (value.items.size() != 2) {
+          refuse(value, fmt::format("{} has {} entries", name, value.items.size()), wanted);
         } else {
           for (Node& item : value.items) {
             if (!item.is(Node::Kind::scalar)) wrong_type(item, "an entry of " + name, "expected a name");
@@ -259,97 +237,8 @@ class Checker {
     }
   }
 
-  bool number(Node& value, const Field& field, const std::string& name) {
-    if (value.bad) return false;
-    if (!value.is(Node::Kind::scalar)) {
-      wrong_type(value, name, "expected " + expected(field));
-      return false;
-    }
-    const std::optional<double> parsed = value.quoted ? std::nullopt : parse_number(value.text);
-    if (!parsed) {
-      Complaint complaint = explain_number(value, field);
-      refuse(value, std::move(complaint.message), std::move(complaint.remedy));
-      return false;
-    }
-    if (!contains(field.range, *parsed)) {
-      refuse(value, fmt::format("{} is {}", name, value.text), "expected " + expected(field));
-      return false;
-    }
-    return true;
-  }
-
-  bool whole(Node& value, const Field& field, const std::string& name) {
-    if (value.is(Node::Kind::scalar) && !value.quoted && !value.bad) {
-      const std::optional<std::uint64_t> parsed = parse_whole(value.text);
-      if (parsed && contains(field.range, static_cast<double>(*parsed))) return true;
-      if (parse_number(value.text)) {
-        refuse(value, fmt::format("{} is {}", name, value.text), "expected " + expected(field));
-        return false;
-      }
-    }
-    return number(value, field, name);
-  }
-
-  bool numbers(Node& value, const Field& field, const std::string& name, std::size_t count) {
-    if (!value.is(Node::Kind::sequence)) {
-      wrong_type(value, name, "expected " + expected(field));
-      return false;
-    }
-    if (value.items.size() != count) {
-      refuse(value, fmt::format("{} has {} number{}", name, value.items.size(), value.items.size() == 1 ? "" : "s"),
-             "expected " + expected(field) +
-                 (value.items.size() > count ? "\nthe decimal point is a point: 1.5, not 1,5" : ""));
-      return false;
-    }
-    bool good = true;
-    Field each = field;
-    each.type = field.type == Type::pixels ? Type::whole : Type::number;
-    for (Node& item : value.items) {
-      const std::string part = "a number of " + name;
-      good = (field.type == Type::pixels ? whole(item, each, part) : number(item, each, part)) && good;
-    }
-    if (!good) value.bad = true;
-    return good;
-  }
-
-  void choice(Node& value, const Field& field, const std::string& name) {
-    const std::string wanted = "expected " + expected(field);
-    if (!value.is(Node::Kind::scalar)) {
-      wrong_type(value, name, wanted);
-      return;
-    }
-    const std::vector<std::string_view> all = choices(field);
-    for (const std::string_view one : all) {
-      if (value.text == one) return;
-    }
-    if (!field.later_choice.empty() && value.text == field.later_choice) {
-      refuse(value, later_text(fmt::format("{}: {}", field.key, value.text)), wanted);
-      return;
-    }
-    const std::string near = nearest(value.text, all);
-    refuse(value, fmt::format("{} is {}", name, quoted(value.text)),
-           near.empty() ? wanted : fmt::format("did you mean {}?\n{}", quoted(near), wanted));
-  }
-
-  void color(Node& value, const std::string& name) {
-    static constexpr Field component{.key = "color", .range = {0, 1}};
-    const std::string wanted = "expected a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
-    if (value.is(Node::Kind::sequence)) {
-      numbers(value, component, name, 3);
-    } else if (!value.is(Node::Kind::scalar)) {
-      // An unquoted # begins a comment, so that the value is lost.
-      wrong_type(value, name,
-                 value.is(Node::Kind::null) ? wanted + "\na colour that begins with # needs quotes" : wanted);
-    } else if (!parse_color(value.text)) {
-      const std::string near = nearest(value.text, color_names());
-      refuse(value, fmt::format("{} is not a colour", quoted(value.text)),
-             near.empty() ? wanted : fmt::format("did you mean {}?", quoted(near)));
-    }
-  }
-
   const Node& root_;
   const std::string& folder_;
-  Diagnostics& diagnostics_;
   bool inside_defaults_ = false;
 };
 

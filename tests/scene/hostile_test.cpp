@@ -275,7 +275,7 @@ TEST(MutatedScenes, AreScenesOrErrors) {
       if (kind == 3) text.insert(random.below(text.size()), text.substr(at, length * 8));
       if (kind == 4) text.replace(at, length, pieces[random.below(std::size(pieces))]);
       if (kind > 4 && text[at] >= '0' && text[at] <= '9') text[at] = static_cast<char>('0' + random.below(10));
-      if (text.empty()) text = "x";
+      if (text.empty()) text.assign(1, 'x');
     }
     std::ofstream(path, std::ios::binary) << text;
     try {

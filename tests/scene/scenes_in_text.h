@@ -14,7 +14,7 @@ namespace carom {
 
 inline std::string test_folder() {
   const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  const std::string folder = testing::TempDir() + "carom_scene_" + std::to_string(getpid()) + "/" +
+  const std::string folder = testing::TempDir() + "carom_scene_" + std::to_string(getpid()) + "_" +
                              info->test_suite_name() + "." + info->name();
   std::filesystem::create_directories(folder);
   return folder;

@@ -1,0 +1,33 @@
+#pragma once
+// One value against its row of the table of fields.
+#include <string>
+
+#include "scene/diagnostics.h"
+#include "scene/document.h"
+#include "scene/fields.h"
+
+namespace carom {
+
+/// "`x` is part of the scene format but not of this version of carom"
+std::string later_text(std::string_view name);
+
+/// Each check marks a value bad and adds an error if it fails; a value that is bad already says no more.
+/// `name` is the value in messages.
+class ValueChecker {
+ public:
+  explicit ValueChecker(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+ protected:
+  void refuse(Node& node, std::string message, std::string remedy);
+  void wrong_type(Node& node, const std::string& name, const std::string& wanted);
+
+  bool number(Node& value, const Field& field, const std::string& name);
+  bool whole(Node& value, const Field& field, const std::string& name);
+  bool numbers(Node& value, const Field& field, const std::string& name, std::size_t count);
+  void choice(Node& value, const Field& field, const std::string& name);
+  void color(Node& value, const std::string& name);
+
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace carom
