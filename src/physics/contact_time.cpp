@@ -16,8 +16,8 @@ constexpr double velocity_noise = 16 * 0x1p-53;
 /// swamp a small miss distance.
 double straight_contact_time(const RelativeMotion& m, double s, double horizon) {
   const double b = m.d.dot(m.w);
-  if (m.just_separated || b >= 0) return never;
-  const double c = squared_gap(m.d, s);
+  if (b >= 0) return never;
+  const double c = m.just_separated ? 0 : squared_gap(m.d, s);
   if (c <= 0) return -b > velocity_noise * m.speeds * s ? 0 : never;
   const double a = m.w.squaredNorm();
   const Vec3 cross = m.d.cross(m.w);
@@ -46,7 +46,9 @@ double sphere_contact_time(const RelativeMotion& m, double s, double horizon) {
   if (m.a.isZero(0)) return straight_contact_time(m, s, horizon);
   const Polynomial f = squared_gap_polynomial(m, s);
   if (!m.just_separated) return first_descent(f, horizon);
-  // t = 0 is a root by definition; what is left is a cubic.
+  // t = 0 is a root by definition; what is left is a cubic. Below zero there, the two approach again (something else has
+  // changed their velocities in the same instant).
+  if (f.c[1] < 0) return 0;
   return first_descent({{f.c[1], f.c[2], f.c[3], f.c[4]}, 3}, horizon);
 }
 

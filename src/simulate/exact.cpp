@@ -13,6 +13,7 @@ namespace carom {
 namespace {
 
 constexpr std::size_t collision_buffer = 4096;
+constexpr std::uint32_t events_at_a_time = 65536;
 
 }  // namespace
 
@@ -73,8 +74,14 @@ void ExactSimulator::advance_to(double time) {
   collisions_.clear();
   state_fresh_ = false;
   const Instant until{std::min(time, options_.duration), 0};
+  std::uint32_t events = 0;
   for (Entity i = queue_.first(); i != no_entity && event_[i].time <= until; i = queue_.first()) {
     process(i);
+    // After many events that no one has seen, the caller may want to look at the clock.
+    if (++events % events_at_a_time == 0 && now_.hi > time_) {
+      time_ = std::nextafter(now_.hi, 0);
+      return;
+    }
     // A full buffer: stop short of the instant reached, for more may happen in it.
     if (collisions_.size() >= collision_buffer - 8) {
       time_ = std::max(time_, std::nextafter(now_.hi, 0));

@@ -95,7 +95,14 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
   const double e = pair_restitution(world_, i, surface);
   double separation = e * approach;
   const Vec3 free_a = free_acceleration(i, surface);
-  const double press = flat ? free_a.dot(n) : free_a.dot(n) - (v.squaredNorm() - approach * approach) / radius;
+  // On a rim the body turns about the point of contact, and its speed across the edge lightens it.
+  double across = v.squaredNorm() - approach * approach;
+  if (!flat && feature < wall_corners) {
+    const Wall& wall = world_.wall(surface);
+    const double along = v.dot(feature < wall_edges + 2 ? wall.up : wall.right);
+    across -= along * along;
+  }
+  const double press = free_a.dot(n) - (flat ? 0 : across / radius);
   tally_.max_overlap = std::max(tally_.max_overlap, -gap);
   tally_.max_speed = std::max(tally_.max_speed, v.norm());
 
@@ -165,24 +172,34 @@ void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
   predict(i);
 }
 
-/// A body's velocity has become v: which contacts still carry it? One that it leaves, or strikes, is given up (the
-/// strike comes next, as an event). `absorb`: a push into a surface slower than slow_speed is taken up by the contact.
-/// Gives the velocity that the contacts allow.
+/// A body's velocity has become v: which contacts still carry it? One that it leaves, or strikes, is given up (the strike
+/// comes next, as an event), unless the strike would leave no bounce that the clock can resolve. `absorb`: nor if it is slower
+/// than slow_speed. Gives the velocity that the contacts allow.
 Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v, bool absorb) {
   if (contacts_.empty() || contacts_[i].count == 0) return v;
   Contacts& contacts = contacts_[i];
   const double noise = velocity_rounding * (v.norm() + flight_[i].v.norm());
+  std::array<bool, max_contacts> keep;
+  for (std::size_t k = 0; k < contacts.count; ++k) {
+    const Contact& contact = contacts.at[k];
+    const double u = -contact_normal(contact).dot(v);  // into the surface
+    const double press = -contact_normal(contact).dot(free_acceleration(i, contact.surface));
+    keep[k] = std::abs(u) <= noise || (u > 0 && press > 0 && absorb && u <= slow_speed(press, world_.radius[i]));
+    if (keep[k] || u < 0 || press <= 0) continue;
+    const double e = pair_restitution(world_, i, contact.surface);
+    if (e >= 1 || now_.hi + 2 * e * u / (press * (1 - e)) != now_.hi) continue;
+    keep[k] = true;
+    const Vec3 n = -contact_normal(contact);
+    const Vec3 x = flight_[i].position(now_ - flight_[i].start);
+    record({now_.hi, CollisionKind::body_fixed, i, contact.surface, x + world_.radius[i] * n, n, u, 0, e,
+            impact_impulse(world_.mass[i], immovable, u, 0), impact_loss(world_.mass[i], immovable, u, 0)});
+  }
   std::array<Vec3, max_contacts> normals;
   std::size_t kept = 0;
   for (std::size_t k = 0; k < contacts.count; ++k) {
-    const Contact& contact = contacts.at[k];
-    const Vec3 n = contact_normal(contact);
-    const double u = n.dot(v);
-    const double press = -n.dot(world_.gravity);
-    const bool absorbed = absorb && press > 0 && -u <= slow_speed(press, world_.radius[i]);
-    if (u > noise || (u < -noise && !absorbed)) continue;
-    normals[kept] = n;
-    contacts.at[kept++] = contact;
+    if (!keep[k]) continue;
+    normals[kept] = contact_normal(contacts.at[k]);
+    contacts.at[kept++] = contacts.at[k];
   }
   contacts.count = kept;
   if (kept == 0) {

@@ -20,7 +20,7 @@ class Simulator {
  public:
   virtual ~Simulator() = default;
 
-  /// Goes on to `time` (s), or less far: until the collision buffer is full. Call again while time() < `time`.
+  /// Goes on to `time` (s), or less far: until the collision buffer is full, or many events have passed. Call again while time() < `time`.
   /// Throws SimulationError.
   virtual void advance_to(double time) = 0;
   virtual double time() const = 0;   // s
