@@ -1,0 +1,68 @@
+// What holds for every file in scenes/.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "physics/energy.h"
+#include "render/renderer.h"
+#include "scene/load.h"
+#include "scenes/play.h"
+
+namespace carom::testing {
+namespace {
+
+class EveryScene : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryScene, SaysWhatToExpect) {
+  EXPECT_NE(comment_of(GetParam()).find("Expect"), std::string::npos);
+}
+
+TEST_P(EveryScene, HasATitle) {
+  EXPECT_FALSE(load_scene(SCENES_DIR "/" + GetParam() + ".yaml").title.empty());
+}
+
+TEST_P(EveryScene, RunsToItsEndAndKeepsItsBooks) {
+  const Played run = play(GetParam());
+  for (std::size_t i = 0; i < run.end.position.size(); ++i) {
+    EXPECT_TRUE(run.end.position[i].allFinite() && run.end.velocity[i].allFinite()) << run.scene.roster.name(i);
+  }
+  // Energy at the end = at the start + work - what collisions took.
+  const World& world = run.scene.world;
+  const double before = kinetic_energy(world, run.scene.initial) + potential_energy(world, run.scene.initial);
+  const double after = kinetic_energy(world, run.end) + potential_energy(world, run.end);
+  const double passed = before + std::abs(run.tally.work) + std::abs(run.tally.energy_lost);
+  if (run.scene.simulate.engine == Engine::book && !world.gravity.isZero(0)) return;  // Euler's steps keep no energy
+  EXPECT_NEAR(after, before + run.tally.work - run.tally.energy_lost,
+              1e-11 * passed);  // measured: 3e-12 (pi_to_six_digits)
+  if (run.scene.simulate.engine != Engine::book) {
+    const double smallest = *std::min_element(world.radius.begin(), world.radius.end());
+    EXPECT_LE(run.tally.max_overlap, 1e-12 * 2 * smallest);  // measured: 5e-14 (pi_to_six_digits)
+  }
+}
+
+TEST_P(EveryScene, ShowsSomething) {
+  const Scene scene = load_scene(SCENES_DIR "/" + GetParam() + ".yaml");
+  if (!scene.output.pictures()) return;
+  ASSERT_TRUE(scene.camera) << "pictures without a camera";
+  const Played run = play(GetParam(), {scene.simulate.duration / 2});
+  Renderer renderer(run.scene, {192, 108}, 1);
+  const Image empty =
+      renderer.draw({0, std::vector<Vec3>(run.end.position.size(), Vec3(0, -1e6, 0)), run.end.velocity});
+  const Image image = renderer.draw(run.states[0]);
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); i += 3) {
+    changed += !std::equal(image.pixels.begin() + i, image.pixels.begin() + i + 3, empty.pixels.begin() + i);
+  }
+  EXPECT_GE(changed, 20u) << "no ball in sight half way";  // of 20,736 pixels
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, ::testing::ValuesIn(scene_names()), [](const auto& parameter) {
+  std::string name = parameter.param;
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace carom::testing

@@ -1,0 +1,41 @@
+#pragma once
+// A scene file as its reader meets it: what its opening comment says, and what happens when it is run.
+#include <string>
+#include <vector>
+
+#include "physics/collision.h"
+#include "physics/state.h"
+#include "physics/tally.h"
+#include "scene/scene.h"
+
+namespace carom::testing {
+
+/// Names of all scene files below scenes/, without .yaml: "bouncing_ball", "benchmark/gas_1000".
+std::vector<std::string> scene_names();
+
+/// The opening comment in one line, every run of blanks and # made one blank.
+std::string comment_of(const std::string& name);
+
+/// The number that stands behind `words` in the comment. Fails the test if the words do not stand there exactly once.
+double said(const std::string& name, const std::string& words);
+
+/// A run to the end, and the states at the times asked for.
+struct Played {
+  Scene scene;
+  std::vector<Collision> collisions;  // without the ends of bounces
+  std::vector<Collision> rests;
+  std::vector<State> states;  // at `times`, in order
+  State end;
+  Tally tally;
+
+  Entity number(const std::string& name) const;  // of a ball or a fixed thing
+  /// Collisions in which it takes part.
+  std::vector<Collision> of(const std::string& name) const;
+  Vec3 velocity(const std::string& ball) const { return end.velocity[number(ball)]; }
+  Vec3 position(const std::string& ball) const { return end.position[number(ball)]; }
+};
+
+/// `times`: s, in ascending order, at most the duration.
+Played play(const std::string& name, const std::vector<double>& times = {});
+
+}  // namespace carom::testing
