@@ -1,0 +1,428 @@
+// The README against the program: its commands run, its printed output printed, its tables complete, its numbers
+// measured.
+#include <gtest/gtest.h>
+#include <png.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "commands/engine.h"
+#include "physics/energy.h"
+#include "physics/restitution.h"
+#include "scene/fields.h"
+#include "scene/load.h"
+#include "simulate/book.h"
+
+namespace carom::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_file(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+const std::string& readme() {
+  static const std::string text = read_file(SOURCE_DIR "/README.md");
+  return text;
+}
+
+/// The README in one line.
+const std::string& words() {
+  static const std::string text = std::regex_replace(readme(), std::regex("\\s+"), " ");
+  return text;
+}
+
+/// The number behind `phrase`, which stands in the README once.
+double said(const std::string& phrase) {
+  const std::size_t at = words().find(phrase);
+  if (at == std::string::npos || words().find(phrase, at + 1) != std::string::npos) {
+    ADD_FAILURE() << "README.md does not say once: " << phrase;
+    return std::nan("");
+  }
+  return std::stod(words().substr(at + phrase.size()));
+}
+
+/// Fenced blocks of a language, in order.
+std::vector<std::string> blocks(const std::string& language) {
+  std::vector<std::string> found;
+  std::istringstream in(readme());
+  bool inside = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("```")) {
+      inside = line == "```" + language;
+      if (inside) found.emplace_back();
+    } else if (inside) {
+      found.back() += line + "\n";
+    }
+  }
+  return found;
+}
+
+std::vector<std::string> commands() {
+  std::vector<std::string> lines;
+  for (const std::string& block : blocks("sh")) {
+    std::istringstream in(block);
+    for (std::string line; std::getline(in, line);) lines.push_back(line);
+  }
+  return lines;
+}
+
+/// A clone's root as the README's commands see it: scenes/ is there, output/ is its own.
+class Clone {
+ public:
+  Clone() {
+    std::string pattern = (fs::temp_directory_path() / "carom-readme-XXXXXX").string();
+    root_ = ::mkdtemp(pattern.data());
+    fs::create_symlink(SCENES_DIR, root_ / "scenes");
+    fs::create_directories(root_ / "build/release");
+    fs::create_symlink(CAROM_PROGRAM, root_ / "build/release/carom");
+  }
+  ~Clone() { fs::remove_all(root_); }
+  fs::path operator/(const std::string& name) const { return root_ / name; }
+
+  /// Runs a command of the README; `./dev run` is the program's run (./dev itself is run by tests/bare_debian.sh).
+  int run(std::string command) const {
+    if (command.starts_with("./dev run ")) command.replace(0, 6, "build/release/carom ");
+    command = "cd '" + root_.string() + "' && " + command + " > out 2> err < /dev/null";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string out() const { return read_file(root_ / "out"); }
+  std::string err() const { return read_file(root_ / "err"); }
+
+ private:
+  fs::path root_;
+};
+
+struct Pixels {
+  png_image image{};
+  std::vector<std::uint8_t> rgb;
+};
+
+Pixels read_png(const fs::path& path) {
+  Pixels pixels;
+  pixels.image.version = PNG_IMAGE_VERSION;
+  if (!png_image_begin_read_from_file(&pixels.image, path.c_str())) return pixels;
+  pixels.image.format = PNG_FORMAT_RGB;
+  pixels.rgb.resize(PNG_IMAGE_SIZE(pixels.image));
+  png_image_finish_read(&pixels.image, nullptr, pixels.rgb.data(), 0, nullptr);
+  return pixels;
+}
+
+State run_to(const Scene& scene, double time) {
+  const auto simulator = make_simulator(scene, false);
+  while (simulator->time() < time) simulator->advance_to(time);
+  return simulator->state();
+}
+
+Scene scene_of(const std::string& yaml) {
+  std::string path = (fs::temp_directory_path() / "carom-readme-XXXXXX.yaml").string();
+  close(mkstemps(path.data(), 5));
+  std::ofstream(path) << yaml;
+  Scene scene = load_scene(path);
+  fs::remove(path);
+  return scene;
+}
+
+nlohmann::json slips() {
+  return nlohmann::json::parse(std::ifstream(DATA_DIR "/references/book_slips.json"));
+}
+
+TEST(ReadmeCommands, EveryOneOfTheProgramSucceeds) {
+  const Clone clone;
+  int run = 0;
+  for (const std::string& command : commands()) {
+    if (command == "./dev test") continue;  // this is it
+    // Pictures of the first scene are the longest part: smaller here.
+    const bool first = command == "./dev run scenes/two_bowling_balls.yaml";
+    EXPECT_EQ(clone.run(command + (first ? " --set output.frames.size=[64,64]" : "")), 0) << command << "\n"
+                                                                                          << clone.err();
+    ++run;
+  }
+  EXPECT_EQ(run, 7);
+  for (const char* file :
+       {"two_bowling_balls/animation.mp4", "two_bowling_balls/frames/frame_00084.png", "half/collisions.csv",
+        "pi_by_collisions/energy.csv", "gas_2/energy.csv", "rest/bouncing_ball/trajectory.csv"}) {
+    EXPECT_TRUE(fs::exists(clone / (std::string("output/") + file))) << file;
+  }
+}
+
+TEST(ReadmeCommands, OfDevAreThoseThatDevKnows) {
+  std::set<std::string> told, known;
+  const std::string script = read_file(SOURCE_DIR "/dev"), usage = script.substr(0, script.find("\nEND\n"));
+  const std::regex row("\\| `\\./dev (\\w+)"), line("\n  (\\w+)  *(\\[|[A-Z]|  )");
+  for (std::sregex_iterator i(readme().begin(), readme().end(), row), end; i != end; ++i) told.insert((*i)[1]);
+  for (std::sregex_iterator i(usage.begin(), usage.end(), line), end; i != end; ++i) known.insert((*i)[1]);
+  EXPECT_EQ(told, known);
+}
+
+TEST(ReadmeFirstScene, IsTheFileWithoutItsComment) {
+  std::istringstream in(read_file(SCENES_DIR "/two_bowling_balls.yaml"));
+  std::string body;
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with('#')) body += line + "\n";
+  }
+  ASSERT_EQ(blocks("yaml").size(), 1u);
+  EXPECT_EQ(blocks("yaml")[0], body);
+}
+
+TEST(ReadmeFirstScene, RunAndCheckPrintWhatItSays) {
+  const Clone clone;
+  const auto printed = blocks("text");
+  ASSERT_EQ(printed.size(), 2u);
+  ASSERT_EQ(clone.run("./dev run scenes/two_bowling_balls.yaml --only collisions"), 0);
+  EXPECT_TRUE(clone.out().starts_with(printed[0])) << clone.out();
+  ASSERT_EQ(clone.run("build/release/carom check scenes/two_bowling_balls.yaml"), 0);
+  EXPECT_TRUE(clone.out().starts_with(printed[1])) << clone.out();
+}
+
+TEST(ReadmeFirstScene, NumbersAreTheRuns) {
+  const Scene scene = load_scene(SCENES_DIR "/two_bowling_balls.yaml");
+  const auto simulator = make_simulator(scene, true);
+  simulator->advance_to(scene.simulate.duration);
+  ASSERT_EQ(simulator->collisions().size(), 1u);
+  EXPECT_EQ(simulator->collisions()[0].time, said("(3 - 0.11 √2) / 2 = "));
+  EXPECT_EQ(scene.world.mass[0], said("Each ball of "));
+  EXPECT_EQ(scene.world.impulse[1].norm(), said("gets a push of "));
+  EXPECT_EQ(scene.world.impulse[1].norm() / scene.world.mass[1], said("at time 0 and so "));
+  EXPECT_NEAR(2 * scene.world.radius[0], said("their centres are "), 1e-16);
+  EXPECT_NEAR(simulator->tally().work, said("The pushes do "), 1e-13);
+  EXPECT_NEAR(simulator->tally().energy_lost, said("(1 - e²)/2 of it here, "), 1e-13);
+}
+
+TEST(ReadmePicture, IsWhatTheProgramDraws) {
+  ASSERT_LT(fs::file_size(SCENES_DIR "/billiard_break.png"), 200'000u);
+  const Clone clone;
+  const auto all = commands();
+  const auto command =
+      std::find_if(all.begin(), all.end(), [](const auto& c) { return c.ends_with("-o output/picture"); });
+  ASSERT_NE(command, all.end());
+  ASSERT_EQ(clone.run(*command), 0) << clone.err();
+  const Pixels kept = read_png(SCENES_DIR "/billiard_break.png");
+  const Pixels drawn = read_png(clone / "output/picture/frames/frame_00012.png");  // 12 / 30 s = 0.4 s
+  ASSERT_EQ(kept.image.width, drawn.image.width);
+  ASSERT_EQ(kept.rgb.size(), drawn.rgb.size());
+  // Loosely: another light or another edge may shift a shade, another scene may not.
+  std::size_t far_off = 0;
+  for (std::size_t i = 0; i < kept.rgb.size(); ++i) far_off += std::abs(kept.rgb[i] - drawn.rgb[i]) > 24;
+  EXPECT_LT(far_off, kept.rgb.size() / 100);  // measured: 0
+}
+
+TEST(ReadmeScenes, TellOfEveryKeyThatIsServedAndEveryOneThatIsRefused) {
+  const std::size_t refusal = readme().find("is refused by name"), end = readme().find("\n\n", refusal);
+  const std::string refused = readme().substr(refusal, end - refusal);
+  const std::string table = readme().substr(readme().find("## Scene files"), refusal - readme().find("## Scene files"));
+  for (const Kind& kind : kinds()) {
+    for (const Field& field : kind.fields) {
+      const std::string name = "`" + std::string(field.key) + "`";
+      const bool later = !field.later.empty();
+      EXPECT_NE((later ? refused : table).find(name), std::string::npos) << kind.name << "." << field.key;
+      if (!field.later_choice.empty()) {
+        EXPECT_NE(refused.find("`" + std::string(field.key) + ": " + std::string(field.later_choice) + "`"),
+                  std::string::npos);
+      }
+      if (field.type != Type::choice || later || kind.name == "restitution") continue;
+      for (const std::string_view choice : choices(field)) {
+        EXPECT_NE(table.find(field.key == "samples" ? "`samples`" : "`" + std::string(choice) + "`"), std::string::npos)
+            << field.key << ": " << choice;
+      }
+    }
+  }
+}
+
+TEST(ReadmeScenes, RulesOfRestitutionGiveTheTablesNumbers) {
+  const std::map<std::string, Combine> rules = {{"| `average` (default) | ", Combine::average},
+                                                {"| `minimum` | ", Combine::minimum},
+                                                {"| `maximum` | ", Combine::maximum},
+                                                {"| `product` | ", Combine::product},
+                                                {"| `geometric_mean` | ", Combine::geometric_mean},
+                                                {"here 1 kg and 3 kg | ", Combine::mass_weighted},
+                                                {"| `book`, e1 e2 / 2 | ", Combine::book}};
+  for (const auto& [row, rule] : rules) EXPECT_NEAR(combine_restitution(rule, 0.9, 1, 0.5, 3), said(row), 1e-15) << row;
+}
+
+TEST(ReadmeFiles, HaveTheHeadersItShows) {
+  const Clone clone;
+  ASSERT_EQ(clone.run("./dev run scenes/two_bowling_balls.yaml --only trajectory,collisions,energy,sheet --set "
+                      "output.sheet.columns=1"),
+            0)
+      << clone.err();
+  const fs::path folder = clone / "output/two_bowling_balls";
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_NE(readme().find("`" + name + "`"), std::string::npos) << name;
+    if (entry.path().extension() != ".csv" || name == "summary.csv") continue;
+    const std::string text = read_file(entry.path());
+    EXPECT_NE(readme().find("| `" + name + "` | `" + text.substr(0, text.find('\n')) + "` |"), std::string::npos)
+        << name;
+  }
+}
+
+TEST(ReadmeFiles, TheResolvedSceneGivesTheSameBytes) {
+  const Clone clone;
+  ASSERT_EQ(clone.run("./dev run scenes/billiard_break.yaml --only trajectory,collisions -o first"), 0);
+  ASSERT_EQ(clone.run("./dev run first/scene.yaml --only trajectory,collisions -o second"), 0) << clone.err();
+  for (const char* name : {"/trajectory.csv", "/collisions.csv"}) {
+    EXPECT_EQ(read_file(clone / (std::string("first") + name)), read_file(clone / (std::string("second") + name)));
+  }
+}
+
+TEST(ReadmeOptions, AreThoseOfTheHelp) {
+  const Clone clone;
+  ASSERT_EQ(clone.run("build/release/carom run --help"), 0);
+  const std::regex option("--[a-z]+");
+  const auto all = [&](const std::string& text) {
+    return std::set<std::string>(std::sregex_token_iterator(text.begin(), text.end(), option), {});
+  };
+  const std::size_t from = readme().find("\nOptions: ");
+  EXPECT_EQ(all(readme().substr(from, readme().find('\n', from + 1) - from)), all(clone.out()));
+}
+
+TEST(ReadmeExitCodes, AreWhatTheProgramGives) {
+  const Clone clone;
+  EXPECT_EQ(clone.run("./dev run scenes/billiard_break.yaml --only energy"), 0);
+  EXPECT_EQ(clone.run("./dev run scenes/billiard_break.yaml --only energy"), 0) << "up to date";
+  EXPECT_EQ(clone.run("./dev run scenes/billiard_break.yaml --only energy --set simulate.max_collisions=3 -o x"), 1);
+  EXPECT_EQ(clone.run("./dev run scenes/billiard_break.yaml --only energy --set balls.white.mass=0 -o y"), 2);
+  EXPECT_EQ(clone.run("./dev run scenes/bouncing_ball.yaml --only energy -o output/billiard_break"), 2)
+      << "another's folder";
+  EXPECT_EQ(clone.run("./dev run --nonsense"), 2);
+}
+
+TEST(ReadmeRules, ThreeTouchingBallsPartAsItSays) {
+  const Scene scene = scene_of(R"(
+scene: 1
+gravity: [0, 0, 0]
+defaults: {ball: {mass: 1, radius: 0.5, restitution: 0.5}}
+balls:
+  a: {position: [-1, 0, 0], velocity: [1, 0, 0]}
+  b: {position: [0, 0, 0]}
+  c: {position: [1, 0, 0], velocity: [-1, 0, 0]}
+simulate: {duration: 0.001}
+)");
+  const State end = run_to(scene, scene.simulate.duration);
+  EXPECT_EQ(end.velocity[0].x(), said("with 1, 0 and -1 m/s leave with "));
+  EXPECT_EQ(end.velocity[1].x(), said("leave with -0.359375, "));
+  EXPECT_EQ(end.velocity[2].x(), said("-0.359375, 0.046875 and "));
+}
+
+TEST(ReadmeRules, TheBouncingBallRestsWhenItSays) {
+  const Scene scene = load_scene(SCENES_DIR "/bouncing_ball.yaml");
+  const double rest = said("`scenes/bouncing_ball.yaml` rests from ");
+  const double still = scene.initial.position[0].y() - 1;
+  EXPECT_GT(run_to(scene, rest - 0.01).position[0].y() - still, 1e-6);
+  EXPECT_NEAR(run_to(scene, rest).position[0].y(), still, 1e-15);
+}
+
+TEST(ReadmeRules, HopsAreAsFastAndAsHighAsItSays) {
+  const Scene scene = scene_of(R"(
+scene: 1
+defaults: {ball: {mass: 1, radius: 0.1, restitution: 0.5}}
+balls:
+  on_edge: {position: [0, 1.10001, 0]}
+walls: {wall: {center: [0, 0.5, 0], normal: [1, 0, 0], size: [1, 1]}}
+simulate: {duration: 1}
+)");
+  const double radius = 0.1, p = 9.80665;
+  double fastest = 0, highest = 0;
+  const auto simulator = make_simulator(scene, false);
+  for (int i = 1; i <= 50'000; ++i) {
+    const double time = 0.5 + 1e-5 * i;
+    while (simulator->time() < time) simulator->advance_to(time);
+    const State& s = simulator->state();
+    fastest = std::max(fastest, s.velocity[0].y());
+    highest = std::max(highest, s.position[0].y() - 1 - radius);
+  }
+  EXPECT_NEAR(fastest / std::sqrt(p * radius), said("by default "), 0.0002);  // sampled every 1e-5 s
+  EXPECT_NEAR(radius / highest, said("A hop's height is at most L/"), 1);
+}
+
+TEST(ReadmeAccuracy, IsMeasured) {
+  const Scene scene = load_scene(SCENES_DIR "/gas_in_a_room.yaml");
+  const auto simulator = make_simulator(scene, false);
+  while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
+  EXPECT_EQ(scene.world.body_count(), said("`scenes/gas_in_a_room.yaml`, "));
+  EXPECT_EQ(simulator->tally().collisions(), said("200 balls and "));
+  EXPECT_EQ(scene.simulate.duration, said("2771 collisions in "));
+  const double energy = kinetic_energy(scene.world, scene.initial);
+  EXPECT_LT(std::abs(kinetic_energy(scene.world, simulator->state()) / energy - 1),
+            said("the energy changes by less than "));
+  EXPECT_LT(simulator->tally().max_overlap / 0.1, said("overlap by more than "));
+  const Scene pi = load_scene(SCENES_DIR "/pi_to_six_digits.yaml");
+  const auto counter = make_simulator(pi, false);
+  while (counter->time() < pi.simulate.duration) counter->advance_to(pi.simulate.duration);
+  EXPECT_EQ(counter->tally().collisions(), said("`scenes/pi_to_six_digits.yaml`: "));
+}
+
+TEST(ReadmeBook, ScenesGiveTheNumbersItNames) {
+  const auto last = [](const char* file) {
+    const Scene scene = load_scene(std::string(SCENES_DIR "/") + file);
+    const auto simulator = make_simulator(scene, true);
+    while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
+    return std::pair(simulator->tally(), kinetic_energy(scene.world, simulator->state()));
+  };
+  const auto text = last("book_bowling_balls.yaml"), exact = last("two_bowling_balls.yaml"),
+             printed = last("book_as_printed.yaml");
+  EXPECT_NEAR(text.first.first_collision * 60, said("collides in frame "), 1e-12);
+  EXPECT_NEAR(text.first.first_collision - exact.first.first_collision, said("in frame 86, "), 5e-7);
+  EXPECT_NEAR(100 * text.first.max_overlap / 0.22, said("late, overlapping by "), 0.05);
+  EXPECT_NEAR(printed.second, said("`scenes/book_as_printed.yaml` makes "), 1e-9);
+  EXPECT_EQ(1 / BookOptions().step, said("x += v dt, "));
+}
+
+TEST(ReadmeBook, TheSlipsTableIsTheReferences) {
+  const auto table = slips()["closed_form_single_call"];
+  const auto row = [](const std::string& start, const nlohmann::json& velocity, const nlohmann::json& energy) {
+    std::ostringstream line;
+    line.precision(10);
+    line << " | " << velocity[0].get<double>() << ", " << velocity[1].get<double>() << " | " << energy.get<double>()
+         << " |";
+    const std::size_t at = words().find(start);
+    ASSERT_NE(at, std::string::npos) << start;
+    EXPECT_NE(words().find(line.str(), at), std::string::npos) << start << line.str();
+  };
+  const auto& velocity = table["right_angle"];
+  const auto& energy = table["KE_ratio"]["right_angle"];
+  row("| exact", velocity["exact"], energy["exact"]);
+  row("| slip 1", velocity["slip1"], energy["slip1"]);
+  row("| slip 3", velocity["slip3B"], energy["slip3B"]);
+  row("| slips 1 and 3", velocity["slip1_3B"], energy["slip1_3B"]);
+  EXPECT_EQ(table["e_listing"].get<double>(), said("slip 1: e = e1 e2 / 2 = "));
+}
+
+TEST(ReadmeBook, TheRadiusSlipsDistancesAndTheRepeatedHandlingAreTheReferences) {
+  const nlohmann::json all = slips();
+  const auto& radius = all["slip2_radius"];
+  EXPECT_EQ(radius[1]["r0"].get<double>(), said("Radii of "));
+  EXPECT_EQ(radius[1]["r1"].get<double>(), said("Radii of 0.11 and "));
+  EXPECT_EQ(radius[1]["contact_distance_true"].get<double>(), said("m touch at "));
+  EXPECT_EQ(radius[1]["contact_distance_listing"].get<double>(), said("but are seen at "));
+  EXPECT_EQ(radius[2]["contact_distance_listing"].get<double>(), said("exchanged at "));
+  for (const auto& run : all["simulated"]) {
+    if (run["scene"] != "head" || run["variant"] != "slips 1+3B+4") continue;
+    EXPECT_NEAR(100 * run["fraction_multiple_calls"].get<double>(), said("Head on, at 5 m/s, "), 1e-12);
+  }
+}
+
+TEST(ReadmeText, NamesOnlyFilesThatAreThere) {
+  const std::regex path("(?:scenes|src|tests)/[A-Za-z0-9_/.]+");
+  for (std::sregex_iterator i(readme().begin(), readme().end(), path), end; i != end; ++i) {
+    std::string name = i->str();
+    while (name.ends_with('.')) name.pop_back();
+    EXPECT_TRUE(fs::exists(fs::path(SOURCE_DIR) / name)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace carom::testing
