@@ -1,5 +1,6 @@
 #include "physics/contact_cone.h"
 
+#include <array>
 #include <cmath>
 
 namespace carom {
@@ -62,6 +63,24 @@ Vec3 project_to_cone(const Vec3& u, std::span<const Vec3> normals, unsigned& act
       }
   active = n < 32 ? (1u << n) - 1 : ~0u;
   return Vec3::Zero();
+}
+
+Vec3 project_to_common_plane(const Vec3& u, std::span<const Vec3> normals) {
+  // An orthonormal basis of the normals, taken out of u twice: once for the value, once for what rounding left.
+  std::array<Vec3, 3> basis;
+  std::size_t rank = 0;
+  for (const Vec3& normal : normals) {
+    Vec3 n = normal;
+    for (int pass = 0; pass < 2; ++pass)
+      for (std::size_t k = 0; k < rank; ++k) n -= basis[k].dot(n) * basis[k];
+    const double length = n.norm();
+    if (rank < 3 && length > rounding) basis[rank++] = n / length;
+  }
+  if (rank == 3) return Vec3::Zero();
+  Vec3 v = u;
+  for (int pass = 0; pass < 2; ++pass)
+    for (std::size_t k = 0; k < rank; ++k) v -= basis[k].dot(v) * basis[k];
+  return v;
 }
 
 }  // namespace carom

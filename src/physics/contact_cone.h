@@ -12,4 +12,7 @@ namespace carom {
 /// velocity; u' has its unit. `active` gets bit i where surface i presses (lambda_i > 0). At most 32 normals.
 Vec3 project_to_cone(const Vec3& u, std::span<const Vec3> normals, unsigned& active);
 
+/// u without its components along any of the unit normals: motion that keeps every one of the contacts.
+Vec3 project_to_common_plane(const Vec3& u, std::span<const Vec3> normals);
+
 }  // namespace carom

@@ -46,8 +46,8 @@ double sphere_contact_time(const RelativeMotion& m, double s, double horizon) {
   if (m.a.isZero(0)) return straight_contact_time(m, s, horizon);
   const Polynomial f = squared_gap_polynomial(m, s);
   if (!m.just_separated) return first_descent(f, horizon);
-  // t = 0 is a root by definition; what is left is a cubic. Below zero there, the two approach again (something else has
-  // changed their velocities in the same instant).
+  // t = 0 is a root by definition; what is left is a cubic. Below zero there, the two approach again (something else
+  // has changed their velocities in the same instant).
   if (f.c[1] < 0) return 0;
   return first_descent({{f.c[1], f.c[2], f.c[3], f.c[4]}, 3}, horizon);
 }

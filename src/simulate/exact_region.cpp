@@ -45,8 +45,9 @@ void ExactSimulator::find_neighbours(Entity i) {
           slack * plane.normal.cwiseAbs().sum())
         list.push_back(e);
     } else {
-      const Vec3 away = (region.center - nearest_on_wall(world_.wall(e), region.center)).cwiseAbs();
-      if (away.maxCoeff() <= region.half) list.push_back(e);
+      // The body's centre is within sqrt(3) rooms of the region's.
+      const double away2 = (region.center - nearest_on_wall(world_.wall(e), region.center)).squaredNorm();
+      if (away2 <= 3 * region.half * region.half) list.push_back(e);
     }
   }
 }

@@ -27,6 +27,12 @@ namespace {
 constexpr double immovable = never;            // kg
 constexpr double velocity_rounding = 0x1p-48;  // of the speeds that a component is made of
 
+/// Whether a speed (m/s) against a pressing acceleration (m/s^2) lifts a body by less than its position x (m) is
+/// rounded to.
+bool too_low(const Vec3& x, double speed, double press) {
+  return speed * speed < press * 0x1p-48 * x.cwiseAbs().sum();
+}
+
 }  // namespace
 
 /// The speed (m/s) under which impacts in lasting contact no longer count one by one: rest_speed, or by default a
@@ -112,7 +118,8 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
   if (press > 0 && !flat) separation = std::max(separation, slow_speed(press, radius));
   if (press > 0 && flat && !contacts_.empty() && contacts_[i].count < max_contacts && (e < 1 || approach == 0)) {
     const double left = separation == 0 ? 0 : 2 * separation / (press * (1 - e));
-    rests = now_.hi + left == now_.hi || approach < options_.rest_speed ||
+    const bool carried = contacts_[i].count > 0 && origin_[i].partner != surface;
+    rests = now_.hi + left == now_.hi || approach < options_.rest_speed || (carried && too_low(x, approach, press)) ||
             (hopping && approach < slow_speed(press, radius));
     contact.rest_time = now_ + left;
     contact.settling = rests && !hopping;
@@ -172,42 +179,52 @@ void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
   predict(i);
 }
 
-/// A body's velocity has become v: which contacts still carry it? One that it leaves, or strikes, is given up (the strike
-/// comes next, as an event), unless the strike would leave no bounce that the clock can resolve. `absorb`: nor if it is slower
-/// than slow_speed. Gives the velocity that the contacts allow.
+/// A body's velocity has become v: which contacts still carry it? One that it leaves, or strikes, is given up (the
+/// strike comes next, as an event), unless the hop or the bounce would be one that numbers cannot tell from none.
+/// `absorb`: nor if the strike is slower than slow_speed. Gives the velocity that the contacts allow.
 Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v, bool absorb) {
   if (contacts_.empty() || contacts_[i].count == 0) return v;
   Contacts& contacts = contacts_[i];
+  const Vec3 x = flight_[i].position(now_ - flight_[i].start);
   const double noise = velocity_rounding * (v.norm() + flight_[i].v.norm());
   std::array<bool, max_contacts> keep;
+  std::array<double, max_contacts> press;
   for (std::size_t k = 0; k < contacts.count; ++k) {
     const Contact& contact = contacts.at[k];
-    const double u = -contact_normal(contact).dot(v);  // into the surface
-    const double press = -contact_normal(contact).dot(free_acceleration(i, contact.surface));
-    keep[k] = std::abs(u) <= noise || (u > 0 && press > 0 && absorb && u <= slow_speed(press, world_.radius[i]));
-    if (keep[k] || u < 0 || press <= 0) continue;
-    const double e = pair_restitution(world_, i, contact.surface);
-    if (e >= 1 || now_.hi + 2 * e * u / (press * (1 - e)) != now_.hi) continue;
-    keep[k] = true;
     const Vec3 n = -contact_normal(contact);
-    const Vec3 x = flight_[i].position(now_ - flight_[i].start);
-    record({now_.hi, CollisionKind::body_fixed, i, contact.surface, x + world_.radius[i] * n, n, u, 0, e,
-            impact_impulse(world_.mass[i], immovable, u, 0), impact_loss(world_.mass[i], immovable, u, 0)});
+    const double u = n.dot(v);  // into the surface
+    press[k] = n.dot(free_acceleration(i, contact.surface));
+    keep[k] = std::abs(u) <= noise || (press[k] > 0 && too_low(x, u, press[k])) ||
+              (absorb && press[k] > 0 && u > 0 && u <= slow_speed(press[k], world_.radius[i]));
+    if (keep[k] || u < 0 || press[k] <= 0) continue;
+    const double e = pair_restitution(world_, i, contact.surface);
+    keep[k] = e < 1 && now_.hi + 2 * e * u / (press[k] * (1 - e)) == now_.hi;
+    if (keep[k])
+      record({now_.hi, CollisionKind::body_fixed, i, contact.surface, x + world_.radius[i] * n, n, u, 0, e,
+              impact_impulse(world_.mass[i], immovable, u, 0), impact_loss(world_.mass[i], immovable, u, 0)});
   }
   std::array<Vec3, max_contacts> normals;
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < contacts.count; ++k) {
-    if (!keep[k]) continue;
-    normals[kept] = contact_normal(contacts.at[k]);
-    contacts.at[kept++] = contacts.at[k];
-  }
-  contacts.count = kept;
-  if (kept == 0) {
-    --tally_.resting;
-    return v;
-  }
+  const auto thin_out = [&] {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < contacts.count; ++k) {
+      if (!keep[k]) continue;
+      normals[kept] = contact_normal(contacts.at[k]);
+      press[kept] = press[k];
+      contacts.at[kept++] = contacts.at[k];
+    }
+    contacts.count = kept;
+  };
+  thin_out();
   unsigned active;
-  const Vec3 allowed = project_to_cone(v, {normals.data(), kept}, active);
+  Vec3 allowed = project_to_cone(v, {normals.data(), contacts.count}, active);
+  // A push into one surface may lift the body off another.
+  for (std::size_t k = 0; k < contacts.count; ++k) {
+    const double u = normals[k].dot(allowed);
+    keep[k] = u <= noise || too_low(x, u, press[k]);
+  }
+  thin_out();
+  allowed = project_to_common_plane(allowed, {normals.data(), contacts.count});
+  if (contacts.count == 0) --tally_.resting;
   lose(0.5 * world_.mass[i] * (v - allowed).dot(v + allowed));
   return allowed;
 }
