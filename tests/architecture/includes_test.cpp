@@ -82,27 +82,11 @@ Rule read_rule(const std::string& may_include, const std::string& only_place) {
   return rule;
 }
 
-/// Stands in for the README where there is none.
-const char* const fallback = R"(
-| folder | may include | the only place that includes |
-| --- | --- | --- |
-| `physics/` | – | Eigen |
-| `simulate/` | physics | |
-| `scene/` | physics | yaml-cpp |
-| `render/` | physics, scene's types | OSMesa/OpenGL, assimp |
-| `export/` | physics, scene's types, render's `Image` | PNG, nettle, ffmpeg's pipe |
-| `commands/`, `main` | all | CLI11 |
-)";
-
 /// The README's table, by folder.
 std::map<std::string, Rule> read_table() {
-  SourceFile readme = read_source("README.md");
-  if (readme.text.empty()) {
-    readme.text = fallback;
-  }
   std::map<std::string, Rule> table;
   bool inside = false;
-  for (const std::string& line : readme.lines()) {
+  for (const std::string& line : read_source("README.md").lines()) {
     if (line.starts_with("| folder | may include | the only place that includes |")) {
       inside = true;
     } else if (!line.starts_with("|")) {
