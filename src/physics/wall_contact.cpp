@@ -11,34 +11,48 @@ namespace {
 
 struct LocalPath {
   Vec3 p, v, a;
+  double rounded_speed;  // m/s, the size of what an approach to the rim is rounded by: the normal there turns by the
+                         // rounding of positions over the radius
   double at(int k, double t) const { return p[k] + t * (v[k] + 0.5 * t * a[k]); }
 };
 
-LocalPath to_local(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a) {
+LocalPath to_local(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double radius) {
   const Vec3 d = x - wall.center;
   const auto frame = [&](const Vec3& u) { return Vec3(u.dot(wall.right), u.dot(wall.up), u.dot(wall.normal)); };
-  return {frame(d), frame(v), frame(a)};
+  const double size = x.cwiseAbs().sum() + wall.center.cwiseAbs().sum();
+  return {frame(d), frame(v), frame(a), v.cwiseAbs().sum() * (1 + size / radius)};
 }
 
 constexpr double rounding = 16 * 0x1p-53;
+
+/// Whether a path at time t is out over the rim that lies at `rim` along axis k, or so near to it that rounding could
+/// say so. Short of the rim a ball that slides on the face all but touches the edge's cylinder; that is the face's
+/// contact.
+bool beyond_rim(const LocalPath& path, int k, double rim, double t) {
+  const double p = path.at(k, t);
+  const double rounding_of_p = 0x1p-44 * (std::abs(path.p[k]) + std::abs(p) + std::abs(rim));
+  return rim > 0 ? p >= rim - rounding_of_p : p <= rim + rounding_of_p;
+}
 
 /// The first entry into a cylinder about the line through `axis` in the direction `along`, on its stretch. A curved
 /// path can enter the endless cylinder twice, and beyond the stretch for a start.
 double edge_contact_time(const LocalPath& path, int along, double half_length, const Vec3& axis, double radius,
                          bool just_left, double horizon) {
-  const auto on_stretch = [&](double t) { return std::abs(path.at(along, t)) <= half_length; };
+  const auto on_edge = [&](double t) {
+    return std::abs(path.at(along, t)) <= half_length && beyond_rim(path, 1 - along, axis[1 - along], t);
+  };
   RelativeMotion m{path.p - axis, path.v, path.a, 0, just_left};
   m.d[along] = m.w[along] = m.a[along] = 0;
-  m.speeds = m.w.norm();
+  m.speeds = path.rounded_speed;
   const double t = sphere_contact_time(m, radius, horizon);
-  if (t == never || on_stretch(t)) return t;
+  if (t == never || on_edge(t)) return t;
   if (m.a.isZero(0)) return never;
   const Polynomial f = squared_gap_polynomial(m, radius);
   const Polynomial df = f.derivative();
   const Roots roots = roots_between(f, 0, horizon);
   for (int k = 0; k < roots.count; ++k) {
     const double root = roots.at[static_cast<std::size_t>(k)];
-    if (df(root) < 0 && on_stretch(root)) return root;
+    if (df(root) < 0 && on_edge(root)) return root;
   }
   return never;
 }
@@ -64,7 +78,7 @@ double face_contact_time(const LocalPath& path, double side, const double half[2
 
 WallContact wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double radius,
                               std::uint8_t left, double horizon) {
-  const LocalPath path = to_local(wall, x, v, a);
+  const LocalPath path = to_local(wall, x, v, a, radius);
   const double half[2] = {wall.half_width, wall.half_height};
   WallContact first{never, no_feature};
   const auto offer = [&](double t, std::uint8_t feature) {
@@ -83,7 +97,9 @@ WallContact wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, co
   for (int k = 0; k < 4; ++k) {
     const auto feature = static_cast<std::uint8_t>(wall_corners + k);
     const Vec3 corner(signs[k % 2] * half[0], signs[k / 2] * half[1], 0);
-    offer(sphere_contact_time({path.p - corner, path.v, path.a, v.norm(), left == feature}, radius, horizon), feature);
+    const double t =
+        sphere_contact_time({path.p - corner, path.v, path.a, path.rounded_speed, left == feature}, radius, horizon);
+    if (t < never && beyond_rim(path, 0, corner.x(), t) && beyond_rim(path, 1, corner.y(), t)) offer(t, feature);
   }
   return first;
 }
@@ -96,7 +112,7 @@ Vec3 nearest_on_wall(const Wall& wall, const Vec3& x) {
 }
 
 WallContact wall_release_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double horizon) {
-  const LocalPath path = to_local(wall, x, v, a);
+  const LocalPath path = to_local(wall, x, v, a, 1);
   const double half[2] = {wall.half_width, wall.half_height};
   WallContact first{never, no_feature};
   for (int k = 0; k < 4; ++k) {

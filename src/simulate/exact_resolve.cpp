@@ -112,10 +112,14 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
   tally_.max_overlap = std::max(tally_.max_overlap, -gap);
   tally_.max_speed = std::max(tally_.max_speed, v.norm());
 
-  const bool hopping = origin_[i].hopping && approach < slow_speed(world_.gravity.norm(), radius);
+  const bool slow = approach < slow_speed(world_.gravity.norm(), radius);
+  bool hopping = slow && origin_[i].hopping;
   Contact contact{surface, feature, false, now_, separation};
   bool rests = false;
-  if (press > 0 && !flat) separation = std::max(separation, slow_speed(press, radius));
+  if (press > 0 && !flat && separation < slow_speed(press, radius)) {
+    separation = slow_speed(press, radius);
+    hopping = slow;
+  }
   if (press > 0 && flat && !contacts_.empty() && contacts_[i].count < max_contacts && (e < 1 || approach == 0)) {
     const double left = separation == 0 ? 0 : 2 * separation / (press * (1 - e));
     const bool carried = contacts_[i].count > 0 && origin_[i].partner != surface;
@@ -124,7 +128,7 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
     contact.rest_time = now_ + left;
     contact.settling = rests && !hopping;
   }
-  if (approach > 0) {
+  if (approach > 0 || separation > 0) {
     const double lost = impact_loss(mass, immovable, approach, separation);
     lose(lost);
     if (!hopping)
