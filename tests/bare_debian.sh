@@ -23,7 +23,7 @@ trap 'exit 130' INT TERM
 in_tree() {
   unshare --mount --pid --fork --kill-child chroot "$bare/$1" /usr/bin/env -i \
     PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin TERM=dumb HOME=/root ${http_proxy:+http_proxy="$http_proxy"} \
-    sh -euc "mount -t proc proc /proc; $2"
+    sh -euc "mount -t proc proc /proc; mount -t devpts -o newinstance,ptmxmode=666 devpts /dev/pts; $2"
 }
 
 # timed NAME COMMAND...: how long it took, on stdout.
