@@ -32,12 +32,17 @@ std::uint64_t peak_memory() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
+double energy(const Scene& scene, const State& state) {
+  return kinetic_energy(scene.world, state) + potential_energy(scene.world, state);
+}
+
 class Run {
  public:
   Run(const Scene& scene, const std::string& folder, Progress& progress, RunFacts& facts)
       : scene_(scene), progress_(progress), facts_(facts), exports_(scene, folder) {
     const Stopwatch watch(facts_.simulate_s);
     simulator_ = make_simulator(scene, scene.output.collisions);
+    energy_start_ = energy(scene, simulator_->state());
     renderers_.resize(exports_.pictures().size());
   }
 
@@ -56,6 +61,7 @@ class Run {
   }
 
   Simulator& simulator() { return *simulator_; }
+  double energy_start() const { return energy_start_; }  // J
   Exports& exports() { return exports_; }
 
  private:
@@ -109,6 +115,7 @@ class Run {
   RunFacts& facts_;
   Exports exports_;
   std::unique_ptr<Simulator> simulator_;
+  double energy_start_ = 0;
   std::vector<std::unique_ptr<Renderer>> renderers_;  // by picture stream
 };
 
@@ -119,9 +126,11 @@ Vec3 starting_momentum(const Scene& scene) {
   return sum;
 }
 
-// Energies are of time 0 before impulses, whose energy counts as work; momentum is of the time after them. What energy
-// the collisions, work and motion do not account for is the residual: zero but for rounding.
-Summary summarize(const Scene& scene, const EngineChoice& engine, const State& end, const Tally& tally) {
+// The energy at the start is that of energy.csv's first row: the exact engine's bodies have their impulses by then, the
+// book engine's get theirs as a force of the first frame, whose work counts. What energy the collisions, work and motion do
+// not account for is the residual: zero but for rounding.
+Summary summarize(const Scene& scene, const EngineChoice& engine, double energy_start, const State& end,
+                  const Tally& tally) {
   Summary summary;
   summary.title = scene.title;
   summary.engine = engine.name;
@@ -133,8 +142,8 @@ Summary summarize(const Scene& scene, const EngineChoice& engine, const State& e
   summary.body_fixed = tally.body_fixed;
   summary.first_collision = tally.first_collision;
   summary.last_collision = tally.last_collision;
-  summary.energy_start = kinetic_energy(scene.world, scene.initial) + potential_energy(scene.world, scene.initial);
-  summary.energy_end = kinetic_energy(scene.world, end) + potential_energy(scene.world, end);
+  summary.energy_start = energy_start;
+  summary.energy_end = energy(scene, end);
   summary.energy_lost = tally.energy_lost;
   summary.work = tally.work;
   summary.energy_residual = summary.energy_end - summary.energy_start - summary.work + summary.energy_lost;
@@ -155,7 +164,7 @@ RunResult run_scene(const Scene& scene, const EngineChoice& engine, const std::s
     const Stopwatch wall(result.wall_s);
     Run run(scene, folder, progress, result.facts);
     run.go();
-    result.summary = summarize(scene, engine, run.simulator().state(), run.simulator().tally());
+    result.summary = summarize(scene, engine, run.energy_start(), run.simulator().state(), run.simulator().tally());
     result.summary.frames = run.exports().frames();
     result.facts.peak_memory = peak_memory();
     run.exports().finish(result.summary, result.facts);

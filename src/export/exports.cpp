@@ -40,7 +40,7 @@ struct Exports::Impl {
 
     folder.emplace(path);
     scene_record = folder->begin(scene);
-    const Place& place = folder->place();
+    const FilePlace& place = folder->place();
     if (output.trajectory) {
       trajectory.emplace(place, scene);
       trajectory_ticks = timeline.add(Ticks::every(output.trajectory->every, scene.simulate.duration));
@@ -76,7 +76,7 @@ struct Exports::Impl {
   std::vector<FileRecord> frame_records;
   // What writes into the folder is gone before the folder is put in order.
   std::optional<OpenFolder> folder;
-  Place frames_place;
+  FilePlace frames_place;
   std::optional<TrajectoryTable> trajectory;
   std::optional<CollisionTable> collisions;
   std::optional<EnergyTable> energy;
@@ -128,7 +128,7 @@ std::uint64_t Exports::frames() const {
 }
 
 void Exports::finish(const Summary& summary, const RunFacts& facts) {
-  const Place& place = impl_->folder->place();
+  const FilePlace& place = impl_->folder->place();
   std::vector<FileRecord> records = {impl_->scene_record};
   std::vector<OutputFile*> files;
 

@@ -66,7 +66,7 @@ FilmTools find_film_tools() {
   return {*ffmpeg, *ffprobe};
 }
 
-Film::Film(const Place& place, const VideoOutput& video, FilmTools tools, const FilmPatience& patience)
+Film::Film(const FilePlace& place, const VideoOutput& video, FilmTools tools, const FilmPatience& patience)
     : place_(place), video_(video), tools_(std::move(tools)), patience_(patience) {
   record_.name = video_.file;
   if (!is_plain_name(video_.file))

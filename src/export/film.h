@@ -30,7 +30,7 @@ struct FilmPatience {
 /// H.264, yuv420p, BT.709, index in front; frame i stands at i / fps. The same pictures give the same bytes.
 class Film {
  public:
-  Film(const Place& place, const VideoOutput& video, FilmTools tools, const FilmPatience& patience = {});
+  Film(const FilePlace& place, const VideoOutput& video, FilmTools tools, const FilmPatience& patience = {});
   /// Without publish(): ffmpeg is stopped and nothing of the film stays.
   ~Film();
 
@@ -46,7 +46,7 @@ class Film {
   void start();
   [[noreturn]] void fail_with(const std::string& reason);
 
-  Place place_;
+  FilePlace place_;
   VideoOutput video_;
   FilmTools tools_;
   FilmPatience patience_;

@@ -128,8 +128,8 @@ FileRecord OpenFolder::begin(const Scene& scene) {
   return file.record();
 }
 
-Place OpenFolder::frames() {
-  const Place place{-1, place_.path + "/frames"};
+FilePlace OpenFolder::frames() {
+  const FilePlace place{-1, place_.path + "/frames"};
   if (mkdirat(place_.folder, "frames", 0777) != 0 && errno != EEXIST) fail("make", place, "");
   frames_ = open_folder(place_.folder, "frames", false);
   const bool other = !frames_ && (errno == ENOTDIR || errno == ELOOP);

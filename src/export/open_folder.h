@@ -20,14 +20,14 @@ class OpenFolder {
   OpenFolder(const OpenFolder&) = delete;
   OpenFolder& operator=(const OpenFolder&) = delete;
 
-  const Place& place() const { return place_; }
+  const FilePlace& place() const { return place_; }
 
   /// Removes what a former run left and puts this scene's scene.yaml there, in an order that leaves at every moment a
   /// folder that inspect_folder judges rightly. Gives scene.yaml's record.
   FileRecord begin(const Scene& scene);
 
   /// Makes, if need be, and opens the folder of frames.
-  Place frames();
+  FilePlace frames();
 
   /// Something stands in the folder now that is worth keeping even if the run fails.
   void keep() { keep_ = true; }
@@ -37,7 +37,7 @@ class OpenFolder {
 
  private:
   Descriptor folder_, frames_;
-  Place place_;
+  FilePlace place_;
   bool made_ = false, keep_ = false, begun_ = false;
 };
 

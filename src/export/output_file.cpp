@@ -48,13 +48,13 @@ std::string part_name(std::string_view name) {
   return fmt::format(".{}.part", name);
 }
 
-void fail(const std::string& what, const Place& place, std::string_view name, const std::string& reason) {
+void fail(const std::string& what, const FilePlace& place, std::string_view name, const std::string& reason) {
   const std::string why = reason.empty() ? std::strerror(errno) : reason;
   const std::string slash = name.empty() || place.path.ends_with('/') ? "" : "/";
   throw ExportError("cannot " + what + " " + place.path + slash + std::string(name) + ": " + why);
 }
 
-OutputFile::OutputFile(const Place& place, std::string name) : place_(place) {
+OutputFile::OutputFile(const FilePlace& place, std::string name) : place_(place) {
   if (!is_plain_name(name))
     fail("write", place, name, "a file's name may hold no slash, no control character and no dot at its start");
   record_.name = std::move(name);

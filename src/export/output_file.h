@@ -27,7 +27,7 @@ class Descriptor {
 };
 
 /// An open folder. Everything in it is reached through its descriptor, so that no name leads out of it.
-struct Place {
+struct FilePlace {
   int folder = -1;
   std::string path;  // as the user knows it, for messages
 };
@@ -46,13 +46,13 @@ bool is_plain_name(std::string_view name);
 std::string part_name(std::string_view name);
 
 /// Throws ExportError: "cannot <what> <path>/<name>: <reason>". The reason is errno's unless given.
-[[noreturn]] void fail(const std::string& what, const Place& place, std::string_view name,
+[[noreturn]] void fail(const std::string& what, const FilePlace& place, std::string_view name,
                        const std::string& reason = {});
 
 class OutputFile {
  public:
   /// Opens `.name.part` in the folder. `name` must be plain. Throws ExportError, as all of this class does.
-  OutputFile(const Place& place, std::string name);
+  OutputFile(const FilePlace& place, std::string name);
   /// Without publish(): nothing of the file stays.
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
@@ -77,7 +77,7 @@ class OutputFile {
   void flush();
   void make_room(std::size_t size);
 
-  Place place_;
+  FilePlace place_;
   FileRecord record_;
   Descriptor file_;
   std::vector<char> buffer_;

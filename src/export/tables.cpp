@@ -55,7 +55,7 @@ std::string_view kind_name(CollisionKind kind) {
 
 }  // namespace
 
-TrajectoryTable::TrajectoryTable(const Place& place, const Scene& scene)
+TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
     : scene_(scene), file_(place, "trajectory.csv") {
   if (!scene.output.trajectory->wide) {
     file_.write("time_s,body,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\n");
@@ -108,7 +108,7 @@ void TrajectoryTable::add_wide(double time, const State& state) {
   file_.write("\n");
 }
 
-CollisionTable::CollisionTable(const Place& place, const Scene& scene)
+CollisionTable::CollisionTable(const FilePlace& place, const Scene& scene)
     : roster_(scene.roster), bodies_(scene.world.body_count()), file_(place, "collisions.csv") {
   file_.write(
       "time_s,kind,a,b,x_m,y_m,z_m,nx,ny,nz,approach_speed_m_per_s,separation_speed_m_per_s,restitution,impulse_N_s,"
@@ -140,7 +140,7 @@ void CollisionTable::add(std::span<const Collision> collisions) {
   }
 }
 
-EnergyTable::EnergyTable(const Place& place, const Scene& scene) : world_(scene.world), file_(place, "energy.csv") {
+EnergyTable::EnergyTable(const FilePlace& place, const Scene& scene) : world_(scene.world), file_(place, "energy.csv") {
   file_.write("time_s,kinetic_J,potential_J,total_J,px_kg_m_per_s,py_kg_m_per_s,pz_kg_m_per_s\n");
 }
 

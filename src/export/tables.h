@@ -17,7 +17,7 @@ struct Summary;
 /// time_s,<name>.x_m,<name>.y_m,<name>.z_m,<name>.vx_m_per_s,<name>.vy_m_per_s,<name>.vz_m_per_s,...
 class TrajectoryTable {
  public:
-  TrajectoryTable(const Place& place, const Scene& scene);
+  TrajectoryTable(const FilePlace& place, const Scene& scene);
   void add(double time, const State& state);  // s
   OutputFile& file() { return file_; }
 
@@ -32,7 +32,7 @@ class TrajectoryTable {
 /// collisions.csv: a row a collision, in the order in which they happened.
 class CollisionTable {
  public:
-  CollisionTable(const Place& place, const Scene& scene);
+  CollisionTable(const FilePlace& place, const Scene& scene);
   void add(std::span<const Collision> collisions);
   OutputFile& file() { return file_; }
 
@@ -45,7 +45,7 @@ class CollisionTable {
 /// energy.csv: a row an instant.
 class EnergyTable {
  public:
-  EnergyTable(const Place& place, const Scene& scene);
+  EnergyTable(const FilePlace& place, const Scene& scene);
   void add(double time, const State& state);  // s
   OutputFile& file() { return file_; }
 

@@ -31,27 +31,22 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       region_(world.body_count()),
       near_(world.body_count()),
       contacts_(world.fixed_count() > 0 && !world.gravity.isZero(0) ? world.body_count() : 0),
+      burst_(contacts_.size()),
       grid_(world.body_count()),
       queue_(world.body_count(), Before{this}) {
   const Entity n = world.body_count();
   state_.position.resize(n);
   state_.velocity.resize(n);
   if (options.record_collisions) collisions_.reserve(collision_buffer);
-  Sum work;
   for (Entity i = 0; i < n; ++i) {
     Vec3 v = initial.velocity[i];
-    if (!world.impulse.empty()) {
-      const Vec3 change = world.impulse[i] / world.mass[i];
-      work.add(world.impulse[i].dot(v + 0.5 * change));
-      v += change;
-    }
+    if (!world.impulse.empty()) v += world.impulse[i] / world.mass[i];
     flight_[i] = {{}, initial.position[i], v, world.gravity};
     region_[i] = {initial.position[i], 0.5 * world.radius[i], 0};
     region_[i].half = region_[i].room + world.radius[i];
     grid_.put(i, region_[i].center, region_[i].half);
     tally_.max_speed = std::max(tally_.max_speed, v.norm());
   }
-  tally_.work = work.value();
   for (Entity i = 0; i < n; ++i) {
     find_neighbours(i);
     if (!contacts_.empty()) touch_down(i);
@@ -78,7 +73,7 @@ void ExactSimulator::advance_to(double time) {
   for (Entity i = queue_.first(); i != no_entity && event_[i].time <= until; i = queue_.first()) {
     process(i);
     // After many events that no one has seen, the caller may want to look at the clock.
-    if (++events % events_at_a_time == 0 && now_.hi > time_) {
+    if (++events % events_at_a_time == 0 && std::nextafter(now_.hi, 0) > time_) {
       time_ = std::nextafter(now_.hi, 0);
       return;
     }

@@ -14,7 +14,8 @@ struct ExactOptions {
   bool record_collisions = true;     // false: no buffer is made and collisions() stays empty
 };
 
-/// `world` must outlive the simulator. `initial` is at time 0, before the world's impulses.
+/// `world` must outlive the simulator. `initial` is at time 0, before the world's impulses; the
+/// simulator's own state at time 0 is after them.
 std::unique_ptr<Simulator> make_exact_simulator(const World& world, const State& initial, const ExactOptions& options);
 
 }  // namespace carom

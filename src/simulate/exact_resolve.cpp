@@ -41,6 +41,16 @@ double ExactSimulator::slow_speed(double press, double length) const {
   return options_.rest_speed > 0 ? options_.rest_speed : 1e-2 * std::sqrt(press * length);
 }
 
+/// Counts a slow impact of body i. Many within the time of one hop: it is in lasting contact, whichever of its partners
+/// is in the air just now.
+bool ExactSimulator::in_burst(Entity i, double slow) {
+  constexpr int many = 16;
+  if (burst_.empty()) return false;
+  Burst& burst = burst_[i];
+  if (now_.hi - burst.start > 2 * slow / world_.gravity.norm()) burst = {now_.hi, 0};
+  return ++burst.impacts > many;
+}
+
 void ExactSimulator::collide_pair(Entity a, Entity b) {
   const Flight &p = flight_[a], &q = flight_[b];
   const double ta = now_ - p.start, tb = now_ - q.start;
@@ -68,8 +78,10 @@ void ExactSimulator::collide_pair(Entity a, Entity b) {
   lose(lost);
   tally_.max_overlap = std::max(tally_.max_overlap, world_.radius[a] + world_.radius[b] - distance);
   tally_.max_speed = std::max({tally_.max_speed, va.norm(), vb.norm()});
-  const bool slow = approach < slow_speed(world_.gravity.norm(), distance);
-  const bool hopping_a = slow && (hop || origin_[a].hopping), hopping_b = slow && (hop || origin_[b].hopping);
+  const double slow = slow_speed(world_.gravity.norm(), distance);
+  const bool burst_a = approach < slow && in_burst(a, slow), burst_b = approach < slow && in_burst(b, slow);
+  const bool hopping_a = approach < slow && (hop || burst_a || origin_[a].hopping);
+  const bool hopping_b = approach < slow && (hop || burst_b || origin_[b].hopping);
   if (!hopping_a && !hopping_b)
     record({now_.hi, CollisionKind::body_body, a, b, xa + world_.radius[a] * n, n, approach, separation, e, impulse,
             lost});

@@ -77,6 +77,12 @@ class ExactSimulator final : public Simulator {
     std::size_t count = 0;
   };
 
+  /// A body's slow impacts with others that came one upon the other.
+  struct Burst {
+    double start = 0;  // s
+    int impacts = 0;
+  };
+
   bool before(Entity i, Entity j) const;
   struct Before {
     const ExactSimulator* simulator;
@@ -107,6 +113,7 @@ class ExactSimulator final : public Simulator {
   Vec3 contact_acceleration(Entity i);
   Vec3 free_acceleration(Entity i, Entity without) const;
   void touch_down(Entity i);
+  bool in_burst(Entity i, double slow);
   bool in_contact(Entity i, Entity surface) const;
   Vec3 contact_normal(const Contact& contact) const;
   double slow_speed(double press, double length) const;
@@ -129,6 +136,7 @@ class ExactSimulator final : public Simulator {
   std::vector<Region> region_;
   std::vector<std::vector<Entity>> near_;  // bodies and surfaces that may be met within the region
   std::vector<Contacts> contacts_;         // empty where nothing can rest: no gravity or no surface
+  std::vector<Burst> burst_;               // empty where contacts_ is
   RegionGrid grid_;
   Tournament<Before> queue_;
 

@@ -20,8 +20,8 @@ class Simulator {
  public:
   virtual ~Simulator() = default;
 
-  /// Goes on to `time` (s), or less far: until the collision buffer is full, or many events have passed. Call again while time() < `time`.
-  /// Throws SimulationError.
+  /// Goes on to `time` (s), or less far: until the collision buffer is full, or many events have passed. Call again
+  /// while time() < `time`. Throws SimulationError.
   virtual void advance_to(double time) = 0;
   virtual double time() const = 0;   // s
   virtual const State& state() = 0;  // at time(); valid until the next advance_to

@@ -269,16 +269,16 @@ TEST(Run, NoCollisionLeavesTheTimesNullAndTheCellsEmpty) {
   EXPECT_NE(here.read("output/apart/summary.csv").find(",exact,done,0.1,2,0,0,0,,,"), std::string::npos);
 }
 
-TEST(Run, ImpulsesCountAsWorkAndNotAsDrift) {
+TEST(Run, ImpulsesBelongToTheStartAndAreNoDrift) {
   const Workplace here;
   here.write("push.yaml",
              "scene: 1\ngravity: [0, 0, 0]\n"
              "balls: {one: {mass: 2, radius: 0.1, position: [0, 0, 0], velocity: [1, 0, 0], impulse: [4, 0, 0]}}\n"
              "simulate: {duration: 1}\n");
   const Json summary = Json::parse(here.carom({"run", "push.yaml", "--json"}).out).at("scenes").at(0).at("summary");
-  EXPECT_EQ(summary.at("energy_start_J"), 1);  // 2 kg at 1 m/s
-  EXPECT_EQ(summary.at("energy_end_J"), 9);    // 2 kg at 3 m/s
-  EXPECT_EQ(summary.at("work_J"), 8);
+  EXPECT_EQ(summary.at("energy_start_J"), 9);  // 2 kg at 3 m/s
+  EXPECT_EQ(summary.at("energy_end_J"), 9);
+  EXPECT_EQ(summary.at("work_J"), 0);
   EXPECT_EQ(summary.at("energy_residual_J"), 0);
   EXPECT_EQ(summary.at("momentum_drift_kg_m_per_s"), 0);
 }

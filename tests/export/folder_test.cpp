@@ -378,7 +378,7 @@ TEST(OutputFile, ANameThatLeadsElsewhereIsRefused) {
   TempFolder temp;
   const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY));
   for (const std::string name : {"../x", "a/b", "/x", ".", "..", "", ".x"})
-    EXPECT_THROW(OutputFile(Place{folder.get(), temp.path()}, name), ExportError) << name;
+    EXPECT_THROW(OutputFile(FilePlace{folder.get(), temp.path()}, name), ExportError) << name;
   EXPECT_EQ(names_in(temp.path()), Names{});
 }
 

@@ -25,8 +25,9 @@ struct Played {
   std::vector<Collision> collisions;  // without the ends of bounces
   std::vector<Collision> rests;
   std::vector<State> states;  // at `times`, in order
-  State end;
-  Tally tally;
+  double energy_start = 0;    // J, of the simulator's state at time 0
+  State end = {};
+  Tally tally = {};
 
   Entity number(const std::string& name) const;  // of a ball or a fixed thing
   /// Collisions in which it takes part.

@@ -6,20 +6,10 @@
 #include <cstring>
 
 #include "simulate/build.h"
+#include "simulate/random.h"
 
 namespace carom {
 namespace {
-
-class Random {
- public:
-  double operator()(double low, double high) {
-    state_ = state_ * 6364136223846793005ull + 1442695040888963407ull;
-    return low + (high - low) * static_cast<double>(state_ >> 11) * 0x1p-53;
-  }
-
- private:
-  std::uint64_t state_ = 42;
-};
 
 /// side^3 balls on a lattice in a room, at the given number of balls per cubed diameter.
 Problem gas(int side, double density, double e = 1, bool mixed = false) {

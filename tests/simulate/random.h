@@ -1,0 +1,21 @@
+#pragma once
+// The tests' own random numbers: the same on every machine.
+#include <cstdint>
+
+namespace carom {
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed = 42) : state_(seed * 7919 + 13) {
+    for (int i = 0; i < 5; ++i) (*this)(0, 1);
+  }
+  double operator()(double low, double high) {
+    state_ = state_ * 6364136223846793005ull + 1442695040888963407ull;
+    return low + (high - low) * static_cast<double>(state_ >> 11) * 0x1p-53;
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace carom
