@@ -190,6 +190,7 @@ TEST(ReadmeFirstScene, RunAndCheckPrintWhatItSays) {
 TEST(ReadmeFirstScene, NumbersAreTheRuns) {
   const Scene scene = load_scene(SCENES_DIR "/two_bowling_balls.yaml");
   const auto simulator = make_simulator(scene, true);
+  const double start = kinetic_energy(scene.world, simulator->state());
   simulator->advance_to(scene.simulate.duration);
   ASSERT_EQ(simulator->collisions().size(), 1u);
   EXPECT_EQ(simulator->collisions()[0].time, said("(3 - 0.11 √2) / 2 = "));
@@ -197,7 +198,7 @@ TEST(ReadmeFirstScene, NumbersAreTheRuns) {
   EXPECT_EQ(scene.world.impulse[1].norm(), said("gets a push of "));
   EXPECT_EQ(scene.world.impulse[1].norm() / scene.world.mass[1], said("at time 0 and so "));
   EXPECT_NEAR(2 * scene.world.radius[0], said("their centres are "), 1e-16);
-  EXPECT_NEAR(simulator->tally().work, said("The pushes do "), 1e-13);
+  EXPECT_NEAR(start, said("The pushes give "), 1e-13);
   EXPECT_NEAR(simulator->tally().energy_lost, said("(1 - e²)/2 of it here, "), 1e-13);
 }
 
