@@ -127,8 +127,8 @@ Vec3 starting_momentum(const Scene& scene) {
 }
 
 // The energy at the start is that of energy.csv's first row: the exact engine's bodies have their impulses by then, the
-// book engine's get theirs as a force of the first frame, whose work counts. What energy the collisions, work and motion do
-// not account for is the residual: zero but for rounding.
+// book engine's get theirs as a force of the first frame, whose work counts. What energy the collisions, work and
+// motion do not account for is the residual: zero but for rounding.
 Summary summarize(const Scene& scene, const EngineChoice& engine, double energy_start, const State& end,
                   const Tally& tally) {
   Summary summary;

@@ -12,10 +12,10 @@ struct Tally {
   double first_collision = std::numeric_limits<double>::quiet_NaN();  // s, NaN: none
   double last_collision = std::numeric_limits<double>::quiet_NaN();   // s, NaN: none
   double energy_lost = 0;                                             // J, by collisions and by coming to rest
-  double work = 0;            // J, by forces that have no potential
-  double max_overlap = 0;     // m, deepest seen
-  double max_speed = 0;       // m/s, greatest seen
-  std::uint64_t resting = 0;  // bodies in resting contact now
+  double work = 0;                                                    // J, by forces that have no potential
+  double max_overlap = 0;                                             // m, deepest seen
+  double max_speed = 0;                                               // m/s, greatest seen
+  std::uint64_t resting = 0;                                          // bodies in resting contact now
 
   std::uint64_t collisions() const { return body_body + body_fixed + merges; }
 };

@@ -17,8 +17,10 @@ layout(location = 1) in vec3 u;          // half side
 layout(location = 2) in vec3 v;          // half side
 layout(location = 3) in vec4 ball_in;    // centre, radius
 layout(location = 4) in vec3 normal_in;  // of the surface
+layout(location = 5) in vec2 kind_in;    // 1: the ball's closeness darkens, 0: its shadow; 1: other planes may cut it off
 flat out vec4 ball;
 flat out vec3 normal;
+flat out vec2 kind;
 out vec3 p;
 uniform vec2 tangent;
 uniform float near;
@@ -26,6 +28,7 @@ uniform float near;
 void main() {
   ball = ball_in;
   normal = normal_in;
+  kind = kind_in;
   vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2 - 1;
   p = origin + corner.x * u + corner.y * v;
   // The depth near / z as in the backdrop, a ten-thousandth nearer.
@@ -36,6 +39,7 @@ void main() {
 const char* const fragment_shader = R"(
 flat in vec4 ball;
 flat in vec3 normal;
+flat in vec2 kind;
 in vec3 p;
 uniform sampler2D lit;
 uniform vec4 planes[PLANES + 1];  // normal, the eye's height
@@ -44,15 +48,20 @@ layout(location = 0) out vec4 color;
 
 void main() {
   // Beyond another plane this surface is cut off, though nothing else may hide it there.
-  for (int k = 0; k < PLANES; ++k)
-    if (dot(planes[k].xyz, p) + planes[k].w < -slack) discard;
+  if (kind.y > 0)
+    for (int k = 0; k < PLANES; ++k)
+      if (dot(planes[k].xyz, p) + planes[k].w < -slack) discard;
   vec4 now = texelFetch(lit, ivec2(gl_FragCoord.xy), 0);
   vec3 to_ball = ball.xyz - p;
-  float open = through_ball(p, towards_light(0, p), to_ball, ball.w);
-  // A sphere above the horizon takes cos(angle) (r / d)^2 of an even sky's light.
-  float d2 = max(dot(to_ball, to_ball), 1e-30);
-  float taken = dot(normal, to_ball) * ball.w * ball.w / (d2 * sqrt(d2));
-  float sky = 1 - 0.85 * clamp((taken - 0.04) / 0.96, 0, 1);
+  float open = 1, sky = 1;
+  if (kind.x > 0) {
+    // A sphere above the horizon takes cos(angle) (r / d)^2 of an even sky's light.
+    float d2 = max(dot(to_ball, to_ball), 1e-30);
+    float taken = dot(normal, to_ball) * ball.w * ball.w / (d2 * sqrt(d2));
+    sky = 1 - 0.85 * clamp((taken - LEAST_TAKEN) / (1 - LEAST_TAKEN), 0, 1);
+  } else {
+    open = through_ball(p, towards_light(0, p), to_ball, ball.w);
+  }
   color = vec4(now.rgb * mix(vec3(open), vec3(sky), part_in_shadow(now.a)), 1);
 }
 )";
@@ -62,6 +71,7 @@ std::size_t cutting_planes(const Surfaces& surfaces) {
   return surfaces.planes() > 1 ? std::min<std::size_t>(surfaces.planes(), 200) : 0;
 }
 
+constexpr double least_taken = 0.1;   // of the sky: a ball that takes less darkens nothing
 constexpr double least_slope = 0.03;  // light that grazes a surface more than this lights it too little to cast shadows
 
 }  // namespace
@@ -71,8 +81,9 @@ Shade::Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces)
       lighting_(lighting),
       surfaces_(surfaces),
       program_({vertex_shader},
-               {fmt::format("#define PLANES {}\n", cutting_planes(surfaces)), lighting.shader(), fragment_shader}),
-      instances_({3, 3, 3, 4, 3}) {
+               {fmt::format("#define PLANES {}\n#define LEAST_TAKEN {}\n", cutting_planes(surfaces), least_taken),
+                lighting.shader(), fragment_shader}),
+      instances_({3, 3, 3, 4, 3, 2}) {
   program_.use();
   lighting.set(program_);
   glUniform2f(program_.at("tangent"), static_cast<float>(eye.tan_x), static_cast<float>(eye.tan_y));
@@ -93,7 +104,8 @@ bool Shade::in_picture(const Vec3& center, double radius) const {
          (y - z * eye_.tan_y) < radius * std::hypot(1, eye_.tan_y);
 }
 
-void Shade::add(const Ball& ball, std::size_t surface, const Vec3& origin, const Vec3& u, const Vec3& v) {
+void Shade::add(Darkens darkens, const Ball& ball, std::size_t surface, const Vec3& origin, const Vec3& u,
+                const Vec3& v) {
   const Surface& s = surfaces_.all()[surface];
   if (s.wall) {  // off the rectangle there is nothing to darken
     const Vec3 offset = origin - s.center;
@@ -108,6 +120,15 @@ void Shade::add(const Ball& ball, std::size_t surface, const Vec3& origin, const
   push(origin), push(u), push(v);
   push(ball.center), rows_.push_back(static_cast<float>(ball.radius));
   push(s.normal);
+  const auto cuts = [&](const Surface& plane) {  // a corner of the rectangle is behind it
+    const double low =
+        plane.normal.dot(origin) + plane.height - std::abs(plane.normal.dot(u)) - std::abs(plane.normal.dot(v));
+    return low < -1e-6 * surfaces_.reach();
+  };
+  const auto planes = surfaces_.all().begin();
+  const bool cut = std::any_of(planes, planes + static_cast<std::ptrdiff_t>(cutting_planes(surfaces_)), cuts);
+  rows_.push_back(darkens == Darkens::by_closeness ? 1.0F : 0.0F);
+  rows_.push_back(cut ? 1.0F : 0.0F);
 }
 
 void Shade::add_shadow(const Ball& ball, std::size_t surface) {
@@ -125,7 +146,7 @@ void Shade::add_shadow(const Ball& ball, std::size_t surface) {
     if (along * blur > 12 * ball.radius) return;
     Vec3 down = l - slope * s.normal;  // along the surface, towards the light
     down = down.norm() > 1e-9 ? Vec3(down.normalized()) : s.right;
-    add(ball, surface, ball.center - height * s.normal - height * tilt * down, wide / slope * down,
+    add(Darkens::by_shadow, ball, surface, ball.center - height * s.normal - height * tilt * down, wide / slope * down,
         wide * s.normal.cross(down));
     return;
   }
@@ -143,18 +164,20 @@ void Shade::add_shadow(const Ball& ball, std::size_t surface) {
   if (radius <= 1e-3 * ball.radius) return;
   const Vec3 foot = lighting_.key() - lamp_height * s.normal;
   const auto place = [&](double x, double y) { return Vec3(lamp_height * (x * s.right + y * across)); };
-  add(ball, surface, foot + place(o.x, o.y), place(o.ax, o.ay), place(o.bx, o.by));
+  add(Darkens::by_shadow, ball, surface, foot + place(o.x, o.y), place(o.ax, o.ay), place(o.bx, o.by));
 }
 
 void Shade::add_closeness(const Ball& ball, std::size_t surface) {
-  // cos (r / d)^2 at the foot's distance x is h r^2 / (h^2 + x^2)^(3/2): where that falls to 0.04 it has faded out.
+  // cos (r / d)^2 at the foot's distance x is h r^2 / (h^2 + x^2)^(3/2): where that falls to least_taken it has faded
+  // out.
   const Surface& s = surfaces_.all()[surface];
   const double height = s.normal.dot(ball.center) + s.height;
-  if (height <= 0 || height > 5 * ball.radius) return;
-  const double d = std::cbrt(height * ball.radius * ball.radius / 0.04);
+  if (height <= 0) return;
+  const double d = std::cbrt(height * ball.radius * ball.radius / least_taken);
   if (d <= height) return;
   const double wide = std::sqrt(d * d - height * height);
-  add(ball, surface, ball.center - height * s.normal, wide * s.right, wide * s.normal.cross(s.right));
+  add(Darkens::by_closeness, ball, surface, ball.center - height * s.normal, wide * s.right,
+      wide * s.normal.cross(s.right));
 }
 
 void Shade::draw(std::span<const Ball> balls, const Backdrop& backdrop) {

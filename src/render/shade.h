@@ -19,7 +19,8 @@ class Shade {
  private:
   void add_shadow(const Ball& ball, std::size_t surface);
   void add_closeness(const Ball& ball, std::size_t surface);
-  void add(const Ball& ball, std::size_t surface, const Vec3& origin, const Vec3& u, const Vec3& v);
+  enum class Darkens { by_shadow, by_closeness };
+  void add(Darkens darkens, const Ball& ball, std::size_t surface, const Vec3& origin, const Vec3& u, const Vec3& v);
   bool in_picture(const Vec3& center, double radius) const;
 
   const Eye& eye_;

@@ -13,19 +13,20 @@ namespace carom {
 /// How much a scene may ask for before anything is allocated for it.
 struct Budget {
   std::uint64_t bodies = 2'000'000;
-  std::uint64_t frames = 100'000;            // pictures of all kinds together
-  std::uint64_t rows = 200'000'000;          // of trajectory.csv
-  bool enforced = true;                      // --force: false
+  std::uint64_t frames = 100'000;    // pictures of all kinds together
+  std::uint64_t rows = 200'000'000;  // of trajectory.csv
+  bool enforced = true;              // --force: false
 };
 
 struct LoadOptions {
   std::vector<std::string> set;       // "path=value", in order
   std::optional<std::uint64_t> seed;  // overrules the file's
   Budget budget;
-  bool color = false;                 // colour in the texts of errors
+  bool color = false;  // colour in the texts of errors
 };
 
-/// All that is wrong with a scene file, as text for a terminal: per error file:line:column, the line, a caret, the remedy.
+/// All that is wrong with a scene file, as text for a terminal: per error file:line:column, the line, a caret, the
+/// remedy.
 struct SceneError : std::runtime_error {
   SceneError(const std::string& text, std::size_t errors) : std::runtime_error(text), count(errors) {}
   std::size_t count;

@@ -27,7 +27,8 @@ class Random {
   bool has_spare_ = false;
 };
 
-/// Natural logarithm of x, 0 < x <= 1, relative error below 2.5 * 2^-52: ln x = e ln 2 + 2 artanh((m - 1) / (m + 1)) with x = m 2^e.
+/// Natural logarithm of x, 0 < x <= 1, relative error below 2.5 * 2^-52: ln x = e ln 2 + 2 artanh((m - 1) / (m + 1))
+/// with x = m 2^e.
 double reproducible_log(double x);
 
 }  // namespace carom

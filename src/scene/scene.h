@@ -34,31 +34,31 @@ struct FixedName {
 
 /// Who is who, in the order of the file, which is the order of every output.
 struct Roster {
-  std::vector<BodyRange> bodies;   // by first
-  std::vector<FixedName> fixed;    // by entity: the planes, then the walls
-  std::string name(Entity e) const;             // "red", "gas.17", "lane"
-  const BodyRange& range_of(Entity body) const; // the range that holds this body
+  std::vector<BodyRange> bodies;                 // by first
+  std::vector<FixedName> fixed;                  // by entity: the planes, then the walls
+  std::string name(Entity e) const;              // "red", "gas.17", "lane"
+  const BodyRange& range_of(Entity body) const;  // the range that holds this body
 };
 
 enum class Engine : std::uint8_t { automatic, exact, stepped, book };
 
 struct Simulate {
-  double duration = 0;                  // s
+  double duration = 0;  // s
   Engine engine = Engine::automatic;
-  std::optional<double> step;           // s
-  std::optional<double> rest_speed;     // m/s
+  std::optional<double> step;        // s
+  std::optional<double> rest_speed;  // m/s
   std::optional<std::uint64_t> max_collisions;
-  bool as_printed = false;              // book only
+  bool as_printed = false;  // book only
 };
 
 struct Camera {
-  Vec3 eye;                // m
-  Vec3 target;             // m
+  Vec3 eye;     // m
+  Vec3 target;  // m
   Vec3 up = Vec3(0, 1, 0);
-  double fov = 45;         // degrees, along fov_horizontal's axis
+  double fov = 45;  // degrees, along fov_horizontal's axis
   bool fov_horizontal = false;
-  double near = 0.1;       // m
-  double far = 1000;       // m
+  double near = 0.1;  // m
+  double far = 1000;  // m
 };
 
 struct Light {
@@ -83,9 +83,9 @@ struct EnergyOutput {
 struct FramesOutput {
   double fps = 30;
   Size size;
-  int samples = 4;                // per pixel
-  double from = 0;                // s
-  std::optional<double> until;    // s; none: the duration
+  int samples = 4;              // per pixel
+  double from = 0;              // s
+  std::optional<double> until;  // s; none: the duration
 };
 struct VideoOutput {
   std::string file = "animation.mp4";  // a plain file name
@@ -100,7 +100,8 @@ struct SheetOutput {
   int columns = 4, rows = 3;
 };
 
-/// What the run shall write; absent means not wanted and nothing is made for it. summary, manifest and scene.yaml always are.
+/// What the run shall write; absent means not wanted and nothing is made for it. summary, manifest and scene.yaml
+/// always are.
 struct Output {
   std::optional<TrajectoryOutput> trajectory;
   bool collisions = false;
@@ -112,15 +113,15 @@ struct Output {
 };
 
 struct Scene {
-  std::string file;    // as named on the command line
+  std::string file;  // as named on the command line
   std::string title;
   std::uint64_t seed = 0;
   World world;
-  State initial;       // at time 0, before impulses
+  State initial;  // at time 0, before impulses
   Roster roster;
   Simulate simulate;
   std::optional<Camera> camera;
-  std::vector<Light> lights;             // empty: the renderer's own
+  std::vector<Light> lights;  // empty: the renderer's own
   std::optional<Color> ambient;
   std::optional<Color> background;
   Output output;

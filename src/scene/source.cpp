@@ -187,7 +187,8 @@ bool check_text(Source& source, std::uint32_t index, Diagnostics& diagnostics) {
         return false;
       }
       if (brackets > max_brackets) {
-        diagnostics.add(one_byte(index, i), fmt::format("more than {} brackets, quotes, commas and colons", max_brackets),
+        diagnostics.add(one_byte(index, i),
+                        fmt::format("more than {} brackets, quotes, commas and colons", max_brackets),
                         "many balls of one kind are a group: `groups`");
         return false;
       }

@@ -144,8 +144,8 @@ TEST(Shadow, WhereABallTouchesTheFloorItIsDarkWithoutAnyKeyLight) {
   const double dark = grey(renderer.draw(scene.initial), x, y);
   State away = scene.initial;
   away.position[0] = Vec3(3, 0.5, 0);
-  // Of the sky cos (r / d)^2 = 0.305 is hidden; by the formula of shade.cpp 0.765 of the light is left.
-  EXPECT_NEAR(dark / grey(renderer.draw(away), x, y), std::pow(0.765, 1 / 2.4), 0.02);
+  // Of the sky cos (r / d)^2 = 0.305 is hidden; by the formula of shade.cpp 0.807 of the light is left.
+  EXPECT_NEAR(dark / grey(renderer.draw(away), x, y), std::pow(0.807, 1 / 2.4), 0.02);
 }
 
 }  // namespace

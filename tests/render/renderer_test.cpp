@@ -37,7 +37,7 @@ TEST(Bytes, AreTheSameAtEveryDraw) {
 
 /// Not a claim of its own: prints a picture's hash for the test below, which runs it in processes of its own.
 TEST(Bytes, Probe) {
-  if (!std::getenv("CAROM_PRINT_HASH")) GTEST_SKIP();
+  if (!std::getenv("CAROM_PRINT_HASH")) return;  // only the test below asks
   std::printf("hash=%016llx\n", static_cast<unsigned long long>(hash_of(drawn(test::gas(60), {320, 180}))));
 }
 

@@ -62,8 +62,8 @@ std::vector<Collision> Played::of(const std::string& name) const {
 Played play(const std::string& name, const std::vector<double>& times) {
   Played run{load_scene(SCENES_DIR "/" + name + ".yaml"), {}, {}, {}, {}, {}};
   const auto simulator = make_simulator(run.scene, true);
-  run.energy_start = kinetic_energy(run.scene.world, simulator->state()) +
-                     potential_energy(run.scene.world, simulator->state());
+  run.energy_start =
+      kinetic_energy(run.scene.world, simulator->state()) + potential_energy(run.scene.world, simulator->state());
   const auto go_to = [&](double time) {
     do {
       simulator->advance_to(time);
