@@ -16,7 +16,8 @@ namespace {
 
 TEST(Restitution, EveryRuleGivesTheReferencesNumber) {
   std::ifstream file(std::string(DATA_DIR) + "/references/restitution_rules.json");
-  for (const auto& r : nlohmann::json::parse(file)["rows"]) {
+  const auto all = nlohmann::json::parse(file);
+  for (const auto& r : all["rows"]) {
     const double a = r["e1"], b = r["e2"];
     const auto e = [&](Combine rule) { return combine_restitution(rule, a, 1, b, 1); };
     EXPECT_DOUBLE_EQ(e(Combine::average), r["average"]);

@@ -101,7 +101,8 @@ TEST(Book, TheTextsVersionNeverHandlesAPairTwice) {
 }
 
 TEST(Book, AsPrintedTakesTheFirstBallsRadiusTwice) {
-  for (const auto& r : reference("book_slips")["slip2_radius"]) {
+  const auto radii = reference("book_slips")["slip2_radius"];
+  for (const auto& r : radii) {
     Phase p;
     const double r0 = r["r0"], r1 = r["r1"], fine = 1e-5;
     p.problem.ball({-2, 0, 0}, {v, 0, 0}, 10, r0, 0.9);
