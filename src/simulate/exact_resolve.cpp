@@ -85,8 +85,9 @@ void ExactSimulator::collide_pair(Entity a, Entity b) {
   if (!hopping_a && !hopping_b)
     record({now_.hi, CollisionKind::body_body, a, b, xa + world_.radius[a] * n, n, approach, separation, e, impulse,
             lost});
-  restart(a, xa, keep_contacts(a, va - (impulse / ma) * n, true), {b, no_feature, hopping_a});
-  restart(b, xb, keep_contacts(b, vb + (impulse / mb) * n, true), {a, no_feature, hopping_b});
+  const double floor_slow = slow_speed(world_.gravity.norm(), std::min(world_.radius[a], world_.radius[b]));
+  restart(a, xa, keep_contacts(a, va - (impulse / ma) * n, hopping_a ? never : floor_slow), {b, no_feature, hopping_a});
+  restart(b, xb, keep_contacts(b, vb + (impulse / mb) * n, hopping_b ? never : floor_slow), {a, no_feature, hopping_b});
   predict(a);
   predict(b);
 }
@@ -149,9 +150,11 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
   }
   if (rests) {
     settle(i, contact);
-    restart(i, x + gap * n, keep_contacts(i, v - approach * n, false), {surface, feature, hopping});
+    restart(i, x + gap * n, keep_contacts(i, v - approach * n, 0), {surface, feature, hopping});
   } else {
-    restart(i, x, keep_contacts(i, v - (approach + separation) * n, hopping), {surface, feature, hopping});
+    restart(i, x,
+            keep_contacts(i, v - (approach + separation) * n, hopping ? slow_speed(world_.gravity.norm(), radius) : 0),
+            {surface, feature, hopping});
   }
   predict(i);
 }
@@ -198,7 +201,7 @@ void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
 /// A body's velocity has become v: which contacts still carry it? One that it leaves, or strikes, is given up (the
 /// strike comes next, as an event), unless the hop or the bounce would be one that numbers cannot tell from none.
 /// `absorb`: nor if the strike is slower than slow_speed. Gives the velocity that the contacts allow.
-Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v, bool absorb) {
+Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v, double absorb) {
   if (contacts_.empty() || contacts_[i].count == 0) return v;
   Contacts& contacts = contacts_[i];
   const Vec3 x = flight_[i].position(now_ - flight_[i].start);
@@ -210,8 +213,8 @@ Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v, bool absorb) {
     const Vec3 n = -contact_normal(contact);
     const double u = n.dot(v);  // into the surface
     press[k] = n.dot(free_acceleration(i, contact.surface));
-    keep[k] = std::abs(u) <= noise || (press[k] > 0 && too_low(x, u, press[k])) ||
-              (absorb && press[k] > 0 && u > 0 && u <= slow_speed(press[k], world_.radius[i]));
+    keep[k] =
+        std::abs(u) <= noise || (press[k] > 0 && too_low(x, u, press[k])) || (press[k] > 0 && u > 0 && u <= absorb);
     if (keep[k] || u < 0 || press[k] <= 0) continue;
     const double e = pair_restitution(world_, i, contact.surface);
     keep[k] = e < 1 && now_.hi + 2 * e * u / (press[k] * (1 - e)) == now_.hi;

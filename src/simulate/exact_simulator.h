@@ -109,7 +109,7 @@ class ExactSimulator final : public Simulator {
   void settle(Entity i, const Contact& contact);
   void release(Entity i, Entity surface, std::uint8_t edge);
   void finish_rest(Entity i);
-  Vec3 keep_contacts(Entity i, Vec3 v, bool absorb);
+  Vec3 keep_contacts(Entity i, Vec3 v, double absorb);
   Vec3 contact_acceleration(Entity i);
   Vec3 free_acceleration(Entity i, Entity without) const;
   void touch_down(Entity i);
@@ -144,8 +144,9 @@ class ExactSimulator final : public Simulator {
   bool state_fresh_ = false;
   std::vector<Collision> collisions_;
   Tally tally_;
-  Sum energy_lost_;                   // J
-  std::uint64_t events_at_once_ = 0;  // since the clock last moved
+  Sum energy_lost_;           // J
+  std::uint64_t events_ = 0;  // since the clock was last looked at,
+  Instant looked_at_;         // which was then
 };
 
 }  // namespace carom
