@@ -8,9 +8,10 @@ namespace carom {
 
 namespace {
 
+/// At least |v|.
 double sum_of_speeds(const Vec3& v) {
   return v.cwiseAbs().sum();
-}  // at least |v|
+}
 
 }  // namespace
 
