@@ -200,7 +200,8 @@ void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
 
 /// A body's velocity has become v: which contacts still carry it? One that it leaves, or strikes, is given up (the
 /// strike comes next, as an event), unless the hop or the bounce would be one that numbers cannot tell from none.
-/// A strike no faster than `absorb` (m/s) is taken up by the contact as well. Gives the velocity that the contacts allow.
+/// A strike no faster than `absorb` (m/s) is taken up by the contact as well. Gives the velocity that the contacts
+/// allow.
 Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v, double absorb) {
   if (contacts_.empty() || contacts_[i].count == 0) return v;
   Contacts& contacts = contacts_[i];
