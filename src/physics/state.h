@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "physics/vec3.h"
+#include "physics/world.h"
 
 namespace carom {
 
@@ -10,6 +11,13 @@ struct State {
   double time = 0;             // s
   std::vector<Vec3> position;  // m, of the centre, by body
   std::vector<Vec3> velocity;  // m/s, by body
+
+  // Where bodies have merged (empty: none has). A body that has become part of another keeps its own mass and radius in
+  // the World; here it weighs nothing, and its position and velocity are the joint body's.
+  std::vector<double> mass;     // kg, by body
+  std::vector<double> radius;   // m, by body, of the smallest sphere about the volume
+  std::vector<Volume> volume;   // by body
+  std::vector<Entity> part_of;  // the body that it is part of; itself: none
 };
 
 }  // namespace carom

@@ -9,10 +9,11 @@ struct Tally {
   std::uint64_t body_body = 0;   // collisions
   std::uint64_t body_fixed = 0;  // collisions
   std::uint64_t merges = 0;
+  std::uint64_t collapses = 0;  // clusters of bodies that hit each other ever faster and slower, taken into contact
   double first_collision = std::numeric_limits<double>::quiet_NaN();  // s, NaN: none
   double last_collision = std::numeric_limits<double>::quiet_NaN();   // s, NaN: none
   double energy_lost = 0;                                             // J, by collisions and by coming to rest
-  double work = 0;                                                    // J, by forces that have no potential
+  double work = 0;                                                    // J, by the World's forces (gravity apart)
   double max_overlap = 0;                                             // m, deepest seen
   double max_speed = 0;                                               // m/s, greatest seen
   std::uint64_t resting = 0;                                          // bodies in resting contact now

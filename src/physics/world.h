@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "physics/vec3.h"
+#include "physics/volume.h"
 
 namespace carom {
 
-/// A body or a fixed surface, by number: bodies are 0 .. body_count()-1, then the planes, then the walls.
+/// A body or a fixed thing, by number: bodies are 0 .. body_count()-1, then the planes, the walls, the obstacles.
 using Entity = std::uint32_t;
 inline constexpr Entity no_entity = std::numeric_limits<Entity>::max();
 
@@ -32,6 +33,22 @@ struct Wall {
   std::optional<double> restitution;  // none: the moving body's
 };
 
+/// A body that never moves.
+struct Obstacle {
+  Vec3 center;  // m
+  Volume volume;
+  std::optional<double> restitution;  // none: the moving body's
+};
+
+/// A constant force in a window of time, on some bodies or on all.
+struct Force {
+  bool per_mass;                                           // value is an acceleration (m/s^2); else a force (N)
+  Vec3 value;                                              //
+  double from = 0;                                         // s, when it sets in
+  double until = std::numeric_limits<double>::infinity();  // s, when it ceases
+  std::vector<Entity> on;                                  // ascending; empty: all bodies
+};
+
 /// How two bodies' coefficients of restitution make the pair's (restitution.h).
 enum class Combine : std::uint8_t { average, minimum, maximum, product, geometric_mean, mass_weighted, book };
 
@@ -45,21 +62,41 @@ struct PairRestitution {
 /// Bodies, fixed surfaces and the laws between them. Arrays are indexed by body.
 struct World {
   std::vector<double> mass;         // kg, > 0
-  std::vector<double> radius;       // m, > 0, of the bounding sphere
+  std::vector<double> radius;       // m, > 0: volume.reach(), a ball's own radius
+  std::vector<Volume> volume;       // about the position; empty: all are spheres
   std::vector<double> restitution;  // >= 0; above 1 makes energy
   std::vector<Vec3> impulse;        // N s, given at time 0; empty: none at all
   std::vector<Plane> planes;
   std::vector<Wall> walls;
+  std::vector<Obstacle> obstacles;
+  std::vector<Force> forces;
   Vec3 gravity = Vec3(0, -9.80665, 0);  // m/s^2
   Combine combine = Combine::average;
   std::vector<PairRestitution> pairs;  // the last one that fits wins
 
   Entity body_count() const { return static_cast<Entity>(mass.size()); }
-  Entity fixed_count() const { return static_cast<Entity>(planes.size() + walls.size()); }
+  Entity fixed_count() const { return static_cast<Entity>(planes.size() + walls.size() + obstacles.size()); }
   bool is_body(Entity e) const { return e < body_count(); }
   bool is_plane(Entity e) const { return e >= body_count() && e - body_count() < planes.size(); }
+  bool is_wall(Entity e) const { return e >= walls_from() && e < obstacles_from(); }
+  bool is_obstacle(Entity e) const { return e >= obstacles_from(); }
   const Plane& plane(Entity e) const { return planes[e - body_count()]; }
-  const Wall& wall(Entity e) const { return walls[e - body_count() - planes.size()]; }
+  const Wall& wall(Entity e) const { return walls[e - walls_from()]; }
+  const Obstacle& obstacle(Entity e) const { return obstacles[e - obstacles_from()]; }
+
+  /// Of a body or an obstacle.
+  Volume volume_of(Entity e) const {
+    if (!is_body(e)) return obstacle(e).volume;
+    return volume.empty() ? Volume::sphere(radius[e]) : volume[e];
+  }
+  /// m: a plane's point, a wall's or an obstacle's centre.
+  const Vec3& fixed_position(Entity e) const {
+    return is_plane(e) ? plane(e).point : is_wall(e) ? wall(e).center : obstacle(e).center;
+  }
+
+ private:
+  std::size_t walls_from() const { return body_count() + planes.size(); }
+  std::size_t obstacles_from() const { return walls_from() + walls.size(); }
 };
 
 }  // namespace carom

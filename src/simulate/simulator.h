@@ -15,6 +15,13 @@ struct SimulationError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Two things that press on each other in lasting contact.
+struct ContactForce {
+  Entity a;      // the body with the lower number, or the only one
+  Entity b;      // the other body, or the fixed thing
+  double force;  // N, along the normal, > 0
+};
+
 /// Carries a World forward from its initial State. Asking never changes what happens next.
 class Simulator {
  public:
@@ -28,6 +35,7 @@ class Simulator {
   virtual std::span<const Collision> collisions()
       const = 0;                           // since the last advance_to, in order; empty if not recorded
   virtual const Tally& tally() const = 0;  // up to time()
+  virtual std::span<const ContactForce> contacts() { return {}; }  // at time(), by a, then b; until the next advance_to
 };
 
 }  // namespace carom

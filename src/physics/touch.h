@@ -1,0 +1,48 @@
+#pragma once
+// How any two things of a World lie to each other and when they meet: the one table of pairs of volumes. a is a body; b
+// a body or a fixed thing, whose position is world.fixed_position(b). Two volumes that do not turn touch where a point,
+// x_b - x_a, meets their Minkowski sum: sphere and box make a rounded box, two cylinders a cylinder, sphere and
+// cylinder a cylinder with a rim rounded as a torus, box and cylinder a rounded prism, two boxes a box.
+#include <cstdint>
+
+#include "physics/contact_time.h"
+#include "physics/vec3.h"
+#include "physics/world.h"
+
+namespace carom {
+
+struct Touch {
+  double gap;            // m, negative: overlap
+  Vec3 normal;           // unit, from a to b, where they are nearest
+  Vec3 point;            // m, on a's surface where they are nearest (in the middle of an area that is)
+  std::uint8_t feature;  // of the Minkowski sum: which face, edge, corner or rim is nearest; per pair of kinds
+};
+
+/// The gap is as exact as the positions where it is small (compensated sums).
+Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb);
+
+/// Second derivative of the gap (m/s^2) under the constant relative velocity w = v_b - v_a (m/s): what the curvature of
+/// the nearest feature adds to normal . (a_b - a_a). Zero on flat features, |w x n|^2 / distance between spheres.
+double bending(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb, const Touch& touch,
+               const Vec3& w);
+
+/// Whether a pair meets at this feature in a plane for as long as it does, so that motion along it is straight.
+bool is_flat(const World& world, Entity a, Entity b, std::uint8_t feature);
+
+struct Meeting {
+  double time;           // s, or never
+  std::uint8_t feature;  // as in Touch
+};
+
+/// First t in [0, horizon] at which a and b touch and approach, from x_b - x_a = motion.d on. `left`: the feature at
+/// which the pair has just bounced (its gap is zero by definition), or no_feature; it stands for
+/// motion.just_separated.
+Meeting meeting(const World& world, Entity a, Entity b, const RelativeMotion& motion, std::uint8_t left,
+                double horizon);
+
+/// First t in (0, horizon] at which a pair in lasting contact at this feature comes to the feature's rim, and the
+/// feature beyond it; never, no_feature where it has no rim. The motion keeps to the feature.
+Meeting leave_feature(const World& world, Entity a, Entity b, std::uint8_t feature, const RelativeMotion& motion,
+                      double horizon);
+
+}  // namespace carom
