@@ -17,25 +17,34 @@ struct Color {
   double r = 1, g = 1, b = 1;
 };
 
-/// A name of the scene file and the bodies it stands for: one ball, or a group's members name.0, name.1, ...
+/// A mesh to draw in place of a volume: a vertex p of the file stands at position + scale * (p - center).
+struct MeshUse {
+  std::string file;            // a path that opens from the working folder
+  Vec3 center = Vec3::Zero();  // in the file's own units
+  double scale = 1;            // m per unit of the file
+};
+
+/// A name of the scene file and the bodies it stands for: one ball or body, or a group's members name.0, name.1, ...
 struct BodyRange {
   std::string name;
   Entity first = 0;
   Entity count = 1;
   bool group = false;
   Color color;
+  std::optional<MeshUse> mesh = std::nullopt;
 };
 
 struct FixedName {
   std::string name;  // room.x_min etc. for a room's planes
   Color color;
   bool visible = true;
+  std::optional<MeshUse> mesh = std::nullopt;  // of an obstacle
 };
 
 /// Who is who, in the order of the file, which is the order of every output.
 struct Roster {
   std::vector<BodyRange> bodies;                 // by first
-  std::vector<FixedName> fixed;                  // by entity: the planes, then the walls
+  std::vector<FixedName> fixed;                  // by entity: the planes, the walls, the obstacles
   std::string name(Entity e) const;              // "red", "gas.17", "lane"
   const BodyRange& range_of(Entity body) const;  // the range that holds this body
 };
@@ -49,11 +58,12 @@ struct Simulate {
   std::optional<double> rest_speed;  // m/s
   std::optional<std::uint64_t> max_collisions;
   bool as_printed = false;  // book only
+  bool merge = false;       // bodies that meet become one
 };
 
 struct Camera {
-  Vec3 eye;     // m
-  Vec3 target;  // m
+  Vec3 eye = Vec3::Zero();     // m
+  Vec3 target = Vec3::Zero();  // m
   Vec3 up = Vec3(0, 1, 0);
   double fov = 45;  // degrees, along fov_horizontal's axis
   bool fov_horizontal = false;
@@ -78,6 +88,9 @@ struct TrajectoryOutput {
   bool wide = false;
 };
 struct EnergyOutput {
+  double every = 1.0 / 30;  // s
+};
+struct ContactsOutput {
   double every = 1.0 / 30;  // s
 };
 struct FramesOutput {
@@ -106,6 +119,7 @@ struct Output {
   std::optional<TrajectoryOutput> trajectory;
   bool collisions = false;
   std::optional<EnergyOutput> energy;
+  std::optional<ContactsOutput> contacts;
   std::optional<FramesOutput> frames;
   std::optional<VideoOutput> video;
   std::optional<SheetOutput> sheet;
