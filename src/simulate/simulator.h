@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "physics/collision.h"
+#include "physics/contact_force.h"
 #include "physics/state.h"
 #include "physics/tally.h"
 #include "physics/world.h"
@@ -13,13 +14,6 @@ namespace carom {
 /// The run cannot go on (a limit reached, a number no longer finite). The text is for the user.
 struct SimulationError : std::runtime_error {
   using std::runtime_error::runtime_error;
-};
-
-/// Two things that press on each other in lasting contact.
-struct ContactForce {
-  Entity a;      // the body with the lower number, or the only one
-  Entity b;      // the other body, or the fixed thing
-  double force;  // N, along the normal, > 0
 };
 
 /// Carries a World forward from its initial State. Asking never changes what happens next.

@@ -1,0 +1,14 @@
+#pragma once
+// Lasting contact as it is reported.
+#include "physics/world.h"
+
+namespace carom {
+
+/// Two things that press on each other in lasting contact.
+struct ContactForce {
+  Entity a;      // the body with the lower number, or the only one
+  Entity b;      // the other body, or the fixed thing
+  double force;  // N, along the normal, > 0
+};
+
+}  // namespace carom
