@@ -1,0 +1,265 @@
+#include "render/mesh.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <new>
+#include <span>
+#include <stdexcept>
+
+#include "render/mesh_import.h"
+
+namespace carom {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What goes through the pipe first. A mesh follows as its vertices, normals and triangles, trouble as its text.
+struct Head {
+  std::uint32_t vertices = 0, triangles = 0, text = 0;
+};
+
+[[noreturn]] void fail(const std::string& path, const std::string& why) {
+  throw std::runtime_error(fmt::format("cannot read the mesh {}: {}", path, why));
+}
+
+/// The file's ending in lower case, if it is one that is read; and the file is a plain one of fair size.
+std::string check_file(const std::string& path, const MeshLimits& limits) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  if (!ending.empty()) ending.erase(0, 1);
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const auto& known = mesh_endings();
+  if (std::find(known.begin(), known.end(), ending) == known.end())
+    fail(path, fmt::format("meshes are read from files that end in .{}", fmt::join(known, ", .")));
+  // A queue or a device must not be waited for.
+  const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) fail(path, std::strerror(errno));
+  struct stat info {};
+  const bool known_kind = fstat(file, &info) == 0;
+  close(file);
+  if (!known_kind) fail(path, std::strerror(errno));
+  if (S_ISDIR(info.st_mode)) fail(path, "it is a folder");
+  if (!S_ISREG(info.st_mode)) fail(path, "it is not a regular file");
+  if (info.st_size == 0) fail(path, "it is empty");
+  if (static_cast<std::uint64_t>(info.st_size) > limits.file_bytes)
+    fail(path, fmt::format("it has {} bytes; {} are the most that is read", info.st_size, limits.file_bytes));
+  return ending;
+}
+
+// ---- the child ----
+
+void limit(int what, std::uint64_t value) {
+  rlimit bound{value, value};
+  rlimit now{};
+  if (getrlimit(static_cast<__rlimit_resource>(what), &now) == 0)
+    bound.rlim_cur = bound.rlim_max = std::min<rlim_t>(value, now.rlim_max);
+  if (setrlimit(static_cast<__rlimit_resource>(what), &bound) != 0) _exit(3);
+}
+
+std::uint64_t memory_now() {  // bytes of address space
+  unsigned long long pages = 0;
+  FILE* file = std::fopen("/proc/self/statm", "re");
+  if (!file || std::fscanf(file, "%llu", &pages) != 1) pages = 0;
+  if (file) std::fclose(file);
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+void confine(const MeshLimits& limits, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(3);
+  for (int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE, SIGXCPU, SIGXFSZ}) ::signal(signal, SIG_DFL);
+  ::signal(SIGINT, SIG_IGN);  // the parent decides
+  const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
+  for (int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (dup2(nowhere, standard) < 0) _exit(3);
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_FSIZE, 0);
+  limit(RLIMIT_CPU, limits.seconds);
+  limit(RLIMIT_AS, memory_now() + limits.memory_bytes);
+}
+
+void send(int pipe, const void* bytes, std::size_t size) {
+  const char* from = static_cast<const char*>(bytes);
+  while (size > 0) {
+    const ssize_t n = write(pipe, from, size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) _exit(3);
+    from += n;
+    size -= static_cast<std::size_t>(n);
+  }
+}
+
+void send_trouble(int pipe, const char* text) {
+  Head head;
+  head.text = static_cast<std::uint32_t>(std::min<std::size_t>(std::strlen(text), 300));
+  send(pipe, &head, sizeof head);
+  send(pipe, text, head.text);
+}
+
+[[noreturn]] void run_child(int pipe, const std::string& path, const std::string& ending, const MeshLimits& limits) {
+  try {
+    const ImportedMesh mesh = import_mesh(path, ending, limits);
+    const Head head{static_cast<std::uint32_t>(mesh.vertices.size() / 3),
+                    static_cast<std::uint32_t>(mesh.triangles.size() / 3), 0};
+    send(pipe, &head, sizeof head);
+    send(pipe, mesh.vertices.data(), mesh.vertices.size() * sizeof(float));
+    send(pipe, mesh.normals.data(), mesh.normals.size() * sizeof(float));
+    send(pipe, mesh.triangles.data(), mesh.triangles.size() * sizeof(std::uint32_t));
+  } catch (const std::bad_alloc&) {
+    send_trouble(pipe, "reading it takes too much memory");
+  } catch (const std::exception& error) {
+    send_trouble(pipe, error.what());
+  } catch (...) {
+    send_trouble(pipe, "it is damaged");
+  }
+  _exit(0);  // nothing of the parent's may be ended or flushed here
+}
+
+// ---- the parent ----
+
+/// A child process and the pipe from it; killed when it goes out of scope.
+class Reader {
+ public:
+  Reader(const std::string& path, const std::string& ending, const MeshLimits& limits)
+      : deadline_(Clock::now() + std::chrono::seconds(3 * limits.seconds)) {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) fail(path, std::strerror(errno));
+    const pid_t parent = getpid();
+    id_ = fork();
+    if (id_ == 0) {
+      confine(limits, parent);
+      run_child(ends[1], path, ending, limits);
+    }
+    const int error = errno;
+    close(ends[1]);
+    pipe_ = ends[0];
+    if (id_ < 0) {
+      close(pipe_);
+      fail(path, std::strerror(error));
+    }
+  }
+  ~Reader() {
+    end();
+    close(pipe_);
+  }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  /// False: there is no more, or the time is over.
+  bool receive(void* bytes, std::size_t size) {
+    char* to = static_cast<char*>(bytes);
+    while (size > 0) {
+      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
+      pollfd wanted{pipe_, POLLIN, 0};
+      const int ready = left > 0 ? poll(&wanted, 1, static_cast<int>(left)) : 0;
+      if (ready < 0 && errno == EINTR) continue;
+      if (ready <= 0) {
+        late_ = true;
+        return false;
+      }
+      const ssize_t n = read(pipe_, to, size);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return false;
+      to += n;
+      size -= static_cast<std::size_t>(n);
+    }
+    return true;
+  }
+
+  /// Why nothing more comes.
+  std::string trouble(const MeshLimits& limits) {
+    const int status = late_ ? 0 : wait();
+    if (late_ || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)))
+      return fmt::format("reading it takes longer than {} s; it may be damaged", limits.seconds);
+    return "it is damaged: its reader crashes";
+  }
+
+ private:
+  int wait() {
+    int status = 0;
+    pid_t ended = 0;
+    do ended = waitpid(id_, &status, 0);
+    while (ended < 0 && errno == EINTR);
+    id_ = -1;
+    return ended < 0 ? 0 : status;
+  }
+  void end() {
+    if (id_ <= 0) return;
+    kill(id_, SIGKILL);
+    wait();
+  }
+
+  Clock::time_point deadline_;
+  pid_t id_ = -1;
+  int pipe_ = -1;
+  bool late_ = false;
+};
+
+/// A reader's own words, without bytes that a terminal would act upon, and on one line.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (c < ' ' || c > '~') c = ' ';
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text.empty() ? "it is damaged" : text;
+}
+
+std::vector<Vec3> vectors(std::span<const float> values) {
+  std::vector<Vec3> result(values.size() / 3);
+  for (std::size_t i = 0; i < result.size(); ++i)
+    result[i] = Vec3(double{values[3 * i]}, double{values[3 * i + 1]}, double{values[3 * i + 2]});
+  return result;
+}
+
+}  // namespace
+
+Mesh read_mesh(const std::string& path, const MeshLimits& limits) {
+  const std::string ending = check_file(path, limits);
+  Reader reader(path, ending, limits);
+  Head head;
+  if (!reader.receive(&head, sizeof head)) fail(path, reader.trouble(limits));
+  if (head.text > 0) {
+    std::string text(std::min<std::size_t>(head.text, 300), ' ');
+    reader.receive(text.data(), text.size());
+    fail(path, printable(text));
+  }
+  // A crashing reader may send anything: nothing of it is trusted.
+  if (head.vertices > limits.vertices || head.triangles > limits.triangles || head.triangles == 0)
+    fail(path, "it is damaged");
+  std::vector<float> positions(3 * std::size_t{head.vertices}), normals(positions.size());
+  Mesh mesh;
+  mesh.triangles.resize(3 * std::size_t{head.triangles});
+  if (!reader.receive(positions.data(), positions.size() * sizeof(float)) ||
+      !reader.receive(normals.data(), normals.size() * sizeof(float)) ||
+      !reader.receive(mesh.triangles.data(), mesh.triangles.size() * sizeof(std::uint32_t)))
+    fail(path, reader.trouble(limits));
+  const auto finite = [](float x) { return std::isfinite(x); };
+  if (!std::all_of(positions.begin(), positions.end(), finite) || !std::all_of(normals.begin(), normals.end(), finite))
+    fail(path, "a vertex is not finite");
+  for (std::uint32_t i : mesh.triangles)
+    if (i >= head.vertices) fail(path, "a triangle has a vertex that is not there");
+  mesh.vertices = vectors(positions);
+  mesh.normals = vectors(normals);
+  return mesh;
+}
+
+std::vector<Vec3> read_mesh_points(const std::string& path, const MeshLimits& limits) {
+  return read_mesh(path, limits).vertices;
+}
+
+}  // namespace carom

@@ -1,0 +1,174 @@
+#include "render/mesh_import.h"
+
+#include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <filesystem>
+#include <new>
+#include <stdexcept>
+#include <string_view>
+
+namespace carom {
+namespace {
+
+/// Opens regular files of one folder, for reading: a mesh names its materials' and buffers' files as it likes.
+class OneFolder : public Assimp::DefaultIOSystem {
+ public:
+  explicit OneFolder(const std::string& file) : folder_(folder_of(file)) {}
+  bool Exists(const char* file) const override { return within(file) && Assimp::DefaultIOSystem::Exists(file); }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    const bool reads = std::string_view(mode).find_first_of("wa+") == std::string_view::npos;
+    return reads && within(file) ? Assimp::DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+
+ private:
+  static std::filesystem::path folder_of(const std::string& file) {
+    return std::filesystem::path(file).lexically_normal().parent_path();
+  }
+  bool within(const char* file) const {
+    std::error_code error;
+    return folder_of(file) == folder_ && std::filesystem::is_regular_file(file, error);
+  }
+  std::filesystem::path folder_;
+};
+
+/// Leaves only the readers that go by the file's ending: else its content may choose any of them.
+void keep_readers(Assimp::Importer& importer, const std::string& ending) {
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    const std::string endings = std::string(" ") + importer.GetImporterInfo(i)->mFileExtensions + " ";
+    if (endings.find(" " + ending + " ") == std::string::npos) importer.UnregisterLoader(importer.GetImporter(i));
+  }
+}
+
+Vec3 vertex(const ImportedMesh& mesh, std::size_t i) {
+  return Vec3(double{mesh.vertices[3 * i]}, double{mesh.vertices[3 * i + 1]}, double{mesh.vertices[3 * i + 2]});
+}
+
+constexpr double cos_smooth = 0.70710678118654752;  // of 45 degrees
+constexpr std::size_t most_around = 256;            // triangles at a vertex that are smoothed
+
+/// Gives the triangles from `triangle` on (of vertices from `first` on, which have no normals) normals: of each corner
+/// the mean of the triangles around it that lean less than 45 degrees against its own, weighed by their areas. A vertex
+/// becomes several where edges are sharp.
+void make_normals(ImportedMesh& mesh, std::size_t first, std::size_t triangle) {
+  const std::size_t count = mesh.triangles.size() / 3 - triangle, vertices = mesh.vertices.size() / 3 - first;
+  std::vector<Vec3> area(count), normal(count);
+  std::vector<std::vector<std::uint32_t>> around(vertices);
+  for (std::size_t t = 0; t < count; ++t) {
+    const std::uint32_t* corner = &mesh.triangles[3 * (triangle + t)];
+    const Vec3 a = vertex(mesh, corner[0]), b = vertex(mesh, corner[1]), c = vertex(mesh, corner[2]);
+    area[t] = (b - a).cross(c - a);
+    normal[t] = area[t].stableNormalized();
+    for (int k = 0; k < 3; ++k) around[corner[k] - first].push_back(static_cast<std::uint32_t>(t));
+  }
+  mesh.normals.resize(mesh.vertices.size(), 0);
+  struct Made {
+    Vec3 normal;
+    std::uint32_t vertex;
+  };
+  std::vector<Made> made;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    made.clear();
+    for (const std::uint32_t t : around[v]) {
+      Vec3 sum = area[t];
+      if (around[v].size() <= most_around) {
+        sum.setZero();
+        for (const std::uint32_t other : around[v])
+          if (normal[other].dot(normal[t]) > cos_smooth || other == t) sum += area[other];
+      }
+      const Vec3 mean = sum.stableNormalized();
+      std::uint32_t at = static_cast<std::uint32_t>(first + v);
+      bool known = false;
+      for (const Made& m : made)
+        if (m.normal == mean) known = true, at = m.vertex;
+      if (!known) {
+        if (!made.empty()) {  // the first one stays where it is
+          at = static_cast<std::uint32_t>(mesh.vertices.size() / 3);
+          for (std::size_t k = 0; k < 3; ++k) mesh.vertices.push_back(mesh.vertices[3 * (first + v) + k]);
+          mesh.normals.resize(mesh.vertices.size());
+        }
+        for (int k = 0; k < 3; ++k)
+          mesh.normals[3 * std::size_t{at} + static_cast<std::size_t>(k)] = static_cast<float>(mean[k]);
+        made.push_back({mean, at});
+      }
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::uint32_t& corner = mesh.triangles[3 * (triangle + t) + k];
+        if (corner == first + v) corner = at;
+      }
+    }
+  }
+}
+
+void check_count(std::size_t count, std::size_t most, const char* what) {
+  if (count > most) throw std::runtime_error("it has more than " + std::to_string(most) + " " + what);
+}
+
+void append(const aiMesh& part, ImportedMesh& mesh, const MeshLimits& limits) {
+  const std::size_t first = mesh.vertices.size() / 3, triangle = mesh.triangles.size() / 3;
+  check_count(first + part.mNumVertices, limits.vertices, "vertices");
+  check_count(triangle + part.mNumFaces, limits.triangles, "triangles");
+  for (unsigned i = 0; i < part.mNumVertices; ++i)
+    for (const float x : {part.mVertices[i].x, part.mVertices[i].y, part.mVertices[i].z}) {
+      if (!std::isfinite(x)) throw std::runtime_error("a vertex is not finite");
+      mesh.vertices.push_back(x);
+    }
+  for (unsigned i = 0; i < part.mNumFaces; ++i) {
+    const aiFace& face = part.mFaces[i];
+    if (face.mNumIndices != 3) continue;
+    for (unsigned k = 0; k < 3; ++k) {
+      if (face.mIndices[k] >= part.mNumVertices) throw std::runtime_error("a triangle has a vertex that is not there");
+      mesh.triangles.push_back(static_cast<std::uint32_t>(first + face.mIndices[k]));
+    }
+  }
+  if (!part.mNormals) {
+    make_normals(mesh, first, triangle);
+    check_count(mesh.vertices.size() / 3, limits.vertices, "vertices");
+    return;
+  }
+  for (unsigned i = 0; i < part.mNumVertices; ++i) {
+    const aiVector3D& n = part.mNormals[i];
+    const float length = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+    const bool known = std::isfinite(length) && length > 0;
+    for (const float x : {n.x, n.y, n.z}) mesh.normals.push_back(known ? x / length : 0);
+  }
+}
+
+}  // namespace
+
+const std::vector<std::string>& mesh_endings() {
+  // The formats whose readers a damaged file seldom harms: by fuzzing STL and OBJ never, glTF in one of 2,900 files.
+  static const std::vector<std::string> endings{"obj", "stl", "gltf", "glb"};
+  return endings;
+}
+
+ImportedMesh import_mesh(const std::string& path, const std::string& ending, const MeshLimits& limits) {
+  Assimp::Importer importer;
+  importer.SetIOHandler(new OneFolder(path));  // which it owns
+  keep_readers(importer, ending);
+  // Of an STL file each triangle is for itself, normals and all: they are made anew to be smooth.
+  int unwanted = aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS | aiComponent_TEXCOORDS |
+                 aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS | aiComponent_TEXTURES | aiComponent_LIGHTS |
+                 aiComponent_CAMERAS | aiComponent_MATERIALS;
+  if (ending == "stl") unwanted |= aiComponent_NORMALS;
+  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, unwanted);
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  const aiScene* scene = importer.ReadFile(path, aiProcess_ValidateDataStructure | aiProcess_RemoveComponent |
+                                                     aiProcess_Triangulate | aiProcess_SortByPType |
+                                                     aiProcess_PreTransformVertices | aiProcess_JoinIdenticalVertices);
+  if (!scene) {
+    const std::string text = importer.GetErrorString();
+    if (text == "std::bad_alloc") throw std::bad_alloc();
+    throw std::runtime_error(text);
+  }
+  ImportedMesh mesh;
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], mesh, limits);
+  if (mesh.triangles.empty()) throw std::runtime_error("it has no triangles");
+  return mesh;
+}
+
+}  // namespace carom

@@ -1,0 +1,229 @@
+// Meshes: what is read, and that no file does more than fail.
+#include "render/mesh.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace carom {
+namespace {
+
+const std::string data = DATA_DIR "/meshes/";
+const std::string scenes = SCENES_DIR "/meshes/";
+
+/// A folder that goes with its owner.
+struct Folder {
+  Folder() {
+    std::string name = ::testing::TempDir() + "carom_mesh_XXXXXX";
+    if (!mkdtemp(name.data())) ADD_FAILURE() << "no temporary folder";
+    path = name + "/";
+  }
+  ~Folder() { std::filesystem::remove_all(path); }
+  std::string write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path + name, std::ios::binary) << bytes;
+    return path + name;
+  }
+  std::string path;
+};
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// What read_mesh says of a file, behind its path; "" if it reads it.
+std::string trouble(const std::string& path, const MeshLimits& limits = {}) {
+  try {
+    read_mesh(path, limits);
+    return "";
+  } catch (const std::runtime_error& error) {
+    const std::string text = error.what(), start = "cannot read the mesh " + path + ": ";
+    EXPECT_EQ(text.substr(0, start.size()), start);
+    return text.substr(std::min(start.size(), text.size()));
+  }
+}
+
+const char* const triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+
+TEST(ReadMesh, ATetrahedronOfStlHasFourFacesWithNormalsOfTheirOwn) {
+  const Mesh mesh = read_mesh(data + "tetrahedron.stl");
+  EXPECT_EQ(mesh.triangles.size(), 12U);
+  ASSERT_EQ(mesh.vertices.size(), 12U);  // sharp edges: each corner belongs to three faces
+  for (std::size_t t = 0; t < 12; t += 3) {
+    const Vec3 &a = mesh.vertices[mesh.triangles[t]], &b = mesh.vertices[mesh.triangles[t + 1]],
+               &c = mesh.vertices[mesh.triangles[t + 2]];
+    EXPECT_LT((mesh.normals[mesh.triangles[t]] - (b - a).cross(c - a).normalized()).norm(), 1e-7);
+  }
+}
+
+TEST(ReadMesh, NodesOfGltfMoveTurnAndScale) {
+  for (const char* name : {"turned_cube.gltf", "turned_cube.glb"}) {
+    const Mesh mesh = read_mesh(data + name);
+    Vec3 low = mesh.vertices[0], high = low;
+    for (const Vec3& p : mesh.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    // The unit cube doubled, turned by 90 degrees about z, moved by (10, 0, 0).
+    EXPECT_LT((low - Vec3(8, 0, 0)).norm(), 1e-6);
+    EXPECT_LT((high - Vec3(10, 2, 2)).norm(), 1e-6);
+    EXPECT_EQ(mesh.triangles.size(), 36U);
+  }
+}
+
+TEST(ReadMesh, PolygonsAreCutCornersJoinedAndRoundedShapesSmooth) {
+  const Folder folder;
+  const Mesh square = read_mesh(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"));
+  EXPECT_EQ(square.triangles.size(), 6U);
+  EXPECT_EQ(square.vertices.size(), 4U);
+  // A ridge of 60 degrees has two normals along its edge, one of 20 degrees has one.
+  for (const auto& [height, vertices] : {std::pair{0.577, 6U}, {0.176, 4U}}) {
+    const std::string text = "v 0 0 0\nv 0 0 1\nv 1 -" + std::to_string(height) + " 0\nv -1 -" +
+                             std::to_string(height) + " 0\nf 1 2 3\nf 2 1 4\n";
+    EXPECT_EQ(read_mesh(folder.write("b.obj", text)).vertices.size(), vertices) << height;
+  }
+}
+
+TEST(ReadMesh, TheSameFileGivesTheSameMesh) {
+  const Mesh a = read_mesh(scenes + "duck.obj"), b = read_mesh(scenes + "duck.obj");
+  EXPECT_EQ(a.vertices, b.vertices);
+  EXPECT_EQ(a.normals, b.normals);
+  EXPECT_EQ(a.triangles, b.triangles);
+  EXPECT_EQ(read_mesh_points(scenes + "duck.obj"), a.vertices);
+}
+
+TEST(ReadMesh, ThePinHasItsKnownSize) {
+  double low = 1, high = -1, radius = 0;
+  for (const Vec3& p : read_mesh_points(scenes + "pin.obj")) {
+    low = std::min(low, p.y()), high = std::max(high, p.y());
+    radius = std::max(radius, std::hypot(p.x(), p.z()));
+  }
+  EXPECT_EQ(low, 0);
+  EXPECT_NEAR(high, 15 * 0.0254, 1e-6);
+  EXPECT_NEAR(radius, 4.766 / 2 * 0.0254, 2e-5);  // four digits in the file
+}
+
+TEST(ReadMesh, SaysWhatIsWrong) {
+  const Folder folder;
+  EXPECT_EQ(trouble(folder.path + "none.obj"), "No such file or directory");
+  EXPECT_EQ(trouble(folder.write("a.ply", "ply")), "meshes are read from files that end in .obj, .stl, .gltf, .glb");
+  EXPECT_EQ(trouble(folder.write("noending", "x")), "meshes are read from files that end in .obj, .stl, .gltf, .glb");
+  EXPECT_EQ(trouble(folder.write("empty.stl", "")), "it is empty");
+  EXPECT_EQ(trouble(folder.write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), "a vertex is not finite");
+  EXPECT_EQ(trouble(folder.write("points.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 2 2 2\n")),
+            "Validation failed: Mesh  contains no faces");
+  EXPECT_EQ(trouble(folder.write("lines.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\nl 1 2 3\n")), "No meshes remaining");
+  std::filesystem::create_directory(folder.path + "folder.obj");
+  EXPECT_EQ(trouble(folder.path + "folder.obj"), "it is a folder");
+  ASSERT_EQ(mkfifo((folder.path + "queue.obj").c_str(), 0600), 0);
+  EXPECT_EQ(trouble(folder.path + "queue.obj"), "it is not a regular file");
+  EXPECT_EQ(trouble("/dev/zero"), "meshes are read from files that end in .obj, .stl, .gltf, .glb");
+}
+
+TEST(ReadMesh, EndingsMayBeInCapitals) {
+  const Folder folder;
+  EXPECT_EQ(trouble(folder.write("A.OBJ", triangle)), "");
+}
+
+TEST(ReadMesh, OtherFormatsUnderAKnownEndingAreNotRead) {
+  const Folder folder;
+  const std::string x = "xof 0303txt 0032\nMesh m { 3; 0;0;0;, 1;0;0;, 0;1;0;; 1; 3;0,1,2;; }\n";
+  for (const char* name : {"a.obj", "a.stl", "a.gltf"}) EXPECT_NE(trouble(folder.write(name, x)), "") << name;
+}
+
+TEST(ReadMesh, RefusesMoreThanItsLimits) {
+  const std::string pin = scenes + "pin.obj";
+  MeshLimits small;
+  small.file_bytes = 1000;
+  EXPECT_EQ(trouble(pin, small),
+            "it has " + std::to_string(std::filesystem::file_size(pin)) + " bytes; 1000 are the most that is read");
+  MeshLimits few;
+  few.vertices = 100;
+  EXPECT_EQ(trouble(pin, few), "it has more than 100 vertices");
+  few = {};
+  few.triangles = 100;
+  EXPECT_EQ(trouble(pin, few), "it has more than 100 triangles");
+}
+
+TEST(ReadMesh, MaterialsOfOtherFoldersAreNotOpened) {
+  // A queue that nobody writes to would be waited for: the reader must not even open it.
+  const Folder folder;
+  std::filesystem::create_directory(folder.path + "in");
+  ASSERT_EQ(mkfifo((folder.path + "queue").c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo((folder.path + "in/queue").c_str(), 0600), 0);
+  MeshLimits limits;
+  limits.seconds = 1;
+  EXPECT_EQ(trouble(folder.write("in/a.obj", std::string("mtllib ../queue\n") + triangle), limits), "");
+  EXPECT_EQ(trouble(folder.write("in/b.obj", std::string("mtllib queue\n") + triangle), limits), "");
+}
+
+TEST(ReadMesh, WhatTakesTooLongIsEnded) {
+  MeshLimits limits;
+  limits.seconds = 0;
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(trouble(scenes + "duck.obj", limits), "reading it takes longer than 0 s; it may be damaged");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(3));
+}
+
+TEST(ReadMesh, TooLittleMemoryIsSaid) {
+  MeshLimits limits;
+  limits.memory_bytes = 100'000;
+  EXPECT_EQ(trouble(scenes + "duck.obj", limits), "reading it takes too much memory");
+}
+
+// By the robustness notes one in a few thousand crashes the reader, or hangs it; each must end in a mesh or a text.
+TEST(ReadMesh, MutatedFilesGiveAMeshOrAText) {
+  const Folder folder;
+  MeshLimits limits;
+  limits.seconds = 2;
+  std::uint64_t seed = 21;
+  const auto random = [&](std::size_t below) {
+    seed = seed * 6364136223846793005U + 1442695040888963407U;
+    return static_cast<std::size_t>((seed >> 33U) % below);
+  };
+  const std::string pin = bytes_of(scenes + "pin.obj").substr(0, 700) + "f 1 2 3\nf 4 5 6\n";
+  int read = 0, refused = 0;
+  for (const auto& [ending, bytes] : {std::pair{"stl", bytes_of(data + "tetrahedron.stl")},
+                                      {"gltf", bytes_of(data + "turned_cube.gltf")},
+                                      {"glb", bytes_of(data + "turned_cube.glb")},
+                                      {"obj", pin}}) {
+    for (int round = 0; round < 75; ++round) {
+      std::string mutated = bytes;
+      for (std::size_t i = random(6) + 1; i-- > 0;) {
+        const std::size_t at = random(mutated.size());
+        switch (random(4)) {
+          case 0:
+            mutated[at] = static_cast<char>(random(256));
+            break;
+          case 1:
+            mutated[at] = static_cast<char>(mutated[at] ^ (1 << random(8)));
+            break;
+          case 2:
+            mutated.insert(at, mutated.substr(random(mutated.size()), random(20)));
+            break;
+          default:
+            mutated.erase(at, random(4) ? random(4) : mutated.size());
+        }
+        if (mutated.empty()) mutated = "x";
+      }
+      const std::string path = folder.write(std::string("m.") + ending, mutated);
+      (trouble(path, limits).empty() ? read : refused) += 1;
+    }
+  }
+  EXPECT_EQ(read + refused, 300);
+  EXPECT_GT(read, 20);
+  EXPECT_GT(refused, 20);
+}
+
+TEST(ReadMesh, LeavesNoProcessBehind) {
+  const std::string before = bytes_of("/proc/self/task/" + std::to_string(getpid()) + "/children");
+  trouble(scenes + "pin.obj");
+  trouble("/none.obj");
+  EXPECT_EQ(bytes_of("/proc/self/task/" + std::to_string(getpid()) + "/children"), before);
+}
+
+}  // namespace
+}  // namespace carom
