@@ -8,6 +8,7 @@
 
 #include "scene/check_values.h"
 #include "scene/values.h"
+#include "scene/view.h"
 
 namespace carom {
 namespace {
@@ -21,6 +22,16 @@ std::vector<std::string_view> keys_of(const Kind& kind) {
   }
   if (!kind.also.empty()) keys.push_back(kind.also);
   return keys;
+}
+
+bool is_before(const Place& a, const Place& b) {
+  return std::tie(a.source, a.offset) < std::tie(b.source, b.offset);
+}
+
+/// The key of `defaults` that a map of this kind falls back on; empty: none.
+std::string_view defaults_key(const Kind& kind) {
+  const std::string_view key = kind.name == "member" ? "ball" : kind.name;
+  return find_field(kind_named("defaults"), key) == nullptr ? std::string_view() : key;
 }
 
 class Checker : ValueChecker {
@@ -38,17 +49,16 @@ class Checker : ValueChecker {
     if (partial) return;
     const Node* defaults = defaults_for(root_, kind);
     for (const Field& field : kind.fields) {
-      if (!field.needed) continue;
-      if (has(node, defaults, field.key) || (!field.instead.empty() && has(node, defaults, field.instead))) continue;
+      if (!field.needed || has_any(node, defaults, field)) continue;
       node.bad = true;
-      if (is_misspelt_in(node, kind, field)) continue;  // said there
-      const Field* other = field.instead.empty() ? nullptr : find_field(kind, field.instead);
-      diagnostics_.add(where,
-                       fmt::format("{} has no {}{}", what, quoted(field.key),
-                                   other ? fmt::format(" and no {}", quoted(other->key)) : ""),
-                       fmt::format("expected {}: {}", quoted(field.key), expected(field)) +
-                           (other ? fmt::format("\nor {}: {}", quoted(other->key), expected(*other)) : ""));
+      if (!is_misspelt_in(node, kind, field)) missing(node, defaults, kind, field, what, where);
     }
+    const View view(&node, kind, where, defaults);
+    if (view.given("fit") == nullptr || view.given("mesh") != nullptr) return;
+    const Key* fit = node.find_key("fit");
+    node.bad = true;
+    diagnostics_.add(fit == nullptr ? where : fit->place, fmt::format("{} has a `fit` but no `mesh`", what),
+                     "expected `mesh`: " + expected(*find_field(kind, "mesh")));
   }
 
  private:
@@ -58,7 +68,8 @@ class Checker : ValueChecker {
       const Key& key = node.keys[i];
       if (find_field(kind, key.text) != nullptr) continue;
       const std::string near = meant(key.text, kind);
-      if (near == field.key || (!field.instead.empty() && near == field.instead)) return true;
+      const std::vector<std::string_view> others = rivals(field);
+      if (near == field.key || std::find(others.begin(), others.end(), near) != others.end()) return true;
     }
     return false;
   }
@@ -69,6 +80,32 @@ class Checker : ValueChecker {
 
   static bool has(const Node& node, const Node* defaults, std::string_view key) {
     return node.find_key(key) != nullptr || (defaults != nullptr && defaults->find_key(key) != nullptr);
+  }
+  static bool has_any(const Node& node, const Node* defaults, const Field& field) {
+    const std::vector<std::string_view> others = rivals(field);
+    return has(node, defaults, field.key) || std::any_of(others.begin(), others.end(), [&](std::string_view other) {
+             return has(node, defaults, other);
+           });
+  }
+
+  void missing(const Node& node, const Node* defaults, const Kind& kind, const Field& field, const std::string& what,
+               Place where) {
+    if (find_field(kind, "fit") != nullptr && field.one_of.find("fit") != std::string_view::npos &&
+        has(node, defaults, "mesh")) {
+      diagnostics_.add(
+          where, fmt::format("{} has a `mesh` but no volume", what),
+          fmt::format("expected `fit`: {}, the tightest one around the mesh", expected(*find_field(kind, "fit"))));
+      return;
+    }
+    std::string message = fmt::format("{} has no {}", what, quoted(field.key));
+    std::string remedy = fmt::format("expected {}: {}", quoted(field.key), expected(field));
+    for (const std::string_view key : rivals(field)) {
+      const Field& other = *find_field(kind, key);
+      if (!other.later.empty()) continue;
+      message += fmt::format(" and no {}", quoted(key));
+      remedy += fmt::format("\nor {}: {}", quoted(key), expected(other));
+    }
+    diagnostics_.add(where, std::move(message), std::move(remedy));
   }
 
   void unknown_key(const Key& key, const Node& value, const Kind& kind, const std::string& what) {
@@ -97,34 +134,30 @@ class Checker : ValueChecker {
     }
     if (!field->later.empty()) {
       value.bad = true;
-      if (field->type == Type::file && !file_is_there(value, *field)) return;
       diagnostics_.add(key.place, later_text(field->key), std::string(field->later));
       return;
     }
     // Both of two keys that exclude one another: said once, at the second.
-    if (!field->instead.empty()) {
-      const Key* other = map_node.find_key(field->instead);
-      if (other != nullptr &&
-          std::tie(other->place.source, other->place.offset) < std::tie(key.place.source, key.place.offset)) {
-        diagnostics_.add(key.place, fmt::format("{} has both {} and {}", what, quoted(other->text), quoted(key.text)),
-                         "remove one of them");
-      }
+    const Key* other = nullptr;
+    for (const std::string_view rival : rivals(*field)) {
+      const Key* found = map_node.find_key(rival);
+      if (found != nullptr && is_before(found->place, other == nullptr ? key.place : other->place)) other = found;
+    }
+    if (other != nullptr) {
+      diagnostics_.add(key.place, fmt::format("{} has both {} and {}", what, quoted(other->text), quoted(key.text)),
+                       "remove one of them");
     }
     check_value(value, *field, key, partial);
   }
 
-  /// False: it was reported missing.
-  bool file_is_there(Node& value, const Field& field) {
-    if (!value.is(Node::Kind::scalar) || value.text.empty()) {
+  void file(Node& value, const Field& field) {
+    if (!value.is(Node::Kind::scalar) || value.text.empty() || value.text.find('\n') != std::string::npos) {
       wrong_type(value, quoted(field.key), "expected " + expected(field));
-      return false;
+      return;
     }
-    const std::string path = value.text.starts_with('/') || folder_.empty() ? value.text : folder_ + "/" + value.text;
     struct stat info {};
-    if (stat(path.c_str(), &info) == 0 && S_ISREG(info.st_mode)) return true;
-    diagnostics_.add(value.place, fmt::format("there is no file {}", quoted(value.text)),
-                     "paths start at the folder of the scene");
-    return false;
+    if (stat(beneath(folder_, value.text).c_str(), &info) == 0 && S_ISREG(info.st_mode)) return;
+    refuse(value, fmt::format("there is no file {}", quoted(value.text)), "paths start at the folder of the scene");
   }
 
   void check_value(Node& value, const Field& field, const Key& key, bool partial) {
@@ -143,8 +176,10 @@ class Checker : ValueChecker {
           wrong_type(value, name, wanted);
         }
         break;
-      case Type::text:
       case Type::file:
+        file(value, field);
+        break;
+      case Type::text:
         if (!value.is(Node::Kind::scalar)) {
           wrong_type(value, name, wanted);
         } else if (value.text.find('\n') != std::string::npos) {
@@ -171,10 +206,11 @@ class Checker : ValueChecker {
       case Type::color:
         color(value, name);
         break;
+      case Type::two_names:
       case Type::names:
         if (!value.is(Node::Kind::sequence)) {
           wrong_type(value, name, wanted);
-        } else if (value.items.size() != 2) {
+        } else if (field.type == Type::names ? value.items.empty() : value.items.size() != 2) {
           refuse(value, fmt::format("{} has {} entries", name, value.items.size()), wanted);
         } else {
           for (Node& item : value.items) {
@@ -209,12 +245,8 @@ class Checker : ValueChecker {
 
   void part(Node& value, const Field& field, const Key& key, bool partial) {
     const Kind& kind = kind_named(field.of);
-    // `defaults: {ball: ...}` is partial; so is what stands in it.
-    const bool in_defaults = partial || kind.name == "defaults" || inside_defaults_;
-    const bool before = inside_defaults_;
-    inside_defaults_ = before || kind.name == "defaults";
-    map(value, kind, quoted(key.text), key.place, in_defaults);
-    inside_defaults_ = before;
+    // `defaults: {ball: ...}` is partial; so is what stands in it, if it has defaults of its own.
+    map(value, kind, quoted(key.text), key.place, kind.name == "defaults" || (partial && !defaults_key(kind).empty()));
   }
 
   void named(Node& value, const Field& field, const std::string& name) {
@@ -239,7 +271,6 @@ class Checker : ValueChecker {
 
   const Node& root_;
   const std::string& folder_;
-  bool inside_defaults_ = false;
 };
 
 }  // namespace
@@ -250,17 +281,21 @@ void check_scene(Node& root, const std::string& folder, Diagnostics& diagnostics
 }
 
 const Node* defaults_for(const Node& root, const Kind& kind) {
-  const std::string_view key = kind.name == "member" ? "ball" : kind.name;
-  if (key != "ball" && key != "group" && key != "plane" && key != "wall") return nullptr;
+  const std::string_view key = defaults_key(kind);
+  if (key.empty()) return nullptr;
   const Node* defaults = root.find("defaults");
   const Node* node = defaults == nullptr ? nullptr : defaults->find(key);
   return node != nullptr && node->is(Node::Kind::map) ? node : nullptr;
 }
 
+std::string beneath(const std::string& folder, const std::string& path) {
+  if (path.starts_with('/') || folder.empty()) return path;
+  return folder.ends_with('/') ? folder + path : folder + "/" + path;
+}
+
 std::string suggest_key(std::string_view wrong, const Kind& kind) {
   const std::vector<std::string_view> keys = keys_of(kind);
-  if (const std::string near = nearest(wrong, keys); !near.empty())
-    return fmt::format("did you mean {}?", quoted(near));
+  const std::string known = "expected " + listed(keys);
   std::vector<std::string_view> owners;
   std::vector<std::string> shown;
   for (const Kind& other : kinds()) {
@@ -268,8 +303,9 @@ std::string suggest_key(std::string_view wrong, const Kind& kind) {
     shown.push_back(other.name == "scene" ? "the scene itself" : quoted(other.name));
   }
   for (const std::string& owner : shown) owners.push_back(owner);
-  const std::string known = "expected " + listed(keys);
-  return owners.empty() ? known : fmt::format("{} is a key of {}\n{}", quoted(wrong), listed(owners), known);
+  if (!owners.empty()) return fmt::format("{} is a key of {}\n{}", quoted(wrong), listed(owners), known);
+  const std::string near = nearest(wrong, keys);
+  return near.empty() ? known : fmt::format("did you mean {}?", quoted(near));
 }
 
 }  // namespace carom

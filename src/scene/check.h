@@ -15,6 +15,9 @@ void check_scene(Node& root, const std::string& folder, Diagnostics& diagnostics
 /// The defaults that a map of `kind` falls back on: scene -> defaults -> kind; null: none.
 const Node* defaults_for(const Node& root, const Kind& kind);
 
+/// A path that a scene names, from the working folder: `path` itself if it is absolute.
+std::string beneath(const std::string& folder, const std::string& path);
+
 /// "did you mean `x`?", or what a key of `kind` can be.
 std::string suggest_key(std::string_view wrong, const Kind& kind);
 

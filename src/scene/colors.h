@@ -19,6 +19,7 @@ std::vector<std::string_view> color_names();
 std::string_view body_color(std::size_t i);
 inline constexpr std::string_view plane_color = "#b8bcc2";
 inline constexpr std::string_view wall_color = "#9aa3ad";
+inline constexpr std::string_view obstacle_color = "#a39a8c";
 inline constexpr std::string_view room_color = "#c9ccd1";
 
 }  // namespace carom

@@ -8,22 +8,24 @@
 
 #include "scene/diagnostics.h"
 #include "scene/document.h"
+#include "scene/forms.h"
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "scene/view.h"
 
 namespace carom {
 
-/// One ball or group, in the order of the file.
+/// One ball, body or group, in the order of the file.
 struct BodyEntry {
   const Key* key;
   const Node* node;
+  const Kind* kind;
   bool group;
   Entity first = 0;
   std::uint64_t count = 1;
 };
 
-/// One plane, wall or room, in the order of entities.
+/// One plane, room, wall or obstacle, in the order of entities.
 struct FixedEntry {
   const Key* key;
   const Node* node;
@@ -48,14 +50,17 @@ struct Inventory {
 /// Numbers everything; checks that names are unique and that the bodies are within `budget`.
 Inventory take_inventory(const Node& root, const Budget& budget, Diagnostics& diagnostics);
 
-void decode_fixed(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
-/// Balls and groups: world, initial state, roster. Wants the fixed things and scene.seed decoded.
-void decode_bodies(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
-/// gravity, combine and pairs.
+void decode_fixed(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics);
+/// Balls, bodies and groups: world, initial state, roster. Wants the fixed things and scene.seed decoded.
+void decode_bodies(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics);
+/// gravity, combine, pairs and forces.
 void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// simulate, camera, lights, background, output; and that frames and rows are within `budget`.
 void decode_requests(const Node& root, const Inventory& inventory, const Budget& budget, Scene& scene,
                      Diagnostics& diagnostics);
+
+/// Adds an error where the engine that the scene names cannot serve what stands in it. Wants all decoded.
+void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics);
 
 /// Whether `output` asks for this part: a map, or true.
 bool wanted(const View& output, std::string_view part);
@@ -68,15 +73,14 @@ Vec3 default_up(const Vec3& unit_normal);
 /// v / |v|, without overflow or underflow on the way. v is not zero.
 Vec3 unit(const Vec3& v);
 
-/// The mass (kg) of a ball, from mass or density.
-std::optional<double> ball_mass(const View& ball, Diagnostics& diagnostics);
+/// The mass (kg) of a ball or body, from mass or density.
+std::optional<double> mass_of(const View& body, const Volume& volume, Diagnostics& diagnostics);
 
 /// A key of the scene as a View; empty if it is not there.
 View scene_part(const Node& root, std::string_view key);
 
 /// Views with the scene's defaults beneath.
-View ball_view(const Node& root, const Node& node, Place where);
-View group_view(const Node& root, const Node& node, Place where);
+View body_view(const Node& root, const BodyEntry& entry);  // of a ball, a body or a group
 View member_view(const Node& root, const View& group);
 View fixed_view(const Node& root, const FixedEntry& entry);
 

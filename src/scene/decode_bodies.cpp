@@ -7,6 +7,7 @@
 #include "scene/colors.h"
 #include "scene/decode.h"
 #include "scene/grid.h"
+#include "scene/overlaps.h"
 #include "scene/placement.h"
 #include "scene/random.h"
 #include "scene/values.h"
@@ -14,18 +15,16 @@
 namespace carom {
 namespace {
 
-constexpr std::size_t max_overlaps_shown = 20;
-constexpr std::size_t max_overlapping_kept = 1000;  // in the grid: a heap of balls in one place must not cost n^2
-
 class Bodies {
  public:
-  Bodies(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics)
+  Bodies(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics)
       : root_(root),
         inventory_(inventory),
+        forms_(forms),
         scene_(scene),
         world_(scene.world),
         diagnostics_(diagnostics),
-        good_(inventory.body_count, false) {}
+        grid_(&scene.world) {}
 
   void run() {
     const std::size_t n = inventory_.body_count;
@@ -39,30 +38,37 @@ class Bodies {
 
     std::size_t order = 0;
     for (const BodyEntry& body : inventory_.bodies) {
-      const View view =
-          body.group ? group_view(root_, *body.node, body.key->place) : ball_view(root_, *body.node, body.key->place);
+      const View view = body_view(root_, body);
+      const View each = body.group ? member_view(root_, view) : view;
       const Color chosen = *parse_color(body_color(order++));
-      const std::optional<Color> color = body.group ? member_view(root_, view).color("color") : view.color("color");
-      scene_.roster.bodies.push_back(
-          {body.key->text, body.first, static_cast<Entity>(body.count), body.group, color.value_or(chosen)});
-      if (!body.group) single(body, view);
+      const std::optional<Form> form = forms_.of(each);
+      scene_.roster.bodies.push_back({body.key->text, body.first, static_cast<Entity>(body.count), body.group,
+                                      each.color("color").value_or(chosen), form ? form->mesh : std::nullopt});
+      const bool good = form && common(each, form->volume, body.first, body.count);
+      if (good && !body.group) single(body, view);
+      if (good && body.group && body.count > 0) groups_.push_back(&body);
     }
     grid_.reserve(n);
-    check_singles();
+    check_overlaps(scene_, singles_, grid_, diagnostics_);
     groups();
   }
 
  private:
-  /// What a ball and a group's ball have in common, for `count` bodies from `first` on. False: something is missing.
-  bool common(const View& ball, Entity first, std::uint64_t count) {
-    const std::optional<double> mass = ball_mass(ball, diagnostics_);
-    const std::optional<double> radius = ball.number("radius");
-    if (!mass || !radius) return false;
+  /// What a ball or body and a group's ball have in common, for `count` bodies from `first` on. False: something is
+  /// missing.
+  bool common(const View& body, const Volume& volume, Entity first, std::uint64_t count) {
+    const std::optional<double> mass = mass_of(body, volume, diagnostics_);
+    if (!mass) return false;
     const auto fill = [&](auto& values, const auto& value) { std::fill_n(values.begin() + first, count, value); };
     fill(world_.mass, *mass);
-    fill(world_.radius, *radius);
-    fill(world_.restitution, ball.number("restitution").value_or(default_restitution_));
-    if (const std::optional<Vec3> impulse = ball.vector("impulse"); impulse && !impulse->isZero(0)) {
+    fill(world_.radius, volume.reach());
+    if (volume.shape != Shape::sphere && world_.volume.empty()) {
+      world_.volume.reserve(inventory_.body_count);
+      for (const double radius : world_.radius) world_.volume.push_back(Volume::sphere(radius));
+    }
+    if (!world_.volume.empty()) fill(world_.volume, volume);
+    fill(world_.restitution, body.number("restitution").value_or(default_restitution_));
+    if (const std::optional<Vec3> impulse = body.vector("impulse"); impulse && !impulse->isZero(0)) {
       if (world_.impulse.empty()) world_.impulse.assign(inventory_.body_count, Vec3::Zero());
       fill(world_.impulse, *impulse);
     }
@@ -71,93 +77,22 @@ class Bodies {
 
   void single(const BodyEntry& body, const View& view) {
     const std::optional<Vec3> position = view.vector("position"), velocity = view.vector("velocity");
-    if (!common(view, body.first, 1) || !position || !velocity) return;
+    if (!position || !velocity) return;
     scene_.initial.position[body.first] = *position;
     scene_.initial.velocity[body.first] = *velocity;
-    good_[body.first] = true;
-  }
-
-  void check_singles() {
-    std::vector<const BodyEntry*> by_size;
-    for (const BodyEntry& body : inventory_.bodies) {
-      if (!body.group && good_[body.first]) by_size.push_back(&body);
-    }
-    std::stable_sort(by_size.begin(), by_size.end(), [&](const BodyEntry* a, const BodyEntry* b) {
-      return world_.radius[a->first] > world_.radius[b->first];
-    });
-    struct Found {
-      Entity later, other;
-      double depth;
-    };
-    std::vector<Found> found;
-    for (const BodyEntry* body : by_size) {
-      const Vec3& center = scene_.initial.position[body->first];
-      const double radius = world_.radius[body->first];
-      if (const auto overlap = grid_.find_overlap(center, radius)) {
-        found.push_back(
-            {std::max(overlap->entity, body->first), std::min(overlap->entity, body->first), overlap->depth});
-        if (found.size() > max_overlapping_kept) continue;
-      }
-      grid_.insert({center, radius, body->first});
-    }
-    for (const BodyEntry* body : by_size) {
-      const Vec3& center = scene_.initial.position[body->first];
-      const double radius = world_.radius[body->first];
-      for (std::size_t i = 0; i < inventory_.fixed.size(); ++i) {
-        const FixedEntry& fixed = inventory_.fixed[i];
-        for (Entity k = 0; k < fixed.count; ++k) {
-          const Entity surface = inventory_.body_count + fixed.first + k;
-          const std::optional<double> depth = world_.is_plane(surface)
-                                                  ? overlap_depth(center, radius, world_.plane(surface))
-                                                  : overlap_depth(center, radius, world_.wall(surface));
-          if (depth) found.push_back({body->first, surface, *depth});
-        }
-      }
-    }
-    std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
-      return std::tie(a.later, a.other) < std::tie(b.later, b.other);
-    });
-    for (std::size_t i = 0; i < std::min(found.size(), max_overlaps_shown); ++i) {
-      std::string more;
-      if (i + 1 == max_overlaps_shown && found.size() > max_overlaps_shown) {
-        more = fmt::format("\nand {} more overlaps", found.size() - max_overlaps_shown);
-      }
-      report(found[i].later, found[i].other, found[i].depth, more);
-    }
-    if (found.size() > max_overlaps_shown) diagnostics_.add_uncounted(found.size() - max_overlaps_shown);
-  }
-
-  void report(Entity later, Entity other, double depth, const std::string& more) {
-    const BodyEntry& body = *std::find_if(inventory_.bodies.begin(), inventory_.bodies.end(),
-                                          [&](const BodyEntry& b) { return b.first == later && !b.group; });
-    const Place place = ball_view(root_, *body.node, body.key->place).place("position");
-    const std::string a = quoted(scene_.roster.name(later)), b = quoted(scene_.roster.name(other));
-    if (world_.is_plane(other) && depth > 2 * world_.radius[later]) {
-      diagnostics_.add(place, fmt::format("{} is behind {} at the start", a, b),
-                       "expected it on the side that the normal points to" + more);
-      return;
-    }
-    diagnostics_.add(place, fmt::format("{} overlaps {} by {:.6g} m at the start", a, b, depth),
-                     "expected bodies apart, or just touching" + more);
+    singles_.push_back({body.first, view.place("position")});
   }
 
   /// Large members first, so that the grid finds them cheaply; a group's own order and stream do not depend on that.
   void groups() {
-    std::vector<const BodyEntry*> by_size;
-    for (const BodyEntry& body : inventory_.bodies) {
-      if (!body.group || body.count == 0) continue;
-      const View group = group_view(root_, *body.node, body.key->place);
-      const View member = member_view(root_, group);
-      if (common(member, body.first, body.count)) by_size.push_back(&body);
-    }
-    std::stable_sort(by_size.begin(), by_size.end(), [&](const BodyEntry* a, const BodyEntry* b) {
+    std::stable_sort(groups_.begin(), groups_.end(), [&](const BodyEntry* a, const BodyEntry* b) {
       return world_.radius[a->first] > world_.radius[b->first];
     });
-    for (const BodyEntry* body : by_size) one_group(*body, group_view(root_, *body->node, body->key->place));
+    for (const BodyEntry* body : groups_) one_group(*body, body_view(root_, *body));
   }
 
   void one_group(const BodyEntry& body, const View& group) {
-    const View box = group.part("in", "box");
+    const View box = group.part("in", "in");
     const std::optional<Vec3> min = box.vector("min"), max = box.vector("max");
     const std::optional<std::string> arrange = group.text("arrange");
     if (!min || !max || !arrange) return;
@@ -167,16 +102,20 @@ class Bodies {
                        "expected min below max on every axis");
       return;
     }
-    const Placing placing{body.count, radius, *min, *max,
-                          *arrange == "lattice"     ? Arrange::lattice
-                          : *arrange == "hexagonal" ? Arrange::hexagonal
-                                                    : Arrange::random};
+    const Placing placing{
+        body.count,
+        body.first,
+        radius,
+        *min,
+        *max,
+        *arrange == "lattice" ? Arrange::lattice : *arrange == "hexagonal" ? Arrange::hexagonal : Arrange::random};
     Random random(scene_.seed, body.key->text + "/position");
     const Placed placed = place(placing, world_, grid_, random);
     if (placed.centers.size() < body.count) {
       diagnostics_.add(group.place("count"),
-                       fmt::format("{} balls of radius {} do not fit into the box of {}", body.count, shortest(radius),
-                                   quoted(body.key->text)),
+                       fmt::format("{} of radius {} {} not fit into the box of {}",
+                                   body.count == 1 ? "1 ball" : fmt::format("{} balls", body.count), shortest(radius),
+                                   body.count == 1 ? "does" : "do", quoted(body.key->text)),
                        fmt::format("{} would fit{}", placed.fit,
                                    *arrange == "lattice"     ? " as a lattice; `arrange: hexagonal` packs closer"
                                    : *arrange == "hexagonal" ? ""
@@ -204,30 +143,32 @@ class Bodies {
 
   const Node& root_;
   const Inventory& inventory_;
+  Forms& forms_;
   Scene& scene_;
   World& world_;
   Diagnostics& diagnostics_;
-  std::vector<bool> good_;  // by body: a single ball without errors
-  BallGrid grid_;
+  std::vector<SingleBody> singles_;       // those without errors, by number
+  std::vector<const BodyEntry*> groups_;  // those with members whose balls are without errors
+  BodyGrid grid_;
   double default_restitution_ = 1;
 };
 
 }  // namespace
 
-std::optional<double> ball_mass(const View& ball, Diagnostics& diagnostics) {
-  if (const std::optional<double> mass = ball.number("mass")) return mass;
-  const std::optional<double> density = ball.number("density"), radius = ball.number("radius");
-  if (!density || !radius) return std::nullopt;
-  const double mass = *density * (4.0 / 3.0 * 3.14159265358979323846) * *radius * *radius * *radius;
+std::optional<double> mass_of(const View& body, const Volume& volume, Diagnostics& diagnostics) {
+  if (const std::optional<double> mass = body.number("mass")) return mass;
+  const std::optional<double> density = body.number("density");
+  if (!density) return std::nullopt;
+  const double mass = *density * volume.size();
   if (mass > 0 && std::isfinite(mass)) return mass;
-  diagnostics.add(ball.place("density"),
-                  fmt::format("this density and radius {} make a mass of {} kg", shortest(*radius), mass),
+  diagnostics.add(body.place("density"),
+                  fmt::format("this density and a volume of {:.6g} m^3 make a mass of {} kg", volume.size(), mass),
                   "expected a mass above 0 and finite");
   return std::nullopt;
 }
 
-void decode_bodies(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
-  Bodies(root, inventory, scene, diagnostics).run();
+void decode_bodies(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics) {
+  Bodies(root, inventory, forms, scene, diagnostics).run();
 }
 
 }  // namespace carom

@@ -67,6 +67,15 @@ void add_wall(const View& view, const std::string& name, Scene& scene, Diagnosti
       {name, view.color("color").value_or(*parse_color(wall_color)), view.flag("visible").value_or(true)});
 }
 
+void add_obstacle(const View& view, const std::string& name, Forms& forms, Scene& scene) {
+  // As with planes: one that has errors keeps its number. Its volume is nothing then.
+  const std::optional<Form> form = forms.of(view);
+  scene.world.obstacles.push_back(
+      {view.vector("position").value_or(Vec3::Zero()), form ? form->volume : Volume{}, restitution_of(view)});
+  scene.roster.fixed.push_back({name, view.color("color").value_or(*parse_color(obstacle_color)),
+                                view.flag("visible").value_or(true), form ? form->mesh : std::nullopt});
+}
+
 }  // namespace
 
 Vec3 default_up(const Vec3& unit_normal) {
@@ -78,13 +87,14 @@ Vec3 unit(const Vec3& v) {
   return scaled / std::sqrt(scaled.x() * scaled.x() + scaled.y() * scaled.y() + scaled.z() * scaled.z());
 }
 
-void decode_fixed(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
+void decode_fixed(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics) {
   for (const FixedEntry& entry : inventory.fixed) {
     const View view = fixed_view(root, entry);
     const std::string& name = entry.key->text;
     if (entry.kind->name == "plane") add_plane(view, name, scene);
     if (entry.kind->name == "room") add_room(view, name, scene, diagnostics);
     if (entry.kind->name == "wall") add_wall(view, name, scene, diagnostics);
+    if (entry.kind->name == "obstacle") add_obstacle(view, name, forms, scene);
   }
 }
 

@@ -8,7 +8,7 @@
 namespace carom {
 namespace {
 
-/// A name of `between`: a body, group, member, fixed thing, the room or one of its sides.
+/// A body, group, member, fixed thing, the room or one of its sides, by name.
 std::optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Diagnostics& diagnostics) {
   if (name.bad || !name.is(Node::Kind::scalar)) return std::nullopt;
   if (const auto it = inventory.names.find(name.text); it != inventory.names.end()) return it->second;
@@ -37,7 +37,7 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
   }
   const std::string near = nearest(name.text, std::vector<std::string_view>(all.begin(), all.end()));
   diagnostics.add(name.place, fmt::format("nothing is named {}", quoted(name.text)),
-                  near.empty() ? "expected a ball, group, member (gas.3), plane, wall, room or side of it (room.y_min)"
+                  near.empty() ? "expected a ball, body, group, member (gas.3) or fixed thing, such as room.y_min"
                                : fmt::format("did you mean {}?", quoted(near)));
   return std::nullopt;
 }
@@ -54,7 +54,7 @@ void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Dia
     diagnostics.add(between->place,
                     fmt::format("{} and {} never move, so they never meet", quoted(between->items[0].text),
                                 quoted(between->items[1].text)),
-                    "expected at least one ball or group");
+                    "expected at least one ball, body or group");
     return;
   }
   if (a->first == b->first && a->count == 1 && b->count == 1) {
@@ -63,6 +63,49 @@ void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Dia
     return;
   }
   scene.world.pairs.push_back({a->first, a->count, b->first, b->count, *value});
+}
+
+/// Whom a force acts on; an empty list: all. None: nobody at all, or an error was reported.
+std::optional<std::vector<Entity>> decode_on(const View& force, const Inventory& inventory, Diagnostics& diagnostics) {
+  const Node* on = force.given("on");
+  if (on == nullptr) return std::vector<Entity>{};
+  if (on->bad) return std::nullopt;
+  std::vector<Entity> bodies;
+  bool good = true;
+  for (const Node& item : on->items) {
+    const auto range = find_range(item, inventory, diagnostics);
+    good = good && range;
+    if (!range) continue;
+    if (range->first >= inventory.body_count && range->count > 0) {
+      diagnostics.add(item.place, fmt::format("{} never moves: no force acts on it", quoted(item.text)),
+                      "expected balls, bodies, groups or members (gas.3)");
+      good = false;
+      continue;
+    }
+    for (Entity i = 0; i < range->count; ++i) bodies.push_back(range->first + i);
+  }
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  return good && !bodies.empty() ? std::optional(std::move(bodies)) : std::nullopt;
+}
+
+void decode_force(const Node& node, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
+  const View view(&node, kind_named("force"), node.place);
+  Force force;
+  force.from = view.number("from").value_or(0);
+  force.until = view.number("until").value_or(force.until);
+  if (force.until <= force.from) {
+    diagnostics.add(view.place("until"),
+                    fmt::format("`until` is {} but `from` is {}", shortest(force.until), shortest(force.from)),
+                    "expected from < until");
+  }
+  force.per_mass = view.given("acceleration") != nullptr;
+  const std::optional<Vec3> value = view.vector(force.per_mass ? "acceleration" : "uniform");
+  std::optional<std::vector<Entity>> on = decode_on(view, inventory, diagnostics);
+  if (!value || !on || value->isZero(0)) return;
+  force.value = *value;
+  force.on = std::move(*on);
+  scene.world.forces.push_back(std::move(force));
 }
 
 }  // namespace
@@ -83,9 +126,15 @@ void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Dia
   for (const auto& [name, combine] : rules) {
     if (name == rule) scene.world.combine = combine;
   }
-  const Node* pairs = laws.find("pairs");
-  if (!inventory.fits || pairs == nullptr || !pairs->is(Node::Kind::sequence)) return;
-  for (const Node& node : pairs->items) decode_pair(node, inventory, scene, diagnostics);
+  if (!inventory.fits) return;
+  const auto each = [](const Node* list, const auto& decode) {
+    if (list == nullptr || !list->is(Node::Kind::sequence)) return;
+    for (const Node& node : list->items) {
+      if (node.is(Node::Kind::map)) decode(node);
+    }
+  };
+  each(laws.find("pairs"), [&](const Node& node) { decode_pair(node, inventory, scene, diagnostics); });
+  each(root.find("forces"), [&](const Node& node) { decode_force(node, inventory, scene, diagnostics); });
 }
 
 }  // namespace carom

@@ -50,6 +50,7 @@ class Requests {
     s.rest_speed = view.number("rest_speed");
     s.max_collisions = view.whole("max_collisions");
     s.as_printed = view.flag("as_printed").value_or(false);
+    s.merge = view.text("contact") == "merge";
     if (s.as_printed && s.engine != Engine::book) {
       diagnostics_.add(view.place("as_printed"), "`as_printed` needs `engine: book`",
                        "only that engine follows the printed listings");
@@ -115,10 +116,13 @@ class Requests {
       out.trajectory = TrajectoryOutput{part.number("every").value_or(1), part.text("layout") == "wide"};
     }
     if (wanted(view, "energy")) out.energy = EnergyOutput{view.part("energy", "energy").number("every").value_or(1)};
+    if (wanted(view, "contacts")) {
+      out.contacts = ContactsOutput{view.part("contacts", "contacts").number("every").value_or(1)};
+    }
     if (wanted(view, "frames")) {
       const View part = view.part("frames", "frames");
       out.frames = FramesOutput{part.number("fps").value_or(30), size_of(part, {}), samples_of(part),
-                                part.number("from").value_or(0), part.number("until")};
+                                part.number("from").value_or(0), until_of(part)};
       check_window(part, out.frames->from, out.frames->until);
     }
     if (wanted(view, "video")) video(video_view(view));
@@ -137,7 +141,7 @@ class Requests {
     video.samples = samples_of(part);
     video.crf = static_cast<int>(part.whole("crf").value_or(18));
     video.from = part.number("from").value_or(0);
-    video.until = part.number("until");
+    video.until = until_of(part);
     const bool plain = std::all_of(video.file.begin(), video.file.end(), [](char c) {
       return static_cast<unsigned char>(c) >= 0x20 && c != '/' && c != '\\';
     });
@@ -155,18 +159,20 @@ class Requests {
     scene_.output.video = video;
   }
 
+  /// No later than the scene's end: there is nothing to see beyond.
+  std::optional<double> until_of(const View& part) const {
+    const std::optional<double> until = part.number("until");
+    return until ? std::optional(std::min(*until, scene_.simulate.duration)) : std::nullopt;
+  }
+
   void check_window(const View& part, double from, const std::optional<double>& until) {
     const double duration = scene_.simulate.duration;
     if (!scene_part(root_, "simulate").number("duration")) return;
-    const auto beyond = [&](std::string_view key, double value) {
-      diagnostics_.add(
-          part.place(key),
-          fmt::format("{} is {} but the scene ends at {} s", quoted(key), shortest(value), shortest(duration)),
-          fmt::format("expected at most {}", shortest(duration)));
-    };
-    if (from > duration) beyond("from", from);
-    if (until && *until > duration) beyond("until", *until);
-    if (until && *until < from) {
+    if (from > duration) {
+      diagnostics_.add(part.place("from"),
+                       fmt::format("`from` is {} but the scene ends at {} s", shortest(from), shortest(duration)),
+                       fmt::format("expected at most {}", shortest(duration)));
+    } else if (until && *until < from) {
       diagnostics_.add(part.place("until"),
                        fmt::format("`until` is {} but `from` is {}", shortest(*until), shortest(from)),
                        "expected from <= until");
@@ -230,6 +236,23 @@ class Requests {
 };
 
 }  // namespace
+
+// The chapter's listings know spheres, planes and walls, gravity and the impulses of the first frame.
+void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics) {
+  if (scene.simulate.engine != Engine::book) return;
+  const View simulate = scene_part(root, "simulate");
+  const auto refuse = [&](Place place, std::string_view what) {
+    diagnostics.add(place, fmt::format("`engine: book` has no {}", what), "expected `engine: exact`");
+  };
+  if (scene.simulate.merge) refuse(simulate.place("contact"), "`contact: merge`");
+  if (!scene.world.volume.empty()) refuse(simulate.place("engine"), "cylinders and boxes: its bodies are spheres");
+  if (const Key* key = root.find_key("obstacles"); key != nullptr && !scene.world.obstacles.empty()) {
+    refuse(key->place, "obstacles");
+  }
+  if (const Key* key = root.find_key("forces"); key != nullptr && !scene.world.forces.empty()) {
+    refuse(key->place, "forces beside gravity");
+  }
+}
 
 bool wanted(const View& output, std::string_view part) {
   const Node* node = output.given(part);

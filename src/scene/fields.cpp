@@ -12,25 +12,25 @@ constexpr Range above_0{0, infinity, true, false};
 constexpr Range from_0{0, infinity, false, false};
 constexpr Range from_1{1, infinity, false, false};
 
-constexpr std::string_view spheres_only = "give the body as a ball: `balls` has spheres";
 constexpr std::string_view exact_only = "engine: exact or book";
+constexpr std::string_view constant_only = "`uniform` and `acceleration` are the forces that engine: exact has";
 
 // clang-format off
 constexpr Field scene_fields[] = {
     {.key = "scene", .type = Type::whole, .range = {1, 1}, .needed = true, .doc = "Kind of file and version of the format."},
     {.key = "title", .type = Type::text, .initial = "\"\"", .doc = "What the scene is, in one line."},
     {.key = "seed", .type = Type::whole, .range = from_0, .initial = "0", .doc = "The only source of randomness."},
-    {.key = "gravity", .type = Type::vector, .unit = "m/s^2", .initial = "[0, -9.80665, 0]", .doc = "Acceleration of every ball; y is up."},
+    {.key = "gravity", .type = Type::vector, .unit = "m/s^2", .initial = "[0, -9.80665, 0]", .doc = "Acceleration of every body; y is up."},
     {.key = "restitution", .type = Type::part, .of = "restitution", .doc = "How bodies bounce off one another."},
     {.key = "defaults", .type = Type::part, .of = "defaults", .doc = "Values that things of a kind take where they name none themselves."},
     {.key = "balls", .type = Type::named, .of = "ball", .doc = "Single balls by name."},
-    {.key = "bodies", .type = Type::named, .later = spheres_only, .doc = "Movable bodies with any bounding volume."},
+    {.key = "bodies", .type = Type::named, .of = "body", .doc = "Movable bodies with any bounding volume."},
     {.key = "groups", .type = Type::named, .of = "group", .doc = "Many balls made by rule, by name."},
     {.key = "planes", .type = Type::named, .of = "plane", .doc = "Unbounded fixed surfaces, free on one side."},
     {.key = "walls", .type = Type::named, .of = "wall", .doc = "Fixed rectangles that can be struck from both sides."},
     {.key = "room", .type = Type::part, .of = "room", .doc = "Six planes that look inward: room.x_min to room.z_max."},
-    {.key = "obstacles", .type = Type::named, .later = "build it of `walls` and `planes`", .doc = "Bodies that never move."},
-    {.key = "forces", .type = Type::list, .later = "`gravity` is the one force there is; `impulse` on a ball acts at time 0", .doc = "Forces on bodies."},
+    {.key = "obstacles", .type = Type::named, .of = "obstacle", .doc = "Bodies that never move."},
+    {.key = "forces", .type = Type::list, .of = "force", .doc = "Forces on bodies, beside gravity."},
     {.key = "simulate", .type = Type::part, .of = "simulate", .needed = true, .doc = "For how long and how."},
     {.key = "camera", .type = Type::part, .of = "camera", .doc = "Where the pictures are taken from; without it a view of all bodies at time 0 is chosen."},
     {.key = "lights", .type = Type::named, .of = "light", .doc = "Lights by name, and `ambient`, the colour of the light that comes from everywhere."},
@@ -39,39 +39,59 @@ constexpr Field scene_fields[] = {
 };
 
 constexpr Field restitution_fields[] = {
-    {.key = "default", .type = Type::number, .range = from_0, .initial = "1", .doc = "Coefficient of a ball that names none."},
+    {.key = "default", .type = Type::number, .range = from_0, .initial = "1", .doc = "Coefficient of a body that names none."},
     {.key = "combine", .type = Type::choice, .initial = "average", .of = "average|minimum|maximum|product|geometric_mean|mass_weighted|book",
      .doc = "How two bodies' coefficients make the pair's; book is e1 e2 / 2."},
     {.key = "pairs", .type = Type::list, .of = "pair", .doc = "Pairs with a coefficient of their own; the last that fits wins."},
 };
 
 constexpr Field pair_fields[] = {
-    {.key = "between", .type = Type::names, .needed = true, .doc = "Two names: balls, groups, members (gas.3), planes, walls, room, room.y_min."},
+    {.key = "between", .type = Type::two_names, .needed = true,
+     .doc = "Two names: balls, bodies, groups, members (gas.3), planes, walls, obstacles, room, room.y_min."},
     {.key = "value", .type = Type::number, .range = from_0, .needed = true, .doc = "The pair's coefficient of restitution."},
 };
 
 constexpr Field defaults_fields[] = {
     {.key = "ball", .type = Type::part, .of = "ball", .doc = "For every ball, and every group's ball."},
-    {.key = "body", .type = Type::part, .later = spheres_only, .doc = "For every body."},
+    {.key = "body", .type = Type::part, .of = "body", .doc = "For every body."},
     {.key = "plane", .type = Type::part, .of = "plane", .doc = "For every plane."},
     {.key = "wall", .type = Type::part, .of = "wall", .doc = "For every wall."},
-    {.key = "obstacle", .type = Type::part, .later = "build it of `walls` and `planes`", .doc = "For every obstacle."},
+    {.key = "obstacle", .type = Type::part, .of = "obstacle", .doc = "For every obstacle."},
     {.key = "group", .type = Type::part, .of = "group", .doc = "For every group."},
 };
 
-constexpr Field mass{.key = "mass", .type = Type::number, .unit = "kg", .range = above_0, .instead = "density", .needed = true, .doc = "Mass."};
-constexpr Field density{.key = "density", .type = Type::number, .unit = "kg/m^3", .range = above_0, .instead = "mass", .doc = "Mass by volume, instead of mass."};
+constexpr Field mass{.key = "mass", .type = Type::number, .unit = "kg", .range = above_0, .one_of = "mass|density", .needed = true, .doc = "Mass."};
+constexpr Field density{.key = "density", .type = Type::number, .unit = "kg/m^3", .range = above_0, .one_of = "mass|density", .doc = "Mass by volume, instead of mass."};
 constexpr Field radius{.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .needed = true, .doc = "Radius."};
 constexpr Field ball_velocity{.key = "velocity", .type = Type::vector, .unit = "m/s", .initial = "[0, 0, 0]", .doc = "Velocity at time 0."};
 constexpr Field ball_restitution{.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution; above 1 makes energy. Default: restitution.default."};
 constexpr Field impulse{.key = "impulse", .type = Type::vector, .unit = "N s", .doc = "Impulse given at time 0."};
 constexpr Field color{.key = "color", .type = Type::color, .doc = "Colour in pictures; without it one is chosen."};
-constexpr Field mesh{.key = "mesh", .type = Type::file, .later = "remove `mesh`: the ball is drawn as a sphere", .doc = "A file, drawn scaled to the ball."};
+constexpr Field mesh{.key = "mesh", .type = Type::file, .doc = "A file, drawn scaled to the ball."};
+constexpr Field ball_position{.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre at time 0."};
 
 constexpr Field ball_fields[] = {
     mass, density, radius,
-    {.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre at time 0."},
-    ball_velocity, ball_restitution, impulse, color, mesh,
+    ball_position, ball_velocity, ball_restitution, impulse, color, mesh,
+};
+
+constexpr std::string_view volumes = "radius|cylinder|box|fit";
+
+// A body's volume: one of four. A mesh with `fit` is the volume; beside one of the other three it is drawn in its place.
+constexpr Field radius_of{.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .one_of = volumes, .needed = true, .doc = "Of a sphere."};
+constexpr Field cylinder{.key = "cylinder", .type = Type::part, .of = "cylinder", .one_of = volumes, .doc = "An upright cylinder, its axis along y."};
+constexpr Field box{.key = "box", .type = Type::vector, .unit = "m", .range = above_0, .one_of = volumes, .doc = "A box along the axes: its full edges."};
+constexpr Field fit{.key = "fit", .type = Type::choice, .of = "sphere|cylinder|box", .one_of = volumes, .doc = "The tightest such volume around the mesh; position is its centre."};
+constexpr Field mesh_of{.key = "mesh", .type = Type::file, .doc = "A file: with `fit` in its own size, else drawn scaled into the volume."};
+
+constexpr Field body_fields[] = {
+    mass, density, radius_of, cylinder, box, mesh_of, fit,
+    ball_position, ball_velocity, ball_restitution, impulse, color,
+};
+
+constexpr Field cylinder_fields[] = {
+    {.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .needed = true, .doc = "Radius."},
+    {.key = "height", .type = Type::number, .unit = "m", .range = above_0, .needed = true, .doc = "Height, along y."},
 };
 
 constexpr Field member_fields[] = {mass, density, radius, ball_velocity, ball_restitution, impulse, color, mesh};
@@ -79,14 +99,14 @@ constexpr Field member_fields[] = {mass, density, radius, ball_velocity, ball_re
 constexpr Field group_fields[] = {
     {.key = "count", .type = Type::whole, .range = from_0, .needed = true, .doc = "How many balls: name.0, name.1, ..."},
     {.key = "ball", .type = Type::part, .of = "member", .needed = true, .doc = "What each is like: a ball without position."},
-    {.key = "in", .type = Type::part, .of = "box", .needed = true, .doc = "The box that holds every ball wholly."},
+    {.key = "in", .type = Type::part, .of = "in", .needed = true, .doc = "The box that holds every ball wholly."},
     {.key = "arrange", .type = Type::choice, .initial = "random", .of = "random|lattice|hexagonal",
      .doc = "random; lattice: cubic, spread evenly over the box; hexagonal: close-packed layers, spread as far as they go."},
-    {.key = "speed", .type = Type::number, .unit = "m/s", .range = from_0, .instead = "velocity", .doc = "Standard deviation of each component of a ball's velocity."},
-    {.key = "velocity", .type = Type::vector, .unit = "m/s", .instead = "speed", .doc = "Velocity of every ball at time 0."},
+    {.key = "speed", .type = Type::number, .unit = "m/s", .range = from_0, .one_of = "speed|velocity", .doc = "Standard deviation of each component of a ball's velocity."},
+    {.key = "velocity", .type = Type::vector, .unit = "m/s", .one_of = "speed|velocity", .doc = "Velocity of every ball at time 0."},
 };
 
-constexpr Field box_fields[] = {
+constexpr Field in_fields[] = {
     {.key = "min", .type = Type::vector, .unit = "m", .needed = true, .doc = "Lowest corner."},
     {.key = "max", .type = Type::vector, .unit = "m", .needed = true, .doc = "Highest corner."},
 };
@@ -114,6 +134,25 @@ constexpr Field room_fields[] = {
     fixed_restitution, color, visible,
 };
 
+constexpr Field obstacle_fields[] = {
+    radius_of, cylinder, box, mesh_of, fit,
+    {.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre."},
+    fixed_restitution, color, visible,
+};
+
+constexpr std::string_view forces = "uniform|acceleration|drag|spring|attractor";
+
+constexpr Field force_fields[] = {
+    {.key = "uniform", .type = Type::vector, .unit = "N", .one_of = forces, .needed = true, .doc = "The same force on each body."},
+    {.key = "acceleration", .type = Type::vector, .unit = "m/s^2", .one_of = forces, .doc = "The same acceleration of each body."},
+    {.key = "drag", .type = Type::part, .one_of = forces, .later = constant_only, .doc = "Drag of the air."},
+    {.key = "spring", .type = Type::part, .one_of = forces, .later = constant_only, .doc = "A spring to a point."},
+    {.key = "attractor", .type = Type::part, .one_of = forces, .later = constant_only, .doc = "Attraction to a point."},
+    {.key = "on", .type = Type::names, .doc = "Balls, bodies, groups and members that it acts on. Default: all."},
+    {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .initial = "0", .doc = "When it sets in."},
+    {.key = "until", .type = Type::number, .unit = "s", .range = above_0, .doc = "When it ceases. Default: never."},
+};
+
 constexpr Field simulate_fields[] = {
     {.key = "duration", .type = Type::number, .unit = "s", .range = from_0, .needed = true, .doc = "How much time passes in the scene."},
     {.key = "engine", .type = Type::choice, .initial = "auto", .of = "auto|exact|stepped|book", .later_choice = "stepped",
@@ -123,7 +162,7 @@ constexpr Field simulate_fields[] = {
     {.key = "rest_speed", .type = Type::number, .unit = "m/s", .range = from_0, .doc = "Slower impacts under load end in resting contact. Default: as slow as the clock resolves."},
     {.key = "max_collisions", .type = Type::whole, .range = from_1, .doc = "A run with more stops with an error."},
     {.key = "integrator", .type = Type::choice, .of = "euler|verlet|rk4", .later = exact_only, .doc = "Of engine stepped."},
-    {.key = "contact", .type = Type::choice, .initial = "bounce", .of = "bounce|merge", .later_choice = "merge", .doc = "Whether bodies that meet bounce or become one."},
+    {.key = "contact", .type = Type::choice, .initial = "bounce", .of = "bounce|merge", .doc = "Whether bodies that meet bounce or become one; merge is engine exact's."},
     {.key = "tolerance", .type = Type::number, .unit = "m", .later = exact_only, .doc = "Error that the step is chosen for."},
 };
 
@@ -138,8 +177,8 @@ constexpr Field camera_fields[] = {
 };
 
 constexpr Field light_fields[] = {
-    {.key = "direction", .type = Type::direction, .instead = "position", .needed = true, .doc = "The way the light travels, from infinitely far."},
-    {.key = "position", .type = Type::vector, .unit = "m", .instead = "direction", .doc = "Where a lamp stands, instead of direction."},
+    {.key = "direction", .type = Type::direction, .one_of = "direction|position", .needed = true, .doc = "The way the light travels, from infinitely far."},
+    {.key = "position", .type = Type::vector, .unit = "m", .one_of = "direction|position", .doc = "Where a lamp stands, instead of direction."},
     {.key = "color", .type = Type::color, .initial = "white", .doc = "Its colour."},
     {.key = "intensity", .type = Type::number, .range = from_0, .initial = "1", .doc = "How bright; 1 is usual."},
 };
@@ -148,6 +187,7 @@ constexpr Field output_fields[] = {
     {.key = "trajectory", .type = Type::part_or_flag, .of = "trajectory", .doc = "trajectory.csv: where every body is."},
     {.key = "collisions", .type = Type::flag, .initial = "false", .doc = "collisions.csv: every collision."},
     {.key = "energy", .type = Type::part_or_flag, .of = "energy", .doc = "energy.csv: energy and momentum of all bodies."},
+    {.key = "contacts", .type = Type::part_or_flag, .of = "contacts", .doc = "contacts.csv: the forces of lasting contact."},
     {.key = "frames", .type = Type::part_or_flag, .of = "frames", .doc = "frames/frame_00000.png and on."},
     {.key = "video", .type = Type::part_or_flag, .of = "video", .doc = "A film, H.264."},
     {.key = "sheet", .type = Type::part_or_flag, .of = "sheet", .doc = "sheet.png: pictures from start to end side by side."},
@@ -162,6 +202,10 @@ constexpr Field trajectory_fields[] = {
 };
 
 constexpr Field energy_fields[] = {
+    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .initial = thirtieth, .doc = "Time between rows."},
+};
+
+constexpr Field contacts_fields[] = {
     {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .initial = thirtieth, .doc = "Time between rows."},
 };
 
@@ -192,18 +236,23 @@ constexpr Kind all_kinds[] = {
     {"pair", "a", "A coefficient of restitution for two bodies, whatever theirs are.", pair_fields},
     {"defaults", "", "Values that things of a kind take where they name none themselves.", defaults_fields},
     {"ball", "a", "A sphere that moves without turning.", ball_fields},
+    {"body", "a", "A body with any bounding volume that moves without turning.", body_fields},
+    {"cylinder", "a", "An upright cylinder.", cylinder_fields},
     {"member", "a", "The ball of a group.", member_fields},
     {"group", "a", "Many balls made by rule, without overlap, the same on every machine.", group_fields},
-    {"box", "a", "A box along the axes.", box_fields},
+    {"in", "", "A box along the axes.", in_fields},
     {"plane", "a", "An unbounded fixed surface, free on one side.", plane_fields},
     {"wall", "a", "A fixed rectangle that can be struck from both sides.", wall_fields},
     {"room", "", "Six planes that look inward.", room_fields},
+    {"obstacle", "an", "A body that never moves.", obstacle_fields},
+    {"force", "a", "A constant force or acceleration, in a window of time if it says so.", force_fields},
     {"simulate", "", "For how long and how.", simulate_fields},
     {"camera", "", "Where the pictures are taken from.", camera_fields},
     {"light", "a", "A light.", light_fields, "ambient"},
     {"output", "", "What the run writes; absent parts are not made.", output_fields},
     {"trajectory", "", "trajectory.csv.", trajectory_fields},
     {"energy", "", "energy.csv.", energy_fields},
+    {"contacts", "", "contacts.csv.", contacts_fields},
     {"frames", "", "One PNG a picture.", frames_fields},
     {"video", "", "A film; what it does not say itself is taken from frames.", video_fields},
     {"sheet", "", "A contact sheet.", sheet_fields},
@@ -246,14 +295,25 @@ std::string describe(const Range& range) {
   return {};
 }
 
-std::vector<std::string_view> choices(const Field& field) {
+std::vector<std::string_view> parts_of(std::string_view text) {
   std::vector<std::string_view> out;
-  for (std::size_t i = 0; i < field.of.size();) {
-    const std::size_t end = std::min(field.of.find('|', i), field.of.size());
-    const std::string_view choice = field.of.substr(i, end - i);
-    if (choice != field.later_choice) out.push_back(choice);
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t end = std::min(text.find('|', i), text.size());
+    out.push_back(text.substr(i, end - i));
     i = end + 1;
   }
+  return out;
+}
+
+std::vector<std::string_view> rivals(const Field& field) {
+  std::vector<std::string_view> out = parts_of(field.one_of);
+  std::erase(out, field.key);
+  return out;
+}
+
+std::vector<std::string_view> choices(const Field& field) {
+  std::vector<std::string_view> out = parts_of(field.of);
+  std::erase(out, field.later_choice);
   return out;
 }
 
@@ -282,7 +342,7 @@ std::string expected(const Field& field) {
     case Type::choice:
       return listed(choices(field));
     case Type::vector:
-      return fmt::format("[x, y, z], three numbers{}", unit);
+      return fmt::format("[x, y, z], three numbers{}{}", limits, unit);
     case Type::direction:
       return "[x, y, z], three numbers, not all zero";
     case Type::extent:
@@ -293,8 +353,10 @@ std::string expected(const Field& field) {
       return "a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
     case Type::file:
       return "the path of a file, from the folder of the scene";
-    case Type::names:
+    case Type::two_names:
       return "[name, name]";
+    case Type::names:
+      return "a list of names, such as [red, gas.3]";
     case Type::part:
       return "a map of keys";
     case Type::part_or_flag:

@@ -22,7 +22,8 @@ enum class Type : std::uint8_t {
   pixels,        // [width, height], wholes in range
   color,         // CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1
   file,          // path, from the scene file's folder
-  names,         // [name, name] of bodies or fixed things
+  two_names,     // [name, name] of bodies or fixed things
+  names,         // a list of names of bodies, at least one
   part,          // a map of kind Field::of
   part_or_flag,  // the same, or true: a map of defaults, or false: absent
   named,         // a map from names to kind Field::of
@@ -44,8 +45,8 @@ struct Field {
   Range range = {};
   std::string_view initial = {};       // the default as YAML; empty: absent unless given
   std::string_view of = {};            // kind, or choices
-  std::string_view instead = {};       // another key of the kind that excludes this one
-  bool needed = false;                 // this or `instead`
+  std::string_view one_of = {};        // keys of the kind that exclude one another, this one among them, separated by |
+  bool needed = false;                 // this or another of `one_of`
   std::string_view later = {};         // part of the format, refused by this version: what to do instead
   std::string_view later_choice = {};  // a choice of which the same holds
   std::string_view doc = {};
@@ -70,6 +71,12 @@ bool contains(const Range& range, double value);
 
 /// What a value of this field looks like: "a number above 0 in kg", "[x, y, z] in m", "average, minimum or maximum".
 std::string expected(const Field& field);
+
+/// "a|b|c", one by one.
+std::vector<std::string_view> parts_of(std::string_view text);
+
+/// The keys that exclude this one.
+std::vector<std::string_view> rivals(const Field& field);
 
 /// The choices that this version serves, one by one.
 std::vector<std::string_view> choices(const Field& field);

@@ -1,5 +1,5 @@
 #pragma once
-// Which balls lie where, for finding overlaps among a million balls of any radii without looking at all pairs.
+// Which bodies lie where, for finding overlaps among a million of any size without looking at all pairs.
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -9,17 +9,21 @@
 
 namespace carom {
 
-/// How deep two things may overlap and still count as touching, m: 1e-12 of the sum of radii (of the radius, at a fixed
-/// surface) plus 4 units in the last place of the largest coordinate, which is what rounding decimals can do.
-double touch_tolerance(double radius_sum, const Vec3& a, const Vec3& b);
+/// How deep two things may overlap and still count as touching, m: `relative` of the smaller reach plus 4 units in the
+/// last place of the largest coordinate, which is what rounding decimals can do.
+double touch_tolerance(double relative, double smaller_reach, const Vec3& a, const Vec3& b);
 
-/// A hashed grid of unbounded space, one level for each power of two of the diameter. A ball is looked for on every
-/// level that is in use; balls put in from the largest to the smallest find their neighbours in 27 cells a level.
-class BallGrid {
+/// Things made by rule lie as tight as this, relative to the smaller one's reach.
+inline constexpr double tight = 1e-12;
+
+/// A hashed grid of unbounded space, one level for each power of two of the diameter. A body is looked for on every
+/// level that is in use; bodies put in from the largest to the smallest find their neighbours in 27 cells a level.
+class BodyGrid {
  public:
-  struct Ball {
+  /// A body or an obstacle; volumes that are no spheres are those of the grid's world.
+  struct Member {
     Vec3 center;    // m
-    double radius;  // m
+    double radius;  // m, its reach
     Entity entity;
   };
   struct Overlap {
@@ -27,31 +31,36 @@ class BallGrid {
     double depth;  // m
   };
 
-  void reserve(std::size_t balls);
-  void insert(const Ball& ball);
-  /// A ball that overlaps this one by more than touching, if there is any.
-  std::optional<Overlap> find_overlap(const Vec3& center, double radius) const;
+  /// Without a world all members are balls.
+  explicit BodyGrid(const World* world = nullptr) : world_(world) {}
+
+  void reserve(std::size_t members);
+  void insert(const Member& member);
+  /// A member that overlaps this body by more than touching, if there is any.
+  std::optional<Overlap> find_overlap(const Member& body, double relative = tight) const;
 
  private:
   struct Level {
     int exponent;
     double cell;  // m, 2^exponent >= the diameters on this level
-    std::vector<std::uint32_t> balls;
+    std::vector<std::uint32_t> members;
   };
   std::size_t bucket(int exponent, std::int64_t x, std::int64_t y, std::int64_t z) const;
-  void link(std::uint32_t ball);
-  std::optional<Overlap> overlap_with(std::uint32_t ball, const Vec3& center, double radius) const;
+  void link(std::uint32_t member);
+  std::optional<Overlap> overlap_with(std::uint32_t member, const Member& body, double relative) const;
+  bool is_ball(Entity entity) const { return world_ == nullptr || world_->volume_of(entity).shape == Shape::sphere; }
 
-  std::vector<Ball> balls_;
-  std::vector<std::int32_t> exponents_;  // by ball
-  std::vector<std::uint32_t> next_;      // by ball, the chain of its bucket
+  const World* world_;
+  std::vector<Member> members_;
+  std::vector<std::int32_t> exponents_;  // by member
+  std::vector<std::uint32_t> next_;      // by member, the chain of its bucket
   std::vector<std::uint32_t> heads_;     // by bucket
   std::vector<Level> levels_;
 };
 
-/// How deep a ball overlaps a fixed surface beyond touching, m; none: it does not.
-std::optional<double> overlap_depth(const Vec3& center, double radius, const Plane& plane);
-std::optional<double> overlap_depth(const Vec3& center, double radius, const Wall& wall);
-bool touches_nothing_fixed(const World& world, const Vec3& center, double radius);
+/// How deep a body at `center` overlaps a plane or a wall (by number) beyond touching, m; none: it does not.
+std::optional<double> overlap_depth(const World& world, Entity body, const Vec3& center, Entity surface,
+                                    double relative = tight);
+bool touches_no_surface(const World& world, Entity body, const Vec3& center);
 
 }  // namespace carom

@@ -18,18 +18,21 @@ class Census {
   Inventory run(const Budget& budget) {
     for (std::size_t i = 0; i < root_.keys.size(); ++i) {
       const std::string& key = root_.keys[i].text;
-      if (key == "balls" || key == "groups") bodies(root_.items[i], key == "groups");
+      if (key == "balls") bodies(root_.items[i], kind_named("ball"));
+      if (key == "bodies") bodies(root_.items[i], kind_named("body"));
+      if (key == "groups") bodies(root_.items[i], kind_named("group"));
       if (key == "planes") fixed(root_.items[i], kind_named("plane"));
       if (key == "room") add_fixed(root_.keys[i], root_.items[i], kind_named("room"));
     }
-    // Walls are numbered after all planes, wherever they stand.
+    // Walls are numbered after all planes, wherever they stand, and obstacles after all walls.
     if (const Node* walls = root_.find("walls")) fixed(*walls, kind_named("wall"));
+    if (const Node* obstacles = root_.find("obstacles")) fixed(*obstacles, kind_named("obstacle"));
 
     std::uint64_t total = 0;
     const BodyEntry* most = nullptr;
     for (BodyEntry& body : inventory_.bodies) {
       body.first = static_cast<Entity>(total);
-      if (body.group) body.count = as_whole(group_view(root_, *body.node, body.key->place).find("count")).value_or(0);
+      if (body.group) body.count = as_whole(body_view(root_, body).find("count")).value_or(0);
       total = body.count > most_bodies || total + body.count > most_bodies ? most_bodies + 1 : total + body.count;
       if (most == nullptr || body.count > most->count) most = &body;
     }
@@ -42,14 +45,14 @@ class Census {
   void claim(const Key& key) {
     if (inventory_.names.emplace(key.text, Inventory::Range{0, 0}).second) return;
     diagnostics_.add(key.place, fmt::format("the name {} is taken", quoted(key.text)),
-                     "names of balls, groups, planes, walls and the room are unique in a scene");
+                     "names of bodies, groups, fixed things and the room are unique in a scene");
   }
 
-  void bodies(const Node& node, bool group) {
+  void bodies(const Node& node, const Kind& kind) {
     if (!node.is(Node::Kind::map)) return;
     for (std::size_t i = 0; i < node.keys.size(); ++i) {
       claim(node.keys[i]);
-      inventory_.bodies.push_back({&node.keys[i], &node.items[i], group});
+      inventory_.bodies.push_back({&node.keys[i], &node.items[i], &kind, kind.name == "group"});
     }
   }
 
@@ -70,8 +73,7 @@ class Census {
     if (total <= limit) return;
     inventory_.fits = false;
     const bool by_group = most->group;
-    const View view = by_group ? group_view(root_, *most->node, most->key->place)
-                               : View(nullptr, kind_named("ball"), most->key->place);
+    const View view = body_view(root_, *most);
     const std::string figure = total > most_bodies ? fmt::format("more than {}", most_bodies) : std::to_string(total);
     diagnostics_.add(by_group ? view.place("count") : most->key->place,
                      fmt::format("the scene has {} bodies; the limit is {}", figure, limit),
@@ -112,14 +114,8 @@ View scene_part(const Node& root, std::string_view key) {
   return View(node, kind_named(key), name == nullptr ? Place{} : name->place);
 }
 
-View ball_view(const Node& root, const Node& node, Place where) {
-  const Kind& kind = kind_named("ball");
-  return View(&node, kind, where, defaults_for(root, kind));
-}
-
-View group_view(const Node& root, const Node& node, Place where) {
-  const Kind& kind = kind_named("group");
-  return View(&node, kind, where, defaults_for(root, kind));
+View body_view(const Node& root, const BodyEntry& entry) {
+  return View(entry.node, *entry.kind, entry.key->place, defaults_for(root, *entry.kind));
 }
 
 View member_view(const Node& root, const View& group) {

@@ -50,10 +50,13 @@ Scene load(const std::string& path, const LoadOptions& options) {
   scene.seed = options.seed ? *options.seed : whole.whole("seed").value_or(0);
   const Inventory inventory = take_inventory(*root, options.budget, diagnostics);
   decode_laws(*root, inventory, scene, diagnostics);
-  decode_fixed(*root, inventory, scene, diagnostics);
+  Forms forms(folder_of(path), options, diagnostics);
+  decode_fixed(*root, inventory, forms, scene, diagnostics);
   decode_requests(*root, inventory, options.budget, scene, diagnostics);
-  if (inventory.fits) decode_bodies(*root, inventory, scene, diagnostics);
+  if (inventory.fits) decode_bodies(*root, inventory, forms, scene, diagnostics);
+  check_engine(*root, scene, diagnostics);
   stop_if_wrong(diagnostics, options);
+  scene.meshes = forms.files(scene.output.video ? scene.output.video->file : "");
   scene.resolved = resolved_text(*root, inventory, scene);
   return scene;
 }

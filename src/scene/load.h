@@ -1,6 +1,7 @@
 #pragma once
 // YAML -> checked Scene, or errors that point at the character.
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -23,6 +24,10 @@ struct LoadOptions {
   std::optional<std::uint64_t> seed;  // overrules the file's
   Budget budget;
   bool color = false;  // colour in the texts of errors
+
+  /// Reads the vertices of a mesh file, in the file's own units. Throws std::runtime_error whose text says what is
+  /// wrong with the file. Unset: scenes with meshes are refused.
+  std::function<std::vector<Vec3>(const std::string& path)> mesh_points;
 };
 
 /// All that is wrong with a scene file, as text for a terminal: per error file:line:column, the line, a caret, the

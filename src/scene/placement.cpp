@@ -93,7 +93,7 @@ struct Hexagonal {
 
 class Placer {
  public:
-  Placer(const Placing& placing, const World& world, const BallGrid& others, Random& random)
+  Placer(const Placing& placing, const World& world, const BodyGrid& others, Random& random)
       : p_(placing), world_(world), others_(others), random_(random), edge_(placing.max - placing.min) {}
 
   Placed run() {
@@ -107,7 +107,7 @@ class Placer {
 
  private:
   bool is_free(const Vec3& center) const {
-    return touches_nothing_fixed(world_, center, p_.radius) && !others_.find_overlap(center, p_.radius);
+    return touches_no_surface(world_, p_.first, center) && !others_.find_overlap({center, p_.radius, p_.first});
   }
 
   /// Random sequential addition. Gives up where the free volume is too small to be found by chance.
@@ -119,7 +119,7 @@ class Placer {
     const Vec3 low = p_.min.array() + p_.radius;
     const Vec3 free = (edge_.array() - 2 * p_.radius).max(0.0);
     std::uint64_t tries = 10'000 + 40 * p_.count;
-    BallGrid grid;
+    BodyGrid grid;
     grid.reserve(p_.count);
     Placed placed;
     placed.centers.reserve(p_.count);
@@ -128,8 +128,8 @@ class Placer {
       // One call a statement: the order of evaluation inside an expression is the compiler's choice.
       Vec3 center;
       for (int k = 0; k < 3; ++k) center[k] = low[k] + random_.uniform() * free[k];
-      if (grid.find_overlap(center, p_.radius) || !is_free(center)) continue;
-      grid.insert({center, p_.radius, 0});
+      if (grid.find_overlap({center, p_.radius, p_.first}) || !is_free(center)) continue;
+      grid.insert({center, p_.radius, p_.first});
       placed.centers.push_back(center);
     }
     return placed;
@@ -139,11 +139,11 @@ class Placer {
   template <typename Sites>
   std::vector<Vec3> free_sites(double& spacing) const {
     // The widest spacing by bisection, nothing being in the way.
-    const double tight = 2 * p_.radius;
+    const double closest = 2 * p_.radius;
     const auto count = static_cast<double>(p_.count);
     double wide = edge_.maxCoeff() * 2;
-    spacing = tight;
-    if (Sites(edge_, tight).capacity() >= count) {
+    spacing = closest;
+    if (Sites(edge_, closest).capacity() >= count) {
       for (int i = 0; i < 100 && wide - spacing > 1e-14 * wide; ++i) {
         const double middle = spacing + (wide - spacing) / 2;
         (Sites(edge_, middle).capacity() >= count ? spacing : wide) = middle;
@@ -163,10 +163,10 @@ class Placer {
         best = std::move(sites);
         spacing = s;
       }
-      if (best.size() >= p_.count || s <= tight) return best;
+      if (best.size() >= p_.count || s <= closest) return best;
       // Fewer free sites than balls: narrower by about the fourth root of the ratio, so that the cube is not overshot.
       const double shrink = std::sqrt(std::sqrt(std::max<double>(1, static_cast<double>(best.size())) / count));
-      s = std::max(tight, s * std::clamp(shrink, 0.5, 0.98));
+      s = std::max(closest, s * std::clamp(shrink, 0.5, 0.98));
       if (Sites(edge_, s).capacity() > most_sites) return best;
     }
   }
@@ -213,14 +213,14 @@ class Placer {
 
   const Placing& p_;
   const World& world_;
-  const BallGrid& others_;
+  const BodyGrid& others_;
   Random& random_;
   Vec3 edge_;
 };
 
 }  // namespace
 
-Placed place(const Placing& placing, const World& world, const BallGrid& others, Random& random) {
+Placed place(const Placing& placing, const World& world, const BodyGrid& others, Random& random) {
   return Placer(placing, world, others, random).run();
 }
 

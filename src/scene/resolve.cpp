@@ -65,14 +65,17 @@ class Resolver {
     line("seed", std::to_string(scene_.seed));
     line("gravity", flow(*whole.find("gravity")));
     line("restitution", flow(scene_part(root_, "restitution")));
-    // The order of these five in the file is the order of the bodies and of the planes.
+    // The order of these in the file is the order of the bodies and of the planes.
     for (const Key& key : root_.keys) {
-      if (key.text == "balls") bodies("balls", false);
-      if (key.text == "groups") bodies("groups", true);
-      if (key.text == "planes") fixed("planes", "plane");
+      if (key.text == "balls") bodies("balls", "ball");
+      if (key.text == "bodies") bodies("bodies", "body");
+      if (key.text == "groups") bodies("groups", "group");
+      if (key.text == "planes") fixed("planes", "plane", plane_color);
       if (key.text == "room") room();
-      if (key.text == "walls") fixed("walls", "wall");
+      if (key.text == "walls") fixed("walls", "wall", wall_color);
+      if (key.text == "obstacles") fixed("obstacles", "obstacle", obstacle_color);
     }
+    forces();
     simulate();
     if (root_.find("camera") != nullptr) line("camera", flow(scene_part(root_, "camera")));
     lights();
@@ -92,42 +95,60 @@ class Resolver {
 
   std::string default_restitution() const { return flow(*scene_part(root_, "restitution").find("default")); }
 
-  void bodies(std::string_view key, bool group) {
+  /// The key `mesh`: the copy in the run's folder.
+  void name_copy(const std::optional<MeshUse>& mesh, Overrides& overrides) const {
+    for (const MeshFile& file : scene_.meshes) {
+      if (mesh && mesh->file == file.file) overrides["mesh"] = in_quotes(file.copy);
+    }
+  }
+
+  void bodies(std::string_view key, std::string_view kind) {
     heading(key, root_.find(key)->items.empty());
     for (std::size_t i = 0; i < inventory_.bodies.size(); ++i) {
       const BodyEntry& body = inventory_.bodies[i];
-      if (body.group != group) continue;
+      if (body.kind->name != kind) continue;
       Overrides overrides;
-      const View view =
-          group ? group_view(root_, *body.node, body.key->place) : ball_view(root_, *body.node, body.key->place);
-      const View ball = group ? member_view(root_, view) : view;
-      if (ball.find("restitution") == nullptr) overrides["restitution"] = default_restitution();
-      if (ball.find("color") == nullptr) overrides["color"] = in_quotes(body_color(i));
-      if (!group) {
-        entry(body.key->text, flow(ball, overrides));
+      const View view = body_view(root_, body);
+      const View each = body.group ? member_view(root_, view) : view;
+      if (each.find("restitution") == nullptr) overrides["restitution"] = default_restitution();
+      if (each.find("color") == nullptr) overrides["color"] = in_quotes(body_color(i));
+      name_copy(scene_.roster.bodies[i].mesh, overrides);
+      if (!body.group) {
+        entry(body.key->text, flow(each, overrides));
         continue;
       }
       // A group's velocity is said once, by the group.
       overrides["velocity"] = "";
-      Overrides group_overrides{{"ball", flow(ball, overrides)}, {"in", flow(view.part("in", "box"))}};
+      Overrides group_overrides{{"ball", flow(each, overrides)}, {"in", flow(view.part("in", "in"))}};
       if (view.find("speed") == nullptr && view.find("velocity") == nullptr)
-        group_overrides["velocity"] = flow(*ball.find("velocity"));
+        group_overrides["velocity"] = flow(*each.find("velocity"));
       entry(body.key->text, flow(view, group_overrides));
     }
   }
 
-  void fixed(std::string_view key, std::string_view kind) {
+  void fixed(std::string_view key, std::string_view kind, std::string_view color) {
     heading(key, root_.find(key)->items.empty());
     for (const FixedEntry& thing : inventory_.fixed) {
       if (thing.kind->name != kind) continue;
       const View view = fixed_view(root_, thing);
       Overrides overrides;
-      if (view.find("color") == nullptr) overrides["color"] = in_quotes(kind == "plane" ? plane_color : wall_color);
+      if (view.find("color") == nullptr) overrides["color"] = in_quotes(color);
       if (kind == "wall" && view.find("up") == nullptr) {
         const Vec3 up = default_up(unit(*view.vector("normal")));
         overrides["up"] = up.y() == 1 ? "[0, 1, 0]" : "[0, 0, 1]";
       }
+      name_copy(scene_.roster.fixed[thing.first].mesh, overrides);
       entry(thing.key->text, flow(view, overrides));
+    }
+  }
+
+  void forces() {
+    const Node* node = root_.find("forces");
+    if (node == nullptr) return;
+    if (node->items.empty()) return line("forces", "[]");
+    heading("forces", false);
+    for (const Node& item : node->items) {
+      out_ += fmt::format("  - {}\n", flow(View(&item, kind_named("force"), item.place)));
     }
   }
 

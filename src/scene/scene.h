@@ -24,6 +24,12 @@ struct MeshUse {
   double scale = 1;            // m per unit of the file
 };
 
+/// A mesh file of the scene. A run's folder keeps a copy, which the resolved text names, so that the folder runs alone.
+struct MeshFile {
+  std::string file;  // as in MeshUse
+  std::string copy;  // a plain file name, no other output's
+};
+
 /// A name of the scene file and the bodies it stands for: one ball or body, or a group's members name.0, name.1, ...
 struct BodyRange {
   std::string name;
@@ -139,6 +145,7 @@ struct Scene {
   std::optional<Color> ambient;
   std::optional<Color> background;
   Output output;
+  std::vector<MeshFile> meshes;  // each once
   std::string resolved;  // YAML text: this scene with defaults and --set applied; running it gives the same bytes
 };
 

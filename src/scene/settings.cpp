@@ -84,7 +84,7 @@ class Walk {
                                 kind_->name == "scene" ? "the scene" : quoted(kind_->name)),
                     suggest_key(step.text, *kind_));
     }
-    if (!field->instead.empty()) erase(*node_, field->instead);
+    for (const std::string_view rival : rivals(*field)) erase(*node_, rival);
     Node* child = node_->find(field->key);
     if (child == nullptr) {
       node_->keys.push_back({step.text, step.place});

@@ -73,7 +73,9 @@ const Node* View::given(std::string_view key) const {
   for (const Node* layer : {own_, defaults_}) {
     if (layer == nullptr) continue;
     if (const Node* node = layer->find(key)) return node;
-    if (!field->instead.empty() && layer->find_key(field->instead) != nullptr) return nullptr;
+    for (const std::string_view rival : rivals(*field)) {
+      if (layer->find_key(rival) != nullptr) return nullptr;
+    }
   }
   return nullptr;
 }

@@ -21,7 +21,7 @@ class View {
         where_(where),
         defaults_(defaults) {}
 
-  /// The value that holds; null: none. A key that excludes this one (Field::instead) hides what lies below it.
+  /// The value that holds; null: none. A key that excludes this one (Field::one_of) hides what lies below it.
   const Node* find(std::string_view key) const;
   /// The same without the table's own default.
   const Node* given(std::string_view key) const;

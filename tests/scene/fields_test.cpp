@@ -20,10 +20,10 @@ TEST(Fields, EveryRowIsComplete) {
       EXPECT_TRUE(keys.insert(field.key).second) << kind.name << "." << field.key;
       EXPECT_TRUE(field.doc.ends_with('.')) << kind.name << "." << field.key;
       EXPECT_FALSE(expected(field).empty());
-      if (!field.instead.empty()) {
-        const Field* other = find_field(kind, field.instead);
+      for (const std::string_view rival : rivals(field)) {
+        const Field* other = find_field(kind, rival);
         ASSERT_NE(other, nullptr) << kind.name << "." << field.key;
-        EXPECT_EQ(other->instead, field.key);
+        EXPECT_EQ(other->one_of, field.one_of);
       }
       const bool is_map = field.type == Type::part || field.type == Type::part_or_flag || field.type == Type::named ||
                           field.type == Type::list;

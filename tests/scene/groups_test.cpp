@@ -83,7 +83,9 @@ TEST(Groups, ErrorsSayHowManyWouldFit) {
     EXPECT_EQ(load_text(group(arrange, std::to_string(fit), 0.05, 1)).world.body_count(), 1254u);
     EXPECT_NE(errors_of(group(arrange, std::to_string(fit + 1), 0.05, 1)), "");
   }
-  EXPECT_NE(errors_of(group("random", "1", 0.6, 1)).find("= 0 would fit"), std::string::npos);
+  const std::string error = errors_of(group("random", "1", 0.6, 1));
+  EXPECT_NE(error.find("error: 1 ball of radius 0.6 does not fit into the box of `gas`"), std::string::npos) << error;
+  EXPECT_NE(error.find("= 0 would fit"), std::string::npos);
 }
 
 TEST(Groups, DenseRandomOnesStillHaveRoom) {

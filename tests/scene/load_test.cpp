@@ -246,8 +246,8 @@ TEST(LoadScene, TouchingByRoundingIsNoOverlap) {
             std::to_string(i * 2 % 10) + ", 0.1, 1000.3]}\n";
   EXPECT_EQ(errors_of(text + "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n"), "");
   EXPECT_NE(errors_of(start + "balls: {a: {mass: 1, radius: 0.1, position: [0, 0, 0]}, b: {mass: 1, radius: 0.1, "
-                              "position: [0.1999999999, 0, 0]}}\n")
-                .find("`b` overlaps `a` by 1e-10 m"),
+                              "position: [0.199999999, 0, 0]}}\n")
+                .find("`b` overlaps `a` by 1e-09 m"),
             std::string::npos);
 }
 

@@ -38,6 +38,27 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.world.pairs[i].b_count, b.world.pairs[i].b_count);
     EXPECT_EQ(a.world.pairs[i].value, b.world.pairs[i].value);
   }
+  const auto same_volume = [](const Volume& v, const Volume& w) { return v.shape == w.shape && v.half == w.half; };
+  ASSERT_EQ(a.world.volume.size(), b.world.volume.size());
+  for (std::size_t i = 0; i < a.world.volume.size(); ++i) {
+    EXPECT_TRUE(same_volume(a.world.volume[i], b.world.volume[i]));
+  }
+  ASSERT_EQ(a.world.obstacles.size(), b.world.obstacles.size());
+  for (std::size_t i = 0; i < a.world.obstacles.size(); ++i) {
+    EXPECT_EQ(a.world.obstacles[i].center, b.world.obstacles[i].center);
+    EXPECT_TRUE(same_volume(a.world.obstacles[i].volume, b.world.obstacles[i].volume));
+    EXPECT_EQ(a.world.obstacles[i].restitution, b.world.obstacles[i].restitution);
+  }
+  ASSERT_EQ(a.world.forces.size(), b.world.forces.size());
+  for (std::size_t i = 0; i < a.world.forces.size(); ++i) {
+    EXPECT_EQ(a.world.forces[i].per_mass, b.world.forces[i].per_mass);
+    EXPECT_EQ(a.world.forces[i].value, b.world.forces[i].value);
+    EXPECT_EQ(a.world.forces[i].from, b.world.forces[i].from);
+    EXPECT_EQ(a.world.forces[i].until, b.world.forces[i].until);
+    EXPECT_EQ(a.world.forces[i].on, b.world.forces[i].on);
+  }
+  EXPECT_EQ(a.simulate.merge, b.simulate.merge);
+  EXPECT_EQ(a.output.contacts.has_value(), b.output.contacts.has_value());
   EXPECT_EQ(a.initial.position, b.initial.position);
   EXPECT_EQ(a.initial.velocity, b.initial.velocity);
   const auto same_color = [](const Color& x, const Color& y) { return x.r == y.r && x.g == y.g && x.b == y.b; };
@@ -146,6 +167,8 @@ defaults:
   ball: {mass: 1, radius: 0.1, velocity: [0, 0, 3]}
   group: {arrange: lattice, ball: {mass: 4}}
   plane: {restitution: 0.25, color: red}
+  body: {mass: 3, cylinder: {radius: 0.1, height: 0.2}}
+  obstacle: {box: [0.1, 0.2, 0.3]}
   wall: {up: [1, 1, 0]}
 groups:
   gas: {count: 4, ball: {color: '#abc'}, in: {min: [1, 1, 1], max: [2, 2, 2]}, speed: 2}
@@ -153,23 +176,35 @@ groups:
   ice: {count: 10, ball: {impulse: [1, 2, 3]}, in: {min: [-2, 1, -2], max: [-1, 2, -1]}, arrange: hexagonal, velocity: [1, 0, 0]}
 walls:
   net: {center: [0, 0, 2.5], normal: [0.1, 0.2, 1], size: [1, 0.5]}
+bodies:
+  can: {position: [2.5, 0, 0]}
+  crate: {box: [0.2, 0.2, 0.2], position: [2.5, 1, 0], density: 10}
+  marble: {radius: 0.1, position: [2.5, 2, 0], color: tan}
+obstacles:
+  block: {position: [-2.5, 0, 0], restitution: 0}
+  post: {cylinder: {radius: 0.1, height: 1}, position: [-2.5, 2, 0], visible: false}
+forces:
+  - {uniform: [1, 0, 0], on: [gas, gas.1, red], from: 0.5}
+  - {acceleration: [0, 0, 1e-1], until: 2}
 room: {min: [-3, -3, -3], max: [3, 3, 3]}
 planes:
   floor: {point: [0, -4, 0], normal: [0.1, 1, 0], visible: false}
 balls:
   red: {position: [0, 0, 0], velocity: [1, 0, 0], color: crimson, impulse: [0, 0, 1]}
   blue: {density: 100, position: [0, 1, 0], restitution: 0.5, color: [0, 0.5, 1]}
-simulate: {duration: 2.5, max_collisions: 1000, rest_speed: 1e-3}
+simulate: {duration: 2.5, max_collisions: 1000, rest_speed: 1e-3, contact: merge}
 camera: {eye: [0, 3, -5], target: [0, 0, 0], fov_axis: horizontal, far: 1e2}
 lights: {sun: {direction: [0, -1, 0.5], intensity: 2}, ambient: dimgray}
 background: '#112233'
-output: {trajectory: {layout: wide}, energy: true, frames: {fps: 10, size: [64, 48], until: 1}, video: {file: "b c.mp4"}, sheet: true}
+output: {trajectory: {layout: wide}, energy: true, contacts: true, frames: {fps: 10, size: [64, 48], until: 1}, video: {file: "b c.mp4"}, sheet: true}
 )");
 }
 
 TEST(ResolvedScene, HoldsWithoutOutputAndWithEmptyParts) {
   expect_stable("scene: 1\nsimulate: {duration: 0}\n");
-  expect_stable("scene: 1\nballs: {}\nplanes: {}\nlights: {}\noutput: {}\nsimulate: {duration: 1}\n");
+  expect_stable(
+      "scene: 1\nballs: {}\nplanes: {}\nbodies: {}\nobstacles: {}\nforces: []\nlights: {}\noutput: {}\nsimulate: "
+      "{duration: 1}\n");
 }
 
 TEST(ResolvedScene, HoldsSettingsAndSeed) {

@@ -1,0 +1,131 @@
+#include "scene/forms.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+
+#include "scene/check.h"
+#include "scene/values.h"
+
+namespace carom {
+namespace {
+
+constexpr std::string_view shape_names[] = {"sphere", "cylinder", "box"};
+
+/// Whatever a run may write beside the copies of meshes.
+bool is_taken(const std::string& name, const std::string& film) {
+  static const std::set<std::string> outputs = {"scene.yaml",    "summary.csv",  "trajectory.csv", "collisions.csv",
+                                                "energy.csv",    "contacts.csv", "sheet.png",      "frames",
+                                                "manifest.json", "animation.mp4"};
+  return outputs.contains(name) || name == film;
+}
+
+}  // namespace
+
+std::optional<Form> Forms::of(const View& thing) {
+  const Node* mesh = thing.given("mesh");
+  if (mesh != nullptr && mesh->bad) return std::nullopt;
+  if (thing.given("fit") != nullptr) return mesh == nullptr ? std::nullopt : fitted(thing, *mesh);
+  const std::optional<Volume> volume = said_volume(thing);
+  if (!volume || mesh == nullptr) return volume ? std::optional(Form{*volume, std::nullopt}) : std::nullopt;
+  return drawn(*volume, *mesh);
+}
+
+std::optional<Volume> Forms::said_volume(const View& thing) const {
+  if (const std::optional<double> radius = thing.number("radius")) return Volume::sphere(*radius);
+  if (const std::optional<Vec3> edges = thing.vector("box")) return Volume::box(*edges);
+  const Node* node = thing.given("cylinder");
+  if (node == nullptr || node->bad) return std::nullopt;
+  const View cylinder(node, kind_named("cylinder"), thing.place("cylinder"));
+  const std::optional<double> radius = cylinder.number("radius"), height = cylinder.number("height");
+  return radius && height ? std::optional(Volume::cylinder(*radius, *height)) : std::nullopt;
+}
+
+/// The volume is the tightest around the mesh, which keeps its own size.
+std::optional<Form> Forms::fitted(const View& thing, const Node& mesh) {
+  const std::optional<std::string> name = thing.text("fit");
+  if (!name) return std::nullopt;
+  const auto shape = static_cast<Shape>(std::find(std::begin(shape_names), std::end(shape_names), *name) - shape_names);
+  const std::optional<Fit> tight = fit(shape, mesh);
+  if (!tight) return std::nullopt;
+  return Form{tight->volume, MeshUse{path_of(mesh), tight->center, 1}};
+}
+
+/// The mesh is drawn as large as lets its own tightest volume of that shape lie in the given one, centre on centre.
+std::optional<Form> Forms::drawn(const Volume& volume, const Node& mesh) {
+  const std::optional<Fit> tight = fit(volume.shape, mesh);
+  if (!tight) return std::nullopt;
+  const double scale = (volume.half.array() / tight->volume.half.array()).minCoeff();
+  return Form{volume, MeshUse{path_of(mesh), tight->center, scale}};
+}
+
+std::optional<Fit> Forms::fit(Shape shape, const Node& mesh) {
+  const std::vector<Vec3>* vertices = points(mesh);
+  if (vertices == nullptr) return std::nullopt;
+  const auto key = std::pair(path_of(mesh), shape);
+  if (const auto known = fits_.find(key); known != fits_.end()) return known->second;
+  std::optional<Fit> tight;
+  try {
+    tight = tightest(shape, *vertices);
+  } catch (const std::invalid_argument&) {
+    diagnostics_.add(place_of(mesh),
+                     fmt::format("the mesh {} is flat: its tightest {} has no inside", carom::quoted(mesh.text),
+                                 shape_names[static_cast<std::size_t>(shape)]),
+                     "expected a mesh with width, height and depth");
+  }
+  return fits_.emplace(key, tight).first->second;
+}
+
+const std::vector<Vec3>* Forms::points(const Node& mesh) {
+  const std::string path = path_of(mesh);
+  const auto [entry, is_new] = points_.try_emplace(path);
+  if (!is_new) return entry->second.empty() ? nullptr : &entry->second;
+  order_.push_back(path);
+  const auto refuse = [&](const std::string& what) {
+    diagnostics_.add(place_of(mesh), fmt::format("the mesh {} cannot be used: {}", carom::quoted(mesh.text), what),
+                     "expected a file of triangles with finite vertices");
+    return nullptr;
+  };
+  if (!options_.mesh_points) return refuse("there is no reader of meshes here");
+  std::vector<Vec3> vertices;
+  try {
+    vertices = options_.mesh_points(path);
+  } catch (const std::runtime_error& error) {
+    return refuse(error.what());
+  }
+  if (vertices.empty()) return refuse("it has no vertices");
+  if (!std::all_of(vertices.begin(), vertices.end(), [](const Vec3& v) { return (v * 4).allFinite(); })) {
+    return refuse("it has a vertex that is not finite");
+  }
+  entry->second = std::move(vertices);
+  return &entry->second;
+}
+
+std::string Forms::path_of(const Node& mesh) const {
+  return std::filesystem::path(beneath(folder_, mesh.text)).lexically_normal().string();
+}
+
+std::vector<MeshFile> Forms::files(const std::string& film) const {
+  std::vector<MeshFile> out;
+  std::set<std::string> used;
+  for (const std::string& path : order_) {
+    const std::filesystem::path name = std::filesystem::path(path).filename();
+    // No hidden file, no option, no other system's path, no name longer than file systems take.
+    std::string stem = name.stem().string();
+    if (stem.starts_with('.') || stem.starts_with('-') || stem.find('\\') != std::string::npos || stem.size() > 150) {
+      stem = "mesh";
+    }
+    std::string copy = stem + name.extension().string();
+    for (int i = 2; is_taken(copy, film) || used.contains(copy); ++i) {
+      copy = fmt::format("{}-{}{}", stem, i, name.extension().string());
+    }
+    used.insert(copy);
+    out.push_back({path, copy});
+  }
+  return out;
+}
+
+}  // namespace carom

@@ -1,0 +1,52 @@
+#pragma once
+// The volumes of bodies and obstacles, and the meshes that are drawn in their place or that they are fitted around.
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "physics/fit.h"
+#include "physics/volume.h"
+#include "scene/diagnostics.h"
+#include "scene/load.h"
+#include "scene/scene.h"
+#include "scene/view.h"
+
+namespace carom {
+
+struct Form {
+  Volume volume;
+  std::optional<MeshUse> mesh;
+};
+
+/// Reads each mesh file once, and fits each kind of volume around it once.
+class Forms {
+ public:
+  /// `folder` is that of the scene file.
+  Forms(std::string folder, const LoadOptions& options, Diagnostics& diagnostics)
+      : folder_(std::move(folder)), options_(options), diagnostics_(diagnostics) {}
+
+  /// Of a ball, a group's ball, a body or an obstacle. None: its volume or its mesh has an error, which was reported.
+  std::optional<Form> of(const View& thing);
+
+  /// The files that were used, in the order of their first use. `film`: the name of the film, no copy's then.
+  std::vector<MeshFile> files(const std::string& film) const;
+
+ private:
+  std::optional<Volume> said_volume(const View& thing) const;
+  std::optional<Form> fitted(const View& thing, const Node& mesh);
+  std::optional<Form> drawn(const Volume& volume, const Node& mesh);
+  const std::vector<Vec3>* points(const Node& mesh);
+  std::optional<Fit> fit(Shape shape, const Node& mesh);
+  std::string path_of(const Node& mesh) const;
+
+  std::string folder_;
+  const LoadOptions& options_;
+  Diagnostics& diagnostics_;
+  std::map<std::string, std::vector<Vec3>> points_;                   // by path; empty: cannot be used
+  std::map<std::pair<std::string, Shape>, std::optional<Fit>> fits_;  // none: cannot be
+  std::vector<std::string> order_;                                    // paths
+};
+
+}  // namespace carom

@@ -1,0 +1,298 @@
+// Bodies and obstacles: volumes, meshes, overlaps at the start.
+#include <cmath>
+#include <numbers>
+
+#include "scene/scenes_in_text.h"
+
+namespace carom {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Vertices of a pin of radius 0.06 m and height 0.38 m that stands on the file's origin.
+const std::vector<Vec3> pin = {Vec3(0.06, 0, 0),  Vec3(-0.06, 0, 0),    Vec3(0, 0, 0.06),
+                               Vec3(0, 0, -0.06), Vec3(0, 0.38, 0.001), Vec3(0, 0.38, -0.001)};
+
+LoadOptions with_reader(int* reads = nullptr) {
+  LoadOptions options;
+  options.mesh_points = [reads](const std::string& path) -> std::vector<Vec3> {
+    if (reads != nullptr) ++*reads;
+    if (path.ends_with("torn.stl")) throw std::runtime_error("it ends within a triangle");
+    if (path.ends_with("flat.stl")) return {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1)};
+    return pin;
+  };
+  return options;
+}
+
+/// A scene in a folder with the meshes that with_reader() knows.
+Scene load_with_meshes(const std::string& text, const LoadOptions& options = with_reader()) {
+  for (const char* name : {"pin.stl", "torn.stl", "flat.stl"}) write_file("solid\n", name);
+  return load_text(text, options);
+}
+
+std::string mesh_errors(const std::string& text, const LoadOptions& options = with_reader()) {
+  for (const char* name : {"pin.stl", "torn.stl", "flat.stl"}) write_file("solid\n", name);
+  return errors_of(text, options);
+}
+
+TEST(Bodies, HaveSpheresCylindersAndBoxes) {
+  const Scene scene = load_text(start +
+                                "balls: {ball: {mass: 1, radius: 0.5, position: [0, 0, 0]}}\n"
+                                "bodies:\n"
+                                "  marble: {mass: 2, radius: 0.25, position: [5, 0, 0]}\n"
+                                "  can: {density: 100, cylinder: {radius: 3, height: 8}, position: [10, 0, 0]}\n"
+                                "  crate: {density: 10, box: [1, 2, 2], position: [20, 0, 0], velocity: [0, 1, 0]}\n"
+                                "groups: {gas: {count: 2, ball: {mass: 1, radius: 0.1}, in: {min: [30, 0, 0], max: "
+                                "[31, 1, 1]}}}\n");
+  const World& world = scene.world;
+  ASSERT_EQ(world.volume.size(), 6u);
+  EXPECT_EQ(world.volume[0].shape, Shape::sphere);
+  EXPECT_EQ(world.volume[1].half, Vec3(0.25, 0.25, 0.25));
+  EXPECT_EQ(world.volume[2].shape, Shape::cylinder);
+  EXPECT_EQ(world.volume[2].half, Vec3(3, 4, 3));
+  EXPECT_EQ(world.volume[3].shape, Shape::box);
+  EXPECT_EQ(world.volume[3].half, Vec3(0.5, 1, 1));
+  EXPECT_EQ(world.volume[5].half, Vec3(0.1, 0.1, 0.1));
+  EXPECT_EQ(world.radius, (std::vector<double>{0.5, 0.25, 5, 1.5, 0.1, 0.1}));  // of the spheres about them
+  EXPECT_DOUBLE_EQ(world.mass[2], 100 * pi * 9 * 8);
+  EXPECT_EQ(world.mass[3], 40);
+  EXPECT_EQ(scene.initial.velocity[3], Vec3(0, 1, 0));
+  EXPECT_EQ(scene.roster.name(2), "can");
+  EXPECT_EQ(scene.roster.name(5), "gas.1");
+}
+
+TEST(Bodies, ThatAreAllSpheresNeedNoVolumes) {
+  const Scene scene = load_text(start + "bodies: {a: {mass: 1, radius: 2, position: [0, 0, 0]}}\n");
+  EXPECT_TRUE(scene.world.volume.empty());
+  EXPECT_EQ(scene.world.radius, std::vector<double>{2});
+}
+
+TEST(Bodies, StandInTheOrderOfTheFileWithBallsAndGroups) {
+  const Scene scene = load_text(start +
+                                "bodies: {a: {mass: 1, box: [1, 1, 1], position: [0, 0, 0]}}\n"
+                                "balls: {b: {mass: 2, radius: 1, position: [5, 0, 0]}}\n");
+  EXPECT_EQ(scene.roster.name(0), "a");
+  EXPECT_EQ(scene.world.mass, (std::vector<double>{1, 2}));
+}
+
+TEST(Bodies, TakeAVolumeFromTheirDefaultsUnlessTheyNameAnother) {
+  const Scene scene = load_text(start +
+                                "defaults: {body: {mass: 1, box: [2, 2, 2]}, obstacle: {radius: 1, color: red}}\n"
+                                "bodies: {a: {position: [0, 0, 0]}, b: {radius: 0.5, position: [9, 0, 0]}}\n"
+                                "obstacles: {o: {position: [0, 9, 0]}, p: {box: [1, 1, 1], position: [9, 9, 0]}}\n");
+  EXPECT_EQ(scene.world.volume[0].shape, Shape::box);
+  EXPECT_EQ(scene.world.volume[1].shape, Shape::sphere);
+  EXPECT_EQ(scene.world.obstacles[0].volume.half, Vec3(1, 1, 1));
+  EXPECT_EQ(scene.world.obstacles[1].volume.shape, Shape::box);
+  EXPECT_EQ(scene.roster.fixed[1].color.g, 0);
+}
+
+TEST(Obstacles, AreNumberedAfterPlanesAndWalls) {
+  const Scene scene = load_text(start +
+                                "obstacles: {post: {cylinder: {radius: 0.5, height: 2}, position: [4, 0, 0], "
+                                "restitution: 0.5, visible: false}}\n"
+                                "balls: {b: {mass: 2, radius: 1, position: [0, 0, 0]}}\n"
+                                "walls: {w: {center: [9, 0, 0], normal: [1, 0, 0], size: [1, 1]}}\n"
+                                "planes: {p: {point: [0, -5, 0], normal: [0, 1, 0]}}\n");
+  EXPECT_EQ(scene.roster.name(1), "p");
+  EXPECT_EQ(scene.roster.name(2), "w");
+  EXPECT_EQ(scene.roster.name(3), "post");
+  EXPECT_TRUE(scene.world.volume.empty());
+  EXPECT_EQ(scene.world.obstacle(3).center, Vec3(4, 0, 0));
+  EXPECT_EQ(scene.world.obstacle(3).restitution, 0.5);
+  EXPECT_FALSE(scene.roster.fixed[2].visible);
+}
+
+TEST(BodyErrors, VolumeIsMissingOrThereTwice) {
+  EXPECT_EQ(errors_of(start + "bodies: {a: {mass: 1, position: [0, 0, 0]}}\n"),
+            "scene.yaml:3:10: error: body `a` has no `radius` and no `cylinder` and no `box` and no `fit`\n"
+            "   3 | bodies: {a: {mass: 1, position: [0, 0, 0]}}\n"
+            "     |          ^\n"
+            "     = expected `radius`: a number above 0 in m\n"
+            "     = or `cylinder`: a map of keys\n"
+            "     = or `box`: [x, y, z], three numbers above 0 in m\n"
+            "     = or `fit`: sphere, cylinder or box\n");
+  EXPECT_EQ(errors_of(start + "bodies: {a: {mass: 1, box: [1, 1, 1], radius: 3, position: [0, 0, 0]}}\n"),
+            "scene.yaml:3:39: error: body `a` has both `box` and `radius`\n"
+            "   3 | bodies: {a: {mass: 1, box: [1, 1, 1], radius: 3, position: [0, 0, 0]}}\n"
+            "     |                                       ^~~~~~\n"
+            "     = remove one of them\n");
+}
+
+TEST(BodyErrors, EdgesAndHeightsAreAboveZero) {
+  EXPECT_EQ(errors_of(start + "bodies: {a: {mass: 1, box: [1, 0, 1], position: [0, 0, 0]}}\n"),
+            "scene.yaml:3:32: error: a number of `box` is 0\n"
+            "   3 | bodies: {a: {mass: 1, box: [1, 0, 1], position: [0, 0, 0]}}\n"
+            "     |                                ^\n"
+            "     = expected a number above 0 in m\n");
+  EXPECT_EQ(errors_of(start + "obstacles: {a: {cylinder: {radius: 1}, position: [0, 0, 0]}}\n"),
+            "scene.yaml:3:17: error: `cylinder` has no `height`\n"
+            "   3 | obstacles: {a: {cylinder: {radius: 1}, position: [0, 0, 0]}}\n"
+            "     |                 ^~~~~~~~\n"
+            "     = expected `height`: a number above 0 in m\n");
+  EXPECT_NE(errors_of(start + "defaults: {body: {cylinder: {radius: 1}}}\n").find("has no `height`"),
+            std::string::npos);
+}
+
+TEST(BodyErrors, ObstaclesHaveNoMass) {
+  EXPECT_EQ(errors_of(start + "obstacles: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n"),
+            "scene.yaml:3:17: error: unknown key `mass` in obstacle `a`\n"
+            "   3 | obstacles: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n"
+            "     |                 ^~~~\n"
+            "     = `mass` is a key of `ball` or `body`\n"
+            "     = expected radius, cylinder, box, mesh, fit, position, restitution, color or visible\n");
+}
+
+TEST(Overlaps, OfEveryVolumeWithEveryOtherAreErrors) {
+  EXPECT_EQ(errors_of(start + "balls: {b: {mass: 1, radius: 0.5, position: [1.25, 0, 0]}}\n"
+                              "bodies: {crate: {mass: 1, box: [2, 2, 2], position: [0, 0, 0]}}\n"
+                              "planes: {floor: {point: [0, -0.5, 0], normal: [0, 1, 0]}}\n"
+                              "obstacles: {pile: {box: [4, 1, 1], position: [0, 0.75, 0]}}\n"),
+            "scene.yaml:3:45: error: `b` overlaps `pile` by 0.25 m at the start\n"
+            "   3 | balls: {b: {mass: 1, radius: 0.5, position: [1.25, 0, 0]}}\n"
+            "     |                                             ^\n"
+            "     = expected bodies apart, or just touching\n"
+            "scene.yaml:4:53: error: `crate` overlaps `b` by 0.25 m at the start\n"
+            "   4 | bodies: {crate: {mass: 1, box: [2, 2, 2], position: [0, 0, 0]}}\n"
+            "     |                                                     ^\n"
+            "     = expected bodies apart, or just touching\n"
+            "scene.yaml:4:53: error: `crate` overlaps `floor` by 0.5 m at the start\n"
+            "   4 | bodies: {crate: {mass: 1, box: [2, 2, 2], position: [0, 0, 0]}}\n"
+            "     |                                                     ^\n"
+            "     = expected bodies apart, or just touching\n"
+            "scene.yaml:4:53: error: `crate` overlaps `pile` by 0.75 m at the start\n"
+            "   4 | bodies: {crate: {mass: 1, box: [2, 2, 2], position: [0, 0, 0]}}\n"
+            "     |                                                     ^\n"
+            "     = expected bodies apart, or just touching\n");
+}
+
+TEST(Overlaps, BodyWhollyInsideAnObstacleIsOne) {
+  EXPECT_NE(errors_of(start + "balls: {b: {mass: 1, radius: 0.01, position: [0.5, 0, 0]}}\n"
+                              "obstacles: {block: {box: [4, 4, 4], position: [0, 0, 0]}}\n")
+                .find("`b` overlaps `block` by 1.51 m"),
+            std::string::npos);
+}
+
+TEST(Overlaps, TouchingVolumesAreRight) {
+  EXPECT_EQ(
+      errors_of(start +
+                "defaults: {body: {mass: 1, box: [0.1, 0.3, 0.7]}}\n"
+                "bodies: {a: {position: [0, 0.15, 0]}, b: {position: [0.1, 0.15, 0]}, c: {position: [0, 0.45, 0]}}\n"
+                "balls: {d: {mass: 1, radius: 0.1, position: [0, 0.7, 0]}}\n"
+                "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n"
+                "obstacles: {shelf: {box: [1, 1, 1], position: [0.65, 0.5, 0]},\n"
+                "            inner: {box: [1, 1, 1], position: [0.66, 0.5, 0]}}\n"),
+      "");
+}
+
+TEST(Overlaps, BehindAPlaneIsSaidOfAnyVolume) {
+  EXPECT_NE(errors_of(start + "bodies: {a: {mass: 1, box: [9, 1, 9], position: [0, -0.6, 0]}}\n"
+                              "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n")
+                .find("`a` is behind `floor` at the start"),
+            std::string::npos);
+  EXPECT_NE(errors_of(start + "bodies: {a: {mass: 1, box: [9, 1, 9], position: [0, -0.4, 0]}}\n"
+                              "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n")
+                .find("`a` overlaps `floor` by 0.9 m at the start"),
+            std::string::npos);
+}
+
+TEST(Overlaps, GroupsKeepClearOfBodiesAndObstacles) {
+  const Scene scene = load_text(start +
+                                "bodies: {crate: {mass: 1, box: [1, 1, 1], position: [0.5, 0.5, 0.5]}}\n"
+                                "groups: {gas: {count: 300, ball: {mass: 1, radius: 0.05}, in: {min: [0, 0, 0], max: "
+                                "[2, 2, 2]}}}\n"
+                                "obstacles: {block: {box: [1, 1, 1], position: [1.5, 1.5, 1.5]}}\n");
+  for (Entity i = 1; i <= 300; ++i) {
+    for (const Vec3& center : {Vec3(0.5, 0.5, 0.5), Vec3(1.5, 1.5, 1.5)}) {
+      const Vec3 outside = ((scene.initial.position[i] - center).cwiseAbs() - Vec3(0.5, 0.5, 0.5)).cwiseMax(0);
+      EXPECT_GT(outside.norm(), 0.05 * (1 - 1e-12));
+    }
+  }
+}
+
+TEST(Meshes, FitGivesTheTightestVolumeAndItsCentre) {
+  int reads = 0;
+  const Scene scene = load_with_meshes(start +
+                                           "bodies:\n"
+                                           "  a: {mass: 1.5, mesh: pin.stl, fit: cylinder, position: [1, 0.19, 0]}\n"
+                                           "  b: {mass: 1.5, mesh: ./pin.stl, fit: box, position: [2, 0.19, 0]}\n"
+                                           "obstacles: {c: {mesh: pin.stl, fit: cylinder, position: [3, 0, 0]}}\n",
+                                       with_reader(&reads));
+  EXPECT_EQ(reads, 1);
+  EXPECT_EQ(scene.world.volume[0].shape, Shape::cylinder);
+  EXPECT_TRUE(scene.world.volume[0].half.isApprox(Vec3(0.06, 0.19, 0.06), 1e-15)) << scene.world.volume[0].half;
+  EXPECT_EQ(scene.world.volume[1].shape, Shape::box);
+  ASSERT_TRUE(scene.roster.bodies[0].mesh && scene.roster.fixed[0].mesh);
+  EXPECT_TRUE(scene.roster.bodies[0].mesh->file.ends_with("/pin.stl"));
+  EXPECT_TRUE(scene.roster.bodies[0].mesh->center.isApprox(Vec3(0, 0.19, 0), 1e-15));
+  EXPECT_EQ(scene.roster.bodies[0].mesh->scale, 1);
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  EXPECT_EQ(scene.meshes[0].copy, "pin.stl");
+}
+
+TEST(Meshes, WithoutFitAreDrawnScaledIntoTheVolume) {
+  const Scene scene = load_with_meshes(start +
+                                       "balls: {a: {mass: 1, radius: 2, position: [0, 0, 0], mesh: pin.stl}}\n"
+                                       "bodies: {b: {mass: 1, cylinder: {radius: 0.6, height: 0.38}, position: [9, 0, "
+                                       "0], mesh: pin.stl}}\n"
+                                       "groups: {g: {count: 2, ball: {mass: 1, radius: 1, mesh: pin.stl}, in: {min: "
+                                       "[20, 0, 0], max: [30, 10, 10]}}}\n");
+  // The pin's smallest sphere goes through its foot and its tip: (h^2 + r^2) / (2 h) but for the tip's millimetre.
+  const double tight = (0.38 * 0.38 + 0.06 * 0.06) / (2 * 0.38);
+  EXPECT_NEAR(scene.roster.bodies[0].mesh->scale, 2 / tight, 2e-4);
+  EXPECT_NEAR(scene.roster.bodies[2].mesh->scale, 1 / tight, 1e-4);
+  EXPECT_NEAR(scene.roster.bodies[1].mesh->scale, 1, 1e-15);  // the height decides
+  EXPECT_EQ(scene.world.radius[0], 2);
+}
+
+TEST(Meshes, OfTheResolvedSceneAreTheCopiesBesideIt) {
+  const std::string text = start +
+                           "bodies: {a: {mass: 1.5, mesh: sub/pin.stl, fit: cylinder, position: [1, 0.19, 0]}}\n"
+                           "balls: {b: {mass: 1, radius: 1, position: [9, 0, 0], mesh: pin.stl}}\n";
+  std::filesystem::create_directories(test_folder() + "/sub");
+  write_file("solid\n", "sub/pin.stl");
+  const Scene scene = load_with_meshes(text);
+  ASSERT_EQ(scene.meshes.size(), 2u);
+  EXPECT_EQ(scene.meshes[0].copy, "pin.stl");
+  EXPECT_EQ(scene.meshes[1].copy, "pin-2.stl");
+  EXPECT_NE(scene.resolved.find("a: {mass: 1.5, mesh: \"pin.stl\", fit: cylinder,"), std::string::npos);
+  EXPECT_NE(scene.resolved.find("mesh: \"pin-2.stl\"}"), std::string::npos);
+  write_file("solid\n", "pin-2.stl");
+  const Scene again = load_with_meshes(scene.resolved);
+  EXPECT_EQ(again.resolved, scene.resolved);
+  EXPECT_EQ(again.world.radius, scene.world.radius);
+}
+
+TEST(MeshErrors, NameTheFileAndWhatIsWrongWithIt) {
+  EXPECT_EQ(mesh_errors(start + "bodies: {a: {mass: 1, mesh: torn.stl, fit: box, position: [0, 0, 0]}}\n"),
+            "scene.yaml:3:29: error: the mesh `torn.stl` cannot be used: it ends within a triangle\n"
+            "   3 | bodies: {a: {mass: 1, mesh: torn.stl, fit: box, position: [0, 0, 0]}}\n"
+            "     |                             ^~~~~~~~\n"
+            "     = expected a file of triangles with finite vertices\n");
+  EXPECT_EQ(mesh_errors(start + "bodies: {a: {mass: 1, mesh: flat.stl, fit: box, position: [0, 0, 0]}}\n"),
+            "scene.yaml:3:29: error: the mesh `flat.stl` is flat: its tightest box has no inside\n"
+            "   3 | bodies: {a: {mass: 1, mesh: flat.stl, fit: box, position: [0, 0, 0]}}\n"
+            "     |                             ^~~~~~~~\n"
+            "     = expected a mesh with width, height and depth\n");
+  EXPECT_EQ(mesh_errors(start + "bodies: {a: {mass: 1, mesh: pin.stl, fit: box, position: [0, 0, 0]}}\n", {}),
+            "scene.yaml:3:29: error: the mesh `pin.stl` cannot be used: there is no reader of meshes here\n"
+            "   3 | bodies: {a: {mass: 1, mesh: pin.stl, fit: box, position: [0, 0, 0]}}\n"
+            "     |                             ^~~~~~~\n"
+            "     = expected a file of triangles with finite vertices\n");
+}
+
+TEST(MeshErrors, FitAndMeshNeedOneAnother) {
+  EXPECT_EQ(mesh_errors(start + "bodies: {a: {mass: 1, mesh: pin.stl, position: [0, 0, 0]}}\n"),
+            "scene.yaml:3:10: error: body `a` has a `mesh` but no volume\n"
+            "   3 | bodies: {a: {mass: 1, mesh: pin.stl, position: [0, 0, 0]}}\n"
+            "     |          ^\n"
+            "     = expected `fit`: sphere, cylinder or box, the tightest one around the mesh\n");
+  EXPECT_EQ(errors_of(start + "obstacles: {a: {fit: box, position: [0, 0, 0]}}\n"),
+            "scene.yaml:3:17: error: obstacle `a` has a `fit` but no `mesh`\n"
+            "   3 | obstacles: {a: {fit: box, position: [0, 0, 0]}}\n"
+            "     |                 ^~~\n"
+            "     = expected `mesh`: the path of a file, from the folder of the scene\n");
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,142 @@
+// Forces, and what the engines have of them.
+#include "scene/scenes_in_text.h"
+
+namespace carom {
+namespace {
+
+const std::string things =
+    "scene: 1\n"
+    "balls: {red: {mass: 1, radius: 1, position: [0, 0, 0]}, blue: {mass: 1, radius: 1, position: [5, 0, 0]}}\n"
+    "groups: {gas: {count: 3, ball: {mass: 1, radius: 0.1}, in: {min: [9, 0, 0], max: [10, 1, 1]}},\n"
+    "         none: {count: 0, ball: {mass: 1, radius: 0.1}, in: {min: [9, 0, 0], max: [10, 1, 1]}}}\n"
+    "planes: {floor: {point: [0, -3, 0], normal: [0, 1, 0]}}\n"
+    "simulate: {duration: 1}\n";
+
+TEST(Forces, ActOnAllOrOnThoseNamedFromTimeToTime) {
+  const Scene scene = load_text(things +
+                                "forces:\n"
+                                "  - {uniform: [1, 0, 0]}\n"
+                                "  - {acceleration: [0, 0, 2], on: [gas, red, gas.1], from: 0.5, until: 1.5}\n"
+                                "  - {uniform: [0, 3, 0], on: [gas.2]}\n");
+  ASSERT_EQ(scene.world.forces.size(), 3u);
+  const Force &all = scene.world.forces[0], &gust = scene.world.forces[1];
+  EXPECT_FALSE(all.per_mass);
+  EXPECT_EQ(all.value, Vec3(1, 0, 0));
+  EXPECT_EQ(all.from, 0);
+  EXPECT_EQ(all.until, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(all.on.empty());
+  EXPECT_TRUE(gust.per_mass);
+  EXPECT_EQ(gust.from, 0.5);
+  EXPECT_EQ(gust.until, 1.5);
+  EXPECT_EQ(gust.on, (std::vector<Entity>{0, 2, 3, 4}));
+  EXPECT_EQ(scene.world.forces[2].on, (std::vector<Entity>{4}));
+}
+
+TEST(Forces, OnAGroupWithoutMembersActOnNobody) {
+  EXPECT_TRUE(load_text(things + "forces: [{uniform: [1, 0, 0], on: [none]}]\n").world.forces.empty());
+}
+
+TEST(ForceErrors, NamesThatMeanNothingOrNothingThatMoves) {
+  EXPECT_EQ(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], on: [rde, floor, gas.3, pot]}\n"),
+            "scene.yaml:8:31: error: nothing is named `rde`\n"
+            "   8 |   - {uniform: [1, 0, 0], on: [rde, floor, gas.3, pot]}\n"
+            "     |                               ^~~\n"
+            "     = did you mean `red`?\n"
+            "scene.yaml:8:36: error: `floor` never moves: no force acts on it\n"
+            "   8 |   - {uniform: [1, 0, 0], on: [rde, floor, gas.3, pot]}\n"
+            "     |                                    ^~~~~\n"
+            "     = expected balls, bodies, groups or members (gas.3)\n"
+            "scene.yaml:8:43: error: the group `gas` has no member `3`\n"
+            "   8 |   - {uniform: [1, 0, 0], on: [rde, floor, gas.3, pot]}\n"
+            "     |                                           ^~~~~\n"
+            "     = expected gas.0 to gas.2\n"
+            "scene.yaml:8:50: error: nothing is named `pot`\n"
+            "   8 |   - {uniform: [1, 0, 0], on: [rde, floor, gas.3, pot]}\n"
+            "     |                                                  ^~~\n"
+            "     = expected a ball, body, group, member (gas.3) or fixed thing, such as room.y_min\n");
+  EXPECT_EQ(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], on: []}\n"),
+            "scene.yaml:8:30: error: `on` has 0 entries\n"
+            "   8 |   - {uniform: [1, 0, 0], on: []}\n"
+            "     |                              ^\n"
+            "     = expected a list of names, such as [red, gas.3]\n");
+}
+
+TEST(ForceErrors, UntilComesAfterFrom) {
+  EXPECT_EQ(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], from: 2, until: 2}\n"),
+            "scene.yaml:8:42: error: `until` is 2 but `from` is 2\n"
+            "   8 |   - {uniform: [1, 0, 0], from: 2, until: 2}\n"
+            "     |                                          ^\n"
+            "     = expected from < until\n");
+  EXPECT_EQ(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], from: -1}\n"),
+            "scene.yaml:8:32: error: `from` is -1\n"
+            "   8 |   - {uniform: [1, 0, 0], from: -1}\n"
+            "     |                                ^~\n"
+            "     = expected a number of at least 0 in s\n");
+}
+
+TEST(ForceErrors, OneKindEach) {
+  EXPECT_EQ(errors_of(things + "forces:\n  - {from: 2}\n"),
+            "scene.yaml:8:5: error: this entry of `forces` has no `uniform` and no `acceleration`\n"
+            "   8 |   - {from: 2}\n"
+            "     |     ^\n"
+            "     = expected `uniform`: [x, y, z], three numbers in N\n"
+            "     = or `acceleration`: [x, y, z], three numbers in m/s^2\n");
+  EXPECT_EQ(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], acceleration: [1, 0, 0]}\n"),
+            "scene.yaml:8:26: error: this entry of `forces` has both `uniform` and `acceleration`\n"
+            "   8 |   - {uniform: [1, 0, 0], acceleration: [1, 0, 0]}\n"
+            "     |                          ^~~~~~~~~~~~\n"
+            "     = remove one of them\n");
+}
+
+TEST(ForceErrors, KindsOfLaterEnginesAreRefusedByName) {
+  EXPECT_EQ(errors_of(things + "forces:\n  - {drag: {linear: 1}, on: [red]}\n"),
+            "scene.yaml:8:6: error: `drag` is part of the scene format but not of this version of carom\n"
+            "   8 |   - {drag: {linear: 1}, on: [red]}\n"
+            "     |      ^~~~\n"
+            "     = `uniform` and `acceleration` are the forces that engine: exact has\n");
+  for (const char* kind : {"spring: {anchor: [0, 0, 0]}", "attractor: {center: [0, 0, 0]}"}) {
+    EXPECT_NE(errors_of(things + "forces: [{" + kind + "}]\n").find("but not of this version"), std::string::npos);
+  }
+}
+
+TEST(BookEngine, RefusesWhatTheChaptersListingsDoNotHave) {
+  EXPECT_EQ(errors_of("scene: 1\n"
+                      "bodies: {a: {mass: 1, box: [1, 1, 1], position: [0, 0, 0]}}\n"
+                      "obstacles: {o: {radius: 1, position: [9, 0, 0]}}\n"
+                      "forces: [{uniform: [1, 0, 0]}]\n"
+                      "simulate: {duration: 1, engine: book, contact: merge}\n"),
+            "scene.yaml:3:1: error: `engine: book` has no obstacles\n"
+            "   3 | obstacles: {o: {radius: 1, position: [9, 0, 0]}}\n"
+            "     | ^~~~~~~~~\n"
+            "     = expected `engine: exact`\n"
+            "scene.yaml:4:1: error: `engine: book` has no forces beside gravity\n"
+            "   4 | forces: [{uniform: [1, 0, 0]}]\n"
+            "     | ^~~~~~\n"
+            "     = expected `engine: exact`\n"
+            "scene.yaml:5:33: error: `engine: book` has no cylinders and boxes: its bodies are spheres\n"
+            "   5 | simulate: {duration: 1, engine: book, contact: merge}\n"
+            "     |                                 ^~~~\n"
+            "     = expected `engine: exact`\n"
+            "scene.yaml:5:48: error: `engine: book` has no `contact: merge`\n"
+            "   5 | simulate: {duration: 1, engine: book, contact: merge}\n"
+            "     |                                                ^~~~~\n"
+            "     = expected `engine: exact`\n");
+}
+
+TEST(Requests, ContactsAndMerging) {
+  const Scene scene = load_text("scene: 1\nsimulate: {duration: 1, contact: merge}\noutput: {contacts: true}\n");
+  EXPECT_TRUE(scene.simulate.merge);
+  ASSERT_TRUE(scene.output.contacts);
+  EXPECT_EQ(scene.output.contacts->every, 1.0 / 30);
+  EXPECT_FALSE(load_text(start).output.contacts);
+  EXPECT_EQ(load_text(start + "output: {contacts: {every: 0.5}}\n").output.contacts->every, 0.5);
+}
+
+TEST(Requests, PicturesEndWithTheScene) {
+  const Scene scene = load_text(start + "output: {frames: {until: 5}, video: {until: 0.5}}\n");
+  EXPECT_EQ(scene.output.frames->until, 1);
+  EXPECT_EQ(scene.output.video->until, 0.5);
+}
+
+}  // namespace
+}  // namespace carom
