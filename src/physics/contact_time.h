@@ -53,11 +53,16 @@ struct WallContact {
 WallContact wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double radius,
                               std::uint8_t left, double horizon);
 
+/// The same of the wall's motion seen from the sphere: d = wall.center - x.
+WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, double radius, std::uint8_t left,
+                              double horizon);
+
 /// The wall's point nearest to x (m).
 Vec3 nearest_on_wall(const Wall& wall, const Vec3& x);
 
 /// First t in (0, horizon] at which a sphere sliding over a face leaves it: its point of contact crosses the
 /// rectangle's rim.
 WallContact wall_release_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double horizon);
+WallContact wall_release_time(const Wall& wall, const RelativeMotion& motion, double horizon);
 
 }  // namespace carom

@@ -18,8 +18,10 @@ struct Touch {
   std::uint8_t feature;  // of the Minkowski sum: which face, edge, corner or rim is nearest; per pair of kinds
 };
 
-/// The gap is as exact as the positions where it is small (compensated sums).
-Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb);
+/// The gap is as exact as the positions where it is small (compensated sums). Where sharp volumes overlap, or touch but
+/// for rounding at edges or corners only, the normal is that of the face over which they are farthest apart (x before y
+/// before z). `feature`: look there, where a meeting says they meet; no_feature: where they are nearest.
+Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature = no_feature);
 
 /// Second derivative of the gap (m/s^2) under the constant relative velocity w = v_b - v_a (m/s): what the curvature of
 /// the nearest feature adds to normal . (a_b - a_a). Zero on flat features, |w x n|^2 / distance between spheres.

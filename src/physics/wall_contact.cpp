@@ -16,11 +16,15 @@ struct LocalPath {
   double at(int k, double t) const { return p[k] + t * (v[k] + 0.5 * t * a[k]); }
 };
 
-LocalPath to_local(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double radius) {
-  const Vec3 d = x - wall.center;
-  const auto frame = [&](const Vec3& u) { return Vec3(u.dot(wall.right), u.dot(wall.up), u.dot(wall.normal)); };
-  const double size = x.cwiseAbs().sum() + wall.center.cwiseAbs().sum();
-  return {frame(d), frame(v), frame(a), v.cwiseAbs().sum() * (1 + size / radius)};
+/// The wall's motion seen from the sphere, as the sphere's seen from the wall.
+LocalPath to_local(const Wall& wall, const RelativeMotion& m, double radius) {
+  const auto frame = [&](const Vec3& u) { return Vec3(-u.dot(wall.right), -u.dot(wall.up), -u.dot(wall.normal)); };
+  const double size = (wall.center - m.d).cwiseAbs().sum() + wall.center.cwiseAbs().sum();
+  return {frame(m.d), frame(m.w), frame(m.a), m.w.cwiseAbs().sum() * (1 + size / radius)};
+}
+
+RelativeMotion of_wall(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a) {
+  return {wall.center - x, -v, -a, v.cwiseAbs().sum(), false};
 }
 
 constexpr double rounding = 16 * 0x1p-53;
@@ -78,7 +82,12 @@ double face_contact_time(const LocalPath& path, double side, const double half[2
 
 WallContact wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double radius,
                               std::uint8_t left, double horizon) {
-  const LocalPath path = to_local(wall, x, v, a, radius);
+  return wall_contact_time(wall, of_wall(wall, x, v, a), radius, left, horizon);
+}
+
+WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, double radius, std::uint8_t left,
+                              double horizon) {
+  const LocalPath path = to_local(wall, motion, radius);
   const double half[2] = {wall.half_width, wall.half_height};
   WallContact first{never, no_feature};
   const auto offer = [&](double t, std::uint8_t feature) {
@@ -112,7 +121,11 @@ Vec3 nearest_on_wall(const Wall& wall, const Vec3& x) {
 }
 
 WallContact wall_release_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double horizon) {
-  const LocalPath path = to_local(wall, x, v, a, 1);
+  return wall_release_time(wall, of_wall(wall, x, v, a), horizon);
+}
+
+WallContact wall_release_time(const Wall& wall, const RelativeMotion& motion, double horizon) {
+  const LocalPath path = to_local(wall, motion, 1);
   const double half[2] = {wall.half_width, wall.half_height};
   WallContact first{never, no_feature};
   for (int k = 0; k < 4; ++k) {

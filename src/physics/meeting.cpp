@@ -1,0 +1,93 @@
+#include <cmath>
+
+#include "physics/meeting_search.h"
+#include "physics/pair.h"
+
+namespace carom {
+
+namespace {
+
+RelativeMotion in_frame(const Frame& frame, const RelativeMotion& m) {
+  return {frame.to(m.d), frame.to(m.w), frame.to(m.a), m.speeds, m.just_separated};
+}
+
+/// Balls among themselves, the common case, are told without a look at volumes.
+bool balls_only(const World& world, Entity b) {
+  return world.volume.empty() && world.is_body(b);
+}
+
+Meeting meet_spheres(const RelativeMotion& motion, double s, std::uint8_t left, double horizon) {
+  RelativeMotion m = motion;
+  m.just_separated = left != no_feature;
+  return {sphere_contact_time(m, s, horizon), 0};
+}
+
+/// d is the way to the plane's point.
+Meeting meet_plane(const Plane& plane, const RelativeMotion& m, double reach, std::uint8_t left, double horizon) {
+  const double noise = 0x1p-49 * m.speeds;
+  const double gap = plane_gap(-m.d, Vec3::Zero(), plane.normal, reach);
+  return {plane_contact_time(gap, -plane.normal.dot(m.w), -plane.normal.dot(m.a), noise, left != no_feature, horizon),
+          0};
+}
+
+}  // namespace
+
+Meeting meeting(const World& world, Entity a, Entity b, const RelativeMotion& motion, std::uint8_t left,
+                double horizon) {
+  if (balls_only(world, b)) return meet_spheres(motion, world.radius[a] + world.radius[b], left, horizon);
+  switch (pair_kind(world, a, b)) {
+    case PairKind::spheres:
+      return meet_spheres(motion, world.volume_of(a).half.x() + world.volume_of(b).half.x(), left, horizon);
+    case PairKind::half_space:
+      return meet_plane(world.plane(b), motion, world.volume_of(a).support(world.plane(b).normal), left, horizon);
+    case PairKind::sphere_wall: {
+      const WallContact c = wall_contact_time(world.wall(b), motion, world.volume_of(a).half.x(), left, horizon);
+      return {c.time, c.feature};
+    }
+    case PairKind::prism: {
+      const PairPrism pair = pair_prism(world, a, b);
+      return MeetingSearch(pair.sum, in_frame(pair.frame, motion), horizon).run(left);
+    }
+    case PairKind::box_wall: {
+      const SlabSum sum = slab_sum(world, a, b);
+      return MeetingSearch(sum, motion, horizon).run(left);
+    }
+    case PairKind::cylinder_wall: {
+      const TiltedSum sum = tilted_sum(world, a, b);
+      return MeetingSearch(sum, motion, horizon).run(left);
+    }
+  }
+  return {never, no_feature};
+}
+
+Meeting leave_feature(const World& world, Entity a, Entity b, std::uint8_t feature, const RelativeMotion& motion,
+                      double horizon) {
+  switch (pair_kind(world, a, b)) {
+    case PairKind::spheres:
+    case PairKind::half_space:
+      return {never, no_feature};
+    case PairKind::sphere_wall: {
+      if (feature < wall_edges) {
+        const WallContact c = wall_release_time(world.wall(b), motion, horizon);
+        return {c.time, c.feature};
+      }
+      const PairPrism pair = pair_prism(world, a, b);
+      const RelativeMotion m = in_frame(pair.frame, motion);
+      const PrismFeature f = PrismFeature::of(prism_feature(feature, m.d));
+      // The rectangle has no thickness: from an edge's front to its back the path goes on.
+      const Meeting beyond = pair.sum.leave(PrismFeature{f.x, f.y, f.z}.code(), m, horizon);
+      return {beyond.time, beyond.feature == no_feature ? no_feature : wall_feature(beyond.feature)};
+    }
+    case PairKind::prism: {
+      const PairPrism pair = pair_prism(world, a, b);
+      return pair.sum.leave(feature, in_frame(pair.frame, motion), horizon);
+    }
+    case PairKind::box_wall:
+      return slab_sum(world, a, b).leave(feature, motion, horizon);
+    case PairKind::cylinder_wall:
+      return tilted_sum(world, a, b).leave(feature, motion, horizon);
+  }
+  return {never, no_feature};
+}
+
+}  // namespace carom

@@ -1,0 +1,142 @@
+#pragma once
+// The first contact of a point with a convex set, by separating planes. The set lies wholly beyond the plane through
+// its nearest point; until the path comes to that plane (a quadratic) there is no contact, so the search goes there and
+// looks again. No contact can be jumped over. Straight on this is Newton's method on a convex gap; where the path only
+// grazes, each step halves what is left. At the end the time is found once more from the feature's own equation.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/contact_time.h"
+#include "physics/separation.h"
+#include "physics/touch.h"
+
+namespace carom {
+
+template <typename Set>
+class MeetingSearch {
+ public:
+  MeetingSearch(const Set& set, const RelativeMotion& motion, double horizon)
+      : set_(set), m_(motion), horizon_(horizon) {}
+
+  Meeting run(std::uint8_t left) {
+    left_ = left;
+    if (left != no_feature && set_.sharp(left)) left_ = face_left(left);
+    if (left_ != no_feature) m_.d = set_.within(m_.d, left_);
+    Separation s = left_ != no_feature ? set_.at(m_.d, left_) : set_.nearest(m_.d);
+    if (left_ != no_feature) s.gap = 0;
+    if (s.gap <= 0 && set_.sharp(s.feature)) s = set_.at(m_.d, set_.foremost_face(m_.d, s.feature));
+    double t = 0;
+    if (s.gap <= 0) {
+      // From here on its gap is one that leaves from zero, whatever rounding made of it.
+      left_ = s.feature;
+      double speed = s.normal.dot(m_.w);
+      if (std::abs(speed) <= noise()) speed = 0;
+      if (speed < 0) return {0, s.feature};
+      t = leaves_until(s, 0, m_.w, speed);
+      if (t == 0) return {0, s.feature};
+    }
+    for (int step = 0; step < 1000 && t <= horizon_; ++step) {
+      s = look(t);
+      const Vec3 v = m_.w + t * m_.a;
+      const double speed = s.normal.dot(v);
+      double on;
+      if (s.gap > 0) {
+        on = plane_contact_time(s.gap, speed, s.normal.dot(m_.a), 0, false, never);
+      } else if (speed < 0) {
+        return contact(t, s.feature);
+      } else {
+        on = leaves_until(s, t, v, speed);
+      }
+      if (on == never) return {never, no_feature};
+      if (t + on == t) return contact(t, s.feature);
+      t += on;
+    }
+    return {never, no_feature};
+  }
+
+ private:
+  static constexpr double rounding = 0x1p-53;
+  double noise() const { return 16 * rounding * m_.speeds; }
+  Vec3 way(double t) const { return t * (m_.w + 0.5 * t * m_.a); }
+
+  Separation look(double t) const {
+    Separation s = set_.nearest(m_.d + way(t));
+    if (s.feature == left_) s.gap = set_.displaced_gap(m_.d, left_, 0, way(t));
+    return s;
+  }
+
+  /// How long a path that leaves a closed gap at time t is surely outside: 0 if it presses on instead.
+  double leaves_until(const Separation& s, double t, const Vec3& v, double speed) const {
+    const double acceleration = s.normal.dot(m_.a);
+    if (acceleration >= 0) return never;
+    if (speed > 0) return 2 * speed / -acceleration;
+    const Vec3 p = m_.d + way(t);
+    if (!(acceleration + set_.bending(p, s.feature, v) > 0)) return 0;
+    // It flies off along a curved surface that turns away faster than the path does. The plane tells nothing; a short
+    // step, as the surface's size goes, lifts it off.
+    constexpr double step = 0x1p-26;
+    return step * std::min(set_.size() / v.norm(), std::sqrt(set_.size() / m_.a.norm()));
+  }
+
+  /// Of the faces that make a sharp edge: that over which the point gets away.
+  std::uint8_t face_left(std::uint8_t edge) const {
+    std::uint8_t best = no_feature;
+    double best_speed = 0, best_acceleration = 0;
+    set_.for_each_face(edge, [&](std::uint8_t face) {
+      const Vec3 n = set_.at(m_.d, face).normal;
+      const double speed = n.dot(m_.w), acceleration = n.dot(m_.a);
+      const bool equal = std::abs(speed - best_speed) <= noise();
+      if (best == no_feature || (equal ? acceleration > best_acceleration : speed > best_speed)) {
+        best = face;
+        best_speed = speed;
+        best_acceleration = acceleration;
+      }
+    });
+    return best;
+  }
+
+  /// The contact near time t, as exact as the feature's own equation gives it.
+  Meeting contact(double t, std::uint8_t feature) const {
+    if (set_.sharp(feature)) feature = set_.foremost_face(m_.d + way(t), feature);
+    const bool is_left = feature == left_;
+    const Separation start = set_.at(m_.d, feature);
+    const double gap = is_left ? 0 : start.gap;
+    // Closed form, from the start on; good if it is the contact and no other crossing of the feature's surface.
+    double closed = never;
+    RelativeMotion reduced;
+    double radius;
+    if (set_.flat(feature)) {
+      closed = plane_contact_time(gap, start.normal.dot(m_.w), start.normal.dot(m_.a), 0, is_left, horizon_);
+    } else if (set_.as_spheres(feature, m_, reduced, radius)) {
+      reduced.just_separated = is_left;
+      closed = sphere_contact_time(reduced, radius, horizon_);
+    }
+    const auto tolerance = [&](double time) {
+      const double reach = m_.d.cwiseAbs().sum() + time * (m_.w.cwiseAbs().sum() + time * m_.a.cwiseAbs().sum());
+      return 64 * rounding * (reach + set_.size());
+    };
+    if (closed < never && std::abs(look(closed).gap) <= tolerance(closed)) {
+      if (is_left || m_.a.isZero(0) || set_.flat(feature)) return {closed, feature};
+      t = closed;  // a quartic, whose coefficients lose what a long way is rounded to
+    }
+    // Newton's method on the feature's gap.
+    double last = never;
+    for (int k = 0; k < 8; ++k) {
+      const double slope = set_.at(m_.d + way(t), feature).normal.dot(m_.w + t * m_.a);
+      if (!(slope < 0)) break;
+      const double step = -set_.displaced_gap(m_.d, feature, gap, way(t)) / slope;
+      if (!(std::abs(step) < 0.5 * last) || !(t + step >= 0) || t + step == t) break;
+      last = std::abs(step);
+      t += step;
+    }
+    if (t > horizon_) return {never, no_feature};
+    return {t, feature};
+  }
+
+  const Set& set_;
+  RelativeMotion m_;
+  double horizon_;
+  std::uint8_t left_ = no_feature;
+};
+
+}  // namespace carom

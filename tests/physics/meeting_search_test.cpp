@@ -1,0 +1,95 @@
+// No contact is missed and none invented, for every pair of kinds: paths are looked at densely, and each contact is
+// proved by a plane between the two volumes and a point that belongs to both.
+#include <gtest/gtest.h>
+
+#include "volumes_by_hand.h"
+
+namespace carom {
+namespace {
+
+using namespace by_hand;
+
+struct Tally {
+  int paths = 0, hits = 0, missed = 0, invented = 0;
+  double worst = 0;  // of a contact's gap, over the pair's size
+};
+
+struct Path {
+  Vec3 d, w, a;
+  Vec3 at(double t) const { return d + t * w + 0.5 * t * t * a; }
+  Vec3 speed(double t) const { return w + t * a; }
+};
+
+void check(const World& world, const Path& path, double horizon, Tally& tally, bool print = false) {
+  const Thing a = of(world, 0), b = of(world, 1);
+  const double size = a.half.sum() + b.half.sum();
+  const Meeting m = meeting(world, 0, 1, {path.d, path.w, path.a, path.w.cwiseAbs().sum(), false}, no_feature, horizon);
+  ++tally.paths;
+  const double end = std::min(m.time, horizon);
+  const Thing core_a = shrunk(a, 1e-7), core_b = shrunk(b, 1e-7);
+  for (int k = 0; k < 300; ++k) {
+    const double t = end * k / 300;
+    if (distance(core_a, core_b, path.at(t), 1e-12 * size) <= 1e-12 * size && t < end * (1 - 1e-6)) {
+      ++tally.missed;
+      if (print) printf("missed: hit %.17g, overlap at %.17g\n", m.time, t);
+      break;
+    }
+  }
+  if (m.time == never) return;
+  ++tally.hits;
+  const Vec3 d = path.at(m.time);
+  World there = world;
+  if (!there.walls.empty()) there.walls[0].center = d;
+  const Touch touched = touch(there, 0, Vec3::Zero(), 1, d, m.feature);
+  const double gap = touched.normal.dot(d) - a.support(touched.normal) - b.support(touched.normal);
+  const double off_a = (touched.point - a.nearest(touched.point)).norm();
+  const double off_b = (touched.point - d - b.nearest(touched.point - d)).norm();
+  const double reach = size + path.d.norm() + path.w.norm() * m.time + path.a.norm() * m.time * m.time;
+  const double error = std::max({std::abs(gap), off_a, off_b, std::abs(touched.gap)}) / reach;
+  tally.worst = std::max(tally.worst, error);
+  const bool approaching = touched.normal.dot(path.speed(m.time)) < 0;
+  if (error > 1e-12 || !approaching) {
+    ++tally.invented;
+    if (print)
+      printf("invented: t %.17g feature %d gap %.3g touch gap %.3g off a %.3g off b %.3g approach %g\n", m.time,
+             m.feature, gap, touched.gap, off_a, off_b, touched.normal.dot(path.speed(m.time)));
+  }
+}
+
+/// A path from outside, aimed so that the two come close.
+Path random_path(const World& world, Random& random, bool curved, double& horizon) {
+  const Thing a = of(world, 0), b = of(world, 1);
+  const double size = a.half.norm() + b.half.norm();
+  Path path;
+  path.d = (size * random.uniform(1.01, 4)) * random.direction();
+  path.a = curved ? Vec3(random.uniform(0.1, 10) * random.direction()) : Vec3::Zero();
+  const double flight = random.log_uniform(0.1, 10);
+  const Vec3 aim = random.vector(0.8 * size);
+  path.w = (aim - path.d) / flight - 0.5 * flight * path.a;
+  horizon = 3 * flight;
+  return path;
+}
+
+TEST(Meeting, NoContactIsMissedAndNoneInvented) {
+  for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
+    for (Kind kb : all_kinds)
+      for (bool curved : {false, true}) {
+        Random random(static_cast<unsigned>(100 * static_cast<int>(ka) + 10 * static_cast<int>(kb) + curved));
+        Tally tally;
+        for (int k = 0; k < 150; ++k) {
+          const World world = pair_world(ka, kb, k % 2 == 0, random, 1e-3 * (k % 3 == 0 ? 1 : 100));
+          double horizon;
+          const Path path = random_path(world, random, curved, horizon);
+          check(world, path, horizon, tally);
+        }
+        printf("%-9s %-13s %s: %d paths, %d hits, %d missed, %d invented, worst %.2g\n", name(ka), name(kb),
+               curved ? "curved  " : "straight", tally.paths, tally.hits, tally.missed, tally.invented, tally.worst);
+        EXPECT_EQ(tally.missed, 0) << name(ka) << name(kb) << curved;
+        EXPECT_EQ(tally.invented, 0) << name(ka) << name(kb) << curved;
+        EXPECT_GT(tally.hits, 10);
+        EXPECT_LT(tally.worst, 1e-12);
+      }
+}
+
+}  // namespace
+}  // namespace carom
