@@ -23,6 +23,13 @@ bool is_taken(const std::string& name, const std::string& film) {
   return outputs.contains(name) || name == film;
 }
 
+/// A .gltf names files beside it, which would have to go with it.
+bool has_further_files(const std::filesystem::path& name) {
+  std::string ending = name.extension().string();
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  return ending == ".gltf";
+}
+
 }  // namespace
 
 std::optional<Form> Forms::of(const View& thing) {
@@ -113,6 +120,10 @@ std::vector<MeshFile> Forms::files(const std::string& film) const {
   std::set<std::string> used;
   for (const std::string& path : order_) {
     const std::filesystem::path name = std::filesystem::path(path).filename();
+    if (has_further_files(name)) {
+      out.push_back({path, ""});
+      continue;
+    }
     // No hidden file, no option, no other system's path, no name longer than file systems take.
     std::string stem = name.stem().string();
     if (stem.starts_with('.') || stem.starts_with('-') || stem.find('\\') != std::string::npos || stem.size() > 150) {

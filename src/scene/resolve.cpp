@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <map>
 
 #include "scene/colors.h"
@@ -95,10 +96,11 @@ class Resolver {
 
   std::string default_restitution() const { return flow(*scene_part(root_, "restitution").find("default")); }
 
-  /// The key `mesh`: the copy in the run's folder.
+  /// The key `mesh`: the copy in the run's folder; where there is none, the file itself from anywhere.
   void name_copy(const std::optional<MeshUse>& mesh, Overrides& overrides) const {
     for (const MeshFile& file : scene_.meshes) {
-      if (mesh && mesh->file == file.file) overrides["mesh"] = in_quotes(file.copy);
+      if (!mesh || mesh->file != file.file) continue;
+      overrides["mesh"] = in_quotes(file.copy.empty() ? std::filesystem::absolute(file.file).string() : file.copy);
     }
   }
 

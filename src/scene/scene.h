@@ -27,7 +27,7 @@ struct MeshUse {
 /// A mesh file of the scene. A run's folder keeps a copy, which the resolved text names, so that the folder runs alone.
 struct MeshFile {
   std::string file;  // as in MeshUse
-  std::string copy;  // a plain file name, no other output's
+  std::string copy;  // a plain file name, no other output's; empty: a .gltf, which has its data in further files
 };
 
 /// A name of the scene file and the bodies it stands for: one ball or body, or a group's members name.0, name.1, ...
