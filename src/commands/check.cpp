@@ -9,6 +9,7 @@
 #include "commands/preview.h"
 #include "commands/report.h"
 #include "commands/text.h"
+#include "commands/volumes.h"
 
 namespace carom {
 
@@ -29,8 +30,14 @@ std::string bodies_text(const Scene& scene) {
 }
 
 std::string fixed_text(const World& world) {
-  return fmt::format("{}, {}", counted(world.planes.size(), "plane", "planes"),
-                     counted(world.walls.size(), "wall", "walls"));
+  const std::string text = fmt::format("{}, {}", counted(world.planes.size(), "plane", "planes"),
+                                       counted(world.walls.size(), "wall", "walls"));
+  if (world.obstacles.empty()) return text;
+  return text + ", " + counted(world.obstacles.size(), "obstacle", "obstacles");
+}
+
+std::string forces_text(const World& world) {
+  return counted(world.forces.size(), "force", "forces") + " beside gravity";
 }
 
 std::string engine_text(const PlannedScene& planned) {
@@ -81,6 +88,8 @@ std::string content_text(const PlannedScene& planned) {
       return "up to date";
     case FolderContent::incomplete:
       return "incomplete, will be run again";
+    case FolderContent::more:
+      return "holds more outputs of this scene: run needs --force or another -o";
     case FolderContent::other_run:
       break;
   }
@@ -95,6 +104,8 @@ std::string content_name(FolderContent content) {
       return "up to date";
     case FolderContent::incomplete:
       return "incomplete";
+    case FolderContent::more:
+      return "more outputs";
     case FolderContent::other_run:
       break;
   }
@@ -117,6 +128,8 @@ std::string as_text(const PlannedScene& planned, const Findings& findings, const
   block.heading(planned.name, planned.scene->title);
   block.line("bodies", bodies_text(*planned.scene));
   block.line("fixed", fixed_text(planned.scene->world));
+  if (const std::string volumes = volumes_text(*planned.scene); !volumes.empty()) block.line("volumes", volumes);
+  if (!planned.scene->world.forces.empty()) block.line("forces", forces_text(planned.scene->world));
   block.line("engine", engine_text(planned));
   block.line("first hit", first_collision_text(planned, findings.first));
   if (findings.camera) {
@@ -167,9 +180,12 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
                 {"bodies", scene.world.body_count()},
                 {"planes", scene.world.planes.size()},
                 {"walls", scene.world.walls.size()},
+                {"obstacles", scene.world.obstacles.size()},
+                {"forces", scene.world.forces.size()},
                 {"engine", planned.engine.name},
                 {"why", planned.engine.why},
                 {"duration_s", scene.simulate.duration}};
+  entry["volumes"] = volumes_json(scene);
   entry["first_collision"] =
       findings.first.collision ? collision_json(scene, *findings.first.collision) : Json(nullptr);
   if (!findings.first.trouble.empty()) entry["first_collision_trouble"] = findings.first.trouble;

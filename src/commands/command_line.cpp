@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <limits>
 
 #include "commands/text.h"
 #include "scene/diagnostics.h"
@@ -37,7 +38,7 @@ class HelpFormatter : public CLI::Formatter {
 
 /// Words of the command line by option; every option that takes a value may come several times until it is read.
 struct Words {
-  std::vector<std::string> scenes, output, set, only, seed, progress, color;
+  std::vector<std::string> scenes, output, set, only, seed, jobs, progress, color;
   bool force = false, quiet = false, json = false;
 };
 
@@ -58,9 +59,11 @@ void add_options(CLI::App& app, const CommandText& command, Words& words) {
             "change a value of the scene, balls.red.mass=2 say;\nmay be repeated");
   add_value(app, "--only", words.only, "LIST",
             "write these outputs alone, of trajectory, collisions,\n"
-            "energy, frames, video, sheet; one that the scene does\nnot ask for is written with default settings");
+            "energy, contacts, frames, video, sheet; one that the\n"
+            "scene does not ask for is written with default settings");
   add_value(app, "--seed", words.seed, "N", "the scene's seed");
   if (command.progress) {
+    add_value(app, "-j,--jobs", words.jobs, "N", "at most N scenes at a time; changes no result");
     app.add_flag("--force", words.force,
                  "overwrite other content of the folder, run again what\nis up to date, lift the budget")
         ->disable_flag_override();
@@ -125,17 +128,18 @@ Choice chosen(const std::vector<std::string>& words, std::string_view option, co
   return static_cast<Choice>(found - names.begin());
 }
 
-std::optional<std::uint64_t> read_seed(const std::vector<std::string>& words) {
-  const std::optional<std::string> word = single(words, "--seed");
+std::optional<std::uint64_t> read_whole(const std::vector<std::string>& words, std::string_view option,
+                                        std::uint64_t least, std::uint64_t most) {
+  const std::optional<std::string> word = single(words, option);
   if (!word) return std::nullopt;
-  std::uint64_t seed = 0;
+  std::uint64_t value = 0;
   const char* end = word->data() + word->size();
-  const auto [stop, error] = std::from_chars(word->data(), end, seed);
-  if (error != std::errc() || stop != end) {
+  const auto [stop, error] = std::from_chars(word->data(), end, value);
+  if (error != std::errc() || stop != end || value < least || value > most) {
     throw UsageError(
-        fmt::format("--seed is a whole number from 0 to 18446744073709551615, not {}", carom::quoted(*word)));
+        fmt::format("{} is a whole number from {} to {}, not {}", option, least, most, carom::quoted(*word)));
   }
-  return seed;
+  return value;
 }
 
 std::optional<std::vector<std::string>> read_only(const std::vector<std::string>& words) {
@@ -168,7 +172,8 @@ Options read(const CommandText& command, const Words& words) {
     }
   }
   options.only = read_only(words.only);
-  options.seed = read_seed(words.seed);
+  options.seed = read_whole(words.seed, "--seed", 0, std::numeric_limits<std::uint64_t>::max());
+  options.jobs = read_whole(words.jobs, "--jobs", 1, 4096).value_or(options.jobs);
   options.progress = chosen<ProgressChoice>(words.progress, "--progress", {"auto", "bar", "lines", "none"});
   options.color = chosen<ColorChoice>(words.color, "--color", {"auto", "always", "never"});
   options.force = words.force;
@@ -193,7 +198,8 @@ std::string in_our_words(const CLI::ParseError& error) {
 }  // namespace
 
 const std::vector<std::string>& output_names() {
-  static const std::vector<std::string> names = {"trajectory", "collisions", "energy", "frames", "video", "sheet"};
+  static const std::vector<std::string> names = {"trajectory", "collisions", "energy", "contacts",
+                                                 "frames",     "video",      "sheet"};
   return names;
 }
 

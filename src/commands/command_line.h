@@ -25,6 +25,7 @@ struct Options {
   std::vector<std::string> set;                  // path=value
   std::optional<std::vector<std::string>> only;  // names of outputs, none empty
   std::optional<std::uint64_t> seed;
+  std::uint64_t jobs = 1;  // scenes at a time; no result depends on it
   bool force = false;
   bool quiet = false;
   bool json = false;

@@ -12,6 +12,7 @@ std::unique_ptr<Simulator> make_exact(const Scene& scene, bool record_collisions
   options.duration = scene.simulate.duration;
   options.rest_speed = scene.simulate.rest_speed.value_or(options.rest_speed);
   options.max_collisions = scene.simulate.max_collisions.value_or(options.max_collisions);
+  options.merge = scene.simulate.merge;
   options.record_collisions = record_collisions;
   return make_exact_simulator(scene.world, scene.initial, options);
 }

@@ -28,6 +28,7 @@ Output restricted(const Output& asked, const std::vector<std::string>& only) {
   if (wanted("trajectory")) output.trajectory = asked.trajectory.value_or(TrajectoryOutput{});
   output.collisions = wanted("collisions");
   if (wanted("energy")) output.energy = asked.energy.value_or(EnergyOutput{});
+  if (wanted("contacts")) output.contacts = asked.contacts.value_or(ContactsOutput{});
   if (wanted("frames")) output.frames = asked.frames.value_or(asked.video ? frames_like(*asked.video) : FramesOutput{});
   if (wanted("video")) output.video = asked.video.value_or(asked.frames ? video_like(*asked.frames) : VideoOutput{});
   if (wanted("sheet")) output.sheet = asked.sheet.value_or(SheetOutput{});
@@ -37,8 +38,9 @@ Output restricted(const Output& asked, const std::vector<std::string>& only) {
 bool holds_all(const Output& output, const std::vector<std::string>& only) {
   return std::all_of(only.begin(), only.end(), [&](const std::string& name) {
     return (name == "trajectory" && output.trajectory) || (name == "collisions" && output.collisions) ||
-           (name == "energy" && output.energy) || (name == "frames" && output.frames) ||
-           (name == "video" && output.video) || (name == "sheet" && output.sheet);
+           (name == "energy" && output.energy) || (name == "contacts" && output.contacts) ||
+           (name == "frames" && output.frames) || (name == "video" && output.video) ||
+           (name == "sheet" && output.sheet);
   });
 }
 

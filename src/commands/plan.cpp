@@ -12,6 +12,7 @@
 #include "commands/interrupt.h"
 #include "commands/outputs.h"
 #include "commands/text.h"
+#include "render/mesh.h"
 #include "scene/load.h"
 
 namespace carom {
@@ -51,6 +52,7 @@ LoadOptions load_options(const Options& options) {
   load.seed = options.seed;
   load.budget.enforced = !options.force;
   if (options.only) load.budget.frames = load.budget.rows = std::numeric_limits<std::uint64_t>::max();  // see below
+  load.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
   load.color = !options.json && wants_color(options.color, STDERR_FILENO);
   return load;
 }
@@ -82,7 +84,8 @@ void check(PlannedScene& planned, const Options& options) {
     throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
   }
   planned.content = inspect_folder(planned.folder, *planned.scene);
-  if (options.only && planned.content == FolderContent::incomplete && holds_all(asked, *options.only)) {
+  const bool differs = planned.content == FolderContent::incomplete || planned.content == FolderContent::more;
+  if (options.only && differs && holds_all(asked, *options.only)) {
     // A whole run of this scene has all that is named, and more.
     Scene whole = *planned.scene;
     whole.output = asked;

@@ -36,11 +36,20 @@ std::string file_list(const std::string& folder) {
 
 std::string collisions_text(const Summary& summary) {
   if (summary.collisions == 0) return "none";
-  std::string text = fmt::format("{} ({} body-body, {} body-fixed)", grouped(summary.collisions),
+  std::string text = fmt::format("{} ({} body-body, {} body-fixed", grouped(summary.collisions),
                                  grouped(summary.body_body), grouped(summary.body_fixed));
+  text += summary.merges > 0 ? fmt::format(", {})", counted(summary.merges, "merge", "merges")) : ")";
   if (summary.collisions == 1) return text + fmt::format(", at {}", quantity(summary.first_collision, "s"));
   return text + fmt::format(", first at {}, last at {}", quantity(summary.first_collision, "s"),
                             quantity(summary.last_collision, "s"));
+}
+
+std::string rest_text(const Summary& summary) {
+  std::string text = fmt::format("{} of {} in resting contact at the end", grouped(summary.resting),
+                                 counted(summary.bodies, "body", "bodies"));
+  if (summary.collapses == 0) return text;
+  return text + fmt::format("; {} of ever faster collisions taken into contact",
+                            counted(summary.collapses, "cluster", "clusters"));
 }
 
 std::string energy_text(const Summary& summary) {
@@ -85,8 +94,7 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   block.line("engine", planned.engine.why.empty() ? planned.engine.name
                                                   : fmt::format("{} ({})", planned.engine.name, planned.engine.why));
   block.line("collisions", collisions_text(summary));
-  block.line("rest", fmt::format("{} of {} in resting contact at the end", grouped(summary.resting),
-                                 counted(summary.bodies, "body", "bodies")));
+  block.line("rest", rest_text(summary));
   block.line("energy", energy_text(summary));
   block.line("overlap", summary.max_overlap > 0 ? quantity(summary.max_overlap, "m at most") : "none");
   block.line("wrote", fmt::format("{}: {}", printable(planned.folder), file_list(planned.folder)));
@@ -118,6 +126,10 @@ Json summary_json(const Summary& s) {
           {"max_speed_m_per_s", number_or_null(s.max_speed)},
           {"resting", s.resting},
           {"frames", s.frames}};
+}
+
+Json contact_json(const Summary& s) {
+  return {{"resting", s.resting}, {"clusters_taken_into_contact", s.collapses}, {"merges", s.merges}};
 }
 
 Json facts_json(const RunResult& result) {

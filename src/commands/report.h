@@ -32,6 +32,8 @@ std::vector<std::string> files_in(const std::string& folder);
 void describe(Block& block, const PlannedScene& planned, const RunResult& result);
 /// The same as JSON members, named as summary.csv's columns are.
 nlohmann::ordered_json summary_json(const Summary& summary);
+/// What became of bodies that met and stayed together; not all of it has a column.
+nlohmann::ordered_json contact_json(const Summary& summary);
 nlohmann::ordered_json facts_json(const RunResult& result);
 
 /// {"carom": version, "command": ..., "scenes": [...]}, the whole of what --json prints.

@@ -50,12 +50,14 @@ class Session {
  private:
   void refuse_other_runs() {
     for (PlannedScene& planned : scenes_) {
-      if (planned.errors > 0 || planned.content != FolderContent::other_run || options_.force) continue;
+      const bool other = planned.content == FolderContent::other_run, more = planned.content == FolderContent::more;
+      if (planned.errors > 0 || !(other || more) || options_.force) continue;
       planned.errors = 1;
-      planned.error = fmt::format(
-          "{}: the folder {} holds another run, or files that no run wrote\n"
-          "  write elsewhere with -o, or overwrite it with --force\n",
-          printable(planned.file), printable(planned.folder));
+      planned.error =
+          fmt::format("{}: the folder {} holds {}\n  write elsewhere with -o, or overwrite it with --force\n",
+                      printable(planned.file), printable(planned.folder),
+                      other ? "another run, or files that no run wrote"
+                            : "more outputs of this scene, which this run would remove");
     }
   }
 
@@ -103,6 +105,7 @@ class Session {
     ++done_;
     Json entry = begin(planned, "done");
     entry["summary"] = summary_json(result.summary);
+    entry["contact"] = contact_json(result.summary);
     entry["files"] = files_in(planned.folder);
     entry["time"] = facts_json(result);
     document_.push_back(entry);
@@ -193,7 +196,8 @@ const CommandText& run_text() {
       "  carom run scene.yaml --set balls.red.restitution=0.5 -o output/half\n"
       "  carom run scenes/*.yaml -o results                    results/<scene file's stem>/...\n",
       "Without -o a scene's run goes to output/<scene file's stem>/. All scenes are checked before\n"
-      "the first is run. A folder that holds this very run is up to date and costs nothing.\n\n"
+      "the first is run. A folder that holds this very run is up to date and costs nothing.\n"
+      "Scenes run one after another: --jobs is taken and changes nothing.\n\n"
       "Exit codes: 0 done or up to date, 1 a run failed, 2 the command line or a scene is wrong,\n"
       "130 or 143 interrupted.",
       true};

@@ -54,7 +54,7 @@ class Run {
       const State& state = simulator_->state();
       {
         const Stopwatch watch(facts_.export_s);
-        exports_.sample(state);
+        exports_.sample(state, exports_.wants_contacts() ? simulator_->contacts() : std::span<const ContactForce>{});
       }
       draw_what_is_due(state);
     }
@@ -151,6 +151,8 @@ Summary summarize(const Scene& scene, const EngineChoice& engine, double energy_
   summary.max_overlap = tally.max_overlap;
   summary.max_speed = tally.max_speed;
   summary.resting = tally.resting;
+  summary.merges = tally.merges;
+  summary.collapses = tally.collapses;
   return summary;
 }
 

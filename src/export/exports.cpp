@@ -8,6 +8,7 @@
 
 #include "export/film.h"
 #include "export/manifest.h"
+#include "export/mesh_copies.h"
 #include "export/open_folder.h"
 #include "export/picture_streams.h"
 #include "export/png.h"
@@ -18,11 +19,12 @@ namespace carom {
 namespace {
 
 /// The film's name comes from the scene: it must not be another file's.
-void check_film_name(const Output& output) {
+void check_film_name(const Scene& scene) {
+  const Output& output = scene.output;
   if (!output.video) return;
   const std::string& name = output.video->file;
   for (const std::string taken : {"scene.yaml", "summary.csv", "trajectory.csv", "collisions.csv", "energy.csv",
-                                  "sheet.png", "frames", manifest_name})
+                                  "contacts.csv", "sheet.png", "frames", manifest_name})
     if (name == taken) throw ExportError("cannot make the film " + name + ": another output has that name");
   if (!is_plain_name(name)) throw ExportError("cannot make the film " + name + ": that is no plain file name");
 }
@@ -34,12 +36,13 @@ struct Exports::Impl {
   Impl(const Scene& the_scene, const std::string& path)
       : scene(the_scene), timeline(the_scene.simulate.duration), plan(plan_pictures(the_scene)) {
     const Output& output = scene.output;
-    check_film_name(output);
+    check_film_name(scene);
+    const std::vector<MeshCopy> meshes = read_meshes(scene);
     std::optional<FilmTools> tools;
     if (output.video) tools = find_film_tools();
 
     folder.emplace(path);
-    scene_record = folder->begin(scene);
+    first_records = folder->begin(scene, meshes);
     const FilePlace& place = folder->place();
     if (output.trajectory) {
       trajectory.emplace(place, scene);
@@ -49,6 +52,10 @@ struct Exports::Impl {
     if (output.energy) {
       energy.emplace(place, scene);
       energy_ticks = timeline.add(Ticks::every(output.energy->every, scene.simulate.duration));
+    }
+    if (output.contacts) {
+      contacts.emplace(place, scene);
+      contact_ticks = timeline.add(Ticks::every(output.contacts->every, scene.simulate.duration));
     }
     if (output.frames) frames_place = folder->frames();
     if (output.video) film.emplace(place, *output.video, std::move(*tools));
@@ -70,9 +77,9 @@ struct Exports::Impl {
   const Scene& scene;
   Timeline timeline;
   PictureStreams plan;
-  int trajectory_ticks = -1, energy_ticks = -1;  // the timeline's streams
+  int trajectory_ticks = -1, energy_ticks = -1, contact_ticks = -1;  // the timeline's streams
   std::uint64_t pictures = 0;
-  FileRecord scene_record;
+  std::vector<FileRecord> first_records;  // of what stands there from the beginning
   std::vector<FileRecord> frame_records;
   // What writes into the folder is gone before the folder is put in order.
   std::optional<OpenFolder> folder;
@@ -80,6 +87,7 @@ struct Exports::Impl {
   std::optional<TrajectoryTable> trajectory;
   std::optional<CollisionTable> collisions;
   std::optional<EnergyTable> energy;
+  std::optional<ContactTable> contacts;
   std::optional<Film> film;
   std::optional<Sheet> sheet;
 };
@@ -94,19 +102,24 @@ Timeline& Exports::timeline() {
 
 bool Exports::wants_state() const {
   const auto& streams = impl_->plan.streams;
-  return impl_->due(impl_->trajectory_ticks) || impl_->due(impl_->energy_ticks) ||
+  return impl_->due(impl_->trajectory_ticks) || impl_->due(impl_->energy_ticks) || wants_contacts() ||
          std::any_of(streams.begin(), streams.end(),
                      [&](const PictureStream& s) { return impl_->due(s.timeline_stream); });
+}
+
+bool Exports::wants_contacts() const {
+  return impl_->due(impl_->contact_ticks);
 }
 
 void Exports::record(std::span<const Collision> collisions) {
   if (impl_->collisions) impl_->collisions->add(collisions);
 }
 
-void Exports::sample(const State& state) {
+void Exports::sample(const State& state, std::span<const ContactForce> contacts) {
   const double time = impl_->timeline.time();
   if (impl_->due(impl_->trajectory_ticks)) impl_->trajectory->add(time, state);
   if (impl_->due(impl_->energy_ticks)) impl_->energy->add(time, state);
+  if (wants_contacts()) impl_->contacts->add(time, contacts);
 }
 
 const std::vector<PictureStream>& Exports::pictures() const {
@@ -129,7 +142,7 @@ std::uint64_t Exports::frames() const {
 
 void Exports::finish(const Summary& summary, const RunFacts& facts) {
   const FilePlace& place = impl_->folder->place();
-  std::vector<FileRecord> records = {impl_->scene_record};
+  std::vector<FileRecord> records = impl_->first_records;
   std::vector<OutputFile*> files;
 
   // All bytes of all files, the manifest's included, still under the names of parts.
@@ -139,6 +152,7 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
   if (impl_->trajectory) files.push_back(&impl_->trajectory->file());
   if (impl_->collisions) files.push_back(&impl_->collisions->file());
   if (impl_->energy) files.push_back(&impl_->energy->file());
+  if (impl_->contacts) files.push_back(&impl_->contacts->file());
   std::optional<OutputFile> sheet_file;
   if (impl_->sheet) {
     sheet_file.emplace(place, "sheet.png");

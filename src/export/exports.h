@@ -9,6 +9,7 @@
 #include "export/run_folder.h"
 #include "export/timeline.h"
 #include "physics/collision.h"
+#include "physics/contact_force.h"
 #include "physics/state.h"
 #include "physics/tally.h"
 #include "render/image.h"
@@ -33,6 +34,10 @@ struct Summary {
   double momentum_drift = 0;  // kg m/s, |p(end) - p(start)|
   double max_overlap = 0, max_speed = 0;
   std::uint64_t resting = 0, frames = 0;
+
+  // For the report alone: no columns.
+  std::uint64_t merges = 0;
+  std::uint64_t collapses = 0;  // clusters taken into contact
 };
 
 /// How the run went, for manifest.json alone (nothing here may stand in a CSV).
@@ -60,9 +65,11 @@ class Exports {
   Exports& operator=(const Exports&) = delete;
 
   Timeline& timeline();
-  bool wants_state() const;  // at the timeline's present instant: anything due at all
+  bool wants_state() const;     // at the timeline's present instant: anything due at all
+  bool wants_contacts() const;  // at the timeline's present instant: the forces of contact too
   void record(std::span<const Collision> collisions);
-  void sample(const State& state);  // writes the rows that are due now
+  /// Writes the rows that are due now. `contacts`: by a, then b; looked at only if wants_contacts().
+  void sample(const State& state, std::span<const ContactForce> contacts = {});
   const std::vector<PictureStream>& pictures() const;
   void picture(std::size_t stream, const Image& image);  // the picture due now of pictures()[stream]
   std::uint64_t frames() const;  // pictures taken so far for frames and video; the sheet's do not count

@@ -10,7 +10,8 @@ namespace {
 
 // Typical sizes, bytes: a motion's six numbers, a time, a name, a row of energy.csv; what a pixel of a rendered picture
 // takes as PNG, and in a film at crf 18, which halves for each 6 more.
-constexpr double motion_bytes = 114, time_bytes = 6, name_bytes = 8, energy_bytes = 110, collision_bytes = 260;
+constexpr double motion_bytes = 114, time_bytes = 6, name_bytes = 8, energy_bytes = 110, collision_bytes = 260,
+                 contact_bytes = 40;
 constexpr double png_bytes_per_pixel = 0.3, film_bytes_per_pixel = 0.02;
 
 std::uint64_t whole(double x) {
@@ -35,6 +36,8 @@ Forecast forecast(const Scene& scene) {
                                      : rows * (motion_bytes + time_bytes + name_bytes);
   }
   if (output.energy) bytes += static_cast<double>(Ticks::every(output.energy->every, duration).count()) * energy_bytes;
+  if (output.contacts)  // which bodies rest when nobody knows; half of them always
+    bytes += static_cast<double>(Ticks::every(output.contacts->every, duration).count()) * contact_bytes * bodies / 2;
   if (output.collisions) bytes += collision_bytes * bodies;  // how many there will be nobody knows; one a body
   const PictureStreams plan = plan_pictures(scene);
   for (std::size_t i = 0; i < plan.streams.size(); ++i) {

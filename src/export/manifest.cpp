@@ -7,6 +7,7 @@
 
 #include "export/exports.h"
 #include "export/hash.h"
+#include "export/mesh_copies.h"
 #include "export/stored_file.h"
 
 namespace carom {
@@ -35,6 +36,7 @@ Json outputs_json(const Output& output) {
     json["trajectory"] = {{"every", t->every}, {"layout", t->wide ? "wide" : "long"}};
   if (output.collisions) json["collisions"] = true;
   if (const auto& e = output.energy) json["energy"] = {{"every", e->every}};
+  if (const auto& c = output.contacts) json["contacts"] = {{"every", c->every}};
   if (const auto& f = output.frames)
     json["frames"] = {{"fps", f->fps},
                       {"size", size_json(f->size)},
@@ -79,6 +81,7 @@ std::string manifest_text(const Scene& scene, const Summary& summary, const RunF
                    {"title", scene.title},
                    {"sha256", sha256(scene.resolved)}};
   json["outputs"] = outputs_json(scene.output);
+  if (!scene.meshes.empty()) json["meshes"] = Json::parse(meshes_text(scene));
   json["counts"] = {{"bodies", summary.bodies}, {"collisions", summary.collisions}, {"frames", summary.frames}};
   json["wall_times_s"] = {
       {"load", facts.load_s}, {"simulate", facts.simulate_s}, {"render", facts.render_s}, {"export", facts.export_s}};
@@ -97,7 +100,8 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name) {
   if (!json.is_object() || text_member(json, "tool") != tool) return std::nullopt;
   const auto scene = json.find("scene"), outputs = json.find("outputs"), files = json.find("files");
   if (scene == json.end() || outputs == json.end() || files == json.end() || !files->is_array()) return std::nullopt;
-  Manifest manifest{text_member(json, "version"), text_member(*scene, "sha256"), to_text(*outputs, -1), {}};
+  Manifest manifest{text_member(json, "version"), text_member(*scene, "sha256"), to_text(*outputs, -1), "[]", {}};
+  if (const auto meshes = json.find("meshes"); meshes != json.end()) manifest.meshes = to_text(*meshes, -1);
   for (const Json& entry : *files) {
     auto record = file_record(entry);
     if (!record) return std::nullopt;
@@ -114,11 +118,15 @@ bool is_run_file(std::string_view name) {
   return std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-std::vector<std::string> run_files(const Output& output) {
+std::vector<std::string> run_files(const Scene& scene, const Output& output) {
   std::vector<std::string> names = {"scene.yaml", "summary.csv"};
+  for (const MeshFile& mesh : scene.meshes) {
+    if (!mesh.copy.empty()) names.push_back(mesh.copy);
+  }
   if (output.trajectory) names.push_back("trajectory.csv");
   if (output.collisions) names.push_back("collisions.csv");
   if (output.energy) names.push_back("energy.csv");
+  if (output.contacts) names.push_back("contacts.csv");
   if (output.video) names.push_back(output.video->file);
   if (output.sheet) names.push_back("sheet.png");
   return names;

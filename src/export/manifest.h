@@ -20,6 +20,7 @@ struct Manifest {
   std::string version;       // the tool's
   std::string scene_sha256;  // of scene.yaml
   std::string outputs;       // outputs_text()
+  std::string meshes;        // meshes_text()
   std::vector<FileRecord> files;
 };
 
@@ -38,8 +39,8 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name);
 /// Whether a run may write a file of this name: a plain one, or frames/frame_<digits>.png.
 bool is_run_file(std::string_view name);
 
-/// The files of a run of these outputs, frames aside.
-std::vector<std::string> run_files(const Output& output);
+/// The files of a run of this scene with these outputs, frames aside.
+std::vector<std::string> run_files(const Scene& scene, const Output& output);
 
 /// The text with whatever is not UTF-8 in it replaced.
 std::string valid_utf8(const std::string& text);

@@ -52,9 +52,10 @@ void add_remains(std::vector<std::string>& names, int folder, const Scene& scene
   all.trajectory.emplace();
   all.collisions = true;
   all.energy.emplace();
+  all.contacts.emplace();
   all.sheet.emplace();
   if (!all.video) all.video.emplace();
-  for (std::string& name : run_files(all)) names.push_back(std::move(name));
+  for (std::string& name : run_files(scene, all)) names.push_back(std::move(name));
   if (const Descriptor frames = open_folder(folder, "frames", false))
     for (const std::string& name : folder_names(frames.get())) names.push_back("frames/" + name);
 }
@@ -92,14 +93,12 @@ OpenFolder::OpenFolder(const std::string& path) {
 
 OpenFolder::~OpenFolder() {
   if (keep_) return;
-  if (begun_) {
-    unlinkat(place_.folder, "frames", AT_REMOVEDIR);  // if it is empty
-    unlinkat(place_.folder, "scene.yaml", 0);
-  }
+  if (!begun_.empty()) unlinkat(place_.folder, "frames", AT_REMOVEDIR);  // if it is empty
+  for (const FileRecord& file : begun_) unlinkat(place_.folder, file.name.c_str(), 0);
   if (made_) rmdir(place_.path.c_str());
 }
 
-FileRecord OpenFolder::begin(const Scene& scene) {
+std::vector<FileRecord> OpenFolder::begin(const Scene& scene, const std::vector<MeshCopy>& meshes) {
   const int folder = place_.folder;
   std::vector<std::string> names;
   const auto manifest = read_manifest(folder, manifest_name);
@@ -114,10 +113,13 @@ FileRecord OpenFolder::begin(const Scene& scene) {
   const bool gone = manifest ? renameat(folder, manifest_name, folder, former_manifest) == 0
                              : unlinkat(folder, manifest_name, 0) == 0 || errno == ENOENT;
   if (!gone) fail("replace", place_, manifest_name);
-  OutputFile file(place_, "scene.yaml");
-  file.write(scene.resolved);
-  file.publish();
-  begun_ = true;
+  const auto put = [&](const std::string& name, const std::string& bytes) {
+    OutputFile file(place_, name);
+    file.write(bytes);
+    file.publish();
+    begun_.push_back(file.record());
+  };
+  put("scene.yaml", scene.resolved);
   remove_files(folder, names);
   remove_parts(folder);
   if (const Descriptor frames = open_folder(folder, "frames", false)) {
@@ -125,7 +127,8 @@ FileRecord OpenFolder::begin(const Scene& scene) {
     unlinkat(folder, "frames", AT_REMOVEDIR);  // if it is empty
   }
   unlinkat(folder, former_manifest, 0);
-  return file.record();
+  for (const MeshCopy& mesh : meshes) put(mesh.name, mesh.bytes);
+  return begun_;
 }
 
 FilePlace OpenFolder::frames() {

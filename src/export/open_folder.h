@@ -1,7 +1,9 @@
 #pragma once
 // The run's folder while a run writes it: locked, freed of a former run, put in order when a run fails.
 #include <string>
+#include <vector>
 
+#include "export/mesh_copies.h"
 #include "export/output_file.h"
 #include "scene/scene.h"
 
@@ -15,7 +17,7 @@ class OpenFolder {
   /// Makes the folder and its parents if need be, and locks it against other runs. Throws ExportError, as all of this
   /// class does.
   explicit OpenFolder(const std::string& path);
-  /// Without keep(): takes back scene.yaml, and the folders that are empty then and that this run made.
+  /// Without keep(): takes back scene.yaml and meshes, and the folders that are empty then and that this run made.
   ~OpenFolder();
   OpenFolder(const OpenFolder&) = delete;
   OpenFolder& operator=(const OpenFolder&) = delete;
@@ -23,8 +25,8 @@ class OpenFolder {
   const FilePlace& place() const { return place_; }
 
   /// Removes what a former run left and puts this scene's scene.yaml there, in an order that leaves at every moment a
-  /// folder that inspect_folder judges rightly. Gives scene.yaml's record.
-  FileRecord begin(const Scene& scene);
+  /// folder that inspect_folder judges rightly. Then the copies of its meshes. Gives the records of all these.
+  std::vector<FileRecord> begin(const Scene& scene, const std::vector<MeshCopy>& meshes = {});
 
   /// Makes, if need be, and opens the folder of frames.
   FilePlace frames();
@@ -38,7 +40,8 @@ class OpenFolder {
  private:
   Descriptor folder_, frames_;
   FilePlace place_;
-  bool made_ = false, keep_ = false, begun_ = false;
+  bool made_ = false, keep_ = false;
+  std::vector<FileRecord> begun_;  // what stands there from the beginning
 };
 
 }  // namespace carom

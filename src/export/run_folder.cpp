@@ -8,6 +8,7 @@
 
 #include "export/folder_names.h"
 #include "export/manifest.h"
+#include "export/mesh_copies.h"
 #include "export/open_folder.h"
 #include "export/stored_file.h"
 
@@ -42,10 +43,25 @@ bool names_all(const Manifest& manifest, const std::vector<std::string>& names) 
 }
 
 /// Sizes before hashes: what is cut off is found without reading gigabytes.
-bool is_whole(int folder, const Manifest& manifest, const Output& output) {
-  return manifest.version == CAROM_VERSION && manifest.outputs == outputs_text(output) &&
-         names_all(manifest, run_files(output)) && all_files(folder, manifest, has_size) &&
+bool is_whole(int folder, const Manifest& manifest, const Scene& scene) {
+  return manifest.version == CAROM_VERSION && manifest.outputs == outputs_text(scene.output) &&
+         names_all(manifest, run_files(scene, scene.output)) && all_files(folder, manifest, has_size) &&
          all_files(folder, manifest, has_hash);
+}
+
+/// Whether the folder has a file of this tool's run that a run of the scene's outputs would not write anew.
+bool has_more(int folder, const Manifest& manifest, const Scene& scene) {
+  if (manifest.version != CAROM_VERSION) return false;
+  const std::vector<std::string> names = run_files(scene, scene.output);
+  const Descriptor frames = open_folder(folder, "frames", false);
+  return std::any_of(manifest.files.begin(), manifest.files.end(), [&](const FileRecord& file) {
+    const std::string_view head = "frames/";
+    if (file.name.starts_with(head)) {
+      return !scene.output.frames && frames && stored_size(frames.get(), file.name.substr(head.size()));
+    }
+    return std::find(names.begin(), names.end(), file.name) == names.end() &&
+           stored_size(folder, file.name).has_value();
+  });
 }
 
 }  // namespace
@@ -64,8 +80,11 @@ FolderContent inspect_folder(const std::string& path, const Scene& scene) {
   const std::string hash = sha256(scene.resolved);
   if (there(manifest_name)) {
     const auto manifest = read_manifest(folder.get(), manifest_name);
-    if (!manifest || manifest->scene_sha256 != hash) return FolderContent::other_run;
-    return is_whole(folder.get(), *manifest, scene.output) ? FolderContent::this_run : FolderContent::incomplete;
+    if (!manifest || manifest->scene_sha256 != hash || manifest->meshes != meshes_text(scene)) {
+      return FolderContent::other_run;
+    }
+    if (is_whole(folder.get(), *manifest, scene)) return FolderContent::this_run;
+    return has_more(folder.get(), *manifest, scene) ? FolderContent::more : FolderContent::incomplete;
   }
   if (there("scene.yaml")) {
     const auto stored = read_record(folder.get(), "scene.yaml");

@@ -15,7 +15,8 @@ struct ExportError : std::runtime_error {
 enum class FolderContent {
   nothing,     // it is not there, or empty
   this_run,    // this very run, by the same tool, whole: every file of the manifest has its size and hash
-  incomplete,  // this scene's, not whole: a run that was interrupted, or other outputs of the same scene
+  incomplete,  // this scene's, not whole: a run that was interrupted, or fewer outputs of the same scene
+  more,        // this scene's, with outputs that this run does not write and would remove
   other_run    // another scene's run, or files that no run wrote
 };
 

@@ -31,12 +31,27 @@ char* put_motion(char* to, const Vec3& position, const Vec3& velocity) {
   return to;
 }
 
+bool is_part_of_another(const State& state, Entity body) {
+  return !state.part_of.empty() && state.part_of[body] != body;
+}
+
 /// Names are [A-Za-z_][A-Za-z0-9_-]*, so that they are cells as they stand.
 char* put_member(char* to, const BodyRange& range, Entity body) {
   to = put_text(to, range.name);
   if (!range.group) return to;
   *to++ = '.';
   return put_number(to, std::uint64_t{body - range.first});
+}
+
+/// The cell of a body or a fixed thing, after its comma; of no_entity, an empty one.
+void write_name(OutputFile& file, const Roster& roster, Entity bodies, Entity entity) {
+  file.write(",");
+  if (entity < bodies) {
+    const BodyRange& range = roster.range_of(entity);
+    file.written(put_member(file.room(range.name.size() + member_size), range, entity));
+  } else if (entity != no_entity) {
+    file.write(roster.fixed[entity - bodies].name);
+  }
 }
 
 std::string_view kind_name(CollisionKind kind) {
@@ -89,6 +104,7 @@ void TrajectoryTable::add_long(double time, const State& state) {
   const std::string_view time_cell(time_text, static_cast<std::size_t>(put_number(time_text, time) - time_text));
   for (const BodyRange& range : scene_.roster.bodies) {
     for (Entity body = range.first; body < range.first + range.count; ++body) {
+      if (is_part_of_another(state, body)) continue;
       char* to = file_.room(number_size + range.name.size() + member_size + motion_size + 2);
       to = put_text(to, time_cell);
       *to++ = ',';
@@ -102,9 +118,14 @@ void TrajectoryTable::add_long(double time, const State& state) {
 
 void TrajectoryTable::add_wide(double time, const State& state) {
   file_.written(put_number(file_.room(number_size), time));
-  for (const BodyRange& range : scene_.roster.bodies)
-    for (Entity body = range.first; body < range.first + range.count; ++body)
-      file_.written(put_motion(file_.room(motion_size), state.position[body], state.velocity[body]));
+  for (const BodyRange& range : scene_.roster.bodies) {
+    for (Entity body = range.first; body < range.first + range.count; ++body) {
+      if (is_part_of_another(state, body))
+        file_.write(",,,,,,");
+      else
+        file_.written(put_motion(file_.room(motion_size), state.position[body], state.velocity[body]));
+    }
+  }
   file_.write("\n");
 }
 
@@ -120,15 +141,7 @@ void CollisionTable::add(std::span<const Collision> collisions) {
     file_.written(put_number(file_.room(number_size), collision.time));
     file_.write(",");
     file_.write(kind_name(collision.kind));
-    for (const Entity entity : {collision.a, collision.b}) {
-      file_.write(",");
-      if (entity < bodies_) {
-        const BodyRange& range = roster_.range_of(entity);
-        file_.written(put_member(file_.room(range.name.size() + member_size), range, entity));
-      } else if (entity != no_entity) {
-        file_.write(roster_.fixed[entity - bodies_].name);
-      }
-    }
+    for (const Entity entity : {collision.a, collision.b}) write_name(file_, roster_, bodies_, entity);
     char* to = put_motion(file_.room(motion_size + 5 * (number_size + 1) + 1), collision.position, collision.normal);
     for (const double value : {collision.approach_speed, collision.separation_speed, collision.restitution,
                                collision.impulse, collision.energy_lost}) {
@@ -137,6 +150,21 @@ void CollisionTable::add(std::span<const Collision> collisions) {
     }
     *to++ = '\n';
     file_.written(to);
+  }
+}
+
+ContactTable::ContactTable(const FilePlace& place, const Scene& scene)
+    : roster_(scene.roster), bodies_(scene.world.body_count()), file_(place, "contacts.csv") {
+  file_.write("time_s,a,b,force_N\n");
+}
+
+void ContactTable::add(double time, std::span<const ContactForce> contacts) {
+  for (const ContactForce& contact : contacts) {
+    file_.written(put_number(file_.room(number_size), time));
+    for (const Entity entity : {contact.a, contact.b}) write_name(file_, roster_, bodies_, entity);
+    file_.write(",");
+    file_.written(put_number(file_.room(number_size), contact.force));
+    file_.write("\n");
   }
 }
 

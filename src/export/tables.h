@@ -6,6 +6,7 @@
 #include "export/csv.h"
 #include "export/output_file.h"
 #include "physics/collision.h"
+#include "physics/contact_force.h"
 #include "physics/state.h"
 #include "scene/scene.h"
 
@@ -15,6 +16,7 @@ struct Summary;
 
 /// trajectory.csv. Long: a row a body and instant, by time then body. Wide: a row an instant, six columns a body:
 /// time_s,<name>.x_m,<name>.y_m,<name>.z_m,<name>.vx_m_per_s,<name>.vy_m_per_s,<name>.vz_m_per_s,...
+/// A body that has become part of another has no rows from then on; in a wide table its cells are empty.
 class TrajectoryTable {
  public:
   TrajectoryTable(const FilePlace& place, const Scene& scene);
@@ -34,6 +36,19 @@ class CollisionTable {
  public:
   CollisionTable(const FilePlace& place, const Scene& scene);
   void add(std::span<const Collision> collisions);
+  OutputFile& file() { return file_; }
+
+ private:
+  const Roster& roster_;
+  Entity bodies_;
+  OutputFile file_;
+};
+
+/// contacts.csv: a row an instant and pair in lasting contact, by time, then a, then b.
+class ContactTable {
+ public:
+  ContactTable(const FilePlace& place, const Scene& scene);
+  void add(double time, std::span<const ContactForce> contacts);  // s
   OutputFile& file() { return file_; }
 
  private:

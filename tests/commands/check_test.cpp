@@ -125,7 +125,8 @@ TEST(Check, TellsTheStateOfTheFolder) {
   here.carom({"run", "balls.yaml"});
   EXPECT_EQ(folder({}), "  folder      output/balls: up to date\n");
   EXPECT_EQ(folder({"--only", "energy"}), "  folder      output/balls: up to date\n");
-  EXPECT_EQ(folder({"--only", "sheet"}), "  folder      output/balls: incomplete, will be run again\n");
+  EXPECT_EQ(folder({"--only", "sheet"}),
+            "  folder      output/balls: holds more outputs of this scene: run needs --force or another -o\n");
   EXPECT_EQ(folder({"--set", "seed=3"}),
             "  folder      output/balls: holds another run, or files that no run wrote: run needs --force or\n"
             "              another -o\n");
@@ -164,6 +165,31 @@ TEST(Check, ScenesBeyondTheBudgetAreRefusedUnlessForced) {
   const Finished forced = here.carom({"check", "big.yaml", "--force"});
   EXPECT_EQ(forced.code, 0) << forced.err;
   EXPECT_NE(forced.out.find("1,000,001 pictures"), std::string::npos) << forced.out;
+}
+
+TEST(Check, TellsOfVolumesObstaclesAndForces) {
+  const Workplace here;
+  here.write("things.yaml",
+             "scene: 1\n"
+             "balls: {red: {mass: 1, radius: 0.1, position: [0, 3, 0]}}\n"
+             "bodies:\n"
+             "  crate: {mass: 1, box: [1, 2, 3], position: [9, 1, 0]}\n"
+             "  can: {mass: 1, cylinder: {radius: 0.25, height: 2}, position: [5, 1, 0]}\n"
+             "obstacles: {post: {radius: 0.5, position: [-9, 1, 0]}}\n"
+             "forces: [{uniform: [1, 0, 0], until: 1}]\n"
+             "simulate: {duration: 0}\n");
+  const Finished check = here.carom({"check", "things.yaml"});
+  EXPECT_EQ(check.err, "");
+  EXPECT_NE(check.out.find("  bodies      3 bodies: red, crate and can\n"
+                           "  fixed       0 planes, 0 walls, 1 obstacle\n"
+                           "  volumes     crate a box of 1 x 2 x 3 m; can a cylinder of radius 0.25 m and height 2 m;\n"
+                           "              post a sphere of radius 0.5 m\n"
+                           "  forces      1 force beside gravity\n"),
+            std::string::npos)
+      << check.out;
+  const std::string json = here.carom({"check", "things.yaml", "--json"}).out;
+  EXPECT_NE(json.find("\"obstacles\": 1"), std::string::npos) << json;
+  EXPECT_NE(json.find("\"crate\": {\n          \"box\": [\n            1.0,"), std::string::npos) << json;
 }
 
 }  // namespace

@@ -166,12 +166,19 @@ TEST(Run, OnlyRestrictsAndAddsOutputs) {
   EXPECT_EQ(here.files("output/balls").size(), 4u);
   EXPECT_TRUE(here.has("output/balls/energy.csv"));
 
-  // The same scene's other outputs: no --force needed, and the folder then holds these alone.
-  EXPECT_EQ(here.carom({"run", "balls.yaml", "--only", "collisions,trajectory"}).code, 0);
+  // The same scene's other outputs would remove these: only with --force, and the folder then holds the others alone.
+  const Finished others = here.carom({"run", "balls.yaml", "--only", "collisions,trajectory"});
+  EXPECT_EQ(others.code, 2);
+  EXPECT_EQ(others.err,
+            "balls.yaml: the folder output/balls holds more outputs of this scene, which this run would remove\n"
+            "  write elsewhere with -o, or overwrite it with --force\n"
+            "carom: 1 error; nothing was run\n");
+  EXPECT_TRUE(here.has("output/balls/energy.csv"));
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "--only", "collisions,trajectory", "--force"}).code, 0);
   EXPECT_EQ(here.files("output/balls").size(), 5u);
   EXPECT_FALSE(here.has("output/balls/energy.csv"));
 
-  // What the whole run holds is up to date for any part of it.
+  // A run that writes these and more needs none. What the whole run holds is up to date for any part of it.
   EXPECT_EQ(here.carom({"run", "balls.yaml"}).code, 0);
   EXPECT_EQ(here.carom({"run", "balls.yaml", "--only", "energy"}).out,
             "balls: Two balls\n  up to date  output/balls\n");
@@ -183,6 +190,57 @@ TEST(Run, OnlyRestrictsAndAddsOutputs) {
   EXPECT_EQ(std::count(trajectory.begin(), trajectory.end(), '\n'),
             1 + 31 * 2);  // every 1/30 s over 1 s, ends included
   EXPECT_FALSE(here.has("output/none/collisions.csv"));
+}
+
+TEST(Run, JobsChangeNoResult) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", "one"}).code, 0);
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", "four", "-j", "4"}).code, 0);
+  auto one = here.files("one"), four = here.files("four");
+  one.erase("manifest.json");
+  four.erase("manifest.json");
+  EXPECT_EQ(one, four);
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "--jobs", "0"}).err,
+            "carom run: --jobs is a whole number from 1 to 4096, not `0`\n  carom run --help shows how it is used\n");
+}
+
+/// A tetrahedron about a radius of a metre, as STL.
+const std::string tetrahedron =
+    "solid t\n"
+    "facet normal 0 0 0\nouter loop\nvertex 1 0 0\nvertex -1 0 1\nvertex 0 1 0\nendloop\nendfacet\n"
+    "facet normal 0 0 0\nouter loop\nvertex 1 0 0\nvertex -1 0 -1\nvertex 0 1 0\nendloop\nendfacet\n"
+    "facet normal 0 0 0\nouter loop\nvertex 1 0 0\nvertex -1 0 1\nvertex -1 0 -1\nendloop\nendfacet\n"
+    "facet normal 0 0 0\nouter loop\nvertex 0 1 0\nvertex -1 0 1\nvertex -1 0 -1\nendloop\nendfacet\n"
+    "endsolid t\n";
+
+TEST(Run, OfASceneWithAMeshCanBeRepeatedFromItsFolderAlone) {
+  const Workplace here;
+  here.write("scenes/meshes/t.stl", tetrahedron);
+  here.write("scenes/fall.yaml",
+             "scene: 1\n"
+             "bodies: {t: {mass: 1, mesh: meshes/t.stl, fit: box, position: [0, 2, 0]}}\n"
+             "simulate: {duration: 0.1}\n");
+  EXPECT_EQ(here.carom({"run", "scenes/fall.yaml", "-o", "deep/er/first"}).err, "");
+  EXPECT_EQ(here.read("deep/er/first/t.stl"), tetrahedron);
+  EXPECT_EQ(here.shell("mv deep/er/first moved && rm -r scenes deep && $CAROM run moved/scene.yaml -o again").err, "");
+  auto first = here.files("moved"), again = here.files("again");
+  first.erase("manifest.json");
+  again.erase("manifest.json");
+  EXPECT_EQ(first.size(), 6u);
+  EXPECT_EQ(first, again);
+}
+
+TEST(Run, ScenesWithATornMeshAreWrong) {
+  const Workplace here;
+  here.write("t.stl", "no triangles here");
+  here.write("fall.yaml",
+             "scene: 1\n"
+             "bodies: {t: {mass: 1, mesh: t.stl, fit: box, position: [0, 2, 0]}}\n"
+             "simulate: {duration: 0.1}\n");
+  const Finished run = here.carom({"run", "fall.yaml"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.err.find("fall.yaml:2:29: error: the mesh `t.stl` cannot be used: "), std::string::npos) << run.err;
 }
 
 TEST(Run, OnlyIsHeldToTheBudgetByWhatItLeaves) {

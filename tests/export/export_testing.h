@@ -86,9 +86,9 @@ inline Image picture(Size size, int phase) {
 }
 
 /// Runs through a timeline as `run` does, with the scene's initial state all along.
-inline void play(const Scene& scene, Exports& exports) {
+inline void play(const Scene& scene, Exports& exports, const std::vector<ContactForce>& contacts = {}) {
   while (exports.timeline().advance()) {
-    exports.sample(scene.initial);
+    exports.sample(scene.initial, contacts);
     for (std::size_t i = 0; i < exports.pictures().size(); ++i)
       if (const auto due = exports.timeline().due(exports.pictures()[i].timeline_stream))
         exports.picture(i, picture(exports.pictures()[i].size, static_cast<int>(*due)));
@@ -105,9 +105,9 @@ inline Summary some_summary(const Scene& scene) {
 }
 
 /// A whole run.
-inline void run(const Scene& scene, const std::string& folder) {
+inline void run(const Scene& scene, const std::string& folder, const std::vector<ContactForce>& contacts = {}) {
   Exports exports(scene, folder);
-  play(scene, exports);
+  play(scene, exports, contacts);
   Summary summary = some_summary(scene);
   summary.frames = exports.frames();
   exports.finish(summary, {});

@@ -197,7 +197,7 @@ TEST(Folder, OtherOutputsOfTheSameSceneAreNotThisRun) {
   Scene scene = scene_with_tables();
   run(scene, temp / "run");
   scene.output.energy.reset();  // as --only trajectory,collisions does
-  EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::incomplete);
+  EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::more);
   run(scene, temp / "run");
   EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::this_run);
   EXPECT_FALSE(fs::exists(temp / "run/energy.csv"));  // the former run's

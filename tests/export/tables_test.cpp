@@ -112,6 +112,40 @@ TEST(Tables, CollisionsNameWhoMetWhom) {
             "0.2,merge,red,blue,0,0,0,0,0,1,1,0,0,1,1\n");
 }
 
+TEST(Tables, BodiesThatHaveBecomePartOfAnotherHaveNoRows) {
+  TempFolder temp;
+  Scene scene = small_scene();
+  scene.simulate.duration = 0;
+  scene.output.trajectory = TrajectoryOutput{1, false};
+  scene.initial.part_of = {0, 1, 0, 3};
+  run(scene, temp / "long");
+  EXPECT_EQ(read(temp / "long/trajectory.csv"),
+            "time_s,body,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\n"
+            "0,red,0,1,0,1,0,0\n"
+            "0,blue,1,1,0,0,0,0\n"
+            "0,gas.1,3,1,0,0,0,0\n");
+  scene.output.trajectory->wide = true;
+  run(scene, temp / "wide");
+  const std::string wide = read(temp / "wide/trajectory.csv");
+  EXPECT_EQ(wide.substr(wide.find('\n') + 1), "0,0,1,0,1,0,0,1,1,0,0,0,0,,,,,,,3,1,0,0,0,0\n");
+}
+
+TEST(Tables, ContactsAreARowAnInstantAndPair) {
+  TempFolder temp;
+  Scene scene = small_scene();
+  scene.output.contacts = ContactsOutput{0.15};
+  run(scene, temp / "run", {{0, 4, 9.80665}, {1, 3, 0.5}});
+  EXPECT_EQ(read(temp / "run/contacts.csv"),
+            "time_s,a,b,force_N\n"
+            "0,red,floor,9.80665\n"
+            "0,blue,gas.1,0.5\n"
+            "0.15,red,floor,9.80665\n"
+            "0.15,blue,gas.1,0.5\n"
+            "0.2,red,floor,9.80665\n"
+            "0.2,blue,gas.1,0.5\n");
+  EXPECT_FALSE(fs::exists(temp / "run/trajectory.csv"));
+}
+
 TEST(Tables, EnergyIsKineticPlusPotential) {
   TempFolder temp;
   Scene scene = small_scene();

@@ -1,0 +1,80 @@
+#include "commands/volumes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "commands/text.h"
+
+namespace carom {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::size_t things_shown = 10;
+
+std::string volume_text(const Volume& volume) {
+  switch (volume.shape) {
+    case Shape::sphere:
+      return fmt::format("a sphere of radius {}", quantity(volume.half.x(), "m"));
+    case Shape::cylinder:
+      return fmt::format("a cylinder of radius {} and height {}", quantity(volume.half.x(), "m"),
+                         quantity(2 * volume.half.y(), "m"));
+    case Shape::box:
+      break;
+  }
+  return fmt::format("a box of {:.4g} x {:.4g} x {}", 2 * volume.half.x(), 2 * volume.half.y(),
+                     quantity(2 * volume.half.z(), "m"));
+}
+
+Json volume_json(const Volume& volume) {
+  switch (volume.shape) {
+    case Shape::sphere:
+      return {{"radius", volume.half.x()}};
+    case Shape::cylinder:
+      return {{"cylinder", {{"radius", volume.half.x()}, {"height", 2 * volume.half.y()}}}};
+    case Shape::box:
+      break;
+  }
+  return {{"box", {2 * volume.half.x(), 2 * volume.half.y(), 2 * volume.half.z()}}};
+}
+
+}  // namespace
+
+std::string volumes_text(const Scene& scene) {
+  std::vector<std::string> texts;
+  const World& world = scene.world;
+  const auto add = [&](Entity e, const std::optional<MeshUse>& mesh) {
+    std::string text = fmt::format("{} {}", scene.roster.name(e), volume_text(world.volume_of(e)));
+    if (mesh) text += fmt::format(", drawn as {}", printable(std::filesystem::path(mesh->file).filename().string()));
+    texts.push_back(std::move(text));
+  };
+  for (const BodyRange& range : scene.roster.bodies) {
+    const bool ball = range.count == 0 || world.volume_of(range.first).shape == Shape::sphere;
+    if (range.count > 0 && (!ball || range.mesh)) add(range.first, range.mesh);
+  }
+  const auto first = static_cast<Entity>(world.planes.size() + world.walls.size());
+  for (Entity i = first; i < world.fixed_count(); ++i) add(world.body_count() + i, scene.roster.fixed[i].mesh);
+  const std::size_t shown = std::min(texts.size(), things_shown);
+  std::string text =
+      fmt::format("{}", fmt::join(texts.begin(), texts.begin() + static_cast<std::ptrdiff_t>(shown), "; "));
+  return shown < texts.size() ? text + fmt::format("; and {} more", grouped(texts.size() - shown)) : text;
+}
+
+Json volumes_json(const Scene& scene) {
+  Json volumes = Json::object();
+  const World& world = scene.world;
+  for (const BodyRange& range : scene.roster.bodies) {
+    if (range.count > 0) volumes[range.name] = volume_json(world.volume_of(range.first));
+  }
+  const auto first = static_cast<Entity>(world.planes.size() + world.walls.size());
+  for (Entity i = first; i < world.fixed_count(); ++i) {
+    volumes[scene.roster.fixed[i].name] = volume_json(world.volume_of(world.body_count() + i));
+  }
+  return volumes;
+}
+
+}  // namespace carom
