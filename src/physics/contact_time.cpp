@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/compensated.h"
+#include "physics/exact_path.h"
 
 namespace carom {
 
@@ -50,6 +51,21 @@ double sphere_contact_time(const RelativeMotion& m, double s, double horizon) {
   // has changed their velocities in the same instant).
   if (f.c[1] < 0) return 0;
   return first_descent({{f.c[1], f.c[2], f.c[3], f.c[4]}, 3}, horizon);
+}
+
+double sharpened_contact_time(const RelativeMotion& m, double s, double t, double horizon) {
+  if (t == 0 || m.a.isZero(0)) return t;
+  double last = never;
+  for (int k = 0; k < 6; ++k) {
+    DoubleDouble square = -two_product(s, s);
+    for (const DoubleDouble& x : exact_position(m, t)) square = square + x * x;
+    const double slope = 2 * (m.d + t * (m.w + 0.5 * t * m.a)).dot(m.w + t * m.a);
+    const double step = -square.value() / slope;
+    if (!(slope < 0 && std::abs(step) < 0.5 * last) || !(t + step > 0 && t + step <= horizon)) break;
+    last = std::abs(step);
+    t += step;
+  }
+  return t;
 }
 
 double plane_contact_time(double gap, double speed, double acceleration, double noise, bool just_separated,

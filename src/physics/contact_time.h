@@ -22,6 +22,11 @@ struct RelativeMotion {
 /// form of the root and compensated dots make a grazing or nearly touching pair as exact as its data).
 double sphere_contact_time(const RelativeMotion& motion, double s, double horizon);
 
+/// The same contact, from the time t (s) that sphere_contact_time gives for unequal accelerations. The quartic's
+/// coefficients lose what the square of a long way is rounded to, and a grazing pair is as inexact as they are; here
+/// the gap is evaluated in double-double.
+double sharpened_contact_time(const RelativeMotion& motion, double s, double t, double horizon);
+
 /// |d + w t + a t^2/2|^2 - s^2, m^2. just_separated: its constant term is zero.
 Polynomial squared_gap_polynomial(const RelativeMotion& motion, double s);
 

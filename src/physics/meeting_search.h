@@ -110,21 +110,21 @@ class MeetingSearch {
     } else if (set_.as_spheres(feature, m_, reduced, radius)) {
       reduced.just_separated = is_left;
       closed = sphere_contact_time(reduced, radius, horizon_);
+      if (!is_left && closed < never) closed = sharpened_contact_time(reduced, radius, closed, horizon_);
     }
     const auto tolerance = [&](double time) {
       const double reach = m_.d.cwiseAbs().sum() + time * (m_.w.cwiseAbs().sum() + time * m_.a.cwiseAbs().sum());
       return 64 * rounding * (reach + set_.size());
     };
-    if (closed < never && std::abs(look(closed).gap) <= tolerance(closed)) {
-      if (is_left || m_.a.isZero(0) || set_.flat(feature)) return {closed, feature};
-      t = closed;  // a quartic, whose coefficients lose what a long way is rounded to
-    }
+    if (closed < never && std::abs(look(closed).gap) <= tolerance(closed)) return {closed, feature};
     // Newton's method on the feature's gap.
     double last = never;
     for (int k = 0; k < 8; ++k) {
       const double slope = set_.at(m_.d + way(t), feature).normal.dot(m_.w + t * m_.a);
       if (!(slope < 0)) break;
-      const double step = -set_.displaced_gap(m_.d, feature, gap, way(t)) / slope;
+      double rest;
+      if (is_left || !set_.rim_gap(feature, m_, t, rest)) rest = set_.displaced_gap(m_.d, feature, gap, way(t));
+      const double step = -rest / slope;
       if (!(std::abs(step) < 0.5 * last) || !(t + step >= 0) || t + step == t) break;
       last = std::abs(step);
       t += step;

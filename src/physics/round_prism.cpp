@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/compensated.h"
+#include "physics/exact_path.h"
 
 namespace carom {
 
@@ -33,7 +34,7 @@ RoundPrism::Excess RoundPrism::excess(const Vec3& p, PrismFeature f) const {
   }
   const Vec3 e = from_corner(p, f);
   const double rho = std::sqrt(e.x() * e.x() + e.z() * e.z());
-  const Vec3 out = rho > 0 ? Vec3(e / rho) : Vec3(Vec3(f.x, 0, round() ? 0 : f.z).normalized());
+  const Vec3 out = rho > 0 ? Vec3(e / rho) : Vec3(f.x, 0, round() ? 0 : f.z).normalized();
   return {length_beyond(e.x(), e.z(), disc), out, rho};
 }
 
@@ -85,6 +86,17 @@ double RoundPrism::displaced_gap(const Vec3& p, std::uint8_t feature, double gap
   const double u = excess(p, f).u, v = f.y * p.y() - half.y();
   const double lengths = std::sqrt(u * u + v * v) + std::sqrt((u + du) * (u + du) + (v + dv) * (v + dv));
   return lengths > 0 ? gap + (du * (2 * u + du) + dv * (2 * v + dv)) / lengths : gap;
+}
+
+bool RoundPrism::rim_gap(std::uint8_t feature, const RelativeMotion& m, double t, double& gap) const {
+  const PrismFeature f = PrismFeature::of(feature);
+  if (!(f.y != 0 && f.bent() && disc > 0)) return false;
+  const auto p = exact_position(m, t);
+  const DoubleDouble x = p[0] - DoubleDouble{f.x * half.x(), 0}, z = p[2] - DoubleDouble{f.z * half.z(), 0};
+  const DoubleDouble u = square_root(x * x + z * z) - DoubleDouble{disc, 0};
+  const DoubleDouble v = DoubleDouble{f.y * p[1].hi, f.y * p[1].lo} - DoubleDouble{half.y(), 0};
+  gap = (square_root(u * u + v * v) - DoubleDouble{ball, 0}).value();
+  return true;
 }
 
 double RoundPrism::bending(const Vec3& p, std::uint8_t feature, const Vec3& w) const {

@@ -34,6 +34,10 @@ struct RoundPrism {
   /// The gap at a feature's surface after a displacement, from a known one: exact for small displacements too.
   double displaced_gap(const Vec3& p, std::uint8_t feature, double gap, const Vec3& displacement) const;
 
+  /// The gap at a round rim, the one surface that is neither flat nor met as spheres meet, at time t (s): evaluated
+  /// in double-double. False: another feature.
+  bool rim_gap(std::uint8_t feature, const RelativeMotion& motion, double t, double& gap) const;
+
   /// Second derivative of the gap (m/s^2) at constant velocity w, for what the surface's curvature does.
   double bending(const Vec3& p, std::uint8_t feature, const Vec3& w) const;
 

@@ -29,6 +29,7 @@ class SlabSum {
   Vec3 within(const Vec3& p, std::uint8_t) const { return p; }
   bool as_spheres(std::uint8_t, const RelativeMotion&, RelativeMotion&, double&) const { return false; }
   std::uint8_t foremost_face(const Vec3&, std::uint8_t feature) const { return feature; }
+  bool rim_gap(std::uint8_t, const RelativeMotion&, double, double&) const { return false; }
   template <typename Visit>
   void for_each_face(std::uint8_t, Visit) const {}
 

@@ -87,7 +87,9 @@ TEST(Meeting, NoContactIsMissedAndNoneInvented) {
         EXPECT_EQ(tally.missed, 0) << name(ka) << name(kb) << curved;
         EXPECT_EQ(tally.invented, 0) << name(ka) << name(kb) << curved;
         EXPECT_GT(tally.hits, 10);
-        EXPECT_LT(tally.worst, 1e-12);
+        // Spheres that meet spheres or walls on curved paths go by the quartic alone.
+        const bool quartic = ka == Kind::sphere && kb != Kind::cylinder && kb != Kind::box && curved;
+        EXPECT_LT(tally.worst, quartic ? 1e-12 : 1e-14);
       }
 }
 
