@@ -11,6 +11,13 @@ RelativeMotion in_frame(const Frame& frame, const RelativeMotion& m) {
   return {frame.to(m.d), frame.to(m.w), frame.to(m.a), m.speeds, m.just_separated};
 }
 
+/// How large the positions are that the way d from a to b is the difference of, as far as that is known.
+double size_of_positions(const World& world, Entity b, const Vec3& d) {
+  if (world.is_body(b)) return d.cwiseAbs().sum();
+  const Vec3& x = world.fixed_position(b);
+  return x.cwiseAbs().sum() + (x - d).cwiseAbs().sum();
+}
+
 /// Balls among themselves, the common case, are told without a look at volumes.
 bool balls_only(const World& world, Entity b) {
   return world.volume.empty() && world.is_body(b);
@@ -54,15 +61,16 @@ Meeting meeting(const World& world, Entity a, Entity b, const RelativeMotion& mo
     }
     case PairKind::prism: {
       const PairPrism pair = pair_prism(world, a, b);
-      return MeetingSearch(pair.sum, in_frame(pair.frame, motion), horizon).run(left);
+      return MeetingSearch(pair.sum, in_frame(pair.frame, motion), size_of_positions(world, b, motion.d), horizon)
+          .run(left);
     }
     case PairKind::box_wall: {
       const SlabSum sum = slab_sum(world, a, b);
-      return MeetingSearch(sum, motion, horizon).run(left);
+      return MeetingSearch(sum, motion, size_of_positions(world, b, motion.d), horizon).run(left);
     }
     case PairKind::cylinder_wall: {
       const TiltedSum sum = tilted_sum(world, a, b);
-      return MeetingSearch(sum, motion, horizon).run(left);
+      return MeetingSearch(sum, motion, size_of_positions(world, b, motion.d), horizon).run(left);
     }
   }
   return {never, no_feature};

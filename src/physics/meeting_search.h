@@ -15,8 +15,9 @@ namespace carom {
 template <typename Set>
 class MeetingSearch {
  public:
-  MeetingSearch(const Set& set, const RelativeMotion& motion, double horizon)
-      : set_(set), m_(motion), horizon_(horizon) {}
+  /// far: m, the size of the positions that motion.d is the difference of.
+  MeetingSearch(const Set& set, const RelativeMotion& motion, double far, double horizon)
+      : set_(set), m_(motion), far_(far), horizon_(horizon) {}
 
   Meeting run(std::uint8_t left) {
     left_ = left;
@@ -30,7 +31,7 @@ class MeetingSearch {
       // From here on its gap is one that leaves from zero, whatever rounding made of it.
       left_ = s.feature;
       double speed = s.normal.dot(m_.w);
-      if (std::abs(speed) <= noise()) speed = 0;
+      if (std::abs(speed) <= noise(s.feature)) speed = 0;
       if (speed < 0) return {0, s.feature};
       t = leaves_until(s, 0, m_.w, speed);
       if (t == 0) return {0, s.feature};
@@ -56,12 +57,22 @@ class MeetingSearch {
 
  private:
   static constexpr double rounding = 0x1p-53;
-  double noise() const { return 16 * rounding * m_.speeds; }
+  /// What rounding makes of a speed along the normal, which on a curved surface turns with the positions' rounding.
+  double noise(std::uint8_t feature) const {
+    const double turn = set_.flat(feature) ? 0 : far_ / set_.curvature_radius(feature);
+    return 16 * rounding * m_.speeds * (1 + turn);
+  }
   Vec3 way(double t) const { return t * (m_.w + 0.5 * t * m_.a); }
 
   Separation look(double t) const {
-    Separation s = set_.nearest(m_.d + way(t));
-    if (s.feature == left_) s.gap = set_.displaced_gap(m_.d, left_, 0, way(t));
+    const Vec3 p = m_.d + way(t);
+    const Separation s = set_.nearest(p);
+    if (left_ == no_feature) return s;
+    // The feature left is the one whose gap is known to be zero at the start; near the seam to the next one, rounding
+    // must not decide between the two.
+    const double gap = set_.displaced_gap(m_.d, left_, 0, way(t));
+    const double seam = 16 * rounding * (set_.size() + m_.d.cwiseAbs().sum());
+    if (s.feature == left_ || (gap > s.gap && gap - s.gap <= seam)) return {gap, set_.at(p, left_).normal, left_};
     return s;
   }
 
@@ -85,7 +96,7 @@ class MeetingSearch {
     set_.for_each_face(edge, [&](std::uint8_t face) {
       const Vec3 n = set_.at(m_.d, face).normal;
       const double speed = n.dot(m_.w), acceleration = n.dot(m_.a);
-      const bool equal = std::abs(speed - best_speed) <= noise();
+      const bool equal = std::abs(speed - best_speed) <= noise(face);
       if (best == no_feature || (equal ? acceleration > best_acceleration : speed > best_speed)) {
         best = face;
         best_speed = speed;
@@ -135,7 +146,7 @@ class MeetingSearch {
 
   const Set& set_;
   RelativeMotion m_;
-  double horizon_;
+  double far_, horizon_;
   std::uint8_t left_ = no_feature;
 };
 
