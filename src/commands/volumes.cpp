@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t things_shown = 10;
+constexpr std::size_t kinds_shown = 10, names_shown = 3;
 
 std::string volume_text(const Volume& volume) {
   switch (volume.shape) {
@@ -45,23 +45,36 @@ Json volume_json(const Volume& volume) {
 }  // namespace
 
 std::string volumes_text(const Scene& scene) {
-  std::vector<std::string> texts;
+  struct Alike {
+    std::string text;
+    std::vector<std::string> names;
+  };
+  std::vector<Alike> all;
   const World& world = scene.world;
-  const auto add = [&](Entity e, const std::optional<MeshUse>& mesh) {
-    std::string text = fmt::format("{} {}", scene.roster.name(e), volume_text(world.volume_of(e)));
+  const auto add = [&](Entity e, const std::string& name, const std::optional<MeshUse>& mesh) {
+    std::string text = volume_text(world.volume_of(e));
     if (mesh) text += fmt::format(", drawn as {}", printable(std::filesystem::path(mesh->file).filename().string()));
-    texts.push_back(std::move(text));
+    auto alike = std::find_if(all.begin(), all.end(), [&](const Alike& a) { return a.text == text; });
+    if (alike == all.end()) alike = all.insert(all.end(), {text, {}});
+    alike->names.push_back(name);
   };
   for (const BodyRange& range : scene.roster.bodies) {
-    const bool ball = range.count == 0 || world.volume_of(range.first).shape == Shape::sphere;
-    if (range.count > 0 && (!ball || range.mesh)) add(range.first, range.mesh);
+    if (range.count == 0) continue;
+    const bool ball = world.volume_of(range.first).shape == Shape::sphere;
+    if (!ball || range.mesh) add(range.first, range.name, range.mesh);
   }
-  const auto first = static_cast<Entity>(world.planes.size() + world.walls.size());
-  for (Entity i = first; i < world.fixed_count(); ++i) add(world.body_count() + i, scene.roster.fixed[i].mesh);
-  const std::size_t shown = std::min(texts.size(), things_shown);
-  std::string text =
-      fmt::format("{}", fmt::join(texts.begin(), texts.begin() + static_cast<std::ptrdiff_t>(shown), "; "));
-  return shown < texts.size() ? text + fmt::format("; and {} more", grouped(texts.size() - shown)) : text;
+  for (auto i = static_cast<Entity>(world.planes.size() + world.walls.size()); i < world.fixed_count(); ++i) {
+    add(world.body_count() + i, scene.roster.fixed[i].name, scene.roster.fixed[i].mesh);
+  }
+  std::vector<std::string> texts;
+  for (const Alike& alike : all) {
+    if (texts.size() == kinds_shown) break;
+    texts.push_back(
+        fmt::format("{} {}{}", listed(alike.names, names_shown), alike.names.size() > 1 ? "each " : "", alike.text));
+  }
+  const std::string text = fmt::format("{}", fmt::join(texts, "; "));
+  return all.size() > texts.size() ? text + fmt::format("; and {} more kinds", grouped(all.size() - texts.size()))
+                                   : text;
 }
 
 Json volumes_json(const Scene& scene) {

@@ -7,8 +7,8 @@
 
 namespace carom {
 
-/// "crate a box of 1 x 1 x 1 m; post a cylinder of radius 0.1 m and height 2 m": of all obstacles and of all bodies
-/// that are no plain balls, at most ten of them; empty: there are none.
+/// "low and high each a box of 1 x 1 x 1 m; post a cylinder of radius 0.1 m and height 2 m": of all obstacles and of
+/// all bodies that are no plain balls, at most ten kinds; empty: there are none.
 std::string volumes_text(const Scene& scene);
 
 /// Of each name of the scene, but for those without members: {"crate": {"box": [1, 1, 1]}, ...}

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <set>
 #include <stdexcept>
@@ -21,6 +22,18 @@ bool is_taken(const std::string& name, const std::string& film) {
                                                 "energy.csv",    "contacts.csv", "sheet.png",      "frames",
                                                 "manifest.json", "animation.mp4"};
   return outputs.contains(name) || name == film;
+}
+
+/// Files and their readers hold floats: 0.381 in a file comes as 0.38100001215934753. The shortest decimal that is the
+/// same float is what was written, and lets a body that is 0.381 m high stand on a floor 0.1905 m below it.
+double as_written(double value) {
+  const auto single = static_cast<float>(value);
+  if (static_cast<double>(single) != value) return value;
+  char text[32];
+  const char* end = std::to_chars(text, text + sizeof text, single).ptr;
+  double decimal = value;
+  std::from_chars(text, end, decimal);
+  return decimal;
 }
 
 /// A .gltf names files beside it, which would have to go with it.
@@ -106,6 +119,9 @@ const std::vector<Vec3>* Forms::points(const Node& mesh) {
   if (vertices.empty()) return refuse("it has no vertices");
   if (!std::all_of(vertices.begin(), vertices.end(), [](const Vec3& v) { return (v * 4).allFinite(); })) {
     return refuse("it has a vertex that is not finite");
+  }
+  for (Vec3& vertex : vertices) {
+    for (int k = 0; k < 3; ++k) vertex[k] = as_written(vertex[k]);
   }
   entry->second = std::move(vertices);
   return &entry->second;

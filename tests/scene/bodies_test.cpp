@@ -230,6 +230,19 @@ TEST(Meshes, FitGivesTheTightestVolumeAndItsCentre) {
   EXPECT_EQ(scene.meshes[0].copy, "pin.stl");
 }
 
+TEST(Meshes, OfFloatsAreTakenAsTheDecimalsThatWereWritten) {
+  LoadOptions options;
+  options.mesh_points = [](const std::string&) -> std::vector<Vec3> {
+    return {Vec3(0.381F, 0.1F, 0), Vec3(0, 0.7F, 1.0F / 3), Vec3(0, 0, 1e-7F)};
+  };
+  const Scene scene =
+      load_with_meshes(start + "obstacles: {a: {mesh: pin.stl, fit: box, position: [0, 0, 0]}}\n", options);
+  const Vec3 edges = 2 * scene.world.obstacles[0].volume.half;
+  EXPECT_DOUBLE_EQ(edges.x(), 0.381);
+  EXPECT_DOUBLE_EQ(edges.y(), 0.7);
+  EXPECT_DOUBLE_EQ(edges.z(), 0.33333334);
+}
+
 TEST(Meshes, WithoutFitAreDrawnScaledIntoTheVolume) {
   const Scene scene = load_with_meshes(start +
                                        "balls: {a: {mass: 1, radius: 2, position: [0, 0, 0], mesh: pin.stl}}\n"

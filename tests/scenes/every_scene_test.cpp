@@ -7,7 +7,6 @@
 
 #include "physics/energy.h"
 #include "render/renderer.h"
-#include "scene/load.h"
 #include "scenes/play.h"
 
 namespace carom::testing {
@@ -20,7 +19,7 @@ TEST_P(EveryScene, SaysWhatToExpect) {
 }
 
 TEST_P(EveryScene, HasATitle) {
-  EXPECT_FALSE(load_scene(SCENES_DIR "/" + GetParam() + ".yaml").title.empty());
+  EXPECT_FALSE(load(GetParam()).title.empty());
 }
 
 TEST_P(EveryScene, RunsToItsEndAndKeepsItsBooks) {
@@ -43,7 +42,7 @@ TEST_P(EveryScene, RunsToItsEndAndKeepsItsBooks) {
 }
 
 TEST_P(EveryScene, ShowsSomething) {
-  const Scene scene = load_scene(SCENES_DIR "/" + GetParam() + ".yaml");
+  const Scene scene = load(GetParam());
   if (!scene.output.pictures()) return;
   ASSERT_TRUE(scene.camera) << "pictures without a camera";
   const Played run = play(GetParam(), {scene.simulate.duration / 2});

@@ -9,6 +9,7 @@
 
 #include "commands/engine.h"
 #include "physics/energy.h"
+#include "render/mesh.h"
 #include "scene/load.h"
 
 namespace carom::testing {
@@ -21,6 +22,12 @@ std::vector<std::string> scene_names() {
   }
   std::sort(names.begin(), names.end());
   return names;
+}
+
+Scene load(const std::string& name) {
+  LoadOptions options;
+  options.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
+  return load_scene(SCENES_DIR "/" + name + ".yaml", options);
 }
 
 std::string comment_of(const std::string& name) {
@@ -60,7 +67,7 @@ std::vector<Collision> Played::of(const std::string& name) const {
 }
 
 Played play(const std::string& name, const std::vector<double>& times) {
-  Played run{load_scene(SCENES_DIR "/" + name + ".yaml"), {}, {}, {}, {}, {}};
+  Played run{load(name), {}, {}, {}, {}, {}};
   const auto simulator = make_simulator(run.scene, true);
   run.energy_start =
       kinetic_energy(run.scene.world, simulator->state()) + potential_energy(run.scene.world, simulator->state());

@@ -13,6 +13,9 @@ namespace carom::testing {
 /// Names of all scene files below scenes/, without .yaml: "bouncing_ball", "benchmark/gas_1000".
 std::vector<std::string> scene_names();
 
+/// The scene, its meshes read.
+Scene load(const std::string& name);
+
 /// The opening comment in one line, every run of blanks and # made one blank.
 std::string comment_of(const std::string& name);
 
