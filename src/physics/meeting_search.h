@@ -127,7 +127,9 @@ class MeetingSearch {
       const double reach = m_.d.cwiseAbs().sum() + time * (m_.w.cwiseAbs().sum() + time * m_.a.cwiseAbs().sum());
       return 64 * rounding * (reach + set_.size());
     };
-    if (closed < never && std::abs(look(closed).gap) <= tolerance(closed)) return {closed, feature};
+    if (closed < never && std::abs(look(closed).gap) <= tolerance(closed) &&
+        (is_left || std::abs(set_.at(m_.d + way(closed), feature).gap) <= tolerance(closed)))
+      return {closed, feature};
     // Newton's method on the feature's gap.
     double last = never;
     for (int k = 0; k < 8; ++k) {

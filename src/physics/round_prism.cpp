@@ -22,6 +22,11 @@ int side_of(double x) {
 
 }  // namespace
 
+PrismFeature RoundPrism::unique(PrismFeature f) const {
+  if (!f.bent()) return f;
+  return {half.x() == 0 ? 1 : f.x, f.y, half.z() == 0 ? 1 : f.z};
+}
+
 /// From the corner of the rectangle about which the surface bends.
 Vec3 RoundPrism::from_corner(const Vec3& p, PrismFeature f) const {
   return {p.x() - f.x * half.x(), 0, p.z() - f.z * half.z()};
@@ -41,7 +46,7 @@ RoundPrism::Excess RoundPrism::excess(const Vec3& p, PrismFeature f) const {
 PrismFeature RoundPrism::nearest_side(const Vec3& p) const {
   if (round()) return {1, 0, 1};
   const double ex = std::abs(p.x()) - half.x(), ez = std::abs(p.z()) - half.z();
-  if (ex > 0 && ez > 0) return {side_of(p.x()), 0, side_of(p.z())};
+  if (ex > 0 && ez > 0) return unique({side_of(p.x()), 0, side_of(p.z())});
   return ez > ex ? PrismFeature{0, 0, side_of(p.z())} : PrismFeature{side_of(p.x()), 0, 0};
 }
 
@@ -140,7 +145,7 @@ Vec3 RoundPrism::within(const Vec3& p, std::uint8_t feature) const {
   Vec3 q = p;
   const int side[3] = {f.x, f.y, f.z};
   for (int k = 0; k < 3; ++k) {
-    if (side[k] == 0 || (k != 1 && round())) continue;
+    if (side[k] == 0 || half[k] == 0) continue;
     const double rim = half[k] + (k != 1 && !f.bent() ? disc : 0);
     q[k] = side[k] * std::max(side[k] * p[k], rim);
   }
@@ -169,7 +174,7 @@ Meeting RoundPrism::leave(std::uint8_t feature, const RelativeMotion& m, double 
   if (!f.level() && disc > 0) return leave_round_cap(f, m, horizon);
   Meeting first{never, no_feature};
   const auto offer = [&](double t, PrismFeature beyond) {
-    if (t < first.time) first = {t, beyond.code()};
+    if (t < first.time) first = {t, unique(beyond).code()};
   };
   const auto falls = [&](double room, int k, int sign) {
     return plane_contact_time(room, sign * m.w[k], sign * m.a[k], 0, false, horizon);
@@ -196,7 +201,12 @@ Meeting RoundPrism::leave(std::uint8_t feature, const RelativeMotion& m, double 
     } else if (!flat(feature) && half[k] > 0) {
       PrismFeature beyond = f;
       (k == 0 ? beyond.x : k == 1 ? beyond.y : beyond.z) = 0;
-      offer(falls(side[k] * m.d[k] - half[k], k, side[k]), beyond);
+      const double t = falls(side[k] * m.d[k] - half[k], k, side[k]);
+      if (t == never) continue;
+      const Vec3 p = m.d + t * (m.w + 0.5 * t * m.a);  // on one side or the other of a rectangle without width
+      if (beyond.x != 0 && half.x() == 0) beyond.x = side_of(p.x());
+      if (beyond.z != 0 && half.z() == 0) beyond.z = side_of(p.z());
+      offer(t, beyond);
     }
   }
   return first;
@@ -209,7 +219,7 @@ Meeting RoundPrism::leave_round_cap(PrismFeature f, const RelativeMotion& m, dou
   const auto offer = [&](double t, PrismFeature beyond) {
     if (!(t < first.time) || t > horizon) return;
     if (ball > 0) beyond.y = f.y;
-    first = {t, beyond.code()};
+    first = {t, unique(beyond).code()};
   };
   for (int k : {0, 2})
     for (int sign : {1, -1})

@@ -12,7 +12,8 @@
 namespace carom {
 
 /// Signs of the sides x, y, z on which a point of the prism's surface lies; 0: between them. A face has one sign, an
-/// edge two, a corner three. Without a rectangle the round side has signs 1 in x and z.
+/// edge two, a corner three. Where the rectangle has no width one surface bends about both its sides: there it has the
+/// sign 1 (so a cylinder's side has signs 1 in x and z).
 struct PrismFeature {
   int x, y, z;
   std::uint8_t code() const { return static_cast<std::uint8_t>((x + 1) + 3 * (y + 1) + 9 * (z + 1)); }
@@ -84,6 +85,7 @@ struct RoundPrism {
     double rho;  // m, distance from the rectangle's corner, where it is the centre
   };
   Excess excess(const Vec3& p, PrismFeature feature) const;
+  PrismFeature unique(PrismFeature feature) const;
   Vec3 from_corner(const Vec3& p, PrismFeature feature) const;
   PrismFeature nearest_side(const Vec3& p) const;
   Meeting leave_round_cap(PrismFeature feature, const RelativeMotion& motion, double horizon) const;
