@@ -47,6 +47,23 @@ TEST(Settings, DensityReplacesMass) {
   EXPECT_LT(with({"balls.red.mass=2", "balls.red.density=1"}).world.mass[0], 0.01);
 }
 
+TEST(Settings, AVolumeReplacesTheOneThereWas) {
+  LoadOptions options;
+  options.set = {"bodies.a.radius=2", "bodies.b.box.y=4", "forces.0.uniform.x=3", "forces.0.from=0.5"};
+  const Scene scene = load_text(
+      "scene: 1\n"
+      "bodies:\n"
+      "  a: {mass: 1, box: [1, 1, 1], position: [0, 0, 0]}\n"
+      "  b: {mass: 1, box: [1, 1, 1], position: [9, 0, 0]}\n"
+      "forces: [{uniform: [1, 0, 0]}]\n"
+      "simulate: {duration: 1}\n",
+      options);
+  EXPECT_EQ(scene.world.volume[0].shape, Shape::sphere);
+  EXPECT_EQ(scene.world.volume[1].half, Vec3(0.5, 2, 0.5));
+  EXPECT_EQ(scene.world.forces[0].value, Vec3(3, 0, 0));
+  EXPECT_EQ(scene.world.forces[0].from, 0.5);
+}
+
 TEST(Settings, ColoursNeedNoQuotes) {
   EXPECT_EQ(with({"balls.red.color=#ff0000"}).roster.bodies[0].color.r, 1);
 }

@@ -1,0 +1,48 @@
+// What is told of a run that the summary's columns do not hold.
+#include "commands/report.h"
+
+#include <gtest/gtest.h>
+
+namespace carom {
+namespace {
+
+RunResult result_with(std::uint64_t collapses, std::uint64_t merges) {
+  RunResult result;
+  Summary& s = result.summary;
+  s.bodies = 5;
+  s.resting = 3;
+  s.body_body = 2;
+  s.collapses = collapses;
+  s.merges = merges;
+  s.collisions = s.body_body + merges;
+  s.first_collision = 0.5;
+  s.last_collision = 1;
+  return result;
+}
+
+std::string lines_of(const RunResult& result) {
+  PlannedScene planned;
+  planned.engine.name = "exact";
+  Block block(Palette(false), 100);
+  describe(block, planned, result);
+  const std::size_t from = block.text().find("  collisions"), to = block.text().find("  energy");
+  return block.text().substr(from, to - from);
+}
+
+TEST(Report, TellsOfMergesAndOfClustersTakenIntoContact) {
+  EXPECT_EQ(lines_of(result_with(0, 0)),
+            "  collisions  2 (2 body-body, 0 body-fixed), first at 0.5 s, last at 1 s\n"
+            "  rest        3 of 5 bodies in resting contact at the end\n");
+  EXPECT_EQ(lines_of(result_with(1, 4)),
+            "  collisions  6 (2 body-body, 0 body-fixed, 4 merges), first at 0.5 s, last at 1 s\n"
+            "  rest        3 of 5 bodies in resting contact at the end; 1 cluster of ever faster collisions taken\n"
+            "              into contact\n");
+}
+
+TEST(Report, JsonHasThemBesideTheSummary) {
+  EXPECT_EQ(contact_json(result_with(2, 1).summary).dump(),
+            R"({"resting":3,"clusters_taken_into_contact":2,"merges":1})");
+}
+
+}  // namespace
+}  // namespace carom
