@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "physics/meeting_search.h"
 #include "physics/pair.h"
 
@@ -18,17 +16,13 @@ double size_of_positions(const World& world, Entity b, const Vec3& d) {
   return x.cwiseAbs().sum() + (x - d).cwiseAbs().sum();
 }
 
-/// Balls among themselves, the common case, are told without a look at volumes.
-bool balls_only(const World& world, Entity b) {
-  return world.volume.empty() && world.is_body(b);
-}
-
 Meeting meet_spheres(const RelativeMotion& motion, double s, std::uint8_t left, double horizon) {
   RelativeMotion m = motion;
   m.just_separated = left != no_feature;
   return {sphere_contact_time(m, s, horizon), 0};
 }
 
+/// A fixed ball is met by bodies of any acceleration, and often from afar.
 Meeting meet_fixed_sphere(const RelativeMotion& m, double s, std::uint8_t left, double horizon) {
   Meeting first = meet_spheres(m, s, left, horizon);
   if (left == no_feature && first.time < never) first.time = sharpened_contact_time(m, s, first.time, horizon);
@@ -45,9 +39,8 @@ Meeting meet_plane(const Plane& plane, const RelativeMotion& m, double reach, st
 
 }  // namespace
 
-Meeting meeting(const World& world, Entity a, Entity b, const RelativeMotion& motion, std::uint8_t left,
-                double horizon) {
-  if (balls_only(world, b)) return meet_spheres(motion, world.radius[a] + world.radius[b], left, horizon);
+Meeting meeting_by_kind(const World& world, Entity a, Entity b, const RelativeMotion& motion, std::uint8_t left,
+                        double horizon) {
   switch (pair_kind(world, a, b)) {
     case PairKind::spheres: {
       const double s = world.volume_of(a).half.x() + world.volume_of(b).half.x();
@@ -89,9 +82,7 @@ Meeting leave_feature(const World& world, Entity a, Entity b, std::uint8_t featu
       }
       const PairPrism pair = pair_prism(world, a, b);
       const RelativeMotion m = in_frame(pair.frame, motion);
-      const PrismFeature f = PrismFeature::of(prism_feature(feature, m.d));
-      // The rectangle has no thickness: from an edge's front to its back the path goes on.
-      const Meeting beyond = pair.sum.leave(PrismFeature{f.x, f.y, f.z}.code(), m, horizon);
+      const Meeting beyond = pair.sum.leave(prism_feature(feature, m.d), m, horizon);
       return {beyond.time, beyond.feature == no_feature ? no_feature : wall_feature(beyond.feature)};
     }
     case PairKind::prism: {

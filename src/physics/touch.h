@@ -12,10 +12,12 @@
 namespace carom {
 
 struct Touch {
-  double gap;            // m, negative: overlap
-  Vec3 normal;           // unit, from a to b, where they are nearest
-  Vec3 point;            // m, on a's surface where they are nearest (in the middle of an area that is)
-  std::uint8_t feature;  // of the Minkowski sum: which face, edge, corner or rim is nearest; per pair of kinds
+  double gap;   // m, negative: overlap
+  Vec3 normal;  // unit, from a to b, where they are nearest
+  Vec3 point;   // m, on a's surface where they are nearest (in the middle of an area that is)
+  // Of the Minkowski sum: which face, edge, corner or rim is nearest. 0 for two spheres and for planes; a WallFeature
+  // for a sphere and a wall; else as round_prism.h, slab_sum.h or tilted_sum.h (walls at an angle) count them.
+  std::uint8_t feature;
 };
 
 /// The gap is as exact as the positions where it is small (compensated sums). Where sharp volumes overlap, or touch but
@@ -41,6 +43,16 @@ struct Meeting {
 /// motion.just_separated.
 Meeting meeting(const World& world, Entity a, Entity b, const RelativeMotion& motion, std::uint8_t left,
                 double horizon);
+Meeting meeting_by_kind(const World& world, Entity a, Entity b, const RelativeMotion& motion, std::uint8_t left,
+                        double horizon);
+
+// Balls among themselves, the common case, are told without a look at volumes.
+inline Meeting meeting(const World& world, Entity a, Entity b, const RelativeMotion& motion, std::uint8_t left,
+                       double horizon) {
+  if (world.volume.empty() && world.is_body(b) && motion.just_separated == (left != no_feature))
+    return {sphere_contact_time(motion, world.radius[a] + world.radius[b], horizon), 0};
+  return meeting_by_kind(world, a, b, motion, left, horizon);
+}
 
 /// First t in (0, horizon] at which a pair in lasting contact at this feature comes to the feature's rim, and the
 /// feature beyond it; never, no_feature where it has no rim. The motion keeps to the feature.

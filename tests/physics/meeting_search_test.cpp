@@ -93,5 +93,53 @@ TEST(Meeting, NoContactIsMissedAndNoneInvented) {
       }
 }
 
+TEST(Meeting, NoContactIsMissedInChainsOfBounces) {
+  // After its first contact a pair is pressed together and bounces, with restitutions down to 1e-4, over faces, edges
+  // and rims.
+  for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
+    for (Kind kb : all_kinds) {
+      Random random(static_cast<unsigned>(1000 + 10 * static_cast<int>(ka) + static_cast<int>(kb)));
+      Tally tally;
+      for (int k = 0; k < 100; ++k) {
+        World world = pair_world(ka, kb, k % 2 == 0, random, k % 3 == 0 ? 1e-3 : 0.1);
+        const Thing a = of(world, 0), b = of(world, 1);
+        const Thing core_a = shrunk(a, 1e-6), core_b = shrunk(b, 1e-6);
+        const double size = a.half.sum() + b.half.sum();
+        double horizon;
+        Path path = random_path(world, random, false, horizon);
+        std::uint8_t left = no_feature;
+        for (int bounce = 0; bounce < 9; ++bounce) {
+          const RelativeMotion motion{path.d, path.w, path.a, path.w.cwiseAbs().sum(), false};
+          const Meeting m = meeting(world, 0, 1, motion, left, horizon);
+          ++tally.paths;
+          const double end = std::min(m.time, horizon);
+          for (int i = 0; i < 60; ++i)
+            if (distance(core_a, core_b, path.at(end * i / 60), 1e-12 * size) <= 1e-12 * size) {
+              ++tally.missed;
+              break;
+            }
+          if (m.time == never) break;
+          ++tally.hits;
+          const Vec3 d = path.at(m.time), v = path.speed(m.time);
+          if (!world.walls.empty()) world.walls[0].center = d;
+          const Touch t = touch(world, 0, Vec3::Zero(), 1, d, m.feature);
+          const double gap = t.normal.dot(d) - a.support(t.normal) - b.support(t.normal);
+          const double reach = size + path.d.norm() + path.w.norm() * m.time + path.a.norm() * m.time * m.time;
+          tally.worst = std::max(tally.worst, std::max(std::abs(gap), std::abs(t.gap)) / reach);
+          if (m.time > 0 && !(t.normal.dot(v) < 0)) ++tally.invented;
+          if (bounce == 0) path.a = -random.log_uniform(0.1, 10) * (t.normal + random.vector(k % 4 < 2 ? 0.2 : 1));
+          const double restitution[] = {1, 0.3, 1e-4};
+          path = {d, v - (1 + restitution[bounce % 3]) * v.dot(t.normal) * t.normal, path.a};
+          left = m.feature;
+          horizon = 5;
+        }
+      }
+      EXPECT_EQ(tally.missed, 0) << name(ka) << " " << name(kb);
+      EXPECT_EQ(tally.invented, 0) << name(ka) << " " << name(kb);
+      EXPECT_GT(tally.hits, 30) << name(ka) << " " << name(kb);
+      EXPECT_LT(tally.worst, ka == Kind::sphere ? 1e-12 : 1e-14) << name(ka) << " " << name(kb);  // 5e-13, 2e-15
+    }
+}
+
 }  // namespace
 }  // namespace carom
