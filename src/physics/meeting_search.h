@@ -59,7 +59,7 @@ class MeetingSearch {
   static constexpr double rounding = 0x1p-53;
   /// What rounding makes of a speed along the normal, which on a curved surface turns with the positions' rounding.
   double noise(std::uint8_t feature) const {
-    const double turn = set_.flat(feature) ? 0 : far_ / set_.curvature_radius(feature);
+    const double turn = set_.flat(feature) ? 0 : far_ / set_.curvature_radius(m_.d, feature);
     return 16 * rounding * m_.speeds * (1 + turn);
   }
   Vec3 way(double t) const { return t * (m_.w + 0.5 * t * m_.a); }

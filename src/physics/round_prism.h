@@ -42,8 +42,10 @@ struct RoundPrism {
   /// Second derivative of the gap (m/s^2) at constant velocity w, for what the surface's curvature does.
   double bending(const Vec3& p, std::uint8_t feature, const Vec3& w) const;
 
-  /// m, the least one of a feature's surface that is neither flat nor sharp.
-  double curvature_radius(std::uint8_t feature) const { return PrismFeature::of(feature).y == 0 ? disc + ball : ball; }
+  /// m, the least one of the surface at a feature that is neither flat nor sharp.
+  double curvature_radius(const Vec3&, std::uint8_t feature) const {
+    return PrismFeature::of(feature).y == 0 ? disc + ball : ball;
+  }
 
   bool flat(std::uint8_t feature) const;
 

@@ -24,7 +24,7 @@ class SlabSum {
 
   // All of the surface is faces.
   bool flat(std::uint8_t) const { return true; }
-  double curvature_radius(std::uint8_t) const { return size_; }
+  double curvature_radius(const Vec3&, std::uint8_t) const { return size_; }
   bool sharp(std::uint8_t) const { return false; }
   double bending(const Vec3&, std::uint8_t, const Vec3&) const { return 0; }
   Vec3 within(const Vec3& p, std::uint8_t) const { return p; }

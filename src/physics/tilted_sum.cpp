@@ -142,9 +142,9 @@ double TiltedSum::bending(const Vec3& p, std::uint8_t feature, const Vec3& w) co
 }
 
 /// A patch's cross-section is an ellipse, the disc seen along the segment.
-double TiltedSum::curvature_radius(std::uint8_t feature) const {
+double TiltedSum::curvature_radius(const Vec3& p, std::uint8_t feature) const {
   const Vec3& g = segments_[static_cast<std::size_t>(patch(feature).along)];
-  return radius_ * g.y() * g.y() / g.squaredNorm();
+  return 1 / bending(p, feature, at(p, feature).normal.cross(g.normalized()));
 }
 
 bool TiltedSum::as_spheres(std::uint8_t feature, const RelativeMotion& m, RelativeMotion& reduced,

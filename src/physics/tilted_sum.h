@@ -27,7 +27,7 @@ class TiltedSum {
   bool flat(std::uint8_t feature) const { return feature < patches; }
   bool as_spheres(std::uint8_t feature, const RelativeMotion& motion, RelativeMotion& reduced, double& radius) const;
   Meeting leave(std::uint8_t feature, const RelativeMotion& motion, double horizon) const;
-  double curvature_radius(std::uint8_t feature) const;
+  double curvature_radius(const Vec3& p, std::uint8_t feature) const;
   double size() const { return size_; }
 
   bool sharp(std::uint8_t) const { return false; }
