@@ -28,16 +28,22 @@ bool drawn(const Scene& scene, std::size_t fixed) {
   return fixed >= scene.roster.fixed.size() || scene.roster.fixed[fixed].visible;
 }
 
-/// The bodies, what they fall or fly onto, and the walls among them.
+/// The bodies, what they fall or fly onto, and the walls and obstacles among them.
 Box box_of(const Scene& scene) {
   Box bodies;
   for (std::size_t i = 0; i < scene.world.radius.size() && i < scene.initial.position.size(); ++i) {
-    bodies.add(scene.initial.position[i] - Vec3::Constant(scene.world.radius[i]));
-    bodies.add(scene.initial.position[i] + Vec3::Constant(scene.world.radius[i]));
+    const Vec3 half =
+        scene.world.volume.empty() ? Vec3(Vec3::Constant(scene.world.radius[i])) : scene.world.volume[i].half;
+    bodies.add(scene.initial.position[i] - half);
+    bodies.add(scene.initial.position[i] + half);
   }
   if (bodies.empty()) {
     for (const Plane& plane : scene.world.planes) bodies.add(plane.point);
     for (const Wall& wall : scene.world.walls) bodies.add(wall.center);
+    for (const Obstacle& obstacle : scene.world.obstacles) {
+      bodies.add(obstacle.center - obstacle.volume.half);
+      bodies.add(obstacle.center + obstacle.volume.half);
+    }
   }
   if (bodies.empty()) bodies.add(Vec3::Zero());
   const double size = std::max(bodies.diagonal(), 1e-9);
@@ -58,6 +64,18 @@ Box box_of(const Scene& scene) {
     for (double u : {-1.0, 1.0})
       for (double v : {-1.0, 1.0})
         all.add(wall.center + u * wall.half_width * wall.right + v * wall.half_height * wall.up);
+  }
+  const std::size_t obstacles = scene.world.planes.size() + scene.world.walls.size();
+  for (std::size_t i = 0; i < scene.world.obstacles.size(); ++i) {
+    if (!drawn(scene, obstacles + i)) continue;
+    // What of it is near: a floor may be a box of any size.
+    const Obstacle& obstacle = scene.world.obstacles[i];
+    const Vec3 near_low = bodies.min.array() - size, near_high = bodies.max.array() + size;
+    const Vec3 low = (obstacle.center - obstacle.volume.half).cwiseMax(near_low);
+    const Vec3 high = (obstacle.center + obstacle.volume.half).cwiseMin(near_high);
+    if ((low.array() > high.array()).any()) continue;
+    all.add(low);
+    all.add(high);
   }
   return all;
 }

@@ -74,6 +74,14 @@ void Context::make_current() {
     throw RenderError("cannot use the OpenGL context for pictures: is there enough memory?");
 }
 
+Buffer make_buffer() {
+  return Buffer(made(glGenBuffers));
+}
+
+Vertices make_vertices() {
+  return Vertices(made(glGenVertexArrays));
+}
+
 Texture make_texture(GLenum format, int width, int height) {
   Texture texture(made(glGenTextures));
   glBindTexture(GL_TEXTURE_2D, texture.name());

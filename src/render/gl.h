@@ -69,6 +69,8 @@ using Buffer = Handle<release_buffer>;
 using Framebuffer = Handle<release_framebuffer>;
 using Vertices = Handle<release_vertices>;
 
+Buffer make_buffer();
+Vertices make_vertices();
 /// A picture-sized texture without mipmaps, read by texelFetch.
 Texture make_texture(GLenum format, int width, int height);
 /// Draws into `colors` in this order, and tests against `depth` (0: none). Throws RenderError.

@@ -19,7 +19,7 @@ uniform float lamp_radius;                // of a key light with a position
 uniform vec4 light_vector[LIGHTS + 1];    // position (w = 1) or unit direction towards the light (w = 0)
 uniform vec3 light_radiance[LIGHTS + 1];
 uniform vec3 ambient;
-uniform vec3 world_up;
+uniform vec3 world_right, world_up, world_back;  // the world's axes x, y, z
 
 vec3 towards_light(int i, vec3 p) {
   return light_vector[i].w > 0 ? normalize(light_vector[i].xyz - p) : light_vector[i].xyz;
@@ -52,6 +52,47 @@ float through_ball(vec3 p, vec3 l, vec3 to_ball, float radius) {
   return 1 - (1 - clear) * min(1, radius * radius / (blur * blur));
 }
 
+// The part of the key light that a box or an upright cylinder lets through to p; `to_center` from p to its centre.
+float through_solid(vec3 p, vec3 l, vec3 to_center, vec3 half_size, bool box) {
+  vec3 c = vec3(dot(to_center, world_right), dot(to_center, world_up), dot(to_center, world_back));
+  vec3 m = vec3(dot(l, world_right), dot(l, world_up), dot(l, world_back));
+  float spread = softness, reach = 1e30;
+  if (light_vector[0].w > 0) {
+    reach = length(light_vector[0].xyz - p);
+    spread = lamp_radius / reach;
+  }
+  vec3 per = 1 / mix(vec3(1e-6), m, greaterThan(abs(m), vec3(1e-6)));
+  vec3 enter = c * per - half_size * abs(per), leave = c * per + half_size * abs(per);
+  // `along` the light the ray to it is in the solid's middle; `aside`: how far outside of its outline the ray runs.
+  float along, aside, flank = length(m.xz);
+  if (box) {
+    along = max(max(enter.x, enter.y), enter.z) + min(min(leave.x, leave.y), leave.z);
+    // The outline is a hexagon whose sides are two of each edge.
+    vec3 sides = vec3(length(m.yz), flank, length(m.xy));
+    vec3 off = vec3(abs(m.z * c.y - m.y * c.z) - abs(m.z) * half_size.y - abs(m.y) * half_size.z,
+                    abs(m.x * c.z - m.z * c.x) - abs(m.x) * half_size.z - abs(m.z) * half_size.x,
+                    abs(m.y * c.x - m.x * c.y) - abs(m.y) * half_size.x - abs(m.x) * half_size.y);
+    off = mix(vec3(-1e30), off / max(sides, vec3(1e-6)), greaterThan(sides, vec3(1e-3)));
+    aside = max(max(off.x, off.y), off.z);
+  } else {
+    vec2 e = flank > 1e-4 ? m.xz / flank : vec2(1, 0);
+    float r = half_size.x, u = dot(vec2(-e.y, e.x), c.xz), ahead = dot(e, c.xz);
+    float chord = sqrt(max(r * r - u * u, 0));
+    float slow = 1 / max(flank, 1e-6);
+    along = max((ahead - chord) * slow, enter.y) + min((ahead + chord) * slow, leave.y);
+    // The outline is an ellipse, the flattened top, drawn out along the flattened axis.
+    float v = abs(c.y * flank - m.y * ahead);
+    aside = max(abs(u) - r, v - half_size.y * flank - abs(m.y) * chord);
+  }
+  along *= 0.5;
+  float blur = spread * along;
+  if (along <= 0 || along >= reach || aside >= blur) return 1;
+  float clear = smoothstep(-blur, blur, aside);
+  // As much light as the mean outline of a convex body takes, a quarter of its surface.
+  float size2 = box ? 0.64 * dot(half_size, half_size.yzx) : 0.5 * half_size.x * (half_size.x + 2 * half_size.y);
+  return 1 - (1 - clear) * min(1, size2 / (blur * blur));
+}
+
 // The part of the key light that a wall lets through to p.
 float through_wall(vec3 p, vec3 l, vec3 normal, vec3 center, vec3 right, float half_width, vec3 up, float half_height) {
   float slope = dot(normal, l);
@@ -81,7 +122,8 @@ std::array<float, 3> linear(const Color& srgb) {
   return {static_cast<float>(decode(srgb.r)), static_cast<float>(decode(srgb.g)), static_cast<float>(decode(srgb.b))};
 }
 
-Lighting::Lighting(const Scene& scene, const Eye& eye) : up_(eye.direction(Vec3(0, 1, 0))) {
+Lighting::Lighting(const Scene& scene, const Eye& eye)
+    : axes_{eye.direction(Vec3(1, 0, 0)), eye.direction(Vec3(0, 1, 0)), eye.direction(Vec3(0, 0, 1))} {
   if (scene.lights.size() > most_lights)
     throw RenderError(fmt::format("the scene names {} lights; pictures can have {}", scene.lights.size(), most_lights));
   for (const Light& light : scene.lights) {
@@ -117,8 +159,10 @@ void Lighting::set(const gl::Program& program) const {
   glUniform3fv(program.at("light_radiance"), count, radiance.data());
   glUniform1f(program.at("lamp_radius"), static_cast<float>(lamp_radius_));
   glUniform3fv(program.at("ambient"), 1, ambient_.data());
-  glUniform3f(program.at("world_up"), static_cast<float>(up_.x()), static_cast<float>(up_.y()),
-              static_cast<float>(up_.z()));
+  const std::array<const char*, 3> names{"world_right", "world_up", "world_back"};
+  for (std::size_t i = 0; i < 3; ++i)
+    glUniform3f(program.at(names[i]), static_cast<float>(axes_[i].x()), static_cast<float>(axes_[i].y()),
+                static_cast<float>(axes_[i].z()));
 }
 
 }  // namespace carom

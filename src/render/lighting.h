@@ -41,7 +41,7 @@ class Lighting {
   std::vector<Source> lights_;  // the first one is the key light, which casts shadows
   double lamp_radius_ = 0;
   std::array<float, 3> ambient_;
-  Vec3 up_;  // the world's up in the camera's frame
+  std::array<Vec3, 3> axes_;  // the world's in the camera's frame
   std::string shader_;
 };
 

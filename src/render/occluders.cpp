@@ -56,7 +56,7 @@ void Occluders::cells(const Rect& rect, Visit visit) const {
     for (int u = u0; u <= u1; ++u) visit(static_cast<std::size_t>((rect.face * side_ + v) * side_ + u));
 }
 
-Occluders::Occluders(std::span<const Ball> balls, const Lighting& lighting)
+Occluders::Occluders(std::span<const Thing> balls, const Lighting& lighting)
     : balls_(balls),
       near_(lighting.key_is_near()),
       lamp_(lighting.lamp_radius()),
@@ -69,7 +69,7 @@ Occluders::Occluders(std::span<const Ball> balls, const Lighting& lighting)
   if (!near_) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double u0 = infinity, u1 = -infinity, v0 = infinity, v1 = -infinity, l0 = infinity, l1 = -infinity;
-    for (const Ball& ball : balls) {
+    for (const Thing& ball : balls) {
       const double u = across_u_.dot(ball.center), v = across_v_.dot(ball.center), l = key_.dot(ball.center);
       u0 = std::min(u0, u), u1 = std::max(u1, u);
       v0 = std::min(v0, v), v1 = std::max(v1, v);
@@ -101,7 +101,7 @@ Occluders::Occluders(std::span<const Ball> balls, const Lighting& lighting)
 void Occluders::find(std::uint32_t i, std::vector<std::uint32_t>& found) {
   ++query_;
   found.clear();
-  const Ball& ball = balls_[i];
+  const Thing& ball = balls_[i];
   const Vec3 to_light = near_ ? Vec3((key_ - ball.center).normalized()) : key_;
   const double reach = near_ ? (key_ - ball.center).norm() : std::numeric_limits<double>::infinity();
   const auto along = [&](std::uint32_t k) { return to_light.dot(balls_[k].center - ball.center); };
@@ -112,7 +112,7 @@ void Occluders::find(std::uint32_t i, std::vector<std::uint32_t>& found) {
         const std::uint32_t k = members_[m];
         if (k == i || seen_[k] == query_) continue;
         seen_[k] = query_;
-        const Ball& other = balls_[k];
+        const Thing& other = balls_[k];
         const double ahead = along(k);
         if (ahead <= -ball.radius || ahead - other.radius > reach) continue;
         const double wide = near_ ? lamp_ : std::max(ahead + ball.radius, 0.0) * blur;
@@ -129,6 +129,37 @@ void Occluders::find(std::uint32_t i, std::vector<std::uint32_t>& found) {
     return x != y ? x < y : a < b;
   });
   if (found.size() > most) found.resize(most);
+}
+
+bool Occluders::may_shade(const Surface& wall, const Thing& thing) const {
+  const double size = std::hypot(wall.half_width, wall.half_height);
+  const Vec3 offset = wall.center - thing.center;
+  if (near_) {  // it must come near the line to the lamp
+    const Vec3 line = key_ - thing.center;
+    const double t = std::clamp(offset.dot(line) / std::max(line.squaredNorm(), 1e-300), 0.0, 1.0);
+    return (offset - t * line).norm() < 1.001 * (size + std::max(thing.radius, lamp_));
+  }
+  const double ahead = key_.dot(offset), reach = size + thing.radius;
+  return ahead > -reach && (offset - ahead * key_).norm() < 1.001 * (reach + 1.5 * blur * (ahead + reach));
+}
+
+void Occluders::append_rows(std::uint32_t i, const Surfaces& surfaces, std::vector<float>& rows) {
+  const auto add = [&](const Vec3& v, double w) {
+    for (int k = 0; k < 3; ++k) rows.push_back(static_cast<float>(v[k]));
+    rows.push_back(static_cast<float>(w));
+  };
+  find(i, found_);
+  for (const std::uint32_t k : found_) {
+    const Thing& thing = balls_[k];
+    if (thing.shape == Shape::sphere) {
+      add(thing.center, thing.half.x());
+    } else {
+      add(thing.center, thing.shape == Shape::box ? -2 : -3);
+      add(thing.half, 0);
+    }
+  }
+  for (std::size_t w = surfaces.planes(); w < surfaces.all().size(); ++w)
+    if (may_shade(surfaces.all()[w], balls_[i])) add(Vec3(static_cast<double>(w), 0, 0), -1);
 }
 
 }  // namespace carom

@@ -1,28 +1,26 @@
 #pragma once
-// Which balls and walls may stand between a ball and the key light.
+// Which things and walls may stand between a thing and the key light. Things count as the balls around them.
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "render/lighting.h"
 #include "render/surfaces.h"
+#include "render/things.h"
 
 namespace carom {
 
-/// A ball in the camera's frame.
-struct Ball {
-  Vec3 center;    // m
-  double radius;  // m
-};
-
-/// Finds, by a grid over the directions across the light, the balls whose shadow may fall on a given ball.
+/// Finds, by a grid over the directions across the light, the things whose shadow may fall on a given one.
 class Occluders {
  public:
-  Occluders(std::span<const Ball> balls, const Lighting& lighting);
+  Occluders(std::span<const Thing> balls, const Lighting& lighting);
 
-  /// Appends the balls that may shade `balls[i]`, nearest first, at most `most` of them.
+  /// Finds the balls that may shade `balls[i]`, nearest first, at most `most` of them.
   void find(std::uint32_t i, std::vector<std::uint32_t>& found);
   static constexpr std::size_t most = 24;
+
+  /// Appends what may shade things[i] as material.h's shader reads it, four floats a texel.
+  void append_rows(std::uint32_t i, const Surfaces& surfaces, std::vector<float>& rows);
 
  private:
   struct Rect {
@@ -35,7 +33,9 @@ class Occluders {
   template <typename Visit>
   void cells(const Rect& rect, Visit visit) const;
 
-  std::span<const Ball> balls_;
+  bool may_shade(const Surface& wall, const Thing& thing) const;
+
+  std::span<const Thing> balls_;
   bool near_;
   double lamp_;  // m, the lamp's radius
   Vec3 key_, across_u_, across_v_;
@@ -46,6 +46,7 @@ class Occluders {
   std::vector<std::uint32_t> seen_;             // by ball: the last query that met it
   std::uint32_t query_ = 0;
   std::vector<Rect> rects_;
+  std::vector<std::uint32_t> found_;
 };
 
 }  // namespace carom

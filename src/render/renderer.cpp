@@ -2,14 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <optional>
 
 #include "render/backdrop.h"
 #include "render/gl.h"
 #include "render/shade.h"
+#include "render/solids.h"
 #include "render/spheres.h"
+#include "render/things.h"
 
 namespace carom {
 namespace {
@@ -37,19 +38,25 @@ struct Renderer::Impl {
         smooth(samples > 1),
         lighting(s, eye),
         surfaces(s, eye),
+        things(s, eye),
         color(gl::make_texture(GL_SRGB8_ALPHA8, size.width, size.height)),
         depth(gl::make_texture(GL_DEPTH_COMPONENT32F, size.width, size.height)),
         framebuffer(gl::make_framebuffer(std::array{color.name()}, depth.name())) {
     if (!surfaces.rows().empty()) rows.fill(surfaces.rows());
     backdrop.emplace(scene, eye, lighting, surfaces, rows, smooth);
-    if (!surfaces.all().empty() && scene.world.body_count() > 0) shade.emplace(eye, lighting, surfaces);
-    if (scene.world.body_count() > 0) spheres.emplace(scene, eye, lighting, surfaces, smooth);
+    const bool any_solids = things.any_solids();
+    if (!surfaces.all().empty() && things.any()) shade.emplace(eye, lighting, surfaces, any_solids);
+    if (things.any()) spheres.emplace(eye, lighting, surfaces, any_solids, smooth);
+    if (any_solids) {
+      solids.emplace(things, eye, lighting, surfaces, smooth);
+      things.measure([&](std::size_t file, const Vec3& center) { return solids->shapes().radius(file, center); });
+    }
     image.width = size.width;
     image.height = size.height;
   }
 
   void copy_backdrop();
-  void place(const State& state);
+  void draw(const State& state);
   void read();
 
   const Scene& scene;
@@ -58,15 +65,14 @@ struct Renderer::Impl {
   gl::Context context;  // what stands below needs it
   const Lighting lighting;
   const Surfaces surfaces;
+  Things things;
   gl::TexelBuffer rows;
   gl::Texture color, depth;
   gl::Framebuffer framebuffer;
   std::optional<Backdrop> backdrop;
   std::optional<Shade> shade;
   std::optional<Spheres> spheres;
-
-  std::vector<Ball> balls;          // all, in the camera's frame
-  std::vector<std::uint32_t> seen;  // those in the picture, back to front
+  std::optional<Solids> solids;
   std::vector<std::uint8_t> rgba;
   Image image;
 };
@@ -79,28 +85,18 @@ void Renderer::Impl::copy_backdrop() {
                      height, 1);
 }
 
-void Renderer::Impl::place(const State& state) {
-  const std::size_t count = scene.world.body_count();
-  balls.resize(count);
-  seen.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    const double radius = scene.world.radius[i];
-    balls[i] = {eye.point(state.position[i]), radius};
-    // A ball around the eye would only be its own inside.
-    if (balls[i].center.squaredNorm() > radius * radius && sees_sphere(eye.camera, eye.view, state.position[i], radius))
-      seen.push_back(static_cast<std::uint32_t>(i));
-  }
-  // Of balls that do not overlap, one can only hide another of greater power |c|^2 - r^2 (the cells of a power diagram
-  // are ordered so from any eye); the distance alone would put a small ball beside a large one on the wrong side.
-  const auto power = [&](std::uint32_t i) {
-    const double distance = balls[i].center.norm();
-    return (distance - balls[i].radius) * (distance + balls[i].radius);
-  };
-  std::vector<std::pair<double, std::uint32_t>> order;
-  order.reserve(seen.size());
-  for (std::uint32_t i : seen) order.emplace_back(-power(i), i);
-  std::sort(order.begin(), order.end());
-  std::transform(order.begin(), order.end(), seen.begin(), [](const auto& o) { return o.second; });
+void Renderer::Impl::draw(const State& state) {
+  things.place(state);
+  if (solids) solids->prepare(things, *backdrop, rows);
+  copy_backdrop();
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+  glViewport(0, 0, eye.size.width, eye.size.height);
+  glEnable(GL_FRAMEBUFFER_SRGB);
+  if (shade) shade->draw(things.all(), *backdrop, rows);
+  if (solids) solids->draw(Solids::Cover::whole);
+  if (spheres) spheres->draw(things, *backdrop, rows);
+  if (solids) solids->draw(Solids::Cover::part);
+  read();
 }
 
 void Renderer::Impl::read() {
@@ -126,14 +122,7 @@ Renderer::~Renderer() {
 
 const Image& Renderer::draw(const State& state) {
   impl_->context.make_current();
-  impl_->place(state);
-  impl_->copy_backdrop();
-  glBindFramebuffer(GL_FRAMEBUFFER, impl_->framebuffer.name());
-  glViewport(0, 0, impl_->eye.size.width, impl_->eye.size.height);
-  glEnable(GL_FRAMEBUFFER_SRGB);
-  if (impl_->shade) impl_->shade->draw(impl_->balls, *impl_->backdrop);
-  if (impl_->spheres) impl_->spheres->draw(impl_->balls, impl_->seen, *impl_->backdrop, impl_->rows);
-  impl_->read();
+  impl_->draw(state);
   return impl_->image;
 }
 

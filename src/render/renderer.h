@@ -22,7 +22,7 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Draws the bodies of `state`. The picture is valid until the next draw.
+  /// Draws the bodies of `state` and what stands still. The picture is valid until the next draw.
   const Image& draw(const State& state);
 
  private:

@@ -17,15 +17,23 @@ layout(location = 1) in vec3 u;          // half side
 layout(location = 2) in vec3 v;          // half side
 layout(location = 3) in vec4 ball_in;    // centre, radius
 layout(location = 4) in vec3 normal_in;  // of the surface
-layout(location = 5) in vec2 kind_in;    // 1: the ball's closeness darkens, 0: its shadow; 1: other planes may cut it off
+layout(location = 5) in vec3 kind_in;    // 1: the ball's closeness darkens, 0: its shadow; 1: other planes may cut it off;
+                                         // the wall's number, or -1: a plane
+#ifdef SOLIDS
+layout(location = 6) in vec4 solid_in;   // half size, 0: a ball, 1: a box, 2: a cylinder
+flat out vec4 solid;
+#endif
 flat out vec4 ball;
 flat out vec3 normal;
-flat out vec2 kind;
+flat out vec3 kind;
 out vec3 p;
 uniform vec2 tangent;
 uniform float near;
 
 void main() {
+#ifdef SOLIDS
+  solid = solid_in;
+#endif
   ball = ball_in;
   normal = normal_in;
   kind = kind_in;
@@ -37,9 +45,16 @@ void main() {
 )";
 
 const char* const fragment_shader = R"(
+#ifdef SOLIDS
+flat in vec4 solid;
+#endif
 flat in vec4 ball;
 flat in vec3 normal;
-flat in vec2 kind;
+flat in vec3 kind;
+#ifdef WALLS
+uniform samplerBuffer rows;
+uniform float pixel;
+#endif
 in vec3 p;
 uniform sampler2D lit;
 uniform vec4 planes[PLANES + 1];  // normal, the eye's height
@@ -51,6 +66,14 @@ void main() {
   if (kind.y > 0)
     for (int k = 0; k < PLANES; ++k)
       if (dot(planes[k].xyz, p) + planes[k].w < -slack) discard;
+#ifdef WALLS
+  if (kind.z >= 0) {
+    int i = int(kind.z);
+    vec4 right = texelFetch(rows, i * 5 + 1), up = texelFetch(rows, i * 5 + 2), half_size = texelFetch(rows, i * 5 + 4);
+    vec2 at = vec2(dot(right.xyz, p) + right.w, dot(up.xyz, p) + up.w);
+    if (any(greaterThan(abs(at), half_size.xy + pixel * p.z))) discard;
+  }
+#endif
   vec4 now = texelFetch(lit, ivec2(gl_FragCoord.xy), 0);
   vec3 to_ball = ball.xyz - p;
   float open = 1, sky = 1;
@@ -59,6 +82,10 @@ void main() {
     float d2 = max(dot(to_ball, to_ball), 1e-30);
     float taken = dot(normal, to_ball) * ball.w * ball.w / (d2 * sqrt(d2));
     sky = 1 - 0.85 * clamp((taken - LEAST_TAKEN) / (1 - LEAST_TAKEN), 0, 1);
+#ifdef SOLIDS
+  } else if (solid.w > 0) {
+    open = through_solid(p, towards_light(0, p), to_ball, solid.xyz, solid.w < 1.5);
+#endif
   } else {
     open = through_ball(p, towards_light(0, p), to_ball, ball.w);
   }
@@ -76,19 +103,23 @@ constexpr double least_slope = 0.03;  // light that grazes a surface more than t
 
 }  // namespace
 
-Shade::Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces)
+Shade::Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, bool solids)
     : eye_(eye),
       lighting_(lighting),
       surfaces_(surfaces),
-      program_({vertex_shader},
-               {fmt::format("#define PLANES {}\n#define LEAST_TAKEN {}\n", cutting_planes(surfaces), least_taken),
+      solids_(solids),
+      program_({solids ? "#define SOLIDS\n" : "", vertex_shader},
+               {solids ? "#define SOLIDS\n" : "", surfaces.walls() ? "#define WALLS\n" : "",
+                fmt::format("#define PLANES {}\n#define LEAST_TAKEN {}\n", cutting_planes(surfaces), least_taken),
                 lighting.shader(), fragment_shader}),
-      instances_({3, 3, 3, 4, 3, 2}) {
+      instances_(solids ? gl::Instances{3, 3, 3, 4, 3, 3, 4} : gl::Instances{3, 3, 3, 4, 3, 3}) {
   program_.use();
   lighting.set(program_);
   glUniform2f(program_.at("tangent"), static_cast<float>(eye.tan_x), static_cast<float>(eye.tan_y));
   glUniform1f(program_.at("near"), static_cast<float>(eye.camera.near));
+  glUniform1f(program_.at("pixel"), static_cast<float>(eye.pixel));
   glUniform1i(program_.at("lit"), 0);
+  glUniform1i(program_.at("rows"), 1);
   std::vector<float> planes;
   for (std::size_t k = 0; k < cutting_planes(surfaces); ++k) {
     const Surface& s = surfaces.all()[k];
@@ -104,7 +135,7 @@ bool Shade::in_picture(const Vec3& center, double radius) const {
          (y - z * eye_.tan_y) < radius * std::hypot(1, eye_.tan_y);
 }
 
-void Shade::add(Darkens darkens, const Ball& ball, std::size_t surface, const Vec3& origin, const Vec3& u,
+void Shade::add(Darkens darkens, const Thing& ball, std::size_t surface, const Vec3& origin, const Vec3& u,
                 const Vec3& v) {
   const Surface& s = surfaces_.all()[surface];
   if (s.wall) {  // off the rectangle there is nothing to darken
@@ -129,9 +160,13 @@ void Shade::add(Darkens darkens, const Ball& ball, std::size_t surface, const Ve
   const bool cut = std::any_of(planes, planes + static_cast<std::ptrdiff_t>(cutting_planes(surfaces_)), cuts);
   rows_.push_back(darkens == Darkens::by_closeness ? 1.0F : 0.0F);
   rows_.push_back(cut ? 1.0F : 0.0F);
+  rows_.push_back(s.wall ? static_cast<float>(surface) : -1.0F);
+  if (!solids_) return;
+  push(ball.half);
+  rows_.push_back(ball.shape == Shape::sphere ? 0.0F : ball.shape == Shape::box ? 1.0F : 2.0F);
 }
 
-void Shade::add_shadow(const Ball& ball, std::size_t surface) {
+void Shade::add_shadow(const Thing& ball, std::size_t surface) {
   const Surface& s = surfaces_.all()[surface];
   const double height = s.normal.dot(ball.center) + s.height;  // of the ball's centre above the surface
   if (!lighting_.key_is_near()) {
@@ -167,7 +202,16 @@ void Shade::add_shadow(const Ball& ball, std::size_t surface) {
   add(Darkens::by_shadow, ball, surface, foot + place(o.x, o.y), place(o.ax, o.ay), place(o.bx, o.by));
 }
 
-void Shade::add_closeness(const Ball& ball, std::size_t surface) {
+void Shade::add_closeness(const Thing& thing, std::size_t surface) {
+  // Of a box or a cylinder the largest ball inside counts, where it is nearest to the surface.
+  Thing ball = thing;
+  if (thing.shape != Shape::sphere) {
+    ball.radius = thing.half.minCoeff();
+    for (int i = 0; i < 3; ++i) {
+      const Vec3 axis = eye_.direction(Vec3::Unit(i));
+      ball.center -= (thing.half[i] - ball.radius) * surfaces_.all()[surface].normal.dot(axis) * axis;
+    }
+  }
   // cos (r / d)^2 at the foot's distance x is h r^2 / (h^2 + x^2)^(3/2): where that falls to least_taken it has faded
   // out.
   const Surface& s = surfaces_.all()[surface];
@@ -180,11 +224,11 @@ void Shade::add_closeness(const Ball& ball, std::size_t surface) {
       wide * s.normal.cross(s.right));
 }
 
-void Shade::draw(std::span<const Ball> balls, const Backdrop& backdrop) {
+void Shade::draw(std::span<const Thing> balls, const Backdrop& backdrop, const gl::TexelBuffer& rows) {
   rows_.clear();
   for (std::size_t k = 0; k < surfaces_.all().size(); ++k) {
     if (!surfaces_.all()[k].seen()) continue;
-    for (const Ball& ball : balls) {
+    for (const Thing& ball : balls) {
       add_shadow(ball, k);
       add_closeness(ball, k);
     }
@@ -192,6 +236,7 @@ void Shade::draw(std::span<const Ball> balls, const Backdrop& backdrop) {
   if (rows_.empty()) return;
   program_.use();
   gl::bind_texture(0, backdrop.lit);
+  rows.bind(1);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
   glDepthMask(GL_FALSE);

@@ -1,5 +1,5 @@
 #pragma once
-// What balls do to the light on planes and walls: soft shadows of the key light, and the darkness where a ball is
+// What things do to the light on planes and walls: soft shadows of the key light, and the darkness where a ball is
 // close.
 #include <span>
 #include <vector>
@@ -11,21 +11,23 @@ namespace carom {
 
 class Shade {
  public:
-  Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces);
+  /// `solids`: there may be things that are no balls.
+  Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, bool solids);
 
-  /// Darkens the bound framebuffer, a copy of the backdrop, where balls take light away from its surfaces.
-  void draw(std::span<const Ball> balls, const Backdrop& backdrop);
+  /// Darkens the bound framebuffer, a copy of the backdrop, where things take light away from its surfaces.
+  void draw(std::span<const Thing> balls, const Backdrop& backdrop, const gl::TexelBuffer& rows);
 
  private:
-  void add_shadow(const Ball& ball, std::size_t surface);
-  void add_closeness(const Ball& ball, std::size_t surface);
+  void add_shadow(const Thing& ball, std::size_t surface);
+  void add_closeness(const Thing& ball, std::size_t surface);
   enum class Darkens { by_shadow, by_closeness };
-  void add(Darkens darkens, const Ball& ball, std::size_t surface, const Vec3& origin, const Vec3& u, const Vec3& v);
+  void add(Darkens darkens, const Thing& ball, std::size_t surface, const Vec3& origin, const Vec3& u, const Vec3& v);
   bool in_picture(const Vec3& center, double radius) const;
 
   const Eye& eye_;
   const Lighting& lighting_;
   const Surfaces& surfaces_;
+  bool solids_;
   gl::Program program_;
   gl::Instances instances_;
   std::vector<float> rows_;

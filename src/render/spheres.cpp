@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "render/material.h"
+
 #include "render/renderer.h"
 
 namespace carom {
@@ -45,31 +47,10 @@ flat in vec3 color;
 flat in ivec2 occluders;
 in vec2 at, local;
 uniform float pixel, near;
-uniform samplerBuffer occluder_rows;
 layout(location = 0) out vec4 color_out;
 #ifdef WALLS
-uniform samplerBuffer rows;
 uniform sampler2D edges, edge_depths;
-vec4 texel(int surface, int column) { return texelFetch(rows, surface * 5 + column); }
 #endif
-
-float key_light(vec3 p, vec3 l) {
-  float open = 1;
-  for (int k = occluders.x; k < occluders.x + occluders.y; ++k) {
-    vec4 other = texelFetch(occluder_rows, k);
-#ifdef WALLS
-    if (other.w < 0) {
-      int i = int(other.x);
-      vec4 right = texel(i, 1), up = texel(i, 2), plane = texel(i, 0);
-      vec3 center = -right.w * right.xyz - up.w * up.xyz - plane.w * plane.xyz;
-      open *= through_wall(p, l, plane.xyz, center, right.xyz, texel(i, 4).x, up.xyz, texel(i, 4).y);
-      continue;
-    }
-#endif
-    open *= through_ball(p, l, other.xyz - p, other.w);
-  }
-  return open;
-}
 
 void main() {
   // The ray t (at, 1) meets the sphere where d.d t^2 - 2 d.c t + c.c - r^2 = 0; its discriminant is 0 on the outline. Of
@@ -107,22 +88,7 @@ void main() {
 
   vec3 p = d * t;
   vec3 n = normalize(p - ball.xyz);
-  vec3 v = normalize(-d);
-  vec3 matt = hemisphere(n), shine = vec3(0);
-  for (int i = 0; i < LIGHTS; ++i) {
-    vec3 l = towards_light(i, p);
-    float facing = dot(n, l);
-    if (facing <= 0) continue;
-    vec3 light = light_radiance[i] * (i == 0 ? key_light(p, l) : 1);
-    matt += light * facing;
-    float glint = max(dot(n, normalize(l + v)), 0);
-    glint *= glint; glint *= glint; glint *= glint; glint *= glint; glint *= glint; glint *= glint;  // ^64
-    shine += light * glint * 0.35;
-  }
-  float grazing = 1 - max(dot(n, v), 0);
-  grazing *= grazing;
-  shine += ambient * grazing * grazing * 0.35;
-  vec3 seen = cut ? color * 0.4 * hemisphere(-n) : color * matt + shine;
+  vec3 seen = seen_light(p, n, normalize(-d), color, occluders, cut);
 #ifdef WALLS
   vec4 edge = texelFetch(edges, ivec2(gl_FragCoord.xy), 0);
   if (behind_edge) seen = mix(seen, edge.rgb, edge.a);
@@ -135,26 +101,16 @@ void main() {
 // without shadows upon them; a picture of so many shows none that could be told apart.
 constexpr std::size_t most_rows = (std::size_t{1} << 24) - 4096;
 
-std::vector<float> colors_of(const Scene& scene) {
-  std::vector<float> colors(3 * scene.world.body_count(), 1.0F);
-  for (const BodyRange& range : scene.roster.bodies) {
-    const auto c = linear(range.color);
-    for (std::size_t i = range.first; i < range.first + std::size_t{range.count} && i < scene.world.body_count(); ++i)
-      std::copy(c.begin(), c.end(), colors.begin() + static_cast<std::ptrdiff_t>(3 * i));
-  }
-  return colors;
-}
-
 }  // namespace
 
-Spheres::Spheres(const Scene& scene, const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, bool smooth)
+Spheres::Spheres(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, bool solids, bool smooth)
     : eye_(eye),
       lighting_(lighting),
       surfaces_(surfaces),
       smooth_(smooth),
-      colors_(colors_of(scene)),
-      program_({vertex_shader}, {smooth ? "#define SMOOTH\n" : "", surfaces.walls() ? "#define WALLS\n" : "",
-                                 lighting.shader(), fragment_shader}),
+      program_({vertex_shader},
+               {smooth ? "#define SMOOTH\n" : "", surfaces.walls() ? "#define WALLS\n" : "",
+                solids ? "#define SOLIDS\n" : "", lighting.shader(), material_shader, fragment_shader}),
       instances_({4, 4, 4, 4, 2}) {
   program_.use();
   lighting.set(program_);
@@ -167,15 +123,16 @@ Spheres::Spheres(const Scene& scene, const Eye& eye, const Lighting& lighting, c
   glUniform1i(program_.at("edge_depths"), 3);
 }
 
-void Spheres::draw(std::span<const Ball> balls, std::span<const std::uint32_t> seen, const Backdrop& backdrop,
-                   const gl::TexelBuffer& rows) {
+void Spheres::draw(const Things& things, const Backdrop& backdrop, const gl::TexelBuffer& rows) {
+  const std::span<const Thing> balls = things.all();
+  const std::span<const std::uint32_t> seen = things.balls();
   if (seen.empty()) return;
   std::optional<Occluders> occluders;  // only if some ball is large enough to show a shadow upon it
   row_.clear();
   occluder_row_.clear();
   const auto f = [](double x) { return static_cast<float>(x); };
   for (std::uint32_t i : seen) {
-    const Ball& ball = balls[i];
+    const Thing& ball = balls[i];
     Outline o{};
     double opacity = 1, b = 0;
     bool large = true;
@@ -194,17 +151,12 @@ void Spheres::draw(std::span<const Ball> balls, std::span<const std::uint32_t> s
     const std::size_t first = occluder_row_.size() / 4;
     if (large && first < most_rows) {
       if (!occluders) occluders.emplace(balls, lighting_);
-      occluders->find(i, found_);
-      for (std::uint32_t k : found_)
-        for (double x : {balls[k].center.x(), balls[k].center.y(), balls[k].center.z(), balls[k].radius})
-          occluder_row_.push_back(f(x));
-      for (std::size_t w = surfaces_.planes(); w < surfaces_.all().size(); ++w)
-        for (float x : {static_cast<float>(w), 0.0F, 0.0F, -1.0F}) occluder_row_.push_back(x);
+      occluders->append_rows(i, surfaces_, occluder_row_);
     }
     for (double x : {ball.center.x(), ball.center.y(), ball.center.z(), ball.radius, o.x, o.y, o.ax, o.ay, b, o.depth2,
                      opacity, 0.0})
       row_.push_back(f(x));
-    for (std::size_t k = 0; k < 3; ++k) row_.push_back(colors_[3 * i + k]);
+    for (const float c : things.look(ball).color) row_.push_back(c);
     row_.push_back(0);
     row_.push_back(static_cast<float>(first));
     row_.push_back(static_cast<float>(occluder_row_.size() / 4 - first));

@@ -1,34 +1,30 @@
 #pragma once
 // Balls: each one quadrilateral around its outline, in which every pixel's ray meets the sphere exactly.
-#include <cstdint>
-#include <span>
 #include <vector>
 
 #include "render/backdrop.h"
 #include "render/occluders.h"
+#include "render/things.h"
 
 namespace carom {
 
 class Spheres {
  public:
-  /// `smooth`: outlines are anti-aliased.
-  Spheres(const Scene& scene, const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, bool smooth);
+  /// `solids`: there may be things that are no balls, which cast shadows too. `smooth`: outlines are anti-aliased.
+  Spheres(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, bool solids, bool smooth);
 
-  /// Draws `balls[i]` for i in `seen` (back to front) onto the bound framebuffer.
-  void draw(std::span<const Ball> balls, std::span<const std::uint32_t> seen, const Backdrop& backdrop,
-            const gl::TexelBuffer& rows);
+  /// Draws the balls among the things onto the bound framebuffer.
+  void draw(const Things& things, const Backdrop& backdrop, const gl::TexelBuffer& rows);
 
  private:
   const Eye& eye_;
   const Lighting& lighting_;
   const Surfaces& surfaces_;
   bool smooth_;
-  std::vector<float> colors_;  // linear, 3 a ball
   gl::Program program_;
   gl::Instances instances_;
   gl::TexelBuffer occluders_;
   std::vector<float> row_, occluder_row_;
-  std::vector<std::uint32_t> found_;
 };
 
 }  // namespace carom

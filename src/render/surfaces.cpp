@@ -1,6 +1,7 @@
 #include "render/surfaces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "render/lighting.h"
@@ -13,6 +14,21 @@ const FixedName& name_of(const Scene& scene, std::size_t i) {
   return i < scene.roster.fixed.size() ? scene.roster.fixed[i] : unnamed;
 }
 
+/// The sides of a box.
+std::array<Wall, 6> sides_of(const Obstacle& box) {
+  std::array<Wall, 6> sides;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto axis = static_cast<int>(i / 2);
+    const Vec3 normal = (i % 2 ? 1 : -1) * Vec3::Unit(axis);
+    const Vec3 up = axis == 1 ? Vec3(0, 0, -1) : Vec3(0, 1, 0);
+    const Vec3 right = up.cross(normal);
+    const Vec3& half = box.volume.half;
+    sides[i] = {box.center + half[axis] * normal, normal, right, up, half.dot(right.cwiseAbs()),
+                half.dot(up.cwiseAbs()),          {}};
+  }
+  return sides;
+}
+
 /// Two directions along a plane: world axes where the plane has some, so that lines stand at round coordinates.
 void pattern_axes(const Vec3& normal, Vec3& right, Vec3& up) {
   Vec3 along(0, 0, -1);  // of a level plane
@@ -22,6 +38,14 @@ void pattern_axes(const Vec3& normal, Vec3& right, Vec3& up) {
 }
 
 }  // namespace
+
+const FixedName& name_of_obstacle(const Scene& scene, std::size_t obstacle) {
+  return name_of(scene, scene.world.planes.size() + scene.world.walls.size() + obstacle);
+}
+
+bool is_surface(const Scene& scene, std::size_t obstacle) {
+  return scene.world.obstacles[obstacle].volume.shape == Shape::box && !name_of_obstacle(scene, obstacle).mesh;
+}
 
 Surfaces::Surfaces(const Scene& scene, const Eye& eye) {
   reach_ = (eye.camera.target - eye.camera.eye).norm();
@@ -50,20 +74,28 @@ Surfaces::Surfaces(const Scene& scene, const Eye& eye) {
   for (std::size_t i = 0; i < scene.world.walls.size(); ++i) {
     const FixedName& name = name_of(scene, scene.world.planes.size() + i);
     if (!name.visible) continue;
-    const Wall& wall = scene.world.walls[i];
-    const double height = wall.normal.dot(eye.camera.eye - wall.center);
-    Surface s;
-    s.wall = true;
-    s.height = std::abs(height);
-    s.normal = eye.direction(height < 0 ? Vec3(-wall.normal) : wall.normal);
-    s.center = eye.point(wall.center);
-    s.right = eye.direction(wall.right);
-    s.up = eye.direction(wall.up);
-    s.half_width = wall.half_width;
-    s.half_height = wall.half_height;
-    add_row(s, -s.right.dot(s.center), -s.up.dot(s.center), name.color);
-    all_.push_back(s);
+    add_wall(scene.world.walls[i], name, eye);
   }
+  for (std::size_t i = 0; i < scene.world.obstacles.size(); ++i) {
+    const FixedName& name = name_of_obstacle(scene, i);
+    if (!name.visible || !is_surface(scene, i)) continue;
+    for (const Wall& side : sides_of(scene.world.obstacles[i])) add_wall(side, name, eye);
+  }
+}
+
+void Surfaces::add_wall(const Wall& wall, const FixedName& name, const Eye& eye) {
+  const double height = wall.normal.dot(eye.camera.eye - wall.center);
+  Surface s;
+  s.wall = true;
+  s.height = std::abs(height);
+  s.normal = eye.direction(height < 0 ? Vec3(-wall.normal) : wall.normal);
+  s.center = eye.point(wall.center);
+  s.right = eye.direction(wall.right);
+  s.up = eye.direction(wall.up);
+  s.half_width = wall.half_width;
+  s.half_height = wall.half_height;
+  add_row(s, -s.right.dot(s.center), -s.up.dot(s.center), name.color);
+  all_.push_back(s);
 }
 
 void Surfaces::add_row(const Surface& s, double right_offset, double up_offset, const Color& color) {

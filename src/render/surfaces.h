@@ -19,8 +19,14 @@ struct Surface {
   bool seen() const { return height > 0; }
 };
 
-/// Planes first. Number i is known to the shaders as i + 1; 0 is the background. Planes that are not visible are left
-/// out: they are not there for the eye, and cut nothing off the others.
+/// The name, colour and so on of an obstacle, by its number among them.
+const FixedName& name_of_obstacle(const Scene& scene, std::size_t obstacle);
+/// Whether an obstacle stands still as six walls: a box that is not drawn as a mesh.
+bool is_surface(const Scene& scene, std::size_t obstacle);
+
+/// Planes first, then walls and the sides of box obstacles. Number i is known to the shaders as i + 1; 0 is the
+/// background. Planes that are not visible are left out: they are not there for the eye, and cut nothing off the
+/// others.
 class Surfaces {
  public:
   Surfaces(const Scene& scene, const Eye& eye);
@@ -37,6 +43,7 @@ class Surfaces {
   double reach() const { return reach_; }  // m, from the eye to what the picture is about
 
  private:
+  void add_wall(const Wall& wall, const FixedName& name, const Eye& eye);
   void add_row(const Surface& s, double right_offset, double up_offset, const Color& color);
   std::vector<Surface> all_;
   std::size_t planes_ = 0;

@@ -10,23 +10,10 @@ namespace {
 using test::add_ball;
 using test::add_plane;
 using test::add_wall;
+using test::flat_scene;
 using test::grey;
 
 constexpr Color black{0, 0, 0}, white{1, 1, 1}, red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1};
-
-/// Light without shade: what is drawn is its own colour, so that coverage can be measured.
-Scene flat_scene(const Vec3& eye, const Vec3& target, double fov = 45) {
-  Scene scene;
-  scene.background = black;
-  scene.ambient = white;
-  scene.lights.push_back({"none", Vec3(0, -1, 0), {}, black, 0});
-  Camera camera;
-  camera.eye = eye;
-  camera.target = target;
-  camera.fov = fov;
-  scene.camera = camera;
-  return scene;
-}
 
 /// Centre of what is not black and its area, in pixels; a pixel counts as 1 if it is brighter than 0.
 struct Blob {

@@ -38,7 +38,12 @@ TEST(Bytes, AreTheSameAtEveryDraw) {
 /// Not a claim of its own: prints a picture's hash for the test below, which runs it in processes of its own.
 TEST(Bytes, Probe) {
   if (!std::getenv("CAROM_PRINT_HASH")) return;  // only the test below asks
-  std::printf("hash=%016llx\n", static_cast<unsigned long long>(hash_of(drawn(test::gas(60), {320, 180}))));
+  Scene scene = test::gas(60);
+  for (int i = 0; i < 9; ++i)
+    test::add_body(scene, Vec3(i - 4, 0.3 * i - 1, 0),
+                   i % 2 ? Volume::box(Vec3(1, 0.7, 0.5)) : Volume::cylinder(0.4, 1), {0.8, 0.2, 0.5});
+  scene.roster.bodies.back().mesh = MeshUse{SCENES_DIR "/meshes/duck.obj", Vec3(0, 0.5, 0), 0.7};
+  std::printf("hash=%016llx\n", static_cast<unsigned long long>(hash_of(drawn(scene, {320, 180}))));
 }
 
 std::string hash_with_threads(const char* threads) {

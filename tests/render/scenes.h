@@ -16,8 +16,26 @@ inline Entity add_ball(Scene& scene, const Vec3& position, double radius, const 
   scene.world.restitution.push_back(1);
   scene.initial.position.push_back(position);
   scene.initial.velocity.push_back(Vec3::Zero());
+  if (!scene.world.volume.empty()) scene.world.volume.push_back(Volume::sphere(radius));
   scene.roster.bodies.push_back({"b" + std::to_string(e), e, 1, false, color});
   return e;
+}
+
+/// A body with any volume; from the first one on all bodies have theirs.
+inline Entity add_body(Scene& scene, const Vec3& position, const Volume& volume, const Color& color) {
+  if (scene.world.volume.empty())
+    for (const double radius : scene.world.radius) scene.world.volume.push_back(Volume::sphere(radius));
+  const Entity e = add_ball(scene, position, volume.reach(), color);
+  scene.world.volume.resize(e);
+  scene.world.volume.push_back(volume);
+  return e;
+}
+
+/// After all planes and walls.
+inline void add_obstacle(Scene& scene, const Vec3& center, const Volume& volume, const Color& color,
+                         bool visible = true) {
+  scene.world.obstacles.push_back({center, volume, {}});
+  scene.roster.fixed.push_back({"o" + std::to_string(scene.world.obstacles.size()), color, visible});
 }
 
 inline void add_plane(Scene& scene, const Vec3& point, const Vec3& normal, const Color& color, bool visible = true) {
@@ -78,6 +96,20 @@ inline Scene gas(int balls, double room = 5, double radius = 0.2) {
 inline double grey(const Image& image, int x, int y) {
   const std::uint8_t* p = image.row(y) + 3 * x;
   return (p[0] + p[1] + p[2]) / 3.0;
+}
+
+/// Light without shade: what is drawn is its own colour, so that coverage can be measured.
+inline Scene flat_scene(const Vec3& eye, const Vec3& target, double fov = 45) {
+  Scene scene;
+  scene.background = Color{0, 0, 0};
+  scene.ambient = Color{1, 1, 1};
+  scene.lights.push_back({"none", Vec3(0, -1, 0), {}, {0, 0, 0}, 0});
+  Camera camera;
+  camera.eye = eye;
+  camera.target = target;
+  camera.fov = fov;
+  scene.camera = camera;
+  return scene;
 }
 
 /// Binary PPM: what any viewer can turn into a PNG.

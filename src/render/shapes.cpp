@@ -1,0 +1,122 @@
+#include "render/shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include "render/renderer.h"
+
+namespace carom {
+Mesh unit_box() {
+  Mesh mesh;
+  for (int face = 0; face < 6; ++face) {
+    const int axis = face / 2;
+    const Vec3 normal = (face % 2 ? 1 : -1) * Vec3::Unit(axis), u = Vec3::Unit((axis + 1) % 3), v = normal.cross(u);
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const auto& [a, b] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+      mesh.vertices.push_back(normal + a * u + b * v);
+      mesh.normals.push_back(normal);
+    }
+    for (const std::uint32_t k : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.triangles.push_back(first + k);
+  }
+  return mesh;
+}
+
+Mesh unit_cylinder(std::uint32_t sides) {
+  // A polygon of the circle's area.
+  const double angle = 2 * std::numbers::pi / sides;
+  const double wide = std::sqrt(angle / std::sin(angle));
+  Mesh mesh;
+  for (std::uint32_t k = 0; k < sides; ++k) {
+    const double x = std::cos(angle * k), z = std::sin(angle * k);
+    for (const double y : {-1.0, 1.0}) {  // of the flank
+      mesh.vertices.emplace_back(wide * x, y, wide * z);
+      mesh.normals.emplace_back(x, 0, z);
+    }
+    for (const double y : {-1.0, 1.0}) {  // of the ends
+      mesh.vertices.emplace_back(wide * x, y, wide * z);
+      mesh.normals.emplace_back(0, y, 0);
+    }
+    const std::uint32_t a = 4 * k, b = 4 * ((k + 1) % sides);
+    for (const std::uint32_t i : {a, a + 1, b + 1, a, b + 1, b}) mesh.triangles.push_back(i);
+    if (k > 0 && k + 1 < sides)
+      for (const std::uint32_t i : {2U, a + 2, b + 2, 3U, b + 3, a + 3}) mesh.triangles.push_back(i);
+  }
+  return mesh;
+}
+
+Shapes::Shapes(const std::vector<std::string>& files) : instances_(gl::make_buffer()) {
+  upload(unit_box());
+  upload(unit_cylinder(32));
+  upload(unit_cylinder(160));
+  for (const std::string& file : files) {
+    Mesh mesh;
+    try {
+      mesh = read_mesh(file);
+    } catch (const std::runtime_error& error) {
+      throw RenderError(error.what());
+    }
+    upload(mesh);
+    points_.push_back(std::move(mesh.vertices));
+  }
+  gl::check("taking up the meshes");
+}
+
+void Shapes::upload(const Mesh& mesh) {
+  Uploaded shape;
+  Vec3 low = mesh.vertices.front(), high = low;
+  for (const Vec3& p : mesh.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  shape.middle = 0.5 * (low + high);
+  shape.half = 0.5 * (high - low);
+  std::vector<float> rows;
+  rows.reserve(6 * mesh.vertices.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Vec3 p = mesh.vertices[i] - shape.middle;
+    for (int k = 0; k < 3; ++k) rows.push_back(static_cast<float>(p[k]));
+    for (int k = 0; k < 3; ++k) rows.push_back(static_cast<float>(mesh.normals[i][k]));
+  }
+  shape.array = gl::make_vertices();
+  shape.vertices = gl::make_buffer();
+  shape.triangles = gl::make_buffer();
+  shape.indices = static_cast<GLsizei>(mesh.triangles.size());
+  glBindVertexArray(shape.array.name());
+  glBindBuffer(GL_ARRAY_BUFFER, shape.vertices.name());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size() * sizeof(float)), rows.data(), GL_STATIC_DRAW);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, shape.triangles.name());
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.triangles.size() * sizeof(std::uint32_t)),
+               mesh.triangles.data(), GL_STATIC_DRAW);
+  const auto attribute = [](GLuint index, GLint floats, std::size_t stride, std::size_t offset) {
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(index, floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride * sizeof(float)),
+                          reinterpret_cast<const void*>(offset * sizeof(float)));
+  };
+  attribute(0, 3, 6, 0);
+  attribute(1, 3, 6, 3);
+  glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
+  attribute(2, 4, row, 0);
+  attribute(3, 4, row, 4);
+  for (const GLuint index : {2U, 3U}) glVertexAttribDivisor(index, 1);
+  glBindVertexArray(0);
+  shapes_.push_back(std::move(shape));
+}
+
+double Shapes::radius(std::size_t file, const Vec3& center) const {
+  double square = 0;
+  for (const Vec3& p : points_[file]) square = std::max(square, (p - center).squaredNorm());
+  return std::sqrt(square);
+}
+
+void Shapes::fill_instances(std::span<const float> rows) const {
+  glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size_bytes()), rows.data(), GL_STREAM_DRAW);
+}
+
+void Shapes::draw(std::size_t shape, std::size_t first, std::size_t count) const {
+  glBindVertexArray(shapes_[shape].array.name());
+  glDrawElementsInstancedBaseInstance(GL_TRIANGLES, shapes_[shape].indices, GL_UNSIGNED_INT, nullptr,
+                                      static_cast<GLsizei>(count), static_cast<GLuint>(first));
+}
+
+}  // namespace carom

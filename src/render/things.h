@@ -1,0 +1,75 @@
+#pragma once
+// What moves or stands in a picture, other than planes, walls and box obstacles: bodies and obstacles, placed in the
+// camera's frame.
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "physics/state.h"
+#include "render/eye.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+struct Thing {
+  Vec3 center;                  // m
+  double radius;                // m, of a ball around it
+  Shape shape = Shape::sphere;  // of its volume
+  Vec3 half = Vec3::Zero();     // m, of its volume, along the world's axes
+  std::uint32_t look = 0;       // Things::look
+  bool mesh = false;            // is drawn as its look's mesh
+};
+
+/// What a body or obstacle always looks like.
+struct Look {
+  std::array<float, 3> color{1, 1, 1};  // linear
+  std::optional<MeshUse> mesh = std::nullopt;
+  std::size_t file = 0;    // the mesh's, in Things::files()
+  double mesh_radius = 0;  // m, of a ball around the mesh as it is drawn
+};
+
+class Things {
+ public:
+  Things(const Scene& scene, const Eye& eye);
+
+  /// The files of the meshes, each one once.
+  const std::vector<std::string>& files() const { return files_; }
+  /// `radius_of(file, center)`: of the ball about `center` that holds a mesh's vertices, in its file's units.
+  template <typename Radius>
+  void measure(Radius radius_of) {
+    for (Look& look : looks_)
+      if (look.mesh) look.mesh_radius = look.mesh->scale * radius_of(look.file, look.mesh->center);
+  }
+
+  bool any() const { return !looks_.empty(); }
+  bool any_solids() const { return any_solids_; }  // whether there may be something that is no ball
+
+  /// Bodies where `state` has them, and the obstacles. A body that is part of another is not there; the joint body has
+  /// the state's volume.
+  void place(const State& state);
+  std::span<const Thing> all() const { return all_; }
+  std::span<const std::uint32_t> balls() const { return balls_; }    // of all(): those in the picture, back to front
+  std::span<const std::uint32_t> solids() const { return solids_; }  // of all(): the others in the picture
+  const Look& look(const Thing& thing) const { return looks_[thing.look]; }
+
+ private:
+  Look look_of(const Color& color, const std::optional<MeshUse>& mesh);
+  void add(const Vec3& position, const Volume& volume, double radius, std::uint32_t look, bool mesh);
+  void sort_balls();
+
+  const Scene& scene_;
+  const Eye& eye_;
+  std::vector<Look> looks_;               // of the bodies, then of obstacles_
+  std::vector<std::uint32_t> obstacles_;  // those that are drawn as things
+  std::vector<std::string> files_;
+  bool any_solids_ = false;
+  std::vector<Thing> all_;
+  std::vector<std::uint32_t> balls_, solids_;
+  std::vector<std::pair<double, std::uint32_t>> order_;
+};
+
+}  // namespace carom

@@ -1,0 +1,120 @@
+// Meshes in pictures.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <tuple>
+
+#include "render/mesh.h"
+#include "render/outlines.h"
+
+namespace carom {
+namespace {
+
+using test::grey;
+using test::Point;
+using test::projected;
+using test::side;
+
+constexpr Color white{1, 1, 1};
+const std::string meshes = SCENES_DIR "/meshes/";
+
+/// One body, drawn as a mesh.
+Scene mesh_scene(const std::string& file, const Vec3& position, const Vec3& center, double scale) {
+  Scene scene = test::flat_scene(Vec3(1, 1.5, 5), Vec3::Zero());
+  test::add_body(scene, position, Volume::sphere(1), white);
+  scene.roster.bodies.back().mesh = MeshUse{file, center, scale};
+  return scene;
+}
+
+/// Which pixels' middles lie behind a mesh's triangles, drawn at position + scale * (p - center).
+std::vector<char> covered_by(const Mesh& mesh, const Scene& scene, Size size, const Vec3& position, const Vec3& center,
+                             double scale) {
+  std::vector<char> covered(static_cast<std::size_t>(size.width * size.height), 0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    std::array<Point, 3> q{};
+    for (std::size_t k = 0; k < 3; ++k)
+      q[k] = projected(scene, size, position + scale * (mesh.vertices[mesh.triangles[t + k]] - center));
+    const auto [x0, x1] = std::minmax({q[0].x, q[1].x, q[2].x});
+    const auto [y0, y1] = std::minmax({q[0].y, q[1].y, q[2].y});
+    for (int y = std::max(0, static_cast<int>(y0)); y <= std::min(size.height - 1, static_cast<int>(y1)); ++y)
+      for (int x = std::max(0, static_cast<int>(x0)); x <= std::min(size.width - 1, static_cast<int>(x1)); ++x) {
+        const Point p{x + 0.5, y + 0.5};
+        const double a = side(q[0], q[1], p), b = side(q[1], q[2], p), c = side(q[2], q[0], p);
+        if ((a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0))
+          covered[static_cast<std::size_t>(y * size.width + x)] = 1;
+      }
+  }
+  return covered;
+}
+
+TEST(DrawnMesh, IsWhereItsVerticesAreToAPixel) {
+  const Size size{300, 300};
+  for (const auto& [name, center, scale] : {std::tuple{"pin.obj", Vec3(0, 0.1905, 0), 6.0},
+                                            {"duck.obj", Vec3(0.1, 0.6, 0), 1.2},
+                                            {"rock.stl", Vec3(0.05, 0, 0), 1.5}}) {
+    const Vec3 position(0.3, -0.2, 0.1);
+    const Scene scene = mesh_scene(meshes + name, position, center, scale);
+    Renderer renderer(scene, size, 4);
+    const Image& image = renderer.draw(scene.initial);
+    const std::vector<char> covered = covered_by(read_mesh(meshes + name), scene, size, position, center, scale);
+    int wrong = 0, inside = 0;
+    for (int y = 1; y + 1 < size.height; ++y)
+      for (int x = 1; x + 1 < size.width; ++x) {
+        int around = 0;
+        for (int k = 0; k < 9; ++k)
+          around += covered[static_cast<std::size_t>((y + k / 3 - 1) * size.width + x + k % 3 - 1)];
+        if (around == 9) ++inside;
+        if ((around == 9 && grey(image, x, y) < 40) || (around == 0 && grey(image, x, y) > 0)) ++wrong;
+      }
+    EXPECT_EQ(wrong, 0) << name;
+    EXPECT_GT(inside, 2000) << name;
+  }
+}
+
+TEST(DrawnMesh, IsShadedAlikeWhicheverWayItsFacesTurn) {
+  std::string folder = ::testing::TempDir() + "carom_faces_XXXXXX";
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const std::string corners = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
+  std::ofstream(folder + "/a.obj") << corners << "f 1 2 3 4\n";
+  std::ofstream(folder + "/b.obj") << corners << "f 4 3 2 1\n";
+  std::array<double, 2> seen{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    Scene scene = mesh_scene(folder + (i ? "/b.obj" : "/a.obj"), Vec3::Zero(), Vec3::Zero(), 1);
+    scene.lights[0] = {"sun", Vec3(0, 0, -1), {}, white, 0.5};
+    scene.ambient = Color{0.3, 0.3, 0.3};
+    Renderer renderer(scene, {100, 100}, 4);
+    seen[i] = grey(renderer.draw(scene.initial), 50, 50);
+  }
+  EXPECT_GT(seen[0], 100);
+  EXPECT_NEAR(seen[0], seen[1], 1);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(DrawnMesh, OfAJointBodyGivesWayToItsVolume) {
+  Scene scene = mesh_scene(meshes + "pin.obj", Vec3::Zero(), Vec3(0, 0.1905, 0), 3);
+  Renderer renderer(scene, {100, 100}, 4);
+  const Point at = projected(scene, {100, 100}, Vec3(-0.8, 0, 0));
+  EXPECT_EQ(grey(renderer.draw(scene.initial), static_cast<int>(at.x), static_cast<int>(at.y)), 0);
+  State state = scene.initial;
+  state.part_of = {0};
+  state.mass = {2};
+  state.radius = {1.2};
+  state.volume = {Volume::sphere(1.2)};
+  EXPECT_GT(grey(renderer.draw(state), static_cast<int>(at.x), static_cast<int>(at.y)), 40);
+}
+
+TEST(DrawnMesh, ThatCannotBeReadIsARenderError) {
+  const Scene scene = mesh_scene("/none/at/all.obj", Vec3::Zero(), Vec3::Zero(), 1);
+  try {
+    Renderer renderer(scene, {10, 10}, 4);
+    FAIL();
+  } catch (const RenderError& error) {
+    EXPECT_STREQ(error.what(), "cannot read the mesh /none/at/all.obj: No such file or directory");
+  }
+}
+
+}  // namespace
+}  // namespace carom
