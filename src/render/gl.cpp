@@ -91,6 +91,27 @@ Texture make_texture(GLenum format, int width, int height) {
   return texture;
 }
 
+Texture make_outlines(int side, int layers) {
+  Texture texture(made(glGenTextures));
+  glBindTexture(GL_TEXTURE_2D_ARRAY, texture.name());
+  GLsizei levels = 1;
+  while (side >> levels > 0) ++levels;
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, levels, GL_R8, side, side, layers);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  return texture;
+}
+
+Framebuffer make_layer_framebuffer(const Texture& outlines, int layer) {
+  Framebuffer framebuffer(made(glGenFramebuffers));
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+  glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, outlines.name(), 0, layer);
+  check("making room for a mesh's outline");
+  return framebuffer;
+}
+
 Framebuffer make_framebuffer(std::span<const GLuint> colors, GLuint depth) {
   Framebuffer framebuffer(made(glGenFramebuffers));
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());

@@ -73,6 +73,9 @@ Buffer make_buffer();
 Vertices make_vertices();
 /// A picture-sized texture without mipmaps, read by texelFetch.
 Texture make_texture(GLenum format, int width, int height);
+/// A stack of pictures of coverage, `side` pixels (a power of two) wide and high, with room for mipmaps; empty around.
+Texture make_outlines(int side, int layers);
+Framebuffer make_layer_framebuffer(const Texture& outlines, int layer);
 /// Draws into `colors` in this order, and tests against `depth` (0: none). Throws RenderError.
 Framebuffer make_framebuffer(std::span<const GLuint> colors, GLuint depth);
 

@@ -16,7 +16,14 @@ float key_light(vec3 p, vec3 l, ivec2 occluders) {
 #ifdef SOLIDS
     if (other.w < -1.5) {
       ++k;
-      open *= through_solid(p, l, other.xyz - p, texelFetch(occluder_rows, k).xyz, other.w > -2.5);
+      vec3 more = texelFetch(occluder_rows, k).xyz;
+#ifdef MESHES
+      if (other.w < -3.5) {
+        open *= through_mesh(p, l, other.xyz - p, more.x, more.y);
+        continue;
+      }
+#endif
+      open *= through_solid(p, l, other.xyz - p, more, other.w > -2.5);
       continue;
     }
 #endif

@@ -143,7 +143,7 @@ bool Occluders::may_shade(const Surface& wall, const Thing& thing) const {
   return ahead > -reach && (offset - ahead * key_).norm() < 1.001 * (reach + 1.5 * blur * (ahead + reach));
 }
 
-void Occluders::append_rows(std::uint32_t i, const Surfaces& surfaces, std::vector<float>& rows) {
+void Occluders::append_rows(std::uint32_t i, const Things& things, const Surfaces& surfaces, std::vector<float>& rows) {
   const auto add = [&](const Vec3& v, double w) {
     for (int k = 0; k < 3; ++k) rows.push_back(static_cast<float>(v[k]));
     rows.push_back(static_cast<float>(w));
@@ -151,7 +151,11 @@ void Occluders::append_rows(std::uint32_t i, const Surfaces& surfaces, std::vect
   find(i, found_);
   for (const std::uint32_t k : found_) {
     const Thing& thing = balls_[k];
-    if (thing.shape == Shape::sphere) {
+    const Look& look = things.look(thing);
+    if (thing.mesh && look.outline_reach > 0) {
+      add(thing.mesh_middle, -4);
+      add(Vec3(static_cast<double>(look.file), look.outline_reach, 0), 0);
+    } else if (thing.shape == Shape::sphere) {
       add(thing.center, thing.half.x());
     } else {
       add(thing.center, thing.shape == Shape::box ? -2 : -3);

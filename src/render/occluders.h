@@ -20,7 +20,7 @@ class Occluders {
   static constexpr std::size_t most = 24;
 
   /// Appends what may shade things[i] as material.h's shader reads it, four floats a texel.
-  void append_rows(std::uint32_t i, const Surfaces& surfaces, std::vector<float>& rows);
+  void append_rows(std::uint32_t i, const Things& things, const Surfaces& surfaces, std::vector<float>& rows);
 
  private:
   struct Rect {

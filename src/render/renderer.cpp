@@ -7,7 +7,9 @@
 
 #include "render/backdrop.h"
 #include "render/gl.h"
+#include "render/mesh_shadows.h"
 #include "render/shade.h"
+#include "render/shapes.h"
 #include "render/solids.h"
 #include "render/spheres.h"
 #include "render/things.h"
@@ -45,12 +47,15 @@ struct Renderer::Impl {
     if (!surfaces.rows().empty()) rows.fill(surfaces.rows());
     backdrop.emplace(scene, eye, lighting, surfaces, rows, smooth);
     const bool any_solids = things.any_solids();
-    if (!surfaces.all().empty() && things.any()) shade.emplace(eye, lighting, surfaces, any_solids);
-    if (things.any()) spheres.emplace(eye, lighting, surfaces, any_solids, smooth);
-    if (any_solids) {
-      solids.emplace(things, eye, lighting, surfaces, smooth);
-      things.measure([&](std::size_t file, const Vec3& center) { return solids->shapes().radius(file, center); });
+    if (any_solids) shapes.emplace(things.files());
+    if (!things.files().empty()) {
+      if (!lighting.key_is_near()) mesh_shadows.emplace(*shapes, things.files().size(), eye, lighting);
+      things.measure(*shapes, mesh_shadows.has_value());
     }
+    const MeshShadows* meshes = mesh_shadows ? &*mesh_shadows : nullptr;
+    if (!surfaces.all().empty() && things.any()) shade.emplace(eye, lighting, surfaces, meshes, any_solids);
+    if (things.any()) spheres.emplace(eye, lighting, surfaces, meshes, any_solids, smooth);
+    if (any_solids) solids.emplace(*shapes, eye, lighting, surfaces, meshes, smooth);
     image.width = size.width;
     image.height = size.height;
   }
@@ -70,6 +75,8 @@ struct Renderer::Impl {
   gl::Texture color, depth;
   gl::Framebuffer framebuffer;
   std::optional<Backdrop> backdrop;
+  std::optional<Shapes> shapes;
+  std::optional<MeshShadows> mesh_shadows;
   std::optional<Shade> shade;
   std::optional<Spheres> spheres;
   std::optional<Solids> solids;
@@ -92,7 +99,7 @@ void Renderer::Impl::draw(const State& state) {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   glViewport(0, 0, eye.size.width, eye.size.height);
   glEnable(GL_FRAMEBUFFER_SRGB);
-  if (shade) shade->draw(things.all(), *backdrop, rows);
+  if (shade) shade->draw(things, *backdrop, rows);
   if (solids) solids->draw(Solids::Cover::whole);
   if (spheres) spheres->draw(things, *backdrop, rows);
   if (solids) solids->draw(Solids::Cover::part);

@@ -20,7 +20,8 @@ layout(location = 4) in vec3 normal_in;  // of the surface
 layout(location = 5) in vec3 kind_in;    // 1: the ball's closeness darkens, 0: its shadow; 1: other planes may cut it off;
                                          // the wall's number, or -1: a plane
 #ifdef SOLIDS
-layout(location = 6) in vec4 solid_in;   // half size, 0: a ball, 1: a box, 2: a cylinder
+layout(location = 6) in vec4 solid_in;   // half size, 0: a ball, 1: a box, 2: a cylinder;
+                                         // file, reach, -, 3: a mesh
 flat out vec4 solid;
 #endif
 flat out vec4 ball;
@@ -82,6 +83,10 @@ void main() {
     float d2 = max(dot(to_ball, to_ball), 1e-30);
     float taken = dot(normal, to_ball) * ball.w * ball.w / (d2 * sqrt(d2));
     sky = 1 - 0.85 * clamp((taken - LEAST_TAKEN) / (1 - LEAST_TAKEN), 0, 1);
+#ifdef MESHES
+  } else if (solid.w > 2.5) {
+    open = through_mesh(p, towards_light(0, p), to_ball, solid.x, solid.y);
+#endif
 #ifdef SOLIDS
   } else if (solid.w > 0) {
     open = through_solid(p, towards_light(0, p), to_ball, solid.xyz, solid.w < 1.5);
@@ -103,18 +108,21 @@ constexpr double least_slope = 0.03;  // light that grazes a surface more than t
 
 }  // namespace
 
-Shade::Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, bool solids)
+Shade::Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, const MeshShadows* meshes, bool solids)
     : eye_(eye),
       lighting_(lighting),
       surfaces_(surfaces),
+      meshes_(meshes),
       solids_(solids),
-      program_({solids ? "#define SOLIDS\n" : "", vertex_shader},
-               {solids ? "#define SOLIDS\n" : "", surfaces.walls() ? "#define WALLS\n" : "",
-                fmt::format("#define PLANES {}\n#define LEAST_TAKEN {}\n", cutting_planes(surfaces), least_taken),
-                lighting.shader(), fragment_shader}),
+      program_(
+          {solids ? "#define SOLIDS\n" : "", vertex_shader},
+          {solids ? "#define SOLIDS\n" : "", surfaces.walls() ? "#define WALLS\n" : "",
+           fmt::format("#define PLANES {}\n#define LEAST_TAKEN {}\n", cutting_planes(surfaces), least_taken),
+           meshes ? "#define MESHES\n" : "", lighting.shader(), meshes ? MeshShadows::shader() : "", fragment_shader}),
       instances_(solids ? gl::Instances{3, 3, 3, 4, 3, 3, 4} : gl::Instances{3, 3, 3, 4, 3, 3}) {
   program_.use();
   lighting.set(program_);
+  if (meshes) meshes->set(program_, 2);
   glUniform2f(program_.at("tangent"), static_cast<float>(eye.tan_x), static_cast<float>(eye.tan_y));
   glUniform1f(program_.at("near"), static_cast<float>(eye.camera.near));
   glUniform1f(program_.at("pixel"), static_cast<float>(eye.pixel));
@@ -163,7 +171,8 @@ void Shade::add(Darkens darkens, const Thing& ball, std::size_t surface, const V
   rows_.push_back(s.wall ? static_cast<float>(surface) : -1.0F);
   if (!solids_) return;
   push(ball.half);
-  rows_.push_back(ball.shape == Shape::sphere ? 0.0F : ball.shape == Shape::box ? 1.0F : 2.0F);
+  const bool outline = ball.mesh && meshes_;
+  rows_.push_back(outline ? 3.0F : ball.shape == Shape::sphere ? 0.0F : ball.shape == Shape::box ? 1.0F : 2.0F);
 }
 
 void Shade::add_shadow(const Thing& ball, std::size_t surface) {
@@ -224,19 +233,29 @@ void Shade::add_closeness(const Thing& thing, std::size_t surface) {
       wide * s.normal.cross(s.right));
 }
 
-void Shade::draw(std::span<const Thing> balls, const Backdrop& backdrop, const gl::TexelBuffer& rows) {
+void Shade::draw(const Things& things, const Backdrop& backdrop, const gl::TexelBuffer& rows) {
   rows_.clear();
   for (std::size_t k = 0; k < surfaces_.all().size(); ++k) {
     if (!surfaces_.all()[k].seen()) continue;
-    for (const Thing& ball : balls) {
-      add_shadow(ball, k);
-      add_closeness(ball, k);
+    for (const Thing& thing : things.all()) {
+      add_closeness(thing, k);
+      const Look& look = things.look(thing);
+      if (!thing.mesh || look.outline_reach == 0) {
+        add_shadow(thing, k);
+        continue;
+      }
+      Thing outline = thing;  // with what through_mesh wants in place of its half size
+      outline.center = thing.mesh_middle;
+      outline.radius = look.outline_reach;
+      outline.half = Vec3(static_cast<double>(look.file), look.outline_reach, 0);
+      add_shadow(outline, k);
     }
   }
   if (rows_.empty()) return;
   program_.use();
   gl::bind_texture(0, backdrop.lit);
   rows.bind(1);
+  if (meshes_) meshes_->bind(2);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_GREATER);
   glDepthMask(GL_FALSE);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/backdrop.h"
+#include "render/mesh_shadows.h"
 #include "render/occluders.h"
 
 namespace carom {
@@ -12,10 +13,10 @@ namespace carom {
 class Shade {
  public:
   /// `solids`: there may be things that are no balls.
-  Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, bool solids);
+  Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, const MeshShadows* meshes, bool solids);
 
   /// Darkens the bound framebuffer, a copy of the backdrop, where things take light away from its surfaces.
-  void draw(std::span<const Thing> balls, const Backdrop& backdrop, const gl::TexelBuffer& rows);
+  void draw(const Things& things, const Backdrop& backdrop, const gl::TexelBuffer& rows);
 
  private:
   void add_shadow(const Thing& ball, std::size_t surface);
@@ -27,6 +28,7 @@ class Shade {
   const Eye& eye_;
   const Lighting& lighting_;
   const Surfaces& surfaces_;
+  const MeshShadows* meshes_;  // null: none casts a shadow of its own
   bool solids_;
   gl::Program program_;
   gl::Instances instances_;

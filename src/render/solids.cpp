@@ -20,18 +20,21 @@ float f(double x) {
 
 }  // namespace
 
-Solids::Solids(const Things& things, const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, bool smooth)
+Solids::Solids(const Shapes& shapes, const Eye& eye, const Lighting& lighting, const Surfaces& surfaces,
+               const MeshShadows* meshes, bool smooth)
     : eye_(eye),
       lighting_(lighting),
       surfaces_(surfaces),
+      meshes_(meshes),
       fine_(smooth ? 4 : 1),
-      shapes_(things.files()),
+      shapes_(shapes),
       axes_{eye.direction(Vec3::Unit(0)), eye.direction(Vec3::Unit(1)), eye.direction(Vec3::Unit(2))},
       closed_points_({point_vertex_shader}, {"#define CLOSED\n", point_fragment_shader}),
       open_points_({point_vertex_shader}, {point_fragment_shader}),
       shade_({rectangle_vertex_shader},
              {fmt::format("#define SOLIDS\n#define FINE {}\n{}", fine_, surfaces.walls() ? "#define WALLS\n" : ""),
-              lighting.shader(), material_shader, pixel_fragment_shader}),
+              meshes ? "#define MESHES\n" : "", lighting.shader(), meshes ? MeshShadows::shader() : "", material_shader,
+              pixel_fragment_shader}),
       draw_({rectangle_vertex_shader}, {onto_fragment_shader}),
       rectangles_({4}) {
   const auto [width, height] = eye.size;
@@ -57,6 +60,7 @@ Solids::Solids(const Things& things, const Eye& eye, const Lighting& lighting, c
   }
   shade_.use();
   lighting.set(shade_);
+  if (meshes) meshes->set(shade_, 7);
   GLint unit = 0;
   for (const char* name : {"occluder_rows", "rows", "edges", "edge_depths", "looks", "what", "what_depth"})
     glUniform1i(shade_.at(name), unit++);
@@ -94,7 +98,7 @@ Solids::Placed Solids::place(const Things& things, const Thing& thing, std::size
     const Look& look = things.look(thing);
     shape = Shapes::file(look.file);
     scale = Vec3::Constant(look.mesh->scale);
-    origin += eye_.direction(look.mesh->scale * (shapes_.middle(shape) - look.mesh->center));
+    origin = thing.mesh_middle;
   }
   Placed placed{};
   placed.shape = shape;
@@ -117,7 +121,7 @@ void Solids::collect(const Things& things) {
     const std::size_t number = placed_.size() + 1;  // 0: nothing
     placed_.push_back(place(things, thing, number));
     const std::size_t first = occluder_row_.size() / 4;
-    occluders.append_rows(i, surfaces_, occluder_row_);
+    occluders.append_rows(i, things, surfaces_, occluder_row_);
     for (const float c : things.look(thing).color) look_row_.push_back(c);
     for (const std::size_t x :
          {std::size_t{0}, first, occluder_row_.size() / 4 - first, std::size_t{0}, std::size_t{0}})
@@ -206,6 +210,7 @@ void Solids::shade(const Tile& tile, const Backdrop& backdrop, const gl::TexelBu
   glUniform2i(shade_.at("tile"), tile.bounds.left, tile.bounds.top);
   occluders_.bind(0);
   rows.bind(1);
+  if (meshes_) meshes_->bind(7);
   if (surfaces_.walls()) {
     gl::bind_texture(2, backdrop.edge);
     gl::bind_texture(3, backdrop.edge_depth);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/backdrop.h"
+#include "render/mesh_shadows.h"
 #include "render/occluders.h"
 #include "render/shapes.h"
 #include "render/things.h"
@@ -16,9 +17,8 @@ namespace carom {
 
 class Solids {
  public:
-  Solids(const Things& things, const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, bool smooth);
-
-  const Shapes& shapes() const { return shapes_; }
+  Solids(const Shapes& shapes, const Eye& eye, const Lighting& lighting, const Surfaces& surfaces,
+         const MeshShadows* meshes, bool smooth);
 
   /// Shades the things that are no balls, aside from the picture. Leaves another framebuffer bound.
   void prepare(const Things& things, const Backdrop& backdrop, const gl::TexelBuffer& rows);
@@ -51,8 +51,9 @@ class Solids {
   const Eye& eye_;
   const Lighting& lighting_;
   const Surfaces& surfaces_;
-  int fine_;  // points along a pixel's side
-  Shapes shapes_;
+  const MeshShadows* meshes_;  // null: none casts a shadow of its own
+  int fine_;                   // points along a pixel's side
+  const Shapes& shapes_;
   std::array<Vec3, 3> axes_;  // the world's
   gl::Program closed_points_, open_points_, shade_, draw_;
   gl::Texture what_, what_depth_;    // of a tile, by points: number and normal; near / z

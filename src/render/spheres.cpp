@@ -103,17 +103,20 @@ constexpr std::size_t most_rows = (std::size_t{1} << 24) - 4096;
 
 }  // namespace
 
-Spheres::Spheres(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, bool solids, bool smooth)
+Spheres::Spheres(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, const MeshShadows* meshes,
+                 bool solids, bool smooth)
     : eye_(eye),
       lighting_(lighting),
       surfaces_(surfaces),
+      meshes_(meshes),
       smooth_(smooth),
-      program_({vertex_shader},
-               {smooth ? "#define SMOOTH\n" : "", surfaces.walls() ? "#define WALLS\n" : "",
-                solids ? "#define SOLIDS\n" : "", lighting.shader(), material_shader, fragment_shader}),
+      program_({vertex_shader}, {smooth ? "#define SMOOTH\n" : "", surfaces.walls() ? "#define WALLS\n" : "",
+                                 solids ? "#define SOLIDS\n" : "", meshes ? "#define MESHES\n" : "", lighting.shader(),
+                                 meshes ? MeshShadows::shader() : "", material_shader, fragment_shader}),
       instances_({4, 4, 4, 4, 2}) {
   program_.use();
   lighting.set(program_);
+  if (meshes) meshes->set(program_, 4);
   glUniform2f(program_.at("tangent"), static_cast<float>(eye.tan_x), static_cast<float>(eye.tan_y));
   glUniform1f(program_.at("pixel"), static_cast<float>(eye.pixel));
   glUniform1f(program_.at("near"), static_cast<float>(eye.camera.near));
@@ -151,7 +154,7 @@ void Spheres::draw(const Things& things, const Backdrop& backdrop, const gl::Tex
     const std::size_t first = occluder_row_.size() / 4;
     if (large && first < most_rows) {
       if (!occluders) occluders.emplace(balls, lighting_);
-      occluders->append_rows(i, surfaces_, occluder_row_);
+      occluders->append_rows(i, things, surfaces_, occluder_row_);
     }
     for (double x : {ball.center.x(), ball.center.y(), ball.center.z(), ball.radius, o.x, o.y, o.ax, o.ay, b, o.depth2,
                      opacity, 0.0})
@@ -165,6 +168,7 @@ void Spheres::draw(const Things& things, const Backdrop& backdrop, const gl::Tex
   if (!occluder_row_.empty()) occluders_.fill(occluder_row_);
   occluders_.bind(0);
   rows.bind(1);
+  if (meshes_) meshes_->bind(4);
   if (surfaces_.walls()) {
     gl::bind_texture(2, backdrop.edge);
     gl::bind_texture(3, backdrop.edge_depth);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "render/backdrop.h"
+#include "render/mesh_shadows.h"
 #include "render/occluders.h"
 #include "render/things.h"
 
@@ -11,7 +12,8 @@ namespace carom {
 class Spheres {
  public:
   /// `solids`: there may be things that are no balls, which cast shadows too. `smooth`: outlines are anti-aliased.
-  Spheres(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, bool solids, bool smooth);
+  Spheres(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, const MeshShadows* meshes, bool solids,
+          bool smooth);
 
   /// Draws the balls among the things onto the bound framebuffer.
   void draw(const Things& things, const Backdrop& backdrop, const gl::TexelBuffer& rows);
@@ -20,6 +22,7 @@ class Spheres {
   const Eye& eye_;
   const Lighting& lighting_;
   const Surfaces& surfaces_;
+  const MeshShadows* meshes_;  // null: none casts a shadow of its own
   bool smooth_;
   gl::Program program_;
   gl::Instances instances_;

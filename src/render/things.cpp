@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/lighting.h"
+#include "render/mesh_shadows.h"
 #include "render/surfaces.h"
 
 namespace carom {
@@ -35,9 +36,22 @@ Look Things::look_of(const Color& color, const std::optional<MeshUse>& mesh) {
   return look;
 }
 
+void Things::measure(const Shapes& shapes, bool outlines) {
+  for (Look& look : looks_) {
+    if (!look.mesh) continue;
+    const double scale = look.mesh->scale;
+    look.mesh_radius = scale * shapes.radius(look.file, look.mesh->center);
+    look.mesh_middle = scale * (shapes.middle(Shapes::file(look.file)) - look.mesh->center);
+    look.outline_reach = outlines ? scale * MeshShadows::reach(shapes, look.file) : 0;
+  }
+}
+
 void Things::add(const Vec3& position, const Volume& volume, double radius, std::uint32_t look, bool mesh) {
-  Thing thing{eye_.point(position), radius, volume.shape, volume.half, look, mesh};
-  if (mesh) thing.radius = std::max(radius, looks_[look].mesh_radius);
+  Thing thing{eye_.point(position), radius, volume.shape, volume.half, look, mesh, Vec3::Zero()};
+  if (mesh) {
+    thing.radius = std::max(radius, looks_[look].mesh_radius);
+    thing.mesh_middle = eye_.point(position + looks_[look].mesh_middle);
+  }
   const auto i = static_cast<std::uint32_t>(all_.size());
   all_.push_back(thing);
   // A thing around the eye would only be its own inside.

@@ -15,21 +15,27 @@
 
 namespace carom {
 
+class Shapes;
+
 struct Thing {
-  Vec3 center;                  // m
-  double radius;                // m, of a ball around it
-  Shape shape = Shape::sphere;  // of its volume
-  Vec3 half = Vec3::Zero();     // m, of its volume, along the world's axes
-  std::uint32_t look = 0;       // Things::look
-  bool mesh = false;            // is drawn as its look's mesh
+  Vec3 center;                      // m
+  double radius;                    // m, of a ball around it
+  Shape shape = Shape::sphere;      // of its volume
+  Vec3 half = Vec3::Zero();         // m, of its volume, along the world's axes
+  std::uint32_t look = 0;           // Things::look
+  bool mesh = false;                // is drawn as its look's mesh
+  Vec3 mesh_middle = Vec3::Zero();  // m, of that mesh
 };
 
 /// What a body or obstacle always looks like.
 struct Look {
   std::array<float, 3> color{1, 1, 1};  // linear
   std::optional<MeshUse> mesh = std::nullopt;
-  std::size_t file = 0;    // the mesh's, in Things::files()
-  double mesh_radius = 0;  // m, of a ball around the mesh as it is drawn
+  std::size_t file = 0;  // the mesh's, in Things::files()
+  // Of the mesh as it is drawn, m:
+  double mesh_radius = 0;           // of a ball about the body's position
+  Vec3 mesh_middle = Vec3::Zero();  // from the position, along the world's axes
+  double outline_reach = 0;         // MeshShadows::reach; 0: it casts its volume's shadow
 };
 
 class Things {
@@ -38,12 +44,8 @@ class Things {
 
   /// The files of the meshes, each one once.
   const std::vector<std::string>& files() const { return files_; }
-  /// `radius_of(file, center)`: of the ball about `center` that holds a mesh's vertices, in its file's units.
-  template <typename Radius>
-  void measure(Radius radius_of) {
-    for (Look& look : looks_)
-      if (look.mesh) look.mesh_radius = look.mesh->scale * radius_of(look.file, look.mesh->center);
-  }
+  /// To be told once the files are read.
+  void measure(const Shapes& shapes, bool outlines);
 
   bool any() const { return !looks_.empty(); }
   bool any_solids() const { return any_solids_; }  // whether there may be something that is no ball

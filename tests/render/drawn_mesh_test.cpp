@@ -74,15 +74,52 @@ TEST(DrawnMesh, IsWhereItsVerticesAreToAPixel) {
   }
 }
 
+/// A file that goes with its owner.
+struct MeshText {
+  explicit MeshText(const std::string& text) {
+    if (!mkdtemp(folder.data())) ADD_FAILURE() << "no temporary folder";
+    file = folder + "/mesh.obj";
+    std::ofstream(file) << text;
+  }
+  ~MeshText() { std::filesystem::remove_all(folder); }
+  std::string folder = ::testing::TempDir() + "carom_drawn_XXXXXX", file;
+};
+
+TEST(DrawnMesh, CastsItsOwnOutlineInParallelLight) {
+  // A level L, of the square from -1 to 1 without its quarter x > 0, z > 0.
+  const MeshText l("v -1 0 -1\nv 1 0 -1\nv 1 0 0\nv -1 0 0\nv 0 0 0\nv 0 0 1\nv -1 0 1\nf 1 2 3 4\nf 4 5 6 7\n");
+  Scene scene;
+  test::add_body(scene, Vec3(0, 3, 0), Volume::box(Vec3(2, 0.1, 2)), white);
+  scene.roster.bodies.back().mesh = MeshUse{l.file, Vec3::Zero(), 1};
+  test::add_ball(scene, Vec3(3, 0.3, 0), 0.3, white);
+  test::add_plane(scene, Vec3::Zero(), Vec3(0, 1, 0), {0.5, 0.5, 0.5});
+  Camera camera;
+  camera.eye = Vec3(0, 8, 8);
+  scene.camera = camera;
+  scene.ambient = Color{0.2, 0.2, 0.2};
+  scene.lights.push_back({"noon", Vec3(0, -1, 0), {}, white, 0.8});
+  Renderer renderer(scene, {400, 400}, 4);
+  const Image& image = renderer.draw(scene.initial);
+  const auto light = [&](double x, double z) { return test::grey_at(image, scene, Vec3(x, 0, z)); };
+  const double open = light(-2, 0);
+  for (const auto& [x, z] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {-0.5, 0.5}, {0.9, -0.1}, {-0.1, 0.9}})
+    EXPECT_LT(light(x, z), 0.55 * open) << x << ' ' << z;
+  for (const auto& [x, z] : {std::pair{0.5, 0.5}, {0.12, 0.12}, {1.1, -0.5}, {-0.5, 1.1}})  // blur: 0.06 m
+    EXPECT_GT(light(x, z), 0.75 * open) << x << ' ' << z;
+
+  // And on a ball below.
+  State state = scene.initial;
+  const double lit = test::grey_at(image, scene, Vec3(3, 0.6, 0));
+  state.position[1] = Vec3(-0.5, 0.3, -0.5);
+  EXPECT_LT(test::grey_at(renderer.draw(state), scene, Vec3(-0.5, 0.6, -0.5)), 0.7 * lit);
+}
+
 TEST(DrawnMesh, IsShadedAlikeWhicheverWayItsFacesTurn) {
-  std::string folder = ::testing::TempDir() + "carom_faces_XXXXXX";
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
   const std::string corners = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
-  std::ofstream(folder + "/a.obj") << corners << "f 1 2 3 4\n";
-  std::ofstream(folder + "/b.obj") << corners << "f 4 3 2 1\n";
+  const MeshText one(corners + "f 1 2 3 4\n"), other(corners + "f 4 3 2 1\n");
   std::array<double, 2> seen{};
   for (std::size_t i = 0; i < 2; ++i) {
-    Scene scene = mesh_scene(folder + (i ? "/b.obj" : "/a.obj"), Vec3::Zero(), Vec3::Zero(), 1);
+    Scene scene = mesh_scene(i ? other.file : one.file, Vec3::Zero(), Vec3::Zero(), 1);
     scene.lights[0] = {"sun", Vec3(0, 0, -1), {}, white, 0.5};
     scene.ambient = Color{0.3, 0.3, 0.3};
     Renderer renderer(scene, {100, 100}, 4);
@@ -90,7 +127,6 @@ TEST(DrawnMesh, IsShadedAlikeWhicheverWayItsFacesTurn) {
   }
   EXPECT_GT(seen[0], 100);
   EXPECT_NEAR(seen[0], seen[1], 1);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(DrawnMesh, OfAJointBodyGivesWayToItsVolume) {
