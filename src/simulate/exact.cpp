@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t collision_buffer = 4096;
 constexpr std::uint32_t events_at_a_time = 65536;
+constexpr double least_speed = 0x1p-900;  // m/s; below, products underflow and a body is as good as still
 
 }  // namespace
 
@@ -33,7 +34,12 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       contacts_(world.fixed_count() > 0 && !world.gravity.isZero(0) ? world.body_count() : 0),
       burst_(contacts_.size()),
       grid_(world.body_count()),
-      queue_(world.body_count(), Before{this}) {
+      queue_(world.body_count(), Before{this}),
+      place_(contacts_.size(), Place::outside),
+      pressed_(contacts_.size()),
+      pulled_(contacts_.size()),
+      jostled_(contacts_.size()),
+      idle_(contacts_.size()) {
   const Entity n = world.body_count();
   state_.position.resize(n);
   state_.velocity.resize(n);
@@ -88,6 +94,7 @@ void ExactSimulator::advance_to(double time) {
 
 void ExactSimulator::process(Entity i) {
   const Event event = event_[i];
+  if (getenv("EV") && event.time.hi > atof(getenv("EV"))) fprintf(stderr, "ev %.17g kind %d %u %u place %d %d jost %u crowdend %.17g u %g\n", event.time.hi, int(event.kind), i, event.partner, int(place_[i]), world_.is_body(event.partner)?int(place_[event.partner]):9, jostled_[i], crowd_end_.hi, world_.is_body(event.partner)?(flight_[i].v-flight_[event.partner].v).dot((flight_[event.partner].x-flight_[i].x).normalized()):0.);
   if (now_ < event.time) now_ = event.time;
   switch (event.kind) {
     case Kind::body_body:
@@ -104,6 +111,12 @@ void ExactSimulator::process(Entity i) {
       break;
     case Kind::release:
       release(i, event.partner, event.feature);
+      break;
+    case Kind::step:
+      if (event.time == crowd_end_)
+        step_crowd();
+      else
+        predict(i);  // there has been a step since
       break;
     case Kind::leave_region:
       rebuild_region(i);
@@ -125,9 +138,11 @@ void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin orig
                     "shorten simulate.duration",
                     now_.hi));
   tally_.max_speed = std::max(tally_.max_speed, speed);
+  // What holds a body against gravity does work where it yields.
+  if (flight_[i].a != world_.gravity) lose(world_.mass[i] * (world_.gravity - flight_[i].a).dot(x - flight_[i].x));
   flight_[i].start = now_;
   flight_[i].x = x;
-  flight_[i].v = v;
+  flight_[i].v = speed < least_speed ? Vec3(Vec3::Zero()) : v;
   flight_[i].a = contact_acceleration(i);
   origin_[i] = origin;
   ++version_[i];

@@ -43,6 +43,7 @@ void ExactSimulator::predict(Entity i) {
       if (rim.time < never) offer(i, best, {f.start + rim.time, contact.surface, 0, Kind::release, rim.feature});
     }
   }
+  if (!place_.empty() && place_[i] == Place::crowd) offer(i, best, {crowd_end_, no_entity, 0, Kind::step, no_feature});
   offer(i, best, {leave_time(i), no_entity, 0, Kind::leave_region, no_feature});
   event_[i] = best;
   queue_.update(i);
@@ -77,7 +78,16 @@ Instant ExactSimulator::pair_time(Entity i, Entity j) const {
   if (m.a.isZero(0) && m.d.dot(m.w) >= 0) return {never, 0};
   m.speeds = sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a);
   m.just_separated = p.start == q.start && origin_[a].partner == b && origin_[b].partner == a;
-  const double t = sphere_contact_time(m, world_.radius[a] + world_.radius[b], Instant{options_.duration, 0} - base);
+  // A flight of the crowd lasts until its next step.
+  const bool step = !place_.empty() && (place_[a] == Place::crowd || place_[b] == Place::crowd);
+  const double horizon = (step && crowd_end_.hi < options_.duration ? crowd_end_ : Instant{options_.duration, 0}) - base;
+  const double s = world_.radius[a] + world_.radius[b];
+  if (step) {
+    m.speeds += 16 * std::sqrt(world_.gravity.norm() * s);  // what steps round velocities by
+    const double reach = s + horizon * (sum_of_speeds(m.w) + horizon * sum_of_speeds(m.a));
+    if (m.d.squaredNorm() > reach * reach) return {never, 0};
+  }
+  const double t = sphere_contact_time(m, s, horizon);
   return t == never ? Instant{never, 0} : base + t;
 }
 
@@ -89,7 +99,8 @@ Instant ExactSimulator::fixed_time(Entity i, Entity surface, std::uint8_t& featu
   double t;
   if (world_.is_plane(surface)) {
     const Plane& plane = world_.plane(surface);
-    const double noise = 0x1p-49 * sum_of_speeds(f.v);
+    const double steps = crowded(i) ? 16 * std::sqrt(world_.gravity.norm() * world_.radius[i]) : 0;
+    const double noise = 0x1p-49 * (sum_of_speeds(f.v) + steps);
     t = plane_contact_time(plane_gap(f.x, plane.point, plane.normal, world_.radius[i]), plane.normal.dot(f.v),
                            plane.normal.dot(f.a), noise, left, horizon);
   } else {

@@ -6,10 +6,8 @@
 // is put to rest: from then on it moves in the surface, with the reaction taken from its acceleration, and its path is
 // a parabola again.
 //
-// Contact that is curved, a ball carried by a ball, an edge or a corner, has no such path. There the carried body hops:
-// an impact under load that would leave it with less than slow_speed leaves it with slow_speed, and as long as no
-// faster impact comes, hopping bodies come to rest on flat surfaces from any slower one. Such impacts are contact, not
-// collisions: they are neither counted nor recorded.
+// Contact of any other kind, a body carried by a body, an edge or a corner, has no such path: such bodies join the crowd
+// (exact_crowd.cpp).
 #include <algorithm>
 #include <cmath>
 
@@ -38,17 +36,28 @@ bool too_low(const Vec3& x, double speed, double press) {
 /// The speed (m/s) under which impacts in lasting contact no longer count one by one: rest_speed, or by default a
 /// hundredth of the speed gained over `length` (m) at the pressing acceleration (m/s^2).
 double ExactSimulator::slow_speed(double press, double length) const {
-  return options_.rest_speed > 0 ? options_.rest_speed : 1e-2 * std::sqrt(press * length);
+  return options_.rest_speed > 0 ? options_.rest_speed : 0.03 * std::sqrt(press * length);
 }
 
-/// Counts a slow impact of body i. Many within the time of one hop: it is in lasting contact, whichever of its partners
-/// is in the air just now.
+/// Counts a slow impact of body i. Many within the time of one hop at that speed: its bounces are about to end.
 bool ExactSimulator::in_burst(Entity i, double slow) {
   constexpr int many = 16;
-  if (burst_.empty()) return false;
   Burst& burst = burst_[i];
   if (now_.hi - burst.start > 2 * slow / world_.gravity.norm()) burst = {now_.hi, 0};
   return ++burst.impacts > many;
+}
+
+/// Whether an impact is the end of bouncing: lasting contact takes it up, nothing is left of the approach (m/s).
+/// `press` is the acceleration (m/s^2) that drives the two together.
+bool ExactSimulator::taken_up(Entity a, Entity b, double e, double approach, double press, double length) {
+  if (place_.empty() || e >= 1) return false;
+  const double slow = slow_speed(world_.gravity.norm(), length);
+  if (approach >= slow) return false;
+  const bool a_in = crowded(a), b_in = crowded(b);
+  if (a_in && (b_in || !world_.is_body(b))) return true;
+  if (press > 0 && (a_in || b_in)) return true;
+  const bool burst_a = in_burst(a, slow), burst_b = world_.is_body(b) && in_burst(b, slow);
+  return burst_a || burst_b;
 }
 
 void ExactSimulator::collide_pair(Entity a, Entity b) {
@@ -63,33 +72,29 @@ void ExactSimulator::collide_pair(Entity a, Entity b) {
   const Vec3 n = d / distance;
   const double approach = std::max(-w.dot(n), 0.0);
   const double e = pair_restitution(world_, a, b);
-  double separation = e * approach;
-  const Vec3 relative_a = q.a - p.a;
-  bool hop = false;
-  if (!relative_a.isZero(0)) {
-    const double press = -(w.squaredNorm() - approach * approach + d.dot(relative_a)) / distance;
-    if (press > 0 && separation < slow_speed(press, distance)) {
-      separation = slow_speed(press, distance);
-      hop = true;
-    }
-  }
+  const double press = -(w.squaredNorm() - approach * approach + d.dot(q.a - p.a)) / distance;
+  const bool take_up = taken_up(a, b, e, approach, press, distance);
+  const double separation = take_up ? 0 : e * approach;
   const double impulse = impact_impulse(ma, mb, approach, separation);
   const double lost = impact_loss(ma, mb, approach, separation);
   lose(lost);
   tally_.max_overlap = std::max(tally_.max_overlap, world_.radius[a] + world_.radius[b] - distance);
   tally_.max_speed = std::max({tally_.max_speed, va.norm(), vb.norm()});
-  const double slow = slow_speed(world_.gravity.norm(), distance);
-  const bool burst_a = approach < slow && in_burst(a, slow), burst_b = approach < slow && in_burst(b, slow);
-  const bool hopping_a = approach < slow && (hop || burst_a || origin_[a].hopping);
-  const bool hopping_b = approach < slow && (hop || burst_b || origin_[b].hopping);
-  if (!hopping_a && !hopping_b)
+  if (!take_up)
     record({now_.hi, CollisionKind::body_body, a, b, xa + world_.radius[a] * n, n, approach, separation, e, impulse,
             lost});
-  const double floor_slow = slow_speed(world_.gravity.norm(), std::min(world_.radius[a], world_.radius[b]));
-  restart(a, xa, keep_contacts(a, va - (impulse / ma) * n, hopping_a ? never : floor_slow), {b, no_feature, hopping_a});
-  restart(b, xb, keep_contacts(b, vb + (impulse / mb) * n, hopping_b ? never : floor_slow), {a, no_feature, hopping_b});
+  for (Entity i : {a, b})
+    if (take_up || (crowded(i) && place_[i] == Place::asleep)) join(i);
+  for (Entity i : {a, b})
+    if (crowded(i)) stir(i, approach);
+  restart(a, xa, keep_contacts(a, va - (impulse / ma) * n), {b, no_feature});
+  restart(b, xb, keep_contacts(b, vb + (impulse / mb) * n), {a, no_feature});
   predict(a);
   predict(b);
+  if (take_up) {
+    jostle(a);
+    jostle(b);
+  }
 }
 
 void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t feature) {
@@ -125,38 +130,39 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
   tally_.max_overlap = std::max(tally_.max_overlap, -gap);
   tally_.max_speed = std::max(tally_.max_speed, v.norm());
 
-  const bool slow = approach < slow_speed(world_.gravity.norm(), radius);
-  bool hopping = slow && origin_[i].hopping;
   Contact contact{surface, feature, false, now_, separation};
   bool rests = false;
-  if (press > 0 && !flat && separation < slow_speed(press, radius)) {
-    separation = slow_speed(press, radius);
-    hopping = slow;
-  }
-  if (press > 0 && flat && !contacts_.empty() && contacts_[i].count < max_contacts && (e < 1 || approach == 0)) {
+  if (press > 0 && flat && !contacts_.empty() && !crowded(i) && contacts_[i].count < max_contacts &&
+      (e < 1 || approach == 0)) {
     const double left = separation == 0 ? 0 : 2 * separation / (press * (1 - e));
     const bool carried = contacts_[i].count > 0 && origin_[i].partner != surface;
-    rests = now_.hi + left == now_.hi || approach < options_.rest_speed || (carried && too_low(x, approach, press)) ||
-            (hopping && approach < slow_speed(press, radius));
+    rests = now_.hi + left == now_.hi || approach < options_.rest_speed || (carried && too_low(x, approach, press));
     contact.rest_time = now_ + left;
-    contact.settling = rests && !hopping;
+    contact.settling = rests;
   }
+  const bool take_up = !rests && taken_up(i, surface, e, approach, press, radius);
+  if (take_up) {
+    separation = 0;
+    join(i);
+  } else if (crowded(i) && place_[i] == Place::asleep) {
+    join(i);
+  }
+  if (crowded(i)) stir(i, approach);
   if (approach > 0 || separation > 0) {
     const double lost = impact_loss(mass, immovable, approach, separation);
     lose(lost);
-    if (!hopping)
+    if (!take_up)
       record({now_.hi, CollisionKind::body_fixed, i, surface, x + radius * n, n, approach, separation, e,
               impact_impulse(mass, immovable, approach, separation), lost});
   }
   if (rests) {
     settle(i, contact);
-    restart(i, x + gap * n, keep_contacts(i, v - approach * n, 0), {surface, feature, hopping});
+    restart(i, x + gap * n, keep_contacts(i, v - approach * n), {surface, feature});
   } else {
-    restart(i, x,
-            keep_contacts(i, v - (approach + separation) * n, hopping ? slow_speed(world_.gravity.norm(), radius) : 0),
-            {surface, feature, hopping});
+    restart(i, x, keep_contacts(i, v - (approach + separation) * n), {surface, feature});
   }
   predict(i);
+  if (take_up) jostle(i);
 }
 
 /// Adds a surface to those that carry body i.
@@ -200,9 +206,8 @@ void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
 
 /// A body's velocity has become v: which contacts still carry it? One that it leaves, or strikes, is given up (the
 /// strike comes next, as an event), unless the hop or the bounce would be one that numbers cannot tell from none.
-/// A strike no faster than `absorb` (m/s) is taken up by the contact as well. Gives the velocity that the contacts
-/// allow.
-Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v, double absorb) {
+/// Gives the velocity that the contacts allow.
+Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v) {
   if (contacts_.empty() || contacts_[i].count == 0) return v;
   Contacts& contacts = contacts_[i];
   const Vec3 x = flight_[i].position(now_ - flight_[i].start);
@@ -214,8 +219,7 @@ Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v, double absorb) {
     const Vec3 n = -contact_normal(contact);
     const double u = n.dot(v);  // into the surface
     press[k] = n.dot(free_acceleration(i, contact.surface));
-    keep[k] =
-        std::abs(u) <= noise || (press[k] > 0 && too_low(x, u, press[k])) || (press[k] > 0 && u > 0 && u <= absorb);
+    keep[k] = std::abs(u) <= noise || (press[k] > 0 && too_low(x, u, press[k]));
     if (keep[k] || u < 0 || press[k] <= 0) continue;
     const double e = pair_restitution(world_, i, contact.surface);
     keep[k] = e < 1 && now_.hi + 2 * e * u / (press[k] * (1 - e)) == now_.hi;
@@ -251,6 +255,7 @@ Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v, double absorb) {
 
 /// The acceleration that gravity and the contacts' reactions leave to body i. Contacts that do not press are given up.
 Vec3 ExactSimulator::contact_acceleration(Entity i) {
+  if (crowded(i)) return Vec3::Zero();  // the crowd's steps have the forces in them
   if (contacts_.empty() || contacts_[i].count == 0) return world_.gravity;
   Contacts& contacts = contacts_[i];
   std::array<Vec3, max_contacts> normals;

@@ -36,6 +36,7 @@ class ExactSimulator final : public Simulator {
   enum class Kind : std::uint8_t {
     rest,          // bounces end: a line in the record
     release,       // a body slides off a wall's face
+    step,          // of the crowd: no impact, but new forces
     body_fixed,    //
     body_body,     //
     leave_region,  // no physics
@@ -54,7 +55,6 @@ class ExactSimulator final : public Simulator {
   struct Origin {
     Entity partner = no_entity;
     std::uint8_t feature = no_feature;
-    bool hopping = false;  // in lasting contact with other bodies: no impact faster than slow_speed since a hop
   };
 
   struct Region {
@@ -83,6 +83,15 @@ class ExactSimulator final : public Simulator {
     int impacts = 0;
   };
 
+  /// What a body of the crowd has to do with it.
+  enum class Place : std::uint8_t { outside, crowd, asleep };
+
+  /// One end of a pressing pair of the crowd: a's list has b.
+  struct Pressed {
+    Entity partner;
+    double force;  // N
+  };
+
   bool before(Entity i, Entity j) const;
   struct Before {
     const ExactSimulator* simulator;
@@ -109,15 +118,24 @@ class ExactSimulator final : public Simulator {
   void settle(Entity i, const Contact& contact);
   void release(Entity i, Entity surface, std::uint8_t edge);
   void finish_rest(Entity i);
-  Vec3 keep_contacts(Entity i, Vec3 v, double absorb);
+  Vec3 keep_contacts(Entity i, Vec3 v);
   Vec3 contact_acceleration(Entity i);
   Vec3 free_acceleration(Entity i, Entity without) const;
   void touch_down(Entity i);
   bool in_burst(Entity i, double slow);
+  bool taken_up(Entity a, Entity b, double e, double approach, double press, double length);
   bool in_contact(Entity i, Entity surface) const;
   Vec3 contact_normal(const Contact& contact) const;
   double slow_speed(double press, double length) const;
   bool is_flat(Entity surface, std::uint8_t feature) const { return world_.is_plane(surface) || feature < wall_edges; }
+
+  // exact_crowd.cpp
+  void join(Entity i);
+  void stir(Entity i, double approach);
+  void wake(Entity i);
+  void jostle(Entity i);
+  void step_crowd();
+  bool crowded(Entity e) const { return !place_.empty() && world_.is_body(e) && place_[e] != Place::outside; }
 
   // exact_region.cpp
   void rebuild_region(Entity i);
@@ -139,6 +157,18 @@ class ExactSimulator final : public Simulator {
   std::vector<Burst> burst_;               // empty where contacts_ is
   RegionGrid grid_;
   Tournament<Before> queue_;
+
+  std::vector<Place> place_;                   // empty where nothing can come to lasting contact
+  std::vector<std::vector<Pressed>> pressed_;  // by the lower body: bodies and fixed things that the crowd's last step
+                                               // found pressing on it
+  std::vector<Entity> crowd_;                  // ascending after each step
+  std::vector<std::uint32_t> local_;           // scratch of a step: a member's place in it
+  std::vector<Instant> pulled_;                // by body of the crowd: gravity is in its velocity up to this instant
+  std::vector<std::uint32_t> jostled_;         // by body of the crowd: impacts taken up since the last step
+  std::vector<std::uint8_t> idle_;             // by body of the crowd: steps since something pressed on it
+  double kept_apart_ = 0;                      // m: the gap that the crowd's steps leave between bodies
+  double crowd_step_ = 0;                      // s, length of the last step
+  Instant crowd_end_{never, 0};                // when the next step is due
 
   State state_;
   bool state_fresh_ = false;
