@@ -21,10 +21,10 @@ struct PressedPair {
   double force = 0;   // in: a guess; out: mass times the unit of u, along the normal, >= 0
 };
 
-/// Moves u (velocities or accelerations; in: free, out: allowed) of bodies with these inverse masses (1/kg) until no pair
-/// falls short of its target by more than its slack. Conjugate gradients on the pairs that press, which are found on the
-/// way: MPRGP (Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23). At most `iterations` of them; whether that was
-/// enough.
+/// Moves u (velocities or accelerations; in: free, out: allowed) of bodies with these inverse masses (1/kg) until no
+/// pair falls short of its target by more than its slack. Conjugate gradients on the pairs that press, which are found
+/// on the way: MPRGP (Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23). At most `iterations` of them; whether
+/// that was enough.
 bool press_apart(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<PressedPair> pairs, int iterations);
 
 }  // namespace carom

@@ -14,10 +14,10 @@ struct State {
 
   // Where bodies have merged (empty: none has). A body that has become part of another keeps its own mass and radius in
   // the World; here it weighs nothing, and its position and velocity are the joint body's.
-  std::vector<double> mass;     // kg, by body
-  std::vector<double> radius;   // m, by body, of the smallest sphere about the volume
-  std::vector<Volume> volume;   // by body
-  std::vector<Entity> part_of;  // the body that it is part of; itself: none
+  std::vector<double> mass{};     // kg, by body
+  std::vector<double> radius{};   // m, by body, of the smallest sphere about the volume
+  std::vector<Volume> volume{};   // by body
+  std::vector<Entity> part_of{};  // the body that it is part of; itself: none
 };
 
 }  // namespace carom

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/contact_time.h"
+#include "physics/complementarity.h"
+#include "physics/force.h"
 #include "simulate/exact_simulator.h"
 
 namespace carom {
@@ -23,40 +24,51 @@ std::unique_ptr<Simulator> make_exact_simulator(const World& world, const State&
 }
 
 ExactSimulator::ExactSimulator(const World& world, const State& initial, const ExactOptions& options)
-    : world_(world),
+    : given_(&world),
+      joint_world_(options.merge ? std::make_unique<World>(world) : nullptr),
+      world_(options.merge ? *joint_world_ : world),
       options_(options),
+      pull_(world.body_count()),
       flight_(world.body_count()),
       origin_(world.body_count()),
       version_(world.body_count()),
       event_(world.body_count()),
       region_(world.body_count()),
       near_(world.body_count()),
-      contacts_(world.fixed_count() > 0 && !world.gravity.isZero(0) ? world.body_count() : 0),
-      burst_(contacts_.size()),
+      contacts_(world.body_count()),
+      burst_(world.body_count()),
       grid_(world.body_count()),
       queue_(world.body_count(), Before{this}),
-      place_(contacts_.size(), Place::outside),
-      pressed_(contacts_.size()),
-      pulled_(contacts_.size()),
-      jostled_(contacts_.size()),
-      idle_(contacts_.size()) {
-  const Entity n = world.body_count();
+      place_(world.body_count(), Place::outside),
+      pressed_(world.body_count()),
+      local_(world.body_count(), PressedPair::none),
+      pulled_(world.body_count()),
+      jostled_(world.body_count()),
+      idle_(world.body_count()) {
+  start(initial);
+}
+
+void ExactSimulator::start(const State& initial) {
+  const Entity n = world_.body_count();
   state_.position.resize(n);
   state_.velocity.resize(n);
-  if (options.record_collisions) collisions_.reserve(collision_buffer);
+  if (options_.record_collisions) collisions_.reserve(collision_buffer);
   for (Entity i = 0; i < n; ++i) {
     Vec3 v = initial.velocity[i];
-    if (!world.impulse.empty()) v += world.impulse[i] / world.mass[i];
-    flight_[i] = {{}, initial.position[i], v, world.gravity};
-    region_[i] = {initial.position[i], 0.5 * world.radius[i], 0};
-    region_[i].half = region_[i].room + world.radius[i];
+    if (!world_.impulse.empty()) v += world_.impulse[i] / world_.mass[i];
+    pull_[i] = world_.forces.empty() ? world_.gravity : carom::free_acceleration(world_, i, 0);
+    flight_[i] = {{}, initial.position[i], v, pull_[i]};
+    region_[i] = {initial.position[i], 0.5 * world_.radius[i], 0};
+    region_[i].half = region_[i].room + world_.radius[i];
     grid_.put(i, region_[i].center, region_[i].half);
     tally_.max_speed = std::max(tally_.max_speed, v.norm());
   }
   for (Entity i = 0; i < n; ++i) {
     find_neighbours(i);
-    if (!contacts_.empty()) touch_down(i);
+    if (!pull_[i].isZero(0) && !options_.merge) touch_down(i);
   }
+  if (!options_.merge)
+    for (Entity i = 0; i < n; ++i) lean_together(i);
   for (Entity i = 0; i < n; ++i) predict(i);
 }
 
@@ -94,17 +106,19 @@ void ExactSimulator::advance_to(double time) {
 
 void ExactSimulator::process(Entity i) {
   const Event event = event_[i];
-  if (getenv("EV") && event.time.hi > atof(getenv("EV"))) fprintf(stderr, "ev %.17g kind %d %u %u place %d %d jost %u crowdend %.17g u %g\n", event.time.hi, int(event.kind), i, event.partner, int(place_[i]), world_.is_body(event.partner)?int(place_[event.partner]):9, jostled_[i], crowd_end_.hi, world_.is_body(event.partner)?(flight_[i].v-flight_[event.partner].v).dot((flight_[event.partner].x-flight_[i].x).normalized()):0.);
   if (now_ < event.time) now_ = event.time;
   switch (event.kind) {
     case Kind::body_body:
       if (version_[event.partner] == event.partner_version)
-        collide_pair(std::min(i, event.partner), std::max(i, event.partner));
+        collide_pair(std::min(i, event.partner), std::max(i, event.partner), event.feature);
       else
         predict(i);  // the other one has changed its path since
       break;
     case Kind::body_fixed:
       collide_fixed(i, event.partner, event.feature);
+      break;
+    case Kind::force:
+      switch_forces(i);
       break;
     case Kind::rest:
       finish_rest(i);
@@ -138,8 +152,7 @@ void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin orig
                     "shorten simulate.duration",
                     now_.hi));
   tally_.max_speed = std::max(tally_.max_speed, speed);
-  // What holds a body against gravity does work where it yields.
-  if (flight_[i].a != world_.gravity) lose(world_.mass[i] * (world_.gravity - flight_[i].a).dot(x - flight_[i].x));
+  book_flight(i, x);
   flight_[i].start = now_;
   flight_[i].x = x;
   flight_[i].v = speed < least_speed ? Vec3(Vec3::Zero()) : v;
@@ -148,9 +161,48 @@ void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin orig
   ++version_[i];
 }
 
+/// Books what forces did to body i on the flight that ends at x (m): the World's, and those that held it against them.
+void ExactSimulator::book_flight(Entity i, const Vec3& x) {
+  if (flight_[i].a == world_.gravity && world_.forces.empty()) return;
+  const Vec3 way = x - flight_[i].x;
+  lose(world_.mass[i] * (pull_[i] - flight_[i].a).dot(way));
+  if (world_.forces.empty()) return;
+  work_.add(world_.mass[i] * (pull_[i] - world_.gravity).dot(way));
+  tally_.work = work_.value();
+}
+
+/// A force on body i sets in or ceases, now.
+void ExactSimulator::switch_forces(Entity i) {
+  const double t = now_ - flight_[i].start;
+  const Vec3 x = flight_[i].position(t);
+  Vec3 v = flight_[i].velocity(t);
+  book_flight(i, x);
+  flight_[i].x = x;
+  flight_[i].v = v;
+  flight_[i].start = now_;
+  Vec3 pull = Vec3::Zero();
+  if (parts_.empty() || parts_[i].empty()) {
+    pull = carom::free_acceleration(world_, i, now_.hi);
+  } else {
+    for (Entity part : parts_[i]) pull += joint_share_[part] * carom::free_acceleration(*given_, part, now_.hi);
+  }
+  if (place_[i] == Place::asleep) join(i);
+  if (place_[i] == Place::crowd) {  // the last step had the old forces in it until its end
+    const Vec3 ahead = (pulled_[i] - now_) * pull_[i];
+    lose(world_.mass[i] * (v - 0.5 * ahead).dot(ahead));
+    v -= ahead;
+    pulled_[i] = now_;
+  }
+  pull_[i] = pull;
+  restart(i, x, keep_contacts(i, v), {});
+  predict(i);
+}
+
 void ExactSimulator::record(const Collision& collision) {
   if (collision.kind != CollisionKind::rest) {
-    ++(collision.kind == CollisionKind::body_body ? tally_.body_body : tally_.body_fixed);
+    ++(collision.kind == CollisionKind::body_body    ? tally_.body_body
+       : collision.kind == CollisionKind::body_fixed ? tally_.body_fixed
+                                                     : tally_.merges);
     if (std::isnan(tally_.first_collision)) tally_.first_collision = collision.time;
     tally_.last_collision = collision.time;
   }
@@ -189,8 +241,28 @@ const State& ExactSimulator::state() {
     state_.velocity[i] = flight_[i].velocity(t);
   }
   // Between collisions a speed is greatest at a flight's ends: the last flights end here.
-  if (time_ >= options_.duration)
-    for (const Vec3& v : state_.velocity) tally_.max_speed = std::max(tally_.max_speed, v.norm());
+  if (time_ >= options_.duration && !ended_) {
+    ended_ = true;
+    for (Entity i = 0; i < world_.body_count(); ++i) {
+      tally_.max_speed = std::max(tally_.max_speed, state_.velocity[i].norm());
+      book_flight(i, state_.position[i]);
+    }
+  }
+  if (!part_of_.empty()) {
+    state_.mass = world_.mass;
+    state_.radius = world_.radius;
+    state_.volume = world_.volume;
+    state_.part_of = part_of_;
+    for (Entity i = 0; i < world_.body_count(); ++i) {
+      if (part_of_[i] == i) continue;
+      Entity whole = part_of_[i];
+      while (part_of_[whole] != whole) whole = part_of_[whole];
+      state_.part_of[i] = whole;
+      state_.mass[i] = 0;
+      state_.position[i] = state_.position[whole];
+      state_.velocity[i] = state_.velocity[whole];
+    }
+  }
   state_fresh_ = true;
   return state_;
 }

@@ -20,13 +20,13 @@ namespace carom {
 
 namespace {
 
-constexpr double step_length = 0.015;    // of the time in which a body falls freely by its own radius
-constexpr double way = 0.02;             // of a radius: what the fastest body may go in a step longer than that
-constexpr double restless_gap = 4e-4;    // of a radius: what bodies that have just been struck are kept apart
-constexpr double calming = 0.5;          // a step leaves of that gap
-constexpr std::uint8_t patience = 8;     // steps without a force, then a body leaves the crowd
-constexpr double resting_gap = 1e-10;    // of a radius: what calm ones are
-constexpr double balanced = 1e-11;       // of gravity: forces whose sum is less hold a body
+constexpr double step_length = 0.015;  // of the time in which a body falls freely by its own radius
+constexpr double way = 0.02;           // of a radius: what the fastest body may go in a step longer than that
+constexpr double restless_gap = 4e-4;  // of a radius: what bodies that have just been struck are kept apart
+constexpr double calming = 0.5;        // a step leaves of that gap
+constexpr std::uint8_t patience = 8;   // steps without a force, then a body leaves the crowd
+constexpr double resting_gap = 1e-10;  // of a radius: what calm ones are
+constexpr double balanced = 1e-11;     // of gravity: forces whose sum is less hold a body
 
 }  // namespace
 
@@ -83,8 +83,6 @@ void ExactSimulator::jostle(Entity i) {
   std::vector<Entity> cluster{i};
   std::vector<PressedPair> pairs;
   const std::uint32_t unseen = PressedPair::none;
-  local_.resize(world_.body_count(), unseen);
-  std::fill(local_.begin(), local_.end(), unseen);
   local_[i] = 0;
   const auto at = [&](Entity k) { return flight_[k].position(now_ - flight_[k].start); };
   for (std::size_t k = 0; k < cluster.size(); ++k) {
@@ -99,9 +97,11 @@ void ExactSimulator::jostle(Entity i) {
         local_[e] = static_cast<std::uint32_t>(cluster.size());
         cluster.push_back(e);
       }
-      if (!body || local_[e] > k) pairs.push_back({static_cast<std::uint32_t>(k), body ? local_[e] : unseen, there.normal});
+      if (!body || local_[e] > k)
+        pairs.push_back({static_cast<std::uint32_t>(k), body ? local_[e] : unseen, there.normal});
     }
   }
+  for (Entity a : cluster) local_[a] = unseen;
   std::vector<Vec3> before(cluster.size()), after;
   std::vector<double> inverse_mass(cluster.size());
   for (std::size_t k = 0; k < cluster.size(); ++k) {
@@ -132,7 +132,6 @@ void ExactSimulator::step_crowd() {
   const std::size_t n = crowd_.size();
   std::vector<Vec3> x(n), v(n), free(n), moved(n);
   std::vector<double> inverse_mass(n);
-  local_.resize(world_.body_count());
   double smallest = never, fastest_pull = 0, fastest = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = crowd_[k];
@@ -144,10 +143,11 @@ void ExactSimulator::step_crowd() {
     inverse_mass[k] = 1 / world_.mass[i];
     smallest = std::min(smallest, world_.radius[i]);
     fastest = std::max(fastest, v[k].norm());
-    fastest_pull = std::max(fastest_pull, world_.gravity.norm());
+    fastest_pull = std::max(fastest_pull, pull_[i].norm());
   }
   const double shortest = step_length * std::sqrt(2 * smallest / fastest_pull);
-  const double h = std::clamp(way * smallest / fastest, shortest, 8 * shortest);
+  const double h = fastest_pull == 0 ? way * smallest / std::max(fastest, 0x1p-900)
+                                     : std::clamp(way * smallest / fastest, shortest, 8 * shortest);
 
   const double kept = kept_apart_ = std::max({kept_apart_, 1e-5 * fastest * h, resting_gap * smallest});
   crowd_step_ = h;
@@ -178,7 +178,7 @@ void ExactSimulator::step_crowd() {
     pressed_[i].clear();
   }
   const Instant end = now_ + h;
-  for (std::size_t k = 0; k < n; ++k) moved[k] = free[k] = v[k] + (end - pulled_[crowd_[k]]) * world_.gravity;
+  for (std::size_t k = 0; k < n; ++k) moved[k] = free[k] = v[k] + (end - pulled_[crowd_[k]]) * pull_[crowd_[k]];
   press_apart(inverse_mass, moved, pairs, 1000);
 
   // Parts that press on one another.
@@ -206,7 +206,8 @@ void ExactSimulator::step_crowd() {
   for (std::uint32_t k = 0; k < n; ++k)
     if (root(k) == k && carried[k] && speed[k] <= still) any = true;
   if (any) {
-    std::vector<Vec3> a(n, world_.gravity);
+    std::vector<Vec3> a(n);
+    for (std::size_t k = 0; k < n; ++k) a[k] = pull_[crowd_[k]];
     std::vector<PressedPair> holding;
     std::vector<std::size_t> which;
     for (std::size_t c = 0; c < pairs.size(); ++c) {
@@ -228,7 +229,6 @@ void ExactSimulator::step_crowd() {
 
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (pairs[c].force > 0) pressed_[names[c].first].push_back({names[c].second, pairs[c].force / h});
-  if (getenv("CROWD")) fprintf(stderr, "t %.4f n %zu pairs %zu fastest %g\n", now_.hi, n, pairs.size(), *std::max_element(speed.begin(), speed.end()));
   crowd_end_ = end;
   std::vector<Entity> members;
   members.swap(crowd_);
@@ -252,6 +252,7 @@ void ExactSimulator::step_crowd() {
   }
   if (crowd_.empty()) crowd_end_ = {never, 0};
   kept_apart_ *= calming;
+  for (Entity i : members) local_[i] = PressedPair::none;
   for (std::size_t k = 0; k < n; ++k) predict(members[k]);
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "physics/contact_time.h"
+#include "physics/force.h"
 #include "simulate/exact_simulator.h"
 
 namespace carom {
@@ -25,25 +26,27 @@ void ExactSimulator::predict(Entity i) {
   }
   for (Entity e : near_[i]) {
     if (world_.is_body(e)) {
-      offer(i, best, {pair_time(i, e), e, version_[e], Kind::body_body, no_feature});
+      std::uint8_t feature = 0;
+      const Instant time = pair_time(i, e, feature);
+      offer(i, best, {time, e, version_[e], Kind::body_body, feature});
     } else if (!in_contact(i, e)) {
       std::uint8_t feature = no_feature;
       const Instant time = fixed_time(i, e, feature);
       offer(i, best, {time, e, 0, Kind::body_fixed, feature});
     }
   }
-  if (!contacts_.empty()) {
-    for (std::size_t k = 0; k < contacts_[i].count; ++k) {
-      const Contact& contact = contacts_[i].at[k];
-      if (contact.settling) offer(i, best, {contact.rest_time, contact.surface, 0, Kind::rest, contact.feature});
-      if (world_.is_plane(contact.surface)) continue;
-      const Flight& f = flight_[i];
-      const WallContact rim =
-          wall_release_time(world_.wall(contact.surface), f.x, f.v, f.a, Instant{options_.duration, 0} - f.start);
-      if (rim.time < never) offer(i, best, {f.start + rim.time, contact.surface, 0, Kind::release, rim.feature});
-    }
+  for (std::size_t k = 0; k < contacts_[i].count; ++k) {
+    const Contact& contact = contacts_[i].at[k];
+    if (contact.settling) offer(i, best, {contact.rest_time, contact.surface, 0, Kind::rest, contact.feature});
+    if (world_.is_plane(contact.surface)) continue;
+    const Flight& f = flight_[i];
+    RelativeMotion m{world_.fixed_position(contact.surface) - f.x, -f.v, -f.a, sum_of_speeds(f.v), true};
+    const Meeting rim =
+        leave_feature(world_, i, contact.surface, contact.feature, m, Instant{options_.duration, 0} - f.start);
+    if (rim.time < never) offer(i, best, {f.start + rim.time, contact.surface, 0, Kind::release, rim.feature});
   }
-  if (!place_.empty() && place_[i] == Place::crowd) offer(i, best, {crowd_end_, no_entity, 0, Kind::step, no_feature});
+  if (!world_.forces.empty()) offer(i, best, {{next_force(i), 0}, no_entity, 0, Kind::force, no_feature});
+  if (place_[i] == Place::crowd) offer(i, best, {crowd_end_, no_entity, 0, Kind::step, no_feature});
   offer(i, best, {leave_time(i), no_entity, 0, Kind::leave_region, no_feature});
   event_[i] = best;
   queue_.update(i);
@@ -64,8 +67,16 @@ void ExactSimulator::offer(Entity i, Event& best, Event candidate) const {
   best = candidate;
 }
 
+/// When a force on body i, or on a part of it, next sets in or ceases.
+double ExactSimulator::next_force(Entity i) const {
+  if (parts_.empty() || parts_[i].empty()) return next_switch(world_, i, now_.hi);
+  double next = never;
+  for (Entity part : parts_[i]) next = std::min(next, next_switch(world_, part, now_.hi));
+  return next;
+}
+
 /// When bodies i and j collide: reckoned from the later of their own clocks, lower number first.
-Instant ExactSimulator::pair_time(Entity i, Entity j) const {
+Instant ExactSimulator::pair_time(Entity i, Entity j, std::uint8_t& feature) const {
   const Entity a = std::min(i, j), b = std::max(i, j);
   const Flight &p = flight_[a], &q = flight_[b];
   const bool p_earlier = p.start < q.start;
@@ -75,19 +86,28 @@ Instant ExactSimulator::pair_time(Entity i, Entity j) const {
   m.w = q.velocity(tq) - p.velocity(tp);
   m.d = q.position(tq) - p.position(tp);
   m.a = q.a - p.a;
-  if (m.a.isZero(0) && m.d.dot(m.w) >= 0) return {never, 0};
+  const bool balls = world_.volume.empty();
+  if (balls && m.a.isZero(0) && m.d.dot(m.w) >= 0) return {never, 0};
   m.speeds = sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a);
   m.just_separated = p.start == q.start && origin_[a].partner == b && origin_[b].partner == a;
   // A flight of the crowd lasts until its next step.
-  const bool step = !place_.empty() && (place_[a] == Place::crowd || place_[b] == Place::crowd);
-  const double horizon = (step && crowd_end_.hi < options_.duration ? crowd_end_ : Instant{options_.duration, 0}) - base;
+  const bool step = (place_[a] == Place::crowd || place_[b] == Place::crowd);
+  const double horizon =
+      (step && crowd_end_.hi < options_.duration ? crowd_end_ : Instant{options_.duration, 0}) - base;
   const double s = world_.radius[a] + world_.radius[b];
   if (step) {
-    m.speeds += 16 * std::sqrt(world_.gravity.norm() * s);  // what steps round velocities by
+    m.speeds += 16 * std::sqrt(std::max(pull_[a].norm(), pull_[b].norm()) * s);  // what steps round velocities by
     const double reach = s + horizon * (sum_of_speeds(m.w) + horizon * sum_of_speeds(m.a));
     if (m.d.squaredNorm() > reach * reach) return {never, 0};
   }
-  const double t = sphere_contact_time(m, s, horizon);
+  double t;
+  if (balls) {
+    t = sphere_contact_time(m, s, horizon);
+  } else {
+    const Meeting first = meeting(world_, a, b, m, m.just_separated ? origin_[a].feature : no_feature, horizon);
+    t = first.time;
+    feature = first.feature;
+  }
   return t == never ? Instant{never, 0} : base + t;
 }
 
@@ -97,17 +117,23 @@ Instant ExactSimulator::fixed_time(Entity i, Entity surface, std::uint8_t& featu
   const double horizon = Instant{options_.duration, 0} - f.start;
   const bool left = origin_[i].partner == surface;
   double t;
-  if (world_.is_plane(surface)) {
+  const bool ball = world_.volume.empty() || world_.volume[i].shape == Shape::sphere;
+  const double steps = crowded(i) ? 16 * std::sqrt(pull_[i].norm() * world_.radius[i]) : 0;
+  if (ball && world_.is_plane(surface)) {
     const Plane& plane = world_.plane(surface);
-    const double steps = crowded(i) ? 16 * std::sqrt(world_.gravity.norm() * world_.radius[i]) : 0;
     const double noise = 0x1p-49 * (sum_of_speeds(f.v) + steps);
     t = plane_contact_time(plane_gap(f.x, plane.point, plane.normal, world_.radius[i]), plane.normal.dot(f.v),
                            plane.normal.dot(f.a), noise, left, horizon);
-  } else {
+  } else if (ball && world_.is_wall(surface)) {
     const WallContact contact = wall_contact_time(world_.wall(surface), f.x, f.v, f.a, world_.radius[i],
                                                   left ? origin_[i].feature : no_feature, horizon);
     t = contact.time;
     feature = contact.feature;
+  } else {
+    const RelativeMotion m{world_.fixed_position(surface) - f.x, -f.v, -f.a, sum_of_speeds(f.v) + steps, left};
+    const Meeting first = meeting(world_, i, surface, m, left ? origin_[i].feature : no_feature, horizon);
+    t = first.time;
+    feature = first.feature;
   }
   return t == never ? Instant{never, 0} : f.start + t;
 }

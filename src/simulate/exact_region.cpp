@@ -30,8 +30,9 @@ void ExactSimulator::find_neighbours(Entity i) {
   const Region& region = region_[i];
   forget_neighbours(i);
   std::vector<Entity>& list = near_[i];
+  if (!part_of_.empty() && part_of_[i] != i) return;
   grid_.near(region.center, region.half, [&](Entity j) {
-    if (j == i) return;
+    if (j == i || (!part_of_.empty() && part_of_[j] != j)) return;
     const double reach = region.half + region_[j].half;
     if ((region.center - region_[j].center).cwiseAbs().maxCoeff() > reach) return;
     list.push_back(j);
@@ -44,6 +45,10 @@ void ExactSimulator::find_neighbours(Entity i) {
       if (plane_gap(region.center, plane.point, plane.normal, world_.radius[i]) <=
           slack * plane.normal.cwiseAbs().sum())
         list.push_back(e);
+    } else if (world_.is_obstacle(e)) {
+      const Obstacle& o = world_.obstacle(e);
+      const Vec3 away = ((region.center - o.center).cwiseAbs() - o.volume.half).cwiseMax(0);
+      if (away.maxCoeff() <= region.half) list.push_back(e);
     } else {
       // The body's centre is within sqrt(3) rooms of the region's.
       const double away2 = (region.center - nearest_on_wall(world_.wall(e), region.center)).squaredNorm();

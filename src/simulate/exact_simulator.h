@@ -1,6 +1,7 @@
 #pragma once
-// The exact simulator's own parts. Its four source files share this class: exact.cpp (the loop), exact_predict.cpp
-// (what comes next for a body), exact_resolve.cpp (what an event does), exact_region.cpp (who is near).
+// The exact simulator's own parts. Its source files share this class: exact.cpp (the loop), exact_predict.cpp (what
+// comes next for a body), exact_resolve.cpp (impacts), exact_rest.cpp (rest on flat surfaces), exact_crowd.cpp (bodies
+// in contact with one another), exact_merge.cpp, exact_region.cpp (who is near).
 //
 // Each body keeps its Flight and is not moved when somebody else collides. Each body keeps one Event, the first of its
 // own; the first of all of these is the next thing to happen. A predicted collision is a function of the two flights
@@ -12,8 +13,11 @@
 // Comput. Phys. 202 (2005) 737). A region grows while it is lonely, so a ball that flies off costs a few events,
 // however far it goes.
 #include <array>
+#include <memory>
 #include <vector>
 
+#include "physics/complementarity.h"
+#include "physics/touch.h"
 #include "simulate/exact.h"
 #include "simulate/flight.h"
 #include "simulate/region_grid.h"
@@ -30,10 +34,12 @@ class ExactSimulator final : public Simulator {
   const State& state() override;
   std::span<const Collision> collisions() const override { return collisions_; }
   const Tally& tally() const override { return tally_; }
+  std::span<const ContactForce> contacts() override;
 
  private:
   // In the order in which events of one instant happen.
   enum class Kind : std::uint8_t {
+    force,         // a force on the body sets in or ceases
     rest,          // bounces end: a line in the record
     release,       // a body slides off a wall's face
     step,          // of the crowd: no impact, but new forces
@@ -66,7 +72,8 @@ class ExactSimulator final : public Simulator {
   /// Flat surfaces that carry a body.
   struct Contact {
     Entity surface;
-    std::uint8_t feature;   // of a wall
+    std::uint8_t feature;   // of the pair (touch.h; of a ball and a wall: contact_time.h)
+    Vec3 normal;            // unit, from the surface to the body
     bool settling;          // its `rest` is still to come, at
     Instant rest_time;      //
     double residual_speed;  // m/s, what the last bounce left
@@ -82,6 +89,13 @@ class ExactSimulator final : public Simulator {
     double start = 0;  // s
     int impacts = 0;
   };
+
+  static constexpr double immovable = never;  // kg
+  /// Whether a speed (m/s) against a pressing acceleration (m/s^2) lifts a body by less than its position x (m) is
+  /// rounded to.
+  static bool too_low(const Vec3& x, double speed, double press) {
+    return speed * speed < press * 0x1p-48 * x.cwiseAbs().sum();
+  }
 
   /// What a body of the crowd has to do with it.
   enum class Place : std::uint8_t { outside, crowd, asleep };
@@ -101,20 +115,30 @@ class ExactSimulator final : public Simulator {
   // exact.cpp
   void process(Entity i);
   void restart(Entity i, const Vec3& x, const Vec3& v, Origin origin);
+  void book_flight(Entity i, const Vec3& x);
+  void switch_forces(Entity i);
+  void start(const State& initial);
   void record(const Collision& collision);
   void lose(double energy);
   void check_limits();
 
   // exact_predict.cpp
   void predict(Entity i);
-  Instant pair_time(Entity i, Entity j) const;
+  Instant pair_time(Entity i, Entity j, std::uint8_t& feature) const;
   Instant fixed_time(Entity i, Entity surface, std::uint8_t& feature) const;
   void offer(Entity i, Event& best, Event candidate) const;
   Instant leave_time(Entity i) const;
+  double next_force(Entity i) const;
 
   // exact_resolve.cpp
-  void collide_pair(Entity a, Entity b);
+  void collide_pair(Entity a, Entity b, std::uint8_t feature);
   void collide_fixed(Entity i, Entity surface, std::uint8_t feature);
+  Touch touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) const;
+  bool taken_up(Entity a, Entity b, double e, double approach, double press, double length);
+  bool in_burst(Entity i, double window, int many);
+  double slow_speed(double press, double length) const;
+
+  // exact_rest.cpp
   void settle(Entity i, const Contact& contact);
   void release(Entity i, Entity surface, std::uint8_t edge);
   void finish_rest(Entity i);
@@ -122,12 +146,12 @@ class ExactSimulator final : public Simulator {
   Vec3 contact_acceleration(Entity i);
   Vec3 free_acceleration(Entity i, Entity without) const;
   void touch_down(Entity i);
-  bool in_burst(Entity i, double slow);
-  bool taken_up(Entity a, Entity b, double e, double approach, double press, double length);
+  void lean_together(Entity i);
   bool in_contact(Entity i, Entity surface) const;
-  Vec3 contact_normal(const Contact& contact) const;
-  double slow_speed(double press, double length) const;
-  bool is_flat(Entity surface, std::uint8_t feature) const { return world_.is_plane(surface) || feature < wall_edges; }
+  void report_rest(Entity i);
+
+  // exact_merge.cpp
+  void merge(Entity a, Entity b, const Touch& touch);
 
   // exact_crowd.cpp
   void join(Entity i);
@@ -135,30 +159,33 @@ class ExactSimulator final : public Simulator {
   void wake(Entity i);
   void jostle(Entity i);
   void step_crowd();
-  bool crowded(Entity e) const { return !place_.empty() && world_.is_body(e) && place_[e] != Place::outside; }
+  bool crowded(Entity e) const { return world_.is_body(e) && place_[e] != Place::outside; }
 
   // exact_region.cpp
   void rebuild_region(Entity i);
   void find_neighbours(Entity i);
   void forget_neighbours(Entity i);
 
+  const World* given_;                  // before any merging
+  std::unique_ptr<World> joint_world_;  // where bodies merge: with the joint bodies' masses and volumes
   const World& world_;
   const ExactOptions options_;
   Instant now_;
   double time_ = 0;  // s, how far advance_to has come
 
+  std::vector<Vec3> pull_;  // m/s^2, by body: gravity and the forces of now
   std::vector<Flight> flight_;
   std::vector<Origin> origin_;
   std::vector<std::uint32_t> version_;  // counts a body's flights
   std::vector<Event> event_;
   std::vector<Region> region_;
   std::vector<std::vector<Entity>> near_;  // bodies and surfaces that may be met within the region
-  std::vector<Contacts> contacts_;         // empty where nothing can rest: no gravity or no surface
-  std::vector<Burst> burst_;               // empty where contacts_ is
+  std::vector<Contacts> contacts_;         // with flat fixed surfaces
+  std::vector<Burst> burst_;
   RegionGrid grid_;
   Tournament<Before> queue_;
 
-  std::vector<Place> place_;                   // empty where nothing can come to lasting contact
+  std::vector<Place> place_;
   std::vector<std::vector<Pressed>> pressed_;  // by the lower body: bodies and fixed things that the crowd's last step
                                                // found pressing on it
   std::vector<Entity> crowd_;                  // ascending after each step
@@ -171,10 +198,14 @@ class ExactSimulator final : public Simulator {
   Instant crowd_end_{never, 0};                // when the next step is due
 
   State state_;
-  bool state_fresh_ = false;
+  bool state_fresh_ = false, ended_ = false;
   std::vector<Collision> collisions_;
   Tally tally_;
-  Sum energy_lost_;           // J
+  std::vector<Entity> part_of_;             // empty: nothing has merged
+  std::vector<std::vector<Entity>> parts_;  // by joint body: itself and what has become part of it
+  std::vector<double> joint_share_;         // by body: its own mass over its joint body's
+  std::vector<ContactForce> contact_forces_;
+  Sum energy_lost_, work_;    // J
   std::uint64_t events_ = 0;  // since the clock was last looked at,
   Instant looked_at_;         // which was then
 };

@@ -19,6 +19,9 @@ class RegionGrid {
   /// Puts body i's box (centre, half width, m) in, or moves it.
   void put(Entity i, const Vec3& center, double half);
 
+  /// Takes body i's box out.
+  void remove(Entity i) { unlink(i); }
+
   /// Calls visit(j) for every body whose box may overlap the given one (all that do, and some that do not).
   template <typename Visit>
   void near(const Vec3& center, double half, Visit visit) const;
