@@ -26,7 +26,8 @@ bool ExactSimulator::in_burst(Entity i, double window, int many) {
 /// and one of very many within the time of a hop at that speed, or is slow and meets bodies in lasting contact. Without
 /// load, when a body does not come from the spot between ever more impacts (inelastic collapse: McNamara & Young, Phys.
 /// Fluids A 4 (1992) 496).
-bool ExactSimulator::taken_up(Entity a, Entity b, double e, double approach, double press, double length) {
+/// A body alone on flat surfaces comes to rest by itself.
+bool ExactSimulator::taken_up(Entity a, Entity b, double e, double approach, double press, double length, bool alone) {
   if (e >= 1) return false;
   const double load = std::max(pull_[a].norm(), world_.is_body(b) ? pull_[b].norm() : 0.0);
   if (load == 0) {
@@ -39,6 +40,7 @@ bool ExactSimulator::taken_up(Entity a, Entity b, double e, double approach, dou
   const bool a_in = crowded(a), b_in = crowded(b);
   if (a_in && (b_in || !world_.is_body(b))) return true;
   if (press > 0 && (a_in || b_in)) return true;
+  if (alone) return false;
   const double window = 2 * slow / load;
   const bool burst_a = in_burst(a, window, 16), burst_b = world_.is_body(b) && in_burst(b, window, 16);
   return burst_a || burst_b;
@@ -74,7 +76,7 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const double length = world_.radius[a] + world_.radius[b];
   double press = 0;
   if (p.a != q.a) press = -(n.dot(q.a - p.a) + bending(world_, a, xa, b, xb, there, w));
-  const bool take_up = taken_up(a, b, e, approach, press, length) || (press > 0 && e * approach == 0);
+  const bool take_up = taken_up(a, b, e, approach, press, length, false) || (press > 0 && e * approach == 0);
   const double separation = take_up ? 0 : e * approach;
   const double impulse = impact_impulse(ma, mb, approach, separation);
   const double lost = impact_loss(ma, mb, approach, separation);
@@ -120,8 +122,8 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
     contact.rest_time = now_ + left;
     contact.settling = rests;
   }
-  const bool take_up = !rests && (taken_up(i, surface, e, approach, press, radius) ||
-                                  (press > 0 && (separation == 0 || (!flat && too_low(x, separation, press)))));
+  const bool take_up = !rests && (taken_up(i, surface, e, approach, press, radius, flat && burst_[i].impacts <= 16) ||
+                                  (press > 0 && !flat && (separation == 0 || too_low(x, separation, press))));
   if (take_up) separation = 0;
   if (take_up || place_[i] == Place::asleep) join(i);
   stir(i, approach);

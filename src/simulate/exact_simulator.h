@@ -134,7 +134,7 @@ class ExactSimulator final : public Simulator {
   void collide_pair(Entity a, Entity b, std::uint8_t feature);
   void collide_fixed(Entity i, Entity surface, std::uint8_t feature);
   Touch touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) const;
-  bool taken_up(Entity a, Entity b, double e, double approach, double press, double length);
+  bool taken_up(Entity a, Entity b, double e, double approach, double press, double length, bool alone);
   bool in_burst(Entity i, double window, int many);
   double slow_speed(double press, double length) const;
 
