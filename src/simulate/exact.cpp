@@ -44,7 +44,10 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       local_(world.body_count(), PressedPair::none),
       pulled_(world.body_count()),
       jostled_(world.body_count()),
-      idle_(world.body_count()) {
+      idle_(world.body_count()),
+      followed_(world.body_count()),
+      arrival_(world.body_count()),
+      arrival_version_(world.body_count()) {
   start(initial);
 }
 
@@ -155,10 +158,13 @@ void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin orig
   book_flight(i, x);
   flight_[i].start = now_;
   flight_[i].x = x;
-  flight_[i].v = speed < least_speed ? Vec3(Vec3::Zero()) : v;
+  const bool still =
+      speed < least_speed || (contacts_[i].count > 0 && speed * speed < 0x1p-120 * pull_[i].norm() * world_.radius[i]);
+  flight_[i].v = still ? Vec3(Vec3::Zero()) : v;
   flight_[i].a = contact_acceleration(i);
   origin_[i] = origin;
   ++version_[i];
+  if (following_ && place_[i] == Place::crowd && now_ < crowd_end_) crowd_end_ = now_;
 }
 
 /// Books what forces did to body i on the flight that ends at x (m): the World's, and those that held it against them.

@@ -43,8 +43,10 @@ void ExactSimulator::join(Entity i) {
   }
   if (crowd_.empty()) {
     crowd_end_ = now_;
+    following_ = false;
     ++tally_.collapses;
   }
+  if (following_) crowd_end_ = now_;
   idle_[i] = 0;
   crowd_.push_back(i);
 }
@@ -79,7 +81,7 @@ void ExactSimulator::wake(Entity i) {
 /// those that touch one another there are struck at once, each as by e = 0.
 void ExactSimulator::jostle(Entity i) {
   constexpr std::uint32_t many = 8;
-  if (place_[i] != Place::crowd || ++jostled_[i] <= many) return;
+  if (following_ || place_[i] != Place::crowd || ++jostled_[i] <= many) return;
   std::vector<Entity> cluster{i};
   std::vector<PressedPair> pairs;
   const std::uint32_t unseen = PressedPair::none;
@@ -129,6 +131,17 @@ void ExactSimulator::jostle(Entity i) {
 
 void ExactSimulator::step_crowd() {
   std::sort(crowd_.begin(), crowd_.end());
+  if (follow_crowd()) return;
+  for (Entity i : crowd_) {
+    followed_[i].clear();
+    if (following_) pulled_[i] = now_;
+  }
+  following_ = false;
+  stride();
+}
+
+/// A step of a large crowd.
+void ExactSimulator::stride() {
   const std::size_t n = crowd_.size();
   std::vector<Vec3> x(n), v(n), free(n), moved(n);
   std::vector<double> inverse_mass(n);
@@ -167,8 +180,6 @@ void ExactSimulator::step_crowd() {
       if (now.gap + h * std::min(rate, 0.0) > kept + 4 * fastest_pull * h * h) continue;
       PressedPair pair{static_cast<std::uint32_t>(k), other, now.normal, -std::max(now.gap - kept, 0.0) / h,
                        0.05 * kept / h};
-      // A closed gap has no room for what the solver falls short of.
-      if (now.gap < pair.slack * h) pair.target = pair.slack;
       for (const Pressed& p : pressed_[i])
         if (p.partner == e) pair.force = p.force * h;
       pairs.push_back(pair);
@@ -215,7 +226,7 @@ void ExactSimulator::step_crowd() {
       holding.push_back(pairs[c]);
       holding.back().target = 0;
       holding.back().slack = 1e-13 * fastest_pull;
-      holding.back().force /= h;
+      holding.back().force = 0;  // from nothing: where forces are not unique, no more than needed
       which.push_back(c);
     }
     press_apart(inverse_mass, a, holding, 20000);

@@ -24,7 +24,9 @@ void ExactSimulator::predict(Entity i) {
     region_[i].room *= 0.5;
     rebuild_region(i);
   }
+  const bool follows = place_[i] == Place::crowd && following_;
   for (Entity e : near_[i]) {
+    if (follows && followed(i, e)) continue;
     if (world_.is_body(e)) {
       std::uint8_t feature = 0;
       const Instant time = pair_time(i, e, feature);
@@ -96,7 +98,7 @@ Instant ExactSimulator::pair_time(Entity i, Entity j, std::uint8_t& feature) con
       (step && crowd_end_.hi < options_.duration ? crowd_end_ : Instant{options_.duration, 0}) - base;
   const double s = world_.radius[a] + world_.radius[b];
   if (step) {
-    m.speeds += 16 * std::sqrt(std::max(pull_[a].norm(), pull_[b].norm()) * s);  // what steps round velocities by
+    m.speeds += 512 * std::sqrt(std::max(pull_[a].norm(), pull_[b].norm()) * s);  // what steps round velocities by
     const double reach = s + horizon * (sum_of_speeds(m.w) + horizon * sum_of_speeds(m.a));
     if (m.d.squaredNorm() > reach * reach) return {never, 0};
   }
@@ -118,7 +120,7 @@ Instant ExactSimulator::fixed_time(Entity i, Entity surface, std::uint8_t& featu
   const bool left = origin_[i].partner == surface;
   double t;
   const bool ball = world_.volume.empty() || world_.volume[i].shape == Shape::sphere;
-  const double steps = crowded(i) ? 16 * std::sqrt(pull_[i].norm() * world_.radius[i]) : 0;
+  const double steps = crowded(i) ? 512 * std::sqrt(pull_[i].norm() * world_.radius[i]) : 0;
   if (ball && world_.is_plane(surface)) {
     const Plane& plane = world_.plane(surface);
     const double noise = 0x1p-49 * (sum_of_speeds(f.v) + steps);

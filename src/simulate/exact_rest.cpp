@@ -179,7 +179,7 @@ void ExactSimulator::lean_together(Entity first) {
       if (std::abs(there.normal.dot(w)) > velocity_rounding * (f.v.norm() + ve.norm())) continue;
       const bool leans = crowded(i) || (body && crowded(e));
       const double press = -(there.normal.dot(ae - f.a) + bending(world_, i, f.x, e, xe, there, w));
-      if (!(press > 0 || (leans && body)) || (f.a - ae).norm() == 0) continue;
+      if (!leans && !(press > 0)) continue;
       if (!crowded(i)) {
         join(i);
         flight_[i].a.setZero();

@@ -159,6 +159,11 @@ class ExactSimulator final : public Simulator {
   void wake(Entity i);
   void jostle(Entity i);
   void step_crowd();
+  void stride();
+
+  // exact_follow.cpp
+  bool follow_crowd();
+  bool followed(Entity i, Entity e) const;
   bool crowded(Entity e) const { return world_.is_body(e) && place_[e] != Place::outside; }
 
   // exact_region.cpp
@@ -186,16 +191,20 @@ class ExactSimulator final : public Simulator {
   Tournament<Before> queue_;
 
   std::vector<Place> place_;
-  std::vector<std::vector<Pressed>> pressed_;  // by the lower body: bodies and fixed things that the crowd's last step
-                                               // found pressing on it
-  std::vector<Entity> crowd_;                  // ascending after each step
-  std::vector<std::uint32_t> local_;           // scratch of a step: a member's place in it
-  std::vector<Instant> pulled_;                // by body of the crowd: gravity is in its velocity up to this instant
-  std::vector<std::uint32_t> jostled_;         // by body of the crowd: impacts taken up since the last step
-  std::vector<std::uint8_t> idle_;             // by body of the crowd: steps since something pressed on it
-  double kept_apart_ = 0;                      // m: the gap that the crowd's steps leave between bodies
-  double crowd_step_ = 0;                      // s, length of the last step
-  Instant crowd_end_{never, 0};                // when the next step is due
+  std::vector<std::vector<Pressed>> pressed_;   // by the lower body: bodies and fixed things that the crowd's last step
+                                                // found pressing on it
+  std::vector<Entity> crowd_;                   // ascending after each step
+  std::vector<std::uint32_t> local_;            // scratch of a step: a member's place in it
+  std::vector<Instant> pulled_;                 // by body of the crowd: gravity is in its velocity up to this instant
+  std::vector<std::uint32_t> jostled_;          // by body of the crowd: impacts taken up since the last step
+  std::vector<std::uint8_t> idle_;              // by body of the crowd: steps since something pressed on it
+  double kept_apart_ = 0;                       // m: the gap that the crowd's steps leave between bodies
+  double crowd_step_ = 0;                       // s, length of the last step
+  bool following_ = false;                      // the last step was of follow_crowd
+  std::vector<std::vector<Entity>> followed_;   // by body: whom it is in contact with until the step ends
+  std::vector<Vec3> arrival_;                   // m/s, by body: its velocity when the step ends,
+  std::vector<std::uint32_t> arrival_version_;  // if it is still on this flight
+  Instant crowd_end_{never, 0};                 // when the next step is due
 
   State state_;
   bool state_fresh_ = false, ended_ = false;

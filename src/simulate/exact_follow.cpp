@@ -1,0 +1,226 @@
+// A small crowd is followed closely: bodies that press on one another keep to each other's surfaces, with forces from
+// the complementarity conditions (0 <= force, 0 <= the gap's second derivative, one of them zero; the surfaces'
+// curvature in it), and their paths are integrated by the classical Runge-Kutta method of fourth order. Between its
+// steps a path is the parabola through both ends, which leaves the true one by less than `strayed` of a body's size:
+// steps are as short as that asks for. Where all contacts are flat the parabola is the path, and a step lasts until a
+// contact comes to its rim. Everybody that moves takes part in impacts as everywhere else, only the pairs that are
+// followed do not.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/restitution.h"
+#include "simulate/exact_simulator.h"
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t most_pairs = 48;  // that are followed; a larger crowd moves in strides
+constexpr double closed = 1e-9;         // of a radius: a gap that counts as contact
+constexpr double strayed = 1e-11;       // of a body's size
+constexpr double longest_step = 0.02;   // of the time in which a body falls by its own size
+constexpr double still = 1e-13;         // of the speed of falling by a radius
+
+/// By Newton's method: the same bits everywhere, which std::cbrt does not promise.
+double cube_root(double x) {
+  int exponent;
+  std::frexp(x, &exponent);
+  double y = std::ldexp(1.0, exponent / 3 + 1);
+  for (int k = 0; k < 10; ++k) y -= (y - x / (y * y)) / 3;
+  return y;
+}
+
+}  // namespace
+
+/// Whether body i and e are followed as a pair in contact, so that they cannot meet.
+bool ExactSimulator::followed(Entity i, Entity e) const {
+  const std::vector<Entity>& partners = followed_[i];
+  return std::find(partners.begin(), partners.end(), e) != partners.end();
+}
+
+bool ExactSimulator::follow_crowd() {
+  const std::size_t n = crowd_.size();
+  if (n > most_pairs) return false;
+  std::vector<Vec3> x(n), v(n), before(n);
+  std::vector<double> inverse_mass(n);
+  double pull = 0, smallest = never;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Entity i = crowd_[k];
+    local_[i] = static_cast<std::uint32_t>(k);
+    const double t = now_ - flight_[i].start;
+    x[k] = flight_[i].position(t);
+    before[k] = flight_[i].velocity(t);
+    v[k] = following_ && version_[i] == arrival_version_[i] && now_ == crowd_end_ ? arrival_[i] : before[k];
+    if (!following_ && now_ < pulled_[i]) v[k] -= (pulled_[i] - now_) * pull_[i];
+    inverse_mass[k] = 1 / world_.mass[i];
+    pull = std::max(pull, pull_[i].norm());
+    smallest = std::min(smallest, world_.radius[i]);
+  }
+  const auto forget = [&] {
+    for (Entity i : crowd_) local_[i] = PressedPair::none;
+  };
+
+  // The pairs in contact, but for those that are about to strike.
+  struct Name {
+    Entity a, b;
+    std::uint8_t feature;
+  };
+  std::vector<PressedPair> pairs;
+  std::vector<Name> names;
+  const auto at = [&](const std::vector<Vec3>& where, Entity e) -> Vec3 {
+    return world_.is_body(e) ? where[local_[e]] : world_.fixed_position(e);
+  };
+  const auto moving = [&](const std::vector<Vec3>& speed, Entity e) -> Vec3 {
+    return world_.is_body(e) ? speed[local_[e]] : Vec3(Vec3::Zero());
+  };
+  bool overlap = false;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Entity i = crowd_[k];
+    for (Entity e : near_[i]) {
+      const bool body = world_.is_body(e);
+      if (body && (e < i || place_[e] != Place::crowd)) continue;
+      const Touch there = touch(world_, i, x[k], e, at(x, e));
+      if (there.gap > closed * world_.radius[i]) continue;
+      const double approach = there.normal.dot(v[k] - moving(v, e));
+      const double length = world_.radius[i] + (body ? world_.radius[e] : 0);
+      if (approach >= slow_speed(pull, length) && pair_restitution(world_, i, e) > 0) continue;
+      pairs.push_back({static_cast<std::uint32_t>(k), body ? local_[e] : PressedPair::none, there.normal, 0, 0, 0});
+      names.push_back({i, e, there.feature});
+      pairs.back().target = -there.gap;
+      overlap = overlap || there.gap < -0x1p-50 * world_.radius[i];
+    }
+  }
+  if (pairs.size() > most_pairs) {
+    forget();
+    return false;
+  }
+  if (overlap) {
+    std::vector<Vec3> way(n, Vec3::Zero());
+    for (PressedPair& p : pairs) p.slack = 0x1p-54 * smallest;
+    press_apart(inverse_mass, way, pairs, 500);
+    for (std::size_t k = 0; k < n; ++k) x[k] += way[k];
+  }
+  double fastest = 0;
+  for (const Vec3& u : v) fastest = std::max(fastest, u.norm());
+  for (PressedPair& p : pairs) {
+    p.target = p.force = 0;
+    p.slack = 0x1p-52 * fastest;
+  }
+  press_apart(inverse_mass, v, pairs, 2000);
+
+  const auto accelerate = [&](const std::vector<Vec3>& where, const std::vector<Vec3>& speed) {
+    std::vector<Vec3> a(n);
+    for (std::size_t k = 0; k < n; ++k) a[k] = pull_[crowd_[k]];
+    for (std::size_t c = 0; c < pairs.size(); ++c) {
+      const auto& [i, e, feature] = names[c];
+      const Vec3 xe = at(where, e);
+      const Touch there = touch(world_, i, where[pairs[c].a], e, xe);
+      pairs[c].normal = there.normal;
+      pairs[c].target = -bending(world_, i, where[pairs[c].a], e, xe, there, moving(speed, e) - speed[pairs[c].a]);
+      pairs[c].slack = 1e-15 * pull;
+    }
+    press_apart(inverse_mass, a, pairs, 2000);
+    return a;
+  };
+  for (PressedPair& p : pairs) p.force = 0;
+  const std::vector<Vec3> a0 = accelerate(x, v);
+  std::vector<PressedPair> first = pairs;
+
+  // At rest?
+  fastest = 0;
+  double pushed = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    fastest = std::max(fastest, v[k].norm());
+    pushed = std::max(pushed, a0[k].norm());
+  }
+  const bool rests = !pairs.empty() && fastest <= still * std::sqrt(pull * smallest) && pushed <= 1e-11 * pull;
+
+  // How far the parabolas are good.
+  double h = Instant{options_.duration, 0} - now_;
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    const auto& [i, e, feature] = names[c];
+    const Vec3 w = moving(v, e) - v[pairs[c].a], a = moving(a0, e) - a0[pairs[c].a];
+    const double size = world_.radius[i] + (world_.is_body(e) ? world_.radius[e] : 0);
+    if (carom::is_flat(world_, i, e, feature)) {
+      const RelativeMotion m{at(x, e) - x[pairs[c].a], w, a, w.norm(), true};
+      h = std::min(h, std::max(leave_feature(world_, i, e, feature, m, h).time, 1e-9 * std::sqrt(size / pull)));
+      continue;
+    }
+    h = std::min(h, longest_step * std::sqrt(2 * size / pull));
+    // The gap's third derivative is about 3 w . a / size, its fourth 3 a . a / size.
+    const double bent = a.norm() + w.squaredNorm() / size;
+    if (bent == 0) continue;
+    h = std::min(h, std::sqrt(std::sqrt(8 * strayed) * size / bent));
+    if (w.norm() > 0) h = std::min(h, cube_root(2 * strayed * size * size / (w.norm() * bent)));
+  }
+
+  std::vector<Vec3> path = a0, end = v;
+  if (!rests && !pairs.empty()) {
+    std::vector<Vec3> where(n), speed(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      where[k] = x[k] + 0.5 * h * v[k];
+      speed[k] = v[k] + 0.5 * h * a0[k];
+    }
+    const std::vector<Vec3> a1 = accelerate(where, speed);
+    for (std::size_t k = 0; k < n; ++k) {
+      where[k] = x[k] + 0.5 * h * (v[k] + 0.5 * h * a0[k]);
+      speed[k] = v[k] + 0.5 * h * a1[k];
+    }
+    const std::vector<Vec3> a2 = accelerate(where, speed);
+    for (std::size_t k = 0; k < n; ++k) {
+      where[k] = x[k] + h * (v[k] + 0.5 * h * a1[k]);
+      speed[k] = v[k] + h * a2[k];
+    }
+    const std::vector<Vec3> a3 = accelerate(where, speed);
+    for (std::size_t k = 0; k < n; ++k) {
+      path[k] = (a0[k] + a1[k] + a2[k]) / 3;
+      end[k] = v[k] + h / 6 * (a0[k] + 2 * a1[k] + 2 * a2[k] + a3[k]);
+    }
+  }
+  for (Entity i : crowd_) {
+    followed_[i].clear();
+    pressed_[i].clear();
+  }
+  std::vector<std::uint8_t> held(n, 0);
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    if (!(first[c].force > 0) && !(pairs[c].force > 0)) continue;
+    const auto& [i, e, feature] = names[c];
+    held[first[c].a] = 1;
+    followed_[i].push_back(e);
+    if (world_.is_body(e)) {
+      held[first[c].b] = 1;
+      followed_[e].push_back(i);
+    }
+    if (first[c].force > 0) pressed_[i].push_back({e, first[c].force});
+  }
+  forget();
+
+  following_ = false;  // until all flights are new
+  std::vector<Entity> members;
+  members.swap(crowd_);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Entity i = members[k];
+    lose(0.5 * world_.mass[i] * (before[k] - v[k]).dot(before[k] + v[k]));
+    if (!held[k]) {
+      place_[i] = Place::outside;
+      restart(i, x[k], v[k], {});
+    } else if (rests) {
+      place_[i] = Place::asleep;
+      ++tally_.resting;
+      restart(i, x[k], Vec3::Zero(), {});
+    } else {
+      crowd_.push_back(i);
+      pulled_[i] = now_;
+      restart(i, x[k], v[k], {});
+      flight_[i].a = path[k];
+      arrival_[i] = end[k];
+      arrival_version_[i] = version_[i];
+    }
+  }
+  following_ = true;
+  crowd_end_ = crowd_.empty() ? Instant{never, 0} : now_ + h;
+  for (Entity i : members) predict(i);
+  return true;
+}
+
+}  // namespace carom
