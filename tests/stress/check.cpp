@@ -1,0 +1,245 @@
+// One scene, run several times: what is recorded, seen and summed up is held against what physics and the simulator's
+// promises say, by computations of its own in long double.
+#include "stress/check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "stress/gaps.h"
+#include "stress/paths.h"
+#include "stress/watch.h"
+
+namespace carom::stress {
+
+namespace {
+
+constexpr double patience = 2;  // s of CPU time, for a run
+
+std::string text(double x) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.9g", x);
+  return digits;
+}
+
+std::string who(Entity a, Entity b) {
+  return std::to_string(a) + " and " + std::to_string(b);
+}
+
+/// The scene's own coefficient of a pair, from the rules as the scene format states them.
+double coefficient(const World& world, Entity a, Entity b) {
+  for (auto p = world.pairs.rbegin(); p != world.pairs.rend(); ++p)
+    if ((p->a_first == a && p->b_first == b) || (p->a_first == b && p->b_first == a)) return p->value;
+  const double e1 = world.restitution[a], m1 = world.mass[a];
+  double e2 = e1, m2 = 0;
+  if (world.is_body(b)) {
+    e2 = world.restitution[b];
+    m2 = world.mass[b];
+  } else {
+    e2 = (world.is_plane(b)  ? world.plane(b).restitution
+          : world.is_wall(b) ? world.wall(b).restitution
+                             : world.obstacle(b).restitution)
+             .value_or(e1);
+  }
+  switch (world.combine) {
+    case Combine::average:
+      return (e1 + e2) / 2;
+    case Combine::minimum:
+      return std::min(e1, e2);
+    case Combine::maximum:
+      return std::max(e1, e2);
+    case Combine::product:
+      return e1 * e2;
+    case Combine::geometric_mean:
+      return std::sqrt(e1 * e2);
+    case Combine::mass_weighted:
+      return world.is_body(b) ? (m1 * e1 + m2 * e2) / (m1 + m2) : e2;
+    case Combine::book:
+      return e1 * e2 / 2;
+  }
+  return 0;
+}
+
+class Check {
+ public:
+  Check(const RandomScene& scene, Verdict& verdict) : scene_(scene), world_(scene.world), verdict_(verdict) {}
+
+  void run() {
+    first_ = watch(scene_, {}, patience);
+    if (first_.too_slow) return fail("takes more than " + text(patience) + " s of CPU time, " +
+                                     std::to_string(first_.records.size()) + " records so far");
+    verdict_.collisions = first_.tally.collisions();
+    if (!first_.error.empty()) return stop();
+    times_ = times_to_look(scene_, first_.records);
+    seen_ = watch(scene_, times_, 10 * patience);
+    same("with more outputs", seen_);
+    if (!seen_.error.empty() || seen_.seen.size() != times_.size()) return;
+    if (!finite()) return;
+    paths_ = std::make_unique<Paths>(scene_, times_, seen_.seen);
+    for (std::string& overlap : paths_->overlaps()) fail(std::move(overlap));
+    energy();
+    momentum();
+    for (const Collision& c : first_.records) record(c);
+    if (scene_.seed % 8 == 0) same("run again", watch(scene_, {}, patience));
+    scaling();
+    axes();
+  }
+
+ private:
+  void fail(std::string what) {
+    if (verdict_.violations.size() < 12) verdict_.violations.push_back(std::move(what));
+  }
+
+  /// A run that may end with an error is checked up to some of its collisions.
+  void stop() {
+    if (!scene_.may_stop || first_.error.find("clock") != std::string::npos) return fail("error: " + first_.error);
+    verdict_.stopped = true;
+    if (first_.records.empty()) return;
+    RandomScene shorter = scene_;
+    shorter.may_stop = false;
+    shorter.options.max_collisions = 0;
+    shorter.options.duration = first_.records[std::min<std::size_t>(first_.records.size() - 1, 300)].time;
+    Check(shorter, verdict_).run();
+  }
+
+  void same(const char* how, const Watched& other) {
+    const std::string what = difference(first_, other, 0, 0, 0);
+    if (!what.empty()) fail(std::string(how) + " differs: " + what);
+  }
+
+  bool finite() {
+    for (const State& s : seen_.seen)
+      for (std::size_t i = 0; i < s.position.size(); ++i)
+        if (!s.position[i].allFinite() || !s.velocity[i].allFinite()) {
+          fail("body " + std::to_string(i) + " is nowhere at t = " + text(s.time));
+          return false;
+        }
+    return true;
+  }
+
+  double mass(const State& s, Entity i) const { return s.mass.empty() ? world_.mass[i] : s.mass[i]; }
+
+  long double energy_of(const State& s, double& size) const {
+    long double sum = 0;
+    double all = 0;
+    for (Entity i = 0; i < world_.body_count(); ++i) {
+      const long double m = mass(s, i);
+      const long double kinetic = 0.5L * m * s.velocity[i].cast<long double>().squaredNorm();
+      const long double potential = -m * world_.gravity.cast<long double>().dot(s.position[i].cast<long double>());
+      sum += kinetic + potential;
+      double pull = world_.gravity.cwiseAbs().dot(s.position[i].cwiseAbs());
+      for (const Force& f : world_.forces)
+        pull += f.value.cwiseAbs().dot(s.position[i].cwiseAbs()) / (f.per_mass ? 1 : world_.mass[i]);
+      all += static_cast<double>(kinetic) + static_cast<double>(m) * pull;
+    }
+    size = std::max(size, all);
+    return sum;
+  }
+
+  void energy() {
+    double size = 0;
+    const long double start = energy_of(first_.start, size);
+    for (const State& s : seen_.seen) energy_of(s, size);
+    const long double end = energy_of(first_.end, size);
+    const Tally& t = first_.tally;
+    const double events = static_cast<double>(first_.records.size());
+    const double tolerance =
+        2e-14 * (1 + std::sqrt(events)) * (size + std::abs(t.energy_lost) + std::abs(t.work));
+    const double residual = static_cast<double>(end - start) + t.energy_lost - t.work;
+    if (!(std::abs(residual) <= tolerance))
+      fail("energy books: residual " + text(residual) + " J of " + text(size) + " J, lost " + text(t.energy_lost) +
+           ", work " + text(t.work));
+  }
+
+  void momentum() {
+    if (world_.fixed_count() > 0 || !world_.forces.empty()) return;
+    Long3 start = Long3::Zero(), end = Long3::Zero();
+    long double size = 0, all = 0;
+    for (Entity i = 0; i < world_.body_count(); ++i) {
+      start += world_.mass[i] * first_.start.velocity[i].cast<long double>();
+      end += mass(first_.end, i) * first_.end.velocity[i].cast<long double>();
+      size += world_.mass[i] * first_.start.velocity[i].norm() + mass(first_.end, i) * first_.end.velocity[i].norm();
+      all += world_.mass[i];
+    }
+    const Long3 given = all * scene_.options.duration * world_.gravity.cast<long double>();
+    size += given.norm();
+    for (const Collision& c : first_.records) size += 0.01L * c.impulse;
+    const long double off = (end - start - given).norm();
+    if (!(off <= 1e-14L * size)) fail("momentum: off by " + text(static_cast<double>(off / size)) + " of its size");
+  }
+
+  void record(const Collision& c) {
+    if (c.kind == CollisionKind::rest) return;
+    const std::string what = "record of " + who(c.a, c.b) + " at t = " + text(c.time) + ": ";
+    if (c.approach_speed < 0) fail(what + "they separate at " + text(-c.approach_speed) + " m/s");
+    if (std::abs(c.normal.norm() - 1) > 1e-14) fail(what + "its normal has length 1 + " + text(c.normal.norm() - 1));
+    if (scene_.options.merge && c.kind == CollisionKind::merge) return;
+    if (!scene_.options.merge) {
+      const double e = coefficient(world_, c.a, c.b);
+      if (std::abs(c.restitution - e) > 4e-16 * e) fail(what + "restitution " + text(c.restitution) + ", not " + text(e));
+      if (c.separation_speed != 0 && std::abs(c.separation_speed - e * c.approach_speed) > 1e-15 * c.approach_speed)
+        fail(what + "separates at " + text(c.separation_speed) + " after " + text(c.approach_speed));
+    }
+    if (c.restitution <= 1 && c.energy_lost < 0)
+      fail(what + "makes energy: " + text(-c.energy_lost) + " J at " + text(c.approach_speed) + " m/s");
+    if (scene_.options.merge) return;
+    const auto at = std::lower_bound(times_.begin(), times_.end(), c.time);
+    if (at == times_.end() || *at != c.time) return;
+    const State& s = seen_.seen[static_cast<std::size_t>(at - times_.begin())];
+    const bool body = world_.is_body(c.b);
+    const Long3 xb = body ? Long3(s.position[c.b].cast<long double>()) : Long3(Long3::Zero());
+    const double distance = static_cast<double>(gap(world_, c.a, s.position[c.a].cast<long double>(), c.b, xb));
+    const double tick = std::nextafter(c.time, 1e300) - c.time;
+    const double speed = s.velocity[c.a].norm() + (body ? s.velocity[c.b].norm() : 0) + c.approach_speed;
+    if (!(std::abs(distance) <= paths_->rounding(c.a, c.b) + 2 * tick * speed))
+      fail(what + "they are " + text(distance) + " m apart");
+  }
+
+  void scaling() {
+    const auto draw = [&](int k) { return static_cast<int>((scene_.seed * 2654435761u >> (8 * k)) % 41) - 20; };
+    const int length = draw(0), time = draw(1), mass_unit = draw(2);
+    const Watched other = watch(scaled(scene_, length, time, mass_unit), {}, patience);
+    const std::string what = difference(first_, other, length, time, mass_unit);
+    if (!what.empty())
+      fail("scaled by powers of two " + std::to_string(length) + ", " + std::to_string(time) + ", " +
+           std::to_string(mass_unit) + " differs: " + what);
+  }
+
+  /// With the axes turned only roundings differ: the first collision is the same, if it is not grazing and not one of
+  /// several.
+  void axes() {
+    if (first_.records.empty()) return;
+    const Collision& c = first_.records[0];
+    const double next = first_.records.size() > 1 ? first_.records[1].time : scene_.options.duration;
+    const double speed =
+        seen_.start.velocity[c.a].norm() + (world_.is_body(c.b) ? seen_.start.velocity[c.b].norm() : 0);
+    if (!(next > c.time * (1 + 1e-6)) || c.time == 0 || c.approach_speed < 1e-2 * speed) return;
+    RandomScene other = turned(scene_);
+    other.options.duration = std::min(other.options.duration, next);
+    const Watched run = watch(other, {}, patience);
+    const double slack = 10 * paths_->rounding(c.a, c.b) / c.approach_speed + 1e-12 * c.time;
+    if (run.records.empty())
+      fail("with its axes turned nothing meets, else " + who(c.a, c.b) + " at t = " + text(c.time));
+    else if (run.records[0].a != c.a || run.records[0].b != c.b || std::abs(run.records[0].time - c.time) > slack)
+      fail("with its axes turned " + who(run.records[0].a, run.records[0].b) + " meet at t = " +
+           text(run.records[0].time) + ", else " + who(c.a, c.b) + " at t = " + text(c.time));
+  }
+
+  const RandomScene& scene_;
+  const World& world_;
+  Verdict& verdict_;
+  Watched first_, seen_;
+  std::vector<double> times_;
+  std::unique_ptr<Paths> paths_;
+};
+
+}  // namespace
+
+Verdict check(const RandomScene& scene) {
+  Verdict verdict;
+  Check(scene, verdict).run();
+  return verdict;
+}
+
+}  // namespace carom::stress

@@ -1,0 +1,18 @@
+#pragma once
+// What must hold of every run of every scene.
+#include <string>
+#include <vector>
+
+#include "stress/scene.h"
+
+namespace carom::stress {
+
+struct Verdict {
+  std::vector<std::string> violations;  // empty: all is well
+  std::uint64_t collisions = 0;
+  bool stopped = false;  // at a limit, as it may
+};
+
+Verdict check(const RandomScene& scene);
+
+}  // namespace carom::stress

@@ -1,0 +1,14 @@
+#pragma once
+// How far two things are apart, computed without the program's own geometry (but for boxes and cylinders at walls): in
+// long double, straight from the definitions of the volumes.
+#include "physics/world.h"
+
+namespace carom::stress {
+
+using Long3 = Eigen::Matrix<long double, 3, 1>;
+
+/// m; negative: overlap. Outside it is the distance; inside, the least way out along the axes that the volumes have. b:
+/// a body, or a fixed thing (then xb does not matter).
+long double gap(const World& world, Entity a, const Long3& xa, Entity b, const Long3& xb);
+
+}  // namespace carom::stress

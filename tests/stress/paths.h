@@ -1,0 +1,35 @@
+#pragma once
+// The bodies' paths between two looks, made anew from what was seen: a search for overlaps, densely, without the
+// program's own contact times.
+#include <string>
+#include <vector>
+
+#include "stress/scene.h"
+
+namespace carom::stress {
+
+class Paths {
+ public:
+  Paths(const RandomScene& scene, const std::vector<double>& times, const std::vector<State>& seen);
+
+  /// Every overlap beyond rounding, in words (the first of each pair).
+  std::vector<std::string> overlaps() const;
+
+  /// m: what the gap of two things may be off by, from the size of the numbers that it is made of.
+  double rounding(Entity a, Entity b) const;
+
+ private:
+  struct Path {
+    Vec3 x, v, a;  // at the beginning
+    bool known;    // it is a parabola
+  };
+  std::vector<Path> between(std::size_t k) const;
+  double deepest(const World& world, Entity a, const Path& pa, Entity b, const Path& pb, double length) const;
+
+  const RandomScene& scene_;
+  const std::vector<double>& times_;
+  const std::vector<State>& seen_;
+  std::vector<double> extent_;  // m, by entity
+};
+
+}  // namespace carom::stress

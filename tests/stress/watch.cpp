@@ -1,0 +1,168 @@
+#include "stress/watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <memory>
+
+namespace carom::stress {
+
+namespace {
+
+constexpr std::size_t most_collisions_looked_at = 60;
+constexpr int looks = 24;
+
+bool same(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+std::string text(double x) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.17g", x);
+  return digits;
+}
+
+}  // namespace
+
+Watched watch(const RandomScene& scene, const std::vector<double>& times, double patience) {
+  Watched run;
+  const std::clock_t begin = std::clock();
+  std::unique_ptr<Simulator> simulator;
+  const auto keep = [&] {
+    run.records.insert(run.records.end(), simulator->collisions().begin(), simulator->collisions().end());
+  };
+  try {
+    simulator = make_exact_simulator(scene.world, scene.initial, scene.options);
+    run.start = simulator->state();
+    const auto go_to = [&](double time) {
+      do {
+        simulator->advance_to(time);
+        keep();
+        run.too_slow = static_cast<double>(std::clock() - begin) > patience * CLOCKS_PER_SEC;
+      } while (simulator->time() < time && !run.too_slow);
+    };
+    for (const double t : times) {
+      go_to(t);
+      if (run.too_slow) return run;
+      run.seen.push_back(simulator->state());
+    }
+    go_to(scene.options.duration);
+    run.end = simulator->state();
+    run.tally = simulator->tally();
+  } catch (const SimulationError& error) {
+    run.error = error.what();
+    if (simulator) keep();
+  }
+  return run;
+}
+
+std::vector<double> times_to_look(const RandomScene& scene, const std::vector<Collision>& records) {
+  const double duration = scene.options.duration;
+  std::vector<double> times;
+  for (int k = 1; k <= looks; ++k) times.push_back(duration * k / looks);
+  const auto about = [&](double t) {
+    if (t > 0) times.push_back(std::nextafter(t, 0));
+    times.push_back(t);
+    times.push_back(std::nextafter(t, duration));
+  };
+  const std::size_t stride = records.size() / most_collisions_looked_at + 1;
+  for (std::size_t k = 0; k < records.size(); ++k)
+    if (k < most_collisions_looked_at / 2 || k % stride == 0) about(records[k].time);
+  for (const Force& f : scene.world.forces)
+    for (const double t : {f.from, f.until})
+      if (t > 0 && t < duration) about(t);
+  times.erase(std::remove_if(times.begin(), times.end(), [&](double t) { return !(t >= 0 && t <= duration); }),
+              times.end());
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+RandomScene scaled(RandomScene scene, int length, int time, int mass) {
+  const double l = std::ldexp(1, length), t = std::ldexp(1, time), m = std::ldexp(1, mass);
+  World& world = scene.world;
+  for (double& x : world.mass) x *= m;
+  for (double& x : world.radius) x *= l;
+  for (Volume& v : world.volume) v.half *= l;
+  for (Vec3& p : world.impulse) p *= m * l / t;
+  for (Plane& p : world.planes) p.point *= l;
+  for (Wall& w : world.walls) {
+    w.center *= l;
+    w.half_width *= l;
+    w.half_height *= l;
+  }
+  for (Obstacle& o : world.obstacles) {
+    o.center *= l;
+    o.volume.half *= l;
+  }
+  for (Force& f : world.forces) {
+    f.value *= (f.per_mass ? 1 : m) * l / (t * t);
+    f.from *= t;
+    f.until *= t;
+  }
+  world.gravity *= l / (t * t);
+  for (Vec3& x : scene.initial.position) x *= l;
+  for (Vec3& v : scene.initial.velocity) v *= l / t;
+  scene.options.duration *= t;
+  scene.options.rest_speed *= l / t;
+  return scene;
+}
+
+std::string difference(const Watched& a, const Watched& b, int length, int time, int mass) {
+  if (a.error.empty() != b.error.empty()) return "one ends with an error: " + a.error + b.error;
+  const double l = std::ldexp(1, -length), t = std::ldexp(1, -time), m = std::ldexp(1, -mass), v = l / t;
+  const auto vectors = [](const Vec3& p, const Vec3& q) {
+    return same(p.x(), q.x()) && same(p.y(), q.y()) && same(p.z(), q.z());
+  };
+  const std::size_t n = std::min(a.records.size(), b.records.size());
+  for (std::size_t k = 0; k < n; ++k) {
+    const Collision &c = a.records[k], &d = b.records[k];
+    if (c.kind != d.kind || c.a != d.a || c.b != d.b || !same(c.time, d.time * t) || !vectors(c.normal, d.normal) ||
+        !vectors(c.position, d.position * l) || !same(c.approach_speed, d.approach_speed * v) ||
+        !same(c.separation_speed, d.separation_speed * v) || !same(c.impulse, d.impulse * m * v) ||
+        !same(c.energy_lost, d.energy_lost * m * v * v))
+      return "record " + std::to_string(k) + " of " + std::to_string(n) + ", at t = " + text(c.time) + " and " +
+             text(d.time * t) + " between " + std::to_string(c.a) + " and " + std::to_string(c.b) + " or " +
+             std::to_string(d.a) + " and " + std::to_string(d.b);
+  }
+  if (a.records.size() != b.records.size())
+    return std::to_string(a.records.size()) + " records and " + std::to_string(b.records.size());
+  if (!a.error.empty()) return {};
+  for (std::size_t i = 0; i < a.end.position.size(); ++i)
+    if (!vectors(a.end.position[i], b.end.position[i] * l) || !vectors(a.end.velocity[i], b.end.velocity[i] * v))
+      return "body " + std::to_string(i) + " at the end, though all records are the same";
+  if (!same(a.tally.energy_lost, b.tally.energy_lost * m * v * v)) return "energy lost";
+  if (a.tally.resting != b.tally.resting) return "bodies at rest";
+  return {};
+}
+
+RandomScene turned(RandomScene scene) {
+  World& world = scene.world;
+  bool cylinders = false;
+  const auto look = [&](const Volume& v) { cylinders = cylinders || v.shape == Shape::cylinder; };
+  for (const Volume& v : world.volume) look(v);
+  for (const Obstacle& o : world.obstacles) look(o.volume);
+  const auto turn = [&](Vec3& v) { v = cylinders ? Vec3(v.z(), v.y(), v.x()) : Vec3(v.z(), v.x(), v.y()); };
+  for (Volume& v : world.volume) turn(v.half);
+  for (Vec3& p : world.impulse) turn(p);
+  for (Plane& p : world.planes) {
+    turn(p.point);
+    turn(p.normal);
+  }
+  for (Wall& w : world.walls) {
+    for (Vec3* v : {&w.center, &w.normal, &w.right, &w.up}) turn(*v);
+    if (cylinders) w.right = -w.right;  // a mirror: right x up = normal no longer
+  }
+  for (Obstacle& o : world.obstacles) {
+    turn(o.center);
+    turn(o.volume.half);
+  }
+  for (Force& f : world.forces) turn(f.value);
+  turn(world.gravity);
+  for (Vec3& x : scene.initial.position) turn(x);
+  for (Vec3& v : scene.initial.velocity) turn(v);
+  return scene;
+}
+
+}  // namespace carom::stress

@@ -1,0 +1,110 @@
+// A random scene as a scene file.
+#include <charconv>
+#include <cmath>
+
+#include "stress/scene.h"
+
+namespace carom::stress {
+
+namespace {
+
+std::string text(double value) {
+  char digits[40];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+std::string text(const Vec3& v) {
+  return "[" + text(v.x()) + ", " + text(v.y()) + ", " + text(v.z()) + "]";
+}
+
+std::string text(const Volume& v) {
+  if (v.shape == Shape::sphere) return "radius: " + text(v.half.x());
+  if (v.shape == Shape::cylinder)
+    return "cylinder: {radius: " + text(v.half.x()) + ", height: " + text(2 * v.half.y()) + "}";
+  return "box: " + text(Vec3(2 * v.half));
+}
+
+std::string text(const std::optional<double>& restitution) {
+  return restitution ? ", restitution: " + text(*restitution) : "";
+}
+
+/// b0, b1, …, then p, w, o for planes, walls, obstacles.
+std::string name(const World& world, Entity e) {
+  if (world.is_body(e)) return "b" + std::to_string(e);
+  const auto k = e - world.body_count();
+  if (world.is_plane(e)) return "p" + std::to_string(k);
+  if (world.is_wall(e)) return "w" + std::to_string(k - world.planes.size());
+  return "o" + std::to_string(k - world.planes.size() - world.walls.size());
+}
+
+std::string bodies(const RandomScene& scene) {
+  const World& world = scene.world;
+  std::string out = world.volume.empty() ? "balls:\n" : "bodies:\n";
+  for (Entity i = 0; i < world.body_count(); ++i) {
+    out += "  " + name(world, i) + ": {mass: " + text(world.mass[i]) + ", " + text(world.volume_of(i)) +
+           ", position: " + text(scene.initial.position[i]) + ", velocity: " + text(scene.initial.velocity[i]) +
+           ", restitution: " + text(world.restitution[i]);
+    if (!world.impulse.empty()) out += ", impulse: " + text(world.impulse[i]);
+    out += "}\n";
+  }
+  return world.body_count() == 0 ? "" : out;
+}
+
+std::string fixed(const World& world) {
+  std::string out;
+  Entity e = world.body_count();
+  if (!world.planes.empty()) out += "planes:\n";
+  for (const Plane& p : world.planes)
+    out += "  " + name(world, e++) + ": {point: " + text(p.point) + ", normal: " + text(p.normal) +
+           text(p.restitution) + "}\n";
+  if (!world.walls.empty()) out += "walls:\n";
+  for (const Wall& w : world.walls)
+    out += "  " + name(world, e++) + ": {center: " + text(w.center) + ", normal: " + text(w.normal) +
+           ", up: " + text(w.up) + ", size: [" + text(2 * w.half_width) + ", " + text(2 * w.half_height) + "]" +
+           text(w.restitution) + "}\n";
+  if (!world.obstacles.empty()) out += "obstacles:\n";
+  for (const Obstacle& o : world.obstacles)
+    out += "  " + name(world, e++) + ": {position: " + text(o.center) + ", " + text(o.volume) + text(o.restitution) +
+           "}\n";
+  return out;
+}
+
+std::string forces(const World& world) {
+  std::string out = world.forces.empty() ? "" : "forces:\n";
+  for (const Force& f : world.forces) {
+    out += "  - {" + std::string(f.per_mass ? "acceleration: " : "uniform: ") + text(f.value) +
+           ", from: " + text(f.from);
+    if (std::isfinite(f.until)) out += ", until: " + text(f.until);
+    std::string on;
+    for (Entity i : f.on) on += (on.empty() ? "" : ", ") + name(world, i);
+    if (!f.on.empty()) out += ", on: [" + on + "]";
+    out += "}\n";
+  }
+  return out;
+}
+
+std::string restitution(const World& world) {
+  static const char* const rules[] = {"average",        "minimum",       "maximum", "product",
+                                      "geometric_mean", "mass_weighted", "book"};
+  std::string out = "restitution: {combine: " + std::string(rules[static_cast<int>(world.combine)]);
+  std::string list;
+  for (const PairRestitution& p : world.pairs)
+    list += (list.empty() ? "" : ", ") + ("{between: [" + name(world, p.a_first)) + ", " + name(world, p.b_first) +
+            "], value: " + text(p.value) + "}";
+  return out + (list.empty() ? "" : ", pairs: [" + list + "]") + "}\n";
+}
+
+}  // namespace
+
+std::string as_yaml(const RandomScene& scene) {
+  const ExactOptions& o = scene.options;
+  std::string simulate = "simulate: {duration: " + text(o.duration);
+  if (o.rest_speed > 0) simulate += ", rest_speed: " + text(o.rest_speed);
+  if (o.merge) simulate += ", contact: merge";
+  if (o.max_collisions > 0) simulate += ", max_collisions: " + std::to_string(o.max_collisions);
+  return "# seed " + std::to_string(scene.seed) + ", family " + scene.family +
+         "\nscene: 1\ngravity: " + text(scene.world.gravity) + "\n" + restitution(scene.world) + bodies(scene) +
+         fixed(scene.world) + forces(scene.world) + simulate + "}\n";
+}
+
+}  // namespace carom::stress
