@@ -26,8 +26,21 @@ struct Problem {
     world.restitution.push_back(e);
     initial.position.push_back(x);
     initial.velocity.push_back(v);
+    if (!world.volume.empty()) world.volume.push_back(Volume::sphere(radius));
     return world.body_count() - 1;
   }
+  Entity body(Volume volume, Vec3 x, Vec3 v, double mass = 1, double e = 1) {
+    for (Entity i = static_cast<Entity>(world.volume.size()); i < world.body_count(); ++i)
+      world.volume.push_back(Volume::sphere(world.radius[i]));
+    world.volume.push_back(volume);
+    world.mass.push_back(mass);
+    world.radius.push_back(volume.reach());
+    world.restitution.push_back(e);
+    initial.position.push_back(x);
+    initial.velocity.push_back(v);
+    return world.body_count() - 1;
+  }
+  void obstacle(Vec3 center, Volume volume) { world.obstacles.push_back({center, volume, std::nullopt}); }
   void plane(Vec3 point, Vec3 normal) { world.planes.push_back({point, normal.normalized(), std::nullopt}); }
   void wall(Vec3 center, Vec3 normal, double width, double height, Vec3 up = Vec3(0, 1, 0)) {
     const Vec3 n = normal.normalized(), u = (up - n * n.dot(up)).normalized();
@@ -65,6 +78,19 @@ inline Outcome run_to_end(Simulator& simulator, double duration) {
 inline Outcome run_exact(const Problem& problem) {
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   return run_to_end(*simulator, problem.options.duration);
+}
+
+/// Goes to `time` (s), as often as the buffer asks for.
+inline void go_to(Simulator& simulator, double time) {
+  do simulator.advance_to(time);
+  while (simulator.time() < time);
+}
+
+/// N, between two things now; 0: they do not press on each other.
+inline double force_between(Simulator& simulator, Entity a, Entity b) {
+  for (const ContactForce& c : simulator.contacts())
+    if (c.a == a && c.b == b) return c.force;
+  return 0;
 }
 
 inline nlohmann::json reference(const std::string& name) {

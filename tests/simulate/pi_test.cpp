@@ -1,0 +1,51 @@
+// Galperin's billiard: a heavy ball drives a light one against a wall. Unfolded, it is a straight line through wedges
+// of the angle theta = atan sqrt(m/M), so the collisions are the wedges' sides that it crosses: ceil(pi / theta) - 1.
+// (Galperin, Regul. Chaotic Dyn. 8 (2003) 375.)
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simulate/build.h"
+
+namespace carom {
+namespace {
+
+Tally heavy_against_wall(double ratio, double duration) {
+  Problem problem;
+  problem.plane({0, 0, 0}, {1, 0, 0});
+  problem.ball({2, 0, 0}, {0, 0, 0}, 1);
+  problem.ball({5, 0, 0}, {-1, 0, 0}, ratio);
+  problem.options.duration = duration;
+  problem.options.record_collisions = false;
+  return run_exact(problem).tally;
+}
+
+TEST(PiBilliard, CollisionsCountTheDigitsOfPi) {
+  const std::uint64_t digits[] = {3, 31, 314, 3141, 31415, 314159, 3141592};
+  for (int k = 0; k < 7; ++k)
+    EXPECT_EQ(heavy_against_wall(std::pow(100.0, k), k < 5 ? 1000 : 10).collisions(), digits[k])
+        << "mass ratio 100^" << k;
+}
+
+// Where pi / theta is a whole number the last wedge's side is parallel to the line: no collision. By Niven's theorem
+// that is so at the mass ratios 1/3, 1 and 3 only.
+TEST(PiBilliard, ALineAlongAWedgesSideDoesNotCrossIt) {
+  EXPECT_EQ(heavy_against_wall(1.0 / 3, 1e6).collisions(), 2u);
+  EXPECT_EQ(heavy_against_wall(1, 1e6).collisions(), 3u);
+  EXPECT_EQ(heavy_against_wall(3, 1e6).collisions(), 5u);
+}
+
+// A thousandth of an angle decides whether there is one more collision, when the heavy ball is already far away.
+TEST(PiBilliard, AThousandthOfAnAngleDecidesBetweenNeighbours) {
+  for (int n : {5, 7, 10, 100, 1000, 10000, 100000, 1000000}) {
+    for (long double side : {-1e-3L, 1e-3L}) {
+      const long double cot = 1 / std::tan(3.14159265358979323846264338327950288L / (n + side));
+      const double ratio = static_cast<double>(cot * cot);
+      EXPECT_EQ(heavy_against_wall(ratio, 1e6).collisions(), static_cast<std::uint64_t>(side < 0 ? n - 1 : n))
+          << n << (side < 0 ? " less" : " more");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom
