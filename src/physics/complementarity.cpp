@@ -62,14 +62,20 @@ struct Scaled {
 
 }  // namespace
 
-bool press_apart(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<PressedPair> pairs,
+bool press_apart(std::span<const double> inverse_masses, std::span<Vec3> u, std::span<PressedPair> pairs,
                  int iterations) {
   const std::size_t m = pairs.size();
   if (m == 0) return true;
+  // Masses in a unit of their own, a power of two: masses scaled by one give the same bits.
+  int exponent;
+  std::frexp(*std::max_element(inverse_masses.begin(), inverse_masses.end()), &exponent);
+  const double unit = std::ldexp(1.0, exponent);  // 1/kg
+  std::vector<double> inverse_mass(inverse_masses.begin(), inverse_masses.end());
+  for (double& w : inverse_mass) w /= unit;
   Scaled a(inverse_mass, pairs);
   std::vector<double> x(m), g(m), free(m), direction(m), image(m), constant(m);
   for (std::size_t c = 0; c < m; ++c) {
-    x[c] = std::max(pairs[c].force, 0.0) / a.scale[c];
+    x[c] = std::max(pairs[c].force, 0.0) * unit / a.scale[c];
     constant[c] = a.scale[c] * (a.relative(u, c) - pairs[c].target);
   }
   const auto gradient = [&] {
@@ -146,7 +152,7 @@ bool press_apart(std::span<const double> inverse_mass, std::span<Vec3> u, std::s
   }
   a.move(x);
   for (std::size_t i = 0; i < u.size(); ++i) u[i] += a.moved[i];
-  for (std::size_t c = 0; c < m; ++c) pairs[c].force = x[c] * a.scale[c];
+  for (std::size_t c = 0; c < m; ++c) pairs[c].force = x[c] * a.scale[c] / unit;
   return done;
 }
 

@@ -45,6 +45,7 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       pulled_(world.body_count()),
       jostled_(world.body_count()),
       idle_(world.body_count()),
+      needed_(world.body_count()),
       followed_(world.body_count()),
       arrival_(world.body_count()),
       arrival_version_(world.body_count()) {
@@ -237,6 +238,13 @@ void ExactSimulator::check_limits() {
   looked_at_ = now_;
 }
 
+/// A body's velocity at an instant of its flight. A stride has what gravity does until its end in it from the start.
+Vec3 ExactSimulator::velocity_now(Entity i, const Instant& at) const {
+  const Vec3 v = flight_[i].velocity(at - flight_[i].start);
+  if (place_[i] != Place::crowd || following_) return v;
+  return v - (pulled_[i] - at) * pull_[i];
+}
+
 const State& ExactSimulator::state() {
   if (state_fresh_) return state_;
   state_.time = time_;
@@ -244,7 +252,7 @@ const State& ExactSimulator::state() {
   for (Entity i = 0; i < world_.body_count(); ++i) {
     const double t = at - flight_[i].start;
     state_.position[i] = flight_[i].position(t);
-    state_.velocity[i] = flight_[i].velocity(t);
+    state_.velocity[i] = velocity_now(i, at);
   }
   // Between collisions a speed is greatest at a flight's ends: the last flights end here.
   if (time_ >= options_.duration && !ended_) {
@@ -252,6 +260,8 @@ const State& ExactSimulator::state() {
     for (Entity i = 0; i < world_.body_count(); ++i) {
       tally_.max_speed = std::max(tally_.max_speed, state_.velocity[i].norm());
       book_flight(i, state_.position[i]);
+      const Vec3 v = flight_[i].velocity(at - flight_[i].start);
+      if (v != state_.velocity[i]) lose(0.5 * world_.mass[i] * (v - state_.velocity[i]).dot(v + state_.velocity[i]));
     }
   }
   if (!part_of_.empty()) {

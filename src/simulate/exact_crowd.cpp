@@ -48,6 +48,7 @@ void ExactSimulator::join(Entity i) {
   }
   if (following_) crowd_end_ = now_;
   idle_[i] = 0;
+  needed_[i] = now_;
   crowd_.push_back(i);
 }
 
@@ -55,6 +56,7 @@ void ExactSimulator::join(Entity i) {
 /// could move at that speed until the next step.
 void ExactSimulator::stir(Entity i, double approach) {
   if (place_[i] != Place::crowd) return;
+  needed_[i] = now_;
   kept_apart_ = std::max(kept_apart_, std::min(0.5 * approach * crowd_step_, restless_gap * world_.radius[i]));
 }
 

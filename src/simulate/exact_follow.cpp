@@ -15,7 +15,7 @@ namespace carom {
 
 namespace {
 
-constexpr std::size_t most_pairs = 48;  // that are followed; a larger crowd moves in strides
+constexpr std::size_t most_pairs = 16;  // that are followed; a larger crowd moves in strides
 constexpr double closed = 1e-9;         // of a radius: a gap that counts as contact
 constexpr double strayed = 1e-11;       // of a body's size
 constexpr double longest_step = 0.02;   // of the time in which a body falls by its own size
@@ -24,10 +24,14 @@ constexpr double still = 1e-13;         // of the speed of falling by a radius
 /// By Newton's method: the same bits everywhere, which std::cbrt does not promise.
 double cube_root(double x) {
   int exponent;
-  std::frexp(x, &exponent);
-  double y = std::ldexp(1.0, exponent / 3 + 1);
-  for (int k = 0; k < 10; ++k) y -= (y - x / (y * y)) / 3;
-  return y;
+  double m = std::frexp(x, &exponent);  // m in [1/2, 1)
+  while (exponent % 3 != 0) {
+    m *= 2;
+    --exponent;
+  }
+  double y = 1.25;
+  for (int k = 0; k < 8; ++k) y -= (y - m / (y * y)) / 3;
+  return std::ldexp(y, exponent / 3);
 }
 
 }  // namespace
@@ -40,7 +44,7 @@ bool ExactSimulator::followed(Entity i, Entity e) const {
 
 bool ExactSimulator::follow_crowd() {
   const std::size_t n = crowd_.size();
-  if (n > most_pairs) return false;
+  if (n > 2 * most_pairs) return false;
   std::vector<Vec3> x(n), v(n), before(n);
   std::vector<double> inverse_mass(n);
   double pull = 0, smallest = never;
@@ -50,7 +54,7 @@ bool ExactSimulator::follow_crowd() {
     const double t = now_ - flight_[i].start;
     x[k] = flight_[i].position(t);
     before[k] = flight_[i].velocity(t);
-    v[k] = following_ && version_[i] == arrival_version_[i] && now_ == crowd_end_ ? arrival_[i] : before[k];
+    v[k] = following_ && version_[i] == arrival_version_[i] && now_ == arrival_time_ ? arrival_[i] : before[k];
     if (!following_ && now_ < pulled_[i]) v[k] -= (pulled_[i] - now_) * pull_[i];
     inverse_mass[k] = 1 / world_.mass[i];
     pull = std::max(pull, pull_[i].norm());
@@ -83,7 +87,7 @@ bool ExactSimulator::follow_crowd() {
       if (there.gap > closed * world_.radius[i]) continue;
       const double approach = there.normal.dot(v[k] - moving(v, e));
       const double length = world_.radius[i] + (body ? world_.radius[e] : 0);
-      if (approach >= slow_speed(pull, length) && pair_restitution(world_, i, e) > 0) continue;
+      if (pull > 0 && approach >= slow_speed(pull, length) && pair_restitution(world_, i, e) > 0) continue;
       pairs.push_back({static_cast<std::uint32_t>(k), body ? local_[e] : PressedPair::none, there.normal, 0, 0, 0});
       names.push_back({i, e, there.feature});
       pairs.back().target = -there.gap;
@@ -108,21 +112,34 @@ bool ExactSimulator::follow_crowd() {
   }
   press_apart(inverse_mass, v, pairs, 2000);
 
+  // Pairs that part by more than paths stray are no contacts: if they come back, they meet.
+  const double parting = std::sqrt(2 * pull * strayed * smallest) + 0x1p-48 * fastest;
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    const Vec3 w = moving(v, names[c].b) - v[pairs[c].a];
+    if (pairs[c].normal.dot(w) > parting) continue;
+    pairs[kept] = pairs[c];
+    names[kept++] = names[c];
+  }
+  pairs.resize(kept);
+  names.resize(kept);
+
   const auto accelerate = [&](const std::vector<Vec3>& where, const std::vector<Vec3>& speed) {
     std::vector<Vec3> a(n);
     for (std::size_t k = 0; k < n; ++k) a[k] = pull_[crowd_[k]];
     for (std::size_t c = 0; c < pairs.size(); ++c) {
       const auto& [i, e, feature] = names[c];
+      pairs[c].slack = 1e-15 * pull;
+      if (carom::is_flat(world_, i, e, feature)) continue;
       const Vec3 xe = at(where, e);
       const Touch there = touch(world_, i, where[pairs[c].a], e, xe);
       pairs[c].normal = there.normal;
       pairs[c].target = -bending(world_, i, where[pairs[c].a], e, xe, there, moving(speed, e) - speed[pairs[c].a]);
-      pairs[c].slack = 1e-15 * pull;
     }
     press_apart(inverse_mass, a, pairs, 2000);
     return a;
   };
-  for (PressedPair& p : pairs) p.force = 0;
+  for (PressedPair& p : pairs) p.force = p.target = 0;
   const std::vector<Vec3> a0 = accelerate(x, v);
   std::vector<PressedPair> first = pairs;
 
@@ -136,7 +153,7 @@ bool ExactSimulator::follow_crowd() {
   const bool rests = !pairs.empty() && fastest <= still * std::sqrt(pull * smallest) && pushed <= 1e-11 * pull;
 
   // How far the parabolas are good.
-  double h = Instant{options_.duration, 0} - now_;
+  double h = 2 * (Instant{options_.duration, 0} - now_) + longest_step * std::sqrt(2 * smallest / pull);  // for ever
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& [i, e, feature] = names[c];
     const Vec3 w = moving(v, e) - v[pairs[c].a], a = moving(a0, e) - a0[pairs[c].a];
@@ -154,7 +171,19 @@ bool ExactSimulator::follow_crowd() {
     if (w.norm() > 0) h = std::min(h, cube_root(2 * strayed * size * size / (w.norm() * bent)));
   }
 
+  // A body that nothing presses on any more leaves the crowd, but not before it has had time to fall back.
+  const double grace = pull > 0 ? 2 * slow_speed(pull, smallest) / pull : 1e-6 * smallest / std::max(fastest, 0x1p-900);
+  std::vector<std::uint8_t> held(n, 0);
+  for (const PressedPair& p : pairs) {
+    if (!(p.force > 0)) continue;
+    held[p.a] = 1;
+    if (p.b != PressedPair::none) held[p.b] = 1;
+  }
+  for (std::size_t k = 0; k < n; ++k)
+    if (!held[k]) h = std::min(h, std::max(grace - (now_ - needed_[crowd_[k]]), 0.25 * grace));
+
   std::vector<Vec3> path = a0, end = v;
+  for (std::size_t k = 0; k < n; ++k) end[k] += h * a0[k];
   if (!rests && !pairs.empty()) {
     std::vector<Vec3> where(n), speed(n);
     for (std::size_t k = 0; k < n; ++k) {
@@ -181,14 +210,10 @@ bool ExactSimulator::follow_crowd() {
     followed_[i].clear();
     pressed_[i].clear();
   }
-  std::vector<std::uint8_t> held(n, 0);
   for (std::size_t c = 0; c < pairs.size(); ++c) {
-    if (!(first[c].force > 0) && !(pairs[c].force > 0)) continue;
     const auto& [i, e, feature] = names[c];
-    held[first[c].a] = 1;
     followed_[i].push_back(e);
     if (world_.is_body(e)) {
-      held[first[c].b] = 1;
       followed_[e].push_back(i);
     }
     if (first[c].force > 0) pressed_[i].push_back({e, first[c].force});
@@ -201,7 +226,8 @@ bool ExactSimulator::follow_crowd() {
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = members[k];
     lose(0.5 * world_.mass[i] * (before[k] - v[k]).dot(before[k] + v[k]));
-    if (!held[k]) {
+    if (held[k]) needed_[i] = now_;
+    if (!held[k] && now_ - needed_[i] >= grace) {
       place_[i] = Place::outside;
       restart(i, x[k], v[k], {});
     } else if (rests) {
@@ -219,6 +245,7 @@ bool ExactSimulator::follow_crowd() {
   }
   following_ = true;
   crowd_end_ = crowd_.empty() ? Instant{never, 0} : now_ + h;
+  arrival_time_ = crowd_end_;
   for (Entity i : members) predict(i);
   return true;
 }

@@ -118,6 +118,7 @@ class ExactSimulator final : public Simulator {
   void book_flight(Entity i, const Vec3& x);
   void switch_forces(Entity i);
   void start(const State& initial);
+  Vec3 velocity_now(Entity i, const Instant& at) const;
   void record(const Collision& collision);
   void lose(double energy);
   void check_limits();
@@ -200,8 +201,10 @@ class ExactSimulator final : public Simulator {
   std::vector<std::uint8_t> idle_;              // by body of the crowd: steps since something pressed on it
   double kept_apart_ = 0;                       // m: the gap that the crowd's steps leave between bodies
   double crowd_step_ = 0;                       // s, length of the last step
+  std::vector<Instant> needed_;                 // by body of the crowd: when something last pressed on it or struck it
   bool following_ = false;                      // the last step was of follow_crowd
   std::vector<std::vector<Entity>> followed_;   // by body: whom it is in contact with until the step ends
+  Instant arrival_time_;                        // when the step ends if nothing happens before
   std::vector<Vec3> arrival_;                   // m/s, by body: its velocity when the step ends,
   std::vector<std::uint32_t> arrival_version_;  // if it is still on this flight
   Instant crowd_end_{never, 0};                 // when the next step is due
