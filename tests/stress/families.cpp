@@ -139,9 +139,9 @@ void stacks(Maker& m) {
     for (int k = m.whole(1, 5); k > 0; --k) {
       // Whole multiples of 1/64: that they touch is then exact.
       const double size = m.whole(4, 40) / 64.0;
-      const Volume v = boxes && m.chance(0.7) ? (m.chance(0.5) ? Volume::box(Vec3(2, 2, 2) * size)
-                                                                : Volume::cylinder(size, 2 * size))
-                                              : Volume::sphere(size);
+      const Volume v = boxes && m.chance(0.7)
+                           ? (m.chance(0.5) ? Volume::box(Vec3(2, 2, 2) * size) : Volume::cylinder(size, 2 * size))
+                           : Volume::sphere(size);
       const double aside = boxes && m.chance(0.3) ? m.uniform(-0.5, 0.5) * size : 0;
       m.body({x + aside, top + v.half.y(), 0}, Vec3::Zero(), v, m.spread(0.1, 10), e);
       top += 2 * v.half.y();
@@ -171,7 +171,7 @@ void cradles(Maker& m) {
     m.plane({-40 * radius, 0, 0}, Vec3::UnitX());
     m.plane({40 * radius, 0, 0}, -Vec3::UnitX());
   }
-  m.scene.options.duration = 60 * radius / speed;
+  m.scene.options.duration = std::min(1e6, 60 * radius / speed);
 }
 
 /// A heap that falls into a box or a groove and comes to rest.
@@ -190,8 +190,8 @@ void heaps(Maker& m) {
   const double e = m.any({0, 0.3, 0.5, 0.8}), spheres = m.chance(0.7) ? 1 : 0.3, size = m.uniform(0.08, 0.3);
   const bool equal = m.chance(0.4);
   for (int k = m.whole(2, 40); k > 0; --k)
-    m.fit(1, m.any_volume(equal ? size : size * m.uniform(0.3, 1), spheres), m.somewhere(1), equal ? 1 : m.spread(0.1, 10),
-          e);
+    m.fit(1, m.any_volume(equal ? size : size * m.uniform(0.3, 1), spheres), m.somewhere(1),
+          equal ? 1 : m.spread(0.1, 10), e);
   m.scene.options.duration = m.uniform(0.5, 2);
   m.scene.options.max_collisions = 0;
 }
@@ -216,8 +216,8 @@ void lonely(Maker& m) {
   if (m.chance(0.3)) m.plane(Vec3(1, 0, 0), m.chance(0.5) ? Vec3(-Vec3::UnitX()) : m.direction());
   if (m.chance(0.3)) m.obstacle(m.somewhere(2), m.any_volume(m.uniform(0.1, 1), 0.4));
   for (int k = m.whole(0, 2); k > 0; --k)
-    m.fit(6, m.any_volume(m.spread(1e-3, 1), 0.7), m.chance(0.3) ? Vec3(Vec3::Zero()) : m.somewhere(m.spread(1e-9, 1e3)),
-          m.spread(1e-3, 1e3), e);
+    m.fit(6, m.any_volume(m.spread(1e-3, 1), 0.7),
+          m.chance(0.3) ? Vec3(Vec3::Zero()) : m.somewhere(m.spread(1e-9, 1e3)), m.spread(1e-3, 1e3), e);
   m.scene.options.duration = duration;
   m.scene.options.rest_speed = m.chance(0.3) ? m.spread(1e-6, 1e-1) : 0;
 }
@@ -243,9 +243,9 @@ struct Family {
   const char* name;
   void (*make)(Maker&);
 };
-constexpr Family families[] = {{"gas", gas},         {"space", space},     {"grazing", grazing}, {"walls", walls},
-                               {"volumes", volumes}, {"forces", forces},   {"merging", merging}, {"stacks", stacks},
-                               {"cradles", cradles}, {"heaps", heaps},     {"lively", lively},   {"lonely", lonely},
+constexpr Family families[] = {{"gas", gas},         {"space", space},   {"grazing", grazing}, {"walls", walls},
+                               {"volumes", volumes}, {"forces", forces}, {"merging", merging}, {"stacks", stacks},
+                               {"cradles", cradles}, {"heaps", heaps},   {"lively", lively},   {"lonely", lonely},
                                {"hammers", hammers}};
 
 }  // namespace
@@ -270,7 +270,8 @@ RandomScene make_scene(std::uint64_t seed) {
   // Whatever bounces for ever may do so more often than the limit.
   const auto lasting = [](const auto& thing) { return thing.restitution.value_or(0) >= 1; };
   scene.may_stop =
-      scene.may_stop || std::any_of(world.restitution.begin(), world.restitution.end(), [](double e) { return e >= 1; }) ||
+      scene.may_stop ||
+      std::any_of(world.restitution.begin(), world.restitution.end(), [](double e) { return e >= 1; }) ||
       std::any_of(world.pairs.begin(), world.pairs.end(), [](const PairRestitution& p) { return p.value >= 1; }) ||
       std::any_of(world.planes.begin(), world.planes.end(), lasting) ||
       std::any_of(world.walls.begin(), world.walls.end(), lasting) ||

@@ -12,7 +12,8 @@ namespace carom::stress {
 namespace {
 
 constexpr double relative_rounding = 2e-14;
-constexpr int most_looks = 100;  // at a pair's gap between two outputs
+constexpr double in_crowds = 1e-10;  // of the smaller one's radius
+constexpr int most_looks = 100;      // at a pair's gap between two outputs
 
 double extent_of(const Vec3& x) {
   return x.cwiseAbs().sum();
@@ -24,8 +25,8 @@ Long3 on(const Long3& x, const Long3& v, const Long3& a, long double t) {
 
 }  // namespace
 
-Paths::Paths(const RandomScene& scene, const std::vector<double>& times, const std::vector<State>& seen)
-    : scene_(scene), times_(times), seen_(seen) {
+Paths::Paths(const RandomScene& scene, const std::vector<double>& times, const std::vector<State>& seen, bool crowds)
+    : scene_(scene), times_(times), seen_(seen), crowds_(crowds) {
   const World& world = scene.world;
   for (Entity i = 0; i < world.body_count(); ++i) {
     double extent = extent_of(scene.initial.position[i]) + world.radius[i];
@@ -39,6 +40,12 @@ Paths::Paths(const RandomScene& scene, const std::vector<double>& times, const s
 
 double Paths::rounding(Entity a, Entity b) const {
   return relative_rounding * (extent_[a] + extent_[b]);
+}
+
+double Paths::allowed(Entity a, Entity b) const {
+  const World& world = scene_.world;
+  const double smaller = world.is_body(b) ? std::min(world.radius[a], world.radius[b]) : world.radius[a];
+  return rounding(a, b) + (crowds_ ? in_crowds * smaller : 0);
 }
 
 /// The paths from look k to the next.
@@ -80,7 +87,7 @@ double Paths::deepest(const World& world, Entity a, const Path& pa, Entity b, co
   const auto span = [&](double from, double to, double at_from, double at_to) {
     return Span{from, to, at_from, at_to, 0.5 * (at_from + at_to - speed * (to - from))};
   };
-  const double tolerance = rounding(a, b);
+  const double tolerance = allowed(a, b);
   double least = at(0);
   std::vector<Span> spans;
   const double end = at(length);
@@ -121,8 +128,9 @@ std::vector<std::string> Paths::overlaps() const {
       if (gone(a)) continue;
       for (Entity b = a + 1; b < all; ++b) {
         if (gone(b) || known.contains({a, b})) continue;
-        const Path there = b < bodies ? paths[b] : Path{world.is_body(b) ? Vec3(Vec3::Zero()) : world.fixed_position(b),
-                                                        Vec3::Zero(), Vec3::Zero(), true};
+        const Path there = b < bodies ? paths[b]
+                                      : Path{world.is_body(b) ? Vec3(Vec3::Zero()) : world.fixed_position(b),
+                                             Vec3::Zero(), Vec3::Zero(), true};
         const bool dense = paths[a].known && there.known;
         double least;
         if (dense) {
@@ -130,11 +138,11 @@ std::vector<std::string> Paths::overlaps() const {
         } else {
           least = static_cast<double>(gap(world, a, paths[a].x.cast<long double>(), b, there.x.cast<long double>()));
         }
-        if (least >= -rounding(a, b)) continue;
+        if (least >= -allowed(a, b)) continue;
         known.insert({a, b});
         char text[200];
-        std::snprintf(text, sizeof text, "%u and %u overlap by %.6g m (rounding %.2g) %s t = %.17g and %.17g", a, b,
-                      -least, rounding(a, b), dense ? "between" : "at the first of", times_[k], times_[k + 1]);
+        std::snprintf(text, sizeof text, "%u and %u overlap by %.6g m (allowed: %.2g) %s t = %.17g and %.17g", a, b,
+                      -least, allowed(a, b), dense ? "between" : "at the first of", times_[k], times_[k + 1]);
         found.emplace_back(text);
       }
     }

@@ -10,13 +10,15 @@ namespace carom::stress {
 
 class Paths {
  public:
-  Paths(const RandomScene& scene, const std::vector<double>& times, const std::vector<State>& seen);
+  Paths(const RandomScene& scene, const std::vector<double>& times, const std::vector<State>& seen, bool crowds);
 
-  /// Every overlap beyond rounding, in words (the first of each pair).
+  /// Every overlap beyond what is allowed, in words (the first of each pair).
   std::vector<std::string> overlaps() const;
 
   /// m: what the gap of two things may be off by, from the size of the numbers that it is made of.
   double rounding(Entity a, Entity b) const;
+  /// m: the overlap that they may have: rounding, and in crowds of bodies in lasting contact a little more.
+  double allowed(Entity a, Entity b) const;
 
  private:
   struct Path {
@@ -29,6 +31,7 @@ class Paths {
   const RandomScene& scene_;
   const std::vector<double>& times_;
   const std::vector<State>& seen_;
+  const bool crowds_;
   std::vector<double> extent_;  // m, by entity
 };
 

@@ -13,8 +13,8 @@ struct Watched {
   std::vector<State> seen;  // at the times asked for
   State start, end;
   Tally tally;
-  std::string error;       // that the run ended with
-  bool too_slow = false;   // it was given up
+  std::string error;      // that the run ended with
+  bool too_slow = false;  // it was given up
 };
 
 /// Runs a scene, looking at these times (s, ascending), then to the end; for at most this long (s of CPU time).

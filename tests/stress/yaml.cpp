@@ -72,8 +72,8 @@ std::string fixed(const World& world) {
 std::string forces(const World& world) {
   std::string out = world.forces.empty() ? "" : "forces:\n";
   for (const Force& f : world.forces) {
-    out += "  - {" + std::string(f.per_mass ? "acceleration: " : "uniform: ") + text(f.value) +
-           ", from: " + text(f.from);
+    out +=
+        "  - {" + std::string(f.per_mass ? "acceleration: " : "uniform: ") + text(f.value) + ", from: " + text(f.from);
     if (std::isfinite(f.until)) out += ", until: " + text(f.until);
     std::string on;
     for (Entity i : f.on) on += (on.empty() ? "" : ", ") + name(world, i);
@@ -104,7 +104,9 @@ std::string as_yaml(const RandomScene& scene) {
   if (o.max_collisions > 0) simulate += ", max_collisions: " + std::to_string(o.max_collisions);
   return "# seed " + std::to_string(scene.seed) + ", family " + scene.family +
          "\nscene: 1\ngravity: " + text(scene.world.gravity) + "\n" + restitution(scene.world) + bodies(scene) +
-         fixed(scene.world) + forces(scene.world) + simulate + "}\n";
+         fixed(scene.world) + forces(scene.world) + simulate +
+         "}\noutput: {trajectory: {every: " + text(o.duration / 100) +
+         "}, collisions: true, energy: {every: " + text(o.duration / 100) + "}}\n";
 }
 
 }  // namespace carom::stress

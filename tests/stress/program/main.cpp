@@ -1,8 +1,8 @@
 // The long stress run: carom_stress [SCENES [FIRST_SEED]]. Two processes share the scenes; one that crashes or hangs is
 // replaced, and its scene is a failure like any other.
 #include <sys/mman.h>
-#include <sys/wait.h>
 #include <sys/time.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -102,8 +102,8 @@ int run(std::uint64_t scenes, std::uint64_t first) {
       const std::uint64_t seed = shared.current[k];
       ++counts_of(shared, seed).scenes;
       ++counts_of(shared, seed).violated;
-      report(make_scene(seed), {WTERMSIG(status) == SIGVTALRM ? "it hangs" : std::string("it crashes: ") +
-                                                                                strsignal(WTERMSIG(status))});
+      report(make_scene(seed),
+             {WTERMSIG(status) == SIGVTALRM ? "it hangs" : std::string("it crashes: ") + strsignal(WTERMSIG(status))});
       children[k] = start(shared, k, end);
     }
     if (child > 0) continue;

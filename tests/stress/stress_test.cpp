@@ -1,0 +1,33 @@
+// The fast part of the stress run (the long one: ./dev stress).
+#include <gtest/gtest.h>
+
+#include "stress/check.h"
+
+namespace carom::stress {
+namespace {
+
+constexpr int groups = 13, scenes_per_group = 24;
+
+class RandomScenes : public ::testing::TestWithParam<int> {};
+
+TEST_P(RandomScenes, HoldEveryInvariant) {
+  for (int k = 0; k < scenes_per_group; ++k) {
+    const RandomScene scene = make_scene(static_cast<std::uint64_t>(GetParam() + groups * k));
+    for (const std::string& violation : check(scene).violations)
+      ADD_FAILURE() << "seed " << scene.seed << ": " << violation << "\n" << as_yaml(scene);
+  }
+}
+
+// A group is a family: the seed modulo their number chooses it.
+INSTANTIATE_TEST_SUITE_P(Families, RandomScenes, ::testing::Range(0, groups), [](const auto& group) {
+  return std::string(family_names()[static_cast<std::size_t>(group.param)]);
+});
+
+TEST(RandomScene, IsMadeOfItsSeedAlone) {
+  EXPECT_EQ(groups, static_cast<int>(family_names().size()));
+  for (std::uint64_t seed = 0; seed < 100; ++seed) EXPECT_EQ(as_yaml(make_scene(seed)), as_yaml(make_scene(seed)));
+  EXPECT_NE(as_yaml(make_scene(0)), as_yaml(make_scene(groups)));
+}
+
+}  // namespace
+}  // namespace carom::stress
