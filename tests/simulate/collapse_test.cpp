@@ -1,0 +1,126 @@
+// Inelastic collapse: infinitely many impacts in finite time. The cluster is handed to lasting contact; the run ends.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simulate/build.h"
+
+namespace carom {
+namespace {
+
+double energy(const World& world, const State& state) {
+  return kinetic_energy(world, state) + potential_energy(world, state);
+}
+
+/// Runs in steps of `every` s; energy is never made, and what is missing is in the books.
+Outcome run_and_watch_energy(const Problem& problem, double every, double tolerance, const std::string& what) {
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  const double start = energy(problem.world, problem.initial), scale = std::abs(start);
+  double before = start, worst_gain = 0, worst_books = 0;
+  for (int i = 1; i * every <= problem.options.duration; ++i) {
+    go_to(*simulator, i * every);
+    const double now = energy(problem.world, simulator->state());
+    worst_gain = std::max(worst_gain, (now - before) / scale);
+    worst_books = std::max(worst_books, std::abs(now + simulator->tally().energy_lost - start) / scale);
+    before = now;
+  }
+  EXPECT_LT(worst_gain, tolerance) << what;   // measured: 3.2e-16
+  EXPECT_LT(worst_books, tolerance) << what;  // measured: 1.8e-16
+  EXPECT_LT(simulator->tally().max_overlap, 1e-9 * 2 * problem.world.radius[0]) << what;
+  return {{}, {}, simulator->state(), simulator->tally()};
+}
+
+// Three equal balls in a row collapse below e = 7 - 4 sqrt 3 = 0.0718 (McNamara & Young, Phys. Fluids A 4 (1992) 496).
+TEST(Collapse, OfThreeBallsInARowBelowTheCriticalRestitution) {
+  for (double e : {0.0, 0.01, 0.05, 0.07}) {
+    Problem problem;
+    problem.ball({-2, 0, 0}, {1, 0, 0}, 1, 0.5, e);
+    problem.ball({0, 0, 0}, {0, 0, 0}, 1, 0.5, e);
+    problem.ball({2.5, 0, 0}, {-1, 0, 0}, 1, 0.5, e);
+    const Outcome run = run_and_watch_energy(problem, 0.25, 1e-13, "e = " + std::to_string(e));
+    if (e > 0) {
+      EXPECT_GT(run.tally.collapses, 0u) << e;
+    }
+    EXPECT_LT(run.tally.collisions(), 1000u) << e;
+    Vec3 p = momentum(problem.world, run.end);
+    EXPECT_LT(p.norm(), 1e-15) << e;
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_LT(run.end.velocity[i].norm(), 1e-9) << e;
+  }
+}
+
+TEST(Collapse, IsNoneAboveTheCriticalRestitution) {
+  for (double e : {0.08, 0.1, 0.5}) {
+    Problem problem;
+    problem.ball({-2, 0, 0}, {1, 0, 0}, 1, 0.5, e);
+    problem.ball({0, 0, 0}, {0, 0, 0}, 1, 0.5, e);
+    problem.ball({2.5, 0, 0}, {-1, 0, 0}, 1, 0.5, e);
+    const Outcome run = run_exact(problem);
+    EXPECT_EQ(run.tally.collapses, 0u) << e;
+    EXPECT_LT(run.tally.collisions(), 12u) << e;  // the reference's search finds at most 11 at 0.08
+  }
+}
+
+TEST(Collapse, OfManyBallsInARowAgainstAWall) {
+  // Bernu & Mazighi, J. Phys. A 23 (1990) 5745: a row that is driven against a wall collapses for e < 1 - about ln(4 N)
+  // / N.
+  for (int n : {5, 10, 20}) {
+    Problem problem;
+    problem.plane({0, 0, 0}, {1, 0, 0});
+    for (int i = 0; i < n; ++i) problem.ball({2.0 + 1.5 * i, 0, 0}, {-1, 0, 0}, 1, 0.5, 0.3);
+    problem.options.duration = 40;
+    const Outcome run = run_and_watch_energy(problem, 0.5, 1e-13, "row of " + std::to_string(n));
+    EXPECT_GT(run.tally.collapses, 0u) << n;
+    EXPECT_LT(run.tally.collisions(), 20000u) << n;
+  }
+}
+
+// A row that is driven against a wall collapses, by an estimate, from ln(4 / (1 - e)) / (1 - e) balls on
+// (data/references/chains_cradle_stack.json).
+TEST(Collapse, OfARowComesWithManyBallsAndNotWithFew) {
+  const auto all = reference("chains_cradle_stack")["n_ball_collapse_estimates"];
+  const double e = number(all[0]["e"]), estimate = all[0]["N_min_formula_ln4"];
+  for (const double share : {0.5, 2.0}) {
+    const int n = static_cast<int>(share * estimate);
+    Problem problem;
+    problem.plane({0, 0, 0}, {1, 0, 0});
+    for (int i = 0; i < n; ++i) problem.ball({1.0 + 1.125 * i, 0, 0}, {-1, 0, 0}, 1, 0.5, e);
+    problem.options.duration = 100;
+    const Outcome run = run_and_watch_energy(problem, 1, 1e-13, "row of " + std::to_string(n));
+    EXPECT_EQ(run.tally.collapses > 0, share > 1) << n;
+  }
+}
+
+TEST(Collapse, OfColumnsDroppedOnTheFloorEndsAtRest) {
+  for (int n : {2, 3, 5, 10, 20}) {
+    Problem problem;
+    problem.world.gravity = Vec3(0, -9.80665, 0);
+    problem.plane({0, 0, 0}, {0, 1, 0});
+    for (int i = 0; i < n; ++i) problem.ball({0, 0.75 + 0.625 * i, 0}, {0, 0, 0}, 1, 0.25, 0.5);
+    problem.options.duration = 10;
+    const Outcome run = run_and_watch_energy(problem, 0.0625, 1e-12, "column of " + std::to_string(n));
+    EXPECT_GT(run.tally.collapses, 0u) << n;
+    EXPECT_EQ(run.tally.resting, static_cast<std::uint64_t>(n));
+    EXPECT_EQ(kinetic_energy(problem.world, run.end), 0) << n;
+    for (std::size_t i = 0; i < run.end.position.size(); ++i)
+      EXPECT_NEAR(run.end.position[i].y(), 0.25 + 0.5 * static_cast<double>(i), 1e-9) << n;
+  }
+}
+
+TEST(Collapse, OfColumnsOfBoxesDroppedOnTheFloorEndsAtRest) {
+  for (int n : {2, 5, 10}) {
+    Problem problem;
+    problem.world.gravity = Vec3(0, -9.80665, 0);
+    problem.plane({0, 0, 0}, {0, 1, 0});
+    for (int i = 0; i < n; ++i)
+      problem.body(Volume::box({0.5, 0.5, 0.5}), {0.01 * i, 0.75 + 0.625 * i, 0}, {0, 0, 0}, 1 + i % 3, 0.5);
+    problem.options.duration = 10;
+    const Outcome run = run_and_watch_energy(problem, 0.0625, 1e-12, "boxes " + std::to_string(n));
+    EXPECT_EQ(run.tally.resting, static_cast<std::uint64_t>(n));
+    EXPECT_EQ(kinetic_energy(problem.world, run.end), 0) << n;
+    for (std::size_t i = 0; i < run.end.position.size(); ++i)
+      EXPECT_EQ(run.end.position[i].x(), 0.01 * static_cast<double>(i));
+  }
+}
+
+}  // namespace
+}  // namespace carom
