@@ -84,6 +84,14 @@ bool press_apart(std::span<const double> inverse_masses, std::span<Vec3> u, std:
   };
   const double step = 1.9 / a.norm();
   gradient();
+  // The potential, x A x / 2 + constant x, only falls from here on, and with it the energy that pairs with no target
+  // leave; it must not start above that of no forces at all.
+  double potential = 0;
+  for (std::size_t c = 0; c < m; ++c) potential += 0.5 * x[c] * (g[c] + constant[c]);
+  if (!(potential <= 0)) {
+    std::fill(x.begin(), x.end(), 0.0);
+    g = constant;
+  }
   bool done = false;
   // direction: of the conjugate gradients on the face of the pairs that press.
   const auto begin = [&] {

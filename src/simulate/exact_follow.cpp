@@ -153,17 +153,19 @@ bool ExactSimulator::follow_crowd() {
   const bool rests = !pairs.empty() && fastest <= still * std::sqrt(pull * smallest) && pushed <= 1e-11 * pull;
 
   // How far the parabolas are good.
-  double h = 2 * (Instant{options_.duration, 0} - now_) + longest_step * std::sqrt(2 * smallest / pull);  // for ever
+  const double moment =  // in which hardly anything can happen
+      pull > 0 ? longest_step * std::sqrt(2 * smallest / pull) : 1e-3 * smallest / std::max(fastest, 0x1p-900);
+  double h = 2 * (Instant{options_.duration, 0} - now_) + moment;  // for ever
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& [i, e, feature] = names[c];
     const Vec3 w = moving(v, e) - v[pairs[c].a], a = moving(a0, e) - a0[pairs[c].a];
     const double size = world_.radius[i] + (world_.is_body(e) ? world_.radius[e] : 0);
     if (carom::is_flat(world_, i, e, feature)) {
       const RelativeMotion m{at(x, e) - x[pairs[c].a], w, a, w.norm(), true};
-      h = std::min(h, std::max(leave_feature(world_, i, e, feature, m, h).time, 1e-9 * std::sqrt(size / pull)));
+      h = std::min(h, std::max(leave_feature(world_, i, e, feature, m, h).time, 1e-7 * moment));
       continue;
     }
-    h = std::min(h, longest_step * std::sqrt(2 * size / pull));
+    h = std::min(h, moment);
     // The gap's third derivative is about 3 w . a / size, its fourth 3 a . a / size.
     const double bent = a.norm() + w.squaredNorm() / size;
     if (bent == 0) continue;

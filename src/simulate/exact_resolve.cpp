@@ -17,7 +17,7 @@ double ExactSimulator::slow_speed(double press, double length) const {
 /// Counts an impact of body i: whether it is one of many within a window of time (s).
 bool ExactSimulator::in_burst(Entity i, double window, int many) {
   Burst& burst = burst_[i];
-  if (now_.hi - burst.start > window) burst = {now_.hi, 0};
+  if (now_.hi - burst.start > window) burst = {now_.hi, 0, false};
   return ++burst.impacts > many;
 }
 
@@ -26,7 +26,6 @@ bool ExactSimulator::in_burst(Entity i, double window, int many) {
 /// and one of very many within the time of a hop at that speed, or is slow and meets bodies in lasting contact. Without
 /// load, when a body does not come from the spot between ever more impacts (inelastic collapse: McNamara & Young, Phys.
 /// Fluids A 4 (1992) 496).
-/// A body alone on flat surfaces comes to rest by itself.
 bool ExactSimulator::taken_up(Entity a, Entity b, double e, double approach, double press, double length, bool alone) {
   if (e >= 1) return false;
   const double load = std::max(pull_[a].norm(), world_.is_body(b) ? pull_[b].norm() : 0.0);
@@ -40,9 +39,11 @@ bool ExactSimulator::taken_up(Entity a, Entity b, double e, double approach, dou
   const bool a_in = crowded(a), b_in = crowded(b);
   if (a_in && (b_in || !world_.is_body(b))) return true;
   if (press > 0 && (a_in || b_in)) return true;
-  if (alone) return false;
   const double window = 2 * slow / load;
+  // Alone on flat surfaces a body comes to rest on each in closed form; only between several can it go on for ever.
+  if (alone) return origin_[a].partner != b && in_burst(a, window, 256);
   const bool burst_a = in_burst(a, window, 16), burst_b = world_.is_body(b) && in_burst(b, window, 16);
+  if (world_.is_body(b)) burst_[a].bodies = burst_[b].bodies = true;
   return burst_a || burst_b;
 }
 
@@ -122,7 +123,7 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
     contact.rest_time = now_ + left;
     contact.settling = rests;
   }
-  const bool take_up = !rests && (taken_up(i, surface, e, approach, press, radius, flat && burst_[i].impacts <= 16) ||
+  const bool take_up = !rests && (taken_up(i, surface, e, approach, press, radius, flat && !burst_[i].bodies) ||
                                   (press > 0 && !flat && (separation == 0 || too_low(x, separation, press))));
   if (take_up) separation = 0;
   if (take_up || place_[i] == Place::asleep) join(i);

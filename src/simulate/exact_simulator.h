@@ -88,6 +88,7 @@ class ExactSimulator final : public Simulator {
   struct Burst {
     double start = 0;  // s
     int impacts = 0;
+    bool bodies = false;  // with bodies among them, not with flat fixed surfaces alone
   };
 
   static constexpr double immovable = never;  // kg
