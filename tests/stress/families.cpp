@@ -171,7 +171,8 @@ void cradles(Maker& m) {
     m.plane({-40 * radius, 0, 0}, Vec3::UnitX());
     m.plane({40 * radius, 0, 0}, -Vec3::UnitX());
   }
-  m.scene.options.duration = std::min(1e6, 60 * radius / speed);
+  const double pull = m.scene.world.gravity.norm();  // to 1e9 m
+  m.scene.options.duration = std::min({1e6, 60 * radius / speed, pull > 0 ? std::sqrt(2e9 / pull) : 1e6});
 }
 
 /// A heap that falls into a box or a groove and comes to rest.
