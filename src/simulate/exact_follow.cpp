@@ -142,6 +142,17 @@ bool ExactSimulator::follow_crowd() {
   for (PressedPair& p : pairs) p.force = p.target = 0;
   const std::vector<Vec3> a0 = accelerate(x, v);
   std::vector<PressedPair> first = pairs;
+  // What presses on does not part: the little speed that is left of parting goes too.
+  std::vector<PressedPair> both;
+  bool parts = false;
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    if (!(first[c].force > 0)) continue;
+    const double rate = first[c].normal.dot(moving(v, names[c].b) - v[first[c].a]);
+    parts = parts || rate > 0x1p-48 * fastest;
+    for (double sign : {1.0, -1.0})
+      both.push_back({first[c].a, first[c].b, sign * first[c].normal, 0, 0x1p-52 * fastest, 0});
+  }
+  if (parts) press_apart(inverse_mass, v, both, 2000);
 
   // At rest?
   fastest = 0;
