@@ -8,14 +8,21 @@ namespace carom::stress {
 
 namespace {
 
-/// Of length 1 to the last bit that the loader leaves as it is.
-Vec3 unit(Vec3 v) {
-  for (int k = 0; k < 8; ++k) {
-    const Vec3 scaled = v / v.cwiseAbs().maxCoeff(), next = scaled / std::sqrt(scaled.squaredNorm());
-    if (next == v) break;
+/// v / |v|, with the roundings of the loader.
+Vec3 unit(const Vec3& v) {
+  const Vec3 scaled = v / v.cwiseAbs().maxCoeff();
+  return scaled / std::sqrt(scaled.x() * scaled.x() + scaled.y() * scaled.y() + scaled.z() * scaled.z());
+}
+
+/// What a loader's rounding makes of v, again and again, until it leaves it as it is: so a file gives the same bits.
+template <typename Step>
+Vec3 settled(Vec3 v, Step step) {
+  for (int k = 1;; ++k) {
+    const Vec3 next = step(v);
+    if (next == v) return v;
     v = next;
+    if (k % 8 == 0) v.x() += 0x1p-20;  // it goes in a circle
   }
-  return v;
 }
 
 }  // namespace
@@ -46,17 +53,15 @@ Vec3 Maker::within(const Vec3& low, const Vec3& high) {
 }
 
 void Maker::plane(const Vec3& point, const Vec3& normal) {
-  scene.world.planes.push_back({point, unit(normal), std::nullopt});
+  scene.world.planes.push_back({point, settled(normal, unit), std::nullopt});
 }
 
 void Maker::wall(const Vec3& center, const Vec3& normal, const Vec3& up, double width, double height) {
-  const Vec3 n = unit(normal);
-  Vec3 u = up;
-  for (int k = 0; k < 8; ++k) {
-    const Vec3 next = unit(u - n * u.dot(n));
-    if (next == u) break;
-    u = next;
-  }
+  const Vec3 n = settled(normal, unit);
+  const Vec3 u = settled(up, [&](const Vec3& v) {
+    const Vec3 along = unit(v);
+    return unit(along - n * along.dot(n));
+  });
   scene.world.walls.push_back({center, n, unit(u.cross(n)), u, width / 2, height / 2, std::nullopt});
 }
 
