@@ -45,6 +45,7 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       pulled_(world.body_count()),
       jostled_(world.body_count()),
       idle_(world.body_count()),
+      carried_(world.body_count()),
       needed_(world.body_count()),
       followed_(world.body_count()),
       arrival_(world.body_count()),
@@ -74,6 +75,7 @@ void ExactSimulator::start(const State& initial) {
   if (!options_.merge)
     for (Entity i = 0; i < n; ++i) lean_together(i);
   for (Entity i = 0; i < n; ++i) predict(i);
+  if (!crowd_.empty()) step_crowd();
 }
 
 /// Events in their total order: time, kind, the lower and the higher number of those concerned.

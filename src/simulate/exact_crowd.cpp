@@ -30,6 +30,13 @@ constexpr double balanced = 1e-11;     // of gravity: forces whose sum is less h
 
 }  // namespace
 
+/// Keeps count of who rests on something.
+void ExactSimulator::carry(Entity i, bool carried) {
+  if (carried == (carried_[i] != 0)) return;
+  carried_[i] = carried;
+  carried ? ++tally_.resting : --tally_.resting;
+}
+
 /// Body i belongs to the crowd from now on.
 void ExactSimulator::join(Entity i) {
   if (place_[i] == Place::asleep) wake(i);
@@ -67,7 +74,7 @@ void ExactSimulator::wake(Entity i) {
   while (!todo.empty()) {
     const Entity k = todo.back();
     todo.pop_back();
-    --tally_.resting;
+    carry(k, false);
     join(k);
     const Vec3& x = flight_[k].x;
     for (Entity e : near_[k]) {
@@ -249,17 +256,19 @@ void ExactSimulator::stride() {
     const Entity i = members[k];
     if (rests[k]) {
       place_[i] = Place::asleep;
-      ++tally_.resting;
+      carry(i, true);
       lose(0.5 * world_.mass[i] * v[k].squaredNorm());
       restart(i, x[k], Vec3::Zero(), {});
     } else if ((idle_[i] = carried[k] ? 0 : idle_[i] + 1) < patience) {
       crowd_.push_back(i);
+      carry(i, carried[k]);
       pulled_[i] = end;
       jostled_[i] = 0;
       lose(0.5 * world_.mass[i] * (v[k] - moved[k]).dot(v[k] + moved[k]));
       restart(i, x[k], moved[k], {});
     } else {
       place_[i] = Place::outside;
+      carry(i, false);
       restart(i, x[k], v[k], {});
     }
   }

@@ -242,13 +242,15 @@ bool ExactSimulator::follow_crowd() {
     if (held[k]) needed_[i] = now_;
     if (!held[k] && now_ - needed_[i] >= grace) {
       place_[i] = Place::outside;
+      carry(i, false);
       restart(i, x[k], v[k], {});
     } else if (rests) {
       place_[i] = Place::asleep;
-      ++tally_.resting;
+      carry(i, true);
       restart(i, x[k], Vec3::Zero(), {});
     } else {
       crowd_.push_back(i);
+      carry(i, held[k]);
       pulled_[i] = now_;
       restart(i, x[k], v[k], {});
       flight_[i].a = path[k];

@@ -166,6 +166,7 @@ class ExactSimulator final : public Simulator {
   // exact_follow.cpp
   bool follow_crowd();
   bool followed(Entity i, Entity e) const;
+  void carry(Entity i, bool carried);
   bool crowded(Entity e) const { return world_.is_body(e) && place_[e] != Place::outside; }
 
   // exact_region.cpp
@@ -202,6 +203,7 @@ class ExactSimulator final : public Simulator {
   std::vector<std::uint8_t> idle_;              // by body of the crowd: steps since something pressed on it
   double kept_apart_ = 0;                       // m: the gap that the crowd's steps leave between bodies
   double crowd_step_ = 0;                       // s, length of the last step
+  std::vector<std::uint8_t> carried_;           // by body: of the crowd or asleep, and something presses on it
   std::vector<Instant> needed_;                 // by body of the crowd: when something last pressed on it or struck it
   bool following_ = false;                      // the last step was of follow_crowd
   std::vector<std::vector<Entity>> followed_;   // by body: whom it is in contact with until the step ends

@@ -182,8 +182,8 @@ TEST(Check, TellsOfVolumesObstaclesAndForces) {
   EXPECT_EQ(check.err, "");
   EXPECT_NE(check.out.find("  bodies      3 bodies: red, crate and can\n"
                            "  fixed       0 planes, 0 walls, 1 obstacle\n"
-                           "  volumes     crate a box of 1 x 2 x 3 m; can a cylinder of radius 0.25 m and height 2 m;\n"
-                           "              post a sphere of radius 0.5 m\n"
+                           "  volumes     crate a box of 1 x 2 x 3 m; can a cylinder of radius 0.25 m and height 2 m; post a\n"
+                           "              sphere of radius 0.5 m\n"
                            "  forces      1 force beside gravity\n"),
             std::string::npos)
       << check.out;
