@@ -8,8 +8,9 @@
 namespace carom {
 
 struct ExactOptions {
-  double duration = 0;    // s; nothing later is scheduled
-  double rest_speed = 0;  // m/s; slower impacts under load end in resting contact; 0: as slow as the clock resolves
+  double duration = 0;  // s; nothing later is scheduled
+  double rest_speed =
+      0;  // m/s; slower impacts under load end in resting contact; 0: chosen by the case (exact_resolve.cpp)
   std::uint64_t max_collisions = 0;  // stop with an error after so many; 0: no limit
   bool merge = false;                // bodies that meet become one
   bool record_collisions = true;     // false: no buffer is made and collisions() stays empty

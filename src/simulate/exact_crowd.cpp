@@ -152,7 +152,7 @@ void ExactSimulator::step_crowd() {
 /// A step of a large crowd.
 void ExactSimulator::stride() {
   const std::size_t n = crowd_.size();
-  std::vector<Vec3> x(n), v(n), free(n), moved(n);
+  std::vector<Vec3> x(n), v(n), moved(n);
   std::vector<double> inverse_mass(n);
   double smallest = never, fastest_pull = 0, fastest = 0;
   for (std::size_t k = 0; k < n; ++k) {
@@ -198,7 +198,7 @@ void ExactSimulator::stride() {
     pressed_[i].clear();
   }
   const Instant end = now_ + h;
-  for (std::size_t k = 0; k < n; ++k) moved[k] = free[k] = v[k] + (end - pulled_[crowd_[k]]) * pull_[crowd_[k]];
+  for (std::size_t k = 0; k < n; ++k) moved[k] = v[k] + (end - pulled_[crowd_[k]]) * pull_[crowd_[k]];
   press_apart(inverse_mass, moved, pairs, 1000);
 
   // Parts that press on one another.

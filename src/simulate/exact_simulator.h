@@ -162,12 +162,12 @@ class ExactSimulator final : public Simulator {
   void jostle(Entity i);
   void step_crowd();
   void stride();
+  void carry(Entity i, bool carried);
+  bool crowded(Entity e) const { return world_.is_body(e) && place_[e] != Place::outside; }
 
   // exact_follow.cpp
   bool follow_crowd();
   bool followed(Entity i, Entity e) const;
-  void carry(Entity i, bool carried);
-  bool crowded(Entity e) const { return world_.is_body(e) && place_[e] != Place::outside; }
 
   // exact_region.cpp
   void rebuild_region(Entity i);
