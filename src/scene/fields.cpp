@@ -159,7 +159,7 @@ constexpr Field simulate_fields[] = {
      .doc = "exact: from collision to collision; book: the source chapter's frame loop; auto: exact."},
     {.key = "step", .type = Type::number, .unit = "s", .range = above_0, .doc = "Time step of engines that step. Default of book: 1/60."},
     {.key = "as_printed", .type = Type::flag, .initial = "false", .doc = "book only: the chapter's listings with their slips."},
-    {.key = "rest_speed", .type = Type::number, .unit = "m/s", .range = from_0, .doc = "Slower impacts under load end in resting contact. Default: as slow as the clock resolves."},
+    {.key = "rest_speed", .type = Type::number, .unit = "m/s", .range = from_0, .doc = "Slower impacts under load end in resting contact. Default: on a flat surface as slow as the clock resolves, among bodies in contact 0.03 sqrt(p L)."},
     {.key = "max_collisions", .type = Type::whole, .range = from_1, .doc = "A run with more stops with an error."},
     {.key = "integrator", .type = Type::choice, .of = "euler|verlet|rk4", .later = exact_only, .doc = "Of engine stepped."},
     {.key = "contact", .type = Type::choice, .initial = "bounce", .of = "bounce|merge", .doc = "Whether bodies that meet bounce or become one; merge is engine exact's."},
