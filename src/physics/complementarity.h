@@ -27,4 +27,11 @@ struct PressedPair {
 /// that was enough.
 bool press_apart(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<PressedPair> pairs, int iterations);
 
+/// The same by factorising a matrix a dozen times: slower where the other is quick, but it gets there where bodies
+/// press on one another nearly as often as they can move, as in a pile.
+bool press_apart_directly(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<PressedPair> pairs);
+
+/// Above the greatest of them, less than twice.
+double power_of_two_near(std::span<const double> values);
+
 }  // namespace carom

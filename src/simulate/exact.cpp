@@ -43,6 +43,8 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       pressed_(world.body_count()),
       local_(world.body_count(), PressedPair::none),
       pulled_(world.body_count()),
+      hastened_(world.body_count(), Vec3::Zero()),
+      kept_apart_(world.body_count()),
       jostled_(world.body_count()),
       idle_(world.body_count()),
       carried_(world.body_count()),
@@ -197,10 +199,11 @@ void ExactSimulator::switch_forces(Entity i) {
   }
   if (place_[i] == Place::asleep) join(i);
   if (place_[i] == Place::crowd) {  // the last step had the old forces in it until its end
-    const Vec3 ahead = (pulled_[i] - now_) * pull_[i];
-    lose(world_.mass[i] * (v - 0.5 * ahead).dot(ahead));
-    v -= ahead;
+    const Vec3 slower = velocity_now(i, now_);
+    lose(0.5 * world_.mass[i] * (v - slower).dot(v + slower));
+    v = slower;
     pulled_[i] = now_;
+    crowd_end_ = now_;
   }
   pull_[i] = pull;
   restart(i, x, keep_contacts(i, v), {});
@@ -240,11 +243,11 @@ void ExactSimulator::check_limits() {
   looked_at_ = now_;
 }
 
-/// A body's velocity at an instant of its flight. A stride has what gravity does until its end in it from the start.
+/// A body's velocity at an instant of its flight. A stride has what forces do until its end in it from the start.
 Vec3 ExactSimulator::velocity_now(Entity i, const Instant& at) const {
   const Vec3 v = flight_[i].velocity(at - flight_[i].start);
   if (place_[i] != Place::crowd || following_) return v;
-  return v - (pulled_[i] - at) * pull_[i];
+  return v - (pulled_[i] - at) * hastened_[i];
 }
 
 const State& ExactSimulator::state() {

@@ -21,10 +21,14 @@ namespace carom {
 namespace {
 
 constexpr double step_length = 0.015;  // of the time in which a body falls freely by its own radius
-constexpr double way = 0.02;           // of a radius: what the fastest body may go in a step longer than that
+constexpr double way = 0.03;           // of a radius: what the fastest body may go in a step longer than that
+constexpr double longest = 16;         // of the shortest step
 constexpr double restless_gap = 4e-4;  // of a radius: what bodies that have just been struck are kept apart
 constexpr double calming = 0.5;        // a step leaves of that gap
 constexpr std::uint8_t patience = 8;   // steps without a force, then a body leaves the crowd
+constexpr double apart = 1e-3;         // of the way that bodies go in a step: what they are kept apart for it,
+constexpr double exactly = 0.05;       // but for this much of that
+constexpr double quiet = 5e-4;         // of a radius: a crowd that moves less in a step, on average, is told exactly
 constexpr double resting_gap = 1e-10;  // of a radius: what calm ones are
 constexpr double balanced = 1e-11;     // of gravity: forces whose sum is less hold a body
 
@@ -43,6 +47,8 @@ void ExactSimulator::join(Entity i) {
   if (place_[i] == Place::crowd) return;
   place_[i] = Place::crowd;
   pulled_[i] = now_;
+  hastened_[i].setZero();
+  kept_apart_[i] = 0;
   jostled_[i] = 0;
   if (contacts_[i].count > 0) {
     contacts_[i].count = 0;
@@ -64,7 +70,7 @@ void ExactSimulator::join(Entity i) {
 void ExactSimulator::stir(Entity i, double approach) {
   if (place_[i] != Place::crowd) return;
   needed_[i] = now_;
-  kept_apart_ = std::max(kept_apart_, std::min(0.5 * approach * crowd_step_, restless_gap * world_.radius[i]));
+  kept_apart_[i] = std::max(kept_apart_[i], std::min(0.5 * approach * crowd_step_, restless_gap * world_.radius[i]));
 }
 
 /// A struck body and all that rest against one another with it are of the crowd again.
@@ -103,7 +109,7 @@ void ExactSimulator::jostle(Entity i) {
       const bool body = world_.is_body(e);
       if (body && place_[e] != Place::crowd) continue;
       const Touch there = touch(world_, a, x, e, body ? at(e) : world_.fixed_position(e));
-      if (there.gap > 1e-3 * kept_apart_) continue;
+      if (there.gap > 1e-3 * kept_apart_[i]) continue;
       if (body && local_[e] == unseen) {
         local_[e] = static_cast<std::uint32_t>(cluster.size());
         cluster.push_back(e);
@@ -149,133 +155,195 @@ void ExactSimulator::step_crowd() {
   stride();
 }
 
-/// A step of a large crowd.
+/// A step of a large crowd, in numbers of its own: member k is body crowd_[k].
+struct ExactSimulator::Stride {
+  double length = 0;                             // s
+  double smallest = never, pull = 0;             // m, m/s^2: the least radius, the greatest acceleration
+  std::vector<Vec3> x, v, moved;                 // m, m/s: now, and velocities from now on
+  std::vector<double> inverse_mass;              // 1/kg
+  std::vector<PressedPair> pairs;                // who may press on whom before the step ends,
+  std::vector<std::pair<Entity, Entity>> names;  // by their names,
+  std::vector<double> gaps;                      // m, and how far they are apart now
+  std::vector<std::uint32_t> part;               // by member: one of those that press on one another with it
+  std::vector<std::uint8_t> carried, rests;      // by member: something presses on it; it is at rest
+};
+
 void ExactSimulator::stride() {
   const std::size_t n = crowd_.size();
-  std::vector<Vec3> x(n), v(n), moved(n);
-  std::vector<double> inverse_mass(n);
-  double smallest = never, fastest_pull = 0, fastest = 0;
+  Stride step;
+  double fastest = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = crowd_[k];
     local_[i] = static_cast<std::uint32_t>(k);
     const Flight& f = flight_[i];
     const double t = now_ - f.start;
-    x[k] = f.position(t);
-    v[k] = f.velocity(t);
-    inverse_mass[k] = 1 / world_.mass[i];
-    smallest = std::min(smallest, world_.radius[i]);
-    fastest = std::max(fastest, v[k].norm());
-    fastest_pull = std::max(fastest_pull, pull_[i].norm());
+    step.x.push_back(f.position(t));
+    step.v.push_back(f.velocity(t));
+    step.inverse_mass.push_back(1 / world_.mass[i]);
+    step.smallest = std::min(step.smallest, world_.radius[i]);
+    step.pull = std::max(step.pull, pull_[i].norm());
+    fastest = std::max(fastest, step.v[k].norm());
   }
-  const double shortest = step_length * std::sqrt(2 * smallest / fastest_pull);
-  const double h = fastest_pull == 0 ? way * smallest / std::max(fastest, 0x1p-900)
-                                     : std::clamp(way * smallest / fastest, shortest, 8 * shortest);
+  const double shortest = step.pull == 0 ? 0 : step_length * std::sqrt(2 * step.smallest / step.pull);
+  step.length = way * step.smallest / std::max(fastest, 0x1p-900);
+  if (step.pull > 0)
+    step.length = std::clamp(step.length, shortest, std::clamp(2 * crowd_step_, shortest, longest * shortest));
+  for (;;) {
+    move_apart(step);
+    fastest = 0;
+    for (const Vec3& u : step.moved) fastest = std::max(fastest, u.norm());
+    if (fastest * step.length <= 2 * way * step.smallest || step.length <= shortest || step.pull == 0) break;
+    step.length = std::max(0.5 * step.length, shortest);
+  }
+  find_parts(step);
+  put_to_rest(step);
+  take_stride(step);
+}
 
-  const double kept = kept_apart_ = std::max({kept_apart_, 1e-5 * fastest * h, resting_gap * smallest});
-  crowd_step_ = h;
-
-  // Who may press on whom before the next step.
-  std::vector<PressedPair> pairs;
-  std::vector<std::pair<Entity, Entity>> names;
-  std::vector<double> gaps;
+/// The velocities that keep every pair apart until the step ends.
+void ExactSimulator::move_apart(Stride& step) {
+  const std::size_t n = crowd_.size();
+  const double h = step.length, reach = std::min(4 * step.pull * h * h, 4 * way * step.smallest);
+  const auto kept_gap = [&](std::size_t k) {
+    return std::max({kept_apart_[crowd_[k]], apart * h * step.v[k].norm(), resting_gap * step.smallest});
+  };
+  step.pairs.clear();
+  step.names.clear();
+  step.gaps.clear();
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = crowd_[k];
     for (Entity e : near_[i]) {
       const bool body = world_.is_body(e);
       if (body && (e < i || place_[e] != Place::crowd)) continue;
       const std::uint32_t other = body ? local_[e] : PressedPair::none;
-      const Touch now = touch(world_, i, x[k], e, body ? x[other] : world_.fixed_position(e));
-      const double rate = now.normal.dot((body ? v[other] : Vec3(Vec3::Zero())) - v[k]);
-      if (now.gap + h * std::min(rate, 0.0) > kept + 4 * fastest_pull * h * h) continue;
-      PressedPair pair{static_cast<std::uint32_t>(k), other, now.normal, -std::max(now.gap - kept, 0.0) / h,
-                       0.05 * kept / h};
+      const Touch there = touch(world_, i, step.x[k], e, body ? step.x[other] : world_.fixed_position(e));
+      const double rate = there.normal.dot((body ? step.v[other] : Vec3(Vec3::Zero())) - step.v[k]);
+      const double kept = body ? std::max(kept_gap(k), kept_gap(other)) : kept_gap(k);
+      if (there.gap + h * std::min(rate, 0.0) > kept + reach) continue;
+      PressedPair pair{static_cast<std::uint32_t>(k),
+                       other,
+                       there.normal,
+                       -std::max(there.gap - kept, 0.0) / h,
+                       exactly * kept / h,
+                       0};
       for (const Pressed& p : pressed_[i])
         if (p.partner == e) pair.force = p.force * h;
-      pairs.push_back(pair);
-      names.emplace_back(i, e);
-      gaps.push_back(now.gap);
+      step.pairs.push_back(pair);
+      step.names.emplace_back(i, e);
+      step.gaps.push_back(there.gap);
     }
-    pressed_[i].clear();
   }
-  const Instant end = now_ + h;
-  for (std::size_t k = 0; k < n; ++k) moved[k] = v[k] + (end - pulled_[crowd_[k]]) * pull_[crowd_[k]];
-  press_apart(inverse_mass, moved, pairs, 1000);
+  step.moved = step.v;
+  for (std::size_t k = 0; k < n; ++k) step.moved[k] += (now_ + h - pulled_[crowd_[k]]) * pull_[crowd_[k]];
+  const std::vector<Vec3> pulled = step.moved;
+  if (press_apart(step.inverse_mass, step.moved, step.pairs, 600)) return;
+  double way_of_all = 0;
+  for (const Vec3& u : step.moved) way_of_all += h * u.norm();
+  if (way_of_all > quiet * step.smallest * static_cast<double>(n)) return;
+  step.moved = pulled;
+  press_apart_directly(step.inverse_mass, step.moved, step.pairs);
+}
 
-  // Parts that press on one another.
-  std::vector<std::uint32_t> part(n);
+/// Members that press on one another are a part of the crowd. The faster one of its bodies is, the farther its bodies
+/// are kept apart.
+void ExactSimulator::find_parts(Stride& step) {
+  const std::size_t n = crowd_.size();
+  std::vector<std::uint32_t>& part = step.part;
+  part.resize(n);
   std::iota(part.begin(), part.end(), 0u);
   const auto root = [&](std::uint32_t k) {
     while (part[k] != k) k = part[k] = part[part[k]];
     return k;
   };
-  std::vector<std::uint8_t> carried(n, 0);
-  for (const PressedPair& p : pairs) {
+  step.carried.assign(n, 0);
+  for (const PressedPair& p : step.pairs) {
     if (p.force <= 0) continue;
-    carried[p.a] = 1;
+    step.carried[p.a] = 1;
     if (p.b == PressedPair::none) continue;
-    carried[p.b] = 1;
+    step.carried[p.b] = 1;
     part[root(p.a)] = root(p.b);
   }
-  std::vector<double> speed(n, 0.0);
-  for (std::uint32_t k = 0; k < n; ++k) speed[root(k)] = std::max(speed[root(k)], moved[k].norm());
-
-  // At rest: what forces hold in balance, and is hardly moving.
-  std::vector<std::uint8_t> rests(n, 0);
-  const double still = 16 * resting_gap * smallest / h;
-  bool any = false;
-  for (std::uint32_t k = 0; k < n; ++k)
-    if (root(k) == k && carried[k] && speed[k] <= still) any = true;
-  if (any) {
-    std::vector<Vec3> a(n);
-    for (std::size_t k = 0; k < n; ++k) a[k] = pull_[crowd_[k]];
-    std::vector<PressedPair> holding;
-    std::vector<std::size_t> which;
-    for (std::size_t c = 0; c < pairs.size(); ++c) {
-      if (speed[root(pairs[c].a)] > still || gaps[c] > 64 * resting_gap * smallest) continue;
-      holding.push_back(pairs[c]);
-      holding.back().target = 0;
-      holding.back().slack = 1e-13 * fastest_pull;
-      holding.back().force = 0;  // from nothing: where forces are not unique, no more than needed
-      which.push_back(c);
-    }
-    press_apart(inverse_mass, a, holding, 20000);
-    std::vector<double> pull(n, 0.0);
-    for (std::uint32_t k = 0; k < n; ++k) pull[root(k)] = std::max(pull[root(k)], a[k].norm());
-    for (std::uint32_t k = 0; k < n; ++k)
-      rests[k] = carried[root(k)] && speed[root(k)] <= still && pull[root(k)] <= balanced * fastest_pull;
-    for (std::size_t c = 0; c < holding.size(); ++c)
-      if (rests[holding[c].a]) pairs[which[c]].force = h * holding[c].force;
+  for (std::uint32_t k = 0; k < n; ++k) part[k] = root(k);
+  std::vector<double> kept(n, resting_gap * step.smallest);
+  const auto keep = [&](std::uint32_t k, double gap) { kept[part[k]] = std::max(kept[part[k]], gap); };
+  for (std::uint32_t k = 0; k < n; ++k) {
+    keep(k, calming * kept_apart_[crowd_[k]]);
+    keep(k, apart * step.length * step.moved[k].norm());
   }
+  for (const PressedPair& p : step.pairs) {
+    const Vec3 w = (p.b == PressedPair::none ? Vec3(Vec3::Zero()) : step.moved[p.b]) - step.moved[p.a];
+    const double short_of = step.length * (p.target - p.normal.dot(w));
+    if (short_of > 0) keep(p.a, std::min(2 * short_of, restless_gap * step.smallest));
+  }
+  for (std::uint32_t k = 0; k < n; ++k) kept_apart_[crowd_[k]] = kept[part[k]];
+}
 
-  for (std::size_t c = 0; c < pairs.size(); ++c)
-    if (pairs[c].force > 0) pressed_[names[c].first].push_back({names[c].second, pairs[c].force / h});
+/// At rest are those parts that hardly move and that forces hold in balance.
+void ExactSimulator::put_to_rest(Stride& step) {
+  const std::size_t n = crowd_.size();
+  step.rests.assign(n, 0);
+  std::vector<std::uint8_t> still(n);  // by part
+  for (std::uint32_t k = 0; k < n; ++k) still[k] = step.part[k] == k;
+  for (std::uint32_t k = 0; k < n; ++k)
+    if (!step.carried[k] || step.length * step.moved[k].norm() > 16 * resting_gap * step.smallest)
+      still[step.part[k]] = 0;
+  if (std::find(still.begin(), still.end(), 1) == still.end()) return;
+  std::vector<Vec3> a(n);
+  for (std::size_t k = 0; k < n; ++k) a[k] = pull_[crowd_[k]];
+  std::vector<PressedPair> holding;
+  std::vector<std::size_t> which;
+  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
+    const PressedPair& p = step.pairs[c];
+    if (!still[step.part[p.a]] || step.gaps[c] > 64 * resting_gap * step.smallest) continue;
+    // From no force: where forces are not unique, no more than needed.
+    holding.push_back({p.a, p.b, p.normal, 0, 1e-13 * step.pull, 0});
+    which.push_back(c);
+  }
+  press_apart(step.inverse_mass, a, holding, 20000);
+  for (std::uint32_t k = 0; k < n; ++k)
+    if (!(a[k].norm() <= balanced * step.pull)) still[step.part[k]] = 0;
+  for (std::uint32_t k = 0; k < n; ++k) step.rests[k] = still[step.part[k]];
+  for (std::size_t c = 0; c < holding.size(); ++c)
+    if (step.rests[holding[c].a]) step.pairs[which[c]].force = step.length * holding[c].force;
+}
+
+/// The members' flights until the step's end.
+void ExactSimulator::take_stride(const Stride& step) {
+  const double h = step.length;
+  const Instant end = now_ + h;
+  for (Entity i : crowd_) pressed_[i].clear();
+  for (std::size_t c = 0; c < step.pairs.size(); ++c)
+    if (step.pairs[c].force > 0)
+      pressed_[step.names[c].first].push_back({step.names[c].second, step.pairs[c].force / h});
+  crowd_step_ = h;
   crowd_end_ = end;
   std::vector<Entity> members;
   members.swap(crowd_);
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < members.size(); ++k) {
     const Entity i = members[k];
-    if (rests[k]) {
+    const Vec3 &x = step.x[k], &v = step.v[k], &moved = step.moved[k];
+    if (step.rests[k]) {
       place_[i] = Place::asleep;
       carry(i, true);
-      lose(0.5 * world_.mass[i] * v[k].squaredNorm());
-      restart(i, x[k], Vec3::Zero(), {});
-    } else if ((idle_[i] = carried[k] ? 0 : idle_[i] + 1) < patience) {
+      lose(0.5 * world_.mass[i] * v.squaredNorm());
+      restart(i, x, Vec3::Zero(), {});
+    } else if ((idle_[i] = step.carried[k] ? 0 : idle_[i] + 1) < patience) {
       crowd_.push_back(i);
-      carry(i, carried[k]);
+      carry(i, step.carried[k]);
       pulled_[i] = end;
+      hastened_[i] = (moved - v) / h;
       jostled_[i] = 0;
-      lose(0.5 * world_.mass[i] * (v[k] - moved[k]).dot(v[k] + moved[k]));
-      restart(i, x[k], moved[k], {});
+      lose(0.5 * world_.mass[i] * (v - moved).dot(v + moved));
+      restart(i, x, moved, {});
     } else {
       place_[i] = Place::outside;
       carry(i, false);
-      restart(i, x[k], v[k], {});
+      restart(i, x, v, {});
     }
   }
   if (crowd_.empty()) crowd_end_ = {never, 0};
-  kept_apart_ *= calming;
   for (Entity i : members) local_[i] = PressedPair::none;
-  for (std::size_t k = 0; k < n; ++k) predict(members[k]);
+  for (Entity i : members) predict(i);
 }
 
 }  // namespace carom

@@ -55,7 +55,7 @@ bool ExactSimulator::follow_crowd() {
     x[k] = flight_[i].position(t);
     before[k] = flight_[i].velocity(t);
     v[k] = following_ && version_[i] == arrival_version_[i] && now_ == arrival_time_ ? arrival_[i] : before[k];
-    if (!following_ && now_ < pulled_[i]) v[k] -= (pulled_[i] - now_) * pull_[i];
+    if (!following_ && now_ < pulled_[i]) v[k] -= (pulled_[i] - now_) * hastened_[i];
     inverse_mass[k] = 1 / world_.mass[i];
     pull = std::max(pull, pull_[i].norm());
     smallest = std::min(smallest, world_.radius[i]);

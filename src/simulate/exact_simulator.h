@@ -161,7 +161,12 @@ class ExactSimulator final : public Simulator {
   void wake(Entity i);
   void jostle(Entity i);
   void step_crowd();
+  struct Stride;
   void stride();
+  void move_apart(Stride& step);
+  void find_parts(Stride& step);
+  void put_to_rest(Stride& step);
+  void take_stride(const Stride& step);
   void carry(Entity i, bool carried);
   bool crowded(Entity e) const { return world_.is_body(e) && place_[e] != Place::outside; }
 
@@ -201,7 +206,9 @@ class ExactSimulator final : public Simulator {
   std::vector<Instant> pulled_;                 // by body of the crowd: gravity is in its velocity up to this instant
   std::vector<std::uint32_t> jostled_;          // by body of the crowd: impacts taken up since the last step
   std::vector<std::uint8_t> idle_;              // by body of the crowd: steps since something pressed on it
-  double kept_apart_ = 0;                       // m: the gap that the crowd's steps leave between bodies
+  std::vector<Vec3> hastened_;                  // m/s^2, by body of the crowd: what forces do to it in a stride, on
+                                                // average; it is in its velocity from the start
+  std::vector<double> kept_apart_;              // m, by body of the crowd: the gap that strides leave about it
   double crowd_step_ = 0;                       // s, length of the last step
   std::vector<std::uint8_t> carried_;           // by body: of the crowd or asleep, and something presses on it
   std::vector<Instant> needed_;                 // by body of the crowd: when something last pressed on it or struck it

@@ -217,6 +217,33 @@ TEST(Meeting, BouncedPairsAreNotHitAgainByRounding) {
     }
 }
 
+TEST(Meeting, PairsARoundingApartThatApproachMeetAtOnce) {
+  // As bodies are that have just been struck by others while they touched: at no feature may the way left, which is
+  // shorter than the positions can tell, be gone in ever smaller steps.
+  for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
+    for (Kind kb : all_kinds) {
+      Random random(9);
+      int touched = 0;
+      for (int k = 0; k < 400; ++k) {
+        World world = pair_world(ka, kb, false, random);
+        const Vec3 d = random.uniform(2, 5) * random.direction(), w = -(d + random.vector(0.5));
+        const Meeting m = meeting(world, 0, 1, motion(d, w), no_feature, 10);
+        if (m.time == never) continue;
+        ++touched;
+        const double off = random.uniform(-1e-15, 1e-15);
+        const Vec3 x = d + (m.time + off) * w;
+        if (!world.walls.empty()) world.walls[0].center = x;
+        const Touch there = touch(world, 0, none, 1, x, m.feature);
+        const Vec3 fall(1, -10, 2);
+        const double speed = -there.normal.dot(w);
+        if (speed < 0.1 * w.norm()) continue;
+        const Meeting now = meeting(world, 0, 1, motion(x, w, fall), no_feature, 10);
+        EXPECT_LE(now.time * speed, 1e-14) << name(ka) << " " << name(kb) << " feature " << int(m.feature);
+      }
+      EXPECT_GT(touched, 20) << name(ka) << " " << name(kb);
+    }
+}
+
 TEST(Meeting, GrazingARoundingIsAHitOrAMissByItsDepth) {
   // Past a fixed edge, corner, rim or side at a depth of 2^-k of the ball's radius, against long double.
   for (Kind kb : {Kind::cylinder, Kind::box}) {
