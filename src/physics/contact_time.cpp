@@ -43,29 +43,83 @@ Polynomial squared_gap_polynomial(const RelativeMotion& m, double s) {
   return {{c, 2 * b, m.w.squaredNorm() + m.d.dot(m.a), m.w.dot(m.a), 0.25 * m.a.squaredNorm()}, 4};
 }
 
-double sphere_contact_time(const RelativeMotion& m, double s, double horizon) {
-  if (m.a.isZero(0)) return straight_contact_time(m, s, horizon);
+namespace {
+
+/// Its roots are the contacts. Where t = 0 is one by definition, what is left is a cubic.
+Polynomial contact_polynomial(const RelativeMotion& m, double s) {
   const Polynomial f = squared_gap_polynomial(m, s);
-  if (!m.just_separated) return first_descent(f, horizon);
-  // t = 0 is a root by definition; what is left is a cubic. Below zero there, the two approach again (something else
-  // has changed their velocities in the same instant).
-  if (f.c[1] < 0) return 0;
-  return first_descent({{f.c[1], f.c[2], f.c[3], f.c[4]}, 3}, horizon);
+  return m.just_separated ? Polynomial{{f.c[1], f.c[2], f.c[3], f.c[4]}, 3} : f;
 }
 
-double sharpened_contact_time(const RelativeMotion& m, double s, double t, double horizon) {
-  if (t == 0 || m.a.isZero(0)) return t;
-  double last = never;
-  for (int k = 0; k < 6; ++k) {
-    DoubleDouble square = -two_product(s, s);
-    for (const DoubleDouble& x : exact_position(m, t)) square = square + x * x;
-    const double slope = 2 * (m.d + t * (m.w + 0.5 * t * m.a)).dot(m.w + t * m.a);
-    const double step = -square.value() / slope;
-    if (!(slope < 0 && std::abs(step) < 0.5 * last) || !(t + step > 0 && t + step <= horizon)) break;
-    last = std::abs(step);
-    t += step;
+/// With what rounding may make of each term taken from it: of a squared distance of at most (p + q t + r t^2)^2.
+Polynomial lowered(Polynomial f, const RelativeMotion& m, double s) {
+  constexpr double rounding = 0x1p-49;
+  const double p = m.d.cwiseAbs().sum() + s, q = m.w.cwiseAbs().sum(), r = 0.5 * m.a.cwiseAbs().sum();
+  const double bound[5] = {p * p, 2 * p * q, q * q + 2 * p * r, 2 * q * r, r * r};
+  for (int k = 0; k <= f.degree; ++k) f.c[static_cast<std::size_t>(k)] -= rounding * bound[k + 4 - f.degree];
+  return f;
+}
+
+}  // namespace
+
+CurvedContacts::CurvedContacts(const RelativeMotion& motion, double s, double horizon)
+    : m_(motion),
+      s_(s),
+      f_(contact_polynomial(motion, s)),
+      again_(motion.just_separated && f_.c[0] < 0),
+      pieces_(lowered(f_, motion, s), horizon) {}
+
+double CurvedContacts::next() {
+  if (again_) {
+    again_ = false;
+    return 0;
+  }
+  for (Descents::Piece piece; pieces_.next(piece);) {
+    const double t = piece.from > 0 ? within(piece.from, piece.to) : first_descent(f_, piece.to);
+    if (t < never) return t;
+  }
+  return never;
+}
+
+/// |d + w t + a t^2/2|^2 - s^2 as the exact value rounds; just separated, with |d|^2 for s^2.
+double CurvedContacts::exact_gap(double t) const {
+  DoubleDouble square = m_.just_separated ? DoubleDouble{0, 0} - dot_compensated(m_.d, m_.d) : -two_product(s_, s_);
+  for (const DoubleDouble& x : exact_position(m_, t)) square = square + x * x;
+  return square.value();
+}
+
+/// The contact between two times where rounding leaves room for one, most likely close to the first: by Newton's
+/// method, and by bisection wherever such a step would leave the bracket or does not shrink.
+double CurvedContacts::within(double from, double to) const {
+  double l = from, r = to, t = from, last = never;
+  bool deep = false;  // at r the gap is known to be below zero
+  for (int iteration = 0; iteration < 200; ++iteration) {
+    const double gap = exact_gap(t);
+    if (gap == 0 || (gap < 0 && t == from)) return t;
+    (gap > 0 ? l : r) = t;
+    deep = deep || gap < 0;
+    const Vec3 p = m_.d + t * (m_.w + 0.5 * t * m_.a), v = m_.w + t * m_.a;
+    const double slope = 2 * p.dot(v), curvature = 2 * (v.squaredNorm() + std::abs(p.dot(m_.a)));
+    const double step = -gap / slope;
+    if (t + step == t) return t;
+    double next = t + step;
+    const bool newton = slope < 0 && next > l && next < r && std::abs(step) <= 0.5 * last;
+    if (newton && step * step * curvature <= -0x1p-54 * t * slope) return next;
+    if (!newton) {
+      deep = deep || exact_gap(r) < 0;
+      if (!deep) return never;  // it only comes near
+      next = l + 0.5 * (r - l);
+      if (next == l || next == r) return next;
+    }
+    last = std::abs(next - t);
+    t = next;
   }
   return t;
+}
+
+double sphere_contact_time(const RelativeMotion& m, double s, double horizon) {
+  if (m.a.isZero(0)) return straight_contact_time(m, s, horizon);
+  return CurvedContacts(m, s, horizon).next();
 }
 
 double plane_contact_time(double gap, double speed, double acceleration, double noise, bool just_separated,

@@ -19,16 +19,33 @@ struct RelativeMotion {
 
 /// First t in [0, horizon] at which spheres with radii that sum to s (m) touch and approach.
 /// |d + w t + a t^2/2|^2 = s^2: a quadratic where a = 0, else a quartic (numerics: the Lagrange identity, the product
-/// form of the root and compensated dots make a grazing or nearly touching pair as exact as its data).
+/// form of the root and compensated dots make a grazing or nearly touching pair as exact as its data; for the quartic,
+/// see CurvedContacts).
 double sphere_contact_time(const RelativeMotion& motion, double s, double horizon);
-
-/// The same contact, from the time t (s) that sphere_contact_time gives for unequal accelerations. The quartic's
-/// coefficients lose what the square of a long way is rounded to, and a grazing pair is as inexact as they are; here
-/// the gap is evaluated in double-double.
-double sharpened_contact_time(const RelativeMotion& motion, double s, double t, double horizon);
 
 /// |d + w t + a t^2/2|^2 - s^2, m^2. just_separated: its constant term is zero.
 Polynomial squared_gap_polynomial(const RelativeMotion& motion, double s);
+
+/// The contacts of spheres of unequal accelerations, one after the other: a curved path may enter twice. The quartic's
+/// coefficients lose what the square of a long way is rounded to, and a grazing pair is as inexact as they are. So it
+/// only tells on which pieces of the path contact is possible, by the least value that rounding allows; there the gap
+/// is evaluated in double-double.
+class CurvedContacts {
+ public:
+  CurvedContacts(const RelativeMotion& motion, double s, double horizon);
+  /// s, or never: there is none left.
+  double next();
+
+ private:
+  double exact_gap(double t) const;
+  double within(double from, double to) const;
+
+  RelativeMotion m_;
+  double s_;  // m
+  Polynomial f_;
+  bool again_;  // they have just separated, and approach again: something else has changed their velocities since
+  Descents pieces_;
+};
 
 /// First t in [0, horizon] at which gap + speed t + acceleration t^2/2 (m; gap > 0: free) comes down through zero.
 /// `noise` (m/s): a slower approach at a closed gap is none. just_separated: the gap is zero by definition.

@@ -22,13 +22,6 @@ Meeting meet_spheres(const RelativeMotion& motion, double s, std::uint8_t left, 
   return {sphere_contact_time(m, s, horizon), 0};
 }
 
-/// A fixed ball is met by bodies of any acceleration, and often from afar.
-Meeting meet_fixed_sphere(const RelativeMotion& m, double s, std::uint8_t left, double horizon) {
-  Meeting first = meet_spheres(m, s, left, horizon);
-  if (left == no_feature && first.time < never) first.time = sharpened_contact_time(m, s, first.time, horizon);
-  return first;
-}
-
 /// d is the way to the plane's point.
 Meeting meet_plane(const Plane& plane, const RelativeMotion& m, double reach, std::uint8_t left, double horizon) {
   const double noise = 0x1p-49 * m.speeds;
@@ -44,7 +37,7 @@ Meeting meeting_by_kind(const World& world, Entity a, Entity b, const RelativeMo
   switch (pair_kind(world, a, b)) {
     case PairKind::spheres: {
       const double s = world.volume_of(a).half.x() + world.volume_of(b).half.x();
-      return world.is_body(b) ? meet_spheres(motion, s, left, horizon) : meet_fixed_sphere(motion, s, left, horizon);
+      return meet_spheres(motion, s, left, horizon);
     }
     case PairKind::half_space:
       return meet_plane(world.plane(b), motion, world.volume_of(a).support(world.plane(b).normal), left, horizon);

@@ -121,7 +121,6 @@ class MeetingSearch {
     } else if (set_.as_spheres(feature, m_, reduced, radius)) {
       reduced.just_separated = is_left;
       closed = sphere_contact_time(reduced, radius, horizon_);
-      if (!is_left && closed < never) closed = sharpened_contact_time(reduced, radius, closed, horizon_);
     }
     const auto tolerance = [&](double time) {
       const double reach = m_.d.cwiseAbs().sum() + time * (m_.w.cwiseAbs().sum() + time * m_.a.cwiseAbs().sum());

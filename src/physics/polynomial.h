@@ -27,8 +27,26 @@ Roots roots_between(const Polynomial& f, double low, double high);
 
 inline constexpr double never = std::numeric_limits<double>::infinity();
 
-/// The first t in [0, horizon] from which f is at most zero and falls: f comes down through zero there, or was not
-/// above zero and begins to fall. `never` if there is none. A descent that only touches zero is none.
+/// Pieces of [0, horizon] on which f is at most zero and falls, in their order: f comes down through zero at the
+/// beginning of one, or was not above zero and begins to fall. A descent that only touches zero is none.
+class Descents {
+ public:
+  Descents(const Polynomial& f, double horizon);
+  struct Piece {
+    double from, to;  // f rises again, or the horizon is reached, at `to`
+  };
+  bool next(Piece& piece);
+
+ private:
+  Polynomial f_, slope_;
+  double horizon_;
+  Roots turning_;
+  int piece_ = 0;
+  double left_ = 0, at_left_ = 0;  // where the next piece begins, and f there
+  bool ended_ = true;
+};
+
+/// Where the first of these begins; `never` if there is none.
 double first_descent(const Polynomial& f, double horizon);
 
 }  // namespace carom

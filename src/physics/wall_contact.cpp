@@ -48,17 +48,14 @@ double edge_contact_time(const LocalPath& path, int along, double half_length, c
   RelativeMotion m{path.p - axis, path.v, path.a, 0, just_left};
   m.d[along] = m.w[along] = m.a[along] = 0;
   m.speeds = path.rounded_speed;
-  const double t = sphere_contact_time(m, radius, horizon);
-  if (t == never || on_edge(t)) return t;
-  if (m.a.isZero(0)) return never;
-  const Polynomial f = squared_gap_polynomial(m, radius);
-  const Polynomial df = f.derivative();
-  const Roots roots = roots_between(f, 0, horizon);
-  for (int k = 0; k < roots.count; ++k) {
-    const double root = roots.at[static_cast<std::size_t>(k)];
-    if (df(root) < 0 && on_edge(root)) return root;
+  if (m.a.isZero(0)) {
+    const double t = sphere_contact_time(m, radius, horizon);
+    return t < never && on_edge(t) ? t : never;
   }
-  return never;
+  CurvedContacts contacts(m, radius, horizon);
+  double t = contacts.next();
+  while (t < never && !on_edge(t)) t = contacts.next();
+  return t;
 }
 
 /// The entry into the half-space behind a face moved out by the radius, where it falls on the rectangle.
@@ -91,7 +88,9 @@ WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, do
   const double half[2] = {wall.half_width, wall.half_height};
   WallContact first{never, no_feature};
   const auto offer = [&](double t, std::uint8_t feature) {
-    if (t < first.time) first = {t, feature};
+    if (!(t < first.time)) return;
+    first = {t, feature};
+    horizon = std::min(horizon, t);  // what is later does not matter
   };
   const bool on_rim = left != no_feature && left >= wall_edges;
   for (std::uint8_t face : {wall_front, wall_back})

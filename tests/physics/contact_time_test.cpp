@@ -52,6 +52,11 @@ TEST(ImpactTime, JustSeparatedPairsMeetAgainAfterTheWholeHop) {
     EXPECT_NEAR(meet({0, 1, 0}, {0, v, 0}, {0, -10, 0}, 1, 1e9, true) / (v / 5), 1, 1e-15) << "v = " << v;
 }
 
+TEST(ImpactTime, JustSeparatedPairsThatApproachAgainMeetNow) {
+  for (double pull : {-10.0, 10.0, 1000.0})
+    EXPECT_EQ(meet({0, 1, 0}, {0, -1e-3, 0}, {0, pull, 0}, 1, 1e9, true), 0) << "pulled by " << pull;
+}
+
 TEST(PlaneContact, EveryBranchFollowsItsClosedForm) {
   EXPECT_EQ(plane_contact_time(3, -2, 0, 0, false, 10), 1.5);
   EXPECT_EQ(plane_contact_time(3, 2, 0, 0, false, 10), never);

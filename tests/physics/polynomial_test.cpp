@@ -35,7 +35,7 @@ TEST(Roots, OnlyThoseInTheIntervalCount) {
 TEST(Roots, TwoRootsAMillionthApartAreTwo) {
   const Roots roots = roots_between(from_roots({1, 1 + 1e-6, 3}), 0, 10);
   ASSERT_EQ(roots.count, 3);
-  EXPECT_NEAR(roots.at[1] - roots.at[0], 1e-6, 1e-9);
+  EXPECT_NEAR(roots.at[1] - roots.at[0], 1e-6, 2e-9);  // f is rounded by 1e-15, its slope is 2e-6
 }
 
 TEST(Roots, LeadingZerosLowerTheDegree) {
@@ -64,6 +64,30 @@ TEST(FirstDescent, TouchingZeroFromAboveIsNone) {
 
 TEST(FirstDescent, BeyondTheHorizonIsNever) {
   EXPECT_EQ(first_descent({{10, -1}, 1}, 9), never);
+}
+
+TEST(Descents, AreAllPiecesThatFallBelowZero) {
+  Descents descents(from_roots({1, 2, 3, 5}), 10);
+  Descents::Piece piece;
+  ASSERT_TRUE(descents.next(piece));
+  EXPECT_NEAR(piece.from, 1, 1e-15);
+  EXPECT_GT(piece.to, 1);
+  EXPECT_LT(piece.to, 2);
+  ASSERT_TRUE(descents.next(piece));
+  EXPECT_NEAR(piece.from, 3, 2e-14);
+  EXPECT_FALSE(descents.next(piece));
+}
+
+TEST(Roots, OfAQuadraticAreExactWhereTheyAreClose) {
+  // t^2 - 2 t + 1 - 2^-52 = (t - 1)^2 - 2^-52
+  const Roots roots = roots_between({{1 - 0x1p-52, -2, 1}, 2}, 0, 10);
+  ASSERT_EQ(roots.count, 2);
+  EXPECT_EQ(roots.at[0], 1 - 0x1p-26);
+  EXPECT_EQ(roots.at[1], 1 + 0x1p-26);
+}
+
+TEST(Roots, OfAQuadraticOfTinyNumbersAreFound) {
+  EXPECT_EQ(roots_between({{0x1p-600, -0x1p-598, 0x1.8p-599}, 2}, 0, 10).count, 2);
 }
 
 }  // namespace
