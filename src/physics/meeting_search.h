@@ -21,7 +21,7 @@ class MeetingSearch {
 
   Meeting run(std::uint8_t left) {
     left_ = left;
-    if (left != no_feature && set_.sharp(left)) left_ = face_left(left);
+    if (left != no_feature && set_.sharp(left)) left_ = face_left(left, m_.d, m_.w);
     if (left_ != no_feature) m_.d = set_.within(m_.d, left_);
     Separation s = left_ != no_feature ? set_.at(m_.d, left_) : set_.nearest(m_.d);
     if (left_ != no_feature) s.gap = 0;
@@ -49,7 +49,15 @@ class MeetingSearch {
         on = leaves_until(s, t, v, speed);
       }
       if (on == never) return {never, no_feature};
-      if (t + on == t) return contact(t, s.feature);
+      const Vec3 p = m_.d + way(t);
+      if (s.gap > 0 && p == m_.d + way(t + on)) {
+        // Positions are too coarse to tell this gap: it is closed.
+        if (set_.sharp(s.feature)) s = set_.at(p, face_left(s.feature, p, v));
+        const double out = s.normal.dot(v);
+        if (out < 0) return contact(t + on, s.feature);
+        on = std::max(on, leaves_until(s, t, v, out));
+        if (on == never) return {never, no_feature};
+      }
       t += on;
     }
     return {never, no_feature};
@@ -90,12 +98,12 @@ class MeetingSearch {
   }
 
   /// Of the faces that make a sharp edge: that over which the point gets away.
-  std::uint8_t face_left(std::uint8_t edge) const {
+  std::uint8_t face_left(std::uint8_t edge, const Vec3& p, const Vec3& v) const {
     std::uint8_t best = no_feature;
     double best_speed = 0, best_acceleration = 0;
     set_.for_each_face(edge, [&](std::uint8_t face) {
-      const Vec3 n = set_.at(m_.d, face).normal;
-      const double speed = n.dot(m_.w), acceleration = n.dot(m_.a);
+      const Vec3 n = set_.at(p, face).normal;
+      const double speed = n.dot(v), acceleration = n.dot(m_.a);
       const bool equal = std::abs(speed - best_speed) <= noise(face);
       if (best == no_feature || (equal ? acceleration > best_acceleration : speed > best_speed)) {
         best = face;

@@ -141,5 +141,18 @@ TEST(Meeting, NoContactIsMissedInChainsOfBounces) {
     }
 }
 
+TEST(MeetingSearch, AGapSmallerThanThePositionsCanTellIsMet) {
+  // A ball on its way to a cylinder's rim, 1.5e-16 m from it: its position does not change before the gap is closed.
+  World world;
+  world.mass = {1, 1};
+  world.restitution = {1, 1};
+  world.volume = {{Shape::cylinder, Vec3(0.075044022308829575, 0.050663637425331483, 0.075044022308829575)},
+                  Volume::sphere(0.11079129007174113)};
+  for (const Volume& v : world.volume) world.radius.push_back(v.reach());
+  const Vec3 d(-0x1.45045fdbd18d2p-3, -0x1.f505e83252fep-4, -0x1.0c62378514edp-6);
+  const Vec3 w(-0x1.6a2c3cc0d9176p+0, 0x1.0c0275dcc06dbp+2, -0x1.6dacd5e43692ap-2), a(0, 0x1.17607721b7d0cp+3, 0);
+  EXPECT_LT(meeting(world, 0, 1, {d, w, a, 20, false}, no_feature, 1).time, 1e-15);
+}
+
 }  // namespace
 }  // namespace carom
