@@ -26,6 +26,7 @@ constexpr double longest = 16;         // of the shortest step
 constexpr double restless_gap = 4e-4;  // of a radius: what bodies that have just been struck are kept apart
 constexpr double calming = 0.5;        // a step leaves of that gap
 constexpr std::uint8_t patience = 8;   // steps without a force, then a body leaves the crowd
+constexpr double nearby = 1e-3;        // of a radius: bodies that are no farther apart may press before a step ends
 constexpr double apart = 1e-3;         // of the way that bodies go in a step: what they are kept apart for it,
 constexpr double exactly = 0.05;       // but for this much of that
 constexpr double quiet = 5e-4;         // of a radius: a crowd that moves less in a step, on average, is told exactly
@@ -203,7 +204,7 @@ void ExactSimulator::stride() {
 /// The velocities that keep every pair apart until the step ends.
 void ExactSimulator::move_apart(Stride& step) {
   const std::size_t n = crowd_.size();
-  const double h = step.length, reach = std::min(4 * step.pull * h * h, 4 * way * step.smallest);
+  const double h = step.length;
   const auto kept_gap = [&](std::size_t k) {
     return std::max({kept_apart_[crowd_[k]], apart * h * step.v[k].norm(), resting_gap * step.smallest});
   };
@@ -219,6 +220,8 @@ void ExactSimulator::move_apart(Stride& step) {
       const Touch there = touch(world_, i, step.x[k], e, body ? step.x[other] : world_.fixed_position(e));
       const double rate = there.normal.dot((body ? step.v[other] : Vec3(Vec3::Zero())) - step.v[k]);
       const double kept = body ? std::max(kept_gap(k), kept_gap(other)) : kept_gap(k);
+      const double haste = step.v[k].norm() + (body ? step.v[other].norm() : 0);
+      const double reach = std::min(4 * step.pull * h * h, std::max(4 * h * haste, nearby * step.smallest));
       if (there.gap + h * std::min(rate, 0.0) > kept + reach) continue;
       PressedPair pair{static_cast<std::uint32_t>(k),
                        other,
@@ -237,9 +240,12 @@ void ExactSimulator::move_apart(Stride& step) {
   for (std::size_t k = 0; k < n; ++k) step.moved[k] += (now_ + h - pulled_[crowd_[k]]) * pull_[crowd_[k]];
   const std::vector<Vec3> pulled = step.moved;
   if (press_apart(step.inverse_mass, step.moved, step.pairs, 600)) return;
-  double way_of_all = 0;
-  for (const Vec3& u : step.moved) way_of_all += h * u.norm();
-  if (way_of_all > quiet * step.smallest * static_cast<double>(n)) return;
+  double before = 0, after = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    before += h * step.v[k].norm();
+    after += h * step.moved[k].norm();
+  }
+  if (std::min(before, after) > quiet * step.smallest * static_cast<double>(n)) return;
   step.moved = pulled;
   press_apart_directly(step.inverse_mass, step.moved, step.pairs);
 }

@@ -60,6 +60,46 @@ Touch ExactSimulator::touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& x
   return touch(world_, a, xa, b, xb, feature);
 }
 
+/// Whether a body that lies on flat surfaces strikes one at rest that forces hold on all sides so slowly that it would
+/// lift it by no more than a millionth of its size.
+bool ExactSimulator::too_slow_to_wake(Entity striker, Entity struck, double approach) const {
+  constexpr double lift = 1e-6;
+  if (place_[struck] != Place::asleep || contacts_[striker].count == 0) return false;
+  if (!(approach * approach < 2 * lift * pull_[struck].norm() * world_.radius[struck])) return false;
+  // Three forces at least, not in a plane.
+  std::vector<Vec3> normals;
+  const Vec3& x = flight_[struck].x;
+  const auto hold = [&](Entity e) {
+    const bool body = world_.is_body(e);
+    normals.push_back(touch(world_, struck, x, e, body ? flight_[e].x : world_.fixed_position(e)).normal);
+  };
+  for (const Pressed& p : pressed_[struck])
+    if (p.force > 0) hold(p.partner);
+  for (Entity e : near_[struck])
+    if (world_.is_body(e) && place_[e] == Place::asleep)
+      for (const Pressed& p : pressed_[e])
+        if (p.partner == struck && p.force > 0) hold(e);
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t k = 0; k < j; ++k)
+        if (std::abs(normals[i].cross(normals[j]).dot(normals[k])) > 1e-3) return true;
+  return false;
+}
+
+/// A strike too slow to wake: the striker comes to rest.
+void ExactSimulator::stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach) {
+  const Flight& f = flight_[striker];
+  const double t = now_ - f.start, mass = world_.mass[striker];
+  const Vec3 x = f.position(t), v = f.velocity(t);
+  const double lost = impact_loss(mass, immovable, approach, 0);
+  record({now_.hi, CollisionKind::body_body, std::min(striker, struck), std::max(striker, struck), there.point,
+          there.normal, approach, 0, pair_restitution(world_, striker, struck),
+          impact_impulse(mass, immovable, approach, 0), lost});
+  lose(0.5 * mass * v.squaredNorm());
+  restart(striker, x, Vec3::Zero(), {struck, feature});
+  predict(striker);
+}
+
 void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const Flight &p = flight_[a], &q = flight_[b];
   const double ta = now_ - p.start, tb = now_ - q.start;
@@ -75,6 +115,8 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const double approach = std::max(-w.dot(n), 0.0);
   const double e = pair_restitution(world_, a, b);
   const double length = world_.radius[a] + world_.radius[b];
+  for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})
+    if (too_slow_to_wake(striker, struck, approach)) return stop_at(striker, struck, feature, there, approach);
   double press = 0;
   if (p.a != q.a) press = -(n.dot(q.a - p.a) + bending(world_, a, xa, b, xb, there, w));
   const bool take_up = taken_up(a, b, e, approach, press, length, false) || (press > 0 && e * approach == 0);
