@@ -23,7 +23,7 @@ namespace {
 constexpr double step_length = 0.015;  // of the time in which a body falls freely by its own radius
 constexpr double way = 0.03;           // of a radius: what the fastest body may go in a step longer than that
 constexpr double longest = 16;         // of the shortest step
-constexpr double restless_gap = 4e-4;  // of a radius: what bodies that have just been struck are kept apart
+constexpr double restless_gap = 2e-3;  // of a radius: what bodies that have just been struck are kept apart
 constexpr double calming = 0.5;        // a step leaves of that gap
 constexpr std::uint8_t patience = 8;   // steps without a force, then a body leaves the crowd
 constexpr double nearby = 1e-3;        // of a radius: bodies that are no farther apart may press before a step ends
