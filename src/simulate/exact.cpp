@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t collision_buffer = 4096;
 constexpr std::uint32_t events_at_a_time = 65536;
-constexpr double least_speed = 0x1p-900;  // m/s; below, products underflow and a body is as good as still
+constexpr double least_speed = 0x1p-200;  // of the greatest speed so far; below, a body is as good as still
 
 }  // namespace
 
@@ -37,6 +37,7 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       near_(world.body_count()),
       contacts_(world.body_count()),
       burst_(world.body_count()),
+      collapse_(world.body_count()),
       grid_(world.body_count()),
       queue_(world.body_count(), Before{this}),
       place_(world.body_count(), Place::outside),
@@ -164,7 +165,8 @@ void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin orig
   flight_[i].start = now_;
   flight_[i].x = x;
   const bool still =
-      speed < least_speed || (contacts_[i].count > 0 && speed * speed < 0x1p-120 * pull_[i].norm() * world_.radius[i]);
+      speed <= least_speed * tally_.max_speed ||
+      (contacts_[i].count > 0 && speed * speed < 0x1p-120 * pull_[i].norm() * world_.radius[i]);
   flight_[i].v = still ? Vec3(Vec3::Zero()) : v;
   flight_[i].a = contact_acceleration(i);
   origin_[i] = origin;

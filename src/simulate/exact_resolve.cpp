@@ -21,23 +21,35 @@ bool ExactSimulator::in_burst(Entity i, double window, int many) {
   return ++burst.impacts > many;
 }
 
+/// Inelastic collapse (McNamara & Young, Phys. Fluids A 4 (1992) 496): a body between others that close in on it strikes
+/// them in turn, ever sooner, and what is left of the gaps is gone in no time. Counts a body's impacts, elastic ones
+/// only where there are others, until it has come from the spot by a billionth of `length` (m). Bouncing on one and the
+/// same thing counts once.
+bool ExactSimulator::collapses(Entity i, Entity other, double e, double approach, double length) {
+  constexpr int many = 64;
+  Collapse& collapse = collapse_[i];
+  if (approach * (now_ - collapse.start) > 1e-9 * length) collapse = {now_, 0};
+  if (e < 1 && origin_[i].partner != other) ++collapse.impacts;
+  if (collapse.impacts <= many) return false;
+  collapse.taken_up = now_;
+  return true;
+}
+
 /// Whether an impact is the end of bouncing: lasting contact takes it up, nothing is left of the approach (m/s).
-/// `press` is the acceleration (m/s^2) that drives the two together. Under load bouncing ends when an impact is slow
-/// and one of very many within the time of a hop at that speed, or is slow and meets bodies in lasting contact. Without
-/// load, when a body does not come from the spot between ever more impacts (inelastic collapse: McNamara & Young, Phys.
-/// Fluids A 4 (1992) 496).
+/// `press` is the acceleration (m/s^2) that drives the two together. An inelastic collapse ends bouncing at any speed.
+/// Under load it also ends when an impact is slow and one of very many within the time of a hop at that speed, or is
+/// slow and meets bodies in lasting contact.
 bool ExactSimulator::taken_up(Entity a, Entity b, double e, double approach, double press, double length, bool alone) {
+  const bool collapse_a = collapses(a, b, e, approach, length);
+  const bool collapse_b = world_.is_body(b) && collapses(b, a, e, approach, length);
+  if (collapse_a || collapse_b) return true;
   if (e >= 1) return false;
+  const bool a_in = crowded(a), b_in = crowded(b), both_in = a_in && (b_in || !world_.is_body(b));
   const double load = std::max(pull_[a].norm(), world_.is_body(b) ? pull_[b].norm() : 0.0);
-  if (load == 0) {
-    const double window = 1e-9 * length / approach;
-    const bool burst_a = in_burst(a, window, 64), burst_b = world_.is_body(b) && in_burst(b, window, 64);
-    return burst_a || burst_b || (crowded(a) && (crowded(b) || !world_.is_body(b)) && burst_[a].impacts > 8);
-  }
+  if (load == 0) return both_in && collapse_[a].impacts > 8;
   const double slow = slow_speed(load, length);
   if (approach >= slow) return false;
-  const bool a_in = crowded(a), b_in = crowded(b);
-  if (a_in && (b_in || !world_.is_body(b))) return true;
+  if (both_in) return true;
   if (press > 0 && (a_in || b_in)) return true;
   const double window = 2 * slow / load;
   // Alone on flat surfaces a body comes to rest on each in closed form; only between several can it go on for ever.

@@ -91,6 +91,13 @@ class ExactSimulator final : public Simulator {
     bool bodies = false;  // with bodies among them, not with flat fixed surfaces alone
   };
 
+  /// A body's impacts on the spot.
+  struct Collapse {
+    Instant start;
+    int impacts = 0;             // with e < 1, and not twice running with the same thing
+    Instant taken_up{never, 0};  // the last that contact has taken up for their number
+  };
+
   static constexpr double immovable = never;  // kg
   /// Whether a speed (m/s) against a pressing acceleration (m/s^2) lifts a body by less than its position x (m) is
   /// rounded to.
@@ -140,6 +147,7 @@ class ExactSimulator final : public Simulator {
   bool in_burst(Entity i, double window, int many);
   bool too_slow_to_wake(Entity striker, Entity struck, double approach) const;
   void stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach);
+  bool collapses(Entity i, Entity other, double e, double approach, double length);
   double slow_speed(double press, double length) const;
 
   // exact_rest.cpp
@@ -197,6 +205,7 @@ class ExactSimulator final : public Simulator {
   std::vector<std::vector<Entity>> near_;  // bodies and surfaces that may be met within the region
   std::vector<Contacts> contacts_;         // with flat fixed surfaces
   std::vector<Burst> burst_;
+  std::vector<Collapse> collapse_;
   RegionGrid grid_;
   Tournament<Before> queue_;
 
