@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/few_contacts.h"
 #include "physics/restitution.h"
 #include "simulate/exact_simulator.h"
 
@@ -102,7 +103,7 @@ bool ExactSimulator::follow_crowd() {
   if (overlap) {
     std::vector<Vec3> way(n, Vec3::Zero());
     for (PressedPair& p : pairs) p.slack = 0x1p-54 * smallest;
-    press_apart(inverse_mass, way, pairs, 500);
+    press_few_apart(inverse_mass, way, pairs);
     for (std::size_t k = 0; k < n; ++k) x[k] += way[k];
   }
   double fastest = 0;
@@ -111,7 +112,7 @@ bool ExactSimulator::follow_crowd() {
     p.target = p.force = 0;
     p.slack = 0x1p-52 * fastest;
   }
-  press_apart(inverse_mass, v, pairs, 2000);
+  press_few_apart(inverse_mass, v, pairs);
 
   // Pairs that part by more than paths stray are no contacts: if they come back, they meet.
   const double parting = std::sqrt(2 * pull * strayed * smallest) + 0x1p-48 * fastest;
@@ -137,7 +138,7 @@ bool ExactSimulator::follow_crowd() {
       pairs[c].normal = there.normal;
       pairs[c].target = -bending(world_, i, where[pairs[c].a], e, xe, there, moving(speed, e) - speed[pairs[c].a]);
     }
-    press_apart(inverse_mass, a, pairs, 2000);
+    press_few_apart(inverse_mass, a, pairs);
     return a;
   };
   for (PressedPair& p : pairs) p.force = p.target = 0;
@@ -153,7 +154,7 @@ bool ExactSimulator::follow_crowd() {
     for (double sign : {1.0, -1.0})
       both.push_back({first[c].a, first[c].b, sign * first[c].normal, 0, 0x1p-52 * fastest, 0});
   }
-  if (parts) press_apart(inverse_mass, v, both, 2000);
+  if (parts) press_few_apart(inverse_mass, v, both);
 
   // At rest?
   fastest = 0;
