@@ -64,9 +64,10 @@ class ExactSimulator final : public Simulator {
   };
 
   struct Region {
-    Vec3 center;      // m
-    double room = 0;  // m, how far the body's centre may go from the region's, along each axis
-    double half = 0;  // m, half width: room and radius
+    Vec3 center;                          // m
+    double room = 0;                      // m, how far the body's centre may go from the region's, along each axis
+    double half = 0;                      // m, half width: room and radius
+    std::uint32_t version = 0, left = 0;  // of how many regions the body has come out on this flight
   };
 
   /// Flat surfaces that carry a body.
