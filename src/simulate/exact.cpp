@@ -148,7 +148,7 @@ void ExactSimulator::process(Entity i) {
     case Kind::none:
       break;
   }
-  check_limits();
+  check_limits(event.kind);
 }
 
 /// Begins a new flight of body i, here and now.
@@ -229,20 +229,35 @@ void ExactSimulator::lose(double energy) {
   tally_.energy_lost = energy_lost_.value();
 }
 
-void ExactSimulator::check_limits() {
+/// A run that would never end is stopped: one in which events go on and on while the clock stands still. Elastic
+/// impacts cannot collapse, and unequal masses have millions of them in an instant (Galperin's billiard): of these, and
+/// of events without physics, it takes a thousand times as many, or that the clock does not move at all.
+void ExactSimulator::check_limits(Kind kind) {
   if (options_.max_collisions > 0 && tally_.collisions() > options_.max_collisions)
     throw SimulationError(fmt::format("more than simulate.max_collisions = {} collisions, reached at t = {} s",
                                       options_.max_collisions, now_.hi));
+  const std::uint64_t many = 1'000'000 + 1000ull * world_.body_count();
+  const bool impact = kind == Kind::body_body || kind == Kind::body_fixed;
+  const bool patient = kind == Kind::leave_region || (impact && struck_ == 1);
+  if (impact) liveliest_ = std::max(liveliest_, struck_);
+  Watch& watch = patient ? patient_ : impatient_;
+  const bool full = ++watch.events >= (patient ? 1000 * many : many);
+  if (!full && watch.events % many != 0) return;
   // At a billionth of the duration per million events a run would never end.
-  if (++events_ < 1'000'000 + 1000ull * world_.body_count()) return;
-  if (now_ - looked_at_ < 0x1p-30 * options_.duration)
+  if (now_.hi == watch.seen || (full && now_.hi - watch.since < 0x1p-30 * options_.duration)) {
+    const char* advice =
+        " (jammed, or inelastic collapse): give them room, raise their restitution, or simulate.rest_speed";
+    if (patient) advice = " (jammed, or masses too unequal): give them room, or shorten simulate.duration";
+    if (liveliest_ > 1)
+      advice = " (restitution above 1 makes energy at every collision): lower it, or shorten simulate.duration";
     throw SimulationError(
-        fmt::format("at t = {} s bodies collide so often that the clock stands still (jammed, or inelastic collapse): "
-                    "give them room, "
-                    "raise their restitution, or simulate.rest_speed",
-                    now_.hi));
-  events_ = 0;
-  looked_at_ = now_;
+        fmt::format("at t = {} s bodies collide so often that the clock stands still{}", now_.hi, advice));
+  }
+  watch.seen = now_.hi;
+  if (!full) return;
+  watch.events = 0;
+  watch.since = now_.hi;
+  liveliest_ = 0;
 }
 
 /// A body's velocity at an instant of its flight. A stride has what forces do until its end in it from the start.

@@ -125,7 +125,7 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const Vec3 w = vb - va;
   const Vec3& n = there.normal;
   const double approach = std::max(-w.dot(n), 0.0);
-  const double e = pair_restitution(world_, a, b);
+  const double e = struck_ = pair_restitution(world_, a, b);
   const double length = world_.radius[a] + world_.radius[b];
   for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})
     if (too_slow_to_wake(striker, struck, approach)) return stop_at(striker, struck, feature, there, approach);
@@ -161,7 +161,7 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
   const Touch there = touch_at(i, x, surface, world_.fixed_position(surface), feature);
   const Vec3& n = there.normal;
   const double approach = std::max(v.dot(n), 0.0);
-  const double e = pair_restitution(world_, i, surface);
+  const double e = struck_ = pair_restitution(world_, i, surface);
   double separation = e * approach;
   const double bend = flat ? 0 : bending(world_, i, x, surface, world_.fixed_position(surface), there, -v);
   const double press = free_acceleration(i, surface).dot(n) - bend;

@@ -130,7 +130,7 @@ class ExactSimulator final : public Simulator {
   Vec3 velocity_now(Entity i, const Instant& at) const;
   void record(const Collision& collision);
   void lose(double energy);
-  void check_limits();
+  void check_limits(Kind kind);
 
   // exact_predict.cpp
   void predict(Entity i);
@@ -239,9 +239,17 @@ class ExactSimulator final : public Simulator {
   std::vector<std::vector<Entity>> parts_;  // by joint body: itself and what has become part of it
   std::vector<double> joint_share_;         // by body: its own mass over its joint body's
   std::vector<ContactForce> contact_forces_;
-  Sum energy_lost_, work_;    // J
-  std::uint64_t events_ = 0;  // since the clock was last looked at,
-  Instant looked_at_;         // which was then
+  Sum energy_lost_, work_;  // J
+
+  /// How the clock goes on from event to event.
+  struct Watch {
+    std::uint64_t events = 0;
+    double since = 0;  // s, the clock when it was last found to go on,
+    double seen = -1;  // and when it was last looked at
+  };
+  Watch patient_, impatient_;
+  double struck_ = 0;     // restitution of the last impact
+  double liveliest_ = 0;  // the greatest of late
 };
 
 }  // namespace carom
