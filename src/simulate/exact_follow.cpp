@@ -267,4 +267,39 @@ bool ExactSimulator::follow_crowd() {
   return true;
 }
 
+/// The forces among those that are followed, now: between two steps they change, and may turn to zero.
+void ExactSimulator::report_followed() {
+  const Instant at{time_, 0};
+  std::vector<Vec3> x, v, a;
+  std::vector<double> inverse_mass;
+  double pull = 0;
+  for (Entity i : crowd_) {
+    const double t = at - flight_[i].start;
+    local_[i] = static_cast<std::uint32_t>(x.size());
+    x.push_back(flight_[i].position(t));
+    v.push_back(flight_[i].velocity(t));
+    a.push_back(pull_[i]);
+    inverse_mass.push_back(1 / world_.mass[i]);
+    pull = std::max(pull, pull_[i].norm());
+  }
+  std::vector<PressedPair> pairs;
+  std::vector<std::pair<Entity, Entity>> names;
+  for (Entity i : crowd_) {
+    for (Entity e : followed_[i]) {
+      const bool body = world_.is_body(e);
+      if (body && (e < i || place_[e] != Place::crowd)) continue;
+      const std::uint32_t k = local_[i], other = body ? local_[e] : PressedPair::none;
+      const Vec3 xe = body ? x[other] : world_.fixed_position(e), ve = body ? v[other] : Vec3(Vec3::Zero());
+      const Touch there = touch(world_, i, x[k], e, xe);
+      const double bend = bending(world_, i, x[k], e, xe, there, ve - v[k]);
+      pairs.push_back({k, other, there.normal, -bend, 1e-15 * pull, 0});
+      names.emplace_back(i, e);
+    }
+  }
+  press_few_apart(inverse_mass, a, pairs);
+  for (std::size_t c = 0; c < pairs.size(); ++c)
+    if (pairs[c].force > 0) contact_forces_.push_back({names[c].first, names[c].second, pairs[c].force});
+  for (Entity i : crowd_) local_[i] = PressedPair::none;
+}
+
 }  // namespace carom

@@ -217,9 +217,10 @@ std::span<const ContactForce> ExactSimulator::contacts() {
   contact_forces_.clear();
   for (Entity i = 0; i < world_.body_count(); ++i) {
     if (contacts_[i].count > 0) report_rest(i);
-    if (place_[i] == Place::outside) continue;
+    if (place_[i] == Place::outside || (following_ && place_[i] == Place::crowd)) continue;
     for (const Pressed& p : pressed_[i]) contact_forces_.push_back({i, p.partner, p.force});
   }
+  if (following_ && !crowd_.empty()) report_followed();
   std::sort(contact_forces_.begin(), contact_forces_.end(),
             [](const ContactForce& p, const ContactForce& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
   return contact_forces_;

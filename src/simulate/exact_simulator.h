@@ -184,6 +184,7 @@ class ExactSimulator final : public Simulator {
   // exact_follow.cpp
   bool follow_crowd();
   bool followed(Entity i, Entity e) const;
+  void report_followed();
 
   // exact_region.cpp
   void rebuild_region(Entity i);

@@ -37,7 +37,7 @@ Leaving leaving(double s, double v0) {
 /// is on the parabola of free flight.
 void expect_leaves(const Problem& problem, const Leaving& want, double start, const Vec3& center,
                    const std::string& what) {
-  constexpr double late = 1e-4;  // s; measured: contacts() has the pair for up to 3.6e-5 s too long
+  constexpr double late = 1e-8;  // s; measured: contacts() is right to within 5e-10
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   go_to(*simulator, start + want.time - late);
   EXPECT_EQ(simulator->contacts().size(), 1u) << what;
