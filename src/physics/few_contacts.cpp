@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <vector>
 
 namespace carom {
@@ -179,10 +181,61 @@ class ActiveSet {
   std::vector<std::vector<double>> shares_;  // its direction in the basis up to itself
 };
 
+/// Bodies and pairs that have to do with one another, numbered anew.
+struct Part {
+  std::vector<std::uint32_t> bodies;  // by their old numbers
+  std::vector<std::size_t> which;     // the same of pairs
+  std::vector<PressedPair> pairs;
+};
+
+std::vector<Part> parts_of(std::size_t bodies, std::span<const PressedPair> pairs) {
+  std::vector<std::uint32_t> part(bodies), place(bodies, PressedPair::none);
+  std::iota(part.begin(), part.end(), 0u);
+  const auto root = [&](std::uint32_t k) {
+    while (part[k] != k) k = part[k] = part[part[k]];
+    return k;
+  };
+  for (const PressedPair& p : pairs)
+    if (p.b != PressedPair::none) part[root(p.a)] = root(p.b);
+  std::vector<Part> parts;
+  std::vector<std::size_t> number(bodies, pairs.size());
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    std::size_t& k = number[root(pairs[c].a)];
+    if (k == pairs.size()) {
+      k = parts.size();
+      parts.emplace_back();
+    }
+    PressedPair pair = pairs[c];
+    for (std::uint32_t* i : {&pair.a, &pair.b}) {
+      if (*i == PressedPair::none) continue;
+      if (place[*i] == PressedPair::none) {
+        place[*i] = static_cast<std::uint32_t>(parts[k].bodies.size());
+        parts[k].bodies.push_back(*i);
+      }
+      *i = place[*i];
+    }
+    parts[k].which.push_back(c);
+    parts[k].pairs.push_back(pair);
+  }
+  return parts;
+}
+
 }  // namespace
 
 bool press_few_apart(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<PressedPair> pairs) {
-  return pairs.empty() || ActiveSet(inverse_mass, u, pairs).solve();
+  bool done = true;
+  for (Part& part : parts_of(u.size(), pairs)) {
+    std::vector<Vec3> motion;
+    std::vector<double> inverse;
+    for (const std::uint32_t i : part.bodies) {
+      motion.push_back(u[i]);
+      inverse.push_back(inverse_mass[i]);
+    }
+    done = ActiveSet(inverse, motion, part.pairs).solve() && done;
+    for (std::size_t k = 0; k < motion.size(); ++k) u[part.bodies[k]] = motion[k];
+    for (std::size_t k = 0; k < part.which.size(); ++k) pairs[part.which[k]].force = part.pairs[k].force;
+  }
+  return done;
 }
 
 }  // namespace carom
