@@ -122,5 +122,53 @@ TEST(Collapse, OfColumnsOfBoxesDroppedOnTheFloorEndsAtRest) {
   }
 }
 
+/// A light ball between two heavy ones that close in on it, in a common fall.
+Problem squeezed(double mass, double first_e, double second_e, double g) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -g, 0);
+  problem.ball({-2, 0, 0}, {1, 0, 0}, 1, 0.5);
+  problem.ball({0, 0, 0}, {0, 0, 0}, mass, 0.5);
+  problem.ball({2.5, 0, 0}, {-1, 0, 0}, 1, 0.5);
+  problem.world.pairs = {{0, 1, 1, 1, first_e}, {1, 1, 2, 1, second_e}};
+  return problem;
+}
+
+TEST(Collapse, OfALightBallBetweenHeavyOnesComesInFreeFallAsAtRest) {
+  for (double g : {0.0, 1e-3, 100.0}) {
+    for (double first_e : {0.5, 1.0}) {
+      const Outcome run = run_exact(squeezed(1e-6, first_e, 0.5, g));
+      EXPECT_EQ(run.tally.collapses, 1u) << g << ", " << first_e;
+      EXPECT_LT(run.tally.collisions(), 300u) << g << ", " << first_e;
+      // All of the heavy balls' push goes through the light one: what rounds their places turns it a little.
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_LT(std::abs(run.end.velocity[i].x()), 1e-15) << g << ", " << first_e;      // m/s; measured: 2.3e-16
+        EXPECT_NEAR(run.end.velocity[i].y(), -10 * g, 1e-8 * g) << g << ", " << first_e;  // measured: 1.3e-9 g
+      }
+      EXPECT_LT(run.tally.max_overlap, 1e-13) << g << ", " << first_e;
+    }
+  }
+}
+
+TEST(Collapse, IsNotMistakenForManyHonestCollisions) {
+  for (double second_e : {1.0, 0.9999}) {
+    const Outcome run = run_exact(squeezed(1e-8, 1, second_e, 0));
+    EXPECT_EQ(run.tally.collapses, 0u);
+    EXPECT_GT(run.tally.collisions(), 20000u);
+  }
+}
+
+// Between a plane and a ball of 1e10 times its mass nothing is left of the approach, and no overlap comes of it.
+TEST(Collapse, AgainstAPlaneSqueezesNothingIntoIt) {
+  Problem problem;
+  problem.plane({0, 0, 0}, {1, 0, 0});
+  problem.ball({1.5, 0, 0}, {0, 0, 0}, 1e-5, 0.25, 0.3);
+  problem.ball({3, 0, 0}, {-1.5, 0, 0}, 1e5, 0.5, 0.3);
+  problem.options.duration = 1000;
+  const Outcome run = run_exact(problem);
+  EXPECT_NEAR(run.end.position[0].x(), 0.25, 1e-15);
+  EXPECT_NEAR(run.end.position[1].x(), 1, 1e-15);
+  EXPECT_LT(run.end.velocity[1].norm(), 1e-15);
+}
+
 }  // namespace
 }  // namespace carom

@@ -56,6 +56,23 @@ TEST(Determinism, ARepeatGivesTheSameBits) {
   EXPECT_EQ(hash_of(run_exact(problem)), hash_of(run_exact(problem)));
 }
 
+// With e = 0 the speeds fall by the masses' ratio at every impact, to where squares would underflow.
+TEST(Determinism, CollisionsThatDieAwayKeepTheirBitsInOtherUnits) {
+  const auto run = [](double unit) {
+    Problem problem;
+    problem.plane({-3 * unit, 0, 0}, {1, 0, 0});
+    problem.ball({0, 0, 0}, {-unit, 0, 0}, 1, 0.25 * unit, 0);
+    problem.ball({unit, 0, 0}, {-1.5 * unit, 0, 0}, 1e-6, 0.25 * unit, 0);
+    problem.ball({-unit, 0, 0}, {0.5 * unit, 0, 0}, 1e6, 0.25 * unit, 0);
+    problem.options.duration = 100;
+    return run_exact(problem);
+  };
+  const Outcome p = run(1), q = run(0x1p-20);
+  EXPECT_EQ(p.tally.collisions(), q.tally.collisions());
+  EXPECT_EQ(p.tally.energy_lost, q.tally.energy_lost * 0x1p40);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(p.end.position[i], q.end.position[i] * 0x1p20);
+}
+
 // Two ways to the same motion: the chapter's loop closes in on the exact path as its frames get shorter.
 TEST(Agreement, TheBooksLoopConvergesToTheExactMotion) {
   Problem problem;

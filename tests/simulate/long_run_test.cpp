@@ -91,5 +91,19 @@ TEST(Reversal, AGasReturnsToItsStartAfterEightCollisionsABall) {
     EXPECT_LT(way_off_after_reversal(8, seed), 2e-10) << seed;  // diameters; measured: 1.0e-11 to 6.3e-11
 }
 
+// A row that falls 1e9 m: were it to learn anew every few radii who is near, it would not end in an hour.
+TEST(FreeFall, ACloseCompanyFallsFarAtOnce) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -9.80665, 0);
+  for (int i = 0; i < 12; ++i) problem.ball({0.25 * i, 0, 0}, {0, 0, 0}, 1, 0.125, 0.9);
+  problem.options.duration = 14280;
+  const Outcome run = run_exact(problem);
+  EXPECT_TRUE(run.all.empty());
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(run.end.position[i].x(), 0.25 * static_cast<double>(i));
+    EXPECT_NEAR(run.end.position[i].y() / (-0.5 * 9.80665 * 14280 * 14280), 1, 1e-15);
+  }
+}
+
 }  // namespace
 }  // namespace carom
