@@ -58,7 +58,7 @@ bool ExactSimulator::follow_crowd() {
     v[k] = following_ && version_[i] == arrival_version_[i] && now_ == arrival_time_ ? arrival_[i] : before[k];
     if (!following_ && now_ < pulled_[i]) v[k] -= (pulled_[i] - now_) * hastened_[i];
     inverse_mass[k] = 1 / world_.mass[i];
-    pull = std::max(pull, pull_[i].norm());
+    pull = std::max(pull, load_on(i));
     smallest = std::min(smallest, world_.radius[i]);
   }
   const auto forget = [&] {

@@ -14,6 +14,12 @@ double ExactSimulator::slow_speed(double press, double length) const {
   return options_.rest_speed > 0 ? options_.rest_speed : 0.03 * std::sqrt(press * length);
 }
 
+/// The acceleration (m/s^2) with which body i may press on others. In common free fall, nothing fixed and no other
+/// forces, there is none: gravity moves all alike.
+double ExactSimulator::load_on(Entity i) const {
+  return world_.fixed_count() == 0 && world_.forces.empty() ? 0 : pull_[i].norm();
+}
+
 /// Counts an impact of body i: whether it is one of many within a window of time (s).
 bool ExactSimulator::in_burst(Entity i, double window, int many) {
   Burst& burst = burst_[i];
@@ -21,16 +27,21 @@ bool ExactSimulator::in_burst(Entity i, double window, int many) {
   return ++burst.impacts > many;
 }
 
-/// Inelastic collapse (McNamara & Young, Phys. Fluids A 4 (1992) 496): a body between others that close in on it strikes
-/// them in turn, ever sooner, and what is left of the gaps is gone in no time. Counts a body's impacts, elastic ones
-/// only where there are others, until it has come from the spot by a billionth of `length` (m). Bouncing on one and the
-/// same thing counts once.
+/// Inelastic collapse (McNamara & Young, Phys. Fluids A 4 (1992) 496): a body between others that close in on it
+/// strikes them in turn, ever sooner, and what is left of the gaps is gone in no time. Sums 1 - e of a body's impacts
+/// until it has come from the spot by a billionth of `length` (m); bouncing on one and the same thing counts once.
+/// Impacts in turn that come to an end multiply the speeds by sqrt(e) each, as the determinant of what they do says,
+/// and at this sum have left exp(-32) of them: those that go on are a collapse, or as good as over.
 bool ExactSimulator::collapses(Entity i, Entity other, double e, double approach, double length) {
   constexpr int many = 64;
+  constexpr double enough = 16;
   Collapse& collapse = collapse_[i];
-  if (approach * (now_ - collapse.start) > 1e-9 * length) collapse = {now_, 0};
-  if (e < 1 && origin_[i].partner != other) ++collapse.impacts;
-  if (collapse.impacts <= many) return false;
+  if (approach * (now_ - collapse.start) > 1e-9 * length) collapse = {now_, 0, 0};
+  if (e < 1 && origin_[i].partner != other) {
+    ++collapse.impacts;
+    collapse.lost += 1 - e;
+  }
+  if (collapse.impacts <= many || collapse.lost <= enough) return false;
   collapse.taken_up = now_;
   return true;
 }
@@ -45,7 +56,7 @@ bool ExactSimulator::taken_up(Entity a, Entity b, double e, double approach, dou
   if (collapse_a || collapse_b) return true;
   if (e >= 1) return false;
   const bool a_in = crowded(a), b_in = crowded(b), both_in = a_in && (b_in || !world_.is_body(b));
-  const double load = std::max(pull_[a].norm(), world_.is_body(b) ? pull_[b].norm() : 0.0);
+  const double load = std::max(load_on(a), world_.is_body(b) ? load_on(b) : 0.0);
   if (load == 0) return both_in && collapse_[a].impacts > 8;
   const double slow = slow_speed(load, length);
   if (approach >= slow) return false;

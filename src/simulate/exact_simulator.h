@@ -95,8 +95,8 @@ class ExactSimulator final : public Simulator {
   /// A body's impacts on the spot.
   struct Collapse {
     Instant start;
-    int impacts = 0;             // with e < 1, and not twice running with the same thing
-    Instant taken_up{never, 0};  // the last that contact has taken up for their number
+    double lost = 0;             // sum of 1 - e
+    Instant taken_up{never, 0};  // the last that contact has taken up for that
   };
 
   static constexpr double immovable = never;  // kg
@@ -150,6 +150,7 @@ class ExactSimulator final : public Simulator {
   void stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach);
   bool collapses(Entity i, Entity other, double e, double approach, double length);
   double slow_speed(double press, double length) const;
+  double load_on(Entity i) const;
 
   // exact_rest.cpp
   void settle(Entity i, const Contact& contact);

@@ -138,7 +138,7 @@ TEST(Collapse, OfALightBallBetweenHeavyOnesComesInFreeFallAsAtRest) {
     for (double first_e : {0.5, 1.0}) {
       const Outcome run = run_exact(squeezed(1e-6, first_e, 0.5, g));
       EXPECT_EQ(run.tally.collapses, 1u) << g << ", " << first_e;
-      EXPECT_LT(run.tally.collisions(), 300u) << g << ", " << first_e;
+      EXPECT_LT(run.tally.collisions(), 400u) << g << ", " << first_e;
       // All of the heavy balls' push goes through the light one: what rounds their places turns it a little.
       for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_LT(std::abs(run.end.velocity[i].x()), 1e-15) << g << ", " << first_e;      // m/s; measured: 2.3e-16
@@ -155,6 +155,22 @@ TEST(Collapse, IsNotMistakenForManyHonestCollisions) {
     EXPECT_EQ(run.tally.collapses, 0u);
     EXPECT_GT(run.tally.collisions(), 20000u);
   }
+}
+
+// Slow impacts one upon the other: what would be the end of bouncing under load is none where nothing presses.
+TEST(Collapse, IsNoneWhereACommonFallMakesManySlowImpacts) {
+  const auto run = [](double g) {
+    Problem problem;
+    problem.world.gravity = Vec3(-g, 0, 0);
+    problem.ball({-1 - 0x1p-20, 0, 0}, {1e-3, 0, 0}, 1, 0.5, 0.999);
+    problem.ball({0, 0, 0}, {0, 0, 0}, 1e-4, 0.5, 0.999);
+    problem.ball({1 + 0x1p-20, 0, 0}, {-1e-3, 0, 0}, 1, 0.5, 0.999);
+    return run_exact(problem);
+  };
+  const Outcome falling = run(100), at_rest = run(0);
+  EXPECT_EQ(falling.tally.collapses, 0u);
+  EXPECT_EQ(falling.tally.collisions(), at_rest.tally.collisions());
+  EXPECT_GT(at_rest.tally.collisions(), 100u);
 }
 
 // Between a plane and a ball of 1e10 times its mass nothing is left of the approach, and no overlap comes of it.
