@@ -95,7 +95,8 @@ class ExactSimulator final : public Simulator {
   /// A body's impacts on the spot.
   struct Collapse {
     Instant start;
-    double lost = 0;             // sum of 1 - e
+    int impacts = 0;             // with e < 1, and not twice running with the same thing
+    double lost = 0;             // their sum of 1 - e
     Instant taken_up{never, 0};  // the last that contact has taken up for that
   };
 
