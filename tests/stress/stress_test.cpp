@@ -6,7 +6,7 @@
 namespace carom::stress {
 namespace {
 
-constexpr int groups = 13, scenes_per_group = 13;
+constexpr int groups = 13, scenes_per_group = 24;
 
 class RandomScenes : public ::testing::TestWithParam<int> {};
 
