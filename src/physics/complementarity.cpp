@@ -111,6 +111,11 @@ bool press_apart(std::span<const double> inverse_masses, std::span<Vec3> u, std:
     g = constant;
   }
   std::vector<double> next_x(m), next_g(m);
+  // What has died away to nothing is none: its squares would underflow, and other units would give other bits.
+  double least = 0;
+  for (std::size_t c = 0; c < m; ++c) least = std::max({least, std::abs(constant[c]), x[c]});
+  least *= 0x1p-200;
+  const auto flush = [&](double value) { return std::abs(value) < least ? 0 : value; };
   double reduced = 0, chopped = 0;  // the gradient on the free pairs, what of it the bounds leave; the pull on others
   bool done = false;
   const auto look = [&](std::size_t c) {
@@ -127,7 +132,7 @@ bool press_apart(std::span<const double> inverse_masses, std::span<Vec3> u, std:
     reduced = chopped = 0;
     done = true;
     for (std::size_t c = 0; c < m; ++c) {
-      direction[c] = (x[c] > 0 ? g[c] : 0) - (turn == 0 ? 0 : turn * direction[c]);
+      direction[c] = flush((x[c] > 0 ? g[c] : 0) - (turn == 0 ? 0 : turn * direction[c]));
       look(c);
     }
   };
@@ -147,8 +152,8 @@ bool press_apart(std::span<const double> inverse_masses, std::span<Vec3> u, std:
     bool feasible = true;
     double turn = 0;
     for (std::size_t c = 0; c < m; ++c) {
-      next_x[c] = x[c] - best * direction[c];
-      next_g[c] = g[c] - best * image[c];
+      next_x[c] = flush(x[c] - best * direction[c]);
+      next_g[c] = flush(g[c] - best * image[c]);
       feasible = feasible && !(next_x[c] < 0);
       turn += next_x[c] > 0 ? next_g[c] * image[c] : 0;
     }

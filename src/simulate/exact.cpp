@@ -164,9 +164,8 @@ void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin orig
   book_flight(i, x);
   flight_[i].start = now_;
   flight_[i].x = x;
-  const bool still =
-      speed <= least_speed * tally_.max_speed ||
-      (contacts_[i].count > 0 && speed * speed < 0x1p-120 * pull_[i].norm() * world_.radius[i]);
+  const bool still = speed <= least_speed * tally_.max_speed ||
+                     (contacts_[i].count > 0 && speed * speed < 0x1p-120 * pull_[i].norm() * world_.radius[i]);
   flight_[i].v = still ? Vec3(Vec3::Zero()) : v;
   flight_[i].a = contact_acceleration(i);
   origin_[i] = origin;

@@ -114,11 +114,11 @@ void ExactSimulator::stop_at(Entity striker, Entity struck, std::uint8_t feature
   const Flight& f = flight_[striker];
   const double t = now_ - f.start, mass = world_.mass[striker];
   const Vec3 x = f.position(t), v = f.velocity(t);
-  const double lost = impact_loss(mass, immovable, approach, 0);
+  const double lost = 0.5 * mass * v.squaredNorm();
   record({now_.hi, CollisionKind::body_body, std::min(striker, struck), std::max(striker, struck), there.point,
           there.normal, approach, 0, pair_restitution(world_, striker, struck),
           impact_impulse(mass, immovable, approach, 0), lost});
-  lose(0.5 * mass * v.squaredNorm());
+  lose(lost);
   restart(striker, x, Vec3::Zero(), {struck, feature});
   predict(striker);
 }
