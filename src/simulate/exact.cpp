@@ -15,7 +15,6 @@ namespace {
 
 constexpr std::size_t collision_buffer = 4096;
 constexpr std::uint32_t events_at_a_time = 65536;
-constexpr double least_speed = 0x1p-200;  // of the greatest speed so far; below, a body is as good as still
 
 }  // namespace
 
@@ -164,7 +163,7 @@ void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin orig
   book_flight(i, x);
   flight_[i].start = now_;
   flight_[i].x = x;
-  const bool still = speed <= least_speed * tally_.max_speed ||
+  const bool still = speed <= negligible_speed() ||
                      (contacts_[i].count > 0 && speed * speed < 0x1p-120 * pull_[i].norm() * world_.radius[i]);
   flight_[i].v = still ? Vec3(Vec3::Zero()) : v;
   flight_[i].a = contact_acceleration(i);

@@ -135,7 +135,7 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const double ma = world_.mass[a], mb = world_.mass[b];
   const Vec3 w = vb - va;
   const Vec3& n = there.normal;
-  const double approach = std::max(-w.dot(n), 0.0);
+  const double approach = -w.dot(n) > negligible_speed() ? -w.dot(n) : 0;
   const double e = struck_ = pair_restitution(world_, a, b);
   const double length = world_.radius[a] + world_.radius[b];
   for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})
@@ -171,7 +171,7 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
   const bool flat = is_flat(world_, i, surface, feature);
   const Touch there = touch_at(i, x, surface, world_.fixed_position(surface), feature);
   const Vec3& n = there.normal;
-  const double approach = std::max(v.dot(n), 0.0);
+  const double approach = v.dot(n) > negligible_speed() ? v.dot(n) : 0;
   const double e = struck_ = pair_restitution(world_, i, surface);
   double separation = e * approach;
   const double bend = flat ? 0 : bending(world_, i, x, surface, world_.fixed_position(surface), there, -v);

@@ -101,6 +101,8 @@ class ExactSimulator final : public Simulator {
   };
 
   static constexpr double immovable = never;  // kg
+  /// m/s: a speed as good as none, for products of it with itself underflow.
+  double negligible_speed() const { return 0x1p-200 * tally_.max_speed; }
   /// Whether a speed (m/s) against a pressing acceleration (m/s^2) lifts a body by less than its position x (m) is
   /// rounded to.
   static bool too_low(const Vec3& x, double speed, double press) {

@@ -77,7 +77,7 @@ class Check {
     same("with more outputs", seen_);
     if (!seen_.error.empty() || seen_.seen.size() != times_.size()) return;
     if (!finite()) return;
-    paths_ = std::make_unique<Paths>(scene_, times_, seen_.seen, first_.tally.collapses > 0);
+    paths_ = std::make_unique<Paths>(scene_, times_, seen_.seen, first_.records, first_.tally.collapses > 0);
     for (std::string& overlap : paths_->overlaps()) fail(std::move(overlap));
     energy();
     momentum();

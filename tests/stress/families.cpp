@@ -25,6 +25,8 @@ void gas(Maker& m) {
           e);
   m.scene.options.duration = m.uniform(0.2, 2);
   m.scene.may_stop = m.scene.world.gravity.isZero() && e == 1;
+  if (!m.scene.world.gravity.isZero() && e < 1)
+    m.scene.options.max_collisions = 0;  // all come to rest, bounce by bounce
 }
 
 /// Few bodies in empty space, at all scales, aimed at each other.

@@ -25,9 +25,13 @@ Long3 on(const Long3& x, const Long3& v, const Long3& a, long double t) {
 
 }  // namespace
 
-Paths::Paths(const RandomScene& scene, const std::vector<double>& times, const std::vector<State>& seen, bool crowds)
-    : scene_(scene), times_(times), seen_(seen), crowds_(crowds) {
+Paths::Paths(const RandomScene& scene, const std::vector<double>& times, const std::vector<State>& seen,
+             const std::vector<Collision>& records, bool crowds)
+    : scene_(scene), times_(times), seen_(seen), crowds_(crowds), recorded_(scene.world.body_count()) {
   const World& world = scene.world;
+  for (const Collision& c : records)
+    for (Entity i : {c.a, c.b})
+      if (world.is_body(i)) recorded_[i].push_back(c.time);
   for (Entity i = 0; i < world.body_count(); ++i) {
     double extent = extent_of(scene.initial.position[i]) + world.radius[i];
     for (const State& s : seen) extent = std::max(extent, extent_of(s.position[i]) + world.radius[i]);
@@ -59,7 +63,9 @@ std::vector<Paths::Path> Paths::between(std::size_t k) const {
     path.a = (then.velocity[i] - now.velocity[i]) / h;
     const Vec3 end = path.x + h * (path.v + 0.5 * h * path.a);
     const double way = h * (now.velocity[i].norm() + then.velocity[i].norm());
-    path.known = (end - then.position[i]).norm() <= 1e-14 * (extent_[i] + way);
+    const auto next = std::upper_bound(recorded_[i].begin(), recorded_[i].end(), times_[k]);
+    path.known = (next == recorded_[i].end() || *next >= times_[k + 1]) &&
+                 (end - then.position[i]).norm() <= 1e-14 * (extent_[i] + way);
     paths.push_back(path);
   }
   return paths;

@@ -10,7 +10,8 @@ namespace carom::stress {
 
 class Paths {
  public:
-  Paths(const RandomScene& scene, const std::vector<double>& times, const std::vector<State>& seen, bool crowds);
+  Paths(const RandomScene& scene, const std::vector<double>& times, const std::vector<State>& seen,
+        const std::vector<Collision>& records, bool crowds);
 
   /// Every overlap beyond what is allowed, in words (the first of each pair).
   std::vector<std::string> overlaps() const;
@@ -23,7 +24,7 @@ class Paths {
  private:
   struct Path {
     Vec3 x, v, a;  // at the beginning
-    bool known;    // it is a parabola
+    bool known;    // it is a parabola: nothing is recorded of the body on the way, and the ends fit
   };
   std::vector<Path> between(std::size_t k) const;
   double deepest(const World& world, Entity a, const Path& pa, Entity b, const Path& pb, double length) const;
@@ -32,7 +33,8 @@ class Paths {
   const std::vector<double>& times_;
   const std::vector<State>& seen_;
   const bool crowds_;
-  std::vector<double> extent_;  // m, by entity
+  std::vector<double> extent_;                 // m, by entity
+  std::vector<std::vector<double>> recorded_;  // s, by body: when it collided, ascending
 };
 
 }  // namespace carom::stress
