@@ -30,8 +30,9 @@ constexpr double nearby = 1e-3;        // of a radius: bodies that are no farthe
 constexpr double apart = 1e-3;         // of the way that bodies go in a step: what they are kept apart for it,
 constexpr double exactly = 0.05;       // but for this much of that
 constexpr double quiet = 5e-4;         // of a radius: a crowd that moves less in a step, on average, is told exactly
-constexpr double resting_gap = 1e-10;  // of a radius: what calm ones are
-constexpr double balanced = 1e-11;     // of gravity: forces whose sum is less hold a body
+constexpr std::size_t most_direct = 4000;  // bodies; the cost grows as their square
+constexpr double resting_gap = 1e-10;      // of a radius: what calm ones are
+constexpr double balanced = 1e-11;         // of gravity: forces whose sum is less hold a body
 
 }  // namespace
 
@@ -239,7 +240,7 @@ void ExactSimulator::move_apart(Stride& step) {
   step.moved = step.v;
   for (std::size_t k = 0; k < n; ++k) step.moved[k] += (now_ + h - pulled_[crowd_[k]]) * pull_[crowd_[k]];
   const std::vector<Vec3> pulled = step.moved;
-  if (press_apart(step.inverse_mass, step.moved, step.pairs, 600)) return;
+  if (press_apart(step.inverse_mass, step.moved, step.pairs, 600) || n > most_direct) return;
   double before = 0, after = 0;
   for (std::size_t k = 0; k < n; ++k) {
     before += h * step.v[k].norm();

@@ -84,9 +84,9 @@ Touch ExactSimulator::touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& x
 }
 
 /// Whether a body that lies on flat surfaces strikes one at rest that forces hold on all sides so slowly that it would
-/// lift it by no more than a millionth of its size.
+/// lift it by no more than a hundred-thousandth of its size.
 bool ExactSimulator::too_slow_to_wake(Entity striker, Entity struck, double approach) const {
-  constexpr double lift = 1e-6;
+  constexpr double lift = 1e-5;
   if (place_[struck] != Place::asleep || contacts_[striker].count == 0) return false;
   if (!(approach * approach < 2 * lift * pull_[struck].norm() * world_.radius[struck])) return false;
   // Three forces at least, not in a plane.
