@@ -20,17 +20,19 @@ namespace carom {
 
 namespace {
 
-constexpr double step_length = 0.015;  // of the time in which a body falls freely by its own radius
-constexpr double way = 0.03;           // of a radius: what the fastest body may go in a step longer than that
-constexpr double longest = 16;         // of the shortest step
-constexpr double restless_gap = 2e-3;  // of a radius: what bodies that have just been struck are kept apart
-constexpr double calming = 0.5;        // a step leaves of that gap
-constexpr std::uint8_t patience = 8;   // steps without a force, then a body leaves the crowd
-constexpr double nearby = 1e-3;        // of a radius: bodies that are no farther apart may press before a step ends
-constexpr double apart = 1e-3;         // of the way that bodies go in a step: what they are kept apart for it,
-constexpr double exactly = 0.05;       // but for this much of that
-constexpr double quiet = 5e-4;         // of a radius: a crowd that moves less in a step, on average, is told exactly
+constexpr double step_length = 0.015;     // of the time in which a body falls freely by its own radius
+constexpr double way = 0.03;              // of a radius: what the fastest body may go in a step longer than that
+constexpr double longest = 16;            // of the shortest step
+constexpr double restless_gap = 2e-3;     // of a radius: what bodies that have just been struck are kept apart
+constexpr double calming = 0.5;           // a step leaves of that gap,
+constexpr double calming_directly = 0.1;  // or, where it is told exactly, this
+constexpr std::uint8_t patience = 8;      // steps without a force, then a body leaves the crowd
+constexpr double nearby = 1e-3;           // of a radius: bodies that are no farther apart may press before a step ends
+constexpr double apart = 1e-3;            // of the way that bodies go in a step: what they are kept apart for it,
+constexpr double exactly = 0.05;          // but for this much of that
+constexpr double quiet = 5e-4;            // of a radius: a crowd that moves less in a step, on average, is told exactly
 constexpr std::size_t most_direct = 4000;  // bodies; the cost grows as their square
+constexpr double parting = 0.01;           // of the fastest approach: what those struck at once part with
 constexpr double resting_gap = 1e-10;      // of a radius: what calm ones are
 constexpr double balanced = 1e-11;         // of gravity: forces whose sum is less hold a body
 
@@ -95,7 +97,8 @@ void ExactSimulator::wake(Entity i) {
 }
 
 /// An impact of body i has been taken up. A body pushed to and fro between others would go on so for ever: then all of
-/// those that touch one another there are struck at once, each as by e = 0.
+/// those that touch one another there are struck at once, and part a little, lest they do so again at the next
+/// rounding.
 void ExactSimulator::jostle(Entity i) {
   constexpr std::uint32_t many = 8;
   if (following_ || place_[i] != Place::crowd || ++jostled_[i] <= many) return;
@@ -131,9 +134,20 @@ void ExactSimulator::jostle(Entity i) {
   double approach = 0;
   for (const PressedPair& p : pairs)
     approach = std::max(approach, p.normal.dot(before[p.a] - (p.b == unseen ? Vec3(Vec3::Zero()) : before[p.b])));
-  for (PressedPair& p : pairs) p.slack = 1e-3 * approach;
+  for (PressedPair& p : pairs) {
+    p.target = parting * approach;
+    p.slack = 0.1 * p.target;
+  }
   after = before;
   press_apart(inverse_mass, after, pairs, 200);
+  double gained = 0;
+  for (std::size_t k = 0; k < cluster.size(); ++k)
+    gained += world_.mass[cluster[k]] * (after[k] - before[k]).dot(after[k] + before[k]);
+  if (gained > 0) {
+    for (PressedPair& p : pairs) p.target = 0;
+    after = before;
+    press_apart(inverse_mass, after, pairs, 200);
+  }
   std::vector<Entity> changed;
   for (std::size_t k = 0; k < cluster.size(); ++k) {
     const Entity a = cluster[k];
@@ -159,6 +173,7 @@ void ExactSimulator::step_crowd() {
 
 /// A step of a large crowd, in numbers of its own: member k is body crowd_[k].
 struct ExactSimulator::Stride {
+  bool direct = false;                           // told exactly
   double length = 0;                             // s
   double smallest = never, pull = 0;             // m, m/s^2: the least radius, the greatest acceleration
   std::vector<Vec3> x, v, moved;                 // m, m/s: now, and velocities from now on
@@ -248,7 +263,7 @@ void ExactSimulator::move_apart(Stride& step) {
   }
   if (std::min(before, after) > quiet * step.smallest * static_cast<double>(n)) return;
   step.moved = pulled;
-  press_apart_directly(step.inverse_mass, step.moved, step.pairs);
+  step.direct = press_apart_directly(step.inverse_mass, step.moved, step.pairs);
 }
 
 /// Members that press on one another are a part of the crowd. The faster one of its bodies is, the farther its bodies
@@ -274,7 +289,7 @@ void ExactSimulator::find_parts(Stride& step) {
   std::vector<double> kept(n, resting_gap * step.smallest);
   const auto keep = [&](std::uint32_t k, double gap) { kept[part[k]] = std::max(kept[part[k]], gap); };
   for (std::uint32_t k = 0; k < n; ++k) {
-    keep(k, calming * kept_apart_[crowd_[k]]);
+    keep(k, (step.direct ? calming_directly : calming) * kept_apart_[crowd_[k]]);
     keep(k, apart * step.length * step.moved[k].norm());
   }
   for (const PressedPair& p : step.pairs) {

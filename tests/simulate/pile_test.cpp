@@ -1,0 +1,24 @@
+// A pile jams, and then it is at rest: no motion at all, all forces in balance.
+#include "simulate/pile.h"
+
+namespace carom {
+namespace {
+
+TEST(Pile, OfNinetyBallsComesToRest) {
+  const Problem problem = loose_pile(3, 10, 1000);
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  expect_pile_at_rest(problem, *simulator, {900, 950, 1000});
+}
+
+TEST(Pile, AWokenPileComesToRestAgain) {
+  Problem problem = loose_pile(3, 4, 40);
+  // A heavy one falls on it when it lies.
+  problem.ball({1.7, 1800, 1.6}, Vec3::Zero(), 1, 0.5, 0.5);
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  go_to(*simulator, 18);
+  EXPECT_EQ(simulator->tally().resting, problem.world.body_count() - 1);
+  expect_pile_at_rest(problem, *simulator, {38, 40});
+}
+
+}  // namespace
+}  // namespace carom
