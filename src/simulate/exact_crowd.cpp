@@ -20,17 +20,16 @@ namespace carom {
 
 namespace {
 
-constexpr double step_length = 0.015;     // of the time in which a body falls freely by its own radius
-constexpr double way = 0.03;              // of a radius: what the fastest body may go in a step longer than that
-constexpr double longest = 16;            // of the shortest step
-constexpr double restless_gap = 2e-3;     // of a radius: what bodies that have just been struck are kept apart
-constexpr double calming = 0.5;           // a step leaves of that gap,
-constexpr double calming_directly = 0.1;  // or, where it is told exactly, this
-constexpr std::uint8_t patience = 8;      // steps without a force, then a body leaves the crowd
-constexpr double nearby = 1e-3;           // of a radius: bodies that are no farther apart may press before a step ends
-constexpr double apart = 1e-3;            // of the way that bodies go in a step: what they are kept apart for it,
-constexpr double exactly = 0.05;          // but for this much of that
-constexpr double quiet = 5e-4;            // of a radius: a crowd that moves less in a step, on average, is told exactly
+constexpr double step_length = 0.015;  // of the time in which a body falls freely by its own radius
+constexpr double way = 0.03;           // of a radius: what the fastest body may go in a step longer than that
+constexpr double longest = 16;         // of the shortest step
+constexpr double restless_gap = 2e-3;  // of a radius: what bodies that have just been struck are kept apart
+constexpr double calming = 0.5;        // a step leaves of that gap
+constexpr std::uint8_t patience = 8;   // steps without a force, then a body leaves the crowd
+constexpr double nearby = 1e-3;        // of a radius: bodies that are no farther apart may press before a step ends
+constexpr double apart = 1e-3;         // of the way that bodies go in a step: what they are kept apart for it,
+constexpr double exactly = 0.05;       // but for this much of that
+constexpr double quiet = 5e-4;         // of a radius: a crowd that moves less in a step, on average, is told exactly
 constexpr std::size_t most_direct = 4000;  // bodies; the cost grows as their square
 constexpr double parting = 0.01;           // of the fastest approach: what those struck at once part with
 constexpr double resting_gap = 1e-10;      // of a radius: what calm ones are
@@ -97,8 +96,8 @@ void ExactSimulator::wake(Entity i) {
 }
 
 /// An impact of body i has been taken up. A body pushed to and fro between others would go on so for ever: then all of
-/// those that touch one another there are struck at once, and part a little, lest they do so again at the next
-/// rounding.
+/// those that touch one another there are struck at once. Where all is restless they part a little, lest they do so
+/// again at the next rounding.
 void ExactSimulator::jostle(Entity i) {
   constexpr std::uint32_t many = 8;
   if (following_ || place_[i] != Place::crowd || ++jostled_[i] <= many) return;
@@ -134,9 +133,10 @@ void ExactSimulator::jostle(Entity i) {
   double approach = 0;
   for (const PressedPair& p : pairs)
     approach = std::max(approach, p.normal.dot(before[p.a] - (p.b == unseen ? Vec3(Vec3::Zero()) : before[p.b])));
+  const bool restless = kept_apart_[i] > 0.5 * restless_gap * world_.radius[i];
   for (PressedPair& p : pairs) {
-    p.target = parting * approach;
-    p.slack = 0.1 * p.target;
+    p.target = restless ? parting * approach : 0;
+    p.slack = 1e-3 * approach;
   }
   after = before;
   press_apart(inverse_mass, after, pairs, 200);
@@ -173,10 +173,10 @@ void ExactSimulator::step_crowd() {
 
 /// A step of a large crowd, in numbers of its own: member k is body crowd_[k].
 struct ExactSimulator::Stride {
-  bool direct = false;                           // told exactly
   double length = 0;                             // s
   double smallest = never, pull = 0;             // m, m/s^2: the least radius, the greatest acceleration
   std::vector<Vec3> x, v, moved;                 // m, m/s: now, and velocities from now on
+  std::vector<double> haste;                     // m/s: half of what each member may be moved by
   std::vector<double> inverse_mass;              // 1/kg
   std::vector<PressedPair> pairs;                // who may press on whom before the step ends,
   std::vector<std::pair<Entity, Entity>> names;  // by their names,
@@ -205,12 +205,23 @@ void ExactSimulator::stride() {
   step.length = way * step.smallest / std::max(fastest, 0x1p-900);
   if (step.pull > 0)
     step.length = std::clamp(step.length, shortest, std::clamp(2 * crowd_step_, shortest, longest * shortest));
+  step.haste.resize(n);
+  for (std::size_t k = 0; k < n; ++k) step.haste[k] = step.v[k].norm();
   for (;;) {
     move_apart(step);
     fastest = 0;
-    for (const Vec3& u : step.moved) fastest = std::max(fastest, u.norm());
-    if (fastest * step.length <= 2 * way * step.smallest || step.length <= shortest || step.pull == 0) break;
-    step.length = std::max(0.5 * step.length, shortest);
+    bool farther = false;  // than was looked for others to meet
+    for (std::size_t k = 0; k < n; ++k) {
+      const double speed = step.moved[k].norm();
+      fastest = std::max(fastest, speed);
+      if (speed <= 2 * step.haste[k] || 4 * step.length * speed <= nearby * step.smallest) continue;
+      step.haste[k] = speed;
+      farther = true;
+    }
+    if (step.pull > 0 && step.length > shortest && fastest * step.length > 2 * way * step.smallest)
+      step.length = std::max(0.5 * step.length, shortest);
+    else if (!farther)
+      break;
   }
   find_parts(step);
   put_to_rest(step);
@@ -236,7 +247,7 @@ void ExactSimulator::move_apart(Stride& step) {
       const Touch there = touch(world_, i, step.x[k], e, body ? step.x[other] : world_.fixed_position(e));
       const double rate = there.normal.dot((body ? step.v[other] : Vec3(Vec3::Zero())) - step.v[k]);
       const double kept = body ? std::max(kept_gap(k), kept_gap(other)) : kept_gap(k);
-      const double haste = step.v[k].norm() + (body ? step.v[other].norm() : 0);
+      const double haste = step.haste[k] + (body ? step.haste[other] : 0);
       const double reach = std::min(4 * step.pull * h * h, std::max(4 * h * haste, nearby * step.smallest));
       if (there.gap + h * std::min(rate, 0.0) > kept + reach) continue;
       PressedPair pair{static_cast<std::uint32_t>(k),
@@ -263,7 +274,7 @@ void ExactSimulator::move_apart(Stride& step) {
   }
   if (std::min(before, after) > quiet * step.smallest * static_cast<double>(n)) return;
   step.moved = pulled;
-  step.direct = press_apart_directly(step.inverse_mass, step.moved, step.pairs);
+  press_apart_directly(step.inverse_mass, step.moved, step.pairs);
 }
 
 /// Members that press on one another are a part of the crowd. The faster one of its bodies is, the farther its bodies
@@ -289,7 +300,7 @@ void ExactSimulator::find_parts(Stride& step) {
   std::vector<double> kept(n, resting_gap * step.smallest);
   const auto keep = [&](std::uint32_t k, double gap) { kept[part[k]] = std::max(kept[part[k]], gap); };
   for (std::uint32_t k = 0; k < n; ++k) {
-    keep(k, (step.direct ? calming_directly : calming) * kept_apart_[crowd_[k]]);
+    keep(k, calming * kept_apart_[crowd_[k]]);
     keep(k, apart * step.length * step.moved[k].norm());
   }
   for (const PressedPair& p : step.pairs) {
