@@ -83,12 +83,12 @@ Touch ExactSimulator::touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& x
   return touch(world_, a, xa, b, xb, feature);
 }
 
-/// Whether a body that lies on flat surfaces strikes one at rest that forces hold on all sides so slowly that it would
-/// lift it by no more than a hundred-thousandth of its size.
-bool ExactSimulator::too_slow_to_wake(Entity striker, Entity struck, double approach) const {
+/// Whether a body that lies on flat surfaces strikes one at rest that forces hold on all sides at a speed (m/s) so low
+/// that it would lift it by no more than a hundred-thousandth of its size.
+bool ExactSimulator::too_slow_to_wake(Entity striker, Entity struck, double speed) const {
   constexpr double lift = 1e-5;
   if (place_[struck] != Place::asleep || contacts_[striker].count == 0) return false;
-  if (!(approach * approach < 2 * lift * pull_[struck].norm() * world_.radius[struck])) return false;
+  if (!(speed * speed < 2 * lift * pull_[struck].norm() * world_.radius[struck])) return false;
   // Three forces at least, not in a plane.
   std::vector<Vec3> normals;
   const Vec3& x = flight_[struck].x;
@@ -109,7 +109,7 @@ bool ExactSimulator::too_slow_to_wake(Entity striker, Entity struck, double appr
   return false;
 }
 
-/// A strike too slow to wake: the striker comes to rest.
+/// A strike too slow to wake by a body that nothing presses on the struck one: the striker comes to rest.
 void ExactSimulator::stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach) {
   const Flight& f = flight_[striker];
   const double t = now_ - f.start, mass = world_.mass[striker];
@@ -138,10 +138,11 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const double approach = -w.dot(n) > negligible_speed() ? -w.dot(n) : 0;
   const double e = struck_ = pair_restitution(world_, a, b);
   const double length = world_.radius[a] + world_.radius[b];
-  for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})
-    if (too_slow_to_wake(striker, struck, approach)) return stop_at(striker, struck, feature, there, approach);
   double press = 0;
   if (p.a != q.a) press = -(n.dot(q.a - p.a) + bending(world_, a, xa, b, xb, there, w));
+  if (press <= 0)
+    for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})
+      if (too_slow_to_wake(striker, struck, w.norm())) return stop_at(striker, struck, feature, there, approach);
   const bool take_up = taken_up(a, b, e, approach, press, length, false) || (press > 0 && e * approach == 0);
   const double separation = take_up ? 0 : e * approach;
   const double impulse = impact_impulse(ma, mb, approach, separation);

@@ -149,7 +149,7 @@ class ExactSimulator final : public Simulator {
   Touch touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) const;
   bool taken_up(Entity a, Entity b, double e, double approach, double press, double length, bool alone);
   bool in_burst(Entity i, double window, int many);
-  bool too_slow_to_wake(Entity striker, Entity struck, double approach) const;
+  bool too_slow_to_wake(Entity striker, Entity struck, double speed) const;
   void stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach);
   bool collapses(Entity i, Entity other, double e, double approach, double length);
   double slow_speed(double press, double length) const;
