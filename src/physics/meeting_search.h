@@ -137,7 +137,9 @@ class MeetingSearch {
     if (closed < never && std::abs(look(closed).gap) <= tolerance(closed) &&
         (is_left || std::abs(set_.at(m_.d + way(closed), feature).gap) <= tolerance(closed)))
       return {closed, feature};
-    // Newton's method on the feature's gap.
+    // Newton's method on the feature's gap; where the path only just comes to the feature's rim, its surface, endlessly
+    // continued, may be met elsewhere.
+    const double found = t;
     double last = never;
     for (int k = 0; k < 8; ++k) {
       const double slope = set_.at(m_.d + way(t), feature).normal.dot(m_.w + t * m_.a);
@@ -149,6 +151,7 @@ class MeetingSearch {
       last = std::abs(step);
       t += step;
     }
+    if (t != found && std::abs(look(t).gap) > tolerance(t)) t = found;
     if (t > horizon_) return {never, no_feature};
     return {t, feature};
   }
