@@ -85,7 +85,8 @@ bool ExactSimulator::follow_crowd() {
       const bool body = world_.is_body(e);
       if (body && (e < i || place_[e] != Place::crowd)) continue;
       const Touch there = touch(world_, i, x[k], e, at(x, e));
-      if (there.gap > closed * world_.radius[i]) continue;
+      const double rounding = 0x1p-51 * (x[k].cwiseAbs().sum() + at(x, e).cwiseAbs().sum());
+      if (there.gap > std::max(closed * world_.radius[i], rounding)) continue;
       const double approach = there.normal.dot(v[k] - moving(v, e));
       const double length = world_.radius[i] + (body ? world_.radius[e] : 0);
       const bool collapse = collapse_[i].taken_up == now_ || (body && collapse_[e].taken_up == now_);
