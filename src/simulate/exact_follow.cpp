@@ -115,6 +115,14 @@ bool ExactSimulator::follow_crowd() {
   }
   press_few_apart(inverse_mass, v, pairs);
 
+  // Struck and held up by those behind it: an impact in turn with the strike, as by e = 0.
+  for (std::size_t k = 0; k < n; ++k) {
+    const Entity i = crowd_[k];
+    if (needed_[i] < now_ || (v[k] - before[k]).norm() <= 0x1p-40 * before[k].norm()) continue;
+    ++collapse_[i].impacts;
+    collapse_[i].lost += 1;
+  }
+
   // Pairs that part by more than paths stray are no contacts: if they come back, they meet.
   const double parting = std::sqrt(2 * pull * strayed * smallest) + 0x1p-48 * fastest;
   std::size_t kept = 0;
