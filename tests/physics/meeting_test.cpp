@@ -106,6 +106,18 @@ TEST(Meeting, SlidingAlongAFaceIsNoCollision) {
   EXPECT_EQ(meet(can, brick, {0, 2, 0}, right, -10 * up), 0) << "pressed on";
 }
 
+TEST(Meeting, AFaceBeyondTheRoundEdgeIsNotMetBeforeTheWayToIt) {
+  // The can comes along the brick's front, a rounding too near to it, from beside it: over the rounded edge.
+  const double width = 0.5, depth = 1.5, rounding = 0x1p-52;
+  const Vec3 beside(-(width + 0.25), 0, -(depth + 0.5) + rounding);
+  EXPECT_GT(touch(two(brick, can), 0, none, 1, beside).gap, 0.05);
+  for (double approach : {0.0, 0x1p-54, 0x1p-50}) {
+    const double t = meet(brick, can, beside, right + approach * far_z);
+    EXPECT_GT(t, 0.24) << approach;
+    EXPECT_LT(t, 0.26) << approach;
+  }
+}
+
 TEST(Meeting, ABallThatFallsOffABoxesFaceStrikesItsEdgeOnlyWhereItIsSlow) {
   const World world = two(brick, ball);
   const auto after = [&](double speed, std::uint8_t left) {

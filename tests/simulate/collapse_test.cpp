@@ -188,5 +188,32 @@ TEST(Collapse, AgainstAPlaneSqueezesNothingIntoIt) {
   EXPECT_LT(run.end.velocity[1].norm(), 1e-15);
 }
 
+TEST(Collapse, FarFromTheOriginIsToldThoughPositionsAreCoarserThanItsGaps) {
+  for (double far : {0x1p12, 0x1p24, 0x1p30}) {
+    Problem problem = squeezed(1e-7, 0.3, 0.4, 0);
+    for (Vec3& x : problem.initial.position) x += Vec3(1, -0.7, 0.3) * far;
+    for (Vec3& v : problem.initial.velocity) v *= 1e5;
+    const Outcome run = run_exact(problem);
+    EXPECT_GT(run.tally.collapses, 0u) << far;
+    EXPECT_LT(run.tally.collisions(), 1000u) << far;
+  }
+}
+
+// A heavy ball strikes, elastically, one that a light one jammed at a plane holds up: it would strike 36,000 times
+// before half of its speed is gone, all at one instant.
+TEST(Collapse, ComesWhereABallIsHammeredAgainstJammedOnes) {
+  Problem problem;
+  problem.plane({-3, 0, 0}, {1, 0, 0});
+  problem.ball({0.25, 0, 0}, {0, 0, 0}, 1e-4, 0.25);
+  problem.ball({1.5, 0, 0}, {-1, 0, 0}, 2, 0.25);
+  problem.ball({4, 0, 0}, {-0.5, 0, 0}, 1e5, 0.25);
+  problem.world.pairs = {{0, 1, 3, 1, 0.5}, {0, 1, 1, 1, 1}, {1, 1, 2, 1, 1}};
+  problem.options.duration = 20;
+  const Outcome run = run_exact(problem);
+  EXPECT_LT(run.tally.collisions(), 1000u);
+  EXPECT_NEAR(run.end.position[2].x(), -3 + 0.25 + 4 * 0.25, 1e-14);
+  EXPECT_LT(run.end.velocity[2].norm(), 1e-14);
+}
+
 }  // namespace
 }  // namespace carom
