@@ -7,6 +7,7 @@
 // followed do not.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "physics/few_contacts.h"
 #include "physics/restitution.h"
@@ -165,14 +166,21 @@ bool ExactSimulator::follow_crowd() {
   }
   if (parts) press_few_apart(inverse_mass, v, both);
 
-  // At rest?
+  // At rest are those in contact with one another of whom nobody moves or is pushed.
+  std::vector<std::size_t> part(n);
+  std::iota(part.begin(), part.end(), std::size_t{0});
+  for (const PressedPair& p : pairs)
+    if (p.b != PressedPair::none && part[p.a] != part[p.b])
+      std::replace(part.begin(), part.end(), std::size_t{part[p.a]}, std::size_t{part[p.b]});
+  std::vector<std::uint8_t> stirs(n, 1), rests(n);
+  for (const PressedPair& p : pairs) stirs[part[p.a]] = 0;
   fastest = 0;
-  double pushed = 0;
   for (std::size_t k = 0; k < n; ++k) {
     fastest = std::max(fastest, v[k].norm());
-    pushed = std::max(pushed, a0[k].norm());
+    if (!(v[k].norm() <= still * std::sqrt(pull * smallest) && a0[k].norm() <= 1e-11 * pull)) stirs[part[k]] = 1;
   }
-  const bool rests = !pairs.empty() && fastest <= still * std::sqrt(pull * smallest) && pushed <= 1e-11 * pull;
+  for (std::size_t k = 0; k < n; ++k) rests[k] = !stirs[part[k]];
+  const bool all_rest = std::find(rests.begin(), rests.end(), 0) == rests.end();
 
   // How far the parabolas are good.
   const double moment =  // in which hardly anything can happen
@@ -180,6 +188,7 @@ bool ExactSimulator::follow_crowd() {
   double h = 2 * (Instant{options_.duration, 0} - now_) + moment;  // for ever
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& [i, e, feature] = names[c];
+    if (rests[pairs[c].a]) continue;
     const Vec3 w = moving(v, e) - v[pairs[c].a], a = moving(a0, e) - a0[pairs[c].a];
     const double size = world_.radius[i] + (world_.is_body(e) ? world_.radius[e] : 0);
     if (carom::is_flat(world_, i, e, feature)) {
@@ -208,7 +217,7 @@ bool ExactSimulator::follow_crowd() {
 
   std::vector<Vec3> path = a0, end = v;
   for (std::size_t k = 0; k < n; ++k) end[k] += h * a0[k];
-  if (!rests && !pairs.empty()) {
+  if (!all_rest && !pairs.empty()) {
     std::vector<Vec3> where(n), speed(n);
     for (std::size_t k = 0; k < n; ++k) {
       where[k] = x[k] + 0.5 * h * v[k];
@@ -255,7 +264,7 @@ bool ExactSimulator::follow_crowd() {
       place_[i] = Place::outside;
       carry(i, false);
       restart(i, x[k], v[k], {});
-    } else if (rests) {
+    } else if (rests[k]) {
       place_[i] = Place::asleep;
       carry(i, true);
       restart(i, x[k], Vec3::Zero(), {});
