@@ -19,7 +19,14 @@ constexpr double dependent = 0x1p-40;  // what is left of a direction that other
 class ActiveSet {
  public:
   ActiveSet(std::span<const double> inverse_masses, std::span<Vec3> u, std::span<PressedPair> pairs)
-      : u_(u), pairs_(pairs), root_(inverse_masses.begin(), inverse_masses.end()), scale_(pairs.size()) {
+      : u_(u),
+        pairs_(pairs),
+        root_(inverse_masses.begin(), inverse_masses.end()),
+        scale_(pairs.size()),
+        basis_((pairs.size() + 1) * u.size()),
+        shares_((pairs.size() + 1) * (pairs.size() + 1)) {
+    active_.reserve(pairs.size());
+    force_.reserve(pairs.size());
     // Masses in a unit of their own, a power of two: masses scaled by one give the same bits.
     int exponent;
     std::frexp(*std::max_element(root_.begin(), root_.end()), &exponent);
@@ -50,14 +57,12 @@ class ActiveSet {
     }
     for (int pass = 0; pass < 2; ++pass) settle();
     for (PressedPair& p : pairs_) p.force = 0;
-    for (std::size_t k = 0; k < active_.size(); ++k)
-      pairs_[active_[k]].force = force_[k] * scale_[active_[k]] / unit_;
+    for (std::size_t k = 0; k < active_.size(); ++k) pairs_[active_[k]].force = force_[k] * scale_[active_[k]] / unit_;
     return changes > 0;
   }
 
  private:
   static constexpr std::size_t none = ~std::size_t{0};
-  using Direction = std::vector<Vec3>;
 
   bool fixed(std::size_t c) const { return pairs_[c].b == PressedPair::none; }
   /// How far pair c is short of its target.
@@ -68,56 +73,56 @@ class ActiveSet {
   double noise(std::size_t c) const {
     return rounding * (u_[pairs_[c].a].norm() + (fixed(c) ? 0 : u_[pairs_[c].b].norm()));
   }
-  static double dot(const Direction& p, const Direction& q) {
+  /// Row k of the basis, and of the shares of the k-th active pair's direction in it. The row after the last is one to
+  /// be filled.
+  Vec3* direction(std::size_t k) { return &basis_[k * u_.size()]; }
+  double* shares(std::size_t k) { return &shares_[k * (pairs_.size() + 1)]; }
+  double dot(const Vec3* p, const Vec3* q) const {
     double sum = 0;
-    for (std::size_t i = 0; i < p.size(); ++i) sum += p[i].dot(q[i]);
+    for (std::size_t i = 0; i < u_.size(); ++i) sum += p[i].dot(q[i]);
     return sum;
   }
 
-  /// What is left of pair c's direction beside those of the active pairs, and its shares in theirs.
-  Direction beside(std::size_t c, std::vector<double>& shares) const {
+  /// What is left of pair c's direction beside those of the active pairs, and its shares in theirs: in the row after
+  /// the last. Gives its length.
+  double beside(std::size_t c) {
     const PressedPair& p = pairs_[c];
-    Direction z(u_.size(), Vec3::Zero());
+    const std::size_t n = u_.size(), count = active_.size();
+    Vec3* z = direction(count);
+    double* share = shares(count);
+    std::fill(z, z + n, Vec3::Zero());
     z[p.a] = -scale_[c] * root_[p.a] * p.normal;
     if (!fixed(c)) z[p.b] = scale_[c] * root_[p.b] * p.normal;
-    shares.assign(basis_.size(), 0.0);
+    std::fill(share, share + count, 0.0);
     for (int pass = 0; pass < 2; ++pass)
-      for (std::size_t k = 0; k < basis_.size(); ++k) {
-        const double h = dot(basis_[k], z);
-        shares[k] += h;
-        for (std::size_t i = 0; i < z.size(); ++i) z[i] -= h * basis_[k][i];
+      for (std::size_t k = 0; k < count; ++k) {
+        const Vec3* q = direction(k);
+        const double h = dot(q, z);
+        share[k] += h;
+        for (std::size_t i = 0; i < n; ++i) z[i] -= h * q[i];
       }
-    return z;
+    return std::sqrt(dot(z, z));
   }
 
-  void move(double step, const Direction& z) {
-    for (std::size_t i = 0; i < z.size(); ++i) u_[i] += (step * root_[i]) * z[i];
+  void move(double step, const Vec3* z) {
+    for (std::size_t i = 0; i < u_.size(); ++i) u_[i] += (step * root_[i]) * z[i];
   }
 
-  void append(std::size_t c, double force, Direction z, std::vector<double> shares, double length) {
-    for (Vec3& v : z) v /= length;
-    shares.push_back(length);
+  /// Pair c, whose row is filled, presses from now on.
+  void append(std::size_t c, double force, double length) {
+    Vec3* z = direction(active_.size());
+    for (std::size_t i = 0; i < u_.size(); ++i) z[i] /= length;
+    shares(active_.size())[active_.size()] = length;
     active_.push_back(c);
     force_.push_back(force);
-    basis_.push_back(std::move(z));
-    shares_.push_back(std::move(shares));
   }
 
   void drop(std::size_t k) {
-    std::vector<std::size_t> left = active_;
-    std::vector<double> force = force_;
-    left.erase(left.begin() + static_cast<std::ptrdiff_t>(k));
-    force.erase(force.begin() + static_cast<std::ptrdiff_t>(k));
+    const std::vector<std::size_t> left(active_.begin() + static_cast<std::ptrdiff_t>(k) + 1, active_.end());
+    const std::vector<double> force(force_.begin() + static_cast<std::ptrdiff_t>(k) + 1, force_.end());
     active_.resize(k);
     force_.resize(k);
-    basis_.resize(k);
-    shares_.resize(k);
-    for (std::size_t j = k; j < left.size(); ++j) {
-      std::vector<double> shares;
-      Direction z = beside(left[j], shares);
-      const double length = std::sqrt(dot(z, z));
-      append(left[j], force[j], std::move(z), std::move(shares), length);
-    }
+    for (std::size_t j = 0; j < left.size(); ++j) append(left[j], force[j], beside(left[j]));
   }
 
   /// Lets pair c press until it reaches its target. False: it cannot.
@@ -125,13 +130,14 @@ class ActiveSet {
     double force = 0;
     while (changes > 0) {
       --changes;
-      std::vector<double> shares;
-      Direction z = beside(c, shares);
+      const double length = beside(c);
+      const Vec3* z = direction(active_.size());
       // How the active pairs' forces change for each unit of this one's.
-      std::vector<double> r = shares;
+      change_.assign(shares(active_.size()), shares(active_.size()) + active_.size());
+      std::vector<double>& r = change_;
       for (std::size_t k = r.size(); k-- > 0;) {
-        for (std::size_t j = k + 1; j < r.size(); ++j) r[k] -= shares_[j][k] * r[j];
-        r[k] /= shares_[k][k];
+        for (std::size_t j = k + 1; j < r.size(); ++j) r[k] -= shares(j)[k] * r[j];
+        r[k] /= shares(k)[k];
       }
       double most = never;
       std::size_t first = none;
@@ -140,7 +146,6 @@ class ActiveSet {
           most = force_[k] / r[k];
           first = k;
         }
-      const double length = std::sqrt(dot(z, z));
       const bool free = length > dependent;
       const double enough = free ? std::max(lacking(c) * scale_[c], 0.0) / (length * length) : never;
       if (!free && first == none) return false;
@@ -149,7 +154,7 @@ class ActiveSet {
       for (std::size_t k = 0; k < r.size(); ++k) force_[k] = std::max(force_[k] - step * r[k], 0.0);
       force += step;
       if (enough <= most) {
-        append(c, force, std::move(z), std::move(shares), length);
+        append(c, force, length);
         return true;
       }
       drop(first);
@@ -159,13 +164,14 @@ class ActiveSet {
 
   /// Takes what rounding has left off the active pairs' targets.
   void settle() {
-    std::vector<double> step(active_.size());
+    std::vector<double>& step = change_;
+    step.resize(active_.size());
     for (std::size_t k = 0; k < active_.size(); ++k) {
       double rest = lacking(active_[k]) * scale_[active_[k]];
-      for (std::size_t j = 0; j < k; ++j) rest -= shares_[k][j] * step[j];
-      step[k] = rest / shares_[k][k];
+      for (std::size_t j = 0; j < k; ++j) rest -= shares(k)[j] * step[j];
+      step[k] = rest / shares(k)[k];
     }
-    for (std::size_t k = 0; k < active_.size(); ++k) move(step[k], basis_[k]);
+    for (std::size_t k = 0; k < active_.size(); ++k) move(step[k], direction(k));
   }
 
   static constexpr double never = std::numeric_limits<double>::infinity();
@@ -176,46 +182,58 @@ class ActiveSet {
   std::vector<double> scale_;  // by pair: makes its direction a unit one
   double unit_;                // 1/kg
   std::vector<std::size_t> active_;
-  std::vector<double> force_;                // by active pair
-  std::vector<Direction> basis_;             // the same
-  std::vector<std::vector<double>> shares_;  // its direction in the basis up to itself
+  std::vector<double> force_;   // by active pair
+  std::vector<Vec3> basis_;     // the same, by body: one row each
+  std::vector<double> shares_;  // its direction in the basis up to itself, one row each
+  std::vector<double> change_;  // scratch, by active pair
 };
 
 /// Bodies and pairs that have to do with one another, numbered anew.
 struct Part {
+  std::size_t bodies = 0, pairs = 0;
+};
+
+/// Parts side by side: the first's bodies and pairs, the second's, and so on.
+struct Parts {
+  std::vector<Part> all;
   std::vector<std::uint32_t> bodies;  // by their old numbers
   std::vector<std::size_t> which;     // the same of pairs
   std::vector<PressedPair> pairs;
 };
 
-std::vector<Part> parts_of(std::size_t bodies, std::span<const PressedPair> pairs) {
-  std::vector<std::uint32_t> part(bodies), place(bodies, PressedPair::none);
-  std::iota(part.begin(), part.end(), 0u);
-  const auto root = [&](std::uint32_t k) {
-    while (part[k] != k) k = part[k] = part[part[k]];
+Parts parts_of(std::size_t bodies, std::span<const PressedPair> pairs) {
+  Parts parts;
+  std::vector<std::uint32_t> root(bodies), place(bodies, PressedPair::none);
+  std::iota(root.begin(), root.end(), 0u);
+  const auto root_of = [&](std::uint32_t k) {
+    while (root[k] != k) k = root[k] = root[root[k]];
     return k;
   };
   for (const PressedPair& p : pairs)
-    if (p.b != PressedPair::none) part[root(p.a)] = root(p.b);
-  std::vector<Part> parts;
-  std::vector<std::size_t> number(bodies, pairs.size());
-  for (std::size_t c = 0; c < pairs.size(); ++c) {
-    std::size_t& k = number[root(pairs[c].a)];
-    if (k == pairs.size()) {
-      k = parts.size();
-      parts.emplace_back();
-    }
-    PressedPair pair = pairs[c];
-    for (std::uint32_t* i : {&pair.a, &pair.b}) {
-      if (*i == PressedPair::none) continue;
-      if (place[*i] == PressedPair::none) {
-        place[*i] = static_cast<std::uint32_t>(parts[k].bodies.size());
-        parts[k].bodies.push_back(*i);
+    if (p.b != PressedPair::none) root[root_of(p.a)] = root_of(p.b);
+  parts.which.reserve(pairs.size());
+  parts.pairs.reserve(pairs.size());
+  parts.bodies.reserve(bodies);
+  for (std::size_t first = 0; first < pairs.size(); ++first) {
+    if (place[pairs[first].a] != PressedPair::none) continue;
+    Part part;
+    const std::uint32_t whose = root_of(pairs[first].a);
+    for (std::size_t c = first; c < pairs.size(); ++c) {
+      if (root_of(pairs[c].a) != whose) continue;
+      PressedPair pair = pairs[c];
+      for (std::uint32_t* i : {&pair.a, &pair.b}) {
+        if (*i == PressedPair::none) continue;
+        if (place[*i] == PressedPair::none) {
+          place[*i] = static_cast<std::uint32_t>(part.bodies++);
+          parts.bodies.push_back(*i);
+        }
+        *i = place[*i];
       }
-      *i = place[*i];
+      parts.which.push_back(c);
+      parts.pairs.push_back(pair);
+      ++part.pairs;
     }
-    parts[k].which.push_back(c);
-    parts[k].pairs.push_back(pair);
+    parts.all.push_back(part);
   }
   return parts;
 }
@@ -224,17 +242,24 @@ std::vector<Part> parts_of(std::size_t bodies, std::span<const PressedPair> pair
 
 bool press_few_apart(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<PressedPair> pairs) {
   bool done = true;
-  for (Part& part : parts_of(u.size(), pairs)) {
-    std::vector<Vec3> motion;
-    std::vector<double> inverse;
-    for (const std::uint32_t i : part.bodies) {
-      motion.push_back(u[i]);
-      inverse.push_back(inverse_mass[i]);
-    }
-    done = ActiveSet(inverse, motion, part.pairs).solve() && done;
-    for (std::size_t k = 0; k < motion.size(); ++k) u[part.bodies[k]] = motion[k];
-    for (std::size_t k = 0; k < part.which.size(); ++k) pairs[part.which[k]].force = part.pairs[k].force;
+  Parts parts = parts_of(u.size(), pairs);
+  std::vector<Vec3> motion;
+  std::vector<double> inverse;
+  for (const std::uint32_t i : parts.bodies) {
+    motion.push_back(u[i]);
+    inverse.push_back(inverse_mass[i]);
   }
+  std::size_t body = 0, pair = 0;
+  for (const Part& part : parts.all) {
+    done = ActiveSet(std::span(inverse).subspan(body, part.bodies), std::span(motion).subspan(body, part.bodies),
+                     std::span(parts.pairs).subspan(pair, part.pairs))
+               .solve() &&
+           done;
+    body += part.bodies;
+    pair += part.pairs;
+  }
+  for (std::size_t k = 0; k < motion.size(); ++k) u[parts.bodies[k]] = motion[k];
+  for (std::size_t k = 0; k < parts.which.size(); ++k) pairs[parts.which[k]].force = parts.pairs[k].force;
   return done;
 }
 
