@@ -204,16 +204,31 @@ bool ExactSimulator::follow_crowd() {
     if (w.norm() > 0) h = std::min(h, cube_root(2 * strayed * size * size / (w.norm() * bent)));
   }
 
-  // A body that nothing presses on any more leaves the crowd, but not before it has had time to fall back.
+  // A body on which nothing presses any more, or flat surfaces alone, leaves the crowd, but not before it has had time
+  // to fall back.
   const double grace = pull > 0 ? 2 * slow_speed(pull, smallest) / pull : 1e-6 * smallest / std::max(fastest, 0x1p-900);
-  std::vector<std::uint8_t> held(n, 0);
-  for (const PressedPair& p : pairs) {
+  std::vector<std::uint8_t> held(n, 0), bound(n, 0);
+  std::vector<Contacts> flat(n);
+  std::vector<Vec3> down(n, Vec3::Zero());  // m, the way that closes what is left of the gaps to flat surfaces
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    const PressedPair& p = pairs[c];
     if (!(p.force > 0)) continue;
+    const auto& [i, e, feature] = names[c];
     held[p.a] = 1;
-    if (p.b != PressedPair::none) held[p.b] = 1;
+    if (p.b != PressedPair::none) {
+      held[p.b] = bound[p.a] = bound[p.b] = 1;
+    } else if (carom::is_flat(world_, i, e, feature) && flat[p.a].count < max_contacts) {
+      const double gap = touch(world_, i, x[p.a] + down[p.a], e, at(x, e)).gap;
+      if (gap > strayed * world_.radius[i]) bound[p.a] = 1;
+      down[p.a] += gap * p.normal;
+      flat[p.a].at[flat[p.a].count++] = {e, feature, -p.normal, false, now_, 0};
+    } else {
+      bound[p.a] = 1;
+    }
   }
   for (std::size_t k = 0; k < n; ++k)
-    if (!held[k]) h = std::min(h, std::max(grace - (now_ - needed_[crowd_[k]]), 0.25 * grace));
+    if (!bound[k] && !(held[k] && rests[k]))
+      h = std::min(h, std::max(grace - (now_ - needed_[crowd_[k]]), 0.25 * grace));
 
   std::vector<Vec3> path = a0, end = v;
   for (std::size_t k = 0; k < n; ++k) end[k] += h * a0[k];
@@ -259,11 +274,12 @@ bool ExactSimulator::follow_crowd() {
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = members[k];
     lose(0.5 * world_.mass[i] * (before[k] - v[k]).dot(before[k] + v[k]));
-    if (held[k]) needed_[i] = now_;
-    if (!held[k] && now_ - needed_[i] >= grace) {
+    if (bound[k]) needed_[i] = now_;
+    if (!bound[k] && !(held[k] && rests[k]) && now_ - needed_[i] >= grace) {
       place_[i] = Place::outside;
       carry(i, false);
-      restart(i, x[k], v[k], {});
+      for (std::size_t c = 0; c < flat[k].count; ++c) settle(i, flat[k].at[c]);
+      restart(i, x[k] + down[k], keep_contacts(i, v[k]), {});
     } else if (rests[k]) {
       place_[i] = Place::asleep;
       carry(i, true);
