@@ -44,8 +44,11 @@ class ActiveSet {
       std::size_t worst = none;
       double least = 0;
       for (std::size_t c = 0; c < pairs_.size(); ++c) {
-        if (hopeless[c] || std::find(active_.begin(), active_.end(), c) != active_.end()) continue;
-        const double excess = lacking(c) - std::max(pairs_[c].slack, noise(c));
+        if (hopeless[c]) continue;
+        const double short_of = lacking(c);
+        if (short_of - pairs_[c].slack <= least) continue;
+        if (std::find(active_.begin(), active_.end(), c) != active_.end()) continue;
+        const double excess = short_of - std::max(pairs_[c].slack, noise(c));
         if (excess > least) {
           least = excess;
           worst = c;
