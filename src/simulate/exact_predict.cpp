@@ -116,7 +116,8 @@ Instant ExactSimulator::pair_time(Entity i, Entity j, std::uint8_t& feature) con
 /// When body i strikes a surface: reckoned from its flight's start.
 Instant ExactSimulator::fixed_time(Entity i, Entity surface, std::uint8_t& feature) const {
   const Flight& f = flight_[i];
-  const double horizon = Instant{options_.duration, 0} - f.start;
+  const bool step = place_[i] == Place::crowd && crowd_end_.hi < options_.duration;
+  const double horizon = (step ? crowd_end_ : Instant{options_.duration, 0}) - f.start;
   const bool left = origin_[i].partner == surface;
   double t;
   const bool ball = world_.volume.empty() || world_.volume[i].shape == Shape::sphere;
@@ -127,6 +128,8 @@ Instant ExactSimulator::fixed_time(Entity i, Entity surface, std::uint8_t& featu
     t = plane_contact_time(plane_gap(f.x, plane.point, plane.normal, world_.radius[i]), plane.normal.dot(f.v),
                            plane.normal.dot(f.a), noise, left, horizon);
   } else if (ball && world_.is_wall(surface)) {
+    const double reach = world_.radius[i] + horizon * (sum_of_speeds(f.v) + horizon * sum_of_speeds(f.a));
+    if (step && (f.x - nearest_on_wall(world_.wall(surface), f.x)).squaredNorm() > reach * reach) return {never, 0};
     const WallContact contact = wall_contact_time(world_.wall(surface), f.x, f.v, f.a, world_.radius[i],
                                                   left ? origin_[i].feature : no_feature, horizon);
     t = contact.time;
