@@ -191,11 +191,12 @@ bool ExactSimulator::follow_crowd() {
     if (rests[pairs[c].a]) continue;
     const Vec3 w = moving(v, e) - v[pairs[c].a], a = moving(a0, e) - a0[pairs[c].a];
     const double size = world_.radius[i] + (world_.is_body(e) ? world_.radius[e] : 0);
-    if (carom::is_flat(world_, i, e, feature)) {
-      const RelativeMotion m{at(x, e) - x[pairs[c].a], w, a, w.norm(), true};
-      h = std::min(h, std::max(leave_feature(world_, i, e, feature, m, h).time, 1e-7 * moment));
-      continue;
-    }
+    const bool flat = carom::is_flat(world_, i, e, feature);
+    const RelativeMotion m{at(x, e) - x[pairs[c].a], w, a, w.norm(), true};
+    // Beyond the feature's rim the surface bends otherwise: a step goes no farther over it than makes no difference.
+    const double over = flat ? 1e-7 * moment : std::sqrt(2 * strayed) * size / std::max(w.norm(), 0x1p-900);
+    h = std::min(h, std::max(leave_feature(world_, i, e, feature, m, h).time, over));
+    if (flat) continue;
     h = std::min(h, moment);
     // The gap's third derivative is about 3 w . a / size, its fourth 3 a . a / size.
     const double bent = a.norm() + w.squaredNorm() / size;
@@ -208,7 +209,7 @@ bool ExactSimulator::follow_crowd() {
   // to fall back.
   const double grace = pull > 0 ? 2 * slow_speed(pull, smallest) / pull : 1e-6 * smallest / std::max(fastest, 0x1p-900);
   std::vector<std::uint8_t> held(n, 0), bound(n, 0);
-  std::vector<Contacts> flat(n);
+  std::vector<Contacts> flats(n);
   std::vector<Vec3> down(n, Vec3::Zero());  // m, the way that closes what is left of the gaps to flat surfaces
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const PressedPair& p = pairs[c];
@@ -217,11 +218,11 @@ bool ExactSimulator::follow_crowd() {
     held[p.a] = 1;
     if (p.b != PressedPair::none) {
       held[p.b] = bound[p.a] = bound[p.b] = 1;
-    } else if (carom::is_flat(world_, i, e, feature) && flat[p.a].count < max_contacts) {
+    } else if (carom::is_flat(world_, i, e, feature) && flats[p.a].count < max_contacts) {
       const double gap = touch(world_, i, x[p.a] + down[p.a], e, at(x, e)).gap;
       if (gap > strayed * world_.radius[i]) bound[p.a] = 1;
       down[p.a] += gap * p.normal;
-      flat[p.a].at[flat[p.a].count++] = {e, feature, -p.normal, false, now_, 0};
+      flats[p.a].at[flats[p.a].count++] = {e, feature, -p.normal, false, now_, 0};
     } else {
       bound[p.a] = 1;
     }
@@ -278,7 +279,7 @@ bool ExactSimulator::follow_crowd() {
     if (!bound[k] && !(held[k] && rests[k]) && now_ - needed_[i] >= grace) {
       place_[i] = Place::outside;
       carry(i, false);
-      for (std::size_t c = 0; c < flat[k].count; ++c) settle(i, flat[k].at[c]);
+      for (std::size_t c = 0; c < flats[k].count; ++c) settle(i, flats[k].at[c]);
       restart(i, x[k] + down[k], keep_contacts(i, v[k]), {});
     } else if (rests[k]) {
       place_[i] = Place::asleep;
