@@ -186,7 +186,8 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
   bool rests = false;
   if (press > 0 && flat && !crowded(i) && contacts_[i].count < max_contacts && (e < 1 || approach == 0)) {
     const double left = separation == 0 ? 0 : 2 * separation / (press * (1 - e));
-    const bool carried = contacts_[i].count > 0 && origin_[i].partner != surface;
+    // Not by hops on this surface alone: thrown back at it by others in between, or by those that carry it, at once.
+    const bool carried = contacts_[i].count > 0 && (origin_[i].partner != surface || f.start == now_);
     rests = now_.hi + left == now_.hi || approach < options_.rest_speed || (carried && too_low(x, approach, press));
     contact.rest_time = now_ + left;
     contact.settling = rests;
