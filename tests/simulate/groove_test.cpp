@@ -1,6 +1,7 @@
 // Rest on several surfaces at once, and balls on balls.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulate/build.h"
@@ -36,6 +37,60 @@ TEST(Corner, ABallInACornerOfARoomStandsStill) {
   const Outcome run = run_exact(problem);
   EXPECT_EQ(run.end.velocity[0], Vec3(0, 0, 0));
   EXPECT_LT((run.end.position[0] - Vec3(0.25, 0.25, 0.25)).norm(), 1e-15);
+}
+
+/// A groove along z that gravity tilts towards its end at z = 0.
+Problem groove() {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -10, -1);
+  problem.plane({0, 0, 0}, {1, 1, 0});
+  problem.plane({0, 0, 0}, {-1, 1, 0});
+  problem.plane({0, 0, 0}, {0, 0, 1});
+  return problem;
+}
+
+TEST(Groove, ABallThatLeansOnRestingOnesOnlyJustStruckRestsWithThem) {
+  Problem problem = groove();
+  const double height = 0.5 * std::sqrt(2.0);
+  for (double z : {0.5, 1.5, 2.5 + 1e-9}) problem.ball({0, height, z}, {0, 0, 0}, 1, 0.5, 0.5);
+  problem.options.duration = 1;
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  go_to(*simulator, 1);
+  EXPECT_LT(simulator->tally().collisions(), 200u);
+  EXPECT_EQ(simulator->tally().resting, 3u);
+  const auto contacts = simulator->contacts();
+  const auto pair = std::find_if(contacts.begin(), contacts.end(), [](const ContactForce& c) { return c.b == 2; });
+  ASSERT_NE(pair, contacts.end());
+  EXPECT_NEAR(pair->force, 1, 1e-12);  // N, of the ball's weight along the groove
+}
+
+TEST(Groove, BallsAtRestInItStandStillWhileAnotherRollsOffABall) {
+  Problem problem = groove();
+  const double height = 0.5 * std::sqrt(2.0);
+  for (double z : {0.5, 1.5}) problem.ball({0, height, z}, {0, 0, 0}, 1, 0.5, 0.5);
+  problem.obstacle({10, 20, 10}, Volume::sphere(2));
+  problem.body(Volume::sphere(0.5), {10, 22.5, 10}, {0.01, 0, 0}, 1, 0.5);
+  problem.options.duration = 0.5;
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  go_to(*simulator, 0.5);
+  ASSERT_GT(simulator->state().velocity[2].norm(), 0.1) << "the other moves";
+  EXPECT_EQ(simulator->tally().resting, 3u) << "and is carried";
+  for (std::size_t i : {0u, 1u}) EXPECT_EQ(simulator->state().velocity[i], Vec3(0, 0, 0));
+}
+
+TEST(Groove, ABallThatOneSideThrowsBackAtTheOtherAtOnceComesToRest) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -0.01, 0);
+  problem.plane({0, 0, 0}, {0.5446, 0.6801, 0.4908});
+  problem.plane({2, 0, 0}, {-1, 0, 0});
+  problem.world.planes[0].restitution = 0;
+  problem.world.combine = Combine::minimum;
+  problem.ball({1, 0.2, -1}, {0.9, -0.3, -0.7}, 1, 0.25, 0.3);
+  problem.options.duration = 20;
+  problem.options.max_collisions = 1000;
+  const Outcome run = run_exact(problem);
+  EXPECT_EQ(run.tally.resting, 1u);
+  EXPECT_NEAR(run.end.position[0].x(), 1.75, 1e-13);
 }
 
 TEST(Room, ABallThatSlidesOnTheFloorBouncesBetweenTheWalls) {
