@@ -28,20 +28,20 @@ bool ExactSimulator::in_burst(Entity i, double window, int many) {
 }
 
 /// Inelastic collapse (McNamara & Young, Phys. Fluids A 4 (1992) 496): a body between others that close in on it
-/// strikes them in turn, ever sooner, and what is left of the gaps is gone in no time. Sums 1 - e of a body's impacts
-/// until it has come from the spot by a billionth of `length` (m), or by what positions far off are rounded by;
-/// bouncing on one and the same thing counts once.
-/// Impacts in turn that come to an end multiply the speeds by sqrt(e) each, as the determinant of what they do says,
-/// and at this sum have left exp(-32) of them: those that go on are a collapse, or as good as over.
+/// strikes them in turn, ever sooner, and what is left of the gaps is gone in no time. Sums 1 - e of a body's impacts,
+/// where e above 1 makes up for others, until it has come from the spot by a billionth of `length` (m), or by what
+/// positions far off are rounded by; bouncing on one and the same thing counts once. Impacts in turn that come to an
+/// end multiply the speeds by sqrt(e) each, as the determinant of what they do says, and at this sum have left exp(-32)
+/// of them: those that go on are a collapse, or as good as over.
 bool ExactSimulator::collapses(Entity i, Entity other, double e, double approach, double length) {
   constexpr int many = 64;
   constexpr double enough = 16;
   Collapse& collapse = collapse_[i];
   const double spot = std::max(1e-9 * length, 0x1p-48 * flight_[i].x.cwiseAbs().sum());
   if (approach * (now_ - collapse.start) > spot) collapse = {now_, 0, 0};
-  if (e < 1 && origin_[i].partner != other) {
-    ++collapse.impacts;
-    collapse.lost += 1 - e;
+  if (origin_[i].partner != other) {
+    if (e < 1) ++collapse.impacts;
+    collapse.lost = std::max(collapse.lost + 1 - e, 0.0);
   }
   if (collapse.impacts <= many || collapse.lost <= enough) return false;
   collapse.taken_up = now_;

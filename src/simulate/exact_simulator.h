@@ -96,7 +96,7 @@ class ExactSimulator final : public Simulator {
   struct Collapse {
     Instant start;
     int impacts = 0;             // with e < 1, and not twice running with the same thing
-    double lost = 0;             // their sum of 1 - e
+    double lost = 0;             // the sum of 1 - e, at least 0
     Instant taken_up{never, 0};  // the last that contact has taken up for that
   };
 

@@ -107,14 +107,14 @@ TEST(Meeting, SlidingAlongAFaceIsNoCollision) {
 }
 
 TEST(Meeting, AFaceBeyondTheRoundEdgeIsNotMetBeforeTheWayToIt) {
-  // The can comes along the brick's front, a rounding too near to it, from beside it: over the rounded edge.
-  const double width = 0.5, depth = 1.5, rounding = 0x1p-52;
-  const Vec3 beside(-(width + 0.25), 0, -(depth + 0.5) + rounding);
-  EXPECT_GT(touch(two(brick, can), 0, none, 1, beside).gap, 0.05);
-  for (double approach : {0.0, 0x1p-54, 0x1p-50}) {
-    const double t = meet(brick, can, beside, right + approach * far_z);
-    EXPECT_GT(t, 0.24) << approach;
-    EXPECT_LT(t, 0.26) << approach;
+  // Along the front of a box, a rounding too near to it and nearing by a rounding of the speeds, from beside it.
+  const Volume box = Volume::box({0.1384421871664729, 0.24287791388904598, 0.12745924292686853});
+  const Volume lid = Volume::cylinder(0.14984609735707394, 0.10311819694931741);
+  for (double nearing : {0.0, 0x1p-54, 0x1p-50}) {
+    const Vec3 d(-0.121, -0.1, -(box.half.z() + lid.half.x())), w(2, 2, nearing), a(10, 0, 0);
+    EXPECT_GT(touch(two(box, lid), 0, none, 1, d).gap, 0.008);
+    const double t = meet(box, lid, d, w, a, 0.2);
+    EXPECT_GT(t, 0.02) << nearing;
   }
 }
 

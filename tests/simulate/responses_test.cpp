@@ -87,6 +87,15 @@ TEST(RestitutionAboveOne, SpeedsWithoutBoundEndTheRunWithWhatToDo) {
   }
 }
 
+// Where one side takes energy and the other makes more the bounces, too fast for the clock, are no collapse.
+TEST(RestitutionAboveOne, OnOneSideAloneEndsTheRunToo) {
+  Problem problem = between_walls(2);
+  problem.world.pairs = {{0, 1, 1, 1, 0.9}, {0, 1, 2, 1, 2}};
+  problem.options.duration = 2000;
+  const std::string error = error_of(problem);
+  EXPECT_NE(error.find("makes energy"), std::string::npos) << error;
+}
+
 /// m^3, of a body that may be a joint one.
 double volume_of(const State& state, std::size_t i) {
   return (state.volume.empty() ? Volume::sphere(state.radius[i]) : state.volume[i]).size();
