@@ -154,15 +154,16 @@ bool ExactSimulator::follow_crowd() {
   for (PressedPair& p : pairs) p.force = p.target = 0;
   const std::vector<Vec3> a0 = accelerate(x, v);
   std::vector<PressedPair> first = pairs;
-  // What presses on does not part: the little speed that is left of parting goes too.
+  // What presses on does not part: the little speed that is left of parting goes too, and nobody comes to approach.
   std::vector<PressedPair> both;
   bool parts = false;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
-    if (!(first[c].force > 0)) continue;
     const double rate = first[c].normal.dot(moving(v, names[c].b) - v[first[c].a]);
-    parts = parts || rate > 0x1p-48 * fastest;
-    for (double sign : {1.0, -1.0})
-      both.push_back({first[c].a, first[c].b, sign * first[c].normal, 0, 0x1p-52 * fastest, 0});
+    parts = parts || (first[c].force > 0 && rate > 0x1p-48 * fastest);
+    both.push_back({first[c].a, first[c].b, first[c].normal, 0, 0x1p-52 * fastest, 0});
+    if (!(first[c].force > 0)) continue;
+    both.push_back(both.back());
+    both.back().normal = -first[c].normal;
   }
   if (parts) press_few_apart(inverse_mass, v, both);
 
