@@ -145,7 +145,9 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   if (press <= 0)
     for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})
       if (too_slow_to_wake(striker, struck, w.norm())) return stop_at(striker, struck, feature, there, approach);
-  const bool take_up = taken_up(a, b, e, approach, press, length, false) || (press > 0 && e * approach == 0);
+  // Where nothing presses, an approach that is but rounding is over with this impact.
+  const bool told = approach > 0x1p-50 * (va.norm() + vb.norm()) || load_on(a) > 0 || load_on(b) > 0;
+  const bool take_up = (told && taken_up(a, b, e, approach, press, length, false)) || (press > 0 && e * approach == 0);
   const double separation = take_up ? 0 : e * approach;
   const double impulse = impact_impulse(ma, mb, approach, separation);
   const double lost = impact_loss(ma, mb, approach, separation);
