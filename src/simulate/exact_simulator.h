@@ -228,7 +228,8 @@ class ExactSimulator final : public Simulator {
   std::vector<double> kept_apart_;              // m, by body of the crowd: the gap that strides leave about it
   double crowd_step_ = 0;                       // s, length of the last step
   std::vector<std::uint8_t> carried_;           // by body: of the crowd or asleep, and something presses on it
-  std::vector<Instant> needed_;                 // by body of the crowd: when something last pressed on it or struck it
+  std::vector<Instant> needed_;                 // by body of the crowd: when it was last struck or pressed on, but by
+                                                // flat surfaces alone
   bool following_ = false;                      // the last step was of follow_crowd
   std::vector<std::vector<Entity>> followed_;   // by body: whom it is in contact with until the step ends
   Instant arrival_time_;                        // when the step ends if nothing happens before
