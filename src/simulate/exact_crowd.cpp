@@ -157,6 +157,11 @@ void ExactSimulator::jostle(Entity i) {
     lose(0.5 * world_.mass[a] * (before[k] - after[k]).dot(before[k] + after[k]));
     restart(a, at(a), after[k], {});
   }
+  // Jostling without end: what the stride left is used up, the next one is due.
+  if (++jostles_ > 16 + crowd_.size() / 2) {
+    crowd_end_ = now_;
+    changed.push_back(i);
+  }
   for (Entity a : changed) predict(a);
 }
 
@@ -210,17 +215,19 @@ void ExactSimulator::stride() {
   for (;;) {
     move_apart(step);
     fastest = 0;
+    double way_of_all = 0;
     bool farther = false;  // than was looked for others to meet
     for (std::size_t k = 0; k < n; ++k) {
       const double speed = step.moved[k].norm();
       fastest = std::max(fastest, speed);
+      way_of_all += step.length * speed;
       if (speed <= 2 * step.haste[k] || 4 * step.length * speed <= nearby * step.smallest) continue;
       step.haste[k] = speed;
       farther = true;
     }
     if (step.pull > 0 && step.length > shortest && fastest * step.length > 2 * way * step.smallest)
       step.length = std::max(0.5 * step.length, shortest);
-    else if (!farther)
+    else if (!farther || way_of_all > quiet * step.smallest * static_cast<double>(n))
       break;
   }
   find_parts(step);
@@ -349,6 +356,7 @@ void ExactSimulator::take_stride(const Stride& step) {
     if (step.pairs[c].force > 0)
       pressed_[step.names[c].first].push_back({step.names[c].second, step.pairs[c].force / h});
   crowd_step_ = h;
+  jostles_ = 0;
   crowd_end_ = end;
   std::vector<Entity> members;
   members.swap(crowd_);

@@ -21,7 +21,7 @@ constexpr std::size_t most_pairs = 16;  // that are followed; a larger crowd mov
 constexpr double closed = 1e-9;         // of a radius: a gap that counts as contact
 constexpr double strayed = 1e-11;       // of a body's size
 constexpr double longest_step = 0.02;   // of the time in which a body falls by its own size
-constexpr double still = 1e-13;         // of the speed of falling by a radius
+constexpr double still = 1e-5;          // of the speed of falling by a radius
 
 /// By Newton's method: the same bits everywhere, which std::cbrt does not promise.
 double cube_root(double x) {

@@ -150,6 +150,7 @@ class ExactSimulator final : public Simulator {
   bool taken_up(Entity a, Entity b, double e, double approach, double press, double length, bool alone);
   bool in_burst(Entity i, double window, int many);
   bool too_slow_to_wake(Entity striker, Entity struck, double speed) const;
+  Vec3 slide_on(Entity i, Entity struck, const Vec3& v);
   void stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach);
   bool collapses(Entity i, Entity other, double e, double approach, double length);
   double slow_speed(double press, double length) const;
@@ -226,6 +227,7 @@ class ExactSimulator final : public Simulator {
   std::vector<Vec3> hastened_;                  // m/s^2, by body of the crowd: what forces do to it in a stride, on
                                                 // average; it is in its velocity from the start
   std::vector<double> kept_apart_;              // m, by body of the crowd: the gap that strides leave about it
+  std::size_t jostles_ = 0;                     // since the last step
   double crowd_step_ = 0;                       // s, length of the last step
   std::vector<std::uint8_t> carried_;           // by body: of the crowd or asleep, and something presses on it
   std::vector<Instant> needed_;                 // by body of the crowd: when it was last struck or pressed on, but by
