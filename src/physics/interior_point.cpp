@@ -39,6 +39,13 @@ class InteriorPoint {
   }
 
   bool run(int iterations) {
+    // Bodies wedged between others could press without bound: contacts yield to forces far beyond all that is needed.
+    double least_slack = rows_[0].slack, greatest = 0;
+    for (std::size_t c = 0; c < rows_.size(); ++c) {
+      least_slack = std::min(least_slack, rows_[c].slack);
+      greatest = std::max(greatest, -excess(free_, c));
+    }
+    if (greatest > 0) yielding_ = 1e-3 * least_slack / greatest;
     y_ = pushed(x_);
     double off = 0;
     for (std::size_t c = 0; c < rows_.size(); ++c) {
@@ -68,6 +75,7 @@ class InteriorPoint {
     std::array<int, 9> at{};  // of its off-diagonal block, among the matrix's values
   };
 
+  double held(std::size_t c) const { return s_[c] + yielding_ * x_[c]; }
   double along(const std::vector<Vec3>& y, std::size_t c) const {
     const Row& r = rows_[c];
     return (r.b == PressedPair::none ? 0 : r.right.dot(y[r.b])) - r.left.dot(y[r.a]);
@@ -125,7 +133,7 @@ class InteriorPoint {
       for (std::size_t k : {0u, 2u, 5u}) value[d[k]] = 1;
     for (std::size_t c = 0; c < rows_.size(); ++c) {
       const Row& r = rows_[c];
-      const double weight = x_[c] / s_[c];
+      const double weight = x_[c] / held(c);
       const auto square = [&](std::uint32_t i, const Vec3& v) {
         for (int k = 0, m = 0; k < 3; ++k)
           for (int l = 0; l <= k; ++l) value[diagonal_[i][static_cast<std::size_t>(m++)]] += weight * v[k] * v[l];
@@ -160,21 +168,22 @@ class InteriorPoint {
     std::vector<double> missing(m), product(m), dx(m), ds(m);
     double gap = 0;
     for (std::size_t c = 0; c < m; ++c) {
-      missing[c] = excess(y_, c) - s_[c];
+      missing[c] = excess(y_, c) + yielding_ * x_[c] - s_[c];
       product[c] = -x_[c] * s_[c];
       gap -= product[c];
     }
     std::vector<Vec3> dy(bodies_);
     const auto solve = [&] {
       for (std::size_t i = 0; i < bodies_; ++i) dy[i] = image[i] - y_[i];
-      for (std::size_t c = 0; c < m; ++c) push(dy, c, (product[c] - x_[c] * missing[c]) / s_[c]);
+      for (std::size_t c = 0; c < m; ++c) push(dy, c, (product[c] - x_[c] * missing[c]) / held(c));
       Eigen::VectorXd b(static_cast<int>(3 * bodies_));
       for (std::size_t i = 0; i < bodies_; ++i) b.segment<3>(static_cast<int>(3 * i)) = dy[i];
       b = factors_.solve(b).eval();
       for (std::size_t i = 0; i < bodies_; ++i) dy[i] = b.segment<3>(static_cast<int>(3 * i));
       for (std::size_t c = 0; c < m; ++c) {
-        ds[c] = along(dy, c) + missing[c];
-        dx[c] = (product[c] - x_[c] * ds[c]) / s_[c];
+        const double way = along(dy, c) + missing[c];
+        dx[c] = (product[c] - x_[c] * way) / held(c);
+        ds[c] = way + yielding_ * dx[c];
       }
     };
     const auto room = [&] {
@@ -205,6 +214,7 @@ class InteriorPoint {
   std::vector<Row> rows_;
   std::vector<Vec3> free_, y_;
   std::vector<double> x_, s_;
+  double yielding_ = 0;                 // what a force of 1 lets the motion fall short by
   Eigen::SparseMatrix<double> matrix_;  // lower half
   std::vector<std::array<int, 6>> diagonal_;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factors_;
