@@ -165,7 +165,7 @@ void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin orig
   flight_[i].x = x;
   const bool still = speed <= negligible_speed() ||
                      (contacts_[i].count > 0 && speed * speed < 0x1p-120 * pull_[i].norm() * world_.radius[i]);
-  flight_[i].v = still ? Vec3(Vec3::Zero()) : v;
+  for (int k = 0; k < 3; ++k) flight_[i].v[k] = still || std::abs(v[k]) <= negligible_speed() ? 0 : v[k];
   flight_[i].a = contact_acceleration(i);
   origin_[i] = origin;
   ++version_[i];

@@ -290,7 +290,9 @@ bool ExactSimulator::follow_crowd() {
       crowd_.push_back(i);
       carry(i, held[k]);
       pulled_[i] = now_;
-      restart(i, x[k], v[k], {});
+      // Whom it has struck just now it has still just struck, if nothing has changed since.
+      const bool same = flight_[i].start == now_ && x[k] == flight_[i].x && v[k] == before[k];
+      restart(i, x[k], v[k], same ? origin_[i] : Origin{});
       flight_[i].a = path[k];
       arrival_[i] = end[k];
       arrival_version_[i] = version_[i];
