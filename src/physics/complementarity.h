@@ -31,7 +31,7 @@ bool press_apart(std::span<const double> inverse_mass, std::span<Vec3> u, std::s
 /// press on one another nearly as often as they can move, as in a pile.
 bool press_apart_directly(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<PressedPair> pairs);
 
-/// Above the greatest of them, less than twice.
+/// A power of two: above the greatest of them, at most twice it.
 double power_of_two_near(std::span<const double> values);
 
 }  // namespace carom

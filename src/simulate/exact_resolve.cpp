@@ -31,7 +31,7 @@ bool ExactSimulator::in_burst(Entity i, double window, int many) {
 /// strikes them in turn, ever sooner, and what is left of the gaps is gone in no time. Sums 1 - e of a body's impacts,
 /// where e above 1 makes up for others, until it has come from the spot by a billionth of `length` (m), or by what
 /// positions far off are rounded by; bouncing on one and the same thing counts once. Impacts in turn that come to an
-/// end multiply the speeds by sqrt(e) each, as the determinant of what they do says, and at this sum have left exp(-32)
+/// end multiply the speeds by sqrt(e) each, as the determinant of what they do says, and at this sum have left exp(-8)
 /// of them: those that go on are a collapse, or as good as over.
 bool ExactSimulator::collapses(Entity i, Entity other, double e, double approach, double length) {
   constexpr int many = 64;
