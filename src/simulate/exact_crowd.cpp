@@ -1,41 +1,14 @@
 // The crowd: bodies in lasting contact with one another and with anything that is not flat, where paths have no closed
-// form. The crowd moves in steps, all of it together; between steps every body of it flies straight, so that impacts
-// with and within it are found and resolved as everywhere else. At a step the velocities are those nearest to what
-// gravity alone would make of them that keep every pair apart until the next step (complementarity.h): linearised at
-// the nearest points, which for convex bodies on straight paths is on the safe side, so that no step can make an
-// overlap. (Stewart & Trinkle, Int. J. Numer. Meth. Eng. 39 (1996) 2673, without friction and with exact impacts.)
-//
-// While bodies of the crowd are struck they are kept a little apart, so that the small motions a strike sets off wait
-// for the next step instead of making thousands of impacts at one instant; as the crowd calms down that gap closes.
-// A part of the crowd that forces hold in balance is put to rest: velocities exactly zero, no more steps, until struck.
+// form. It moves in steps, all of it together: a small one is followed closely (exact_follow.cpp), a large one goes in
+// strides (exact_stride.cpp). Here: who belongs to it, and what impacts do to it between steps.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "physics/complementarity.h"
 #include "physics/touch.h"
 #include "simulate/exact_simulator.h"
 
 namespace carom {
-
-namespace {
-
-constexpr double step_length = 0.015;  // of the time in which a body falls freely by its own radius
-constexpr double way = 0.03;           // of a radius: what the fastest body may go in a step longer than that
-constexpr double longest = 16;         // of the shortest step
-constexpr double restless_gap = 2e-3;  // of a radius: what bodies that have just been struck are kept apart
-constexpr double calming = 0.5;        // a step leaves of that gap
-constexpr std::uint8_t patience = 8;   // steps without a force, then a body leaves the crowd
-constexpr double nearby = 1e-3;        // of a radius: bodies that are no farther apart may press before a step ends
-constexpr double apart = 1e-3;         // of the way that bodies go in a step: what they are kept apart for it,
-constexpr double exactly = 0.05;       // but for this much of that
-constexpr double quiet = 5e-4;         // of a radius: a crowd that moves less in a step, on average, is told exactly
-constexpr std::size_t most_direct = 4000;  // bodies; the cost grows as their square
-constexpr double parting = 0.01;           // of the fastest approach: what those struck at once part with
-constexpr double resting_gap = 1e-10;      // of a radius: what calm ones are
-constexpr double balanced = 1e-11;         // of gravity: forces whose sum is less hold a body
-
-}  // namespace
 
 /// Keeps count of who rests on something.
 void ExactSimulator::carry(Entity i, bool carried) {
@@ -100,6 +73,7 @@ void ExactSimulator::wake(Entity i) {
 /// again at the next rounding.
 void ExactSimulator::jostle(Entity i) {
   constexpr std::uint32_t many = 8;
+  constexpr double parting = 0.01;  // of the fastest approach: what those struck at once part with
   if (following_ || place_[i] != Place::crowd || ++jostled_[i] <= many) return;
   std::vector<Entity> cluster{i};
   std::vector<PressedPair> pairs;
@@ -157,8 +131,9 @@ void ExactSimulator::jostle(Entity i) {
     lose(0.5 * world_.mass[a] * (before[k] - after[k]).dot(before[k] + after[k]));
     restart(a, at(a), after[k], {});
   }
-  // Jostling without end: what the stride left is used up, the next one is due.
-  if (++jostles_ > 16 + crowd_.size() / 2) {
+  // Jostling has cost as much as a stride: the next one is due.
+  jostled_pairs_ += pairs.size();
+  if (jostled_pairs_ > 16 * crowd_.size()) {
     crowd_end_ = now_;
     changed.push_back(i);
   }
@@ -174,217 +149,6 @@ void ExactSimulator::step_crowd() {
   }
   following_ = false;
   stride();
-}
-
-/// A step of a large crowd, in numbers of its own: member k is body crowd_[k].
-struct ExactSimulator::Stride {
-  double length = 0;                             // s
-  double smallest = never, pull = 0;             // m, m/s^2: the least radius, the greatest acceleration
-  std::vector<Vec3> x, v, moved;                 // m, m/s: now, and velocities from now on
-  std::vector<double> haste;                     // m/s: half of what each member may be moved by
-  std::vector<double> inverse_mass;              // 1/kg
-  std::vector<PressedPair> pairs;                // who may press on whom before the step ends,
-  std::vector<std::pair<Entity, Entity>> names;  // by their names,
-  std::vector<double> gaps;                      // m, and how far they are apart now
-  std::vector<std::uint32_t> part;               // by member: one of those that press on one another with it
-  std::vector<std::uint8_t> carried, rests;      // by member: something presses on it; it is at rest
-};
-
-void ExactSimulator::stride() {
-  const std::size_t n = crowd_.size();
-  Stride step;
-  double fastest = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const Entity i = crowd_[k];
-    local_[i] = static_cast<std::uint32_t>(k);
-    const Flight& f = flight_[i];
-    const double t = now_ - f.start;
-    step.x.push_back(f.position(t));
-    step.v.push_back(f.velocity(t));
-    step.inverse_mass.push_back(1 / world_.mass[i]);
-    step.smallest = std::min(step.smallest, world_.radius[i]);
-    step.pull = std::max(step.pull, pull_[i].norm());
-    fastest = std::max(fastest, step.v[k].norm());
-  }
-  const double shortest = step.pull == 0 ? 0 : step_length * std::sqrt(2 * step.smallest / step.pull);
-  step.length = way * step.smallest / std::max(fastest, 0x1p-900);
-  if (step.pull > 0)
-    step.length = std::clamp(step.length, shortest, std::clamp(2 * crowd_step_, shortest, longest * shortest));
-  step.haste.resize(n);
-  for (std::size_t k = 0; k < n; ++k) step.haste[k] = step.v[k].norm();
-  for (;;) {
-    move_apart(step);
-    fastest = 0;
-    double way_of_all = 0;
-    bool farther = false;  // than was looked for others to meet
-    for (std::size_t k = 0; k < n; ++k) {
-      const double speed = step.moved[k].norm();
-      fastest = std::max(fastest, speed);
-      way_of_all += step.length * speed;
-      if (speed <= 2 * step.haste[k] || 4 * step.length * speed <= nearby * step.smallest) continue;
-      step.haste[k] = speed;
-      farther = true;
-    }
-    if (step.pull > 0 && step.length > shortest && fastest * step.length > 2 * way * step.smallest)
-      step.length = std::max(0.5 * step.length, shortest);
-    else if (!farther || way_of_all > quiet * step.smallest * static_cast<double>(n))
-      break;
-  }
-  find_parts(step);
-  put_to_rest(step);
-  take_stride(step);
-}
-
-/// The velocities that keep every pair apart until the step ends.
-void ExactSimulator::move_apart(Stride& step) {
-  const std::size_t n = crowd_.size();
-  const double h = step.length;
-  const auto kept_gap = [&](std::size_t k) {
-    return std::max({kept_apart_[crowd_[k]], apart * h * step.v[k].norm(), resting_gap * step.smallest});
-  };
-  step.pairs.clear();
-  step.names.clear();
-  step.gaps.clear();
-  for (std::size_t k = 0; k < n; ++k) {
-    const Entity i = crowd_[k];
-    for (Entity e : near_[i]) {
-      const bool body = world_.is_body(e);
-      if (body && (e < i || place_[e] != Place::crowd)) continue;
-      const std::uint32_t other = body ? local_[e] : PressedPair::none;
-      const Touch there = touch(world_, i, step.x[k], e, body ? step.x[other] : world_.fixed_position(e));
-      const double rate = there.normal.dot((body ? step.v[other] : Vec3(Vec3::Zero())) - step.v[k]);
-      const double kept = body ? std::max(kept_gap(k), kept_gap(other)) : kept_gap(k);
-      const double haste = step.haste[k] + (body ? step.haste[other] : 0);
-      const double reach = std::min(4 * step.pull * h * h, std::max(4 * h * haste, nearby * step.smallest));
-      if (there.gap + h * std::min(rate, 0.0) > kept + reach) continue;
-      PressedPair pair{static_cast<std::uint32_t>(k),
-                       other,
-                       there.normal,
-                       -std::max(there.gap - kept, 0.0) / h,
-                       exactly * kept / h,
-                       0};
-      for (const Pressed& p : pressed_[i])
-        if (p.partner == e) pair.force = p.force * h;
-      step.pairs.push_back(pair);
-      step.names.emplace_back(i, e);
-      step.gaps.push_back(there.gap);
-    }
-  }
-  step.moved = step.v;
-  for (std::size_t k = 0; k < n; ++k) step.moved[k] += (now_ + h - pulled_[crowd_[k]]) * pull_[crowd_[k]];
-  const std::vector<Vec3> pulled = step.moved;
-  if (press_apart(step.inverse_mass, step.moved, step.pairs, 600) || n > most_direct) return;
-  double before = 0, after = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    before += h * step.v[k].norm();
-    after += h * step.moved[k].norm();
-  }
-  if (std::min(before, after) > quiet * step.smallest * static_cast<double>(n)) return;
-  step.moved = pulled;
-  press_apart_directly(step.inverse_mass, step.moved, step.pairs);
-}
-
-/// Members that press on one another are a part of the crowd. The faster one of its bodies is, the farther its bodies
-/// are kept apart.
-void ExactSimulator::find_parts(Stride& step) {
-  const std::size_t n = crowd_.size();
-  std::vector<std::uint32_t>& part = step.part;
-  part.resize(n);
-  std::iota(part.begin(), part.end(), 0u);
-  const auto root = [&](std::uint32_t k) {
-    while (part[k] != k) k = part[k] = part[part[k]];
-    return k;
-  };
-  step.carried.assign(n, 0);
-  for (const PressedPair& p : step.pairs) {
-    if (p.force <= 0) continue;
-    step.carried[p.a] = 1;
-    if (p.b == PressedPair::none) continue;
-    step.carried[p.b] = 1;
-    part[root(p.a)] = root(p.b);
-  }
-  for (std::uint32_t k = 0; k < n; ++k) part[k] = root(k);
-  std::vector<double> kept(n, resting_gap * step.smallest);
-  const auto keep = [&](std::uint32_t k, double gap) { kept[part[k]] = std::max(kept[part[k]], gap); };
-  for (std::uint32_t k = 0; k < n; ++k) {
-    keep(k, calming * kept_apart_[crowd_[k]]);
-    keep(k, apart * step.length * step.moved[k].norm());
-  }
-  for (const PressedPair& p : step.pairs) {
-    const Vec3 w = (p.b == PressedPair::none ? Vec3(Vec3::Zero()) : step.moved[p.b]) - step.moved[p.a];
-    const double short_of = step.length * (p.target - p.normal.dot(w));
-    if (short_of > 0) keep(p.a, std::min(2 * short_of, restless_gap * step.smallest));
-  }
-  for (std::uint32_t k = 0; k < n; ++k) kept_apart_[crowd_[k]] = kept[part[k]];
-}
-
-/// At rest are those parts that hardly move and that forces hold in balance.
-void ExactSimulator::put_to_rest(Stride& step) {
-  const std::size_t n = crowd_.size();
-  step.rests.assign(n, 0);
-  std::vector<std::uint8_t> still(n);  // by part
-  for (std::uint32_t k = 0; k < n; ++k) still[k] = step.part[k] == k;
-  for (std::uint32_t k = 0; k < n; ++k)
-    if (!step.carried[k] || step.length * step.moved[k].norm() > 16 * resting_gap * step.smallest)
-      still[step.part[k]] = 0;
-  if (std::find(still.begin(), still.end(), 1) == still.end()) return;
-  std::vector<Vec3> a(n);
-  for (std::size_t k = 0; k < n; ++k) a[k] = pull_[crowd_[k]];
-  std::vector<PressedPair> holding;
-  std::vector<std::size_t> which;
-  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const PressedPair& p = step.pairs[c];
-    if (!still[step.part[p.a]] || step.gaps[c] > 64 * resting_gap * step.smallest) continue;
-    // From no force: where forces are not unique, no more than needed.
-    holding.push_back({p.a, p.b, p.normal, 0, 1e-13 * step.pull, 0});
-    which.push_back(c);
-  }
-  press_apart(step.inverse_mass, a, holding, 20000);
-  for (std::uint32_t k = 0; k < n; ++k)
-    if (!(a[k].norm() <= balanced * step.pull)) still[step.part[k]] = 0;
-  for (std::uint32_t k = 0; k < n; ++k) step.rests[k] = still[step.part[k]];
-  for (std::size_t c = 0; c < holding.size(); ++c)
-    if (step.rests[holding[c].a]) step.pairs[which[c]].force = step.length * holding[c].force;
-}
-
-/// The members' flights until the step's end.
-void ExactSimulator::take_stride(const Stride& step) {
-  const double h = step.length;
-  const Instant end = now_ + h;
-  for (Entity i : crowd_) pressed_[i].clear();
-  for (std::size_t c = 0; c < step.pairs.size(); ++c)
-    if (step.pairs[c].force > 0)
-      pressed_[step.names[c].first].push_back({step.names[c].second, step.pairs[c].force / h});
-  crowd_step_ = h;
-  jostles_ = 0;
-  crowd_end_ = end;
-  std::vector<Entity> members;
-  members.swap(crowd_);
-  for (std::size_t k = 0; k < members.size(); ++k) {
-    const Entity i = members[k];
-    const Vec3 &x = step.x[k], &v = step.v[k], &moved = step.moved[k];
-    if (step.rests[k]) {
-      place_[i] = Place::asleep;
-      carry(i, true);
-      lose(0.5 * world_.mass[i] * v.squaredNorm());
-      restart(i, x, Vec3::Zero(), {});
-    } else if ((idle_[i] = step.carried[k] ? 0 : idle_[i] + 1) < patience) {
-      crowd_.push_back(i);
-      carry(i, step.carried[k]);
-      pulled_[i] = end;
-      hastened_[i] = (moved - v) / h;
-      jostled_[i] = 0;
-      lose(0.5 * world_.mass[i] * (v - moved).dot(v + moved));
-      restart(i, x, moved, {});
-    } else {
-      place_[i] = Place::outside;
-      carry(i, false);
-      restart(i, x, v, {});
-    }
-  }
-  if (crowd_.empty()) crowd_end_ = {never, 0};
-  for (Entity i : members) local_[i] = PressedPair::none;
-  for (Entity i : members) predict(i);
 }
 
 }  // namespace carom

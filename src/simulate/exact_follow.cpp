@@ -21,7 +21,6 @@ constexpr std::size_t most_pairs = 16;  // that are followed; a larger crowd mov
 constexpr double closed = 1e-9;         // of a radius: a gap that counts as contact
 constexpr double strayed = 1e-11;       // of a body's size
 constexpr double longest_step = 0.02;   // of the time in which a body falls by its own size
-constexpr double still = 1e-5;          // of the speed of falling by a radius
 
 /// By Newton's method: the same bits everywhere, which std::cbrt does not promise.
 double cube_root(double x) {
@@ -178,7 +177,8 @@ bool ExactSimulator::follow_crowd() {
   fastest = 0;
   for (std::size_t k = 0; k < n; ++k) {
     fastest = std::max(fastest, v[k].norm());
-    if (!(v[k].norm() <= still * std::sqrt(pull * smallest) && a0[k].norm() <= 1e-11 * pull)) stirs[part[k]] = 1;
+    if (!(v[k].norm() <= hardly_moving * std::sqrt(pull * smallest) && a0[k].norm() <= 1e-11 * pull))
+      stirs[part[k]] = 1;
   }
   for (std::size_t k = 0; k < n; ++k) rests[k] = !stirs[part[k]];
   const bool all_rest = std::find(rests.begin(), rests.end(), 0) == rests.end();

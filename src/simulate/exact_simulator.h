@@ -1,7 +1,8 @@
 #pragma once
 // The exact simulator's own parts. Its source files share this class: exact.cpp (the loop), exact_predict.cpp (what
 // comes next for a body), exact_resolve.cpp (impacts), exact_rest.cpp (rest on flat surfaces), exact_crowd.cpp (bodies
-// in contact with one another), exact_merge.cpp, exact_region.cpp (who is near).
+// in contact with one another), exact_follow.cpp and exact_stride.cpp (how few and how many of them move),
+// exact_merge.cpp, exact_region.cpp (who is near).
 //
 // Each body keeps its Flight and is not moved when somebody else collides. Each body keeps one Event, the first of its
 // own; the first of all of these is the next thing to happen. A predicted collision is a function of the two flights
@@ -100,7 +101,9 @@ class ExactSimulator final : public Simulator {
     Instant taken_up{never, 0};  // the last that contact has taken up for that
   };
 
-  static constexpr double immovable = never;  // kg
+  static constexpr double immovable = never;     // kg
+  static constexpr double hardly_moving = 1e-5;  // of the speed of falling by a radius: in a crowd as good as none
+  static constexpr double restless_gap = 2e-3;   // of a radius: what bodies that were just struck are kept apart
   /// m/s: a speed as good as none, for products of it with itself underflow.
   double negligible_speed() const { return 0x1p-200 * tally_.max_speed; }
   /// Whether a speed (m/s) against a pressing acceleration (m/s^2) lifts a body by less than its position x (m) is
@@ -177,14 +180,16 @@ class ExactSimulator final : public Simulator {
   void wake(Entity i);
   void jostle(Entity i);
   void step_crowd();
+  void carry(Entity i, bool carried);
+  bool crowded(Entity e) const { return world_.is_body(e) && place_[e] != Place::outside; }
+
+  // exact_stride.cpp
   struct Stride;
   void stride();
   void move_apart(Stride& step);
   void find_parts(Stride& step);
   void put_to_rest(Stride& step);
   void take_stride(const Stride& step);
-  void carry(Entity i, bool carried);
-  bool crowded(Entity e) const { return world_.is_body(e) && place_[e] != Place::outside; }
 
   // exact_follow.cpp
   bool follow_crowd();
@@ -227,7 +232,7 @@ class ExactSimulator final : public Simulator {
   std::vector<Vec3> hastened_;                  // m/s^2, by body of the crowd: what forces do to it in a stride, on
                                                 // average; it is in its velocity from the start
   std::vector<double> kept_apart_;              // m, by body of the crowd: the gap that strides leave about it
-  std::size_t jostles_ = 0;                     // since the last step
+  std::size_t jostled_pairs_ = 0;               // since the last step
   double crowd_step_ = 0;                       // s, length of the last step
   std::vector<std::uint8_t> carried_;           // by body: of the crowd or asleep, and something presses on it
   std::vector<Instant> needed_;                 // by body of the crowd: when it was last struck or pressed on, but by
