@@ -84,7 +84,9 @@ bool ExactSimulator::follow_crowd() {
     for (Entity e : near_[i]) {
       const bool body = world_.is_body(e);
       if (body && (e < i || place_[e] != Place::crowd)) continue;
-      const Touch there = touch(world_, i, x[k], e, at(x, e));
+      // Whom it has struck just now it touches there, and nowhere else.
+      const bool struck = flight_[i].start == now_ && origin_[i].partner == e;
+      const Touch there = touch(world_, i, x[k], e, at(x, e), struck ? origin_[i].feature : no_feature);
       const double rounding = 0x1p-51 * (x[k].cwiseAbs().sum() + at(x, e).cwiseAbs().sum());
       if (there.gap > std::max(closed * world_.radius[i], rounding)) continue;
       const double approach = there.normal.dot(v[k] - moving(v, e));
