@@ -1,7 +1,7 @@
 // A small crowd is followed closely: bodies that press on one another keep to each other's surfaces, with forces from
 // the complementarity conditions (0 <= force, 0 <= the gap's second derivative, one of them zero; the surfaces'
 // curvature in it), and their paths are integrated by the classical Runge-Kutta method of fourth order. Between its
-// steps a path is the parabola through both ends, which leaves the true one by less than `strayed` of a body's size:
+// steps a path is the parabola through both ends, which leaves the true one by less than `strayed` of a radius:
 // steps are as short as that asks for. Where all contacts are flat the parabola is the path, and a step lasts until a
 // contact comes to its rim. Everybody that moves takes part in impacts as everywhere else, only the pairs that are
 // followed do not.
@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t most_pairs = 16;  // that are followed; a larger crowd moves in strides
 constexpr double closed = 1e-9;         // of a radius: a gap that counts as contact
-constexpr double strayed = 1e-11;       // of a body's size
+constexpr double strayed = 1e-11;       // of the smaller body's radius
 constexpr double longest_step = 0.02;   // of the time in which a body falls by its own size
 
 /// By Newton's method: the same bits everywhere, which std::cbrt does not promise.
@@ -33,6 +33,23 @@ double cube_root(double x) {
   double y = 1.25;
   for (int k = 0; k < 8; ++k) y -= (y - m / (y * y)) / 3;
   return std::ldexp(y, exponent / 3);
+}
+
+/// m, with what radius at least the Minkowski sum of two volumes is bent where it is round: a cylinder's rim is sharp,
+/// a sphere makes it as round as itself.
+double bend_radius(const World& world, Entity i, Entity e) {
+  const auto round = [&](Shape shape) {
+    double sum = 0;
+    for (Entity k : {i, e}) {
+      if (world.is_plane(k) || world.is_wall(k)) continue;
+      const Volume volume = world.volume_of(k);
+      if (volume.shape == shape) sum += volume.half.x();
+    }
+    return sum;
+  };
+  if (const double r = round(Shape::sphere); r > 0) return r;
+  if (const double r = round(Shape::cylinder); r > 0) return r;
+  return world.radius[i];
 }
 
 }  // namespace
@@ -193,19 +210,22 @@ bool ExactSimulator::follow_crowd() {
     const auto& [i, e, feature] = names[c];
     if (rests[pairs[c].a]) continue;
     const Vec3 w = moving(v, e) - v[pairs[c].a], a = moving(a0, e) - a0[pairs[c].a];
-    const double size = world_.radius[i] + (world_.is_body(e) ? world_.radius[e] : 0);
+    const double smaller = world_.is_body(e) ? std::min(world_.radius[i], world_.radius[e]) : world_.radius[i];
     const bool flat = carom::is_flat(world_, i, e, feature);
     const RelativeMotion m{at(x, e) - x[pairs[c].a], w, a, w.norm(), true};
     // Beyond the feature's rim the surface bends otherwise: a step goes no farther over it than makes no difference.
-    const double over = flat ? 1e-7 * moment : std::sqrt(2 * strayed) * size / std::max(w.norm(), 0x1p-900);
+    const double bend = flat ? smaller : bend_radius(world_, i, e), room = strayed * smaller * bend;
+    const double over = flat ? 1e-7 * moment : std::sqrt(2 * room) / std::max(w.norm(), 0x1p-900);
     h = std::min(h, std::max(leave_feature(world_, i, e, feature, m, h).time, over));
     if (flat) continue;
     h = std::min(h, moment);
-    // The gap's third derivative is about 3 w . a / size, its fourth 3 a . a / size.
-    const double bent = a.norm() + w.squaredNorm() / size;
+    // The gap's third derivative is about 3 w . a / bend, its fourth 3 a . a / bend. A parabola through both ends
+    // leaves t^3 by 4/27 of h^3 at most and t^4 by 1/4 of h^4, so that h^3 might be 13.5 room / (w . a) and h^4 32 room
+    // / (a . a); steps are as short as the Runge-Kutta method asks for.
+    const double bent = a.norm() + w.squaredNorm() / bend;
     if (bent == 0) continue;
-    h = std::min(h, std::sqrt(std::sqrt(8 * strayed) * size / bent));
-    if (w.norm() > 0) h = std::min(h, cube_root(2 * strayed * size * size / (w.norm() * bent)));
+    h = std::min(h, std::sqrt(std::sqrt(8 * room) / bent));
+    if (w.norm() > 0) h = std::min(h, cube_root(2 * room / (w.norm() * bent)));
   }
 
   // A body on which nothing presses any more, or flat surfaces alone, leaves the crowd, but not before it has had time

@@ -186,6 +186,7 @@ class ExactSimulator final : public Simulator {
   // exact_stride.cpp
   struct Stride;
   void stride();
+  void find_pairs(Stride& step);
   void move_apart(Stride& step);
   void find_parts(Stride& step);
   void put_to_rest(Stride& step);

@@ -101,8 +101,8 @@ void ExactSimulator::stride() {
   take_stride(step);
 }
 
-/// The velocities that keep every pair apart until the step ends.
-void ExactSimulator::move_apart(Stride& step) {
+/// Who may press on whom before the step ends, and how fast they must part, or may approach, for it.
+void ExactSimulator::find_pairs(Stride& step) {
   const std::size_t n = crowd_.size();
   const double h = step.length;
   const auto kept_gap = [&](std::size_t k) {
@@ -136,12 +136,20 @@ void ExactSimulator::move_apart(Stride& step) {
       step.gaps.push_back(there.gap);
     }
   }
+}
+
+/// The velocities that keep every pair apart until the step ends: well enough while all is in motion, for impacts are
+/// found in any case, but never so that energy is made.
+void ExactSimulator::move_apart(Stride& step) {
+  find_pairs(step);
+  const std::size_t n = crowd_.size();
+  const double h = step.length;
   std::vector<Vec3> pulled = step.v;
   for (std::size_t k = 0; k < n; ++k) pulled[k] += (now_ + h - pulled_[crowd_[k]]) * pull_[crowd_[k]];
   for (int attempt = 0; attempt < 8; ++attempt) {
     step.moved = pulled;
     if (press_apart(step.inverse_mass, step.moved, step.pairs, 300)) return;
-    double before = 0, after = 0, made = 0;
+    double before = 0, after = 0, made = 0;  // m, m: the way of all; J
     for (std::size_t k = 0; k < n; ++k) {
       const Vec3 &v = step.v[k], &moved = step.moved[k];
       before += h * v.norm();

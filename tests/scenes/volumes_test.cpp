@@ -87,7 +87,7 @@ TEST(PileAtRest, WeighsWhatItWeighs) {
   const Played run = play("pile_at_rest");
   EXPECT_EQ(run.tally.resting, 40u);
   double floor = 0;
-  for (const ContactForce& c : contacts_at(run.scene, 6)) floor += c.b == run.number("room.y_min") ? c.force : 0;
+  for (const ContactForce& c : contacts_at(run.scene, 10)) floor += c.b == run.number("room.y_min") ? c.force : 0;
   EXPECT_NEAR(floor, 40 * g, 1e-9 * 40 * g);
 }
 

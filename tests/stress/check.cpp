@@ -15,7 +15,7 @@ namespace carom::stress {
 
 namespace {
 
-constexpr double patience = 2;  // s of CPU time, for a run
+constexpr double patience = 10;  // s of CPU time, for a run: hundreds of thousands of collisions
 
 std::string text(double x) {
   char digits[32];
