@@ -111,16 +111,6 @@ bool ExactSimulator::too_slow_to_wake(Entity striker, Entity struck, double spee
   return false;
 }
 
-/// What is left of the speed (m/s) of a body that has struck the crowd. If it lies on flat surfaces and is slower than
-/// the crowd's own motion is exact to, it lies there from now on.
-Vec3 ExactSimulator::slide_on(Entity i, Entity struck, const Vec3& v) {
-  constexpr double lift = 1e-9;  // of its size: how high the speed would take it
-  if (contacts_[i].count == 0 || !crowded(struck)) return v;
-  if (!(v.squaredNorm() < 2 * lift * pull_[i].norm() * world_.radius[i])) return v;
-  lose(0.5 * world_.mass[i] * v.squaredNorm());
-  return Vec3::Zero();
-}
-
 /// A strike too slow to wake by a body that nothing presses on the struck one: the striker comes to rest.
 void ExactSimulator::stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach) {
   const Flight& f = flight_[striker];
@@ -168,8 +158,8 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
     if (take_up || place_[i] == Place::asleep) join(i);
     stir(i, approach);
   }
-  restart(a, xa, slide_on(a, b, keep_contacts(a, va - (impulse / ma) * n)), {b, feature});
-  restart(b, xb, slide_on(b, a, keep_contacts(b, vb + (impulse / mb) * n)), {a, feature});
+  restart(a, xa, keep_contacts(a, va - (impulse / ma) * n), {b, feature});
+  restart(b, xb, keep_contacts(b, vb + (impulse / mb) * n), {a, feature});
   predict(a);
   predict(b);
   if (take_up) {

@@ -153,7 +153,6 @@ class ExactSimulator final : public Simulator {
   bool taken_up(Entity a, Entity b, double e, double approach, double press, double length, bool alone);
   bool in_burst(Entity i, double window, int many);
   bool too_slow_to_wake(Entity striker, Entity struck, double speed) const;
-  Vec3 slide_on(Entity i, Entity struck, const Vec3& v);
   void stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach);
   bool collapses(Entity i, Entity other, double e, double approach, double length);
   double slow_speed(double press, double length) const;
