@@ -147,7 +147,8 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
       if (too_slow_to_wake(striker, struck, w.norm())) return stop_at(striker, struck, feature, there, approach);
   // Where nothing presses, an approach that is but rounding is over with this impact.
   const bool told = approach > 0x1p-50 * (va.norm() + vb.norm()) || load_on(a) > 0 || load_on(b) > 0;
-  const bool take_up = (told && taken_up(a, b, e, approach, press, length, false)) || (press > 0 && e * approach == 0);
+  const bool take_up = (told && taken_up(a, b, e, approach, press, length, false)) ||
+                       (press > 0 && (e * approach == 0 || too_low(xa, e * approach, press)));
   const double separation = take_up ? 0 : e * approach;
   const double impulse = impact_impulse(ma, mb, approach, separation);
   const double lost = impact_loss(ma, mb, approach, separation);
@@ -186,8 +187,9 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
 
   Contact contact{surface, feature, -n, false, now_, separation};
   bool rests = false;
-  if (press > 0 && flat && !crowded(i) && contacts_[i].count < max_contacts && (e < 1 || approach == 0)) {
-    const double left = separation == 0 ? 0 : 2 * separation / (press * (1 - e));
+  const bool ends = e < 1 || approach == 0 || (e == 1 && too_low(x, approach, press));
+  if (press > 0 && flat && !crowded(i) && contacts_[i].count < max_contacts && ends) {
+    const double left = separation == 0 || e == 1 ? 0 : 2 * separation / (press * (1 - e));
     // Not by hops on this surface alone: thrown back at it by others in between, or by those that carry it, at once.
     const bool carried = contacts_[i].count > 0 && (origin_[i].partner != surface || f.start == now_);
     rests = now_.hi + left == now_.hi || approach < options_.rest_speed || (carried && too_low(x, approach, press));

@@ -161,6 +161,21 @@ TEST(Rest, WhoLiesStillCostsNothing) {
   EXPECT_EQ(run.end.velocity[3], Vec3(0, 0, 0));
 }
 
+TEST(Rest, AnElasticHopTooLowToTellIsNone) {
+  for (const bool by_a_ball : {false, true}) {
+    Problem problem;
+    problem.world.gravity = Vec3(0, -100, 0);
+    problem.plane({0, 0, 0}, {0, 1, 0});
+    const double under = by_a_ball ? 1 : 0, along = by_a_ball ? 0 : 1;
+    problem.ball({0, under + 0.5, 0}, {along, 1e-11, 0}, 1, 0.5, 1);  // by 5e-25 m
+    if (by_a_ball) problem.ball({0, 0.5, 0}, Vec3::Zero(), 1, 0.5, 1);
+    problem.options.duration = 1;
+    problem.options.max_collisions = 10;
+    const Outcome run = run_exact(problem);
+    EXPECT_EQ(run.end.position[0], Vec3(along, under + 0.5, 0)) << by_a_ball;
+  }
+}
+
 /// A ball of 1 kg with e = 1 strikes body `target` along `v` at 1 s; the body is at rest before, and moves after.
 void expect_wakes(Problem problem, Entity target, const Vec3& from, const Vec3& v, const std::string& what) {
   const Vec3 x = problem.initial.position[target];
