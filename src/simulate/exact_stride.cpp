@@ -61,10 +61,8 @@ void ExactSimulator::stride() {
     const double t = now_ - f.start;
     step.x.push_back(f.position(t));
     step.v.push_back(f.velocity(t));
-    if (const double left = pulled_[i] - now_; left > 0) {
-      // The last step ends early: what forces do in the time that it had left is to come. Not so where it ends as soon
-      // as it began: then there were impacts to take up, and they have been.
-      if (!carried_[i] || left < 0.999 * crowd_step_) step.v[k] -= left * hastened_[i];
+    if (now_ < pulled_[i]) {  // the last step ends early: what forces do in the time that it had left is to come
+      step.v[k] -= (pulled_[i] - now_) * hastened_[i];
       pulled_[i] = now_;
     }
     step.inverse_mass.push_back(1 / world_.mass[i]);
