@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/complementarity.h"
+#include "physics/restitution.h"
 #include "physics/touch.h"
 #include "simulate/exact_simulator.h"
 
@@ -47,6 +48,15 @@ void ExactSimulator::stir(Entity i, double approach) {
   if (place_[i] != Place::crowd) return;
   needed_[i] = now_;
   kept_apart_[i] = std::max(kept_apart_[i], std::min(0.5 * approach * crowd_step_, restless_gap * world_.radius[i]));
+}
+
+/// Whether body i of the crowd and e approach each other (m/s) for an impact that bounces: contact must not take it up.
+/// `pull` is the greatest acceleration in the crowd (m/s^2).
+bool ExactSimulator::strikes(Entity i, Entity e, double approach, double pull) const {
+  const bool body = world_.is_body(e);
+  const bool collapse = collapse_[i].taken_up == now_ || (body && collapse_[e].taken_up == now_);
+  const double length = world_.radius[i] + (body ? world_.radius[e] : 0);
+  return !collapse && pull > 0 && approach >= slow_speed(pull, length) && pair_restitution(world_, i, e) > 0;
 }
 
 /// A struck body and all that rest against one another with it are of the crowd again.

@@ -107,9 +107,7 @@ bool ExactSimulator::follow_crowd() {
       const double rounding = 0x1p-51 * (x[k].cwiseAbs().sum() + at(x, e).cwiseAbs().sum());
       if (there.gap > std::max(closed * world_.radius[i], rounding)) continue;
       const double approach = there.normal.dot(v[k] - moving(v, e));
-      const double length = world_.radius[i] + (body ? world_.radius[e] : 0);
-      const bool collapse = collapse_[i].taken_up == now_ || (body && collapse_[e].taken_up == now_);
-      if (!collapse && pull > 0 && approach >= slow_speed(pull, length) && pair_restitution(world_, i, e) > 0) continue;
+      if (strikes(i, e, approach, pull)) continue;
       pairs.push_back({static_cast<std::uint32_t>(k), body ? local_[e] : PressedPair::none, there.normal, 0, 0, 0});
       names.push_back({i, e, there.feature});
       pairs.back().target = -there.gap;

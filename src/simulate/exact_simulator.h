@@ -176,6 +176,7 @@ class ExactSimulator final : public Simulator {
   // exact_crowd.cpp
   void join(Entity i);
   void stir(Entity i, double approach);
+  bool strikes(Entity i, Entity e, double approach, double pull) const;
   void wake(Entity i);
   void jostle(Entity i);
   void step_crowd();

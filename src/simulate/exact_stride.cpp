@@ -22,6 +22,7 @@ namespace {
 constexpr double step_length = 0.04;  // of the time in which a body falls freely by its own radius
 constexpr double way = 0.04;          // of a radius: what the fastest body may go in a step longer than that
 constexpr double longest = 25;        // of the shortest step
+constexpr double fast = 8;            // times slow_speed: at what approach bodies are left to strike each other
 constexpr double calming = 0.5;       // a step leaves of the gap that bodies are kept apart
 constexpr std::uint8_t patience = 8;  // steps without a force, then a body leaves the crowd
 constexpr double nearby = 1e-3;       // of a radius: bodies no farther apart may press before a step ends
@@ -34,18 +35,28 @@ constexpr double touching = 3e-8;          // of a radius: bodies at rest that a
 constexpr double balanced = 1e-11;         // of gravity: forces whose sum is less hold a body
 constexpr double sliding = 1e-3;           // of the speed of falling by a radius: strides leave it to slow sliders
 
+/// Whether any of the pairs falls short of its target at these velocities.
+bool approaching(const std::vector<Vec3>& v, const std::vector<PressedPair>& pairs) {
+  return std::any_of(pairs.begin(), pairs.end(), [&](const PressedPair& p) {
+    const Vec3 w = (p.b == PressedPair::none ? Vec3(Vec3::Zero()) : v[p.b]) - v[p.a];
+    return p.normal.dot(w) < p.target - p.slack;
+  });
+}
+
 }  // namespace
 
 /// A step of a large crowd, in numbers of its own: member k is body crowd_[k].
 struct ExactSimulator::Stride {
   double length = 0;                             // s
   double smallest = never, pull = 0;             // m, m/s^2: the least radius, the greatest acceleration
-  std::vector<Vec3> x, v, moved;                 // m, m/s: now, and velocities from now on
+  std::vector<Vec3> x, v, moved;                 // m, m/s: now, and velocities from now on; in between:
+  std::vector<Vec3> settled;                     // m/s: what contact takes up at once is gone
   std::vector<double> haste;                     // m/s: half of what each member may be moved by
   std::vector<double> inverse_mass;              // 1/kg
   std::vector<PressedPair> pairs;                // who may press on whom before the step ends,
   std::vector<std::pair<Entity, Entity>> names;  // by their names,
-  std::vector<double> gaps;                      // m, and how far they are apart now
+  std::vector<double> gaps;                      // m, and how far they are apart now;
+  std::vector<std::uint8_t> struck;              // whether contact takes up an approach of theirs at once
   std::vector<std::uint32_t> part;               // by member: one of those that press on one another with it
   std::vector<std::uint8_t> carried, rests;      // by member: something presses on it; it is at rest
 };
@@ -117,6 +128,7 @@ void ExactSimulator::find_pairs(Stride& step) {
       const std::uint32_t other = body ? local_[e] : PressedPair::none;
       const Touch there = touch(world_, i, step.x[k], e, body ? step.x[other] : world_.fixed_position(e));
       const double rate = there.normal.dot((body ? step.v[other] : Vec3(Vec3::Zero())) - step.v[k]);
+      if (strikes(i, e, -rate / fast, step.pull)) continue;
       const double kept = body ? std::max(kept_gap(k), kept_gap(other)) : kept_gap(k);
       const double haste = step.haste[k] + (body ? step.haste[other] : 0);
       const double reach = std::min(4 * step.pull * h * h, std::max(4 * h * haste, nearby * step.smallest));
@@ -142,14 +154,21 @@ void ExactSimulator::move_apart(Stride& step) {
   find_pairs(step);
   const std::size_t n = crowd_.size();
   const double h = step.length;
-  std::vector<Vec3> pulled = step.v;
+  step.settled = step.v;
+  step.struck.assign(step.pairs.size(), 0);
+  if (std::vector<PressedPair> impacts = step.pairs; step.pull > 0 && approaching(step.v, impacts)) {
+    for (PressedPair& p : impacts) p.force = 0;
+    press_apart(step.inverse_mass, step.settled, impacts, 300);
+    for (std::size_t c = 0; c < impacts.size(); ++c) step.struck[c] = impacts[c].force > 0;
+  }
+  std::vector<Vec3> pulled = step.settled;
   for (std::size_t k = 0; k < n; ++k) pulled[k] += (now_ + h - pulled_[crowd_[k]]) * pull_[crowd_[k]];
   for (int attempt = 0; attempt < 8; ++attempt) {
     step.moved = pulled;
     if (press_apart(step.inverse_mass, step.moved, step.pairs, 300)) return;
     double before = 0, after = 0, made = 0;  // m, m: the way of all; J
     for (std::size_t k = 0; k < n; ++k) {
-      const Vec3 &v = step.v[k], &moved = step.moved[k];
+      const Vec3 &v = step.settled[k], &moved = step.moved[k];
       before += h * v.norm();
       after += h * moved.norm();
       made += (0.5 * (moved - v).dot(moved + v) - (pulled[k] - v).dot(moved)) / step.inverse_mass[k];
@@ -173,8 +192,9 @@ void ExactSimulator::find_parts(Stride& step) {
     return k;
   };
   step.carried.assign(n, 0);
-  for (const PressedPair& p : step.pairs) {
-    if (p.force <= 0) continue;
+  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
+    const PressedPair& p = step.pairs[c];
+    if (p.force <= 0 && !step.struck[c]) continue;
     step.carried[p.a] = 1;
     if (p.b == PressedPair::none) continue;
     step.carried[p.b] = 1;
@@ -207,7 +227,7 @@ void ExactSimulator::put_to_rest(Stride& step) {
   const double slow = std::max(hardly_moving * unit, 16 * resting_gap * step.smallest / step.length);
   for (std::uint32_t k = 0; k < n; ++k) {
     Vec3& moved = step.moved[k];
-    const bool steady = (moved - step.v[k]).norm() <= 1e-3 * step.length * step.pull;
+    const bool steady = (moved - step.settled[k]).norm() <= 1e-3 * step.length * step.pull;
     if (steady && step.carried[k] && members[step.part[k]] == 1 && moved.norm() <= sliding * unit) moved.setZero();
     if (!step.carried[k] || moved.norm() > slow) still[step.part[k]] = 0;
   }
@@ -227,6 +247,8 @@ void ExactSimulator::put_to_rest(Stride& step) {
   for (std::uint32_t k = 0; k < n; ++k)
     if (!(a[k].norm() <= balanced * step.pull)) still[step.part[k]] = 0;
   for (std::uint32_t k = 0; k < n; ++k) step.rests[k] = still[step.part[k]];
+  for (PressedPair& p : step.pairs)
+    if (step.rests[p.a]) p.force = 0;
   for (std::size_t c = 0; c < holding.size(); ++c)
     if (step.rests[holding[c].a]) step.pairs[which[c]].force = step.length * holding[c].force;
 }
@@ -246,7 +268,7 @@ void ExactSimulator::take_stride(const Stride& step) {
   members.swap(crowd_);
   for (std::size_t k = 0; k < members.size(); ++k) {
     const Entity i = members[k];
-    const Vec3 &x = step.x[k], &v = step.v[k], &moved = step.moved[k];
+    const Vec3 &x = step.x[k], &v = step.settled[k], &moved = step.moved[k];
     const Vec3 before = flight_[i].velocity(now_ - flight_[i].start);
     const auto go_on = [&](const Vec3& velocity) {
       lose(0.5 * world_.mass[i] * (before - velocity).dot(before + velocity));
@@ -260,7 +282,7 @@ void ExactSimulator::take_stride(const Stride& step) {
       crowd_.push_back(i);
       carry(i, step.carried[k]);
       pulled_[i] = end;
-      hastened_[i] = (moved - v) / h;
+      hastened_[i] = step.pull > 0 ? Vec3((moved - v) / h) : Vec3(Vec3::Zero());
       jostled_[i] = 0;
       go_on(moved);
     } else {
