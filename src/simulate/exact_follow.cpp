@@ -210,18 +210,24 @@ bool ExactSimulator::follow_crowd() {
     const Vec3 w = moving(v, e) - v[pairs[c].a], a = moving(a0, e) - a0[pairs[c].a];
     const double smaller = world_.is_body(e) ? std::min(world_.radius[i], world_.radius[e]) : world_.radius[i];
     const bool flat = carom::is_flat(world_, i, e, feature);
-    const RelativeMotion m{at(x, e) - x[pairs[c].a], w, a, w.norm(), true};
+    // Along a rim, not over it, but for rounding.
+    RelativeMotion m{at(x, e) - x[pairs[c].a], w, a, w.norm(), true};
+    const double speeds = v[pairs[c].a].norm() + moving(v, e).norm();
+    for (int k = 0; k < 3; ++k) {
+      if (std::abs(w[k]) <= 0x1p-48 * speeds) m.w[k] = 0;
+      if (std::abs(a[k]) <= 0x1p-48 * pull) m.a[k] = 0;
+    }
     // Beyond the feature's rim the surface bends otherwise: a step goes no farther over it than makes no difference.
     const double bend = flat ? smaller : bend_radius(world_, i, e), room = strayed * smaller * bend;
     const double over = flat ? 1e-7 * moment : std::sqrt(2 * room) / std::max(w.norm(), 0x1p-900);
     h = std::min(h, std::max(leave_feature(world_, i, e, feature, m, h).time, over));
     if (flat) continue;
-    h = std::min(h, moment);
     // The gap's third derivative is about 3 w . a / bend, its fourth 3 a . a / bend. A parabola through both ends
     // leaves t^3 by 4/27 of h^3 at most and t^4 by 1/4 of h^4, so that h^3 might be 13.5 room / (w . a) and h^4 32 room
     // / (a . a); steps are as short as the Runge-Kutta method asks for.
-    const double bent = a.norm() + w.squaredNorm() / bend;
+    const double bent = m.a.norm() + m.w.squaredNorm() / bend;
     if (bent == 0) continue;
+    h = std::min(h, moment);
     h = std::min(h, std::sqrt(std::sqrt(8 * room) / bent));
     if (w.norm() > 0) h = std::min(h, cube_root(2 * room / (w.norm() * bent)));
   }
