@@ -161,12 +161,13 @@ void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin orig
                     now_.hi));
   tally_.max_speed = std::max(tally_.max_speed, speed);
   book_flight(i, x);
+  const bool flies = place_[i] == Place::crowd && !following_ && flight_[i].a != Vec3::Zero();  // through a stride
   flight_[i].start = now_;
   flight_[i].x = x;
   const bool still = speed <= negligible_speed() ||
                      (contacts_[i].count > 0 && speed * speed < 0x1p-120 * pull_[i].norm() * world_.radius[i]);
   for (int k = 0; k < 3; ++k) flight_[i].v[k] = still || std::abs(v[k]) <= negligible_speed() ? 0 : v[k];
-  flight_[i].a = contact_acceleration(i);
+  flight_[i].a = flies ? pull_[i] : contact_acceleration(i);
   origin_[i] = origin;
   ++version_[i];
   if (following_ && place_[i] == Place::crowd && now_ < crowd_end_) crowd_end_ = now_;

@@ -140,6 +140,7 @@ void ExactSimulator::jostle(Entity i) {
     changed.push_back(a);
     lose(0.5 * world_.mass[a] * (before[k] - after[k]).dot(before[k] + after[k]));
     restart(a, at(a), after[k], {});
+    flight_[a].a.setZero();
   }
   // Jostling has cost as much as a stride: the next one is due.
   jostled_pairs_ += pairs.size();

@@ -161,6 +161,7 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   }
   restart(a, xa, keep_contacts(a, va - (impulse / ma) * n), {b, feature});
   restart(b, xb, keep_contacts(b, vb + (impulse / mb) * n), {a, feature});
+  if (take_up) flight_[a].a = flight_[b].a = Vec3::Zero();
   predict(a);
   predict(b);
   if (take_up) {
@@ -214,6 +215,7 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
   } else {
     restart(i, x, keep_contacts(i, v - (approach + separation) * n), {surface, feature});
   }
+  if (take_up) flight_[i].a.setZero();
   predict(i);
   if (take_up) jostle(i);
 }

@@ -72,10 +72,9 @@ void ExactSimulator::stride() {
     const double t = now_ - f.start;
     step.x.push_back(f.position(t));
     step.v.push_back(f.velocity(t));
-    if (now_ < pulled_[i]) {  // the last step ends early: what forces do in the time that it had left is to come
+    if (now_ < pulled_[i])  // the last step ends early: what forces do in the time that it had left is to come
       step.v[k] -= (pulled_[i] - now_) * hastened_[i];
-      pulled_[i] = now_;
-    }
+    pulled_[i] = now_;
     step.inverse_mass.push_back(1 / world_.mass[i]);
     step.smallest = std::min(step.smallest, world_.radius[i]);
     step.pull = std::max(step.pull, pull_[i].norm());
@@ -162,7 +161,7 @@ void ExactSimulator::move_apart(Stride& step) {
     for (std::size_t c = 0; c < impacts.size(); ++c) step.struck[c] = impacts[c].force > 0;
   }
   std::vector<Vec3> pulled = step.settled;
-  for (std::size_t k = 0; k < n; ++k) pulled[k] += (now_ + h - pulled_[crowd_[k]]) * pull_[crowd_[k]];
+  for (std::size_t k = 0; k < n; ++k) pulled[k] += h * pull_[crowd_[k]];
   for (int attempt = 0; attempt < 8; ++attempt) {
     step.moved = pulled;
     if (press_apart(step.inverse_mass, step.moved, step.pairs, 300)) return;
@@ -281,10 +280,17 @@ void ExactSimulator::take_stride(const Stride& step) {
     } else if ((idle_[i] = step.carried[k] ? 0 : idle_[i] + 1) < patience) {
       crowd_.push_back(i);
       carry(i, step.carried[k]);
-      pulled_[i] = end;
-      hastened_[i] = step.pull > 0 ? Vec3((moved - v) / h) : Vec3(Vec3::Zero());
       jostled_[i] = 0;
-      go_on(moved);
+      if (step.carried[k]) {
+        pulled_[i] = end;
+        hastened_[i] = step.pull > 0 ? Vec3((moved - v) / h) : Vec3(Vec3::Zero());
+        go_on(moved);
+      } else {  // flies as those outside
+        pulled_[i] = now_;
+        hastened_[i].setZero();
+        go_on(v);
+        flight_[i].a = pull_[i];
+      }
     } else {
       place_[i] = Place::outside;
       carry(i, false);

@@ -161,6 +161,22 @@ TEST(Rest, WhoLiesStillCostsNothing) {
   EXPECT_EQ(run.end.velocity[3], Vec3(0, 0, 0));
 }
 
+TEST(Rest, AColumnThrowsBackWhoFallsOnIt) {
+  // As many balls as strides move, and fewer: at e = 1 the one that falls from 0.5 m comes up again.
+  for (int n : {2, 16, 17, 18, 24, 40}) {
+    Problem problem;
+    problem.world.gravity = Vec3(0, -g, 0);
+    problem.plane({0, 0, 0}, {0, 1, 0});
+    for (int i = 0; i < n; ++i) problem.ball({0, 0.125 + 0.25 * i, 0}, Vec3::Zero(), 1, 0.125, 1);
+    problem.ball({0, 0.125 + 0.25 * n + 0.5, 0}, Vec3::Zero(), 1, 0.125, 1);
+    const double fall = std::sqrt(2 * 0.5 / g);
+    problem.options.duration = 1.5 * fall;
+    const Outcome run = run_exact(problem);
+    EXPECT_NEAR(run.end.velocity.back().y(), 0.5 * g * fall, 1e-6) << n;
+    EXPECT_NEAR(run.tally.energy_lost, 0, 1e-6) << n;
+  }
+}
+
 TEST(Rest, AnElasticHopTooLowToTellIsNone) {
   for (const bool by_a_ball : {false, true}) {
     Problem problem;
