@@ -197,8 +197,9 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
     contact.rest_time = now_ + left;
     contact.settling = rests;
   }
-  const bool take_up = !rests && (taken_up(i, surface, e, approach, press, radius, flat && !burst_[i].bodies) ||
-                                  (press > 0 && !flat && (separation == 0 || too_low(x, separation, press))));
+  const bool take_up =
+      !rests && (taken_up(i, surface, e, approach, press, radius, flat && !burst_[i].bodies) ||
+                 (press > 0 && (!flat || crowded(i)) && (separation == 0 || too_low(x, separation, press))));
   if (take_up) separation = 0;
   if (take_up || place_[i] == Place::asleep) join(i);
   stir(i, approach);

@@ -93,7 +93,8 @@ void ExactSimulator::stride() {
     bool farther = false;  // than was looked for others to meet
     for (std::size_t k = 0; k < n; ++k) {
       const double speed = step.moved[k].norm();
-      fastest = std::max(fastest, speed);
+      // A change of speed may take a body less far than speed: impacts find it done from the start.
+      fastest = std::max({fastest, speed, 8 * (step.moved[k] - step.settled[k]).norm()});
       way_of_all += step.length * speed;
       if (speed <= 2 * step.haste[k] || 4 * step.length * speed <= nearby * step.smallest) continue;
       step.haste[k] = speed;
@@ -122,10 +123,12 @@ void ExactSimulator::find_pairs(Stride& step) {
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = crowd_[k];
     for (Entity e : near_[i]) {
-      const bool body = world_.is_body(e);
+      const bool asleep = world_.is_body(e) && place_[e] == Place::asleep;  // as if fixed; if pressed on, it wakes
+      const bool body = world_.is_body(e) && !asleep;
       if (body && (e < i || place_[e] != Place::crowd)) continue;
       const std::uint32_t other = body ? local_[e] : PressedPair::none;
-      const Touch there = touch(world_, i, step.x[k], e, body ? step.x[other] : world_.fixed_position(e));
+      const Vec3 xe = body ? step.x[other] : asleep ? flight_[e].x : world_.fixed_position(e);
+      const Touch there = touch(world_, i, step.x[k], e, xe);
       const double rate = there.normal.dot((body ? step.v[other] : Vec3(Vec3::Zero())) - step.v[k]);
       if (strikes(i, e, -rate / fast, step.pull)) continue;
       const double kept = body ? std::max(kept_gap(k), kept_gap(other)) : kept_gap(k);
@@ -296,6 +299,11 @@ void ExactSimulator::take_stride(const Stride& step) {
       carry(i, false);
       go_on(v);
     }
+  }
+  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
+    const auto [i, e] = step.names[c];
+    if (step.pairs[c].b != PressedPair::none || !world_.is_body(e) || place_[e] != Place::asleep) continue;
+    if (step.pairs[c].force > 0 && place_[i] == Place::crowd) wake(e);
   }
   if (crowd_.empty()) crowd_end_ = {never, 0};
   for (Entity i : members) local_[i] = PressedPair::none;
