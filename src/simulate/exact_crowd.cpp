@@ -154,10 +154,7 @@ void ExactSimulator::jostle(Entity i) {
 void ExactSimulator::step_crowd() {
   std::sort(crowd_.begin(), crowd_.end());
   if (follow_crowd()) return;
-  for (Entity i : crowd_) {
-    followed_[i].clear();
-    if (following_) pulled_[i] = now_;
-  }
+  for (Entity i : crowd_) followed_[i].clear();
   following_ = false;
   stride();
 }

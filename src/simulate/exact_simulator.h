@@ -227,7 +227,7 @@ class ExactSimulator final : public Simulator {
                                                 // found pressing on it
   std::vector<Entity> crowd_;                   // ascending after each step
   std::vector<std::uint32_t> local_;            // scratch of a step: a member's place in it
-  std::vector<Instant> pulled_;                 // by body of the crowd: gravity is in its velocity up to this instant
+  std::vector<Instant> pulled_;                 // by body of the crowd: forces are in its velocity up to this instant
   std::vector<std::uint32_t> jostled_;          // by body of the crowd: impacts taken up since the last step
   std::vector<std::uint8_t> idle_;              // by body of the crowd: steps since something pressed on it
   std::vector<Vec3> hastened_;                  // m/s^2, by body of the crowd: what forces do to it in a stride, on

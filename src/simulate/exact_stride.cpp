@@ -1,8 +1,9 @@
-// Strides: steps of a large crowd. Between two of them every body of it flies straight, so that impacts with and within
-// it are found and resolved as everywhere else. At a step the velocities are those nearest to what gravity alone would
-// make of them that keep every pair apart until the next step (complementarity.h): linearised at the nearest points,
-// which for convex bodies on straight paths is on the safe side, so that no step can make an overlap. (Stewart &
-// Trinkle, Int. J. Numer. Meth. Eng. 39 (1996) 2673, without friction and with exact impacts.)
+// Strides: steps of a large crowd. Between two of them whoever is carried flies straight and the others fall freely, so
+// that impacts with and within it are found and resolved as everywhere else. At a step slow approaches are taken up at
+// once; fast ones are left to be impacts. Then the velocities are those nearest to what gravity alone would make of
+// them that keep every pair apart until the next step (complementarity.h): linearised at the nearest points, which for
+// convex bodies on straight paths is on the safe side. (Stewart & Trinkle, Int. J. Numer. Meth. Eng. 39 (1996) 2673,
+// without friction and with exact impacts.) A step that ends early gives back what forces would have done in its rest.
 //
 // While bodies of the crowd are struck they are kept a little apart, so that the small motions a strike sets off wait
 // for the next step instead of making thousands of impacts at one instant; as the crowd calms down that gap closes.
