@@ -50,8 +50,8 @@ class MeetingSearch {
       }
       if (on == never) return {never, no_feature};
       const Vec3 p = m_.d + way(t);
-      if (s.gap > 0 && p == m_.d + way(t + on)) {
-        // Positions are too coarse to tell this gap: it is closed.
+      const bool untold = s.gap <= 2 * rounding * s.normal.cwiseAbs().dot(p.cwiseAbs()) || p == m_.d + way(t + on);
+      if (s.gap > 0 && untold) {  // positions are too coarse to tell this gap: it is closed
         if (set_.sharp(s.feature)) s = set_.at(p, face_left(s.feature, p, v));
         const double out = s.normal.dot(v);
         if (out < 0) return contact(t + on, s.feature);

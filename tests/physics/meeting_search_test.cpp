@@ -141,6 +141,30 @@ TEST(Meeting, NoContactIsMissedInChainsOfBounces) {
     }
 }
 
+TEST(MeetingSearch, APathAlmostAlongAnAxisMeetsLikeAnyOther) {
+  // The small part of the position tells times that the large part is too coarse for.
+  for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
+    for (Kind kb : all_kinds) {
+      Random random(static_cast<unsigned>(3000 + 10 * static_cast<int>(ka) + static_cast<int>(kb)));
+      Tally tally;
+      for (int k = 0; k < 150; ++k) {
+        const World world = pair_world(ka, kb, k % 2 == 0, random, 0.1);
+        const Thing a = of(world, 0), b = of(world, 1);
+        const int axis = k % 3, other = (k + 1 + k / 3 % 2) % 3;
+        Path path{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+        const double reach = a.support(Vec3::Unit(axis)) + b.support(Vec3::Unit(axis));
+        path.d[axis] = reach * (1 + random.log_uniform(1e-10, 1e-2));
+        path.w[axis] = -random.log_uniform(1e-3, 1e-1);
+        path.d[other] = 1e-3 * reach * random.log_uniform(1e-12, 1);
+        path.w[other] = 0.3 * random.uniform(-1, 1) * path.w[axis];
+        check(world, path, 0.5 * reach / -path.w[axis], tally);
+      }
+      EXPECT_EQ(tally.missed, 0) << name(ka) << " " << name(kb);
+      EXPECT_EQ(tally.invented, 0) << name(ka) << " " << name(kb);
+      EXPECT_GT(tally.hits, 120) << name(ka) << " " << name(kb);
+    }
+}
+
 TEST(MeetingSearch, AGapSmallerThanThePositionsCanTellIsMet) {
   // A ball on its way to a cylinder's rim, 1.5e-16 m from it: its position does not change before the gap is closed.
   World world;
