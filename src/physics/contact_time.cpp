@@ -13,13 +13,19 @@ namespace {
 /// Rounding of a relative velocity, in units of the speeds that it is the difference of.
 constexpr double velocity_noise = 16 * 0x1p-53;
 
+/// Of the square of a distance: gaps that it is too coarse to tell from none.
+constexpr double gap_noise = 0x1p-51;
+
 /// t = c / (-b + sqrt(b^2 - a c)), with the discriminant as a s^2 - |d x w|^2 (Lagrange), so that a long way does not
 /// swamp a small miss distance.
 double straight_contact_time(const RelativeMotion& m, double s, double horizon) {
   const double b = m.d.dot(m.w);
   if (b >= 0) return never;
   const double c = m.just_separated ? 0 : squared_gap(m.d, s);
-  if (c <= 0) return -b > velocity_noise * m.speeds * s ? 0 : never;
+  if (c <= gap_noise * s * s) {
+    if (-b <= velocity_noise * m.speeds * s) return never;
+    if (c <= 0) return 0;
+  }
   const double a = m.w.squaredNorm();
   const Vec3 cross = m.d.cross(m.w);
   double disc = a * s * s - cross.squaredNorm();

@@ -53,7 +53,8 @@ class MeetingSearch {
       const bool untold = s.gap <= 2 * rounding * s.normal.cwiseAbs().dot(p.cwiseAbs()) || p == m_.d + way(t + on);
       if (s.gap > 0 && untold) {  // positions are too coarse to tell this gap: it is closed
         if (set_.sharp(s.feature)) s = set_.at(p, face_left(s.feature, p, v));
-        const double out = s.normal.dot(v);
+        double out = s.normal.dot(v);
+        if (std::abs(out) <= noise(s.feature)) out = 0;
         if (out < 0) return contact(t + on, s.feature);
         on = std::max(on, leaves_until(s, t, v, out));
         if (on == never) return {never, no_feature};
