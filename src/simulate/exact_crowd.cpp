@@ -50,6 +50,25 @@ void ExactSimulator::stir(Entity i, double approach) {
   kept_apart_[i] = std::max(kept_apart_[i], std::min(0.5 * approach * crowd_step_, restless_gap * world_.radius[i]));
 }
 
+/// How much of an approach (m/s) along n is there already: a stride's flights have what forces do in its rest in them.
+double ExactSimulator::approach_now(double approach, const Vec3& n, Entity i, Entity e) const {
+  const bool body = world_.is_body(e);
+  if (following_ || approach == 0 || (place_[i] != Place::crowd && !(body && place_[e] == Place::crowd)))
+    return approach;
+  const Vec3 w = velocity_now(i, now_) - (body ? velocity_now(e, now_) : Vec3(Vec3::Zero()));
+  return std::max(n.dot(w), 0.0);
+}
+
+/// A force in what is left of a stride changes body i's velocity by dv (m/s), which is in its flight from now on.
+void ExactSimulator::hasten(Entity i, const Vec3& dv) {
+  if (following_ || place_[i] != Place::crowd || dv.isZero(0) || !(now_ < crowd_end_)) return;
+  if (!(now_ < pulled_[i])) {
+    pulled_[i] = crowd_end_;
+    hastened_[i].setZero();
+  }
+  hastened_[i] += dv / (pulled_[i] - now_);
+}
+
 /// Whether body i of the crowd and e approach each other (m/s) for an impact that bounces: contact must not take it up.
 /// `pull` is the greatest acceleration in the crowd (m/s^2).
 bool ExactSimulator::strikes(Entity i, Entity e, double approach, double pull) const {
@@ -82,12 +101,13 @@ void ExactSimulator::wake(Entity i) {
 /// those that touch one another there are struck at once. Where all is restless they part a little, lest they do so
 /// again at the next rounding.
 void ExactSimulator::jostle(Entity i) {
-  constexpr std::uint32_t many = 8;
+  constexpr std::uint32_t many = 3;
   constexpr double parting = 0.01;  // of the fastest approach: what those struck at once part with
   if (following_ || place_[i] != Place::crowd || ++jostled_[i] <= many) return;
   std::vector<Entity> cluster{i};
   std::vector<PressedPair> pairs;
   const std::uint32_t unseen = PressedPair::none;
+  const double closed = 1e-3 * kept_apart_[i];  // m, a gap that counts as contact
   local_[i] = 0;
   const auto at = [&](Entity k) { return flight_[k].position(now_ - flight_[k].start); };
   for (std::size_t k = 0; k < cluster.size(); ++k) {
@@ -96,8 +116,11 @@ void ExactSimulator::jostle(Entity i) {
     for (Entity e : near_[a]) {
       const bool body = world_.is_body(e);
       if (body && place_[e] != Place::crowd) continue;
-      const Touch there = touch(world_, a, x, e, body ? at(e) : world_.fixed_position(e));
-      if (there.gap > 1e-3 * kept_apart_[i]) continue;
+      const Vec3 xe = body ? at(e) : world_.fixed_position(e);
+      const double far = world_.radius[a] + (body ? world_.radius[e] : never) + closed;
+      if ((xe - x).squaredNorm() > 1.001 * far * far) continue;
+      const Touch there = touch(world_, a, x, e, xe);
+      if (there.gap > closed) continue;
       if (body && local_[e] == unseen) {
         local_[e] = static_cast<std::uint32_t>(cluster.size());
         cluster.push_back(e);
@@ -136,15 +159,16 @@ void ExactSimulator::jostle(Entity i) {
   for (std::size_t k = 0; k < cluster.size(); ++k) {
     const Entity a = cluster[k];
     jostled_[a] = 1;
-    if ((after[k] - before[k]).squaredNorm() <= 1e-10 * approach * approach) continue;
+    if (after[k] == before[k]) continue;
     changed.push_back(a);
     lose(0.5 * world_.mass[a] * (before[k] - after[k]).dot(before[k] + after[k]));
     restart(a, at(a), after[k], {});
     flight_[a].a.setZero();
   }
-  // Jostling has cost as much as a stride: the next one is due.
+  // Jostling has cost as much as a stride: the next one is due. This one was too long.
   jostled_pairs_ += pairs.size();
-  if (jostled_pairs_ > 16 * crowd_.size()) {
+  if (jostled_pairs_ > 16 * crowd_.size() && now_ < crowd_end_) {
+    crowd_step_ -= crowd_end_ - now_;
     crowd_end_ = now_;
     changed.push_back(i);
   }

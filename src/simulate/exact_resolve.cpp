@@ -139,7 +139,7 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const Vec3& n = there.normal;
   const double approach = -w.dot(n) > negligible_speed() ? -w.dot(n) : 0;
   const double e = struck_ = pair_restitution(world_, a, b);
-  const double length = world_.radius[a] + world_.radius[b];
+  const double met = approach_now(approach, n, a, b), length = world_.radius[a] + world_.radius[b];
   double press = 0;
   if (p.a != q.a) press = -(n.dot(q.a - p.a) + bending(world_, a, xa, b, xb, there, w));
   if (press <= 0)
@@ -147,14 +147,14 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
       if (too_slow_to_wake(striker, struck, w.norm())) return stop_at(striker, struck, feature, there, approach);
   // Where nothing presses, an approach that is but rounding is over with this impact.
   const bool told = approach > 0x1p-50 * (va.norm() + vb.norm()) || load_on(a) > 0 || load_on(b) > 0;
-  const bool take_up = (told && taken_up(a, b, e, approach, press, length, false)) ||
-                       (press > 0 && (e * approach == 0 || too_low(xa, e * approach, press)));
-  const double separation = take_up ? 0 : e * approach;
-  const double impulse = impact_impulse(ma, mb, approach, separation);
-  const double lost = impact_loss(ma, mb, approach, separation);
-  lose(lost);
+  const bool take_up = (approach > 0 && met == 0) || (told && taken_up(a, b, e, met, press, length, false)) ||
+                       (press > 0 && (e * met == 0 || too_low(xa, e * met, press)));
+  const double separation = take_up ? 0 : e * met;
+  const double impulse = impact_impulse(ma, mb, take_up ? approach : met, separation);
+  lose(impact_loss(ma, mb, approach, take_up || met == approach ? separation : met + separation - approach));
   if (!take_up)
-    record({now_.hi, CollisionKind::body_body, a, b, there.point, n, approach, separation, e, impulse, lost});
+    record({now_.hi, CollisionKind::body_body, a, b, there.point, n, met, separation, e, impulse,
+            impact_loss(ma, mb, met, separation)});
   for (Entity i : {a, b}) {
     if (take_up || place_[i] == Place::asleep) join(i);
     stir(i, approach);
@@ -165,6 +165,9 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   predict(a);
   predict(b);
   if (take_up) {
+    const double held = impact_impulse(ma, mb, approach - met, 0);
+    hasten(a, -held / ma * n);
+    hasten(b, held / mb * n);
     jostle(a);
     jostle(b);
   }
@@ -180,7 +183,8 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
   const Vec3& n = there.normal;
   const double approach = v.dot(n) > negligible_speed() ? v.dot(n) : 0;
   const double e = struck_ = pair_restitution(world_, i, surface);
-  double separation = e * approach;
+  const double met = approach_now(approach, n, i, surface);
+  double separation = e * met;
   const double bend = flat ? 0 : bending(world_, i, x, surface, world_.fixed_position(surface), there, -v);
   const double press = free_acceleration(i, surface).dot(n) - bend;
   tally_.max_overlap = std::max(tally_.max_overlap, -there.gap);
@@ -198,27 +202,29 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
     contact.settling = rests;
   }
   const bool take_up =
-      !rests && (taken_up(i, surface, e, approach, press, radius, flat && !burst_[i].bodies) ||
+      !rests && ((approach > 0 && met == 0) || taken_up(i, surface, e, met, press, radius, flat && !burst_[i].bodies) ||
                  (press > 0 && (!flat || crowded(i)) && (separation == 0 || too_low(x, separation, press))));
   if (take_up) separation = 0;
   if (take_up || place_[i] == Place::asleep) join(i);
   stir(i, approach);
   if (approach > 0 || separation > 0) {
-    const double lost = impact_loss(mass, immovable, approach, separation);
-    lose(lost);
+    lose(impact_loss(mass, immovable, approach, take_up || met == approach ? separation : met + separation - approach));
     if (!take_up)
-      record({now_.hi, CollisionKind::body_fixed, i, surface, there.point, n, approach, separation, e,
-              impact_impulse(mass, immovable, approach, separation), lost});
+      record({now_.hi, CollisionKind::body_fixed, i, surface, there.point, n, met, separation, e,
+              impact_impulse(mass, immovable, met, separation), impact_loss(mass, immovable, met, separation)});
   }
   if (rests) {
     settle(i, contact);
     restart(i, x + there.gap * n, keep_contacts(i, v - approach * n), {surface, feature});
   } else {
-    restart(i, x, keep_contacts(i, v - (approach + separation) * n), {surface, feature});
+    restart(i, x, keep_contacts(i, v - ((take_up ? approach : met) + separation) * n), {surface, feature});
   }
   if (take_up) flight_[i].a.setZero();
   predict(i);
-  if (take_up) jostle(i);
+  if (take_up) {
+    hasten(i, (met - approach) * n);
+    jostle(i);
+  }
 }
 
 }  // namespace carom

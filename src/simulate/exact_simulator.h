@@ -103,7 +103,7 @@ class ExactSimulator final : public Simulator {
 
   static constexpr double immovable = never;     // kg
   static constexpr double hardly_moving = 1e-5;  // of the speed of falling by a radius: in a crowd as good as none
-  static constexpr double restless_gap = 2e-3;   // of a radius: what bodies that were just struck are kept apart
+  static constexpr double restless_gap = 2e-2;   // of a radius: what bodies that were just struck are kept apart
   /// m/s: a speed as good as none, for products of it with itself underflow.
   double negligible_speed() const { return 0x1p-200 * tally_.max_speed; }
   /// Whether a speed (m/s) against a pressing acceleration (m/s^2) lifts a body by less than its position x (m) is
@@ -176,6 +176,8 @@ class ExactSimulator final : public Simulator {
   // exact_crowd.cpp
   void join(Entity i);
   void stir(Entity i, double approach);
+  double approach_now(double approach, const Vec3& n, Entity i, Entity e) const;
+  void hasten(Entity i, const Vec3& dv);
   bool strikes(Entity i, Entity e, double approach, double pull) const;
   void wake(Entity i);
   void jostle(Entity i);
@@ -235,6 +237,7 @@ class ExactSimulator final : public Simulator {
   std::vector<double> kept_apart_;              // m, by body of the crowd: the gap that strides leave about it
   std::size_t jostled_pairs_ = 0;               // since the last step
   double crowd_step_ = 0;                       // s, length of the last step
+  std::uint32_t stuck_ = 0;                     // strides on end that jostling ended at once
   std::vector<std::uint8_t> carried_;           // by body: of the crowd or asleep, and something presses on it
   std::vector<Instant> needed_;                 // by body of the crowd: when it was last struck or pressed on, but by
                                                 // flat surfaces alone

@@ -13,6 +13,7 @@
 #include <numeric>
 
 #include "physics/complementarity.h"
+#include "physics/restitution.h"
 #include "physics/touch.h"
 #include "simulate/exact_simulator.h"
 
@@ -29,12 +30,15 @@ constexpr std::uint8_t patience = 8;  // steps without a force, then a body leav
 constexpr double nearby = 1e-3;       // of a radius: bodies no farther apart may press before a step ends
 constexpr double apart = 1e-3;        // of the way that bodies go in a step: what they are kept apart for it,
 constexpr double exactly = 0.05;      // but for this much of that
+constexpr double restless = 1e-3;     // of a radius: bodies kept farther apart than this part where they touch
 constexpr double quiet = 5e-4;        // of a radius: a crowd that moves less in a step, on average, is told exactly
 constexpr std::size_t most_direct = 4000;  // bodies; the cost grows as their square
 constexpr double resting_gap = 1e-10;      // of a radius: what calm bodies are kept apart
 constexpr double touching = 3e-8;          // of a radius: bodies at rest that are no farther apart may press
-constexpr double balanced = 1e-11;         // of gravity: forces whose sum is less hold a body
+constexpr double balanced = 1e-11;         // of gravity: forces whose sum is less hold a body;
+constexpr double nearly_balanced = 1e-6;   // more than this, by forces found roughly, and there are none that do
 constexpr double sliding = 1e-3;           // of the speed of falling by a radius: strides leave it to slow sliders
+constexpr std::uint32_t many_stuck = 8;    // strides on end that jostling ends at once: the slow ones are jammed
 
 /// Whether any of the pairs falls short of its target at these velocities.
 bool approaching(const std::vector<Vec3>& v, const std::vector<PressedPair>& pairs) {
@@ -82,6 +86,7 @@ void ExactSimulator::stride() {
     fastest = std::max(fastest, step.v[k].norm());
   }
   const double shortest = step.pull == 0 ? 0 : step_length * std::sqrt(2 * step.smallest / step.pull);
+  stuck_ = crowd_step_ < 0.01 * shortest ? stuck_ + 1 : 0;
   step.length = way * step.smallest / std::max(fastest, 0x1p-900);
   if (step.pull > 0)
     step.length = std::clamp(step.length, shortest, std::clamp(2 * crowd_step_, shortest, longest * shortest));
@@ -142,6 +147,10 @@ void ExactSimulator::find_pairs(Stride& step) {
                        -std::max(there.gap - kept, 0.0) / h,
                        exactly * kept / h,
                        0};
+      // Where all is restless, whom the slack would let strike at once part by as much.
+      if (step.pull > 0 && kept > restless * step.smallest && there.gap < exactly * kept &&
+          pair_restitution(world_, i, e) < 1)
+        pair.target = (exactly * kept - std::max(there.gap, 0.0)) / h;
       for (const Pressed& p : pressed_[i])
         if (p.partner == e) pair.force = p.force * h;
       step.pairs.push_back(pair);
@@ -160,15 +169,23 @@ void ExactSimulator::move_apart(Stride& step) {
   step.settled = step.v;
   step.struck.assign(step.pairs.size(), 0);
   if (std::vector<PressedPair> impacts = step.pairs; step.pull > 0 && approaching(step.v, impacts)) {
-    for (PressedPair& p : impacts) p.force = 0;
+    for (PressedPair& p : impacts) {
+      p.target = std::min(p.target, 0.0);
+      p.force = 0;
+    }
     press_apart(step.inverse_mass, step.settled, impacts, 300);
     for (std::size_t c = 0; c < impacts.size(); ++c) step.struck[c] = impacts[c].force > 0;
   }
+  double lost = 0;  // J
+  for (std::size_t k = 0; k < n; ++k)
+    lost += 0.5 * (step.v[k] - step.settled[k]).dot(step.v[k] + step.settled[k]) / step.inverse_mass[k];
   std::vector<Vec3> pulled = step.settled;
   for (std::size_t k = 0; k < n; ++k) pulled[k] += h * pull_[crowd_[k]];
+  bool part = std::any_of(step.pairs.begin(), step.pairs.end(), [](const PressedPair& p) { return p.target > 0; });
   for (int attempt = 0; attempt < 8; ++attempt) {
     step.moved = pulled;
-    if (press_apart(step.inverse_mass, step.moved, step.pairs, 300)) return;
+    const bool done = press_apart(step.inverse_mass, step.moved, step.pairs, 300);
+    if (done && !part) return;
     double before = 0, after = 0, made = 0;  // m, m: the way of all; J
     for (std::size_t k = 0; k < n; ++k) {
       const Vec3 &v = step.settled[k], &moved = step.moved[k];
@@ -176,7 +193,12 @@ void ExactSimulator::move_apart(Stride& step) {
       after += h * moved.norm();
       made += (0.5 * (moved - v).dot(moved + v) - (pulled[k] - v).dot(moved)) / step.inverse_mass[k];
     }
-    if (std::min(before, after) > quiet * step.smallest * static_cast<double>(n) && made <= 0) return;
+    const bool much = std::min(before, after) > quiet * step.smallest * static_cast<double>(n);
+    double parting = 0;  // J
+    for (const PressedPair& p : step.pairs) parting += p.force * std::max(p.target, 0.0);
+    if (made <= 0 && parting <= lost && (done || much)) return;
+    for (PressedPair& p : step.pairs) p.target = std::min(p.target, 0.0);  // the wedged cannot part
+    part = false;
   }
   if (n > most_direct) return;
   step.moved = pulled;
@@ -231,24 +253,41 @@ void ExactSimulator::put_to_rest(Stride& step) {
   for (std::uint32_t k = 0; k < n; ++k) {
     Vec3& moved = step.moved[k];
     const bool steady = (moved - step.settled[k]).norm() <= 1e-3 * step.length * step.pull;
-    if (steady && step.carried[k] && members[step.part[k]] == 1 && moved.norm() <= sliding * unit) moved.setZero();
+    const bool alone = members[step.part[k]] == 1;
+    if (((steady && alone) || stuck_ > many_stuck) && step.carried[k] && moved.norm() <= sliding * unit)
+      moved.setZero();
     if (!step.carried[k] || moved.norm() > slow) still[step.part[k]] = 0;
   }
-  if (std::find(still.begin(), still.end(), 1) == still.end()) return;
-  std::vector<Vec3> a(n);
-  for (std::size_t k = 0; k < n; ++k) a[k] = pull_[crowd_[k]];
+  std::vector<Vec3> pull(n), a;
+  for (std::size_t k = 0; k < n; ++k) pull[k] = pull_[crowd_[k]];
   std::vector<PressedPair> holding;
   std::vector<std::size_t> which;
-  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const PressedPair& p = step.pairs[c];
-    if (!still[step.part[p.a]] || step.gaps[c] > touching * step.smallest) continue;
-    // From no force: where forces are not unique, no more than needed.
-    holding.push_back({p.a, p.b, p.normal, 0, 1e-13 * step.pull, 0});
-    which.push_back(c);
+  // Their forces, from none: where these are not unique, no more than needed.
+  const auto press = [&](int iterations) {
+    holding.clear();
+    which.clear();
+    for (std::size_t c = 0; c < step.pairs.size(); ++c) {
+      const PressedPair& p = step.pairs[c];
+      if (!still[step.part[p.a]] || step.gaps[c] > touching * step.smallest) continue;
+      holding.push_back({p.a, p.b, p.normal, 0, 1e-13 * step.pull, 0});
+      which.push_back(c);
+    }
+    a = pull;
+    return press_apart(step.inverse_mass, a, holding, iterations);
+  };
+  const auto keep_balanced = [&](double within) {
+    for (std::uint32_t k = 0; k < n; ++k)
+      if (!(a[k].norm() <= within * step.pull)) still[step.part[k]] = 0;
+  };
+  if (!press(300)) {
+    if (n <= most_direct) {
+      a = pull;
+      press_apart_directly(step.inverse_mass, a, holding);
+      keep_balanced(nearly_balanced);
+    }
+    press(20000);
   }
-  press_apart(step.inverse_mass, a, holding, 20000);
-  for (std::uint32_t k = 0; k < n; ++k)
-    if (!(a[k].norm() <= balanced * step.pull)) still[step.part[k]] = 0;
+  keep_balanced(balanced);
   for (std::uint32_t k = 0; k < n; ++k) step.rests[k] = still[step.part[k]];
   for (PressedPair& p : step.pairs)
     if (step.rests[p.a]) p.force = 0;

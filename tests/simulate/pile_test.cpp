@@ -11,17 +11,17 @@ TEST(Pile, OfNinetyBallsComesToRest) {
 }
 
 TEST(Pile, AWokenPileComesToRestAgain) {
-  Problem problem = loose_pile(3, 4, 40);
+  Problem problem = loose_pile(3, 4, 60);
   // A heavy one falls on it when it lies.
   problem.ball({1.7, 1800, 1.6}, Vec3::Zero(), 1, 0.5, 0.5);
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   go_to(*simulator, 18);
   EXPECT_EQ(simulator->tally().resting, problem.world.body_count() - 1);
-  expect_pile_at_rest(problem, *simulator, {38, 40});
+  expect_pile_at_rest(problem, *simulator, {58, 60});
 }
 
 TEST(Pile, GainsNoEnergyAsItSettles) {
-  // Within a stride energy is told as right as motion is, to first order: a rise of 0.01 J was measured here.
+  // Within a stride energy is told as right as motion is, to first order: rises of 1e-4 of it were measured here.
   for (int side : {3, 4, 5}) {
     const Problem problem = loose_pile(side, 6, 20);
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
@@ -30,7 +30,7 @@ TEST(Pile, GainsNoEnergyAsItSettles) {
       go_to(*simulator, t);
       const State& state = simulator->state();
       const double energy = kinetic_energy(problem.world, state) + potential_energy(problem.world, state);
-      EXPECT_LT(energy, least + 0.1) << side << " at " << t;
+      EXPECT_LT(energy, 1.0003 * least) << side << " at " << t;
       least = std::min(least, energy);
     }
   }
