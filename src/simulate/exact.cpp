@@ -230,7 +230,7 @@ void ExactSimulator::lose(double energy) {
 
 /// A run that would never end is stopped: one in which events go on and on while the clock stands still. Elastic
 /// impacts cannot collapse, and unequal masses have millions of them in an instant (Galperin's billiard): of these, and
-/// of events without physics, it takes a thousand times as many, or that the clock does not move at all.
+/// of events without physics, it takes a thousand times as many, or that the clock moves by its rounding at most.
 void ExactSimulator::check_limits(Kind kind) {
   if (options_.max_collisions > 0 && tally_.collisions() > options_.max_collisions)
     throw SimulationError(fmt::format("more than simulate.max_collisions = {} collisions, reached at t = {} s",
@@ -242,8 +242,8 @@ void ExactSimulator::check_limits(Kind kind) {
   Watch& watch = patient ? patient_ : impatient_;
   const bool full = ++watch.events >= (patient ? 1000 * many : many);
   if (!full && watch.events % many != 0) return;
-  // At a billionth of the duration per million events a run would never end.
-  if (now_.hi == watch.seen || (full && now_.hi - watch.since < 0x1p-30 * options_.duration)) {
+  // At a billionth of the duration per million events a run would never end, nor at a clock's rounding in as many.
+  if (now_.hi - watch.seen <= 0x1p-46 * now_.hi || (full && now_.hi - watch.since < 0x1p-30 * options_.duration)) {
     const char* advice =
         " (jammed, or inelastic collapse): give them room, raise their restitution, or simulate.rest_speed";
     if (patient) advice = " (jammed, or masses too unequal): give them room, or shorten simulate.duration";

@@ -80,10 +80,12 @@ Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v) {
     if (keep[k] || u < 0 || press[k] <= 0) continue;
     const double e = pair_restitution(world_, i, contact.surface);
     keep[k] = e < 1 && now_.hi + 2 * e * u / (press[k] * (1 - e)) == now_.hi;
-    if (keep[k])
-      record({now_.hi, CollisionKind::body_fixed, i, contact.surface,
-              touch_at(i, x, contact.surface, world_.fixed_position(contact.surface), contact.feature).point, n, u, 0,
-              e, impact_impulse(world_.mass[i], immovable, u, 0), impact_loss(world_.mass[i], immovable, u, 0)});
+    if (!keep[k]) continue;
+    ++collapse_[i].impacts;  // in turn with the one that threw it at the surface
+    collapse_[i].lost += 1 - e;
+    record({now_.hi, CollisionKind::body_fixed, i, contact.surface,
+            touch_at(i, x, contact.surface, world_.fixed_position(contact.surface), contact.feature).point, n, u, 0, e,
+            impact_impulse(world_.mass[i], immovable, u, 0), impact_loss(world_.mass[i], immovable, u, 0)});
   }
   std::array<Vec3, max_contacts> normals;
   const auto thin_out = [&] {

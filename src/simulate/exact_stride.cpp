@@ -3,10 +3,12 @@
 // once; fast ones are left to be impacts. Then the velocities are those nearest to what gravity alone would make of
 // them that keep every pair apart until the next step (complementarity.h): linearised at the nearest points, which for
 // convex bodies on straight paths is on the safe side. (Stewart & Trinkle, Int. J. Numer. Meth. Eng. 39 (1996) 2673,
-// without friction and with exact impacts.) A step that ends early gives back what forces would have done in its rest.
+// without friction and with exact impacts.) An impact meets the velocities that bodies have by then, not those that the
+// step has given them for its end. A step that ends early gives back what forces would have done in its rest.
 //
 // While bodies of the crowd are struck they are kept a little apart, so that the small motions a strike sets off wait
 // for the next step instead of making thousands of impacts at one instant; as the crowd calms down that gap closes.
+// Bodies that touch inside that gap part a little, as far as what slow approaches have lost pays for it.
 // A part of the crowd that forces hold in balance is put to rest: velocities exactly zero, no more steps, until struck.
 #include <algorithm>
 #include <cmath>
