@@ -178,9 +178,6 @@ void ExactSimulator::move_apart(Stride& step) {
     press_apart(step.inverse_mass, step.settled, impacts, 300);
     for (std::size_t c = 0; c < impacts.size(); ++c) step.struck[c] = impacts[c].force > 0;
   }
-  double lost = 0;  // J
-  for (std::size_t k = 0; k < n; ++k)
-    lost += 0.5 * (step.v[k] - step.settled[k]).dot(step.v[k] + step.settled[k]) / step.inverse_mass[k];
   std::vector<Vec3> pulled = step.settled;
   for (std::size_t k = 0; k < n; ++k) pulled[k] += h * pull_[crowd_[k]];
   bool part = std::any_of(step.pairs.begin(), step.pairs.end(), [](const PressedPair& p) { return p.target > 0; });
@@ -188,12 +185,13 @@ void ExactSimulator::move_apart(Stride& step) {
     step.moved = pulled;
     const bool done = press_apart(step.inverse_mass, step.moved, step.pairs, 300);
     if (done && !part) return;
-    double before = 0, after = 0, made = 0;  // m, m: the way of all; J
+    double before = 0, after = 0, made = 0, lost = 0;  // m, m: the way of all; J, J: now, and by settling
     for (std::size_t k = 0; k < n; ++k) {
       const Vec3 &v = step.settled[k], &moved = step.moved[k];
       before += h * v.norm();
       after += h * moved.norm();
       made += (0.5 * (moved - v).dot(moved + v) - (pulled[k] - v).dot(moved)) / step.inverse_mass[k];
+      lost += 0.5 * (step.v[k] - v).dot(step.v[k] + v) / step.inverse_mass[k];
     }
     const bool much = std::min(before, after) > quiet * step.smallest * static_cast<double>(n);
     double parting = 0;  // J
@@ -242,7 +240,8 @@ void ExactSimulator::find_parts(Stride& step) {
   for (std::uint32_t k = 0; k < n; ++k) kept_apart_[crowd_[k]] = kept[part[k]];
 }
 
-/// At rest are those parts that hardly move and that forces hold in balance.
+/// At rest are those parts that hardly move and that forces hold in balance. Slow sliders stop, and whoever is slow
+/// where all is jammed.
 void ExactSimulator::put_to_rest(Stride& step) {
   const std::size_t n = crowd_.size();
   step.rests.assign(n, 0);
@@ -260,6 +259,7 @@ void ExactSimulator::put_to_rest(Stride& step) {
       moved.setZero();
     if (!step.carried[k] || moved.norm() > slow) still[step.part[k]] = 0;
   }
+  if (std::find(still.begin(), still.end(), 1) == still.end()) return;
   std::vector<Vec3> pull(n), a;
   for (std::size_t k = 0; k < n; ++k) pull[k] = pull_[crowd_[k]];
   std::vector<PressedPair> holding;
