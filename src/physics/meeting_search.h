@@ -43,10 +43,10 @@ class MeetingSearch {
       double on;
       if (s.gap > 0) {
         on = plane_contact_time(s.gap, speed, s.normal.dot(m_.a), 0, false, never);
-      } else if (speed < 0) {
-        return contact(t, s.feature);
       } else {
-        on = leaves_until(s, t, v, speed);
+        const double out = std::abs(speed) <= noise(s.feature) ? 0 : speed;
+        on = out < 0 ? 0 : leaves_until(s, t, v, out);
+        if (on == 0) return contact(t, s.feature);
       }
       if (on == never) return {never, no_feature};
       const Vec3 p = m_.d + way(t);
