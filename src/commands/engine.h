@@ -9,17 +9,16 @@
 namespace carom {
 
 struct EngineChoice {
-  std::string name;  // "exact", "book"; as in summary.csv
+  std::string name;  // "exact", "stepped", "book"; as in summary.csv
   std::string why;   // one line, empty where the scene names the engine itself
 };
 
-/// Throws SimulationError if the scene asks for an engine that is not there.
-EngineChoice choose_engine(const Simulate& simulate);
+EngineChoice choose_engine(const Scene& scene);
 
 /// The scene's simulator at time 0. `scene` must outlive it. Throws SimulationError.
 std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions);
 
-/// The exact simulator, whatever engine the scene asks for: what really happens first.
+/// The most exact simulator that there is for the scene, whatever engine it asks for: what really happens first.
 std::unique_ptr<Simulator> make_oracle(const Scene& scene);
 
 }  // namespace carom

@@ -76,7 +76,7 @@ void check(PlannedScene& planned, const Options& options) {
   const Output asked = planned.scene->output;
   if (options.only) planned.scene->output = restricted(asked, *options.only);
   planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  planned.engine = choose_engine(planned.scene->simulate);
+  planned.engine = choose_engine(*planned.scene);
   planned.forecast = forecast(*planned.scene);
   if (options.only && !options.force) hold_to_budget(planned.forecast);
   std::error_code ignored;

@@ -1,6 +1,7 @@
 #include "physics/energy.h"
 
 #include "physics/compensated.h"
+#include "physics/force.h"
 
 namespace carom {
 
@@ -20,10 +21,9 @@ double kinetic_energy(const World& world, const State& state) {
 }
 
 double potential_energy(const World& world, const State& state) {
-  if (world.gravity.isZero(0)) return 0;
+  if (world.gravity.isZero(0) && world.forces.empty()) return 0;
   Sum sum;
-  for (Entity i = 0; i < world.body_count(); ++i)
-    sum.add(-mass_of(world, state, i) * world.gravity.dot(state.position[i]));
+  for (Entity i = 0; i < world.body_count(); ++i) sum.add(potential(world, i, state.position[i]));
   return sum.value();
 }
 

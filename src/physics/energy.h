@@ -6,7 +6,7 @@
 namespace carom {
 
 double kinetic_energy(const World& world, const State& state);    // J
-double potential_energy(const World& world, const State& state);  // J, of gravity; zero at the origin
+double potential_energy(const World& world, const State& state);  // J, of gravity and forces (force.h)
 Vec3 momentum(const World& world, const State& state);            // kg m/s
 
 }  // namespace carom

@@ -1,14 +1,34 @@
 #pragma once
-// The accelerations that gravity and the World's forces give a body: constant between the instants at which a force
-// sets in or ceases.
+// What gravity and the World's forces do to a body. A force counts from its `from` until just before its `until`.
+//
+// In the energy books a force that acts for ever has its potential, like gravity; one that sets in or ceases, and what
+// has no potential, does work.
 #include "physics/world.h"
 
 namespace carom {
 
-/// m/s^2, from `time` (s) on: a force counts from its `from` until just before its `until`.
-Vec3 free_acceleration(const World& world, Entity body, double time);
+/// m/s^2, from `time` (s) on, at position x (m) and velocity v (m/s).
+Vec3 free_acceleration(const World& world, Entity body, double time, const Vec3& x, const Vec3& v);
+
+/// The part of it that does work: that no potential stands for.
+Vec3 working_acceleration(const World& world, Entity body, double time, const Vec3& x, const Vec3& v);
+
+/// J, of gravity (zero at the origin) and of the forces that act for ever.
+double potential(const World& world, Entity body, const Vec3& x);
 
 /// The first instant after `time` (s) at which a force on this body sets in or ceases; infinity: none.
 double next_switch(const World& world, Entity body, double time);
+
+/// Whether a force of this law is the same everywhere and at every speed.
+bool is_constant(const ForceLaw& law);
+
+/// The first force that is not; null: there is none, and every path between impacts is a parabola.
+const Force* varying_force(const World& world);
+
+/// Its key in a scene.
+const char* name_of(const ForceLaw& law);
+
+/// 1/s: about how fast the acceleration changes along the body's path at most, at this point of it; 0: it is constant.
+double force_rate(const World& world, Entity body, const Vec3& x, const Vec3& v);
 
 }  // namespace carom

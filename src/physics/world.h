@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "physics/force_law.h"
 #include "physics/vec3.h"
 #include "physics/volume.h"
 
@@ -40,13 +41,12 @@ struct Obstacle {
   std::optional<double> restitution;  // none: the moving body's
 };
 
-/// A constant force in a window of time, on some bodies or on all.
+/// A force in a window of time, on some bodies or on all.
 struct Force {
-  bool per_mass;                                           // value is an acceleration (m/s^2); else a force (N)
-  Vec3 value;                                              //
+  ForceLaw law;
   double from = 0;                                         // s, when it sets in
   double until = std::numeric_limits<double>::infinity();  // s, when it ceases
-  std::vector<Entity> on;                                  // ascending; empty: all bodies
+  std::vector<Entity> on{};                                // ascending; empty: all bodies
 };
 
 /// How two bodies' coefficients of restitution make the pair's (restitution.h).

@@ -89,23 +89,65 @@ std::optional<std::vector<Entity>> decode_on(const View& force, const Inventory&
   return good && !bodies.empty() ? std::optional(std::move(bodies)) : std::nullopt;
 }
 
+/// The law of a force, from the value of its key. None: it does nothing, or the value has an error.
+using DecodeLaw = std::optional<ForceLaw> (*)(const View& force, Diagnostics& diagnostics);
+
+std::optional<ForceLaw> decode_uniform(const View& force, Diagnostics&) {
+  const std::optional<Vec3> value = force.vector("uniform");
+  return value && !value->isZero(0) ? std::optional<ForceLaw>(UniformForce{*value}) : std::nullopt;
+}
+
+std::optional<ForceLaw> decode_acceleration(const View& force, Diagnostics&) {
+  const std::optional<Vec3> value = force.vector("acceleration");
+  return value && !value->isZero(0) ? std::optional<ForceLaw>(UniformAcceleration{*value}) : std::nullopt;
+}
+
+std::optional<ForceLaw> decode_drag(const View& force, Diagnostics& diagnostics) {
+  const View view = force.part("drag", "drag");
+  if (view.own() == nullptr) return std::nullopt;
+  if (view.given("linear") == nullptr && view.given("quadratic") == nullptr)
+    diagnostics.add(force.place("drag"), "`drag` has no `linear` and no `quadratic`",
+                    "expected `linear` (kg/s), `quadratic` (kg/m) or both");
+  const Drag drag{view.number("linear").value_or(0), view.number("quadratic").value_or(0),
+                  view.vector("wind").value_or(Vec3(Vec3::Zero()))};
+  return drag.linear != 0 || drag.quadratic != 0 ? std::optional<ForceLaw>(drag) : std::nullopt;
+}
+
+std::optional<ForceLaw> decode_spring(const View& force, Diagnostics&) {
+  const View view = force.part("spring", "spring");
+  const Spring spring{view.vector("anchor").value_or(Vec3(Vec3::Zero())), view.number("stiffness").value_or(0),
+                      view.number("rest_length").value_or(0), view.number("damping").value_or(0)};
+  return spring.stiffness != 0 || spring.damping != 0 ? std::optional<ForceLaw>(spring) : std::nullopt;
+}
+
+std::optional<ForceLaw> decode_attractor(const View& force, Diagnostics&) {
+  const View view = force.part("attractor", "attractor");
+  const Attractor attractor{view.vector("center").value_or(Vec3(Vec3::Zero())), view.number("strength").value_or(0),
+                            view.number("softening").value_or(0)};
+  return attractor.strength != 0 ? std::optional<ForceLaw>(attractor) : std::nullopt;
+}
+
+constexpr std::pair<std::string_view, DecodeLaw> laws_of_force[] = {{"uniform", decode_uniform},
+                                                                    {"acceleration", decode_acceleration},
+                                                                    {"drag", decode_drag},
+                                                                    {"spring", decode_spring},
+                                                                    {"attractor", decode_attractor}};
+
 void decode_force(const Node& node, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
   const View view(&node, kind_named("force"), node.place);
-  Force force;
-  force.from = view.number("from").value_or(0);
-  force.until = view.number("until").value_or(force.until);
-  if (force.until <= force.from) {
-    diagnostics.add(view.place("until"),
-                    fmt::format("`until` is {} but `from` is {}", shortest(force.until), shortest(force.from)),
+  const double from = view.number("from").value_or(0);
+  const double until = view.number("until").value_or(std::numeric_limits<double>::infinity());
+  if (until <= from) {
+    diagnostics.add(view.place("until"), fmt::format("`until` is {} but `from` is {}", shortest(until), shortest(from)),
                     "expected from < until");
   }
-  force.per_mass = view.given("acceleration") != nullptr;
-  const std::optional<Vec3> value = view.vector(force.per_mass ? "acceleration" : "uniform");
   std::optional<std::vector<Entity>> on = decode_on(view, inventory, diagnostics);
-  if (!value || !on || value->isZero(0)) return;
-  force.value = *value;
-  force.on = std::move(*on);
-  scene.world.forces.push_back(std::move(force));
+  std::optional<ForceLaw> law;
+  for (const auto& [key, decode] : laws_of_force) {
+    if (view.given(key) != nullptr) law = decode(view, diagnostics);
+  }
+  if (!law || !on) return;
+  scene.world.forces.push_back({*law, from, until, std::move(*on)});
 }
 
 }  // namespace

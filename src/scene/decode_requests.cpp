@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/force.h"
 #include "scene/decode.h"
 #include "scene/values.h"
 
@@ -44,7 +45,14 @@ class Requests {
     Simulate& s = scene_.simulate;
     s.duration = view.number("duration").value_or(0);
     const std::string engine = view.text("engine").value_or("auto");
-    s.engine = engine == "exact" ? Engine::exact : engine == "book" ? Engine::book : Engine::automatic;
+    s.engine = engine == "exact"     ? Engine::exact
+               : engine == "stepped" ? Engine::stepped
+               : engine == "book"    ? Engine::book
+                                     : Engine::automatic;
+    const std::string integrator = view.text("integrator").value_or("rk4");
+    s.integrator = integrator == "euler"    ? Integrator::euler
+                   : integrator == "verlet" ? Integrator::verlet
+                                            : Integrator::rk4;
     s.step = view.number("step");
     if (s.engine == Engine::book && view.given("step") == nullptr) s.step = 1.0 / 60;
     s.rest_speed = view.number("rest_speed");
@@ -237,21 +245,34 @@ class Requests {
 
 }  // namespace
 
-// The chapter's listings know spheres, planes and walls, gravity and the impulses of the first frame.
 void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics) {
-  if (scene.simulate.engine != Engine::book) return;
   const View simulate = scene_part(root, "simulate");
-  const auto refuse = [&](Place place, std::string_view what) {
-    diagnostics.add(place, fmt::format("`engine: book` has no {}", what), "expected `engine: exact`");
+  const Force* varying = varying_force(scene.world);
+  const bool stepped =
+      scene.simulate.engine == Engine::stepped || (scene.simulate.engine == Engine::automatic && varying != nullptr);
+  if (scene.simulate.engine == Engine::exact && varying != nullptr)
+    diagnostics.add(
+        simulate.place("engine"),
+        fmt::format("under `{}` bodies fly along no parabolas, which `engine: exact` follows", name_of(varying->law)),
+        "expected `engine: stepped`, or `auto`");
+  if (stepped && scene.simulate.merge)
+    diagnostics.add(simulate.place("contact"),
+                    scene.simulate.engine == Engine::stepped
+                        ? "`engine: stepped` has no `contact: merge`"
+                        : fmt::format("`contact: merge` is engine exact's, which has no `{}`", name_of(varying->law)),
+                    "expected `contact: bounce`");
+  if (scene.simulate.engine != Engine::book) return;
+  // The chapter's listings know spheres, planes and walls, gravity and the impulses of the first frame.
+  const auto refuse = [&](Place place, std::string_view what, std::string_view instead) {
+    diagnostics.add(place, fmt::format("`engine: book` has no {}", what), fmt::format("expected {}", instead));
   };
-  if (scene.simulate.merge) refuse(simulate.place("contact"), "`contact: merge`");
-  if (!scene.world.volume.empty()) refuse(simulate.place("engine"), "cylinders and boxes: its bodies are spheres");
-  if (const Key* key = root.find_key("obstacles"); key != nullptr && !scene.world.obstacles.empty()) {
-    refuse(key->place, "obstacles");
-  }
-  if (const Key* key = root.find_key("forces"); key != nullptr && !scene.world.forces.empty()) {
-    refuse(key->place, "forces beside gravity");
-  }
+  if (scene.simulate.merge) refuse(simulate.place("contact"), "`contact: merge`", "`engine: exact`");
+  if (!scene.world.volume.empty())
+    refuse(simulate.place("engine"), "cylinders and boxes: its bodies are spheres", "`engine: exact`");
+  if (const Key* key = root.find_key("obstacles"); key != nullptr && !scene.world.obstacles.empty())
+    refuse(key->place, "obstacles", "`engine: exact`");
+  if (const Key* key = root.find_key("forces"); key != nullptr && !scene.world.forces.empty())
+    refuse(key->place, "forces beside gravity", varying == nullptr ? "`engine: exact`" : "`engine: stepped`");
 }
 
 bool wanted(const View& output, std::string_view part) {

@@ -12,8 +12,6 @@ constexpr Range above_0{0, infinity, true, false};
 constexpr Range from_0{0, infinity, false, false};
 constexpr Range from_1{1, infinity, false, false};
 
-constexpr std::string_view exact_only = "engine: exact or book";
-constexpr std::string_view constant_only = "`uniform` and `acceleration` are the forces that engine: exact has";
 
 // clang-format off
 constexpr Field scene_fields[] = {
@@ -145,25 +143,44 @@ constexpr std::string_view forces = "uniform|acceleration|drag|spring|attractor"
 constexpr Field force_fields[] = {
     {.key = "uniform", .type = Type::vector, .unit = "N", .one_of = forces, .needed = true, .doc = "The same force on each body."},
     {.key = "acceleration", .type = Type::vector, .unit = "m/s^2", .one_of = forces, .doc = "The same acceleration of each body."},
-    {.key = "drag", .type = Type::part, .one_of = forces, .later = constant_only, .doc = "Drag of the air."},
-    {.key = "spring", .type = Type::part, .one_of = forces, .later = constant_only, .doc = "A spring to a point."},
-    {.key = "attractor", .type = Type::part, .one_of = forces, .later = constant_only, .doc = "Attraction to a point."},
+    {.key = "drag", .type = Type::part, .of = "drag", .one_of = forces, .doc = "Drag of the air, or of another medium."},
+    {.key = "spring", .type = Type::part, .of = "spring", .one_of = forces, .doc = "A spring from a fixed point to each body."},
+    {.key = "attractor", .type = Type::part, .of = "attractor", .one_of = forces, .doc = "Attraction to a fixed point, as by gravity."},
     {.key = "on", .type = Type::names, .doc = "Balls, bodies, groups and members that it acts on. Default: all."},
     {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .initial = "0", .doc = "When it sets in."},
     {.key = "until", .type = Type::number, .unit = "s", .range = above_0, .doc = "When it ceases. Default: never."},
 };
 
+constexpr Field drag_fields[] = {
+    {.key = "linear", .type = Type::number, .unit = "kg/s", .range = from_0, .doc = "Force for each m/s against the medium."},
+    {.key = "quadratic", .type = Type::number, .unit = "kg/m", .range = from_0, .doc = "Force for each (m/s)^2; half of density, drag coefficient and cross-section."},
+    {.key = "wind", .type = Type::vector, .unit = "m/s", .initial = "[0, 0, 0]", .doc = "Velocity of the medium."},
+};
+
+constexpr Field spring_fields[] = {
+    {.key = "anchor", .type = Type::vector, .unit = "m", .needed = true, .doc = "Its fixed end; the other is a body's centre."},
+    {.key = "stiffness", .type = Type::number, .unit = "N/m", .range = from_0, .needed = true, .doc = "Force for each m that it is stretched."},
+    {.key = "rest_length", .type = Type::number, .unit = "m", .range = from_0, .initial = "0", .doc = "Length at which it neither pulls nor pushes."},
+    {.key = "damping", .type = Type::number, .unit = "kg/s", .range = from_0, .initial = "0", .doc = "Force for each m/s along it."},
+};
+
+constexpr Field attractor_fields[] = {
+    {.key = "center", .type = Type::vector, .unit = "m", .needed = true, .doc = "Where it attracts to."},
+    {.key = "strength", .type = Type::number, .unit = "m^3/s^2", .needed = true, .doc = "Acceleration at 1 m; G M of a mass M. Negative: it repels."},
+    {.key = "softening", .type = Type::number, .unit = "m", .range = from_0, .initial = "0", .doc = "Added to the distance as sides of a right angle: near the centre the attraction stays finite."},
+};
+
 constexpr Field simulate_fields[] = {
     {.key = "duration", .type = Type::number, .unit = "s", .range = from_0, .needed = true, .doc = "How much time passes in the scene."},
-    {.key = "engine", .type = Type::choice, .initial = "auto", .of = "auto|exact|stepped|book", .later_choice = "stepped",
-     .doc = "exact: from collision to collision; book: the source chapter's frame loop; auto: exact."},
-    {.key = "step", .type = Type::number, .unit = "s", .range = above_0, .doc = "Time step of engines that step. Default of book: 1/60."},
+    {.key = "engine", .type = Type::choice, .initial = "auto", .of = "auto|exact|stepped|book",
+     .doc = "exact: from collision to collision; stepped: in time steps, for any force; book: the source chapter's frame loop; auto: exact where the forces allow it, else stepped."},
+    {.key = "step", .type = Type::number, .unit = "s", .range = above_0, .doc = "Time step of engines that step. Default of stepped: 1/1000, or shorter where forces change faster; of book: 1/60."},
     {.key = "as_printed", .type = Type::flag, .initial = "false", .doc = "book only: the chapter's listings with their slips."},
     {.key = "rest_speed", .type = Type::number, .unit = "m/s", .range = from_0, .doc = "Slower impacts under load end in resting contact. Default: on a flat surface as slow as the clock resolves, among bodies in contact 0.03 sqrt(p L)."},
     {.key = "max_collisions", .type = Type::whole, .range = from_1, .doc = "A run with more stops with an error."},
-    {.key = "integrator", .type = Type::choice, .of = "euler|verlet|rk4", .later = exact_only, .doc = "Of engine stepped."},
+    {.key = "integrator", .type = Type::choice, .of = "euler|verlet|rk4", .doc = "Of engine stepped: semi-implicit Euler, velocity Verlet or Runge-Kutta, of order 1, 2 and 4. Default: rk4."},
     {.key = "contact", .type = Type::choice, .initial = "bounce", .of = "bounce|merge", .doc = "Whether bodies that meet bounce or become one; merge is engine exact's."},
-    {.key = "tolerance", .type = Type::number, .unit = "m", .later = exact_only, .doc = "Error that the step is chosen for."},
+    {.key = "tolerance", .type = Type::number, .unit = "m", .range = above_0, .later = "give `step` instead", .doc = "Error that the step is chosen for."},
 };
 
 constexpr Field camera_fields[] = {
@@ -245,7 +262,10 @@ constexpr Kind all_kinds[] = {
     {"wall", "a", "A fixed rectangle that can be struck from both sides.", wall_fields},
     {"room", "", "Six planes that look inward.", room_fields},
     {"obstacle", "an", "A body that never moves.", obstacle_fields},
-    {"force", "a", "A constant force or acceleration, in a window of time if it says so.", force_fields},
+    {"force", "a", "A force on bodies, in a window of time if it says so.", force_fields},
+    {"drag", "", "Drag of a medium: against a body's velocity relative to it.", drag_fields},
+    {"spring", "", "A spring from a fixed point, with a damper beside it.", spring_fields},
+    {"attractor", "", "Attraction to a fixed point by the square of the distance.", attractor_fields},
     {"simulate", "", "For how long and how.", simulate_fields},
     {"camera", "", "Where the pictures are taken from.", camera_fields},
     {"light", "a", "A light.", light_fields, "ambient"},

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "physics/integrator.h"
 #include "physics/state.h"
 #include "physics/vec3.h"
 #include "physics/world.h"
@@ -60,6 +61,7 @@ enum class Engine : std::uint8_t { automatic, exact, stepped, book };
 struct Simulate {
   double duration = 0;  // s
   Engine engine = Engine::automatic;
+  Integrator integrator = Integrator::rk4;  // stepped only
   std::optional<double> step;        // s
   std::optional<double> rest_speed;  // m/s
   std::optional<std::uint64_t> max_collisions;

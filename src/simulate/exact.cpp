@@ -28,16 +28,16 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       world_(options.merge ? *joint_world_ : world),
       options_(options),
       pull_(world.body_count()),
+      driven_(world.body_count(), Vec3::Zero()),
       flight_(world.body_count()),
       origin_(world.body_count()),
       version_(world.body_count()),
       event_(world.body_count()),
-      region_(world.body_count()),
-      near_(world.body_count()),
+      neighbours_(world_),
+      stay_(world.body_count()),
       contacts_(world.body_count()),
       burst_(world.body_count()),
       collapse_(world.body_count()),
-      grid_(world.body_count()),
       queue_(world.body_count(), Before{this}),
       place_(world.body_count(), Place::outside),
       pressed_(world.body_count()),
@@ -63,19 +63,21 @@ void ExactSimulator::start(const State& initial) {
   for (Entity i = 0; i < n; ++i) {
     Vec3 v = initial.velocity[i];
     if (!world_.impulse.empty()) v += world_.impulse[i] / world_.mass[i];
-    pull_[i] = world_.forces.empty() ? world_.gravity : carom::free_acceleration(world_, i, 0);
+    pull_[i] = world_.gravity;
+    if (!world_.forces.empty()) {
+      const Pull pull = pull_on(i);
+      pull_[i] = pull.all;
+      driven_[i] = pull.working;
+    }
     flight_[i] = {{}, initial.position[i], v, pull_[i]};
-    region_[i] = {initial.position[i], 0.5 * world_.radius[i], 0};
-    region_[i].half = region_[i].room + world_.radius[i];
-    grid_.put(i, region_[i].center, region_[i].half);
     tally_.max_speed = std::max(tally_.max_speed, v.norm());
   }
-  for (Entity i = 0; i < n; ++i) {
-    find_neighbours(i);
-    if (!pull_[i].isZero(0) && !options_.merge) touch_down(i);
-  }
-  if (!options_.merge)
+  neighbours_.start(initial.position);
+  if (!options_.merge) {
+    for (Entity i = 0; i < n; ++i)
+      if (!pull_[i].isZero(0)) touch_down(i);
     for (Entity i = 0; i < n; ++i) lean_together(i);
+  }
   for (Entity i = 0; i < n; ++i) predict(i);
   if (!crowd_.empty()) step_crowd();
 }
@@ -179,8 +181,25 @@ void ExactSimulator::book_flight(Entity i, const Vec3& x) {
   const Vec3 way = x - flight_[i].x;
   lose(world_.mass[i] * (pull_[i] - flight_[i].a).dot(way));
   if (world_.forces.empty()) return;
-  work_.add(world_.mass[i] * (pull_[i] - world_.gravity).dot(way));
+  work_.add(world_.mass[i] * driven_[i].dot(way));
   tally_.work = work_.value();
+}
+
+/// What the forces do to body i, or to the parts that it is made of, from now on.
+ExactSimulator::Pull ExactSimulator::pull_on(Entity i) const {
+  const Vec3 any = Vec3::Zero();  // where and how fast it is makes no difference
+  const auto on = [&](const World& world, Entity body) {
+    return Pull{carom::free_acceleration(world, body, now_.hi, any, any),
+                working_acceleration(world, body, now_.hi, any, any)};
+  };
+  if (parts_.empty() || parts_[i].empty()) return on(world_, i);
+  Pull sum{Vec3::Zero(), Vec3::Zero()};
+  for (Entity part : parts_[i]) {
+    const Pull its = on(*given_, part);
+    sum.all += joint_share_[part] * its.all;
+    sum.working += joint_share_[part] * its.working;
+  }
+  return sum;
 }
 
 /// A force on body i sets in or ceases, now.
@@ -192,12 +211,7 @@ void ExactSimulator::switch_forces(Entity i) {
   flight_[i].x = x;
   flight_[i].v = v;
   flight_[i].start = now_;
-  Vec3 pull = Vec3::Zero();
-  if (parts_.empty() || parts_[i].empty()) {
-    pull = carom::free_acceleration(world_, i, now_.hi);
-  } else {
-    for (Entity part : parts_[i]) pull += joint_share_[part] * carom::free_acceleration(*given_, part, now_.hi);
-  }
+  const Pull pull = pull_on(i);
   if (place_[i] == Place::asleep) join(i);
   if (place_[i] == Place::crowd) {  // the last step had the old forces in it until its end
     const Vec3 slower = velocity_now(i, now_);
@@ -206,7 +220,8 @@ void ExactSimulator::switch_forces(Entity i) {
     pulled_[i] = now_;
     crowd_end_ = now_;
   }
-  pull_[i] = pull;
+  pull_[i] = pull.all;
+  driven_[i] = pull.working;
   restart(i, x, keep_contacts(i, v), {});
   predict(i);
 }

@@ -88,7 +88,7 @@ void ExactSimulator::wake(Entity i) {
     carry(k, false);
     join(k);
     const Vec3& x = flight_[k].x;
-    for (Entity e : near_[k]) {
+    for (Entity e : neighbours_.near(k)) {
       if (!world_.is_body(e) || place_[e] != Place::asleep) continue;
       if (touch(world_, k, x, e, flight_[e].x).gap > 1e-6 * world_.radius[k]) continue;
       place_[e] = Place::outside;
@@ -113,7 +113,7 @@ void ExactSimulator::jostle(Entity i) {
   for (std::size_t k = 0; k < cluster.size(); ++k) {
     const Entity a = cluster[k];
     const Vec3 x = at(a);
-    for (Entity e : near_[a]) {
+    for (Entity e : neighbours_.near(a)) {
       const bool body = world_.is_body(e);
       if (body && place_[e] != Place::crowd) continue;
       const Vec3 xe = body ? at(e) : world_.fixed_position(e);

@@ -98,7 +98,7 @@ bool ExactSimulator::follow_crowd() {
   bool overlap = false;
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = crowd_[k];
-    for (Entity e : near_[i]) {
+    for (Entity e : neighbours_.near(i)) {
       const bool body = world_.is_body(e);
       if (body && (e < i || place_[e] != Place::crowd)) continue;
       // Whom it has struck just now it touches there, and nowhere else.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/force.h"
 #include "simulate/exact_simulator.h"
 
 namespace carom {
@@ -32,6 +33,8 @@ void ExactSimulator::merge(Entity a, Entity b, const Touch& there) {
   record({now_.hi, CollisionKind::merge, a, b, there.point, there.normal, approach, 0, 0, approach * (mw * mp / mass),
           lost});
 
+  const double potential_before = potential_of(a, xa) + potential_of(b, xb);
+
   // Joint: centre of mass and momentum, volume, restitution by mass; forces go on acting on the parts.
   const Vec3 joint_x = x(whole) + (mp / mass) * (x(part) - x(whole));
   const Vec3 joint_v = v(whole) + (mp / mass) * (v(part) - v(whole));
@@ -45,6 +48,7 @@ void ExactSimulator::merge(Entity a, Entity b, const Touch& there) {
   if (parts_[whole].empty()) parts_[whole].push_back(whole);
   if (parts_[part].empty()) parts_[part].push_back(part);
   pull_[whole] += (mp / mass) * (pull_[part] - pull_[whole]);
+  driven_[whole] += (mp / mass) * (driven_[part] - driven_[whole]);
   for (Entity i : parts_[part]) parts_[whole].push_back(i);
   for (Entity i : parts_[whole]) joint_share_[i] = given_->mass[i] / mass;
   parts_[part].clear();
@@ -54,13 +58,13 @@ void ExactSimulator::merge(Entity a, Entity b, const Touch& there) {
     if (contacts_[i].count > 0) --tally_.resting;
     contacts_[i].count = 0;
   }
-  forget_neighbours(part);
-  grid_.remove(part);
+  neighbours_.remove(part);
   ++version_[part];
   event_[part] = {};
   queue_.update(part);
   flight_[part] = {now_, joint_x, Vec3::Zero(), Vec3::Zero()};
 
+  if (!world.forces.empty()) lose(potential_before - potential_of(whole, joint_x));
   Flight& f = flight_[whole];
   f = {now_, joint_x, joint_v, pull_[whole]};
   ++version_[whole];
@@ -68,24 +72,32 @@ void ExactSimulator::merge(Entity a, Entity b, const Touch& there) {
   rebuild_region(whole);
   for (int pass = 0; pass < 8; ++pass) {
     bool free = true;
-    for (Entity e : near_[whole]) {
+    for (Entity e : neighbours_.near(whole)) {
       if (world.is_body(e)) continue;
       const Touch t = touch(world, whole, f.x, e, world.fixed_position(e));
       if (!(t.gap < 0)) continue;
       const Vec3 out = t.gap * t.normal;
-      work_.add(-mass * world.gravity.dot(out));  // that lifting it takes
+      work_.add(potential_of(whole, f.x + out) - potential_of(whole, f.x));  // that lifting it takes
       f.x += out;
       free = false;
     }
     if (free) break;
   }
   tally_.work = work_.value();
-  for (Entity e : near_[whole]) {
+  for (Entity e : neighbours_.near(whole)) {
     if (!world.is_body(e)) continue;
     const Touch t = touch(world, std::min(whole, e), x(std::min(whole, e)), std::max(whole, e), x(std::max(whole, e)));
     if (t.gap < 0) return merge(std::min(whole, e), std::max(whole, e), t);
   }
   predict(whole);
+}
+
+/// Of a body, or of all that it is made of, at x (m).
+double ExactSimulator::potential_of(Entity i, const Vec3& x) const {
+  if (parts_[i].empty()) return potential(*given_, i, x);
+  double sum = 0;
+  for (Entity part : parts_[i]) sum += potential(*given_, part, x);
+  return sum;
 }
 
 }  // namespace carom

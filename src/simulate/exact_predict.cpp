@@ -20,12 +20,10 @@ double sum_of_speeds(const Vec3& v) {
 /// with whichever of the two was predicted last.
 void ExactSimulator::predict(Entity i) {
   Event best;
-  if (near_[i].size() > 96 + world_.fixed_count() && region_[i].room > 0.05 * world_.radius[i]) {
-    region_[i].room *= 0.5;
-    rebuild_region(i);
-  }
+  if (neighbours_.near(i).size() > 96 + world_.fixed_count() && neighbours_.region(i).room > 0.05 * world_.radius[i])
+    neighbours_.shrink(i, flight_[i].position(now_ - flight_[i].start));
   const bool follows = place_[i] == Place::crowd && following_;
-  for (Entity e : near_[i]) {
+  for (Entity e : neighbours_.near(i)) {
     if (follows && followed(i, e)) continue;
     if (world_.is_body(e)) {
       std::uint8_t feature = 0;
@@ -145,7 +143,7 @@ Instant ExactSimulator::fixed_time(Entity i, Entity surface, std::uint8_t& featu
 
 /// A time before which body i is surely within its region: each axis at its greatest possible haste.
 Instant ExactSimulator::leave_time(Entity i) const {
-  const Region& region = region_[i];
+  const Neighbours::Region& region = neighbours_.region(i);
   const Flight& f = flight_[i];
   const double since = now_ - f.start;
   const Vec3 x = f.position(since), v = f.velocity(since);

@@ -100,7 +100,7 @@ bool ExactSimulator::too_slow_to_wake(Entity striker, Entity struck, double spee
   };
   for (const Pressed& p : pressed_[struck])
     if (p.force > 0) hold(p.partner);
-  for (Entity e : near_[struck])
+  for (Entity e : neighbours_.near(struck))
     if (world_.is_body(e) && place_[e] == Place::asleep)
       for (const Pressed& p : pressed_[e])
         if (p.partner == struck && p.force > 0) hold(e);

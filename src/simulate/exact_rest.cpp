@@ -146,7 +146,7 @@ Vec3 ExactSimulator::free_acceleration(Entity i, Entity without) const {
 /// normal and is pressed on rests there from the first.
 void ExactSimulator::touch_down(Entity i) {
   Flight& f = flight_[i];
-  for (Entity e : near_[i]) {
+  for (Entity e : neighbours_.near(i)) {
     if (world_.is_body(e) || contacts_[i].count == max_contacts) continue;
     const Vec3& point = world_.fixed_position(e);
     const Touch there = touch(world_, i, f.x, e, point);
@@ -169,7 +169,7 @@ void ExactSimulator::lean_together(Entity first) {
     const Entity i = todo.back();
     todo.pop_back();
     const Flight& f = flight_[i];
-    for (Entity e : near_[i]) {
+    for (Entity e : neighbours_.near(i)) {
       const bool body = world_.is_body(e);
       if (in_contact(i, e) || (crowded(i) && (!body || crowded(e)))) continue;
       const Vec3& xe = body ? flight_[e].x : world_.fixed_position(e);

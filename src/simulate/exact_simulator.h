@@ -8,11 +8,6 @@
 // own; the first of all of these is the next thing to happen. A predicted collision is a function of the two flights
 // alone, so it has the same bits from whichever side, and whenever, it is computed: neither outputs nor the search for
 // neighbours can change it.
-//
-// Neighbours: a body lives in a region, a box that it cannot leave unnoticed; bodies whose regions overlap know each
-// other, and so do a body and the surfaces within its region (near-neighbour lists: Donev, Torquato & Stillinger, J.
-// Comput. Phys. 202 (2005) 737). A region grows while it is lonely, so a ball that flies off costs a few events,
-// however far it goes.
 #include <array>
 #include <memory>
 #include <vector>
@@ -21,7 +16,7 @@
 #include "physics/touch.h"
 #include "simulate/exact.h"
 #include "simulate/flight.h"
-#include "simulate/region_grid.h"
+#include "simulate/neighbours.h"
 #include "simulate/tournament.h"
 
 namespace carom {
@@ -64,11 +59,9 @@ class ExactSimulator final : public Simulator {
     std::uint8_t feature = no_feature;
   };
 
-  struct Region {
-    Vec3 center;                          // m
-    double room = 0;                      // m, how far the body's centre may go from the region's, along each axis
-    double half = 0;                      // m, half width: room and radius
-    std::uint32_t version = 0, left = 0;  // of how many regions the body has come out on this flight
+  /// Of how many regions a body has come out on its flight.
+  struct Stay {
+    std::uint32_t version = 0, left = 0;
   };
 
   /// Flat surfaces that carry a body.
@@ -115,6 +108,11 @@ class ExactSimulator final : public Simulator {
   /// What a body of the crowd has to do with it.
   enum class Place : std::uint8_t { outside, crowd, asleep };
 
+  /// m/s^2: what forces do to a body, and the part of it that does work.
+  struct Pull {
+    Vec3 all, working;
+  };
+
   /// One end of a pressing pair of the crowd: a's list has b.
   struct Pressed {
     Entity partner;
@@ -131,6 +129,7 @@ class ExactSimulator final : public Simulator {
   void process(Entity i);
   void restart(Entity i, const Vec3& x, const Vec3& v, Origin origin);
   void book_flight(Entity i, const Vec3& x);
+  Pull pull_on(Entity i) const;
   void switch_forces(Entity i);
   void start(const State& initial);
   Vec3 velocity_now(Entity i, const Instant& at) const;
@@ -172,6 +171,7 @@ class ExactSimulator final : public Simulator {
 
   // exact_merge.cpp
   void merge(Entity a, Entity b, const Touch& touch);
+  double potential_of(Entity i, const Vec3& x) const;  // J
 
   // exact_crowd.cpp
   void join(Entity i);
@@ -201,8 +201,6 @@ class ExactSimulator final : public Simulator {
 
   // exact_region.cpp
   void rebuild_region(Entity i);
-  void find_neighbours(Entity i);
-  void forget_neighbours(Entity i);
 
   const World* given_;                  // before any merging
   std::unique_ptr<World> joint_world_;  // where bodies merge: with the joint bodies' masses and volumes
@@ -211,17 +209,17 @@ class ExactSimulator final : public Simulator {
   Instant now_;
   double time_ = 0;  // s, how far advance_to has come
 
-  std::vector<Vec3> pull_;  // m/s^2, by body: gravity and the forces of now
+  std::vector<Vec3> pull_;    // m/s^2, by body: gravity and the forces of now,
+  std::vector<Vec3> driven_;  // and the part of it that does work (force.h)
   std::vector<Flight> flight_;
   std::vector<Origin> origin_;
   std::vector<std::uint32_t> version_;  // counts a body's flights
   std::vector<Event> event_;
-  std::vector<Region> region_;
-  std::vector<std::vector<Entity>> near_;  // bodies and surfaces that may be met within the region
-  std::vector<Contacts> contacts_;         // with flat fixed surfaces
+  Neighbours neighbours_;
+  std::vector<Stay> stay_;
+  std::vector<Contacts> contacts_;  // with flat fixed surfaces
   std::vector<Burst> burst_;
   std::vector<Collapse> collapse_;
-  RegionGrid grid_;
   Tournament<Before> queue_;
 
   std::vector<Place> place_;

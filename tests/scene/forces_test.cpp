@@ -20,12 +20,11 @@ TEST(Forces, ActOnAllOrOnThoseNamedFromTimeToTime) {
                                 "  - {uniform: [0, 3, 0], on: [gas.2]}\n");
   ASSERT_EQ(scene.world.forces.size(), 3u);
   const Force &all = scene.world.forces[0], &gust = scene.world.forces[1];
-  EXPECT_FALSE(all.per_mass);
-  EXPECT_EQ(all.value, Vec3(1, 0, 0));
+  EXPECT_TRUE(all.law == ForceLaw(UniformForce{Vec3(1, 0, 0)}));
   EXPECT_EQ(all.from, 0);
   EXPECT_EQ(all.until, std::numeric_limits<double>::infinity());
   EXPECT_TRUE(all.on.empty());
-  EXPECT_TRUE(gust.per_mass);
+  EXPECT_TRUE(gust.law == ForceLaw(UniformAcceleration{Vec3(0, 0, 2)}));
   EXPECT_EQ(gust.from, 0.5);
   EXPECT_EQ(gust.until, 1.5);
   EXPECT_EQ(gust.on, (std::vector<Entity>{0, 2, 3, 4}));
@@ -76,11 +75,15 @@ TEST(ForceErrors, UntilComesAfterFrom) {
 
 TEST(ForceErrors, OneKindEach) {
   EXPECT_EQ(errors_of(things + "forces:\n  - {from: 2}\n"),
-            "scene.yaml:8:5: error: this entry of `forces` has no `uniform` and no `acceleration`\n"
+            "scene.yaml:8:5: error: this entry of `forces` has no `uniform` and no `acceleration` and no `drag` and no "
+            "`spring` and no `attractor`\n"
             "   8 |   - {from: 2}\n"
             "     |     ^\n"
             "     = expected `uniform`: [x, y, z], three numbers in N\n"
-            "     = or `acceleration`: [x, y, z], three numbers in m/s^2\n");
+            "     = or `acceleration`: [x, y, z], three numbers in m/s^2\n"
+            "     = or `drag`: a map of keys\n"
+            "     = or `spring`: a map of keys\n"
+            "     = or `attractor`: a map of keys\n");
   EXPECT_EQ(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], acceleration: [1, 0, 0]}\n"),
             "scene.yaml:8:26: error: this entry of `forces` has both `uniform` and `acceleration`\n"
             "   8 |   - {uniform: [1, 0, 0], acceleration: [1, 0, 0]}\n"
@@ -88,15 +91,69 @@ TEST(ForceErrors, OneKindEach) {
             "     = remove one of them\n");
 }
 
-TEST(ForceErrors, KindsOfLaterEnginesAreRefusedByName) {
-  EXPECT_EQ(errors_of(things + "forces:\n  - {drag: {linear: 1}, on: [red]}\n"),
-            "scene.yaml:8:6: error: `drag` is part of the scene format but not of this version of carom\n"
-            "   8 |   - {drag: {linear: 1}, on: [red]}\n"
-            "     |      ^~~~\n"
-            "     = `uniform` and `acceleration` are the forces that engine: exact has\n");
-  for (const char* kind : {"spring: {anchor: [0, 0, 0]}", "attractor: {center: [0, 0, 0]}"}) {
-    EXPECT_NE(errors_of(things + "forces: [{" + kind + "}]\n").find("but not of this version"), std::string::npos);
-  }
+TEST(Forces, OfEveryKindHaveTheirFigures) {
+  const Scene scene =
+      load_text(things +
+                "forces:\n"
+                "  - {drag: {linear: 0.5, quadratic: 0.25, wind: [1, 2, 3]}, from: 1}\n"
+                "  - {spring: {anchor: [1, 0, 0], stiffness: 40, rest_length: 0.5, damping: 2}, on: [red]}\n"
+                "  - {spring: {anchor: [0, 0, 0], stiffness: 4}}\n"
+                "  - {attractor: {center: [0, 9, 0], strength: -3, softening: 0.1}}\n");
+  ASSERT_EQ(scene.world.forces.size(), 4u);
+  EXPECT_TRUE(scene.world.forces[0].law == ForceLaw(Drag{0.5, 0.25, Vec3(1, 2, 3)}));
+  EXPECT_EQ(scene.world.forces[0].from, 1);
+  EXPECT_TRUE(scene.world.forces[1].law == ForceLaw(Spring{Vec3(1, 0, 0), 40, 0.5, 2}));
+  EXPECT_EQ(scene.world.forces[1].on, (std::vector<Entity>{0}));
+  EXPECT_TRUE(scene.world.forces[2].law == ForceLaw(Spring{Vec3::Zero(), 4, 0, 0}));
+  EXPECT_TRUE(scene.world.forces[3].law == ForceLaw(Attractor{Vec3(0, 9, 0), -3, 0.1}));
+}
+
+TEST(Forces, ThatDoNothingAreLeftOut) {
+  EXPECT_TRUE(load_text(things + "forces:\n"
+                                 "  - {uniform: [0, 0, 0]}\n"
+                                 "  - {drag: {linear: 0}}\n"
+                                 "  - {spring: {anchor: [1, 0, 0], stiffness: 0}}\n"
+                                 "  - {attractor: {center: [0, 9, 0], strength: 0}}\n")
+                  .world.forces.empty());
+}
+
+TEST(ForceErrors, OfWhatTheyAreMadeOf) {
+  EXPECT_EQ(errors_of(things + "forces:\n  - {drag: {wind: [1, 0, 0]}}\n"),
+            "scene.yaml:8:12: error: `drag` has no `linear` and no `quadratic`\n"
+            "   8 |   - {drag: {wind: [1, 0, 0]}}\n"
+            "     |            ^\n"
+            "     = expected `linear` (kg/s), `quadratic` (kg/m) or both\n");
+  EXPECT_EQ(errors_of(things + "forces:\n  - {spring: {anchor: [1, 0, 0], stiffness: -1}}\n"),
+            "scene.yaml:8:45: error: `stiffness` is -1\n"
+            "   8 |   - {spring: {anchor: [1, 0, 0], stiffness: -1}}\n"
+            "     |                                             ^~\n"
+            "     = expected a number of at least 0 in N/m\n");
+  EXPECT_EQ(errors_of(things + "forces:\n  - {attractor: {center: [1, 0, 0]}}\n"),
+            "scene.yaml:8:6: error: `attractor` has no `strength`\n"
+            "   8 |   - {attractor: {center: [1, 0, 0]}}\n"
+            "     |      ^~~~~~~~~\n"
+            "     = expected `strength`: a number in m^3/s^2\n");
+}
+
+TEST(Engines, HaveTheForcesThatTheyCanFollow) {
+  const std::string one = "scene: 1\nballs: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n";
+  EXPECT_EQ(errors_of(one + "forces: [{drag: {linear: 1}}]\nsimulate: {duration: 1, engine: exact}\n"),
+            "scene.yaml:4:33: error: under `drag` bodies fly along no parabolas, which `engine: exact` follows\n"
+            "   4 | simulate: {duration: 1, engine: exact}\n"
+            "     |                                 ^~~~~\n"
+            "     = expected `engine: stepped`, or `auto`\n");
+  EXPECT_EQ(errors_of(one + "forces: [{drag: {linear: 1}}]\nsimulate: {duration: 1, contact: merge}\n"),
+            "scene.yaml:4:34: error: `contact: merge` is engine exact's, which has no `drag`\n"
+            "   4 | simulate: {duration: 1, contact: merge}\n"
+            "     |                                  ^~~~~\n"
+            "     = expected `contact: bounce`\n");
+  EXPECT_EQ(errors_of(one + "simulate: {duration: 1, engine: stepped, contact: merge}\n"),
+            "scene.yaml:3:51: error: `engine: stepped` has no `contact: merge`\n"
+            "   3 | simulate: {duration: 1, engine: stepped, contact: merge}\n"
+            "     |                                                   ^~~~~\n"
+            "     = expected `contact: bounce`\n");
+  EXPECT_EQ(load_text(one + "simulate: {duration: 1, engine: stepped, integrator: verlet}\n").simulate.integrator,
+            Integrator::verlet);
 }
 
 TEST(BookEngine, RefusesWhatTheChaptersListingsDoNotHave) {

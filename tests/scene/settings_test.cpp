@@ -60,7 +60,7 @@ TEST(Settings, AVolumeReplacesTheOneThereWas) {
       options);
   EXPECT_EQ(scene.world.volume[0].shape, Shape::sphere);
   EXPECT_EQ(scene.world.volume[1].half, Vec3(0.5, 2, 0.5));
-  EXPECT_EQ(scene.world.forces[0].value, Vec3(3, 0, 0));
+  EXPECT_TRUE(scene.world.forces[0].law == ForceLaw(UniformForce{Vec3(3, 0, 0)}));
   EXPECT_EQ(scene.world.forces[0].from, 0.5);
 }
 

@@ -25,9 +25,9 @@ TEST(TimedForces, ThePathIsMadeOfParabolas) {
   problem.world.gravity = Vec3(0, -9.80665, 0);
   problem.ball({0, 0, 0}, {1, 2, 3}, 2);
   problem.ball({50, 0, 0}, {0, 0, 0}, 3);
-  problem.world.forces.push_back({false, Vec3(4, 0, 0), 0.3, 1.7, {0}});
-  problem.world.forces.push_back({false, Vec3(0, 1, 0), 1.1, 2.9, {}});
-  problem.world.forces.push_back({true, Vec3(0, 0, -0.7), 2.3, for_ever, {0}});
+  problem.world.forces.push_back({UniformForce{Vec3(4, 0, 0)}, 0.3, 1.7, {0}});
+  problem.world.forces.push_back({UniformForce{Vec3(0, 1, 0)}, 1.1, 2.9, {}});
+  problem.world.forces.push_back({UniformAcceleration{Vec3(0, 0, -0.7)}, 2.3, for_ever, {0}});
   problem.options.duration = 5;
   const Outcome run = run_exact(problem);
   Path x{0, 1}, y{0, 2}, z{0, 3}, other{0, 0};
@@ -48,9 +48,10 @@ TEST(TimedForces, AWindowOfNoLengthDoesNothingAndTwoThatMeetAreOne) {
   Problem split;
   split.ball({0, 0, 0}, {0, 0, 0});
   Problem whole = split;
-  split.world.forces = {
-      {true, Vec3(1, 0, 0), 1, 2, {}}, {true, Vec3(1, 0, 0), 2, 4, {}}, {true, Vec3(9, 0, 0), 3, 3, {}}};
-  whole.world.forces = {{true, Vec3(1, 0, 0), 1, 4, {}}};
+  split.world.forces = {{UniformAcceleration{Vec3(1, 0, 0)}, 1, 2, {}},
+                        {UniformAcceleration{Vec3(1, 0, 0)}, 2, 4, {}},
+                        {UniformAcceleration{Vec3(9, 0, 0)}, 3, 3, {}}};
+  whole.world.forces = {{UniformAcceleration{Vec3(1, 0, 0)}, 1, 4, {}}};
   EXPECT_EQ(run_exact(split).end.position[0], run_exact(whole).end.position[0]);
   EXPECT_EQ(run_exact(split).end.velocity[0], Vec3(3, 0, 0));
 }
@@ -60,7 +61,8 @@ TEST(TimedForces, BallsUnderUnequalAccelerationsMeetAtTheRootOfTheirGap) {
   Problem problem;
   problem.ball({0, 0, 0}, {0, 0, 0}, 1, 0.5, 1);
   problem.ball({3, 0, 0}, {0, 0, 0}, 1, 0.5, 1);
-  problem.world.forces = {{true, Vec3(4, 0, 0), 0.5, for_ever, {0}}, {true, Vec3(1, 0, 0), 0.5, for_ever, {1}}};
+  problem.world.forces = {{UniformAcceleration{Vec3(4, 0, 0)}, 0.5, for_ever, {0}},
+                          {UniformAcceleration{Vec3(1, 0, 0)}, 0.5, for_ever, {1}}};
   problem.options.duration = 2;
   const Outcome run = run_exact(problem);
   const double t = std::sqrt(4.0 / 3);
@@ -78,7 +80,7 @@ TEST(TimedForces, ABallIsLiftedOffTheFloorAndComesBack) {
   problem.world.gravity = Vec3(0, -8, 0);
   problem.plane({0, 0, 0}, {0, 1, 0});
   problem.ball({0, 0.5, 0}, {0.5, 0, 0}, 1, 0.5, 0);
-  problem.world.forces = {{true, Vec3(0, 10, 0), 1, 2, {0}}};
+  problem.world.forces = {{UniformAcceleration{Vec3(0, 10, 0)}, 1, 2, {0}}};
   problem.options.duration = 10;
   const Outcome run = run_exact(problem);
   ASSERT_EQ(run.collisions.size(), 1u);
@@ -93,7 +95,7 @@ TEST(TimedForces, AForceTooWeakToLiftChangesWhatTheFloorCarries) {
   problem.world.gravity = Vec3(0, -8, 0);
   problem.plane({0, 0, 0}, {0, 1, 0});
   problem.ball({0, 0.5, 0}, {0, 0, 0}, 2, 0.5, 0);
-  problem.world.forces = {{false, Vec3(0, 10, 0), 1, 2, {0}}};
+  problem.world.forces = {{UniformForce{Vec3(0, 10, 0)}, 1, 2, {0}}};
   problem.options.duration = 3;
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   for (const auto& [time, force] : {std::pair(0.5, 16.0), std::pair(1.5, 6.0), std::pair(2.5, 16.0)}) {

@@ -197,7 +197,8 @@ void expect_wakes(Problem problem, Entity target, const Vec3& from, const Vec3& 
   const Vec3 x = problem.initial.position[target];
   const Entity n = problem.world.body_count();
   problem.world.restitution[target] = 1;
-  problem.world.forces.push_back({true, -problem.world.gravity, 0, std::numeric_limits<double>::infinity(), {n}});
+  problem.world.forces.push_back(
+      {UniformAcceleration{-problem.world.gravity}, 0, std::numeric_limits<double>::infinity(), {n}});
   problem.ball(from - v, v, 1, 0.125, 1);
   problem.options.duration = 3;
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);

@@ -145,9 +145,14 @@ class Check {
       const long double kinetic = 0.5L * m * s.velocity[i].cast<long double>().squaredNorm();
       const long double potential = -m * world_.gravity.cast<long double>().dot(s.position[i].cast<long double>());
       sum += kinetic + potential;
+      for (const Force& f : world_.forces) {
+        if (f.from > 0 || std::isfinite(f.until) || !(f.on.empty() || std::count(f.on.begin(), f.on.end(), i)))
+          continue;
+        sum -= (per_mass(f) ? world_.mass[i] : 1) * value(f).cast<long double>().dot(s.position[i].cast<long double>());
+      }
       double pull = world_.gravity.cwiseAbs().dot(s.position[i].cwiseAbs());
       for (const Force& f : world_.forces)
-        pull += f.value.cwiseAbs().dot(s.position[i].cwiseAbs()) / (f.per_mass ? 1 : world_.mass[i]);
+        pull += value(f).cwiseAbs().dot(s.position[i].cwiseAbs()) / (per_mass(f) ? 1 : world_.mass[i]);
       all += static_cast<double>(kinetic) + static_cast<double>(m) * pull;
     }
     size = std::max(size, all);

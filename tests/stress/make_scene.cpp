@@ -164,15 +164,17 @@ void Maker::rules() {
 void Maker::forces(double duration, double acceleration) {
   World& world = scene.world;
   for (int k = whole(1, 4); k > 0; --k) {
-    Force force;
-    force.per_mass = chance(0.5);
-    force.value = acceleration * uniform(0, 1) * direction();
-    if (!force.per_mass) force.value *= world.mass.empty() ? 1 : world.mass[0];
-    force.from = chance(0.5) ? 0 : duration * uniform(0, 1);
-    if (chance(0.6)) force.until = force.from + duration * uniform(0.01, 0.7);
+    const bool per_mass = chance(0.5);
+    const Vec3 value = acceleration * uniform(0, 1) * direction();
+    const double mass = world.mass.empty() ? 1 : world.mass[0];
+    const double from = chance(0.5) ? 0 : duration * uniform(0, 1);
+    const double until = chance(0.6) ? from + duration * uniform(0.01, 0.7) : std::numeric_limits<double>::infinity();
+    if (per_mass)
+      world.forces.push_back({UniformAcceleration{value}, from, until});
+    else
+      world.forces.push_back({UniformForce{mass * value}, from, until});
     for (Entity i = 0; i < world.body_count(); ++i)
-      if (chance(0.4)) force.on.push_back(i);
-    world.forces.push_back(force);
+      if (chance(0.4)) world.forces.back().on.push_back(i);
   }
   if (!chance(0.5)) return;
   for (Entity i = 0; i < world.body_count(); ++i)

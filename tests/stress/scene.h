@@ -27,4 +27,15 @@ RandomScene make_scene(std::uint64_t seed);
 /// The scene as a file that `carom run` reads, to the last bit.
 std::string as_yaml(const RandomScene& scene);
 
+/// Of the forces of random scenes, which are uniform.
+inline bool per_mass(const Force& f) {
+  return std::holds_alternative<UniformAcceleration>(f.law);
+}
+inline const Vec3& value(const Force& f) {  // m/s^2 or N
+  return per_mass(f) ? std::get<UniformAcceleration>(f.law).value : std::get<UniformForce>(f.law).force;
+}
+inline Vec3& value(Force& f) {
+  return per_mass(f) ? std::get<UniformAcceleration>(f.law).value : std::get<UniformForce>(f.law).force;
+}
+
 }  // namespace carom::stress

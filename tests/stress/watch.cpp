@@ -97,7 +97,7 @@ RandomScene scaled(RandomScene scene, int length, int time, int mass) {
     o.volume.half *= l;
   }
   for (Force& f : world.forces) {
-    f.value *= (f.per_mass ? 1 : m) * l / (t * t);
+    value(f) *= (per_mass(f) ? 1 : m) * l / (t * t);
     f.from *= t;
     f.until *= t;
   }
@@ -158,7 +158,7 @@ RandomScene turned(RandomScene scene) {
     turn(o.center);
     turn(o.volume.half);
   }
-  for (Force& f : world.forces) turn(f.value);
+  for (Force& f : world.forces) turn(value(f));
   turn(world.gravity);
   for (Vec3& x : scene.initial.position) turn(x);
   for (Vec3& v : scene.initial.velocity) turn(v);

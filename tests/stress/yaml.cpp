@@ -72,8 +72,8 @@ std::string fixed(const World& world) {
 std::string forces(const World& world) {
   std::string out = world.forces.empty() ? "" : "forces:\n";
   for (const Force& f : world.forces) {
-    out +=
-        "  - {" + std::string(f.per_mass ? "acceleration: " : "uniform: ") + text(f.value) + ", from: " + text(f.from);
+    out += "  - {" + std::string(per_mass(f) ? "acceleration: " : "uniform: ") + text(value(f)) +
+           ", from: " + text(f.from);
     if (std::isfinite(f.until)) out += ", until: " + text(f.until);
     std::string on;
     for (Entity i : f.on) on += (on.empty() ? "" : ", ") + name(world, i);

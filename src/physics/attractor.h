@@ -1,0 +1,32 @@
+#pragma once
+// a = -mu d / (|d|^2 + s^2)^(3/2), d = x - center: gravity of a point mass, softened (Plummer 1911) by s.
+#include <cmath>
+
+#include "physics/particle.h"
+
+namespace carom {
+
+struct Attractor {
+  static constexpr const char* name = "attractor";  // in scenes
+  static constexpr bool constant = false;
+  Vec3 center = Vec3::Zero();  // m
+  double strength = 0;         // m^3/s^2, mu; negative: it repels
+  double softening = 0;        // m, s
+
+  Vec3 acceleration(const Particle& p) const {
+    const double square = distance_squared(p);
+    return -strength / (square * std::sqrt(square)) * (p.x - center);
+  }
+  double potential(const Particle& p) const { return -strength * p.mass / std::sqrt(distance_squared(p)); }
+  Vec3 drain(const Particle&) const { return Vec3::Zero(); }
+  double rate(const Particle& p) const {  // of a circle at this distance, or of passing by
+    const double square = distance_squared(p);
+    return std::sqrt(std::abs(strength) / (square * std::sqrt(square))) + p.v.norm() / std::sqrt(square);
+  }
+  friend bool operator==(const Attractor&, const Attractor&) = default;
+
+ private:
+  double distance_squared(const Particle& p) const { return (p.x - center).squaredNorm() + softening * softening; }
+};
+
+}  // namespace carom

@@ -1,0 +1,13 @@
+#pragma once
+// What a force may depend on.
+#include "physics/vec3.h"
+
+namespace carom {
+
+struct Particle {
+  Vec3 x;       // m
+  Vec3 v;       // m/s
+  double mass;  // kg
+};
+
+}  // namespace carom

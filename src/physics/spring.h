@@ -1,0 +1,45 @@
+#pragma once
+// F = -(k (|d| - l) + c d|d|/dt) d/|d|, d = x - anchor: a spring with a damper beside it, both along the line from the
+// anchor. At the anchor itself that line is taken along the body's velocity; a spring with a rest length has no
+// direction to push there and does not.
+#include <cmath>
+
+#include "physics/particle.h"
+
+namespace carom {
+
+struct Spring {
+  static constexpr const char* name = "spring";  // in scenes
+  static constexpr bool constant = false;
+  Vec3 anchor = Vec3::Zero();  // m
+  double stiffness = 0;        // N/m, k
+  double rest_length = 0;      // m, l
+  double damping = 0;          // kg/s, c
+
+  Vec3 acceleration(const Particle& p) const {
+    const Vec3 d = p.x - anchor;
+    Vec3 force = -stiffness * d;
+    if (rest_length != 0)
+      if (const double length = d.norm(); length > 0) force += stiffness * rest_length / length * d;
+    if (damping != 0) force += damper(p, d);
+    return force / p.mass;
+  }
+  double potential(const Particle& p) const {
+    const Vec3 d = p.x - anchor;
+    if (rest_length == 0) return 0.5 * stiffness * d.squaredNorm();
+    const double stretch = d.norm() - rest_length;
+    return 0.5 * stiffness * stretch * stretch;
+  }
+  Vec3 drain(const Particle& p) const { return damper(p, p.x - anchor) / p.mass; }
+  double rate(const Particle& p) const { return std::sqrt(stiffness / p.mass) + damping / p.mass; }
+  friend bool operator==(const Spring&, const Spring&) = default;
+
+ private:
+  Vec3 damper(const Particle& p, const Vec3& d) const {
+    const double square = d.squaredNorm();
+    if (damping == 0 || square == 0) return -damping * p.v;
+    return -damping * d.dot(p.v) / square * d;
+  }
+};
+
+}  // namespace carom

@@ -1,0 +1,19 @@
+#pragma once
+// F = const.
+#include "physics/particle.h"
+
+namespace carom {
+
+struct UniformForce {
+  static constexpr const char* name = "uniform";  // in scenes
+  static constexpr bool constant = true;
+  Vec3 force;  // N
+
+  Vec3 acceleration(const Particle& p) const { return force / p.mass; }
+  double potential(const Particle& p) const { return -force.dot(p.x); }
+  Vec3 drain(const Particle&) const { return Vec3::Zero(); }
+  double rate(const Particle&) const { return 0; }
+  friend bool operator==(const UniformForce&, const UniformForce&) = default;
+};
+
+}  // namespace carom

@@ -1,0 +1,144 @@
+// Who meets whom in a step.
+#include <algorithm>
+#include <cmath>
+
+#include "physics/held_contacts.h"
+#include "physics/path_meeting.h"
+#include "simulate/stepped_simulator.h"
+
+namespace carom {
+
+namespace {
+
+double sum(const Vec3& v) {
+  return v.cwiseAbs().sum();
+}
+
+/// How far a path may be from where it begins after `length` (s), along each axis.
+Vec3 reach_of(const Path& p, double length) {
+  return length * (p.v.cwiseAbs() + 0.5 * length * (p.a.cwiseAbs() + length / 3 * p.j.cwiseAbs()));
+}
+
+}  // namespace
+
+/// Sees to it that body i is known to all that it can meet on its path.
+void SteppedSimulator::stay_known(Entity i) {
+  const Path& path = path_[i];
+  const double length = length_ - start_[i];
+  const Neighbours::Region& region = neighbours_.region(i);
+  const Vec3 reach = reach_of(path, length);
+  if (((path.x - region.center).cwiseAbs() + reach).maxCoeff() <= region.room) return;
+  neighbours_.cover(i, path.position(0.5 * length), reach.maxCoeff());
+}
+
+Path SteppedSimulator::path_of(Entity e, double time) const {
+  if (!world_.is_body(e)) return {world_.fixed_position(e), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+  return path_[e].from(time - start_[e]);
+}
+
+bool SteppedSimulator::bound(Entity a, Entity b) const {
+  if (cluster_of_[a] == none) return false;
+  const std::vector<Bond>& bonds = clusters_[cluster_of_[a]].bonds;
+  return std::any_of(bonds.begin(), bonds.end(),
+                     [&](const Bond& bond) { return bond.a == std::min(a, b) && bond.b == std::max(a, b); });
+}
+
+/// Finds whom body i meets first of each of its neighbours. all: else only those that do not find it themselves.
+void SteppedSimulator::predict(Entity i, bool all) {
+  for (const Entity e : neighbours_.near(i)) {
+    const bool body = world_.is_body(e);
+    if (!all && body && e < i && !(cluster_of_[e] != none && clusters_[cluster_of_[e]].asleep)) continue;
+    if (body)
+      predict_pair(std::min(i, e), std::max(i, e));
+    else
+      predict_pair(i, e);
+  }
+}
+
+void SteppedSimulator::predict_pair(Entity a, Entity b) {
+  const bool body = world_.is_body(b);
+  if (crowded(a) && (!body || crowded(b))) {  // they have kept clear of each other, but for one that came later
+    const bool late = (host_[a] != no_entity && host_[a] != b) || (body && host_[b] != no_entity && host_[b] != a);
+    if (!late) return;
+  }
+  const double base = body ? std::max(start_[a], start_[b]) : start_[a], length = length_ - base;
+  const Path pa = path_of(a, base), pb = path_of(b, base);
+  const bool left = origin_[a].partner == b && (!body || (origin_[b].partner == a && start_[a] == start_[b]));
+  if (body && world_.volume.empty()) {  // most pairs do not come near each other in a step
+    const Vec3 d = pb.x - pa.x, w = pb.v - pa.v, acceleration = pb.a - pa.a, jerk = pb.j - pa.j;
+    const double s = world_.radius[a] + world_.radius[b];
+    const double reach = s + length * (sum(w) + 0.5 * length * (sum(acceleration) + length / 3 * sum(jerk)));
+    if (d.squaredNorm() > reach * reach) return;
+  }
+  if (bound(a, b)) return;
+  const Meeting first = meeting(world_, a, pa, b, pb, left ? origin_[a].feature : no_feature, length);
+  if (!(first.time <= length)) return;
+  events_.push(
+      {base + first.time, Kind::impact, a, b, first.feature, version_[a], body ? version_[b] : std::uint32_t{0}});
+}
+
+/// Finds when a cluster's contacts end on its path: where the force turns to zero, or where the surface does.
+void SteppedSimulator::predict_releases(std::uint32_t c) {
+  const Cluster& cluster = clusters_[c];
+  Motion m = gather(cluster);
+  const double from = start_[cluster.members.front()], length = length_ - from;
+  std::vector<PressedPair> pairs;
+  std::vector<Vec3> a(m.x.size());
+  std::vector<const Bond*> pressing;
+  for (const Bond& bond : cluster.bonds)
+    if (bond.presses) pressing.push_back(&bond);
+  // N, what is left of each force after t, and a little: one that is only rounding does not end.
+  const auto force_after = [&](double t, std::size_t which) {
+    move(cluster, t, m);
+    accelerate(cluster, m.end_x, m.end_v, a, pairs);
+    const Bond& bond = *pressing[which];
+    const double weight =
+        world_.mass[bond.a] * free_acceleration(bond.a, m.x[local_[bond.a]], m.v[local_[bond.a]]).norm();
+    return pairs[which].force + 1e-9 * weight;
+  };
+  const auto feature_after = [&](double t, std::size_t which) {
+    move(cluster, t, m);
+    const Bond& bond = *pressing[which];
+    const Vec3 xb = world_.is_body(bond.b) ? m.end_x[local_[bond.b]] : world_.fixed_position(bond.b);
+    return touch(world_, bond.a, m.end_x[local_[bond.a]], bond.b, xb).feature;
+  };
+  for (std::size_t k = 0; k < pressing.size(); ++k) {
+    const Bond& bond = *pressing[k];
+    double ends = never;
+    std::uint8_t beyond = bond.feature;
+    if (double low = 0, high = length, at_low = force_after(low, k), at_high = force_after(high, k);
+        at_low > 0 && at_high < 0) {
+      // Regula falsi, the Illinois way.
+      for (int pass = 0; pass < 60 && high - low > 0x1p-40 * length; ++pass) {
+        const double t = high - (high - low) * at_high / (at_high - at_low);
+        const double at = force_after(t, k);
+        if (at < 0) {
+          high = t;
+          at_high = at;
+          at_low *= 0.5;
+        } else {
+          low = t;
+          at_low = at;
+          at_high *= 0.5;
+        }
+        if (at == 0) break;
+      }
+      ends = high;
+    }
+    if (world_.is_plane(bond.b)) {
+    } else if (feature_after(std::min(ends, length), k) != bond.feature) {
+      double low = 0, high = std::min(ends, length);
+      while (high - low > 0x1p-48 * length) {
+        const double t = 0.5 * (low + high);
+        (feature_after(t, k) == bond.feature ? low : high) = t;
+      }
+      ends = high;
+      beyond = feature_after(high, k);
+    }
+    if (!(ends < never)) continue;
+    events_.push({from + ends, Kind::release, bond.a, bond.b, beyond, version_[bond.a],
+                  world_.is_body(bond.b) ? version_[bond.b] : std::uint32_t{0}});
+  }
+}
+
+}  // namespace carom

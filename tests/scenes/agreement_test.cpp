@@ -1,0 +1,103 @@
+// Exact and stepped simulator on the scenes of scenes/: they share the laws of impact and contact, and neither the way
+// through time nor the way contact is found and held.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "scenes/play.h"
+#include "simulate/exact.h"
+#include "simulate/stepped.h"
+
+namespace carom::testing {
+namespace {
+
+struct Far {
+  double x = 0, v = 0;  // m, m/s: of the body that is farthest off at the end
+};
+
+State end_of(Simulator& simulator, double duration) {
+  while (simulator.time() < duration) simulator.advance_to(duration);
+  return simulator.state();
+}
+
+State exact_end(const Scene& scene) {
+  ExactOptions options;
+  options.duration = scene.simulate.duration;
+  options.rest_speed = scene.simulate.rest_speed.value_or(0);
+  options.record_collisions = false;
+  return end_of(*make_exact_simulator(scene.world, scene.initial, options), options.duration);
+}
+
+State stepped_end(const Scene& scene, Integrator integrator, double step) {
+  SteppedOptions options;
+  options.duration = scene.simulate.duration;
+  options.step = step;
+  options.integrator = integrator;
+  options.rest_speed = scene.simulate.rest_speed.value_or(0);
+  options.record_collisions = false;
+  return end_of(*make_stepped_simulator(scene.world, scene.initial, options), options.duration);
+}
+
+Far far(const State& a, const State& b) {
+  Far most;
+  for (std::size_t i = 0; i < a.position.size(); ++i) {
+    most.x = std::max(most.x, (a.position[i] - b.position[i]).norm());
+    most.v = std::max(most.v, (a.velocity[i] - b.velocity[i]).norm());
+  }
+  return most;
+}
+
+/// Scenes whose outcome does not hang on the last bit: not those of many balls that strike on and on.
+std::vector<std::string> scenes_to_compare() {
+  const std::set<std::string> chaotic = {"balls_in_a_box", "gas_in_a_room", "pile_at_rest", "benchmark/gas_1000",
+                                         "benchmark/frame_100"};
+  std::vector<std::string> names;
+  for (const std::string& name : scene_names()) {
+    const Scene scene = load(name);
+    if (chaotic.count(name) == 0 && scene.simulate.engine != Engine::book && !scene.simulate.merge)
+      names.push_back(name);
+  }
+  return names;
+}
+
+class Agreement : public ::testing::TestWithParam<std::string> {};
+
+// Between impacts these two methods are exact under constant forces, and along curved contact of their order.
+TEST_P(Agreement, OfExactAndSteppedWithinRoundingOrAtTheOrderOfTheMethod) {
+  const Scene scene = load(GetParam());
+  const State exact = exact_end(scene);
+  const bool curved = GetParam() == "rolling_off";
+  for (const auto& [integrator, order] : {std::pair(Integrator::verlet, 2), std::pair(Integrator::rk4, 4)}) {
+    const Far coarse = far(stepped_end(scene, integrator, 0.01), exact);
+    const Far fine = far(stepped_end(scene, integrator, 0.0025), exact);
+    if (!curved) {
+      EXPECT_LT(std::max(coarse.x, coarse.v), 1e-9);  // measured: 4e-11 (billiard_break)
+      EXPECT_LT(std::max(fine.x, fine.v), 1e-9);
+    } else {
+      // The exact engine's own path on the globe is off by 1e-9 m.
+      const double falls = std::pow(4, order);
+      EXPECT_LT(fine.x, 1.5 * coarse.x / falls + 2e-9) << order;
+      EXPECT_GT(coarse.x, 1e-8);
+    }
+  }
+}
+
+TEST_P(Agreement, OfExactAndEulersStepsAtFirstOrder) {
+  const Scene scene = load(GetParam());
+  const State exact = exact_end(scene);
+  const Far coarse = far(stepped_end(scene, Integrator::euler, 0.002), exact);
+  const Far fine = far(stepped_end(scene, Integrator::euler, 0.000125), exact);
+  EXPECT_LT(fine.x, coarse.x / 16 * 1.5 + 1e-9) << coarse.x;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(scenes_to_compare()), [](const auto& parameter) {
+  std::string name = parameter.param;
+  for (char& c : name)
+    if (c == '/') c = '_';
+  return name;
+});
+
+}  // namespace
+}  // namespace carom::testing

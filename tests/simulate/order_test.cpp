@@ -1,0 +1,153 @@
+// How fast errors fall as steps get shorter: impacts inside steps leave each method its order.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "simulate/build.h"
+#include "simulate/stepped.h"
+
+namespace carom {
+namespace {
+
+constexpr Integrator methods[] = {Integrator::euler, Integrator::verlet, Integrator::rk4};
+constexpr double orders[] = {1, 2, 4};
+constexpr const char* names[] = {"euler", "verlet", "rk4"};
+
+struct Answer {
+  Vec3 x, v;
+};
+
+Answer run(const Problem& problem, Integrator method, double step) {
+  SteppedOptions options;
+  options.duration = problem.options.duration;
+  options.step = step;
+  options.integrator = method;
+  const auto simulator = make_stepped_simulator(problem.world, problem.initial, options);
+  const Outcome outcome = run_to_end(*simulator, options.duration);
+  return {outcome.end.position[0], outcome.end.velocity[0]};
+}
+
+/// |dx| and |dv| together, in units of 1 m and 1 m/s; the geometric mean over three numbers of steps, so that impacts
+/// fall on all parts of a step.
+double error(const Problem& problem, Integrator method, double steps, const Answer& answer) {
+  double sum = 0;
+  for (const double n : {steps, std::round(1.07 * steps), std::round(1.17 * steps)}) {
+    const Answer got = run(problem, method, problem.options.duration / n);
+    sum += std::log((got.x - answer.x).norm() + (got.v - answer.v).norm());
+  }
+  return std::exp(sum / 3);
+}
+
+/// The slope of log error over log step, fitted through all.
+double fitted_order(const Problem& problem, Integrator method, const std::vector<double>& steps, const Answer& answer) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (const double n : steps) {
+    const double x = -std::log(n), y = std::log(error(problem, method, n, answer));
+    sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  const auto count = static_cast<double>(steps.size());
+  return (count * sxy - sx * sy) / (count * sxx - sx * sx);
+}
+
+void expect_orders(const Problem& problem, const Answer& answer, double first, const char* measured) {
+  for (int m = 0; m < 3; ++m) {
+    const std::vector<double> steps = {first, 2 * first, 4 * first, 8 * first};
+    const double order = fitted_order(problem, methods[m], steps, answer);
+    EXPECT_NEAR(order, orders[m], 0.15) << names[m] << "; measured: " << measured;
+    ::testing::Test::RecordProperty(names[m], std::to_string(order));
+  }
+}
+
+/// An oscillator that strikes a wall: x'' = -w^2 x for x >= wall, speed times e at each impact.
+Answer impact_oscillator(double w, double wall, double e, double x, double time) {
+  double amplitude = x, phase = 0, t = 0;  // x = amplitude cos(w (t - t0) + phase)
+  for (;;) {
+    const double down = std::acos(wall / amplitude);  // the phase at the wall
+    const double until = t + (down - phase) / w;
+    if (until > time) {
+      const double now = phase + w * (time - t);
+      return {{amplitude * std::cos(now), 0, 0}, {-amplitude * w * std::sin(now), 0, 0}};
+    }
+    const double speed = e * amplitude * w * std::sin(down);
+    t = until;
+    amplitude = std::sqrt(wall * wall + speed / w * speed / w);
+    phase = -std::acos(wall / amplitude);
+  }
+}
+
+TEST(Order, IsTheMethodsForAnOscillatorThatStrikesAWall) {
+  Problem problem;
+  problem.ball({1, 0, 0}, {0, 0, 0}, 2, 0.1, 0.9);
+  problem.plane({-0.6, 0, 0}, {1, 0, 0});
+  problem.world.forces = {{Spring{Vec3::Zero(), 8, 0, 0}}};
+  problem.options.duration = 11;
+  expect_orders(problem, impact_oscillator(2, -0.5, 0.9, 1, 11), 800, "0.99, 2.00, 4.04");
+}
+
+/// Linear drag: v = vt + (v0 - vt) exp(-k t), on a floor at 0, from rest at height h.
+Answer drag_bounce(double k, double g, double e, double h, const std::vector<double>& impacts, double time) {
+  double y = h, v = 0, t = 0;
+  const double vt = -g / k;
+  const auto fly = [&](double length) {
+    const double fade = std::exp(-k * length);
+    y += vt * length + (v - vt) * (1 - fade) / k;
+    v = vt + (v - vt) * fade;
+  };
+  for (const double impact : impacts) {
+    if (impact > time) break;
+    fly(impact - t);
+    t = impact;
+    y = 0;
+    v *= -e;
+  }
+  fly(time - t);
+  return {{0, y, 0}, {0, v, 0}};
+}
+
+TEST(Order, IsTheMethodsForABallThatBouncesInAThickMedium) {
+  const nlohmann::json reference = carom::reference("forces")["linear_drag_bounce"];
+  const nlohmann::json& bounce = reference["cases"][1];
+  Problem problem;
+  const double mass = 3, k = bounce["k"], e = bounce["e"], h = bounce["h"], g = reference["g"];
+  problem.world.gravity = {0, -g, 0};
+  problem.ball({0, h + 0.25, 0}, {0, 0, 0}, mass, 0.25, e);
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  problem.world.forces = {{Drag{k * mass, 0, Vec3::Zero()}}};
+  problem.options.duration = 2.2;  // between the third and the fourth impact
+  std::vector<double> impacts;
+  for (int n = 0; n < 3; ++n) impacts.push_back(bounce["impacts"][n]["t"]);
+  Answer answer = drag_bounce(k, g, e, h, impacts, 2.2);
+  answer.x.y() += 0.25;
+  expect_orders(problem, answer, 100, "1.01, 2.00, 4.03");
+}
+
+/// The finest run there is stands for the answer: steps 64 times shorter.
+Answer finest(const Problem& problem, double steps) {
+  return run(problem, Integrator::rk4, problem.options.duration / (64 * steps));
+}
+
+TEST(Order, IsTheMethodsForABallOnADampedSpringAmongWalls) {
+  Problem problem;
+  problem.world.gravity = {0, -9.80665, 0};
+  problem.ball({0.8, 0.6, 0.1}, {0.5, 1, -0.7}, 0.7, 0.15, 0.8);
+  problem.room({-1, -1, -1}, {1.2, 1.1, 1.3});
+  problem.world.forces = {{Spring{{0.1, 0.2, 0.3}, 40, 0.4, 0.3}}};
+  problem.options.duration = 2.03;
+  expect_orders(problem, finest(problem, 3200), 400, "1.0, 2.0, 4.0");
+}
+
+TEST(Order, IsTheMethodsForTwoBallsThatMeetInTheWind) {
+  Problem problem;
+  problem.world.gravity = {0, -9.80665, 0};
+  problem.ball({-1, 0.5, 0}, {3, 2, 0.1}, 0.4, 0.2, 0.7);
+  problem.ball({1, 0.45, 0.05}, {-2, 2.5, -0.1}, 0.9, 0.25, 0.7);
+  problem.plane({0, -0.6, 0}, {0, 1, 0.1});
+  problem.world.forces = {{Drag{0.2, 0.15, {1, 0.3, -2}}}, {Attractor{{0, 1, 3}, 5, 0.1}}};
+  problem.options.duration = 1.1;
+  expect_orders(problem, finest(problem, 1600), 200, "1.0, 2.0, 4.0");
+}
+
+}  // namespace
+}  // namespace carom
