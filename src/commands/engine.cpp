@@ -5,6 +5,7 @@
 #include "physics/force.h"
 #include "simulate/book.h"
 #include "simulate/exact.h"
+#include "simulate/step_choice.h"
 #include "simulate/stepped.h"
 
 namespace carom {
@@ -21,15 +22,36 @@ std::unique_ptr<Simulator> make_exact(const Scene& scene, bool record_collisions
   return make_exact_simulator(scene.world, scene.initial, options);
 }
 
-std::unique_ptr<Simulator> make_stepped(const Scene& scene, bool record_collisions) {
+SteppedOptions stepped_options(const Scene& scene, bool record_collisions) {
   SteppedOptions options;
   options.duration = scene.simulate.duration;
-  options.step = scene.simulate.step.value_or(default_step(scene.world, scene.initial));
   options.integrator = scene.simulate.integrator;
   options.rest_speed = scene.simulate.rest_speed.value_or(options.rest_speed);
   options.max_collisions = scene.simulate.max_collisions.value_or(options.max_collisions);
   options.record_collisions = record_collisions;
+  return options;
+}
+
+std::unique_ptr<Simulator> make_stepped(const Scene& scene, bool record_collisions, std::optional<double> step) {
+  SteppedOptions options = stepped_options(scene, record_collisions);
+  options.step = step ? *step : default_step(scene.world, scene.initial);
   return make_stepped_simulator(scene.world, scene.initial, options);
+}
+
+const char* name_of(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::euler:
+      return "euler";
+    case Integrator::verlet:
+      return "verlet";
+    case Integrator::rk4:
+      break;
+  }
+  return "rk4";
+}
+
+std::string joined(const std::string& why, const std::string& more) {
+  return why.empty() ? more : why + "; " + more;
 }
 
 std::unique_ptr<Simulator> make_book(const Scene& scene, bool record_collisions) {
@@ -59,15 +81,37 @@ EngineChoice choose_engine(const Scene& scene) {
   return {"exact", ""};
 }
 
-std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions) {
+void settle_step(const Scene& scene, EngineChoice& engine, const std::function<void()>& look) {
+  if (engine.name != "stepped") return;
+  const Simulate& simulate = scene.simulate;
+  const std::string method = name_of(simulate.integrator);
+  if (!simulate.tolerance) {
+    engine.step = simulate.step.value_or(default_step(scene.world, scene.initial));
+    engine.why = joined(engine.why, fmt::format("{}, steps of {:.4g} s", method, *engine.step));
+    return;
+  }
+  const StepChoice choice =
+      choose_step(scene.world, scene.initial, stepped_options(scene, false), *simulate.tolerance, look);
+  engine.step = choice.step;
+  engine.why = joined(engine.why, fmt::format("{}, steps of {:.4g} s, ", method, choice.step));
+  engine.why +=
+      choice.chaotic_from <= simulate.duration
+          ? fmt::format("chaotic: positions agree within {} m until {:.4g} s, and no longer with shorter ones",
+                        *simulate.tolerance, choice.chaotic_from - simulate.duration / 64)
+          : fmt::format("with which positions agree within {:.2g} m", choice.difference);
+}
+
+std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions, std::optional<double> step) {
   const std::string name = choose_engine(scene).name;
+  if (!step) step = scene.simulate.step;
   return name == "exact"     ? make_exact(scene, record_collisions)
-         : name == "stepped" ? make_stepped(scene, record_collisions)
+         : name == "stepped" ? make_stepped(scene, record_collisions, step)
                              : make_book(scene, record_collisions);
 }
 
 std::unique_ptr<Simulator> make_oracle(const Scene& scene) {
-  return varying_force(scene.world) == nullptr ? make_exact(scene, true) : make_stepped(scene, true);
+  return varying_force(scene.world) == nullptr ? make_exact(scene, true)
+                                               : make_stepped(scene, true, scene.simulate.step);
 }
 
 }  // namespace carom

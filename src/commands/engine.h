@@ -1,6 +1,8 @@
 #pragma once
 // Which simulator a scene runs on.
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "scene/scene.h"
@@ -9,14 +11,20 @@
 namespace carom {
 
 struct EngineChoice {
-  std::string name;  // "exact", "stepped", "book"; as in summary.csv
-  std::string why;   // one line, empty where the scene names the engine itself
+  std::string name;              // "exact", "stepped", "book"; as in summary.csv
+  std::string why;               // one line: why this one, and with which steps
+  std::optional<double> step{};  // s, of engine stepped, once it is settled
 };
 
 EngineChoice choose_engine(const Scene& scene);
 
-/// The scene's simulator at time 0. `scene` must outlive it. Throws SimulationError.
-std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions);
+/// Finds the step of engine stepped: where the scene asks for a tolerance, by running it again and again. `look` is
+/// called now and then, and may throw. Throws SimulationError.
+void settle_step(const Scene& scene, EngineChoice& engine, const std::function<void()>& look);
+
+/// The scene's simulator at time 0. `scene` must outlive it. `step`: as settled; else the scene's own, or the default.
+/// Throws SimulationError.
+std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions, std::optional<double> step = {});
 
 /// The most exact simulator that there is for the scene, whatever engine it asks for: what really happens first.
 std::unique_ptr<Simulator> make_oracle(const Scene& scene);

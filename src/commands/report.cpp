@@ -91,8 +91,8 @@ std::vector<std::string> files_in(const std::string& folder) {
 
 void describe(Block& block, const PlannedScene& planned, const RunResult& result) {
   const Summary& summary = result.summary;
-  block.line("engine", planned.engine.why.empty() ? planned.engine.name
-                                                  : fmt::format("{} ({})", planned.engine.name, planned.engine.why));
+  const EngineChoice& engine = result.engine;
+  block.line("engine", engine.why.empty() ? engine.name : fmt::format("{} ({})", engine.name, engine.why));
   block.line("collisions", collisions_text(summary));
   block.line("rest", rest_text(summary));
   block.line("energy", energy_text(summary));

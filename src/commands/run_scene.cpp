@@ -38,10 +38,11 @@ double energy(const Scene& scene, const State& state) {
 
 class Run {
  public:
-  Run(const Scene& scene, const std::string& folder, Progress& progress, RunFacts& facts)
+  Run(const Scene& scene, EngineChoice& engine, const std::string& folder, Progress& progress, RunFacts& facts)
       : scene_(scene), progress_(progress), facts_(facts), exports_(scene, folder) {
     const Stopwatch watch(facts_.simulate_s);
-    simulator_ = make_simulator(scene, scene.output.collisions);
+    settle_step(scene, engine, stop_if_interrupted);
+    simulator_ = make_simulator(scene, scene.output.collisions, engine.step);
     energy_start_ = energy(scene, simulator_->state());
     renderers_.resize(exports_.pictures().size());
   }
@@ -161,10 +162,11 @@ Summary summarize(const Scene& scene, const EngineChoice& engine, double energy_
 RunResult run_scene(const Scene& scene, const EngineChoice& engine, const std::string& folder, double load_s,
                     Progress& progress) {
   RunResult result;
+  result.engine = engine;
   result.facts.load_s = load_s;
   {
     const Stopwatch wall(result.wall_s);
-    Run run(scene, folder, progress, result.facts);
+    Run run(scene, result.engine, folder, progress, result.facts);
     run.go();
     result.summary = summarize(scene, engine, run.energy_start(), run.simulator().state(), run.simulator().tally());
     result.summary.frames = run.exports().frames();

@@ -11,7 +11,8 @@ namespace carom {
 struct RunResult {
   Summary summary;
   RunFacts facts;
-  double wall_s = 0;  // all of it, finishing the files included
+  EngineChoice engine{};  // with its step settled
+  double wall_s = 0;      // all of it, finishing the files included
 };
 
 /// Simulates, draws and writes. Throws SimulationError, RenderError, ExportError or Interrupted; then nothing that is

@@ -18,7 +18,7 @@ constexpr std::size_t most_suggestions = 200;  // more errors than are shown: no
 std::vector<std::string_view> keys_of(const Kind& kind) {
   std::vector<std::string_view> keys;
   for (const Field& field : kind.fields) {
-    if (field.later.empty()) keys.push_back(field.key);
+    keys.push_back(field.key);
   }
   if (!kind.also.empty()) keys.push_back(kind.also);
   return keys;
@@ -101,7 +101,6 @@ class Checker : ValueChecker {
     std::string remedy = fmt::format("expected {}: {}", quoted(field.key), expected(field));
     for (const std::string_view key : rivals(field)) {
       const Field& other = *find_field(kind, key);
-      if (!other.later.empty()) continue;
       message += fmt::format(" and no {}", quoted(key));
       remedy += fmt::format("\nor {}: {}", quoted(key), expected(other));
     }
@@ -130,11 +129,6 @@ class Checker : ValueChecker {
     const Field* field = find_field(kind, key.text);
     if (field == nullptr) {
       unknown_key(key, value, kind, what);
-      return;
-    }
-    if (!field->later.empty()) {
-      value.bad = true;
-      diagnostics_.add(key.place, later_text(field->key), std::string(field->later));
       return;
     }
     // Both of two keys that exclude one another: said once, at the second.

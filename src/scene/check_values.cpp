@@ -7,10 +7,6 @@
 
 namespace carom {
 
-std::string later_text(std::string_view name) {
-  return fmt::format("{} is part of the scene format but not of this version of carom", quoted(name));
-}
-
 void ValueChecker::refuse(Node& node, std::string message, std::string remedy) {
   node.bad = true;
   diagnostics_.add(node.place, std::move(message), std::move(remedy));
@@ -96,10 +92,6 @@ void ValueChecker::choice(Node& value, const Field& field, const std::string& na
   const std::vector<std::string_view> all = choices(field);
   for (const std::string_view one : all) {
     if (value.text == one) return;
-  }
-  if (!field.later_choice.empty() && value.text == field.later_choice) {
-    refuse(value, later_text(fmt::format("{}: {}", field.key, value.text)), wanted);
-    return;
   }
   const std::string near = nearest(value.text, all);
   refuse(value, fmt::format("{} is {}", name, quoted(value.text)),

@@ -8,9 +8,6 @@
 
 namespace carom {
 
-/// "`x` is part of the scene format but not of this version of carom"
-std::string later_text(std::string_view name);
-
 /// Each check marks a value bad and adds an error if it fails; a value that is bad already says no more.
 /// `name` is the value in messages.
 class ValueChecker {

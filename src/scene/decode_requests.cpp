@@ -55,6 +55,10 @@ class Requests {
                                             : Integrator::rk4;
     s.step = view.number("step");
     if (s.engine == Engine::book && view.given("step") == nullptr) s.step = 1.0 / 60;
+    s.tolerance = view.number("tolerance");
+    if (s.tolerance && view.given("step") != nullptr)
+      diagnostics_.add(view.place("tolerance"), "`simulate` has both `step` and `tolerance`",
+                       "expected one of them: the step itself, or the error that it is chosen for");
     s.rest_speed = view.number("rest_speed");
     s.max_collisions = view.whole("max_collisions");
     s.as_printed = view.flag("as_printed").value_or(false);
@@ -267,6 +271,7 @@ void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics
     diagnostics.add(place, fmt::format("`engine: book` has no {}", what), fmt::format("expected {}", instead));
   };
   if (scene.simulate.merge) refuse(simulate.place("contact"), "`contact: merge`", "`engine: exact`");
+  if (scene.simulate.tolerance) refuse(simulate.place("tolerance"), "`tolerance`", "`step`");
   if (!scene.world.volume.empty())
     refuse(simulate.place("engine"), "cylinders and boxes: its bodies are spheres", "`engine: exact`");
   if (const Key* key = root.find_key("obstacles"); key != nullptr && !scene.world.obstacles.empty())

@@ -12,7 +12,6 @@ constexpr Range above_0{0, infinity, true, false};
 constexpr Range from_0{0, infinity, false, false};
 constexpr Range from_1{1, infinity, false, false};
 
-
 // clang-format off
 constexpr Field scene_fields[] = {
     {.key = "scene", .type = Type::whole, .range = {1, 1}, .needed = true, .doc = "Kind of file and version of the format."},
@@ -180,7 +179,7 @@ constexpr Field simulate_fields[] = {
     {.key = "max_collisions", .type = Type::whole, .range = from_1, .doc = "A run with more stops with an error."},
     {.key = "integrator", .type = Type::choice, .of = "euler|verlet|rk4", .doc = "Of engine stepped: semi-implicit Euler, velocity Verlet or Runge-Kutta, of order 1, 2 and 4. Default: rk4."},
     {.key = "contact", .type = Type::choice, .initial = "bounce", .of = "bounce|merge", .doc = "Whether bodies that meet bounce or become one; merge is engine exact's."},
-    {.key = "tolerance", .type = Type::number, .unit = "m", .range = above_0, .later = "give `step` instead", .doc = "Error that the step is chosen for."},
+    {.key = "tolerance", .type = Type::number, .unit = "m", .range = above_0, .doc = "stepped only, instead of step: the step is halved until positions change by less than this."},
 };
 
 constexpr Field camera_fields[] = {
@@ -332,9 +331,7 @@ std::vector<std::string_view> rivals(const Field& field) {
 }
 
 std::vector<std::string_view> choices(const Field& field) {
-  std::vector<std::string_view> out = parts_of(field.of);
-  std::erase(out, field.later_choice);
-  return out;
+  return parts_of(field.of);
 }
 
 std::string listed(const std::vector<std::string_view>& words) {

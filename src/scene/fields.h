@@ -43,12 +43,10 @@ struct Field {
   Type type = Type::number;
   std::string_view unit = {};
   Range range = {};
-  std::string_view initial = {};       // the default as YAML; empty: absent unless given
-  std::string_view of = {};            // kind, or choices
-  std::string_view one_of = {};        // keys of the kind that exclude one another, this one among them, separated by |
-  bool needed = false;                 // this or another of `one_of`
-  std::string_view later = {};         // part of the format, refused by this version: what to do instead
-  std::string_view later_choice = {};  // a choice of which the same holds
+  std::string_view initial = {};  // the default as YAML; empty: absent unless given
+  std::string_view of = {};       // kind, or choices
+  std::string_view one_of = {};   // keys of the kind that exclude one another, this one among them, separated by |
+  bool needed = false;            // this or another of `one_of`
   std::string_view doc = {};
 };
 
@@ -78,7 +76,7 @@ std::vector<std::string_view> parts_of(std::string_view text);
 /// The keys that exclude this one.
 std::vector<std::string_view> rivals(const Field& field);
 
-/// The choices that this version serves, one by one.
+/// The choices, one by one.
 std::vector<std::string_view> choices(const Field& field);
 
 /// "a", "a or b", "a, b or c"

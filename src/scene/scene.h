@@ -62,8 +62,9 @@ struct Simulate {
   double duration = 0;  // s
   Engine engine = Engine::automatic;
   Integrator integrator = Integrator::rk4;  // stepped only
-  std::optional<double> step;        // s
-  std::optional<double> rest_speed;  // m/s
+  std::optional<double> step;               // s
+  std::optional<double> tolerance;          // m; stepped only: the step is chosen for it
+  std::optional<double> rest_speed;         // m/s
   std::optional<std::uint64_t> max_collisions;
   bool as_printed = false;  // book only
   bool merge = false;       // bodies that meet become one

@@ -98,9 +98,8 @@ class Walk {
     }
     node_ = child;
     field_ = field;
-    const bool is_part = field->later.empty() && (field->type == Type::part || field->type == Type::part_or_flag);
+    const bool is_part = field->type == Type::part || field->type == Type::part_or_flag;
     kind_ = is_part ? &kind_named(field->of) : nullptr;
-    done_ = !field->later.empty();
     return true;
   }
 

@@ -220,20 +220,14 @@ TEST(ReadmePicture, IsWhatTheProgramDraws) {
   EXPECT_LT(far_off, kept.rgb.size() / 100);  // measured: 0
 }
 
-TEST(ReadmeScenes, TellOfEveryKeyThatIsServedAndEveryOneThatIsRefused) {
-  const std::size_t refusal = readme().find("is refused by name"), end = readme().find("\n\n", refusal);
-  const std::string refused = readme().substr(refusal, end - refusal);
-  const std::string table = readme().substr(readme().find("## Scene files"), refusal - readme().find("## Scene files"));
+TEST(ReadmeScenes, TellOfEveryKey) {
+  const std::size_t from = readme().find("## Scene files");
+  const std::string table = readme().substr(from, readme().find("## What a run writes") - from);
   for (const Kind& kind : kinds()) {
     for (const Field& field : kind.fields) {
       const std::string name = "`" + std::string(field.key) + "`";
-      const bool later = !field.later.empty();
-      EXPECT_NE((later ? refused : table).find(name), std::string::npos) << kind.name << "." << field.key;
-      if (!field.later_choice.empty()) {
-        EXPECT_NE(refused.find("`" + std::string(field.key) + ": " + std::string(field.later_choice) + "`"),
-                  std::string::npos);
-      }
-      if (field.type != Type::choice || later || kind.name == "restitution") continue;
+      EXPECT_NE(table.find(name), std::string::npos) << kind.name << "." << field.key;
+      if (field.type != Type::choice || kind.name == "restitution") continue;
       for (const std::string_view choice : choices(field)) {
         EXPECT_NE(table.find(field.key == "samples" ? "`samples`" : "`" + std::string(choice) + "`"), std::string::npos)
             << field.key << ": " << choice;
@@ -336,8 +330,8 @@ obstacles:
   globe: {radius: 0.5, position: [0, 0, 0]}
 simulate: {duration: 0.5}
 )");
-  // It leaves at y = 2/3 of its first height, 0.384 m, with v^2 = 2 g (0.576 - 0.384), level with the tangent there. What
-  // it does from then on is a parabola: its vertex tells where it began.
+  // It leaves at y = 2/3 of its first height, 0.384 m, with v^2 = 2 g (0.576 - 0.384), level with the tangent there.
+  // What it does from then on is a parabola: its vertex tells where it began.
   const State end = run_to(scene, 0.5);
   const double g = 10, y0 = 0.384, x0 = std::sqrt(0.36 - y0 * y0), v = std::sqrt(2 * g * (0.576 - y0));
   const double vx = v * y0 / 0.6, vy = -v * x0 / 0.6;

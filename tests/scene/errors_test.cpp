@@ -19,7 +19,8 @@ TEST(SceneErrors, KeyOfAnotherPlaceSaysWhereItBelongs) {
             "   2 | simulate: {duration: 1, fov: 3}\n"
             "     |                         ^~~\n"
             "     = `fov` is a key of `camera`\n"
-            "     = expected duration, engine, step, as_printed, rest_speed, max_collisions, integrator or contact\n");
+            "     = expected duration, engine, step, as_printed, rest_speed, max_collisions, integrator, contact or "
+            "tolerance\n");
 }
 
 TEST(SceneErrors, WrongTypeSaysWhatIsExpected) {
@@ -171,12 +172,12 @@ TEST(SceneErrors, EveryWayToMissANumberHasItsHint) {
             "     = the decimal point is a point: 1.5\n");
 }
 
-TEST(SceneErrors, KeysOfLaterVersionsAreRefusedNotUnknown) {
-  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1, tolerance: 1}\n"),
-            "scene.yaml:2:25: error: `tolerance` is part of the scene format but not of this version of carom\n"
-            "   2 | simulate: {duration: 1, tolerance: 1}\n"
-            "     |                         ^~~~~~~~~\n"
-            "     = give `step` instead\n");
+TEST(SceneErrors, AStepIsGivenOrChosen) {
+  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1, engine: stepped, step: 1, tolerance: 2}\n"),
+            "scene.yaml:2:62: error: `simulate` has both `step` and `tolerance`\n"
+            "   2 | simulate: {duration: 1, engine: stepped, step: 1, tolerance: 2}\n"
+            "     |                                                              ^\n"
+            "     = expected one of them: the step itself, or the error that it is chosen for\n");
 }
 
 TEST(SceneErrors, CaretStandsRightAfterCharactersOfSeveralBytesAndCells) {

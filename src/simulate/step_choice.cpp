@@ -1,0 +1,85 @@
+#include "simulate/step_choice.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+constexpr int instants = 64;
+constexpr int most_halvings = 24;
+constexpr int few_halvings = 16;
+constexpr int patience = 5;         // halvings without a gain, then runs differ for good
+constexpr double most_steps = 1e9;  // of all bodies together, in the longest run
+
+using Track = std::vector<std::vector<Vec3>>;  // m, by instant, by body
+
+Track run(const World& world, const State& initial, const SteppedOptions& options, const std::function<void()>& look) {
+  const auto simulator = make_stepped_simulator(world, initial, options);
+  Track track;
+  for (int k = 1; k <= instants; ++k) {
+    const double time = k == instants ? options.duration : options.duration * k / instants;
+    while (simulator->time() < time) {
+      look();
+      simulator->advance_to(time);
+    }
+    track.push_back(simulator->state().position);
+  }
+  return track;
+}
+
+double difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, (a[i] - b[i]).norm());
+  return most;
+}
+
+}  // namespace
+
+StepChoice choose_step(const World& world, const State& initial, SteppedOptions options, double tolerance,
+                       const std::function<void()>& look) {
+  options.record_collisions = false;
+  const double fine = default_step(world, initial);
+  StepChoice best{fine, std::numeric_limits<double>::infinity(), 0};
+  if (options.duration == 0) return {fine, 0};
+  Track last;
+  std::string trouble;
+  double step = std::min(options.duration, 64 * fine);
+  for (int halving = 0, vain = 0; halving < most_halvings && vain < patience; ++halving, step *= 0.5) {
+    if (options.duration / step * static_cast<double>(world.body_count()) > most_steps) break;
+    options.step = step;
+    Track track;
+    try {
+      track = run(world, initial, options, look);
+    } catch (const SimulationError& error) {  // too long a step for these forces, perhaps
+      trouble = error.what();
+      last.clear();
+      continue;
+    }
+    if (last.empty()) {
+      last = std::move(track);
+      continue;
+    }
+    StepChoice choice{step, 0};
+    for (int k = 0; k < instants; ++k) {
+      const double apart = difference(track[k], last[k]);
+      choice.difference = std::max(choice.difference, apart);
+      if (!(apart <= tolerance))
+        choice.chaotic_from = std::min(choice.chaotic_from, options.duration * (k + 1) / instants);
+    }
+    if (choice.difference <= tolerance) return choice;
+    const double longer = choice.chaotic_from - best.chaotic_from;
+    // It gains if differences fall, or if at this rate they will be gone in a few halvings.
+    const bool gains = choice.difference < 0.5 * best.difference ||
+                       (longer > 0 && options.duration - choice.chaotic_from <= few_halvings * longer);
+    vain = gains ? 0 : vain + 1;
+    if (longer > 0 || (longer == 0 && choice.difference < best.difference)) best = choice;
+    last = std::move(track);
+  }
+  if (best.difference == std::numeric_limits<double>::infinity() && !trouble.empty()) throw SimulationError(trouble);
+  return best;
+}
+
+}  // namespace carom
