@@ -41,6 +41,7 @@ SteppedSimulator::SteppedSimulator(const World& world, const State& initial, con
       version_(world.body_count()),
       cluster_of_(world.body_count(), none),
       impacts_(world.body_count()),
+      meetings_(world.body_count()),
       crowd_(world.body_count()),
       in_crowd_(world.body_count()),
       host_(world.body_count(), no_entity),
@@ -59,6 +60,7 @@ SteppedSimulator::SteppedSimulator(const World& world, const State& initial, con
     works_ = works_ || force.from > 0 || force.until < never || !is_constant(force.law);
   }
   std::sort(switches_.begin(), switches_.end());
+  loaded_ = !world.gravity.isZero(0) || !world.forces.empty();
   for (Entity i = 0; i < n; ++i) {
     if (!world.impulse.empty()) v_[i] += world.impulse[i] / world.mass[i];
     tally_.max_speed = std::max(tally_.max_speed, v_[i].norm());
@@ -106,8 +108,9 @@ void SteppedSimulator::end_step() {
     x_[i] = end_x_[i];
     v_[i] = end_v_[i];
     start_[i] = 0;
-    if (impacts_[i] >= restless) join(i);
+    if (loaded_ && impacts_[i] >= restless) join(i);
     impacts_[i] = 0;
+    meetings_[i] = 0;
     in_crowd_[i] = 0;
     host_[i] = no_entity;
     origin_[i] = {};
@@ -165,7 +168,11 @@ void SteppedSimulator::do_step() {
           "`softening`, or restitution of at most 1",
           to_, options_.step));
     tally_.max_speed = std::max(tally_.max_speed, speed);
-    if (works_) book_work(i, end_x_[i], end_v_[i], length_ - start_[i]);
+    const double work = works_ ? book_work(i, end_x_[i], end_v_[i], length_ - start_[i]) : 0;
+    // What a crowd's step does to energy, other than by forces, contact has taken.
+    if (in_crowd_[i])
+      lose(0.5 * world_.mass[i] * (v_[i] - end_v_[i]).dot(v_[i] + end_v_[i]) + potential(world_, i, x_[i]) -
+           potential(world_, i, end_x_[i]) + work);
   }
 }
 

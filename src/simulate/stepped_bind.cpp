@@ -102,8 +102,7 @@ void SteppedSimulator::grow(std::vector<Entity>& group, double time) {
 /// that have just met, and now part, or are not to: paths may lead two into each other that neither their velocities
 /// nor their accelerations do.
 void SteppedSimulator::bind(std::vector<Entity>& group, double time, const Event* met, bool parts) {
-  const bool unloaded = world_.gravity.isZero(0) && world_.forces.empty();
-  if (!unloaded || !parts) {
+  if (loaded_ || !parts) {
     grow(group, time);
     const std::vector<Bond> bonds = settle(group, met, parts);
     if (!bonds.empty()) gather_clusters(group, bonds);

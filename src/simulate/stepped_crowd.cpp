@@ -11,54 +11,28 @@
 // moves and that forces hold in balance is set on its surfaces and put to sleep.
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 #include "physics/complementarity.h"
 #include "physics/force.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
 #include "physics/sweeps.h"
-#include "simulate/stepped_simulator.h"
+#include "simulate/stepped_crowd.h"
 
 namespace carom {
 
 namespace {
 
-constexpr std::uint8_t patience = 8;       // steps without contact, then a body leaves the crowd
-constexpr double near_enough = 1e-3;       // of a radius: a gap over which fast bodies strike
-constexpr int most_sweeps = 200;           // of either problem
-constexpr double least_slack = 1e-8;       // of a radius: by how much bodies may overlap,
-constexpr double most_slack = 1e-3;        // and where that is hard to achieve
-constexpr double calm = 2e-4;              // of the speed of falling by a radius: slower bodies may be at rest,
-constexpr std::uint32_t calm_steps = 8;    // after so many
-constexpr double drive = 1e-3;             // of a radius: how far a part may sink at a time to where it is in balance,
-constexpr double farthest_sink = 2e-2;     // and in all,
-constexpr int balance_passes = 6;          // and in how many times,
-constexpr double balanced = 1e-7;          // the last of them no farther than this much of it
-constexpr int balance_iterations = 2000;   // of the solver for large parts
-constexpr std::size_t most_direct = 4000;  // bodies; the cost of the other one grows as their square
+constexpr std::uint8_t patience = 8;        // steps without contact, then a body leaves the crowd
+constexpr double near_enough = 1e-3;        // of a radius: a gap over which fast bodies strike
+constexpr int most_sweeps = 200;            // of either problem
+constexpr std::size_t most_polished = 200;  // pairs for which there is another solver,
+constexpr int polishing = 1000;             // and its iterations
+constexpr double calm = 2e-4;               // of the speed of falling by a radius: slower bodies may be at rest
+constexpr double least_slack = 1e-8;        // of a radius: by how much bodies may overlap,
+constexpr double most_slack = 1e-3;         // and where that is hard to achieve
 
 }  // namespace
-
-/// What a pair of the crowd is beside a PressedPair.
-struct SteppedSimulator::CrowdName {
-  Entity a, b;
-  double gap, approach, restitution;  // m, m/s
-  bool strikes;
-};
-
-/// The crowd's step in numbers of its own: member k is body members[k].
-struct SteppedSimulator::Crowd {
-  std::vector<Entity> members;
-  std::vector<Vec3> x, v, pull, moved, way;  // m, m/s, m/s^2, m/s, m/s
-  std::vector<double> inverse_mass, haste;   // 1/kg; m/s, at least how fast each goes
-  std::vector<PressedPair> pairs;
-  std::vector<CrowdName> names;
-  double smallest = never, pulls = 0;  // m, m/s^2: the least radius, the greatest acceleration
-  bool told = true;                    // velocities and ways are as near to what they should be as asked for
-  bool part = false;                   // of the crowd, looked at as if the others were fixed
-};
 
 /// Takes body i into the crowd, from the next step on.
 void SteppedSimulator::join(Entity i) {
@@ -141,6 +115,16 @@ void SteppedSimulator::find_pairs(Crowd& crowd) const {
   }
 }
 
+/// By sweeps; where these get nowhere, as between light bodies and heavy ones, otherwise, if that does not cost too
+/// much.
+bool SteppedSimulator::solve(const Crowd& crowd, std::vector<Vec3>& u, std::vector<PressedPair>& pairs) const {
+  const std::vector<Vec3> free = pairs.size() > most_polished ? std::vector<Vec3>{} : u;
+  if (sweep_apart(crowd.inverse_mass, u, pairs, most_sweeps)) return true;
+  if (free.empty()) return false;
+  u = free;
+  return press_apart(crowd.inverse_mass, u, pairs, polishing);
+}
+
 /// The crowd's velocities at the step's end.
 void SteppedSimulator::find_velocities(Crowd& crowd) {
   find_pairs(crowd);
@@ -166,7 +150,7 @@ void SteppedSimulator::find_velocities(Crowd& crowd) {
   }
   crowd.moved = crowd.v;
   for (std::size_t k = 0; k < crowd.moved.size(); ++k) crowd.moved[k] += h * crowd.pull[k];
-  crowd.told = sweep_apart(crowd.inverse_mass, crowd.moved, pairs, most_sweeps);
+  crowd.told = solve(crowd, crowd.moved, pairs);
   for (std::size_t c = 0; c < pairs.size(); ++c) crowd.pairs[which[c]].force = pairs[c].force;
 }
 
@@ -190,7 +174,7 @@ void SteppedSimulator::find_ways(Crowd& crowd) {
     pair.force = 0;
     pairs.push_back(pair);
   }
-  crowd.told = sweep_apart(crowd.inverse_mass, crowd.way, pairs, most_sweeps) && crowd.told;
+  crowd.told = solve(crowd, crowd.way, pairs) && crowd.told;
 }
 
 double SteppedSimulator::known_force(Entity a, Entity b) const {
@@ -252,17 +236,13 @@ void SteppedSimulator::step_crowd() {
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = crowd.members[k];
     Vec3 &moved = crowd.moved[k], &way = crowd.way[k];
-    const double m = world_.mass[i];
     if (!pressed[k] && constant_) {  // stopped short at most: as fast as it has fallen
       const double fell = 2 * h * crowd.pull[k].dot(way), before = crowd.v[k].squaredNorm();
       const double after = std::max(before + fell, 0.0), now = moved.squaredNorm();
       if (now > 0) moved *= std::sqrt(after / now);
     }
-    const Vec3 to = x_[i] + h * way;
-    lose(0.5 * m * (crowd.v[k] - moved).dot(crowd.v[k] + moved) + potential(world_, i, x_[i]) -
-         potential(world_, i, to));
     path_[i] = {x_[i], way, Vec3::Zero(), Vec3::Zero()};
-    end_x_[i] = to;
+    end_x_[i] = path_[i].position(h);
     end_v_[i] = moved;
     crowd_[i] = pressed[k] ? patience : static_cast<std::uint8_t>(crowd_[i] - 1);
     const double speed = std::max(way.norm(), moved.norm());
@@ -290,110 +270,6 @@ void SteppedSimulator::record_strikes(const Crowd& crowd, const std::vector<Pres
             touch(world_, name.a, x_[name.a], name.b, position_of(name.b)).point, p.normal, name.approach, separation,
             name.restitution, p.force, impact_loss(ma, mb, name.approach, separation)});
   }
-}
-
-/// Whether and where forces hold a part of the crowd in balance, close to where it is: it sinks by a little at a time,
-/// as far as its contacts let it, until it sinks no more. x: m, in: where it is, out: where it stands, or has sunk to.
-SteppedSimulator::Balance SteppedSimulator::find_balance(Crowd& part) {
-  const std::size_t n = part.members.size();
-  const std::vector<Vec3> from = part.x;
-  const double sink = drive * part.smallest;
-  for (int pass = 0; pass < balance_passes; ++pass) {
-    find_pairs(part);
-    for (std::size_t c = 0; c < part.pairs.size(); ++c) {
-      part.pairs[c].target = -part.names[c].gap;
-      part.pairs[c].slack = 1e-10 * part.smallest;
-    }
-    std::vector<Vec3> way(n);
-    for (std::size_t k = 0; k < n; ++k) way[k] = sink / part.pulls * part.pull[k];
-    const bool told = n <= most_direct ? press_apart_directly(part.inverse_mass, way, part.pairs)
-                                       : press_apart(part.inverse_mass, way, part.pairs, balance_iterations);
-    if (!told) return Balance::none;
-    double farthest = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      part.x[k] += way[k];
-      farthest = std::max(farthest, way[k].norm());
-      if ((part.x[k] - from[k]).norm() > farthest_sink * part.smallest) return Balance::none;
-    }
-    if (farthest <= balanced * sink) return Balance::found;
-  }
-  return Balance::sinking;
-}
-
-/// Parts of the crowd that have hardly moved for a while sink to where forces hold them in balance, and fall asleep
-/// there.
-void SteppedSimulator::put_to_rest(const Crowd& crowd, const std::vector<PressedPair>& forces,
-                                   const std::vector<CrowdName>& names) {
-  const std::size_t n = crowd.members.size();
-  std::vector<std::uint32_t> root(n);
-  std::iota(root.begin(), root.end(), 0u);
-  const auto root_of = [&](std::uint32_t k) {
-    while (root[k] != k) k = root[k] = root[root[k]];
-    return k;
-  };
-  for (std::size_t c = 0; c < forces.size(); ++c) {
-    const PressedPair& p = forces[c];
-    const bool touch = p.force > 0 || names[c].gap < 2 * drive * crowd.smallest;
-    if (touch && p.b != PressedPair::none) root[root_of(p.a)] = root_of(p.b);
-  }
-  std::vector<std::vector<std::uint32_t>> parts(n);  // by root
-  for (std::uint32_t k = 0; k < n; ++k) parts[root_of(k)].push_back(k);
-  for (const std::vector<std::uint32_t>& members : parts) {
-    std::uint32_t since = std::numeric_limits<std::uint32_t>::max();
-    for (const std::uint32_t k : members) since = std::min(since, calm_[crowd.members[k]]);
-    if (members.empty() || since < calm_steps) continue;
-    // Looked at in vain it is left alone for a while, longer each time.
-    std::uint32_t& wait = patience_[crowd.members[members.front()]];
-    if (since % (calm_steps << wait) != 0) continue;
-    Crowd part;
-    part.part = true;
-    part.pulls = crowd.pulls;
-    for (const std::uint32_t k : members) {
-      const Entity i = crowd.members[k];
-      local_[i] = static_cast<std::uint32_t>(part.members.size());
-      part.members.push_back(i);
-      part.x.push_back(end_x_[i]);
-      part.pull.push_back(crowd.pull[k]);
-      part.inverse_mass.push_back(crowd.inverse_mass[k]);
-      part.smallest = std::min(part.smallest, world_.radius[i]);
-    }
-    part.v.assign(members.size(), Vec3::Zero());
-    part.haste.assign(members.size(), 4 * farthest_sink * part.smallest / length_);
-    const Balance balance = find_balance(part);
-    wait = balance == Balance::none ? std::min(wait + 1, 10u) : 0;
-    if (balance == Balance::none) continue;
-    stand(part);
-    if (balance == Balance::found) fall_asleep(part);
-  }
-}
-
-/// A part of the crowd stops where it has sunk to.
-void SteppedSimulator::stand(const Crowd& part) {
-  for (std::size_t k = 0; k < part.members.size(); ++k) {
-    const Entity i = part.members[k];
-    const Vec3& to = part.x[k];
-    lose(0.5 * world_.mass[i] * end_v_[i].squaredNorm() + potential(world_, i, end_x_[i]) - potential(world_, i, to));
-    end_x_[i] = to;
-    end_v_[i].setZero();
-    path_[i] = {x_[i], (to - x_[i]) / length_, Vec3::Zero(), Vec3::Zero()};
-  }
-}
-
-void SteppedSimulator::fall_asleep(const Crowd& part) {
-  const std::uint32_t c = new_cluster();
-  Cluster& cluster = clusters_[c];
-  cluster.asleep = true;
-  cluster.members = part.members;
-  tally_.resting += part.members.size();
-  for (const Entity i : part.members) {
-    cluster_of_[i] = c;
-    crowd_[i] = 0;
-    calm_[i] = 0;
-  }
-  const double per_way = part.pulls / (drive * part.smallest);  // 1/s^2
-  for (std::size_t p = 0; p < part.pairs.size(); ++p)
-    if (part.pairs[p].force > 0)
-      cluster.bonds.push_back({part.names[p].a, part.names[p].b, no_feature, true, per_way * part.pairs[p].force});
 }
 
 }  // namespace carom

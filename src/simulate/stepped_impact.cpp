@@ -11,8 +11,9 @@ namespace carom {
 
 namespace {
 
-constexpr double immovable = never;          // kg
-constexpr std::uint32_t many_impacts = 256;  // of a body in one step: with e < 1 a collapse
+constexpr double immovable = never;            // kg
+constexpr std::uint32_t many_impacts = 256;    // of a body in one step: with e < 1 a collapse
+constexpr std::uint32_t most_meetings = 2000;  // of a body in one step under load: it waits for the next one
 
 }  // namespace
 
@@ -83,7 +84,7 @@ bool SteppedSimulator::slow(double e, double approach, double press) const {
 
 bool SteppedSimulator::taken_up(Entity a, Entity b, double e, double approach, double press, double noise) {
   std::uint32_t impacts = 0;
-  if (e < 1 && press != 0) impacts = std::max(++impacts_[a], world_.is_body(b) ? ++impacts_[b] : 0);
+  if (e < 1) impacts = std::max(++impacts_[a], world_.is_body(b) ? ++impacts_[b] : 0);
   return approach <= noise || slow(e, approach, press) || (impacts > many_impacts && e < 1);
 }
 
@@ -120,6 +121,7 @@ void SteppedSimulator::collide(const Event& event) {
     const bool b_comes = !body || !large(b) ? body && !large(b) : host_[b] != no_entity;
     return stop_at_crowd(b_comes ? a : b, b_comes ? b : a, time);
   }
+  if (loaded_ && ++meetings_[a] > most_meetings) return stop_at_crowd(b, a, time);  // jammed
   const Vec3 acceleration = acceleration_of(a) - acceleration_of(b);
   std::vector<Entity> group;
   for (const Entity e : {a, b}) {

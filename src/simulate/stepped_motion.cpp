@@ -195,17 +195,19 @@ void SteppedSimulator::cut(Entity i, double time, const Vec3& x, const Vec3& v) 
   ++version_[i];
 }
 
-/// Books what forces without a potential did on the way of `length` (s) to x and v: by Simpson's rule, with the middle
-/// of Hermite's polynomial through both ends.
-void SteppedSimulator::book_work(Entity i, const Vec3& x, const Vec3& v, double length) {
-  if (length == 0) return;
+/// Books what forces without a potential did on the way of `length` (s) to x and v (J): by Simpson's rule, with the
+/// middle of Hermite's polynomial through both ends.
+double SteppedSimulator::book_work(Entity i, const Vec3& x, const Vec3& v, double length) {
+  if (length == 0) return 0;
   const auto power = [&](const Vec3& at, const Vec3& speed) {
     return world_.mass[i] * working_acceleration(world_, i, from_, at, speed).dot(speed);
   };
   const Vec3 middle_x = 0.5 * (x_[i] + x) + (length / 8) * (v_[i] - v);
   const Vec3 middle_v = (1.5 / length) * (x - x_[i]) - 0.25 * (v_[i] + v);
-  work_.add(length / 6 * (power(x_[i], v_[i]) + 4 * power(middle_x, middle_v) + power(x, v)));
+  const double work = length / 6 * (power(x_[i], v_[i]) + 4 * power(middle_x, middle_v) + power(x, v));
+  work_.add(work);
   tally_.work = work_.value();
+  return work;
 }
 
 }  // namespace carom

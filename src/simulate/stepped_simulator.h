@@ -1,7 +1,8 @@
 #pragma once
 // The stepped simulator's own parts. Its source files share this class: stepped.cpp (steps, records, state),
 // stepped_motion.cpp (paths through a step), stepped_meet.cpp (who meets whom in it), stepped_impact.cpp (impacts),
-// stepped_bind.cpp (bodies that press on one another).
+// stepped_bind.cpp (bodies that press on one another), stepped_crowd.cpp (many of them), stepped_rest.cpp (how these
+// come to rest).
 //
 // A step integrates every body from one instant to the next as if nothing were in its way, which gives a path. The
 // first meeting of two paths is found (path_meeting.h); both bodies take their step again, shorter, up to there,
@@ -120,7 +121,7 @@ class SteppedSimulator final : public Simulator {
   void hold_more(Cluster& cluster, double length, Motion& motion) const;
   void bring(Entity i, double time);
   void cut(Entity i, double time, const Vec3& x, const Vec3& v);
-  void book_work(Entity i, const Vec3& x, const Vec3& v, double length);
+  double book_work(Entity i, const Vec3& x, const Vec3& v, double length);
 
   // stepped_meet.cpp
   void stay_known(Entity i);
@@ -158,6 +159,7 @@ class SteppedSimulator final : public Simulator {
   void park(Entity i, Entity e);
   std::vector<Entity> find_crowd();
   void find_pairs(Crowd& crowd) const;
+  bool solve(const Crowd& crowd, std::vector<Vec3>& u, std::vector<PressedPair>& pairs) const;
   void find_velocities(Crowd& crowd);
   void find_ways(Crowd& crowd);
   double way_slack(const Crowd& crowd) const;
@@ -186,7 +188,8 @@ class SteppedSimulator final : public Simulator {
   std::vector<Origin> origin_;
   std::vector<std::uint32_t> version_;  // counts a body's paths
   std::vector<std::uint32_t> cluster_of_;
-  std::vector<std::uint32_t> impacts_;   // of a body in this step
+  std::vector<std::uint32_t> impacts_;   // of a body in this step, with e < 1,
+  std::vector<std::uint32_t> meetings_;  // and of whatever kind
   std::vector<std::uint8_t> crowd_;      // steps for which a body is of the crowd yet
   std::vector<std::uint8_t> in_crowd_;   // in this step
   std::vector<Entity> host_;             // with whom a body goes along until the step ends
@@ -200,6 +203,7 @@ class SteppedSimulator final : public Simulator {
   std::vector<Entity> awake_;          // whose paths go anywhere; ascending where a step begins
   std::vector<std::uint8_t> is_awake_;
   std::vector<Piece> pieces_;             // of the present step
+  bool loaded_ = false;                   // there is gravity, or a force
   bool constant_ = true, works_ = false;  // all forces are constant; some force does work (force.h)
   Neighbours neighbours_;
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;

@@ -1,0 +1,127 @@
+// How a crowd comes to rest.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "physics/complementarity.h"
+#include "simulate/stepped_crowd.h"
+
+namespace carom {
+
+namespace {
+
+constexpr std::uint32_t calm_steps = 8;    // after so many
+constexpr double drive = 1e-3;             // of a radius: how far a part may sink at a time to where it is in balance,
+constexpr double farthest_sink = 2e-2;     // and in all,
+constexpr int balance_passes = 6;          // and in how many times,
+constexpr double balanced = 1e-7;          // the last of them no farther than this much of it
+constexpr int balance_iterations = 2000;   // of the solver for large parts
+constexpr std::size_t most_direct = 4000;  // bodies; the cost of the other one grows as their square
+
+}  // namespace
+
+/// Whether and where forces hold a part of the crowd in balance, close to where it is: it sinks by a little at a time,
+/// as far as its contacts let it, until it sinks no more. x: m, in: where it is, out: where it stands, or has sunk to.
+SteppedSimulator::Balance SteppedSimulator::find_balance(Crowd& part) {
+  const std::size_t n = part.members.size();
+  const std::vector<Vec3> from = part.x;
+  const double sink = drive * part.smallest;
+  for (int pass = 0; pass < balance_passes; ++pass) {
+    find_pairs(part);
+    for (std::size_t c = 0; c < part.pairs.size(); ++c) {
+      part.pairs[c].target = -part.names[c].gap;
+      part.pairs[c].slack = 1e-10 * part.smallest;
+    }
+    std::vector<Vec3> way(n);
+    for (std::size_t k = 0; k < n; ++k) way[k] = sink / part.pulls * part.pull[k];
+    const bool told = n <= most_direct ? press_apart_directly(part.inverse_mass, way, part.pairs)
+                                       : press_apart(part.inverse_mass, way, part.pairs, balance_iterations);
+    if (!told) return Balance::none;
+    double farthest = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      part.x[k] += way[k];
+      farthest = std::max(farthest, way[k].norm());
+      if ((part.x[k] - from[k]).norm() > farthest_sink * part.smallest) return Balance::none;
+    }
+    if (farthest <= balanced * sink) return Balance::found;
+  }
+  return Balance::sinking;
+}
+
+/// Parts of the crowd that have hardly moved for a while sink to where forces hold them in balance, and fall asleep
+/// there.
+void SteppedSimulator::put_to_rest(const Crowd& crowd, const std::vector<PressedPair>& forces,
+                                   const std::vector<CrowdName>& names) {
+  const std::size_t n = crowd.members.size();
+  std::vector<std::uint32_t> root(n);
+  std::iota(root.begin(), root.end(), 0u);
+  const auto root_of = [&](std::uint32_t k) {
+    while (root[k] != k) k = root[k] = root[root[k]];
+    return k;
+  };
+  for (std::size_t c = 0; c < forces.size(); ++c) {
+    const PressedPair& p = forces[c];
+    const bool touch = p.force > 0 || names[c].gap < 2 * drive * crowd.smallest;
+    if (touch && p.b != PressedPair::none) root[root_of(p.a)] = root_of(p.b);
+  }
+  std::vector<std::vector<std::uint32_t>> parts(n);  // by root
+  for (std::uint32_t k = 0; k < n; ++k) parts[root_of(k)].push_back(k);
+  for (const std::vector<std::uint32_t>& members : parts) {
+    std::uint32_t since = std::numeric_limits<std::uint32_t>::max();
+    for (const std::uint32_t k : members) since = std::min(since, calm_[crowd.members[k]]);
+    if (members.empty() || since < calm_steps) continue;
+    // Looked at in vain it is left alone for a while, longer each time.
+    std::uint32_t& wait = patience_[crowd.members[members.front()]];
+    if (since % (calm_steps << wait) != 0) continue;
+    Crowd part;
+    part.part = true;
+    part.pulls = crowd.pulls;
+    for (const std::uint32_t k : members) {
+      const Entity i = crowd.members[k];
+      local_[i] = static_cast<std::uint32_t>(part.members.size());
+      part.members.push_back(i);
+      part.x.push_back(end_x_[i]);
+      part.pull.push_back(crowd.pull[k]);
+      part.inverse_mass.push_back(crowd.inverse_mass[k]);
+      part.smallest = std::min(part.smallest, world_.radius[i]);
+    }
+    part.v.assign(members.size(), Vec3::Zero());
+    part.haste.assign(members.size(), 4 * farthest_sink * part.smallest / length_);
+    const Balance balance = find_balance(part);
+    wait = balance == Balance::none ? std::min(wait + 1, 10u) : 0;
+    if (balance == Balance::none) continue;
+    stand(part);
+    if (balance == Balance::found) fall_asleep(part);
+  }
+}
+
+/// A part of the crowd stops where it has sunk to.
+void SteppedSimulator::stand(const Crowd& part) {
+  for (std::size_t k = 0; k < part.members.size(); ++k) {
+    const Entity i = part.members[k];
+    const Vec3& to = part.x[k];
+    end_x_[i] = to;
+    end_v_[i].setZero();
+    path_[i] = {x_[i], (to - x_[i]) / length_, Vec3::Zero(), Vec3::Zero()};
+  }
+}
+
+void SteppedSimulator::fall_asleep(const Crowd& part) {
+  const std::uint32_t c = new_cluster();
+  Cluster& cluster = clusters_[c];
+  cluster.asleep = true;
+  cluster.members = part.members;
+  tally_.resting += part.members.size();
+  for (const Entity i : part.members) {
+    cluster_of_[i] = c;
+    crowd_[i] = 0;
+    calm_[i] = 0;
+  }
+  const double per_way = part.pulls / (drive * part.smallest);  // 1/s^2
+  for (std::size_t p = 0; p < part.pairs.size(); ++p)
+    if (part.pairs[p].force > 0)
+      cluster.bonds.push_back({part.names[p].a, part.names[p].b, no_feature, true, per_way * part.pairs[p].force});
+}
+
+}  // namespace carom
