@@ -42,6 +42,7 @@ SteppedSimulator::SteppedSimulator(const World& world, const State& initial, con
       cluster_of_(world.body_count(), none),
       impacts_(world.body_count()),
       meetings_(world.body_count()),
+      travel_(world.body_count()),
       crowd_(world.body_count()),
       in_crowd_(world.body_count()),
       host_(world.body_count(), no_entity),

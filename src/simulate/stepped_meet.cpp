@@ -10,10 +10,6 @@ namespace carom {
 
 namespace {
 
-double sum(const Vec3& v) {
-  return v.cwiseAbs().sum();
-}
-
 /// How far a path may be from where it begins after `length` (s), along each axis.
 Vec3 reach_of(const Path& p, double length) {
   return length * (p.v.cwiseAbs() + 0.5 * length * (p.a.cwiseAbs() + length / 3 * p.j.cwiseAbs()));
@@ -27,6 +23,7 @@ void SteppedSimulator::stay_known(Entity i) {
   const double length = length_ - start_[i];
   const Neighbours::Region& region = neighbours_.region(i);
   const Vec3 reach = reach_of(path, length);
+  travel_[i] = reach.norm();
   if (((path.x - region.center).cwiseAbs() + reach).maxCoeff() <= region.room) return;
   neighbours_.cover(i, path.position(0.5 * length), reach.maxCoeff());
 }
@@ -47,6 +44,10 @@ bool SteppedSimulator::bound(Entity a, Entity b) const {
 void SteppedSimulator::predict(Entity i, bool all) {
   for (const Entity e : neighbours_.near(i)) {
     const bool body = world_.is_body(e);
+    if (body) {  // most do not come near each other in a step
+      const double reach = world_.radius[i] + world_.radius[e] + travel_[i] + travel_[e];
+      if ((x_[e] - x_[i]).squaredNorm() > 1.0001 * reach * reach) continue;
+    }
     if (!all && body && e < i && !(cluster_of_[e] != none && clusters_[cluster_of_[e]].asleep)) continue;
     if (body)
       predict_pair(std::min(i, e), std::max(i, e));
@@ -64,12 +65,6 @@ void SteppedSimulator::predict_pair(Entity a, Entity b) {
   const double base = body ? std::max(start_[a], start_[b]) : start_[a], length = length_ - base;
   const Path pa = path_of(a, base), pb = path_of(b, base);
   const bool left = origin_[a].partner == b && (!body || (origin_[b].partner == a && start_[a] == start_[b]));
-  if (body && world_.volume.empty()) {  // most pairs do not come near each other in a step
-    const Vec3 d = pb.x - pa.x, w = pb.v - pa.v, acceleration = pb.a - pa.a, jerk = pb.j - pa.j;
-    const double s = world_.radius[a] + world_.radius[b];
-    const double reach = s + length * (sum(w) + 0.5 * length * (sum(acceleration) + length / 3 * sum(jerk)));
-    if (d.squaredNorm() > reach * reach) return;
-  }
   if (bound(a, b)) return;
   const Meeting first = meeting(world_, a, pa, b, pb, left ? origin_[a].feature : no_feature, length);
   if (!(first.time <= length)) return;

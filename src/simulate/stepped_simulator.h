@@ -190,6 +190,7 @@ class SteppedSimulator final : public Simulator {
   std::vector<std::uint32_t> cluster_of_;
   std::vector<std::uint32_t> impacts_;   // of a body in this step, with e < 1,
   std::vector<std::uint32_t> meetings_;  // and of whatever kind
+  std::vector<double> travel_;           // m, at least as far as a body goes on its path
   std::vector<std::uint8_t> crowd_;      // steps for which a body is of the crowd yet
   std::vector<std::uint8_t> in_crowd_;   // in this step
   std::vector<Entity> host_;             // with whom a body goes along until the step ends
