@@ -96,8 +96,8 @@ void settle_step(const Scene& scene, EngineChoice& engine, const std::function<v
   engine.why = joined(engine.why, fmt::format("{}, steps of {:.4g} s, ", method, choice.step));
   engine.why +=
       choice.chaotic_from <= simulate.duration
-          ? fmt::format("chaotic: positions agree within {} m until {:.4g} s, and no longer with shorter ones",
-                        *simulate.tolerance, choice.chaotic_from - simulate.duration / 64)
+          ? fmt::format("chaotic: from {:.4g} s on positions differ by more than {} m, and no later with shorter ones",
+                        choice.chaotic_from, *simulate.tolerance)
           : fmt::format("with which positions agree within {:.2g} m", choice.difference);
 }
 

@@ -1,7 +1,10 @@
 #pragma once
 // Running sums of a run: what summary.csv needs without a table of collisions.
+#include <cmath>
 #include <cstdint>
 #include <limits>
+
+#include "physics/collision.h"
 
 namespace carom {
 
@@ -18,6 +21,13 @@ struct Tally {
   double max_speed = 0;                                               // m/s, greatest seen
   std::uint64_t resting = 0;                                          // bodies in resting contact now
 
+  /// Takes a record into the counts; the end of bounces is no collision.
+  void count(CollisionKind kind, double time) {
+    if (kind == CollisionKind::rest) return;
+    ++(kind == CollisionKind::body_body ? body_body : kind == CollisionKind::body_fixed ? body_fixed : merges);
+    if (std::isnan(first_collision)) first_collision = time;
+    last_collision = time;
+  }
   std::uint64_t collisions() const { return body_body + body_fixed + merges; }
 };
 

@@ -60,9 +60,7 @@ BookSimulator::BookSimulator(const World& world, const State& initial, const Boo
 }
 
 void BookSimulator::record(const Collision& c) {
-  ++(c.kind == CollisionKind::body_body ? tally_.body_body : tally_.body_fixed);
-  if (std::isnan(tally_.first_collision)) tally_.first_collision = c.time;
-  tally_.last_collision = c.time;
+  tally_.count(c.kind, c.time);
   energy_lost_.add(c.energy_lost);
   tally_.energy_lost = energy_lost_.value();
   if (options_.record_collisions) collisions_.push_back(c);

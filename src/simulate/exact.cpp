@@ -227,13 +227,7 @@ void ExactSimulator::switch_forces(Entity i) {
 }
 
 void ExactSimulator::record(const Collision& collision) {
-  if (collision.kind != CollisionKind::rest) {
-    ++(collision.kind == CollisionKind::body_body    ? tally_.body_body
-       : collision.kind == CollisionKind::body_fixed ? tally_.body_fixed
-                                                     : tally_.merges);
-    if (std::isnan(tally_.first_collision)) tally_.first_collision = collision.time;
-    tally_.last_collision = collision.time;
-  }
+  tally_.count(collision.kind, collision.time);
   if (options_.record_collisions) collisions_.push_back(collision);
 }
 

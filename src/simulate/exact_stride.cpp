@@ -12,12 +12,12 @@
 // A part of the crowd that forces hold in balance is put to rest: velocities exactly zero, no more steps, until struck.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "physics/complementarity.h"
 #include "physics/restitution.h"
 #include "physics/touch.h"
 #include "simulate/exact_simulator.h"
+#include "simulate/parts.h"
 
 namespace carom {
 
@@ -209,13 +209,7 @@ void ExactSimulator::move_apart(Stride& step) {
 /// are kept apart.
 void ExactSimulator::find_parts(Stride& step) {
   const std::size_t n = crowd_.size();
-  std::vector<std::uint32_t>& part = step.part;
-  part.resize(n);
-  std::iota(part.begin(), part.end(), 0u);
-  const auto root = [&](std::uint32_t k) {
-    while (part[k] != k) k = part[k] = part[part[k]];
-    return k;
-  };
+  Parts parts(n);
   step.carried.assign(n, 0);
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
     const PressedPair& p = step.pairs[c];
@@ -223,9 +217,11 @@ void ExactSimulator::find_parts(Stride& step) {
     step.carried[p.a] = 1;
     if (p.b == PressedPair::none) continue;
     step.carried[p.b] = 1;
-    part[root(p.a)] = root(p.b);
+    parts.join(p.a, p.b);
   }
-  for (std::uint32_t k = 0; k < n; ++k) part[k] = root(k);
+  std::vector<std::uint32_t>& part = step.part;
+  part.resize(n);
+  for (std::uint32_t k = 0; k < n; ++k) part[k] = parts.root(k);
   std::vector<double> kept(n, resting_gap * step.smallest);
   const auto keep = [&](std::uint32_t k, double gap) { kept[part[k]] = std::max(kept[part[k]], gap); };
   for (std::uint32_t k = 0; k < n; ++k) {

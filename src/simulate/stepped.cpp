@@ -147,8 +147,10 @@ void SteppedSimulator::do_step() {
   }
   for (const Entity i : awake_)
     if (cluster_of_[i] == none) begin_path(i);
-  for (const Entity i : awake_) stay_known(i);
-  step_crowd();
+  if (std::any_of(awake_.begin(), awake_.end(), [&](Entity i) { return crowd_[i] > 0; })) {
+    for (const Entity i : awake_) stay_known(i);
+    step_crowd();
+  }
   for (Cluster& cluster : clusters_)
     if (!cluster.members.empty() && !cluster.asleep) begin_paths(cluster);
   const std::vector<Entity> moving = awake_;
@@ -178,18 +180,14 @@ void SteppedSimulator::do_step() {
 }
 
 void SteppedSimulator::record(const Collision& c) {
-  if (c.kind != CollisionKind::rest) {
-    ++(c.kind == CollisionKind::body_body ? tally_.body_body : tally_.body_fixed);
-    if (std::isnan(tally_.first_collision)) tally_.first_collision = c.time;
-    tally_.last_collision = c.time;
-  }
+  tally_.count(c.kind, c.time);
   if (options_.record_collisions) collisions_.push_back(c);
   if (options_.max_collisions > 0 && tally_.collisions() > options_.max_collisions)
     throw SimulationError(fmt::format("more than simulate.max_collisions = {} collisions, reached at t = {} s",
                                       options_.max_collisions, c.time));
 }
 
-/// Kinetic energy (J) that a collision or a contact took.
+/// Energy (J) that a collision or a contact took.
 void SteppedSimulator::lose(double energy) {
   energy_lost_.add(energy);
   tally_.energy_lost = energy_lost_.value();

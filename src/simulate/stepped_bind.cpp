@@ -1,10 +1,10 @@
 // Bodies that press on one another.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "physics/few_contacts.h"
 #include "physics/restitution.h"
+#include "simulate/parts.h"
 #include "simulate/stepped_simulator.h"
 
 namespace carom {
@@ -120,7 +120,6 @@ std::vector<SteppedSimulator::Bond> SteppedSimulator::settle(const std::vector<E
   for (std::size_t k = 0; k < n; ++k) local_[group[k]] = static_cast<std::uint32_t>(k);
   std::vector<Bond> bonds;
   std::vector<PressedPair> pairs;
-  std::vector<double> bends;
   for (const Entity i : group) {
     for (const Entity e : neighbours_.near(i)) {
       const bool body = world_.is_body(e);
@@ -203,25 +202,20 @@ std::uint32_t SteppedSimulator::new_cluster() {
 /// Makes clusters of those of the group that bonds bind.
 void SteppedSimulator::gather_clusters(const std::vector<Entity>& group, const std::vector<Bond>& bonds) {
   const std::size_t n = group.size();
-  std::vector<std::size_t> part(n);
-  std::iota(part.begin(), part.end(), std::size_t{0});
-  const auto root = [&](std::size_t k) {
-    while (part[k] != k) k = part[k] = part[part[k]];
-    return k;
-  };
+  Parts parts(n);
   std::vector<std::uint8_t> is_bound(n);
   for (const Bond& bond : bonds) {
     is_bound[local_[bond.a]] = 1;
     if (!world_.is_body(bond.b)) continue;
     is_bound[local_[bond.b]] = 1;
-    part[root(local_[bond.a])] = root(local_[bond.b]);
+    parts.join(local_[bond.a], local_[bond.b]);
   }
   std::vector<std::uint32_t> cluster(n, none);
   double pull = 0;
   for (const Entity i : group) pull = std::max(pull, free_acceleration(i, x_[i], v_[i]).norm());
   for (std::size_t k = 0; k < n; ++k) {
     if (!is_bound[k]) continue;
-    std::uint32_t& c = cluster[root(k)];
+    std::uint32_t& c = cluster[parts.root(static_cast<std::uint32_t>(k))];
     if (c == none) {
       c = new_cluster();
       clusters_[c].asleep = true;
@@ -232,7 +226,7 @@ void SteppedSimulator::gather_clusters(const std::vector<Entity>& group, const s
     const double unit = std::sqrt(pull * world_.radius[i]);
     if (!(v_[i].norm() <= still * unit && pulled_[k].norm() <= balanced * pull)) clusters_[c].asleep = false;
   }
-  for (const Bond& bond : bonds) clusters_[cluster[root(local_[bond.a])]].bonds.push_back(bond);
+  for (const Bond& bond : bonds) clusters_[cluster[parts.root(local_[bond.a])]].bonds.push_back(bond);
   for (std::size_t k = 0; k < n; ++k) {
     const std::uint32_t c = cluster[k];
     if (c == none || clusters_[c].members.empty()) continue;

@@ -108,9 +108,8 @@ void SteppedSimulator::find_pairs(Crowd& crowd) const {
         if (there.gap > way) continue;
       }
       const double approach = there.normal.dot(crowd.v[k] - (member ? crowd.v[other] : Vec3(Vec3::Zero())));
-      const double restitution = pair_restitution(world_, i, e);
       crowd.pairs.push_back({static_cast<std::uint32_t>(k), other, there.normal, 0, 0, 0});
-      crowd.names.push_back({i, e, there.gap, approach, restitution, false});
+      crowd.names.push_back({i, e, there.gap, approach, 0, false});
     }
   }
 }
@@ -134,6 +133,7 @@ void SteppedSimulator::find_velocities(Crowd& crowd) {
   for (std::size_t c = 0; c < crowd.pairs.size(); ++c) {
     CrowdName& name = crowd.names[c];
     PressedPair pair = crowd.pairs[c];
+    name.restitution = pair_restitution(world_, name.a, name.b);
     tally_.max_overlap = std::max(tally_.max_overlap, -name.gap);
     const bool fast = 2 * name.restitution * name.approach > crowd.pulls * h && name.approach > options_.rest_speed;
     if (fast) {
@@ -165,16 +165,11 @@ void SteppedSimulator::find_ways(Crowd& crowd) {
   const double h = length_;
   crowd.way.resize(crowd.v.size());
   for (std::size_t k = 0; k < crowd.v.size(); ++k) crowd.way[k] = 0.5 * (crowd.v[k] + crowd.moved[k]);
-  std::vector<PressedPair> pairs;
-  pairs.reserve(crowd.pairs.size());
   for (std::size_t c = 0; c < crowd.pairs.size(); ++c) {
-    PressedPair pair = crowd.pairs[c];
-    pair.target = -crowd.names[c].gap / h;
-    pair.slack = way_slack(crowd) / h;
-    pair.force = 0;
-    pairs.push_back(pair);
+    crowd.pairs[c].target = -crowd.names[c].gap / h;
+    crowd.pairs[c].slack = way_slack(crowd) / h;
   }
-  crowd.told = solve(crowd, crowd.way, pairs) && crowd.told;
+  crowd.told = solve(crowd, crowd.way, crowd.pairs) && crowd.told;
 }
 
 double SteppedSimulator::known_force(Entity a, Entity b) const {
@@ -203,8 +198,8 @@ void SteppedSimulator::step_crowd() {
   }
   find_velocities(crowd);
   std::vector<std::uint8_t> pressed(n);
-  std::vector<PressedPair> forces = crowd.pairs;
-  std::vector<CrowdName> names = crowd.names;
+  const std::vector<PressedPair> forces = std::move(crowd.pairs);  // of this, for the ways need pairs of their own
+  const std::vector<CrowdName> names = std::move(crowd.names);
   for (std::size_t k = 0; k < n; ++k) pressed_[crowd.members[k]].clear();
   for (std::size_t c = 0; c < forces.size(); ++c) {
     if (!(forces[c].force > 0)) continue;

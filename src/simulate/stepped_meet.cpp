@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/held_contacts.h"
 #include "physics/path_meeting.h"
 #include "simulate/stepped_simulator.h"
 
@@ -82,27 +81,44 @@ void SteppedSimulator::predict_releases(std::uint32_t c) {
   std::vector<const Bond*> pressing;
   for (const Bond& bond : cluster.bonds)
     if (bond.presses) pressing.push_back(&bond);
-  // N, what is left of each force after t, and a little: one that is only rounding does not end.
-  const auto force_after = [&](double t, std::size_t which) {
+  const auto go = [&](double t) {
     move(cluster, t, m);
     accelerate(cluster, m.end_x, m.end_v, a, pairs);
+  };
+  // N, what is left of a force, and a little: one that is only rounding does not end.
+  const auto force_of = [&](std::size_t which) {
     const Bond& bond = *pressing[which];
     const double weight =
         world_.mass[bond.a] * free_acceleration(bond.a, m.x[local_[bond.a]], m.v[local_[bond.a]]).norm();
     return pairs[which].force + 1e-9 * weight;
   };
-  const auto feature_after = [&](double t, std::size_t which) {
-    move(cluster, t, m);
+  const auto force_after = [&](double t, std::size_t which) {
+    go(t);
+    return force_of(which);
+  };
+  const auto feature_now = [&](std::size_t which) {
     const Bond& bond = *pressing[which];
     const Vec3 xb = world_.is_body(bond.b) ? m.end_x[local_[bond.b]] : world_.fixed_position(bond.b);
     return touch(world_, bond.a, m.end_x[local_[bond.a]], bond.b, xb).feature;
   };
+  const auto feature_after = [&](double t, std::size_t which) {
+    move(cluster, t, m);
+    return feature_now(which);
+  };
+  std::vector<double> first(pressing.size()), last(pressing.size());  // N
+  std::vector<std::uint8_t> feature_last(pressing.size());
+  go(0);
+  for (std::size_t k = 0; k < pressing.size(); ++k) first[k] = force_of(k);
+  go(length);
+  for (std::size_t k = 0; k < pressing.size(); ++k) {
+    last[k] = force_of(k);
+    feature_last[k] = world_.is_plane(pressing[k]->b) ? pressing[k]->feature : feature_now(k);
+  }
   for (std::size_t k = 0; k < pressing.size(); ++k) {
     const Bond& bond = *pressing[k];
     double ends = never;
     std::uint8_t beyond = bond.feature;
-    if (double low = 0, high = length, at_low = force_after(low, k), at_high = force_after(high, k);
-        at_low > 0 && at_high < 0) {
+    if (double low = 0, high = length, at_low = first[k], at_high = last[k]; at_low > 0 && at_high < 0) {
       // Regula falsi, the Illinois way.
       for (int pass = 0; pass < 60 && high - low > 0x1p-40 * length; ++pass) {
         const double t = high - (high - low) * at_high / (at_high - at_low);
@@ -120,8 +136,8 @@ void SteppedSimulator::predict_releases(std::uint32_t c) {
       }
       ends = high;
     }
-    if (world_.is_plane(bond.b)) {
-    } else if (feature_after(std::min(ends, length), k) != bond.feature) {
+    const bool flat_for_ever = world_.is_plane(bond.b);
+    if (!flat_for_ever && (ends < never ? feature_after(ends, k) : feature_last[k]) != bond.feature) {
       double low = 0, high = std::min(ends, length);
       while (high - low > 0x1p-48 * length) {
         const double t = 0.5 * (low + high);

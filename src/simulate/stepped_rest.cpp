@@ -2,16 +2,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "physics/complementarity.h"
+#include "simulate/parts.h"
 #include "simulate/stepped_crowd.h"
 
 namespace carom {
 
 namespace {
 
-constexpr std::uint32_t calm_steps = 8;    // after so many
+constexpr std::uint32_t calm_steps = 8;    // that a part has been calm for before it is looked at
 constexpr double drive = 1e-3;             // of a radius: how far a part may sink at a time to where it is in balance,
 constexpr double farthest_sink = 2e-2;     // and in all,
 constexpr int balance_passes = 6;          // and in how many times,
@@ -54,19 +54,14 @@ SteppedSimulator::Balance SteppedSimulator::find_balance(Crowd& part) {
 void SteppedSimulator::put_to_rest(const Crowd& crowd, const std::vector<PressedPair>& forces,
                                    const std::vector<CrowdName>& names) {
   const std::size_t n = crowd.members.size();
-  std::vector<std::uint32_t> root(n);
-  std::iota(root.begin(), root.end(), 0u);
-  const auto root_of = [&](std::uint32_t k) {
-    while (root[k] != k) k = root[k] = root[root[k]];
-    return k;
-  };
+  Parts joined(n);
   for (std::size_t c = 0; c < forces.size(); ++c) {
     const PressedPair& p = forces[c];
     const bool touch = p.force > 0 || names[c].gap < 2 * drive * crowd.smallest;
-    if (touch && p.b != PressedPair::none) root[root_of(p.a)] = root_of(p.b);
+    if (touch && p.b != PressedPair::none) joined.join(p.a, p.b);
   }
   std::vector<std::vector<std::uint32_t>> parts(n);  // by root
-  for (std::uint32_t k = 0; k < n; ++k) parts[root_of(k)].push_back(k);
+  for (std::uint32_t k = 0; k < n; ++k) parts[joined.root(k)].push_back(k);
   for (const std::vector<std::uint32_t>& members : parts) {
     std::uint32_t since = std::numeric_limits<std::uint32_t>::max();
     for (const std::uint32_t k : members) since = std::min(since, calm_[crowd.members[k]]);
