@@ -3,13 +3,49 @@
 // it alone needs (projected Gauss-Seidel). From the forces of a moment ago a few sweeps are enough for bodies in
 // motion; it never gets as near to the answer as press_apart does.
 #include <span>
+#include <vector>
 
 #include "physics/complementarity.h"
 
 namespace carom {
 
-/// Moves u towards the motion that press_apart finds, in at most `sweeps` of all pairs; fewer once no pair is off by
-/// more than its slack. Whether that was so.
-bool sweep_apart(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<PressedPair> pairs, int sweeps);
+class Sweeps {
+ public:
+  /// Moves u towards the motion that press_apart finds, in at most `sweeps` of all pairs; fewer once no pair is off by
+  /// more than its slack. Whether that was so. The forces given are a guess; one that is still bad
+  /// after all sweeps is forgotten, so that where no pair has a target kinetic energy never grows.
+  bool press_apart(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<PressedPair> pairs, int sweeps);
+
+ private:
+  static constexpr std::size_t width = 4;
+  static constexpr std::size_t aligned = width * sizeof(double);  // bytes
+  using Four = double __attribute__((vector_size(aligned)));
+
+  struct alignas(aligned) Motion {
+    Four u;  // x, y, z, 0
+  };
+
+  /// Pairs that share no body, for which it does not matter which comes first: their forces are found side by side.
+  struct alignas(aligned) Batch {
+    Four normal[3];
+    Four per_rate;    // kg: the force that makes a difference of 1 in the rate
+    Four of_a, of_b;  // 1/kg
+    Four target;      // as PressedPair's,
+    Four slack;       // kg times the unit of u: what a force may change by yet
+    Four force;
+    std::uint32_t a[width], b[width];
+  };
+
+  void arrange(std::span<const double> inverse_mass, std::span<const PressedPair> pairs);
+  void start(std::span<const Vec3> u, std::span<const PressedPair> pairs, bool guess);
+  double potential(std::span<const Vec3> u, std::span<const PressedPair> pairs) const;
+  static double sweep(Batch* batches, std::size_t count, Motion* motions, bool back);
+
+  std::vector<Batch> batches_;
+  std::vector<std::uint32_t> place_;  // by pair: width times its batch, and its lane
+  std::vector<std::uint64_t> in_;     // by body: the open batches that it is in, a bit each
+  std::vector<std::uint8_t> filled_;  // by batch: lanes in use
+  std::vector<Motion> motions_;       // by body; and one more, which nothing moves
+};
 
 }  // namespace carom

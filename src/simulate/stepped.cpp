@@ -120,7 +120,7 @@ void SteppedSimulator::end_step() {
     if (is_awake_[i]) awake_[kept++] = i;
   }
   awake_.resize(kept);
-  std::sort(awake_.begin(), awake_.end());
+  if (!std::is_sorted(awake_.begin(), awake_.end())) std::sort(awake_.begin(), awake_.end());
   pieces_.clear();
 }
 
@@ -146,9 +146,10 @@ void SteppedSimulator::do_step() {
     if (!group.empty()) bind(group, 0, nullptr, false);
   }
   for (const Entity i : awake_)
-    if (cluster_of_[i] == none) begin_path(i);
+    if (cluster_of_[i] == none && crowd_[i] == 0) begin_path(i);
   if (std::any_of(awake_.begin(), awake_.end(), [&](Entity i) { return crowd_[i] > 0; })) {
-    for (const Entity i : awake_) stay_known(i);
+    for (const Entity i : awake_)
+      if (crowd_[i] == 0) stay_known(i);
     step_crowd();
   }
   for (Cluster& cluster : clusters_)

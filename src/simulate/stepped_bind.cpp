@@ -104,6 +104,7 @@ void SteppedSimulator::grow(std::vector<Entity>& group, double time) {
 void SteppedSimulator::bind(std::vector<Entity>& group, double time, const Event* met, bool parts) {
   if (loaded_ || !parts) {
     grow(group, time);
+    std::sort(group.begin(), group.end());  // lists of neighbours are in no order that results may depend on
     const std::vector<Bond> bonds = settle(group, met, parts);
     if (!bonds.empty()) gather_clusters(group, bonds);
   }
@@ -120,7 +121,9 @@ std::vector<SteppedSimulator::Bond> SteppedSimulator::settle(const std::vector<E
   for (std::size_t k = 0; k < n; ++k) local_[group[k]] = static_cast<std::uint32_t>(k);
   std::vector<Bond> bonds;
   std::vector<PressedPair> pairs;
+  std::vector<std::pair<Entity, Touch>> found;  // of one body, in the order of their numbers
   for (const Entity i : group) {
+    found.clear();
     for (const Entity e : neighbours_.near(i)) {
       const bool body = world_.is_body(e);
       if (body && (e < i || local_[e] >= n || group[local_[e]] != e)) continue;
@@ -130,8 +133,12 @@ std::vector<SteppedSimulator::Bond> SteppedSimulator::settle(const std::vector<E
         if (!is_met(i, e)) continue;
         there = touch(world_, i, x_[i], e, position_of(e), met->feature);
       }
+      found.emplace_back(e, there);
+    }
+    std::sort(found.begin(), found.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
+    for (const auto& [e, there] : found) {
       bonds.push_back({i, e, there.feature, false, 0});
-      pairs.push_back({local_[i], body ? local_[e] : PressedPair::none, there.normal, 0, 0, 0});
+      pairs.push_back({local_[i], world_.is_body(e) ? local_[e] : PressedPair::none, there.normal, 0, 0, 0});
     }
   }
   if (bonds.empty()) return bonds;

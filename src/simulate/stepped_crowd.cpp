@@ -16,8 +16,7 @@
 #include "physics/force.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
-#include "physics/sweeps.h"
-#include "simulate/stepped_crowd.h"
+#include "simulate/stepped_simulator.h"
 
 namespace carom {
 
@@ -25,12 +24,14 @@ namespace {
 
 constexpr std::uint8_t patience = 8;        // steps without contact, then a body leaves the crowd
 constexpr double near_enough = 1e-3;        // of a radius: a gap over which fast bodies strike
-constexpr int most_sweeps = 200;            // of either problem
+constexpr int velocity_sweeps = 20;         // what they leave undone the next step, which starts from it, does
+constexpr int way_sweeps = 200;             // these decide on overlap
 constexpr std::size_t most_polished = 200;  // pairs for which there is another solver,
 constexpr int polishing = 1000;             // and its iterations
 constexpr double calm = 2e-4;               // of the speed of falling by a radius: slower bodies may be at rest
 constexpr double least_slack = 1e-8;        // of a radius: by how much bodies may overlap,
-constexpr double most_slack = 1e-3;         // and where that is hard to achieve
+constexpr double most_slack = 1e-3;         // and where that is hard to achieve, or
+constexpr double restless = 50;             // times the speed is above that of falling by a radius
 
 }  // namespace
 
@@ -52,12 +53,21 @@ void SteppedSimulator::park(Entity i, Entity e) {
   join(i);
 }
 
-/// Who is of the crowd in this step: those that were, and whom they may meet. All have paths as if nobody met.
+/// Sees to it that a member is known to all that it can meet at this haste (m/s), whichever way.
+void SteppedSimulator::look_around(Entity i, double haste) {
+  path_[i] = {x_[i], Vec3(haste, haste, haste), Vec3::Zero(), Vec3::Zero()};
+  stay_known(i);
+}
+
+/// Who is of the crowd in this step: those that were, and whom they may meet. The others have paths as if nobody met.
 std::vector<Entity> SteppedSimulator::find_crowd() {
   std::vector<Entity> members;
   for (const Entity i : awake_)
     if (crowd_[i] > 0) members.push_back(i);
-  for (const Entity i : members) in_crowd_[i] = 1;
+  for (const Entity i : members) {
+    in_crowd_[i] = 1;
+    look_around(i, v_[i].norm());
+  }
   for (std::size_t k = 0; k < members.size(); ++k) {
     const Entity i = members[k];
     for (const Entity e : neighbours_.near(i)) {
@@ -81,21 +91,48 @@ std::vector<Entity> SteppedSimulator::find_crowd() {
   return members;
 }
 
-/// Pairs that may come into contact in the step.
-void SteppedSimulator::find_pairs(Crowd& crowd) const {
+void Crowd::clear() {
+  members.clear();
+  x.clear();
+  v.clear();
+  pull.clear();
+  inverse_mass.clear();
+  haste.clear();
+  known.clear();
+  contacts.clear();
+  smallest = never;
+  pulls = 0;
+}
+
+void Crowd::add(Entity i, const Vec3& at, const Vec3& velocity, const Vec3& acceleration, double mass, double radius) {
+  members.push_back(i);
+  x.push_back(at);
+  v.push_back(velocity);
+  pull.push_back(acceleration);
+  inverse_mass.push_back(1 / mass);
+  haste.push_back(velocity.norm());
+  known.push_back(-never);
+  smallest = std::min(smallest, radius);
+  pulls = std::max(pulls, acceleration.norm());
+}
+
+/// Finds who may come into contact in the step, at these hastes, of those that are not known yet.
+void SteppedSimulator::find_contacts(Crowd& crowd) const {
   const double drop = crowd.pulls * length_ * length_;
-  crowd.pairs.clear();
-  crowd.names.clear();
   const bool balls = world_.volume.empty();
   for (std::size_t k = 0; k < crowd.members.size(); ++k) {
+    if (crowd.haste[k] == crowd.known[k]) continue;
     const Entity i = crowd.members[k];
+    const std::size_t first = crowd.contacts.size();
     for (const Entity e : neighbours_.near(i)) {
       const bool body = world_.is_body(e);
       const bool member = body && local_[e] < crowd.members.size() && crowd.members[local_[e]] == e;
-      if (member ? e < i : body && !crowd.part) continue;
+      if (body && !member && !crowd.part) continue;
       const std::uint32_t other = member ? local_[e] : PressedPair::none;
+      if (member && e < i && crowd.haste[other] != crowd.known[other]) continue;  // e has found i
       const Vec3 xe = member ? crowd.x[other] : body ? end_x_[e] : world_.fixed_position(e);
       const double way = length_ * (crowd.haste[k] + (member ? crowd.haste[other] : 0)) + drop;
+      const double known = length_ * (crowd.known[k] + (member ? crowd.known[other] : 0)) + drop;
       Touch there;
       if (body && balls) {
         const Vec3 d = xe - crowd.x[k];
@@ -105,53 +142,59 @@ void SteppedSimulator::find_pairs(Crowd& crowd) const {
         there = {distance - s, distance > 0 ? Vec3(d / distance) : Vec3(Vec3::UnitY()), xe, 0};
       } else {
         there = touch(world_, i, crowd.x[k], e, xe);
-        if (there.gap > way) continue;
       }
+      if (!(there.gap <= way) || there.gap <= known) continue;
       const double approach = there.normal.dot(crowd.v[k] - (member ? crowd.v[other] : Vec3(Vec3::Zero())));
-      crowd.pairs.push_back({static_cast<std::uint32_t>(k), other, there.normal, 0, 0, 0});
-      crowd.names.push_back({i, e, there.gap, approach, 0, false});
+      if (member && e < i)
+        crowd.contacts.push_back(
+            {e, i, other, static_cast<std::uint32_t>(k), Vec3(-there.normal), there.gap, approach});
+      else
+        crowd.contacts.push_back({i, e, static_cast<std::uint32_t>(k), other, there.normal, there.gap, approach});
     }
+    // Lists of neighbours are in no order that results may depend on.
+    std::sort(crowd.contacts.begin() + static_cast<std::ptrdiff_t>(first), crowd.contacts.end(),
+              [](const CrowdContact& p, const CrowdContact& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
   }
+  crowd.known = crowd.haste;
 }
 
 /// By sweeps; where these get nowhere, as between light bodies and heavy ones, otherwise, if that does not cost too
 /// much.
-bool SteppedSimulator::solve(const Crowd& crowd, std::vector<Vec3>& u, std::vector<PressedPair>& pairs) const {
-  const std::vector<Vec3> free = pairs.size() > most_polished ? std::vector<Vec3>{} : u;
-  if (sweep_apart(crowd.inverse_mass, u, pairs, most_sweeps)) return true;
-  if (free.empty()) return false;
+bool SteppedSimulator::solve(Crowd& crowd, std::vector<Vec3>& u, int sweeps) {
+  const bool few = crowd.pairs.size() <= most_polished;
+  const std::vector<Vec3> free = few ? u : std::vector<Vec3>{};
+  if (crowd.sweeps.press_apart(crowd.inverse_mass, u, crowd.pairs, few ? way_sweeps : sweeps)) return true;
+  if (!few) return false;
   u = free;
-  return press_apart(crowd.inverse_mass, u, pairs, polishing);
+  return press_apart(crowd.inverse_mass, u, crowd.pairs, polishing);
 }
 
 /// The crowd's velocities at the step's end.
 void SteppedSimulator::find_velocities(Crowd& crowd) {
-  find_pairs(crowd);
-  const double h = length_;
-  std::vector<PressedPair> pairs;
-  std::vector<std::size_t> which;
-  for (std::size_t c = 0; c < crowd.pairs.size(); ++c) {
-    CrowdName& name = crowd.names[c];
-    PressedPair pair = crowd.pairs[c];
-    name.restitution = pair_restitution(world_, name.a, name.b);
-    tally_.max_overlap = std::max(tally_.max_overlap, -name.gap);
-    const bool fast = 2 * name.restitution * name.approach > crowd.pulls * h && name.approach > options_.rest_speed;
+  const double h = length_, slack = 2 * way_slack(crowd);
+  const double tired = std::clamp(unrest_, 1e-5, 0.05) * crowd.pulls * h;
+  crowd.pairs.clear();
+  crowd.which.clear();
+  for (std::size_t c = 0; c < crowd.contacts.size(); ++c) {
+    CrowdContact& contact = crowd.contacts[c];
+    contact.restitution = pair_restitution(world_, contact.a, contact.b);
+    tally_.max_overlap = std::max(tally_.max_overlap, -contact.gap);
+    const bool fast =
+        2 * contact.restitution * contact.approach > crowd.pulls * h && contact.approach > options_.rest_speed;
+    double target = -std::max(contact.gap - slack, 0.0) / h;
     if (fast) {
-      if (name.gap > near_enough * crowd.smallest) continue;  // it has not come yet
-      name.strikes = true;
-      pair.target = name.restitution * name.approach;
-    } else {
-      pair.target = -std::max(name.gap - 2 * way_slack(crowd), 0.0) / h;
+      if (contact.gap > near_enough * crowd.smallest) continue;  // it has not come yet
+      contact.strikes = true;
+      target = contact.restitution * contact.approach;
     }
-    pair.slack = std::clamp(10 * unrest_, 1e-5, 0.05) * crowd.pulls * h + 1e-2 * std::max(name.approach, 0.0);
-    pair.force = known_force(name.a, name.b) * h;
-    pairs.push_back(pair);
-    which.push_back(c);
+    crowd.pairs.push_back({contact.of_a, contact.of_b, contact.normal, target,
+                           tired + 1e-2 * std::max(contact.approach, 0.0), known_force(contact.a, contact.b) * h});
+    crowd.which.push_back(c);
   }
   crowd.moved = crowd.v;
   for (std::size_t k = 0; k < crowd.moved.size(); ++k) crowd.moved[k] += h * crowd.pull[k];
-  crowd.told = solve(crowd, crowd.moved, pairs);
-  for (std::size_t c = 0; c < pairs.size(); ++c) crowd.pairs[which[c]].force = pairs[c].force;
+  solve(crowd, crowd.moved, velocity_sweeps);
+  for (std::size_t c = 0; c < crowd.pairs.size(); ++c) crowd.contacts[crowd.which[c]].impulse = crowd.pairs[c].force;
 }
 
 /// m: by how much bodies may overlap, for a step or two: ever less, as long as sweeps achieve that. What gap they are
@@ -162,14 +205,13 @@ double SteppedSimulator::way_slack(const Crowd& crowd) const {
 
 /// The crowd's ways to the step's end.
 void SteppedSimulator::find_ways(Crowd& crowd) {
-  const double h = length_;
+  const double h = length_, slack = way_slack(crowd) / h;
   crowd.way.resize(crowd.v.size());
   for (std::size_t k = 0; k < crowd.v.size(); ++k) crowd.way[k] = 0.5 * (crowd.v[k] + crowd.moved[k]);
-  for (std::size_t c = 0; c < crowd.pairs.size(); ++c) {
-    crowd.pairs[c].target = -crowd.names[c].gap / h;
-    crowd.pairs[c].slack = way_slack(crowd) / h;
-  }
-  crowd.told = solve(crowd, crowd.way, crowd.pairs) && crowd.told;
+  crowd.pairs.clear();
+  for (const CrowdContact& contact : crowd.contacts)
+    crowd.pairs.push_back({contact.of_a, contact.of_b, contact.normal, -contact.gap / h, slack, 0});
+  crowd.told = solve(crowd, crowd.way, way_sweeps);
 }
 
 double SteppedSimulator::known_force(Entity a, Entity b) const {
@@ -180,42 +222,26 @@ double SteppedSimulator::known_force(Entity a, Entity b) const {
 
 /// A step of all the crowd. Its members' paths are straight.
 void SteppedSimulator::step_crowd() {
-  Crowd crowd;
-  crowd.members = find_crowd();
+  Crowd& crowd = now_;
+  crowd.clear();
+  for (const Entity i : find_crowd()) {
+    local_[i] = static_cast<std::uint32_t>(crowd.members.size());
+    crowd.add(i, x_[i], v_[i], free_acceleration(i, x_[i], v_[i]), world_.mass[i], world_.radius[i]);
+  }
   const std::size_t n = crowd.members.size();
   if (n == 0) return;
   const double h = length_;
-  for (std::size_t k = 0; k < n; ++k) {
-    const Entity i = crowd.members[k];
-    local_[i] = static_cast<std::uint32_t>(k);
-    crowd.x.push_back(x_[i]);
-    crowd.v.push_back(v_[i]);
-    crowd.pull.push_back(free_acceleration(i, x_[i], v_[i]));
-    crowd.inverse_mass.push_back(1 / world_.mass[i]);
-    crowd.haste.push_back(v_[i].norm());
-    crowd.smallest = std::min(crowd.smallest, world_.radius[i]);
-    crowd.pulls = std::max(crowd.pulls, crowd.pull[k].norm());
-  }
-  find_velocities(crowd);
-  std::vector<std::uint8_t> pressed(n);
-  const std::vector<PressedPair> forces = std::move(crowd.pairs);  // of this, for the ways need pairs of their own
-  const std::vector<CrowdName> names = std::move(crowd.names);
-  for (std::size_t k = 0; k < n; ++k) pressed_[crowd.members[k]].clear();
-  for (std::size_t c = 0; c < forces.size(); ++c) {
-    if (!(forces[c].force > 0)) continue;
-    pressed[forces[c].a] = 1;
-    if (forces[c].b != PressedPair::none) pressed[forces[c].b] = 1;
-    pressed_[names[c].a].push_back({names[c].b, forces[c].force / h});
-  }
-  for (std::size_t k = 0; k < n; ++k) crowd.haste[k] = std::max(crowd.haste[k], crowd.moved[k].norm());
   // Pushed aside, one may go farther than was looked for others to meet: looked again, then.
+  const auto look = [&] {
+    for (std::size_t k = 0; k < n; ++k)
+      if (crowd.haste[k] != crowd.known[k]) look_around(crowd.members[k], crowd.haste[k]);
+    find_contacts(crowd);
+  };
+  look();
+  find_velocities(crowd);
+  for (std::size_t k = 0; k < n; ++k) crowd.haste[k] = std::max(crowd.haste[k], crowd.moved[k].norm());
   for (int pass = 0; pass < 4; ++pass) {
-    for (std::size_t k = 0; k < n; ++k) {
-      const double haste = crowd.haste[k];
-      path_[crowd.members[k]] = {crowd.x[k], Vec3(haste, haste, haste), Vec3::Zero(), Vec3::Zero()};
-      stay_known(crowd.members[k]);
-    }
-    find_pairs(crowd);
+    look();
     find_ways(crowd);
     bool farther = false;
     for (std::size_t k = 0; k < n; ++k) {
@@ -226,12 +252,20 @@ void SteppedSimulator::step_crowd() {
     }
     if (!farther) break;
   }
-  record_strikes(crowd, forces, names);
+  crowd.pressed.assign(n, 0);
+  for (const Entity i : crowd.members) pressed_[i].clear();
+  for (const CrowdContact& contact : crowd.contacts) {
+    if (!(contact.impulse > 0)) continue;
+    crowd.pressed[contact.of_a] = 1;
+    if (contact.of_b != PressedPair::none) crowd.pressed[contact.of_b] = 1;
+    pressed_[contact.a].push_back({contact.b, contact.impulse / h});
+  }
+  record_strikes(crowd);
   double unrest = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = crowd.members[k];
     Vec3 &moved = crowd.moved[k], &way = crowd.way[k];
-    if (!pressed[k] && constant_) {  // stopped short at most: as fast as it has fallen
+    if (!crowd.pressed[k] && constant_) {  // stopped short at most: as fast as it has fallen
       const double fell = 2 * h * crowd.pull[k].dot(way), before = crowd.v[k].squaredNorm();
       const double after = std::max(before + fell, 0.0), now = moved.squaredNorm();
       if (now > 0) moved *= std::sqrt(after / now);
@@ -239,31 +273,28 @@ void SteppedSimulator::step_crowd() {
     path_[i] = {x_[i], way, Vec3::Zero(), Vec3::Zero()};
     end_x_[i] = path_[i].position(h);
     end_v_[i] = moved;
-    crowd_[i] = pressed[k] ? patience : static_cast<std::uint8_t>(crowd_[i] - 1);
+    crowd_[i] = crowd.pressed[k] ? patience : static_cast<std::uint8_t>(crowd_[i] - 1);
     const double speed = std::max(way.norm(), moved.norm());
-    unrest += h * speed / world_.radius[i];
-    calm_[i] = pressed[k] && speed * speed < calm * calm * crowd.pulls * world_.radius[i] ? calm_[i] + 1 : 0;
+    unrest += speed / std::sqrt(crowd.pulls * world_.radius[i]);
+    calm_[i] = crowd.pressed[k] && speed * speed < calm * calm * crowd.pulls * world_.radius[i] ? calm_[i] + 1 : 0;
   }
-  unrest_ = unrest / static_cast<double>(n);
-  slack_ =
-      std::clamp((crowd.told ? 0.9 : 1.2) * slack_, std::clamp(0.1 * unrest_, least_slack, most_slack), most_slack);
-  put_to_rest(crowd, forces, names);
+  unrest_ = crowd.pulls > 0 ? unrest / static_cast<double>(n) : 1;
+  slack_ = std::clamp((crowd.told ? 0.9 : 1.2) * slack_,
+                      std::clamp(restless * unrest_ * most_slack, least_slack, most_slack), most_slack);
+  put_to_rest(crowd);
 }
 
 /// The impacts of the crowd's step.
-void SteppedSimulator::record_strikes(const Crowd& crowd, const std::vector<PressedPair>& forces,
-                                      const std::vector<CrowdName>& names) {
-  for (std::size_t c = 0; c < names.size(); ++c) {
-    const CrowdName& name = names[c];
-    if (!name.strikes || !(forces[c].force > 0)) continue;
-    const PressedPair& p = forces[c];
-    const bool body = p.b != PressedPair::none;
-    const Vec3 w = (body ? crowd.moved[p.b] : Vec3(Vec3::Zero())) - crowd.moved[p.a];
-    const double ma = world_.mass[name.a], mb = body ? world_.mass[name.b] : never;
-    const double separation = std::max(p.normal.dot(w), 0.0);
-    record({from_, body ? CollisionKind::body_body : CollisionKind::body_fixed, name.a, name.b,
-            touch(world_, name.a, x_[name.a], name.b, position_of(name.b)).point, p.normal, name.approach, separation,
-            name.restitution, p.force, impact_loss(ma, mb, name.approach, separation)});
+void SteppedSimulator::record_strikes(const Crowd& crowd) {
+  for (const CrowdContact& c : crowd.contacts) {
+    if (!c.strikes || !(c.impulse > 0)) continue;
+    const bool body = c.of_b != PressedPair::none;
+    const Vec3 w = (body ? crowd.moved[c.of_b] : Vec3(Vec3::Zero())) - crowd.moved[c.of_a];
+    const double ma = world_.mass[c.a], mb = body ? world_.mass[c.b] : never;
+    const double separation = std::max(c.normal.dot(w), 0.0);
+    record({from_, body ? CollisionKind::body_body : CollisionKind::body_fixed, c.a, c.b,
+            touch(world_, c.a, x_[c.a], c.b, position_of(c.b)).point, c.normal, c.approach, separation, c.restitution,
+            c.impulse, impact_loss(ma, mb, c.approach, separation)});
   }
 }
 

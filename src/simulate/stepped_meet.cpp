@@ -41,8 +41,11 @@ bool SteppedSimulator::bound(Entity a, Entity b) const {
 
 /// Finds whom body i meets first of each of its neighbours. all: else only those that do not find it themselves.
 void SteppedSimulator::predict(Entity i, bool all) {
+  const auto settled = [&](Entity e) { return in_crowd_[e] && host_[e] == no_entity; };  // in the crowd's own step
+  const bool other_only = !all && settled(i);
   for (const Entity e : neighbours_.near(i)) {
     const bool body = world_.is_body(e);
+    if (other_only && (!body || settled(e))) continue;
     if (body) {  // most do not come near each other in a step
       const double reach = world_.radius[i] + world_.radius[e] + travel_[i] + travel_[e];
       if ((x_[e] - x_[i]).squaredNorm() > 1.0001 * reach * reach) continue;

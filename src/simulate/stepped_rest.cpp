@@ -5,7 +5,7 @@
 
 #include "physics/complementarity.h"
 #include "simulate/parts.h"
-#include "simulate/stepped_crowd.h"
+#include "simulate/stepped_simulator.h"
 
 namespace carom {
 
@@ -28,11 +28,12 @@ SteppedSimulator::Balance SteppedSimulator::find_balance(Crowd& part) {
   const std::vector<Vec3> from = part.x;
   const double sink = drive * part.smallest;
   for (int pass = 0; pass < balance_passes; ++pass) {
-    find_pairs(part);
-    for (std::size_t c = 0; c < part.pairs.size(); ++c) {
-      part.pairs[c].target = -part.names[c].gap;
-      part.pairs[c].slack = 1e-10 * part.smallest;
-    }
+    part.contacts.clear();
+    part.known.assign(n, -never);
+    find_contacts(part);
+    part.pairs.clear();
+    for (const CrowdContact& c : part.contacts)
+      part.pairs.push_back({c.of_a, c.of_b, c.normal, -c.gap, 1e-10 * part.smallest, 0});
     std::vector<Vec3> way(n);
     for (std::size_t k = 0; k < n; ++k) way[k] = sink / part.pulls * part.pull[k];
     const bool told = n <= most_direct ? press_apart_directly(part.inverse_mass, way, part.pairs)
@@ -51,14 +52,14 @@ SteppedSimulator::Balance SteppedSimulator::find_balance(Crowd& part) {
 
 /// Parts of the crowd that have hardly moved for a while sink to where forces hold them in balance, and fall asleep
 /// there.
-void SteppedSimulator::put_to_rest(const Crowd& crowd, const std::vector<PressedPair>& forces,
-                                   const std::vector<CrowdName>& names) {
+void SteppedSimulator::put_to_rest(const Crowd& crowd) {
   const std::size_t n = crowd.members.size();
+  if (std::none_of(crowd.members.begin(), crowd.members.end(), [&](Entity i) { return calm_[i] >= calm_steps; }))
+    return;
   Parts joined(n);
-  for (std::size_t c = 0; c < forces.size(); ++c) {
-    const PressedPair& p = forces[c];
-    const bool touch = p.force > 0 || names[c].gap < 2 * drive * crowd.smallest;
-    if (touch && p.b != PressedPair::none) joined.join(p.a, p.b);
+  for (const CrowdContact& c : crowd.contacts) {
+    const bool touch = c.impulse > 0 || c.gap < 2 * drive * crowd.smallest;
+    if (touch && c.of_b != PressedPair::none) joined.join(c.of_a, c.of_b);
   }
   std::vector<std::vector<std::uint32_t>> parts(n);  // by root
   for (std::uint32_t k = 0; k < n; ++k) parts[joined.root(k)].push_back(k);
@@ -71,17 +72,12 @@ void SteppedSimulator::put_to_rest(const Crowd& crowd, const std::vector<Pressed
     if (since % (calm_steps << wait) != 0) continue;
     Crowd part;
     part.part = true;
-    part.pulls = crowd.pulls;
     for (const std::uint32_t k : members) {
       const Entity i = crowd.members[k];
       local_[i] = static_cast<std::uint32_t>(part.members.size());
-      part.members.push_back(i);
-      part.x.push_back(end_x_[i]);
-      part.pull.push_back(crowd.pull[k]);
-      part.inverse_mass.push_back(crowd.inverse_mass[k]);
-      part.smallest = std::min(part.smallest, world_.radius[i]);
+      part.add(i, end_x_[i], Vec3::Zero(), crowd.pull[k], world_.mass[i], world_.radius[i]);
     }
-    part.v.assign(members.size(), Vec3::Zero());
+    part.pulls = crowd.pulls;
     part.haste.assign(members.size(), 4 * farthest_sink * part.smallest / length_);
     const Balance balance = find_balance(part);
     wait = balance == Balance::none ? std::min(wait + 1, 10u) : 0;
@@ -116,7 +112,8 @@ void SteppedSimulator::fall_asleep(const Crowd& part) {
   const double per_way = part.pulls / (drive * part.smallest);  // 1/s^2
   for (std::size_t p = 0; p < part.pairs.size(); ++p)
     if (part.pairs[p].force > 0)
-      cluster.bonds.push_back({part.names[p].a, part.names[p].b, no_feature, true, per_way * part.pairs[p].force});
+      cluster.bonds.push_back(
+          {part.contacts[p].a, part.contacts[p].b, no_feature, true, per_way * part.pairs[p].force});
 }
 
 }  // namespace carom

@@ -22,6 +22,7 @@
 #include "physics/touch.h"
 #include "simulate/neighbours.h"
 #include "simulate/stepped.h"
+#include "simulate/stepped_crowd.h"
 
 namespace carom {
 
@@ -153,23 +154,22 @@ class SteppedSimulator final : public Simulator {
   std::uint32_t new_cluster();
 
   // stepped_crowd.cpp
-  struct Crowd;
-  struct CrowdName;
   void join(Entity i);
   void park(Entity i, Entity e);
+  void look_around(Entity i, double haste);
   std::vector<Entity> find_crowd();
-  void find_pairs(Crowd& crowd) const;
-  bool solve(const Crowd& crowd, std::vector<Vec3>& u, std::vector<PressedPair>& pairs) const;
+  void find_contacts(Crowd& crowd) const;
+  static bool solve(Crowd& crowd, std::vector<Vec3>& u, int sweeps);
   void find_velocities(Crowd& crowd);
   void find_ways(Crowd& crowd);
   double way_slack(const Crowd& crowd) const;
   double known_force(Entity a, Entity b) const;
   void step_crowd();
-  void record_strikes(const Crowd& crowd, const std::vector<PressedPair>& forces, const std::vector<CrowdName>& names);
+  void record_strikes(const Crowd& crowd);
   enum class Balance : std::uint8_t { found, sinking, none };
   Balance find_balance(Crowd& part);
   void stand(const Crowd& part);
-  void put_to_rest(const Crowd& crowd, const std::vector<PressedPair>& forces, const std::vector<CrowdName>& names);
+  void put_to_rest(const Crowd& crowd);
   void fall_asleep(const Crowd& part);
   bool crowded(Entity e) const { return world_.is_body(e) && in_crowd_[e]; }
 
@@ -197,7 +197,8 @@ class SteppedSimulator final : public Simulator {
   std::vector<std::uint32_t> calm_;      // steps for which a body of the crowd has hardly moved
   std::vector<std::uint32_t> patience_;  // how often it was looked in vain whether a part, by its first body, rests
   double slack_ = 1e-3;                  // of a radius: by how much bodies of the crowd may overlap
-  double unrest_ = 1;                    // how far the crowd went in its last step, on average, by radius
+  double unrest_ = 1;                    // the crowd's speed, on average, by that of falling by a radius
+  Crowd now_;                            // of the present step
   std::vector<std::vector<Pressed>> pressed_;  // by the lower body of the crowd: who pressed in its last step
   std::vector<Cluster> clusters_;
   std::vector<std::uint32_t> unused_;  // clusters
