@@ -61,6 +61,7 @@ void Sweeps::arrange(std::span<const double> inverse_mass, std::span<const Press
     const double of_a = inverse_mass[p.a], of_b = fixed ? 0 : inverse_mass[p.b], per_rate = 1 / (of_a + of_b);
     for (int axis = 0; axis < 3; ++axis) row.normal[axis][lane] = p.normal[axis];
     row.per_rate[lane] = per_rate;
+    row.of_all[lane] = of_a + of_b;
     row.of_a[lane] = of_a;
     row.of_b[lane] = of_b;
     row.target[lane] = p.target;
@@ -105,28 +106,45 @@ double Sweeps::potential(std::span<const Vec3> u, std::span<const PressedPair> p
   return sum;
 }
 
+/// What forces that change by so much do to the motions of a batch.
+inline __attribute__((always_inline)) void Sweeps::push(const Batch& row, const Four& change, Motion* motions) {
+  using Places = long long __attribute__((vector_size(aligned)));
+  const Four zero{};
+  const Four px = change * row.normal[0], py = change * row.normal[1], pz = change * row.normal[2];
+  // By pair, from by axis.
+  const Four xy_even = __builtin_shuffle(px, py, Places{0, 4, 2, 6});
+  const Four xy_odd = __builtin_shuffle(px, py, Places{1, 5, 3, 7});
+  const Four z_even = __builtin_shuffle(pz, zero, Places{0, 4, 2, 6});
+  const Four z_odd = __builtin_shuffle(pz, zero, Places{1, 5, 3, 7});
+  const Four p0 = __builtin_shuffle(xy_even, z_even, Places{0, 1, 4, 5});
+  const Four p1 = __builtin_shuffle(xy_odd, z_odd, Places{0, 1, 4, 5});
+  const Four p2 = __builtin_shuffle(xy_even, z_even, Places{2, 3, 6, 7});
+  const Four p3 = __builtin_shuffle(xy_odd, z_odd, Places{2, 3, 6, 7});
+  motions[row.a[0]].u -= row.of_a[0] * p0;
+  motions[row.a[1]].u -= row.of_a[1] * p1;
+  motions[row.a[2]].u -= row.of_a[2] * p2;
+  motions[row.a[3]].u -= row.of_a[3] * p3;
+  motions[row.b[0]].u += row.of_b[0] * p0;
+  motions[row.b[1]].u += row.of_b[1] * p1;
+  motions[row.b[2]].u += row.of_b[2] * p2;
+  motions[row.b[3]].u += row.of_b[3] * p3;
+}
+
 /// Once through all batches. The most by which a force has changed beyond its slack.
 CAROM_FOR_ALL_PROCESSORS
 double Sweeps::sweep(Batch* batches, std::size_t count, Motion* motions, bool back) {
-  using Places = long long __attribute__((vector_size(sizeof(Four))));
+  using Places = long long __attribute__((vector_size(aligned)));
   const Four zero{};
   Four worst = zero - 1;
   for (std::size_t k = 0; k < count; ++k) {
     Batch& row = batches[back ? count - 1 - k : k];
-    Four& a0 = motions[row.a[0]].u;
-    Four& a1 = motions[row.a[1]].u;
-    Four& a2 = motions[row.a[2]].u;
-    Four& a3 = motions[row.a[3]].u;
-    Four& b0 = motions[row.b[0]].u;
-    Four& b1 = motions[row.b[1]].u;
-    Four& b2 = motions[row.b[2]].u;
-    Four& b3 = motions[row.b[3]].u;
-    const Four w0 = b0 - a0, w1 = b1 - a1, w2 = b2 - a2, w3 = b3 - a3;
+    const Four w0 = motions[row.b[0]].u - motions[row.a[0]].u, w1 = motions[row.b[1]].u - motions[row.a[1]].u;
+    const Four w2 = motions[row.b[2]].u - motions[row.a[2]].u, w3 = motions[row.b[3]].u - motions[row.a[3]].u;
     // By axis, from by pair.
-    const Four low01 = __builtin_shuffle(w0, w1, Places{0, 4, 2, 6}),
-               low23 = __builtin_shuffle(w2, w3, Places{0, 4, 2, 6});
-    const Four high01 = __builtin_shuffle(w0, w1, Places{1, 5, 3, 7}),
-               high23 = __builtin_shuffle(w2, w3, Places{1, 5, 3, 7});
+    const Four low01 = __builtin_shuffle(w0, w1, Places{0, 4, 2, 6});
+    const Four low23 = __builtin_shuffle(w2, w3, Places{0, 4, 2, 6});
+    const Four high01 = __builtin_shuffle(w0, w1, Places{1, 5, 3, 7});
+    const Four high23 = __builtin_shuffle(w2, w3, Places{1, 5, 3, 7});
     const Four x = __builtin_shuffle(low01, low23, Places{0, 1, 4, 5});
     const Four y = __builtin_shuffle(high01, high23, Places{0, 1, 4, 5});
     const Four z = __builtin_shuffle(low01, low23, Places{2, 3, 6, 7});
@@ -136,37 +154,56 @@ double Sweeps::sweep(Batch* batches, std::size_t count, Motion* motions, bool ba
     row.force = force;
     const Four size = change < zero ? -change : change, excess = size - row.slack;
     worst = excess > worst ? excess : worst;
-    // By pair, from by axis.
-    const Four px = change * row.normal[0], py = change * row.normal[1], pz = change * row.normal[2];
-    const Four xy_even = __builtin_shuffle(px, py, Places{0, 4, 2, 6}),
-               xy_odd = __builtin_shuffle(px, py, Places{1, 5, 3, 7});
-    const Four z_even = __builtin_shuffle(pz, zero, Places{0, 4, 2, 6}),
-               z_odd = __builtin_shuffle(pz, zero, Places{1, 5, 3, 7});
-    const Four p0 = __builtin_shuffle(xy_even, z_even, Places{0, 1, 4, 5});
-    const Four p1 = __builtin_shuffle(xy_odd, z_odd, Places{0, 1, 4, 5});
-    const Four p2 = __builtin_shuffle(xy_even, z_even, Places{2, 3, 6, 7});
-    const Four p3 = __builtin_shuffle(xy_odd, z_odd, Places{2, 3, 6, 7});
-    a0 -= row.of_a[0] * p0;
-    a1 -= row.of_a[1] * p1;
-    a2 -= row.of_a[2] * p2;
-    a3 -= row.of_a[3] * p3;
-    b0 += row.of_b[0] * p0;
-    b1 += row.of_b[1] * p1;
-    b2 += row.of_b[2] * p2;
-    b3 += row.of_b[3] * p3;
+    push(row, change, motions);
   }
   return std::max(std::max(worst[0], worst[1]), std::max(worst[2], worst[3]));
+}
+
+/// What a sweep has changed, squared, in the measure of the problem's diagonal.
+CAROM_FOR_ALL_PROCESSORS
+double Sweeps::measure(const Batch* batches, std::size_t count, const Trend* trends) {
+  Four sum{};
+  for (std::size_t k = 0; k < count; ++k) {
+    const Four change = batches[k].force - trends[k].before;
+    sum += change * change * batches[k].of_all;
+  }
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+/// Goes on along the last direction, times `turn`, and makes what the sweep has changed part of it.
+CAROM_FOR_ALL_PROCESSORS
+void Sweeps::go_on(Batch* batches, std::size_t count, Trend* trends, Motion* motions, double turn) {
+  for (std::size_t k = 0; k < count; ++k) {
+    Batch& row = batches[k];
+    Trend& trend = trends[k];
+    const Four change = row.force - trend.before, more = turn * trend.along;
+    row.force += more;
+    trend.before = row.force;
+    trend.along = more + change;
+    if (turn > 0) push(row, more, motions);
+  }
 }
 
 bool Sweeps::press_apart(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<PressedPair> pairs,
                          int sweeps) {
   arrange(inverse_mass, pairs);
   motions_.assign(u.size() + 1, Motion{});
+  trends_.assign(batches_.size(), Trend{});
+  const std::size_t count = batches_.size();
   const auto run = [&](bool guess) {
     start(u, pairs, guess);
-    bool done = pairs.empty();
-    for (int k = 0; k < sweeps && !done; ++k)
-      done = sweep(batches_.data(), batches_.size(), motions_.data(), k % 2 != 0) <= 0;
+    for (std::size_t k = 0; k < count; ++k) trends_[k] = {batches_[k].force, Four{}};
+    bool done = pairs.empty(), settled = false;  // nothing to do in two sweeps, in the last one
+    double last = 0;
+    for (int k = 0; k < sweeps && !done; ++k) {
+      const bool quiet = sweep(batches_.data(), count, motions_.data(), k % 2 != 0) <= 0;
+      done = quiet && settled;
+      settled = quiet;
+      if (settled || k + 1 == sweeps) continue;
+      const double now = measure(batches_.data(), count, trends_.data());
+      go_on(batches_.data(), count, trends_.data(), motions_.data(), now < last ? now / last : 0);
+      last = now;
+    }
     return done;
   };
   bool done = run(true);

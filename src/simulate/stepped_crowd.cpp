@@ -24,14 +24,17 @@ namespace {
 
 constexpr std::uint8_t patience = 8;        // steps without contact, then a body leaves the crowd
 constexpr double near_enough = 1e-3;        // of a radius: a gap over which fast bodies strike
-constexpr int velocity_sweeps = 20;         // what they leave undone the next step, which starts from it, does
+constexpr int few_sweeps = 15;              // for velocities; what they leave undone the next step, which starts there,
+constexpr int most_sweeps = 300;            // does; the calmer the crowd the more
 constexpr int way_sweeps = 200;             // these decide on overlap
-constexpr std::size_t most_polished = 200;  // pairs for which there is another solver,
-constexpr int polishing = 1000;             // and its iterations
+constexpr double quiet = 2e-3;              // of the speed of falling by a radius: there sweeps get nowhere,
+constexpr int polishing = 400;              // but another solver does, in as many iterations
+constexpr std::size_t most_polished = 200;  // pairs for which that is always worth it,
+constexpr int much_polishing = 1000;        // as between light bodies and heavy ones
 constexpr double calm = 2e-4;               // of the speed of falling by a radius: slower bodies may be at rest
 constexpr double least_slack = 1e-8;        // of a radius: by how much bodies may overlap,
 constexpr double most_slack = 1e-3;         // and where that is hard to achieve, or
-constexpr double restless = 50;             // times the speed is above that of falling by a radius
+constexpr double shorter = 0.5;             // of a step's way is above that
 
 }  // namespace
 
@@ -158,21 +161,24 @@ void SteppedSimulator::find_contacts(Crowd& crowd) const {
   crowd.known = crowd.haste;
 }
 
-/// By sweeps; where these get nowhere, as between light bodies and heavy ones, otherwise, if that does not cost too
-/// much.
-bool SteppedSimulator::solve(Crowd& crowd, std::vector<Vec3>& u, int sweeps) {
+/// By sweeps, and, of few pairs or where asked for, by iterations of the other solver.
+bool SteppedSimulator::solve(Crowd& crowd, std::vector<Vec3>& u, int sweeps, int iterations) {
   const bool few = crowd.pairs.size() <= most_polished;
-  const std::vector<Vec3> free = few ? u : std::vector<Vec3>{};
-  if (crowd.sweeps.press_apart(crowd.inverse_mass, u, crowd.pairs, few ? way_sweeps : sweeps)) return true;
-  if (!few) return false;
+  if (few) {
+    sweeps = way_sweeps;
+    iterations = much_polishing;
+  }
+  const std::vector<Vec3> free = iterations > 0 ? u : std::vector<Vec3>{};
+  if (crowd.sweeps.press_apart(crowd.inverse_mass, u, crowd.pairs, sweeps)) return true;
+  if (iterations == 0) return false;
   u = free;
-  return press_apart(crowd.inverse_mass, u, crowd.pairs, polishing);
+  return press_apart(crowd.inverse_mass, u, crowd.pairs, iterations);
 }
 
 /// The crowd's velocities at the step's end.
 void SteppedSimulator::find_velocities(Crowd& crowd) {
   const double h = length_, slack = 2 * way_slack(crowd);
-  const double tired = std::clamp(unrest_, 1e-5, 0.05) * crowd.pulls * h;
+  const double tired = std::clamp(0.1 * unrest_, 1e-5, 0.05) * crowd.pulls * h;
   crowd.pairs.clear();
   crowd.which.clear();
   for (std::size_t c = 0; c < crowd.contacts.size(); ++c) {
@@ -193,7 +199,12 @@ void SteppedSimulator::find_velocities(Crowd& crowd) {
   }
   crowd.moved = crowd.v;
   for (std::size_t k = 0; k < crowd.moved.size(); ++k) crowd.moved[k] += h * crowd.pull[k];
-  solve(crowd, crowd.moved, velocity_sweeps);
+  // In shorter steps less is to be done, as they start nearer to where they go.
+  const double share = std::min(25 * h * std::sqrt(crowd.pulls / crowd.smallest), 1.0);
+  const bool tell = unrest_ < quiet;
+  const double sweeps = std::clamp(2 * share / unrest_, 1.0 * few_sweeps, 1.0 * most_sweeps);
+  solve(crowd, crowd.moved, tell ? few_sweeps : static_cast<int>(sweeps),
+        tell ? static_cast<int>(std::ceil(polishing * share)) : 0);
   for (std::size_t c = 0; c < crowd.pairs.size(); ++c) crowd.contacts[crowd.which[c]].impulse = crowd.pairs[c].force;
 }
 
@@ -211,7 +222,7 @@ void SteppedSimulator::find_ways(Crowd& crowd) {
   crowd.pairs.clear();
   for (const CrowdContact& contact : crowd.contacts)
     crowd.pairs.push_back({contact.of_a, contact.of_b, contact.normal, -contact.gap / h, slack, 0});
-  crowd.told = solve(crowd, crowd.way, way_sweeps);
+  crowd.told = solve(crowd, crowd.way, way_sweeps, 0);
 }
 
 double SteppedSimulator::known_force(Entity a, Entity b) const {
@@ -279,8 +290,8 @@ void SteppedSimulator::step_crowd() {
     calm_[i] = crowd.pressed[k] && speed * speed < calm * calm * crowd.pulls * world_.radius[i] ? calm_[i] + 1 : 0;
   }
   unrest_ = crowd.pulls > 0 ? unrest / static_cast<double>(n) : 1;
-  slack_ = std::clamp((crowd.told ? 0.9 : 1.2) * slack_,
-                      std::clamp(restless * unrest_ * most_slack, least_slack, most_slack), most_slack);
+  const double far = shorter * unrest_ * h * std::sqrt(crowd.pulls / crowd.smallest);
+  slack_ = std::clamp((crowd.told ? 0.9 : 1.2) * slack_, std::clamp(far, least_slack, most_slack), most_slack);
   put_to_rest(crowd);
 }
 

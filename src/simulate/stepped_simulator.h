@@ -159,7 +159,7 @@ class SteppedSimulator final : public Simulator {
   void look_around(Entity i, double haste);
   std::vector<Entity> find_crowd();
   void find_contacts(Crowd& crowd) const;
-  static bool solve(Crowd& crowd, std::vector<Vec3>& u, int sweeps);
+  static bool solve(Crowd& crowd, std::vector<Vec3>& u, int sweeps, int iterations);
   void find_velocities(Crowd& crowd);
   void find_ways(Crowd& crowd);
   double way_slack(const Crowd& crowd) const;
