@@ -12,9 +12,10 @@ namespace carom {
 namespace {
 
 constexpr std::uint32_t calm_steps = 8;    // that a part has been calm for before it is looked at
-constexpr double drive = 1e-3;             // of a radius: how far a part may sink at a time to where it is in balance,
-constexpr double farthest_sink = 2e-2;     // and in all,
-constexpr int balance_passes = 6;          // and in how many times,
+constexpr double first_drive = 1e-3;       // of a radius: how far bodies would sink if nothing held them, at first
+constexpr double last_drive = 1;           // and at last, of a part that hardly sinks,
+constexpr double farthest_sink = 2e-2;     // and how far it may in all,
+constexpr int balance_passes = 12;         // and in how many times,
 constexpr double balanced = 1e-7;          // the last of them no farther than this much of it
 constexpr int balance_iterations = 2000;   // of the solver for large parts
 constexpr std::size_t most_direct = 4000;  // bodies; the cost of the other one grows as their square
@@ -23,10 +24,11 @@ constexpr std::size_t most_direct = 4000;  // bodies; the cost of the other one 
 
 /// Whether and where forces hold a part of the crowd in balance, close to where it is: it sinks by a little at a time,
 /// as far as its contacts let it, until it sinks no more. x: m, in: where it is, out: where it stands, or has sunk to.
+/// The impulses of its contacts become forces (N).
 SteppedSimulator::Balance SteppedSimulator::find_balance(Crowd& part) {
   const std::size_t n = part.members.size();
   const std::vector<Vec3> from = part.x;
-  const double sink = drive * part.smallest;
+  double drive = first_drive;
   for (int pass = 0; pass < balance_passes; ++pass) {
     part.contacts.clear();
     part.known.assign(n, -never);
@@ -35,7 +37,7 @@ SteppedSimulator::Balance SteppedSimulator::find_balance(Crowd& part) {
     for (const CrowdContact& c : part.contacts)
       part.pairs.push_back({c.of_a, c.of_b, c.normal, -c.gap, 1e-10 * part.smallest, 0});
     std::vector<Vec3> way(n);
-    for (std::size_t k = 0; k < n; ++k) way[k] = sink / part.pulls * part.pull[k];
+    for (std::size_t k = 0; k < n; ++k) way[k] = drive * part.smallest / part.pulls * part.pull[k];
     const bool told = n <= most_direct ? press_apart_directly(part.inverse_mass, way, part.pairs)
                                        : press_apart(part.inverse_mass, way, part.pairs, balance_iterations);
     if (!told) return Balance::none;
@@ -45,7 +47,12 @@ SteppedSimulator::Balance SteppedSimulator::find_balance(Crowd& part) {
       farthest = std::max(farthest, way[k].norm());
       if ((part.x[k] - from[k]).norm() > farthest_sink * part.smallest) return Balance::none;
     }
-    if (farthest <= balanced * sink) return Balance::found;
+    if (farthest <= balanced * drive * part.smallest) {
+      const double per_way = part.pulls / (drive * part.smallest);  // 1/s^2
+      for (std::size_t p = 0; p < part.pairs.size(); ++p) part.contacts[p].impulse = per_way * part.pairs[p].force;
+      return Balance::found;
+    }
+    if (farthest < 0.1 * first_drive * part.smallest) drive = std::min(10 * drive, last_drive);
   }
   return Balance::sinking;
 }
@@ -58,7 +65,7 @@ void SteppedSimulator::put_to_rest(const Crowd& crowd) {
     return;
   Parts joined(n);
   for (const CrowdContact& c : crowd.contacts) {
-    const bool touch = c.impulse > 0 || c.gap < 2 * drive * crowd.smallest;
+    const bool touch = c.impulse > 0 || c.gap < 2 * first_drive * crowd.smallest;
     if (touch && c.of_b != PressedPair::none) joined.join(c.of_a, c.of_b);
   }
   std::vector<std::vector<std::uint32_t>> parts(n);  // by root
@@ -99,21 +106,18 @@ void SteppedSimulator::stand(const Crowd& part) {
 }
 
 void SteppedSimulator::fall_asleep(const Crowd& part) {
-  const std::uint32_t c = new_cluster();
-  Cluster& cluster = clusters_[c];
+  const std::uint32_t number = new_cluster();
+  Cluster& cluster = clusters_[number];
   cluster.asleep = true;
   cluster.members = part.members;
   tally_.resting += part.members.size();
   for (const Entity i : part.members) {
-    cluster_of_[i] = c;
+    cluster_of_[i] = number;
     crowd_[i] = 0;
     calm_[i] = 0;
   }
-  const double per_way = part.pulls / (drive * part.smallest);  // 1/s^2
-  for (std::size_t p = 0; p < part.pairs.size(); ++p)
-    if (part.pairs[p].force > 0)
-      cluster.bonds.push_back(
-          {part.contacts[p].a, part.contacts[p].b, no_feature, true, per_way * part.pairs[p].force});
+  for (const CrowdContact& c : part.contacts)
+    if (c.impulse > 0) cluster.bonds.push_back({c.a, c.b, no_feature, true, c.impulse});
 }
 
 }  // namespace carom
