@@ -107,9 +107,20 @@ bool Neighbours::renew(Entity i, const Vec3& x, bool far) {
   }
 }
 
-void Neighbours::cover(Entity i, const Vec3& x, double room) {
-  renew(i, x, false);
-  if (region_[i].room < room) build(i, 1.5 * room);
+void Neighbours::cover(Entity i, const Vec3& x, double reach, const Vec3& drift) {
+  const std::size_t known = bodies_near(i);
+  double room = region_[i].room;
+  if (known < few_neighbours) room *= 2;
+  if (known > many_neighbours) room *= 0.5;
+  const double far = drift.cwiseAbs().maxCoeff();
+  for (;; room *= 0.5) {
+    const bool least = room <= 1.5 * reach;
+    if (least) room = 1.5 * reach;
+    const double ahead = std::min(0.99 * (room - reach), far);
+    region_[i].center = ahead > 0 ? Vec3(x + ahead / far * drift) : x;
+    build(i, room);
+    if (least || bodies_near(i) <= 2 * many_neighbours || region_[i].room > room) return;
+  }
 }
 
 }  // namespace carom

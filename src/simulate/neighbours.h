@@ -33,8 +33,9 @@ class Neighbours {
   /// it gets a wider one than that if that costs no more. Whether it did.
   bool renew(Entity i, const Vec3& x, bool far);
 
-  /// The same, but at least as wide as a path along which the centre stays within `room` (m) of x along each axis.
-  void cover(Entity i, const Vec3& x, double room);
+  /// A new region for a body at x (m) that may go as far as `reach` (m) along each axis, and whose way later leads
+  /// along `drift` (m): it lies ahead, as far as drift goes, so that it is left late.
+  void cover(Entity i, const Vec3& x, double reach, const Vec3& drift);
 
   /// Half the room, about x.
   void shrink(Entity i, const Vec3& x) {

@@ -42,7 +42,7 @@ SteppedSimulator::SteppedSimulator(const World& world, const State& initial, con
       cluster_of_(world.body_count(), none),
       impacts_(world.body_count()),
       meetings_(world.body_count()),
-      travel_(world.body_count()),
+      spot_(world.body_count()),
       crowd_(world.body_count()),
       in_crowd_(world.body_count()),
       host_(world.body_count(), no_entity),
@@ -66,6 +66,7 @@ SteppedSimulator::SteppedSimulator(const World& world, const State& initial, con
     if (!world.impulse.empty()) v_[i] += world.impulse[i] / world.mass[i];
     tally_.max_speed = std::max(tally_.max_speed, v_[i].norm());
     path_[i] = {x_[i], v_[i], free_acceleration(i, x_[i], v_[i]), Vec3::Zero()};
+    spot_[i] = {x_[i], world.radius[i]};
     awake_.push_back(i);
   }
   end_x_ = x_;

@@ -9,6 +9,8 @@ namespace carom {
 
 namespace {
 
+constexpr double looks_ahead = 32;  // steps for which a region is to last
+
 /// How far a path may be from where it begins after `length` (s), along each axis.
 Vec3 reach_of(const Path& p, double length) {
   return length * (p.v.cwiseAbs() + 0.5 * length * (p.a.cwiseAbs() + length / 3 * p.j.cwiseAbs()));
@@ -22,9 +24,9 @@ void SteppedSimulator::stay_known(Entity i) {
   const double length = length_ - start_[i];
   const Neighbours::Region& region = neighbours_.region(i);
   const Vec3 reach = reach_of(path, length);
-  travel_[i] = reach.norm();
+  spot_[i] = {path.x, world_.radius[i] + reach.norm()};
   if (((path.x - region.center).cwiseAbs() + reach).maxCoeff() <= region.room) return;
-  neighbours_.cover(i, path.position(0.5 * length), reach.maxCoeff());
+  neighbours_.cover(i, path.x, reach.maxCoeff(), looks_ahead * length_ * v_[i]);
 }
 
 Path SteppedSimulator::path_of(Entity e, double time) const {
@@ -42,19 +44,20 @@ bool SteppedSimulator::bound(Entity a, Entity b) const {
 /// Finds whom body i meets first of each of its neighbours. all: else only those that do not find it themselves.
 void SteppedSimulator::predict(Entity i, bool all) {
   const auto settled = [&](Entity e) { return in_crowd_[e] && host_[e] == no_entity; };  // in the crowd's own step
-  const bool other_only = !all && settled(i);
+  const auto sleeps = [&](Entity e) { return cluster_of_[e] != none && clusters_[cluster_of_[e]].asleep; };
+  const bool others_only = !all && settled(i);
+  const Spot here = spot_[i];
   for (const Entity e : neighbours_.near(i)) {
-    const bool body = world_.is_body(e);
-    if (other_only && (!body || settled(e))) continue;
-    if (body) {  // most do not come near each other in a step
-      const double reach = world_.radius[i] + world_.radius[e] + travel_[i] + travel_[e];
-      if ((x_[e] - x_[i]).squaredNorm() > 1.0001 * reach * reach) continue;
+    if (!world_.is_body(e)) {
+      if (!others_only) predict_pair(i, e);
+      continue;
     }
-    if (!all && body && e < i && !(cluster_of_[e] != none && clusters_[cluster_of_[e]].asleep)) continue;
-    if (body)
-      predict_pair(std::min(i, e), std::max(i, e));
-    else
-      predict_pair(i, e);
+    const Spot& there = spot_[e];
+    const double reach = here.reach + there.reach;
+    if ((there.x - here.x).squaredNorm() > 1.0001 * reach * reach) continue;  // most: what branches foresee comes first
+    if (!all && e < i && !sleeps(e)) continue;
+    if (others_only && settled(e)) continue;
+    predict_pair(std::min(i, e), std::max(i, e));
   }
 }
 

@@ -92,6 +92,12 @@ class SteppedSimulator final : public Simulator {
     std::vector<Path> path;
   };
 
+  /// Where a body's path begins, and how far its surface may be from there on it, at most (m).
+  struct Spot {
+    Vec3 x;
+    double reach;
+  };
+
   /// A path of this step that an impact has cut short.
   struct Piece {
     Entity body;
@@ -190,7 +196,7 @@ class SteppedSimulator final : public Simulator {
   std::vector<std::uint32_t> cluster_of_;
   std::vector<std::uint32_t> impacts_;   // of a body in this step, with e < 1,
   std::vector<std::uint32_t> meetings_;  // and of whatever kind
-  std::vector<double> travel_;           // m, at least as far as a body goes on its path
+  std::vector<Spot> spot_;
   std::vector<std::uint8_t> crowd_;      // steps for which a body is of the crowd yet
   std::vector<std::uint8_t> in_crowd_;   // in this step
   std::vector<Entity> host_;             // with whom a body goes along until the step ends
