@@ -21,7 +21,11 @@ double rounding_at(const Vec3& x, double radius) {
 }  // namespace
 
 Neighbours::Neighbours(const World& world)
-    : world_(world), region_(world.body_count()), near_(world.body_count()), grid_(world.body_count()) {}
+    : world_(world),
+      region_(world.body_count()),
+      near_(world.body_count()),
+      news_(world.body_count(), 1),
+      grid_(world.body_count()) {}
 
 void Neighbours::start(const std::vector<Vec3>& x) {
   for (Entity i = 0; i < world_.body_count(); ++i) {
@@ -46,6 +50,7 @@ void Neighbours::forget(Entity i) {
 void Neighbours::find(Entity i) {
   const Region& region = region_[i];
   forget(i);
+  news_[i] = 1;
   std::vector<Entity>& list = near_[i];
   grid_.near(region.center, region.half, [&](Entity j) {
     if (j == i) return;
@@ -53,6 +58,7 @@ void Neighbours::find(Entity i) {
     if ((region.center - region_[j].center).cwiseAbs().maxCoeff() > reach) return;
     list.push_back(j);
     near_[j].push_back(i);
+    news_[j] = 1;
   });
   const double slack = region.half - world_.radius[i];  // how far the centre may go along an axis, rounding included
   for (Entity e = world_.body_count(); e < world_.body_count() + world_.fixed_count(); ++e) {

@@ -4,6 +4,8 @@
 // Stillinger, J. Comput. Phys. 202 (2005) 737). A region grows while it is lonely, so a ball that flies off costs
 // little, however far it goes. Results must not depend on who is listed beyond those that meet, nor on the lists'
 // order.
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "physics/world.h"
@@ -28,6 +30,9 @@ class Neighbours {
   /// Bodies and surfaces that body i may meet within its region.
   const std::vector<Entity>& near(Entity i) const { return near_[i]; }
   const Region& region(Entity i) const { return region_[i]; }
+
+  /// Whether a body has come to body i's list since this was asked last.
+  bool has_news(Entity i) { return std::exchange(news_[i], 0) != 0; }
 
   /// A new region about x (m), wider where few are near and narrower where many are. `far`: the body goes a long way;
   /// it gets a wider one than that if that costs no more. Whether it did.
@@ -58,6 +63,7 @@ class Neighbours {
   const World& world_;
   std::vector<Region> region_;
   std::vector<std::vector<Entity>> near_;
+  std::vector<std::uint8_t> news_;
   RegionGrid grid_;
 };
 

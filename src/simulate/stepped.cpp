@@ -43,6 +43,7 @@ SteppedSimulator::SteppedSimulator(const World& world, const State& initial, con
       impacts_(world.body_count()),
       meetings_(world.body_count()),
       spot_(world.body_count()),
+      alone_until_(world.body_count()),
       crowd_(world.body_count()),
       in_crowd_(world.body_count()),
       host_(world.body_count(), no_entity),
@@ -120,6 +121,8 @@ void SteppedSimulator::end_step() {
     is_awake_[i] = cluster_of_[i] == none || !clusters_[cluster_of_[i]].asleep;
     if (is_awake_[i]) awake_[kept++] = i;
   }
+  gone_ += goes_;
+  goes_ = 0;
   awake_.resize(kept);
   if (!std::is_sorted(awake_.begin(), awake_.end())) std::sort(awake_.begin(), awake_.end());
   pieces_.clear();
@@ -165,6 +168,10 @@ void SteppedSimulator::do_step() {
     events_.pop();
     process(event);
   }
+  double strays = 0;  // m, what setting clusters on their surfaces adds to ways
+  for (const Entity i : awake_)
+    if (cluster_of_[i] != none) strays = std::max(strays, (end_x_[i] - path_[i].position(length_ - start_[i])).norm());
+  goes_ += strays;
   for (const Entity i : awake_) {
     const double speed = end_v_[i].norm();
     if (!(speed < never) || !(end_x_[i].squaredNorm() < never))

@@ -24,7 +24,10 @@ void SteppedSimulator::stay_known(Entity i) {
   const double length = length_ - start_[i];
   const Neighbours::Region& region = neighbours_.region(i);
   const Vec3 reach = reach_of(path, length);
-  spot_[i] = {path.x, world_.radius[i] + reach.norm()};
+  const double far = reach.norm();
+  const double rounding = 0x1p-48 * (path.x.cwiseAbs().maxCoeff() + world_.radius[i]);
+  spot_[i] = {path.x, world_.radius[i] + far + rounding};
+  if (length > 0) goes_ = std::max(goes_, far * (length_ / length));
   if (((path.x - region.center).cwiseAbs() + reach).maxCoeff() <= region.room) return;
   neighbours_.cover(i, path.x, reach.maxCoeff(), looks_ahead * length_ * v_[i]);
 }
@@ -47,18 +50,24 @@ void SteppedSimulator::predict(Entity i, bool all) {
   const auto sleeps = [&](Entity e) { return cluster_of_[e] != none && clusters_[cluster_of_[e]].asleep; };
   const bool others_only = !all && settled(i);
   const Spot here = spot_[i];
+  if (!all && !neighbours_.has_news(i) && gone_ + goes_ < alone_until_[i]) return;
+  double nearest = never;
   for (const Entity e : neighbours_.near(i)) {
     if (!world_.is_body(e)) {
-      if (!others_only) predict_pair(i, e);
+      const double clear = touch(world_, i, here.x, e, world_.fixed_position(e)).gap + world_.radius[i] - here.reach;
+      nearest = std::min(nearest, clear);
+      if (clear <= 0 && !others_only) predict_pair(i, e);
       continue;
     }
     const Spot& there = spot_[e];
-    const double reach = here.reach + there.reach;
-    if ((there.x - here.x).squaredNorm() > 1.0001 * reach * reach) continue;  // most: what branches foresee comes first
+    const double clear = (there.x - here.x).norm() - (here.reach + there.reach);
+    nearest = std::min(nearest, clear);
+    if (clear > 0) continue;  // most: what branches foresee comes first
     if (!all && e < i && !sleeps(e)) continue;
     if (others_only && settled(e)) continue;
     predict_pair(std::min(i, e), std::max(i, e));
   }
+  alone_until_[i] = all ? 0 : gone_ + 0.5 * nearest;
 }
 
 void SteppedSimulator::predict_pair(Entity a, Entity b) {
