@@ -172,7 +172,10 @@ bool SteppedSimulator::solve(Crowd& crowd, std::vector<Vec3>& u, int sweeps, int
   if (crowd.sweeps.press_apart(crowd.inverse_mass, u, crowd.pairs, sweeps)) return true;
   if (iterations == 0) return false;
   u = free;
-  return press_apart(crowd.inverse_mass, u, crowd.pairs, iterations);
+  if (press_apart(crowd.inverse_mass, u, crowd.pairs, iterations)) return true;
+  if (!few) return false;
+  u = free;
+  return press_apart_directly(crowd.inverse_mass, u, crowd.pairs);
 }
 
 /// The crowd's velocities at the step's end.
