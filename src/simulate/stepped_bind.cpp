@@ -43,8 +43,8 @@ void SteppedSimulator::dissolve(std::uint32_t c, double time, std::vector<Entity
       if (!is_awake_[i]) awake_.push_back(i);
       is_awake_[i] = 1;
       start_[i] = time;
-      ++version_[i];
     }
+    ++version_[i];  // what was predicted for the cluster is void, even if it has gone nowhere
     cluster_of_[i] = none;
     members.push_back(i);
   }
@@ -246,6 +246,7 @@ void SteppedSimulator::gather_clusters(const std::vector<Entity>& group, const s
       for (const Entity i : members) {
         join(i);
         in_crowd_[i] = 1;
+        host_[i] = i;
       }
       continue;
     }

@@ -30,7 +30,9 @@ constexpr int way_sweeps = 200;             // these decide on overlap
 constexpr double quiet = 2e-3;              // of the speed of falling by a radius: there sweeps get nowhere,
 constexpr int polishing = 400;              // but another solver does, in as many iterations
 constexpr std::size_t most_polished = 200;  // pairs for which that is always worth it,
-constexpr int much_polishing = 1000;        // as between light bodies and heavy ones
+constexpr std::size_t most_parted = 2000;   // or where they are to part,
+constexpr int much_polishing = 1000;        // as between light bodies and heavy ones,
+constexpr std::size_t most_direct = 500;    // and for which a third one is that gets there always
 constexpr double calm = 1e-3;               // of the speed of falling by a radius: slower bodies may be at rest
 constexpr double least_slack = 1e-8;        // of a radius: by how much bodies may overlap,
 constexpr double most_slack = 1e-3;         // and where that is hard to achieve, or
@@ -44,14 +46,14 @@ void SteppedSimulator::join(Entity i) {
 }
 
 /// Body i has met one of the crowd, e: it goes along with it to the step's end, or to whom it meets on that way, and
-/// keeps its own velocity for later.
+/// keeps its own velocity for later, or the one that the crowd has given it.
 void SteppedSimulator::park(Entity i, Entity e) {
   const double length = length_ - start_[i];
   const Vec3 along = in_crowd_[i] ? Vec3(Vec3::Zero()) : path_of(e, start_[i]).v;
-  host_[i] = in_crowd_[i] ? no_entity : e;
+  if (!in_crowd_[i]) end_v_[i] = v_[i];
+  host_[i] = in_crowd_[i] ? i : e;  // it has stopped for good
   path_[i] = {x_[i], along, Vec3::Zero(), Vec3::Zero()};
   end_x_[i] = path_[i].position(length);
-  end_v_[i] = v_[i];
   in_crowd_[i] = 1;
   join(i);
 }
@@ -173,7 +175,7 @@ bool SteppedSimulator::solve(Crowd& crowd, std::vector<Vec3>& u, int sweeps, int
   if (iterations == 0) return false;
   u = free;
   if (press_apart(crowd.inverse_mass, u, crowd.pairs, iterations)) return true;
-  if (!few) return false;
+  if (crowd.pairs.size() > most_direct) return false;
   u = free;
   return press_apart_directly(crowd.inverse_mass, u, crowd.pairs);
 }
@@ -225,7 +227,7 @@ void SteppedSimulator::find_ways(Crowd& crowd) {
   crowd.pairs.clear();
   for (const CrowdContact& contact : crowd.contacts)
     crowd.pairs.push_back({contact.of_a, contact.of_b, contact.normal, -contact.gap / h, slack, 0});
-  crowd.told = solve(crowd, crowd.way, way_sweeps, 0);
+  crowd.told = solve(crowd, crowd.way, way_sweeps, crowd.pairs.size() <= most_parted ? much_polishing : 0);
 }
 
 double SteppedSimulator::known_force(Entity a, Entity b) const {

@@ -1,9 +1,9 @@
 // What happens when two meet.
-#include "physics/impact.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "physics/force.h"
+#include "physics/impact.h"
 #include "physics/restitution.h"
 #include "simulate/stepped_simulator.h"
 
@@ -95,8 +95,9 @@ void SteppedSimulator::stop_at_crowd(Entity still, Entity comes, double time) {
   if (cluster_of_[comes] != none) {
     dissolve(cluster_of_[comes], time, group);
   } else if (in_crowd_[comes]) {
-    const Path path = path_of(comes, time);
-    cut(comes, time, path.x, v_[comes]);
+    const Vec3 from = x_[comes];
+    const double work = cut(comes, time, path_of(comes, time).x, v_[comes]);
+    lose(potential(world_, comes, from) - potential(world_, comes, x_[comes]) + work);
     group.push_back(comes);
   } else {
     bring(comes, time);
@@ -118,7 +119,10 @@ void SteppedSimulator::collide(const Event& event) {
                           clusters_[cluster_of_[e]].members.size() > most_members);
   };
   if (large(a) || large(b)) {
-    const bool b_comes = !body || !large(b) ? body && !large(b) : host_[b] != no_entity;
+    // Who goes along with another gives way; then, as he stands, so do those that come his way.
+    const auto gives_way = [&](Entity e) { return host_[e] != no_entity && host_[e] != e; };
+    const bool a_stands = large(a) && host_[a] == a;
+    const bool b_comes = body && (!large(b) || (large(a) && (gives_way(b) || (a_stands && host_[b] != b))));
     return stop_at_crowd(b_comes ? a : b, b_comes ? b : a, time);
   }
   if (loaded_ && ++meetings_[a] > most_meetings) return stop_at_crowd(b, a, time);  // jammed

@@ -182,17 +182,19 @@ void SteppedSimulator::bring(Entity i, double time) {
   cut(i, time, x, v);
 }
 
-/// Ends body i's path at x and v.
-void SteppedSimulator::cut(Entity i, double time, const Vec3& x, const Vec3& v) {
+/// Ends body i's path at x and v. J: the work on it that was booked.
+double SteppedSimulator::cut(Entity i, double time, const Vec3& x, const Vec3& v) {
+  double work = 0;
   if (time > start_[i]) {
     pieces_.push_back({i, start_[i], time, path_[i], v, cluster_of_[i] != none});
-    if (works_) book_work(i, x, v, time - start_[i]);
+    if (works_) work = book_work(i, x, v, time - start_[i]);
   }
   x_[i] = x;
   v_[i] = v;
   start_[i] = time;
   origin_[i] = {};
   ++version_[i];
+  return work;
 }
 
 /// Books what forces without a potential did on the way of `length` (s) to x and v (J): by Simpson's rule, with the

@@ -127,7 +127,7 @@ class SteppedSimulator final : public Simulator {
   void begin_paths(Cluster& cluster);
   void hold_more(Cluster& cluster, double length, Motion& motion) const;
   void bring(Entity i, double time);
-  void cut(Entity i, double time, const Vec3& x, const Vec3& v);
+  double cut(Entity i, double time, const Vec3& x, const Vec3& v);
   double book_work(Entity i, const Vec3& x, const Vec3& v, double length);
 
   // stepped_meet.cpp
@@ -202,7 +202,7 @@ class SteppedSimulator final : public Simulator {
   double goes_ = 0;                  // and goes in it
   std::vector<std::uint8_t> crowd_;      // steps for which a body is of the crowd yet
   std::vector<std::uint8_t> in_crowd_;   // in this step
-  std::vector<Entity> host_;             // with whom a body goes along until the step ends
+  std::vector<Entity> host_;             // with whom a body goes along until the step ends; itself: it stands
   std::vector<std::uint32_t> calm_;      // steps for which a body of the crowd has hardly moved
   std::vector<std::uint32_t> patience_;  // how often it was looked in vain whether a part, by its first body, rests
   double slack_ = 1e-3;                  // of a radius: by how much bodies of the crowd may overlap
