@@ -12,7 +12,17 @@ namespace carom {
 
 namespace {
 
+SteppedOptions stepped_options(const Scene& scene, bool record_collisions);
+
+/// Along parabolas from event to event; flights that are exponentials the stepped simulator has in closed form.
 std::unique_ptr<Simulator> make_exact(const Scene& scene, bool record_collisions) {
+  if (varying_force(scene.world) != nullptr) {
+    SteppedOptions options = stepped_options(scene, record_collisions);
+    options.integrator = Integrator::rk4;
+    options.closed_form = true;
+    options.step = default_step(scene.world, scene.initial);
+    return make_stepped_simulator(scene.world, scene.initial, options);
+  }
   ExactOptions options;
   options.duration = scene.simulate.duration;
   options.rest_speed = scene.simulate.rest_speed.value_or(options.rest_speed);
@@ -68,8 +78,8 @@ std::unique_ptr<Simulator> make_book(const Scene& scene, bool record_collisions)
 EngineChoice choose_engine(const Scene& scene) {
   switch (scene.simulate.engine) {
     case Engine::automatic:
-      if (const Force* varying = varying_force(scene.world))
-        return {"stepped", fmt::format("auto: under `{}` paths have no closed form", name_of(varying->law))};
+      if (const Force* open = force_without_closed_form(scene.world))
+        return {"stepped", fmt::format("auto: under `{}` paths have no closed form", name_of(open->law))};
       return {"exact", "auto: every path of this scene has a closed form"};
     case Engine::exact:
       break;
@@ -110,8 +120,8 @@ std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collis
 }
 
 std::unique_ptr<Simulator> make_oracle(const Scene& scene) {
-  return varying_force(scene.world) == nullptr ? make_exact(scene, true)
-                                               : make_stepped(scene, true, scene.simulate.step);
+  return force_without_closed_form(scene.world) == nullptr ? make_exact(scene, true)
+                                                           : make_stepped(scene, true, scene.simulate.step);
 }
 
 }  // namespace carom

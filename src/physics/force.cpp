@@ -66,6 +66,25 @@ const Force* varying_force(const World& world) {
   return nullptr;
 }
 
+const Force* force_without_closed_form(const World& world) {
+  for (const Force& force : world.forces) {
+    const Drag* drag = std::get_if<Drag>(&force.law);
+    if (!is_constant(force.law) && (drag == nullptr || drag->quadratic != 0)) return &force;
+  }
+  return nullptr;
+}
+
+LinearFlight linear_flight(const World& world, Entity body, double time) {
+  LinearFlight flight{world.gravity, 0};
+  for (const Force& force : world.forces) {
+    if (time < force.from || time >= force.until || !acts_on(force, body)) continue;
+    const Particle still{Vec3::Zero(), Vec3::Zero(), world.mass[body]};
+    flight.pull += std::visit([&](const auto& law) { return law.acceleration(still); }, force.law);
+    if (const Drag* drag = std::get_if<Drag>(&force.law)) flight.fade += drag->linear / world.mass[body];
+  }
+  return flight;
+}
+
 const char* name_of(const ForceLaw& law) {
   return std::visit([](const auto& l) { return l.name; }, law);
 }

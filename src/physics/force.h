@@ -3,6 +3,7 @@
 //
 // In the energy books a force that acts for ever has its potential, like gravity; one that sets in or ceases, and what
 // has no potential, does work.
+#include "physics/linear_flight.h"
 #include "physics/world.h"
 
 namespace carom {
@@ -24,6 +25,13 @@ bool is_constant(const ForceLaw& law);
 
 /// The first force that is not; null: there is none, and every path between impacts is a parabola.
 const Force* varying_force(const World& world);
+
+/// The first force under which flights have no closed form, as they have under constant forces and linear drag; null:
+/// there is none.
+const Force* force_without_closed_form(const World& world);
+
+/// How the body flies from `time` (s) on under forces of that kind; others are left out.
+LinearFlight linear_flight(const World& world, Entity body, double time);
 
 /// Its key in a scene.
 const char* name_of(const ForceLaw& law);

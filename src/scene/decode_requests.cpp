@@ -252,18 +252,18 @@ class Requests {
 void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics) {
   const View simulate = scene_part(root, "simulate");
   const Force* varying = varying_force(scene.world);
-  const bool stepped =
-      scene.simulate.engine == Engine::stepped || (scene.simulate.engine == Engine::automatic && varying != nullptr);
-  if (scene.simulate.engine == Engine::exact && varying != nullptr)
-    diagnostics.add(
-        simulate.place("engine"),
-        fmt::format("under `{}` bodies fly along no parabolas, which `engine: exact` follows", name_of(varying->law)),
-        "expected `engine: stepped`, or `auto`");
-  if (stepped && scene.simulate.merge)
+  if (const Force* open = force_without_closed_form(scene.world);
+      scene.simulate.engine == Engine::exact && open != nullptr)
+    diagnostics.add(simulate.place("engine"),
+                    fmt::format("under {}`{}` paths have no closed form, which `engine: exact` follows",
+                                std::holds_alternative<Drag>(open->law) ? "quadratic " : "", name_of(open->law)),
+                    "expected `engine: stepped`, or `auto`");
+  const bool parabolas = scene.simulate.engine != Engine::stepped && varying == nullptr;
+  if (!parabolas && scene.simulate.engine != Engine::book && scene.simulate.merge)
     diagnostics.add(simulate.place("contact"),
                     scene.simulate.engine == Engine::stepped
                         ? "`engine: stepped` has no `contact: merge`"
-                        : fmt::format("`contact: merge` is engine exact's, which has no `{}`", name_of(varying->law)),
+                        : fmt::format("`contact: merge` is for parabolas, not for `{}`", name_of(varying->law)),
                     "expected `contact: bounce`");
   if (scene.simulate.engine != Engine::book) return;
   // The chapter's listings know spheres, planes and walls, gravity and the impulses of the first frame.

@@ -14,7 +14,9 @@ namespace {
 
 constexpr std::size_t collision_buffer = 4096;
 constexpr int steps_at_a_time = 4096;
-constexpr std::uint32_t restless = 16;  // lossy impacts of a body in a step under load: it is of the crowd
+constexpr std::uint32_t restless = 16;         // lossy impacts of a body in a step under load: it is of the crowd;
+constexpr std::uint32_t restless_most = 4096;  // where bounces are followed
+constexpr double hop = 1e-6;                   // of a step: the shortest bounce that is
 
 }  // namespace
 
@@ -62,6 +64,7 @@ SteppedSimulator::SteppedSimulator(const World& world, const State& initial, con
     works_ = works_ || force.from > 0 || force.until < never || !is_constant(force.law);
   }
   std::sort(switches_.begin(), switches_.end());
+  shortest_hop_ = options.closed_form ? hop * options.step : options.step;
   loaded_ = !world.gravity.isZero(0) || !world.forces.empty();
   for (Entity i = 0; i < n; ++i) {
     if (!world.impulse.empty()) v_[i] += world.impulse[i] / world.mass[i];
@@ -111,7 +114,7 @@ void SteppedSimulator::end_step() {
     x_[i] = end_x_[i];
     v_[i] = end_v_[i];
     start_[i] = 0;
-    if (loaded_ && impacts_[i] >= restless) join(i);
+    if (loaded_ && impacts_[i] >= (options_.closed_form ? restless_most : restless)) join(i);
     impacts_[i] = 0;
     meetings_[i] = 0;
     in_crowd_[i] = 0;

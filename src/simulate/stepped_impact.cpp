@@ -12,7 +12,8 @@ namespace carom {
 namespace {
 
 constexpr double immovable = never;            // kg
-constexpr std::uint32_t many_impacts = 256;    // of a body in one step: with e < 1 a collapse
+constexpr std::uint32_t many_impacts = 256;    // of a body in one step: with e < 1 a collapse;
+constexpr std::uint32_t most_impacts = 4096;   // where bounces are followed
 constexpr std::uint32_t most_meetings = 2000;  // of a body in one step under load: it waits for the next one
 
 }  // namespace
@@ -79,13 +80,14 @@ Vec3 SteppedSimulator::acceleration_of(Entity e) const {
 
 /// Whether bounces of less than a step begin: press (m/s^2) drives the two together.
 bool SteppedSimulator::slow(double e, double approach, double press) const {
-  return press > 0 && e < 1 && (2 * e * approach < press * options_.step || approach <= options_.rest_speed);
+  return press > 0 && e < 1 && (2 * e * approach < press * shortest_hop_ || approach <= options_.rest_speed);
 }
 
 bool SteppedSimulator::taken_up(Entity a, Entity b, double e, double approach, double press, double noise) {
   std::uint32_t impacts = 0;
   if (e < 1) impacts = std::max(++impacts_[a], world_.is_body(b) ? ++impacts_[b] : 0);
-  return approach <= noise || slow(e, approach, press) || (impacts > many_impacts && e < 1);
+  return approach <= noise || slow(e, approach, press) ||
+         (impacts > (options_.closed_form ? most_impacts : many_impacts) && e < 1);
 }
 
 /// `still` is of the crowd, or of a sleeping pile, which wakes with the next step: who comes waits there.

@@ -16,6 +16,19 @@ Vec3 SteppedSimulator::free_acceleration(Entity i, const Vec3& x, const Vec3& v)
 /// Carries body i alone on for `length` (s).
 void SteppedSimulator::take(Entity i, double length, Vec3& x, Vec3& v, Path& path) const {
   using One = std::array<Vec3, 1>;
+  if (options_.closed_form) {
+    const LinearFlight flight = linear_flight(world_, i, from_);
+    Vec3 way = Vec3::Zero(), end = v;
+    flight.carry(length, way, end);
+    path = {x, v, flight.pull - flight.fade * v, Vec3::Zero()};
+    if (flight.fade > 0 && length > 0) {  // Hermite's polynomial through both ends
+      path.a = (6 / length * way - 4 * v - 2 * end) / length;
+      path.j = (6 * (v + end) - 12 / length * way) / (length * length);
+    }
+    x += way;
+    v = end;
+    return;
+  }
   if (constant_) {  // the methods in closed form
     const Vec3 a = free_acceleration(i, x, v);
     const bool euler = options_.integrator == Integrator::euler;

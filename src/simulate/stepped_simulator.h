@@ -197,9 +197,9 @@ class SteppedSimulator final : public Simulator {
   std::vector<std::uint32_t> impacts_;   // of a body in this step, with e < 1,
   std::vector<std::uint32_t> meetings_;  // and of whatever kind
   std::vector<Spot> spot_;
-  std::vector<double> alone_until_;  // m, on the same scale as gone_: before that a body meets nobody
-  double gone_ = 0;                  // m, at least as far as any body has gone until the step began,
-  double goes_ = 0;                  // and goes in it
+  std::vector<double> alone_until_;      // m, on the same scale as gone_: before that a body meets nobody
+  double gone_ = 0;                      // m, at least as far as any body has gone until the step began,
+  double goes_ = 0;                      // and goes in it
   std::vector<std::uint8_t> crowd_;      // steps for which a body is of the crowd yet
   std::vector<std::uint8_t> in_crowd_;   // in this step
   std::vector<Entity> host_;             // with whom a body goes along until the step ends; itself: it stands
@@ -215,6 +215,7 @@ class SteppedSimulator final : public Simulator {
   std::vector<std::uint8_t> is_awake_;
   std::vector<Piece> pieces_;             // of the present step
   bool loaded_ = false;                   // there is gravity, or a force
+  double shortest_hop_ = 0;               // s, of a bounce; a shorter one is none
   bool constant_ = true, works_ = false;  // all forces are constant; some force does work (force.h)
   Neighbours neighbours_;
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;

@@ -137,13 +137,15 @@ TEST(ForceErrors, OfWhatTheyAreMadeOf) {
 
 TEST(Engines, HaveTheForcesThatTheyCanFollow) {
   const std::string one = "scene: 1\nballs: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n";
-  EXPECT_EQ(errors_of(one + "forces: [{drag: {linear: 1}}]\nsimulate: {duration: 1, engine: exact}\n"),
-            "scene.yaml:4:33: error: under `drag` bodies fly along no parabolas, which `engine: exact` follows\n"
+  EXPECT_EQ(errors_of(one + "forces: [{drag: {quadratic: 1}}]\nsimulate: {duration: 1, engine: exact}\n"),
+            "scene.yaml:4:33: error: under quadratic `drag` paths have no closed form, which `engine: exact` follows\n"
             "   4 | simulate: {duration: 1, engine: exact}\n"
             "     |                                 ^~~~~\n"
             "     = expected `engine: stepped`, or `auto`\n");
+  EXPECT_EQ(load_text(one + "forces: [{drag: {linear: 1}}]\nsimulate: {duration: 1, engine: exact}\n").simulate.engine,
+            Engine::exact);
   EXPECT_EQ(errors_of(one + "forces: [{drag: {linear: 1}}]\nsimulate: {duration: 1, contact: merge}\n"),
-            "scene.yaml:4:34: error: `contact: merge` is engine exact's, which has no `drag`\n"
+            "scene.yaml:4:34: error: `contact: merge` is for parabolas, not for `drag`\n"
             "   4 | simulate: {duration: 1, contact: merge}\n"
             "     |                                  ^~~~~\n"
             "     = expected `contact: bounce`\n");

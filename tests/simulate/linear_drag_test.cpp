@@ -1,0 +1,164 @@
+// Flights under linear drag, in closed form from impact to impact: against the references, roots that are found here by
+// bisection, and the method of Runge and Kutta.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "physics/force.h"
+#include "simulate/build.h"
+#include "simulate/stepped.h"
+
+namespace carom {
+namespace {
+
+SteppedOptions options_of(const Problem& problem) {
+  SteppedOptions options;
+  options.duration = problem.options.duration;
+  options.step = default_step(problem.world, problem.initial);
+  options.closed_form = true;
+  return options;
+}
+
+Outcome run(const Problem& problem) {
+  const auto simulator = make_stepped_simulator(problem.world, problem.initial, options_of(problem));
+  return run_to_end(*simulator, problem.options.duration);
+}
+
+double residual(const Problem& problem, const Outcome& run) {
+  const auto energy = [&](const State& s) {
+    return kinetic_energy(problem.world, s) + potential_energy(problem.world, s);
+  };
+  return energy(run.end) - energy(problem.initial) - run.tally.work + run.tally.energy_lost;
+}
+
+/// Where a flight x'' = a - k x' is at t (s).
+struct Way {
+  Vec3 x, v, a;
+  double k;
+  Vec3 position(double t) const {
+    const double s = -std::expm1(-k * t) / k;
+    return x + s * v + (t - s) / k * a;
+  }
+};
+
+TEST(LinearFlight, IsTheReferencesAtAnyTime) {
+  const nlohmann::json reference = carom::reference("forces")["linear_drag_3d"];
+  const nlohmann::json& params = reference["params"];
+  for (const nlohmann::json& c : reference["cases"]) {
+    Problem problem;
+    problem.world.gravity = {0, 0, -params["g"].get<double>()};
+    problem.ball(vec3(params["p0"]), vec3(params["v0"]), 2);
+    problem.world.forces = {{Drag{2 * c["k"].get<double>(), 0, Vec3::Zero()}}};
+    for (const nlohmann::json& state : c["states"]) {
+      problem.options.duration = state["t"];
+      const Outcome got = run(problem);
+      EXPECT_LT((got.end.position[0] - vec3(state["p"])).norm(), 1e-12) << c["k"];  // of 80 m, measured: 2.7e-13
+      EXPECT_LT((got.end.velocity[0] - vec3(state["v"])).norm(), 1e-12) << c["k"];
+    }
+  }
+}
+
+TEST(LinearFlight, BouncesAreTheReferences) {
+  const nlohmann::json linear = carom::reference("forces")["linear_drag_bounce"];
+  for (const nlohmann::json& c : linear["cases"]) {
+    Problem problem;
+    problem.world.gravity = {0, -linear["g"].get<double>(), 0};
+    problem.ball({0, 0.5 + c["h"].get<double>(), 0}, {0, 0, 0}, 3, 0.5, c["e"]);
+    problem.plane({0, 0, 0}, {0, 1, 0});
+    problem.world.forces = {{Drag{3 * c["k"].get<double>(), 0, Vec3::Zero()}}};
+    problem.options.duration = c["impacts"].back()["t"].get<double>() + 1e-9;
+    const Outcome got = run(problem);
+    ASSERT_EQ(got.collisions.size(), c["impacts"].back()["n"].get<std::size_t>());
+    for (const nlohmann::json& impact : c["impacts"]) {
+      const Collision& collision = got.collisions[impact["n"].get<std::size_t>() - 1];
+      EXPECT_NEAR(collision.time, impact["t"].get<double>(), 1e-13);
+      EXPECT_NEAR(collision.approach_speed, std::abs(impact["v_before"].get<double>()), 1e-12);
+    }
+    EXPECT_NEAR(residual(problem, got), 0, 1e-10);  // of 29 J, measured: 2e-11
+  }
+}
+
+TEST(LinearFlight, BallsOfDifferentMassInTheWindMeetWhereTheirPathsDo) {
+  Problem problem;
+  problem.world.gravity = {0, -9.80665, 0};
+  problem.ball({0, 2, 0}, {4, 3, 0.3}, 0.5, 0.2, 0.8);
+  problem.ball({3, 2.5, 0.1}, {-3, 2, 0}, 3, 0.3, 0.8);
+  const Drag drag{0.9, 0, {1, 0, -2}};
+  problem.world.forces = {{drag}, {UniformForce{{0, 0.5, 0.25}}, 0, std::numeric_limits<double>::infinity(), {1}}};
+  problem.options.duration = 2;
+  const Outcome got = run(problem);
+  ASSERT_EQ(got.collisions.size(), 1u);
+  const auto way = [&](Entity i) {
+    const double m = problem.world.mass[i], k = drag.linear / m;
+    const Vec3 push = i == 1 ? Vec3(Vec3(0, 0.5, 0.25) / m) : Vec3(Vec3::Zero());
+    return Way{problem.initial.position[i], problem.initial.velocity[i], problem.world.gravity + push + k * drag.wind,
+               k};
+  };
+  const Way a = way(0), b = way(1);
+  double early = 0, late = 0;
+  while ((b.position(late) - a.position(late)).norm() > 0.5) late += 1e-4;
+  while (late - early > 1e-15) {
+    const double t = 0.5 * (early + late);
+    ((b.position(t) - a.position(t)).norm() > 0.5 ? early : late) = t;
+    if (t == early && t == late) break;
+  }
+  EXPECT_NEAR(got.collisions[0].time, late, 1e-14);
+  EXPECT_LT(got.tally.max_overlap, 1e-14);
+  EXPECT_NEAR(residual(problem, got), 0, 1e-11);
+}
+
+TEST(LinearFlight, ABouncingBallComesToRestAndDriftsWithTheWind) {
+  Problem problem;
+  problem.world.gravity = {0, -9.80665, 0};
+  problem.ball({0, 2, 0}, {4, 0, 0}, 2, 0.5, 0.9);
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  problem.world.forces = {{Drag{0.4, 0, {1, 0, 0}}}};
+  problem.options.duration = 40;
+  const Outcome got = run(problem);
+  const double k = 0.2, s = -std::expm1(-k * 40) / k;
+  EXPECT_NEAR(got.end.position[0].x(), 40 + 3 * s, 1e-10);  // nothing that the floor does is felt along it
+  EXPECT_NEAR(got.end.velocity[0].x(), 1 + 3 * std::exp(-k * 40), 1e-11);
+  EXPECT_NEAR(got.end.position[0].y(), 0.5, 1e-12);
+  EXPECT_EQ(got.tally.resting, 1u);
+  EXPECT_GT(got.collisions.size(), 150u);  // down to hops of 1e-9 s
+  EXPECT_NEAR(residual(problem, got), 0, 1e-9);
+}
+
+TEST(LinearFlight, WindowsOfTimeBeginAndEndWhereTheySay) {
+  Problem problem;
+  problem.ball({0, 0, 0}, {2, 0, 0}, 2);
+  problem.world.forces = {{Drag{3, 0, Vec3::Zero()}, 0.123, 0.7891}};
+  problem.options.duration = 1;
+  const double k = 1.5, w = 0.7891 - 0.123, s = -std::expm1(-k * w) / k, v = 2 * std::exp(-k * w);
+  EXPECT_NEAR(run(problem).end.position[0].x(), 2 * 0.123 + 2 * s + (1 - 0.7891) * v, 1e-14);
+}
+
+TEST(LinearFlight, IsWhatRungeAndKuttaComeTo) {
+  Problem problem;
+  problem.world.gravity = {0, -9.80665, 0};
+  problem.ball({-1, 1.5, 0.1}, {2, 0, 0}, 2, 0.5, 0.9);
+  problem.body(Volume::box({0.4, 0.3, 0.5}), {1.2, 0.6, 0}, {-2, 4, 0.2}, 1, 0.8);
+  problem.room({-2, 0, -2}, {2, 3, 2});
+  problem.world.forces = {{Drag{1, 0, {0, 0, 1}}}};
+  problem.options.duration = 1.5;
+  const Outcome exact = run(problem);
+  EXPECT_GE(exact.collisions.size(), 4u);
+  double last = 0;
+  for (const double step : {0.02, 0.01, 0.005}) {
+    SteppedOptions options;
+    options.duration = problem.options.duration;
+    options.step = step;
+    const auto simulator = make_stepped_simulator(problem.world, problem.initial, options);
+    const Outcome got = run_to_end(*simulator, options.duration);
+    double error = 0;
+    for (std::size_t i = 0; i < 2; ++i) error = std::max(error, (got.end.position[i] - exact.end.position[i]).norm());
+    if (last > 0) {
+      EXPECT_NEAR(std::log2(last / error), 4, 0.3) << step;
+    }
+    last = error;
+  }
+  EXPECT_LT(last, 1e-9);
+}
+
+}  // namespace
+}  // namespace carom
