@@ -154,6 +154,8 @@ void SteppedSimulator::do_step() {
   }
   for (const Entity i : awake_)
     if (cluster_of_[i] == none && crowd_[i] == 0) begin_path(i);
+  tally_.resting -= now_.carried;
+  now_.clear();
   if (std::any_of(awake_.begin(), awake_.end(), [&](Entity i) { return crowd_[i] > 0; })) {
     for (const Entity i : awake_)
       if (crowd_[i] == 0) stay_known(i);
@@ -236,7 +238,8 @@ const State& SteppedSimulator::state() {
   return state_;
 }
 
-/// The forces of contact: those at the present instant, told by taking each cluster's step up to there.
+/// The forces of contact: those at the present instant, told by taking each cluster's step up to there; in the crowd
+/// those of its step.
 std::span<const ContactForce> SteppedSimulator::contacts() {
   contact_forces_.clear();
   std::vector<PressedPair> pairs;
@@ -257,6 +260,9 @@ std::span<const ContactForce> SteppedSimulator::contacts() {
       if (force > 0) contact_forces_.push_back({bond.a, bond.b, force});
     }
   }
+  for (const CrowdContact& c : now_.contacts)
+    if (!c.strikes && c.impulse > 0 && cluster_of_[c.a] == none)
+      contact_forces_.push_back({c.a, c.b, c.impulse / length_});
   std::sort(contact_forces_.begin(), contact_forces_.end(),
             [](const ContactForce& p, const ContactForce& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
   return contact_forces_;

@@ -105,6 +105,7 @@ void Crowd::clear() {
   haste.clear();
   known.clear();
   contacts.clear();
+  carried = 0;
   smallest = never;
   pulls = 0;
 }
@@ -239,7 +240,6 @@ double SteppedSimulator::known_force(Entity a, Entity b) const {
 /// A step of all the crowd. Its members' paths are straight.
 void SteppedSimulator::step_crowd() {
   Crowd& crowd = now_;
-  crowd.clear();
   for (const Entity i : find_crowd()) {
     local_[i] = static_cast<std::uint32_t>(crowd.members.size());
     crowd.add(i, x_[i], v_[i], free_acceleration(i, x_[i], v_[i]), world_.mass[i], world_.radius[i]);
@@ -298,6 +298,14 @@ void SteppedSimulator::step_crowd() {
   const double far = shorter * unrest_ * h * std::sqrt(crowd.pulls / crowd.smallest);
   slack_ = std::clamp((crowd.told ? 0.9 : 1.2) * slack_, std::clamp(far, least_slack, most_slack), most_slack);
   put_to_rest(crowd);
+  std::vector<std::uint8_t> carried(n);
+  for (const CrowdContact& c : crowd.contacts) {
+    if (c.strikes || !(c.impulse > 0) || cluster_of_[c.a] != none) continue;
+    carried[c.of_a] = 1;
+    if (c.of_b != PressedPair::none) carried[c.of_b] = 1;
+  }
+  crowd.carried = static_cast<std::size_t>(std::count(carried.begin(), carried.end(), 1));
+  tally_.resting += crowd.carried;
 }
 
 /// The impacts of the crowd's step.

@@ -29,6 +29,7 @@ struct Crowd {
   std::vector<std::size_t> which;  // and whose contacts its pairs are
   Sweeps sweeps;
   std::vector<std::uint8_t> pressed;  // something presses on it
+  std::size_t carried = 0;            // members in lasting contact that do not sleep
   double smallest = never;            // m, the least radius
   double pulls = 0;                   // m/s^2, the greatest acceleration
   bool told = true;                   // ways are as near to what they should be as asked for

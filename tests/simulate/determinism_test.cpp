@@ -5,6 +5,7 @@
 
 #include "simulate/build.h"
 #include "simulate/random.h"
+#include "simulate/stepped.h"
 
 namespace carom {
 namespace {
@@ -49,6 +50,16 @@ TEST(Determinism, TheBooksLoopHasTheSameBitsInEveryBuild) {
   const Problem problem = lattice(0.9, 1);
   const auto simulator = make_book_simulator(problem.world, problem.initial, {1.0 / 120, false, 0, true});
   EXPECT_EQ(hash_of(run_to_end(*simulator, 2)), 15455406752589464552u);
+}
+
+TEST(Determinism, ACrowdInStepsHasTheSameBitsInEveryBuild) {
+  Problem problem = lattice(0.5, 9);
+  problem.world.forces = {{Drag{0.1, 0.05, {0.5, 0, 0}}}};
+  SteppedOptions options;
+  options.duration = 3;
+  options.step = 0.005;
+  const auto simulator = make_stepped_simulator(problem.world, problem.initial, options);
+  EXPECT_EQ(hash_of(run_to_end(*simulator, 3)), 688662559905378517u);
 }
 
 TEST(Determinism, ARepeatGivesTheSameBits) {

@@ -214,11 +214,6 @@ TEST(Rest, ABallIsPressedIntoACornerByASpringOrByTheWind) {
   }
 }
 
-TEST(Rest, APileOfBallsComesToRest) {
-  Problem problem = loose_pile(4, 4, 60);
-  expect_quiet(problem, 0.01, "pile", {Integrator::rk4});
-}
-
 TEST(Outputs, ChangeNothing) {
   const Problem problem = loose_pile(3, 3, 2);
   const auto once = make_stepped_simulator(problem.world, problem.initial, options_of(problem, 0.005));
