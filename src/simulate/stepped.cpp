@@ -178,19 +178,22 @@ void SteppedSimulator::do_step() {
     if (cluster_of_[i] != none) strays = std::max(strays, (end_x_[i] - path_[i].position(length_ - start_[i])).norm());
   goes_ += strays;
   for (const Entity i : awake_) {
-    const double speed = end_v_[i].norm();
-    if (!(speed < never) || !(end_x_[i].squaredNorm() < never))
-      throw SimulationError(fmt::format(
-          "at t = {} s a body's speed is no longer finite: use a smaller simulate.step (now {} s), an attractor with "
-          "`softening`, or restitution of at most 1",
-          to_, options_.step));
-    tally_.max_speed = std::max(tally_.max_speed, speed);
+    check_finite(end_x_[i], end_v_[i]);
+    tally_.max_speed = std::max(tally_.max_speed, end_v_[i].norm());
     const double work = works_ ? book_work(i, end_x_[i], end_v_[i], length_ - start_[i]) : 0;
     // What a crowd's step does to energy, other than by forces, contact has taken.
     if (in_crowd_[i])
       lose(0.5 * world_.mass[i] * (v_[i] - end_v_[i]).dot(v_[i] + end_v_[i]) + potential(world_, i, x_[i]) -
            potential(world_, i, end_x_[i]) + work);
   }
+}
+
+void SteppedSimulator::check_finite(const Vec3& x, const Vec3& v) const {
+  if (v.squaredNorm() < never && x.squaredNorm() < never) return;
+  throw SimulationError(fmt::format(
+      "at t = {} s a body's speed is no longer finite: use a smaller simulate.step (now {} s), an attractor with "
+      "`softening`, or restitution of at most 1",
+      to_, options_.step));
 }
 
 void SteppedSimulator::record(const Collision& c) {
@@ -208,7 +211,7 @@ void SteppedSimulator::lose(double energy) {
 }
 
 /// Where a body is on its way since `from` (s, since the step's start) is told by taking the step once more, up to
-/// there; in a cluster by its path.
+/// there; in a cluster or a crowd by its path.
 const State& SteppedSimulator::state() {
   if (state_fresh_) return state_;
   state_.time = time_;
@@ -216,23 +219,22 @@ const State& SteppedSimulator::state() {
   state_.velocity = end_v_;
   const double t = time_ - from_;
   if (time_ < to_) {
-    const auto look = [&](Entity i, const Path& path, double since, const Vec3& end_v, double length, bool clustered) {
+    const auto look = [&](Entity i, const Path& path, double since, const Vec3& end_v, double length, bool company) {
       Vec3 x = path.x, v = path.v;
       Path same;
-      if (!clustered) {
+      if (!company) {
         take(i, t - since, x, v, same);
       } else {
         x = path.position(t - since);
-        v = options_.integrator == Integrator::rk4 ? path.velocity(t - since)
-                                                   : Vec3(path.v + (t - since) / length * (end_v - path.v));
+        v = path.velocity(t - since) + (t - since) / length * (end_v - path.velocity(length));
       }
       state_.position[i] = x;
       state_.velocity[i] = v;
     };
     for (const Entity i : awake_)
-      if (t >= start_[i]) look(i, path_[i], start_[i], end_v_[i], length_ - start_[i], cluster_of_[i] != none);
+      if (t >= start_[i]) look(i, path_[i], start_[i], end_v_[i], length_ - start_[i], in_company(i));
     for (const Piece& p : pieces_)
-      if (t >= p.from && t < p.to) look(p.body, p.path, p.from, p.end_v, p.to - p.from, p.clustered);
+      if (t >= p.from && t < p.to) look(p.body, p.path, p.from, p.end_v, p.to - p.from, p.in_company);
   }
   state_fresh_ = true;
   return state_;

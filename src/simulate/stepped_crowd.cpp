@@ -34,6 +34,7 @@ constexpr std::size_t most_parted = 2000;   // or where they are to part,
 constexpr int much_polishing = 1000;        // as between light bodies and heavy ones,
 constexpr std::size_t most_direct = 500;    // and for which a third one is that gets there always
 constexpr double calm = 1e-3;               // of the speed of falling by a radius: slower bodies may be at rest
+constexpr double most_gain = 1e-6;          // of kinetic energy, by what is left undone
 constexpr double least_slack = 1e-8;        // of a radius: by how much bodies may overlap,
 constexpr double most_slack = 1e-3;         // and where that is hard to achieve, or
 constexpr double shorter = 0.5;             // of a step's way is above that
@@ -71,7 +72,7 @@ std::vector<Entity> SteppedSimulator::find_crowd() {
     if (crowd_[i] > 0) members.push_back(i);
   for (const Entity i : members) {
     in_crowd_[i] = 1;
-    look_around(i, v_[i].norm());
+    look_around(i, v_[i].norm() + length_ * free_acceleration(i, x_[i], v_[i]).norm());
   }
   for (std::size_t k = 0; k < members.size(); ++k) {
     const Entity i = members[k];
@@ -193,6 +194,8 @@ void SteppedSimulator::find_velocities(Crowd& crowd) {
     tally_.max_overlap = std::max(tally_.max_overlap, -contact.gap);
     const bool fast =
         2 * contact.restitution * contact.approach > crowd.pulls * h && contact.approach > options_.rest_speed;
+    // Farther apart than they fall in a step: whoever is pushed across that strikes in a later one.
+    if (!fast && contact.gap > slack + crowd.pulls * h * h) continue;
     double target = -std::max(contact.gap - slack, 0.0) / h;
     if (fast) {
       if (contact.gap > near_enough * crowd.smallest) continue;  // it has not come yet
@@ -209,8 +212,25 @@ void SteppedSimulator::find_velocities(Crowd& crowd) {
   const double share = std::min(25 * h * std::sqrt(crowd.pulls / crowd.smallest), 1.0);
   const bool tell = unrest_ < quiet;
   const double sweeps = std::clamp(2 * share / unrest_, 1.0 * few_sweeps, 1.0 * most_sweeps);
-  solve(crowd, crowd.moved, tell ? few_sweeps : static_cast<int>(sweeps),
-        tell ? static_cast<int>(std::ceil(polishing * share)) : 0);
+  const int iterations = tell ? static_cast<int>(std::ceil(polishing * share)) : 0;
+  const std::vector<Vec3> free = crowd.moved;
+  solve(crowd, crowd.moved, tell ? few_sweeps : static_cast<int>(sweeps), iterations);
+  // Who is struck from two sides at once cannot always part from both: then nobody bounces in this step.
+  bool lively = false;
+  for (const CrowdContact& contact : crowd.contacts) lively = lively || (contact.strikes && contact.restitution > 1);
+  double before = 0, after = 0;
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    before += free[k].squaredNorm() / crowd.inverse_mass[k];
+    after += crowd.moved[k].squaredNorm() / crowd.inverse_mass[k];
+  }
+  if (after > (1 + most_gain) * before && !lively) {
+    crowd.moved = free;
+    for (PressedPair& pair : crowd.pairs) {
+      pair.target = std::min(pair.target, 0.0);
+      pair.force = 0;
+    }
+    solve(crowd, crowd.moved, most_sweeps, iterations);
+  }
   for (std::size_t c = 0; c < crowd.pairs.size(); ++c) crowd.contacts[crowd.which[c]].impulse = crowd.pairs[c].force;
 }
 
@@ -250,7 +270,7 @@ void SteppedSimulator::step_crowd() {
   // Pushed aside, one may go farther than was looked for others to meet: looked again, then.
   const auto look = [&] {
     for (std::size_t k = 0; k < n; ++k)
-      if (crowd.haste[k] != crowd.known[k]) look_around(crowd.members[k], crowd.haste[k]);
+      if (crowd.haste[k] != crowd.known[k]) look_around(crowd.members[k], crowd.haste[k] + crowd.pulls * h);
     find_contacts(crowd);
   };
   look();

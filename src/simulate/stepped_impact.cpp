@@ -163,6 +163,8 @@ void SteppedSimulator::collide(const Event& event) {
     lose(impact_loss(ma, mb, approach, separation));
     v_[a] -= impulse / ma * n;
     if (body) v_[b] += impulse / mb * n;
+    check_finite(x_[a], v_[a]);
+    if (body) check_finite(x_[b], v_[b]);
   }
   const Event struck{time, Kind::impact, a, b, there.feature, 0, 0};
   bind(group, time, &struck, !lasting);

@@ -199,7 +199,7 @@ void SteppedSimulator::bring(Entity i, double time) {
 double SteppedSimulator::cut(Entity i, double time, const Vec3& x, const Vec3& v) {
   double work = 0;
   if (time > start_[i]) {
-    pieces_.push_back({i, start_[i], time, path_[i], v, cluster_of_[i] != none});
+    pieces_.push_back({i, start_[i], time, path_[i], v, in_company(i)});
     if (works_) work = book_work(i, x, v, time - start_[i]);
   }
   x_[i] = x;

@@ -104,13 +104,14 @@ class SteppedSimulator final : public Simulator {
     double from, to;  // s, since the step's start
     Path path;        // at `from`
     Vec3 end_v;       // m/s, at `to`
-    bool clustered;
+    bool in_company;
   };
 
   // stepped.cpp
   void do_step();
   void end_step();
   double next_time(double from);
+  void check_finite(const Vec3& x, const Vec3& v) const;
   void record(const Collision& collision);
   void lose(double energy);
 
@@ -177,6 +178,7 @@ class SteppedSimulator final : public Simulator {
   void stand(const Crowd& part);
   void put_to_rest(const Crowd& crowd);
   void fall_asleep(const Crowd& part);
+  bool in_company(Entity i) const { return cluster_of_[i] != none || in_crowd_[i]; }
   bool crowded(Entity e) const { return world_.is_body(e) && in_crowd_[e]; }
 
   const World& world_;

@@ -28,8 +28,8 @@ TEST(Crowd, OfEverySizeComesToRestByEveryMethodAtEveryStep) {
       for (const double step : {0.01, 0.004}) {
         SCOPED_TRACE(testing::Message() << side << " by " << layers << ", " << static_cast<int>(method) << ", "
                                         << step);
-        const Problem problem = loose_pile(side, layers, 60);
-        expect_pile_at_rest(problem, *stepped(problem, step, method), {50, 55, 60}, 2e-3, 1e-6);
+        const Problem problem = loose_pile(side, layers, 200);
+        expect_pile_at_rest(problem, *stepped(problem, step, method), {190, 195, 200}, 2e-3, 1e-6);
       }
 }
 

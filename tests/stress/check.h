@@ -15,4 +15,7 @@ struct Verdict {
 
 Verdict check(const RandomScene& scene);
 
+/// Of a run in steps of time, by a method and with a step that the seed chooses.
+Verdict check_stepped(const RandomScene& scene);
+
 }  // namespace carom::stress

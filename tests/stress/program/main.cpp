@@ -52,7 +52,8 @@ Counts& counts_of(Shared& shared, std::uint64_t seed) {
     itimerval limit{{0, 0}, {hang, 0}};
     setitimer(ITIMER_VIRTUAL, &limit, nullptr);
     const RandomScene scene = make_scene(seed);
-    const Verdict verdict = check(scene);
+    Verdict verdict = check(scene);
+    for (std::string& violation : check_stepped(scene).violations) verdict.violations.push_back(std::move(violation));
     Counts& counts = counts_of(shared, seed);
     ++counts.scenes;
     counts.collisions += verdict.collisions;

@@ -1,0 +1,122 @@
+// The same scenes in steps of time, long ones: whatever the method and the step, a run ends, nobody is nowhere or
+// inside another, outputs change nothing, and no energy comes from nowhere.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "simulate/stepped.h"
+#include "stress/check.h"
+#include "stress/gaps.h"
+
+namespace carom::stress {
+
+namespace {
+
+constexpr double deepest = 0.1;     // of the smaller radius; of 24,000 scenes: 0.083
+constexpr double most_gain = 2e-3;  // of the energy; of 24,000 scenes: 1.4e-3
+
+struct Seen {
+  std::vector<State> states;
+  Tally tally;
+};
+
+Seen run(const RandomScene& scene, const SteppedOptions& options, int looks) {
+  const auto simulator = make_stepped_simulator(scene.world, scene.initial, options);
+  Seen seen;
+  simulator->advance_to(0);
+  seen.states.push_back(simulator->state());
+  for (int k = 1; k <= looks; ++k) {
+    const double t = k == looks ? options.duration : options.duration * k / looks;
+    do simulator->advance_to(t);
+    while (simulator->time() < t);
+    seen.states.push_back(simulator->state());
+  }
+  seen.tally = simulator->tally();
+  return seen;
+}
+
+/// J: energy; and added up without signs, which is what its rounding goes by.
+long double energy(const World& world, const State& s, long double& size) {
+  long double sum = 0;
+  size = 0;
+  const auto add = [&](long double part) {
+    sum += part;
+    size += std::abs(part);
+  };
+  for (Entity i = 0; i < world.body_count(); ++i) {
+    const long double m = world.mass[i];
+    const Long3 x = s.position[i].cast<long double>();
+    add(0.5L * m * s.velocity[i].cast<long double>().squaredNorm());
+    for (int axis = 0; axis < 3; ++axis) add(-m * world.gravity[axis] * x[axis]);
+    for (const Force& f : world.forces) {
+      if (f.from > 0 || std::isfinite(f.until) || !(f.on.empty() || std::count(f.on.begin(), f.on.end(), i))) continue;
+      for (int axis = 0; axis < 3; ++axis) add(-(per_mass(f) ? m : 1) * value(f)[axis] * x[axis]);
+    }
+  }
+  return sum;
+}
+
+std::string text(double x) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%.3g", x);
+  return digits;
+}
+
+}  // namespace
+
+Verdict check_stepped(const RandomScene& scene) {
+  Verdict verdict;
+  const World& world = scene.world;
+  SteppedOptions options;
+  options.integrator = static_cast<Integrator>(scene.seed / 13 % 3);
+  options.duration = scene.options.duration;
+  const int steps = std::array{50, 100, 300}[scene.seed / 39 % 3];
+  options.step = options.duration / steps;
+  options.max_collisions = scene.options.max_collisions;
+  options.record_collisions = false;
+  const std::string what =
+      "in " + std::to_string(steps) + " steps by method " + std::to_string(static_cast<int>(options.integrator)) + ": ";
+  const auto fail = [&](const std::string& why) {
+    if (verdict.violations.size() < 12) verdict.violations.push_back(what + why);
+  };
+  Seen once, often;
+  try {
+    once = run(scene, options, 1);
+    often = run(scene, options, 23);
+  } catch (const SimulationError& error) {
+    verdict.stopped = true;
+    if (!scene.may_stop) fail(error.what());
+    return verdict;
+  }
+  verdict.collisions = once.tally.collisions();
+  const State &start = once.states.front(), &end = once.states.back();
+  if (end.position != often.states.back().position || end.velocity != often.states.back().velocity)
+    fail("outputs change where it ends");
+  for (const State& s : often.states)
+    for (Entity a = 0; a < world.body_count(); ++a) {
+      if (!s.position[a].allFinite() || !s.velocity[a].allFinite()) {
+        fail("body " + std::to_string(a) + " is nowhere at t = " + text(s.time));
+        return verdict;
+      }
+      for (Entity b = a + 1; b < world.body_count() + world.fixed_count(); ++b) {
+        const bool body = world.is_body(b);
+        const Long3 xb = body ? Long3(s.position[b].cast<long double>()) : Long3(Long3::Zero());
+        const double depth = -static_cast<double>(gap(world, a, s.position[a].cast<long double>(), b, xb));
+        const double size = body ? std::min(world.radius[a], world.radius[b]) : world.radius[a];
+        if (depth > deepest * size + 1e-12 * s.position[a].norm())
+          fail(std::to_string(a) + " and " + std::to_string(b) + " overlap by " + text(depth / size) +
+               " of a radius at t = " + text(s.time));
+      }
+    }
+  const bool lively = std::any_of(world.restitution.begin(), world.restitution.end(), [](double e) { return e > 1; });
+  if (lively || options.integrator == Integrator::euler) return verdict;
+  long double before, after;
+  const long double first = energy(world, start, before), last = energy(world, end, after);
+  const double size = static_cast<double>(before + after) + once.tally.energy_lost + std::abs(once.tally.work);
+  if (static_cast<double>(last - first) > once.tally.work + most_gain * size)
+    fail("gains " + text(static_cast<double>(last - first) - once.tally.work) + " J of " + text(size));
+  return verdict;
+}
+
+}  // namespace carom::stress
