@@ -31,7 +31,7 @@ TEST_P(EveryScene, RunsToItsEndAndKeepsItsBooks) {
   const World& world = run.scene.world;
   const double before = run.energy_start;
   const double after = kinetic_energy(world, run.end) + potential_energy(world, run.end);
-  const double passed = before + std::abs(run.tally.work) + std::abs(run.tally.energy_lost);
+  const double passed = std::abs(before) + std::abs(run.tally.work) + std::abs(run.tally.energy_lost);
   if (run.scene.simulate.engine == Engine::book && !world.gravity.isZero(0)) return;  // Euler's steps keep no energy
   EXPECT_NEAR(after, before + run.tally.work - run.tally.energy_lost,
               1e-11 * passed);  // measured: 3e-12 (pi_to_six_digits)
