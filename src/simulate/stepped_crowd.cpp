@@ -133,6 +133,10 @@ void SteppedSimulator::find_contacts(Crowd& crowd) const {
     const std::size_t first = crowd.contacts.size();
     for (const Entity e : neighbours_.near(i)) {
       const bool body = world_.is_body(e);
+      if (body && !crowd.part) {  // most are not in reach
+        const double reach = spot_[i].reach + spot_[e].reach;
+        if ((spot_[e].x - crowd.x[k]).squaredNorm() > reach * reach) continue;
+      }
       const bool member = body && local_[e] < crowd.members.size() && crowd.members[local_[e]] == e;
       if (body && !member && !crowd.part) continue;
       const std::uint32_t other = member ? local_[e] : PressedPair::none;

@@ -44,27 +44,26 @@ bool SteppedSimulator::bound(Entity a, Entity b) const {
                      [&](const Bond& bond) { return bond.a == std::min(a, b) && bond.b == std::max(a, b); });
 }
 
-/// Finds whom body i meets first of each of its neighbours. all: else only those that do not find it themselves.
+/// Finds whom body i meets first of each of its neighbours. all: else only those that do not find it themselves. Those
+/// that go with the crowd have been kept clear of one another, and are found by the others.
 void SteppedSimulator::predict(Entity i, bool all) {
-  const auto settled = [&](Entity e) { return in_crowd_[e] && host_[e] == no_entity; };  // in the crowd's own step
+  const auto with_crowd = [&](Entity e) { return in_crowd_[e] && host_[e] == no_entity; };
+  if (!all && (with_crowd(i) || (!neighbours_.has_news(i) && gone_ + goes_ < alone_until_[i]))) return;
   const auto sleeps = [&](Entity e) { return cluster_of_[e] != none && clusters_[cluster_of_[e]].asleep; };
-  const bool others_only = !all && settled(i);
   const Spot here = spot_[i];
-  if (!all && !neighbours_.has_news(i) && gone_ + goes_ < alone_until_[i]) return;
   double nearest = never;
   for (const Entity e : neighbours_.near(i)) {
     if (!world_.is_body(e)) {
       const double clear = touch(world_, i, here.x, e, world_.fixed_position(e)).gap + world_.radius[i] - here.reach;
       nearest = std::min(nearest, clear);
-      if (clear <= 0 && !others_only) predict_pair(i, e);
+      if (clear <= 0) predict_pair(i, e);
       continue;
     }
     const Spot& there = spot_[e];
     const double clear = (there.x - here.x).norm() - (here.reach + there.reach);
     nearest = std::min(nearest, clear);
     if (clear > 0) continue;  // most: what branches foresee comes first
-    if (!all && e < i && !sleeps(e)) continue;
-    if (others_only && settled(e)) continue;
+    if (!all && e < i && !sleeps(e) && !with_crowd(e)) continue;
     predict_pair(std::min(i, e), std::max(i, e));
   }
   alone_until_[i] = all ? 0 : gone_ + 0.5 * nearest;
