@@ -165,6 +165,8 @@ void SteppedSimulator::do_step() {
     if (!cluster.members.empty() && !cluster.asleep) begin_paths(cluster);
   const std::vector<Entity> moving = awake_;
   for (const Entity i : moving) stay_known(i);
+  some_sleep_ = std::any_of(clusters_.begin(), clusters_.end(),
+                            [](const Cluster& cluster) { return cluster.asleep && !cluster.members.empty(); });
   for (const Entity i : moving) predict(i, false);
   for (std::uint32_t c = 0; c < clusters_.size(); ++c)
     if (!clusters_[c].members.empty() && !clusters_[c].asleep) predict_releases(c);

@@ -32,7 +32,7 @@ constexpr int polishing = 400;              // but another solver does, in as ma
 constexpr std::size_t most_polished = 200;  // pairs for which that is always worth it,
 constexpr std::size_t most_parted = 2000;   // or where they are to part,
 constexpr int much_polishing = 1000;        // as between light bodies and heavy ones,
-constexpr std::size_t most_direct = 500;    // and for which a third one is that gets there always
+constexpr std::size_t most_direct = 1000;   // and for which a third one is that gets there always
 constexpr double calm = 1e-3;               // of the speed of falling by a radius: slower bodies may be at rest
 constexpr double most_gain = 1e-6;          // of kinetic energy, by what is left undone
 constexpr double least_slack = 1e-8;        // of a radius: by how much bodies may overlap,
@@ -277,6 +277,7 @@ void SteppedSimulator::step_crowd() {
       if (crowd.haste[k] != crowd.known[k]) look_around(crowd.members[k], crowd.haste[k] + crowd.pulls * h);
     find_contacts(crowd);
   };
+  for (std::size_t k = 0; k < n; ++k) crowd.haste[k] += h * crowd.pulls;  // as fast as it may become by itself
   look();
   find_velocities(crowd);
   for (std::size_t k = 0; k < n; ++k) crowd.haste[k] = std::max(crowd.haste[k], crowd.moved[k].norm());

@@ -45,10 +45,12 @@ bool SteppedSimulator::bound(Entity a, Entity b) const {
 }
 
 /// Finds whom body i meets first of each of its neighbours. all: else only those that do not find it themselves. Those
-/// that go with the crowd have been kept clear of one another, and are found by the others.
+/// that go with the crowd have been kept clear of one another, and are found by the others, but for those that sleep.
 void SteppedSimulator::predict(Entity i, bool all) {
   const auto with_crowd = [&](Entity e) { return in_crowd_[e] && host_[e] == no_entity; };
-  if (!all && (with_crowd(i) || (!neighbours_.has_news(i) && gone_ + goes_ < alone_until_[i]))) return;
+  const bool sleepers_only = !all && with_crowd(i);
+  if (sleepers_only && !some_sleep_) return;
+  if (!all && !neighbours_.has_news(i) && gone_ + goes_ < alone_until_[i]) return;
   const auto sleeps = [&](Entity e) { return cluster_of_[e] != none && clusters_[cluster_of_[e]].asleep; };
   const Spot here = spot_[i];
   double nearest = never;
@@ -56,13 +58,14 @@ void SteppedSimulator::predict(Entity i, bool all) {
     if (!world_.is_body(e)) {
       const double clear = touch(world_, i, here.x, e, world_.fixed_position(e)).gap + world_.radius[i] - here.reach;
       nearest = std::min(nearest, clear);
-      if (clear <= 0) predict_pair(i, e);
+      if (clear <= 0 && !sleepers_only) predict_pair(i, e);
       continue;
     }
     const Spot& there = spot_[e];
     const double clear = (there.x - here.x).norm() - (here.reach + there.reach);
     nearest = std::min(nearest, clear);
     if (clear > 0) continue;  // most: what branches foresee comes first
+    if (sleepers_only && !sleeps(e)) continue;
     if (!all && e < i && !sleeps(e) && !with_crowd(e)) continue;
     predict_pair(std::min(i, e), std::max(i, e));
   }

@@ -216,6 +216,7 @@ class SteppedSimulator final : public Simulator {
   std::vector<Entity> awake_;          // whose paths go anywhere; ascending where a step begins
   std::vector<std::uint8_t> is_awake_;
   std::vector<Piece> pieces_;             // of the present step
+  bool some_sleep_ = false;               // some cluster does
   bool loaded_ = false;                   // there is gravity, or a force
   double shortest_hop_ = 0;               // s, of a bounce; a shorter one is none
   bool constant_ = true, works_ = false;  // all forces are constant; some force does work (force.h)
