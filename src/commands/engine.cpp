@@ -76,34 +76,38 @@ std::unique_ptr<Simulator> make_book(const Scene& scene, bool record_collisions)
 }  // namespace
 
 EngineChoice choose_engine(const Scene& scene) {
+  EngineChoice choice{"exact", ""};
   switch (scene.simulate.engine) {
     case Engine::automatic:
       if (const Force* open = force_without_closed_form(scene.world))
-        return {"stepped", fmt::format("auto: under `{}` paths have no closed form", name_of(open->law))};
-      return {"exact", "auto: every path of this scene has a closed form"};
+        choice = {"stepped", fmt::format("auto: under `{}` paths have no closed form", name_of(open->law))};
+      else
+        choice.why = "auto: every path of this scene has a closed form";
+      break;
     case Engine::exact:
       break;
     case Engine::stepped:
-      return {"stepped", ""};
+      choice.name = "stepped";
+      break;
     case Engine::book:
-      return {"book", ""};
+      choice.name = "book";
+      break;
   }
-  return {"exact", ""};
+  if (choice.name == "stepped" && !scene.simulate.tolerance) {
+    choice.step = scene.simulate.step.value_or(default_step(scene.world, scene.initial));
+    choice.why =
+        joined(choice.why, fmt::format("{}, steps of {:.4g} s", name_of(scene.simulate.integrator), *choice.step));
+  }
+  return choice;
 }
 
 void settle_step(const Scene& scene, EngineChoice& engine, const std::function<void()>& look) {
-  if (engine.name != "stepped") return;
+  if (engine.name != "stepped" || engine.step) return;
   const Simulate& simulate = scene.simulate;
-  const std::string method = name_of(simulate.integrator);
-  if (!simulate.tolerance) {
-    engine.step = simulate.step.value_or(default_step(scene.world, scene.initial));
-    engine.why = joined(engine.why, fmt::format("{}, steps of {:.4g} s", method, *engine.step));
-    return;
-  }
   const StepChoice choice =
       choose_step(scene.world, scene.initial, stepped_options(scene, false), *simulate.tolerance, look);
   engine.step = choice.step;
-  engine.why = joined(engine.why, fmt::format("{}, steps of {:.4g} s, ", method, choice.step));
+  engine.why = joined(engine.why, fmt::format("{}, steps of {:.4g} s, ", name_of(simulate.integrator), choice.step));
   engine.why +=
       choice.chaotic_from <= simulate.duration
           ? fmt::format("chaotic: from {:.4g} s on positions differ by more than {} m, and no later with shorter ones",

@@ -13,12 +13,12 @@ namespace carom {
 struct EngineChoice {
   std::string name;              // "exact", "stepped", "book"; as in summary.csv
   std::string why;               // one line: why this one, and with which steps
-  std::optional<double> step{};  // s, of engine stepped, once it is settled
+  std::optional<double> step{};  // s, of engine stepped; none: the scene's tolerance is to tell, by settle_step
 };
 
 EngineChoice choose_engine(const Scene& scene);
 
-/// Finds the step of engine stepped: where the scene asks for a tolerance, by running it again and again. `look` is
+/// Finds the step of engine stepped where the scene asks for a tolerance, by running it again and again. `look` is
 /// called now and then, and may throw. Throws SimulationError.
 void settle_step(const Scene& scene, EngineChoice& engine, const std::function<void()>& look);
 
