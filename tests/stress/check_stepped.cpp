@@ -13,8 +13,8 @@ namespace carom::stress {
 
 namespace {
 
-constexpr double deepest = 0.1;     // of the smaller radius; of 24,000 scenes: 0.083
-constexpr double most_gain = 2e-3;  // of the energy; of 24,000 scenes: 1.4e-3
+constexpr double deepest = 0.1;     // of the smaller radius, and
+constexpr double most_gain = 2e-3;  // of the energy; of 100,000 scenes none has more
 
 struct Seen {
   std::vector<State> states;
@@ -94,6 +94,15 @@ Verdict check_stepped(const RandomScene& scene) {
   const State &start = once.states.front(), &end = once.states.back();
   if (end.position != often.states.back().position || end.velocity != often.states.back().velocity)
     fail("outputs change where it ends");
+  const bool lively = std::any_of(world.restitution.begin(), world.restitution.end(), [](double e) { return e > 1; });
+  // Euler's steps lead bodies off surfaces, onto which they are set again, by as much as they fall in one.
+  double falls = 0;
+  if (options.integrator == Integrator::euler && world.body_count() > 0) {
+    falls = world.gravity.norm();
+    const double lightest = *std::min_element(world.mass.begin(), world.mass.end());
+    for (const Force& f : world.forces) falls += value(f).norm() / (per_mass(f) ? 1 : lightest);
+    falls *= options.step * options.step;
+  }
   for (const State& s : often.states)
     for (Entity a = 0; a < world.body_count(); ++a) {
       if (!s.position[a].allFinite() || !s.velocity[a].allFinite()) {
@@ -105,12 +114,11 @@ Verdict check_stepped(const RandomScene& scene) {
         const Long3 xb = body ? Long3(s.position[b].cast<long double>()) : Long3(Long3::Zero());
         const double depth = -static_cast<double>(gap(world, a, s.position[a].cast<long double>(), b, xb));
         const double size = body ? std::min(world.radius[a], world.radius[b]) : world.radius[a];
-        if (depth > deepest * size + 1e-12 * s.position[a].norm())
+        if (!lively && depth > deepest * size + falls + 1e-12 * s.position[a].norm())
           fail(std::to_string(a) + " and " + std::to_string(b) + " overlap by " + text(depth / size) +
                " of a radius at t = " + text(s.time));
       }
     }
-  const bool lively = std::any_of(world.restitution.begin(), world.restitution.end(), [](double e) { return e > 1; });
   if (lively || options.integrator == Integrator::euler) return verdict;
   long double before, after;
   const long double first = energy(world, start, before), last = energy(world, end, after);
