@@ -12,7 +12,15 @@ namespace carom {
 
 namespace {
 
-SteppedOptions stepped_options(const Scene& scene, bool record_collisions);
+SteppedOptions stepped_options(const Scene& scene, bool record_collisions) {
+  SteppedOptions options;
+  options.duration = scene.simulate.duration;
+  options.integrator = scene.simulate.integrator;
+  options.rest_speed = scene.simulate.rest_speed.value_or(options.rest_speed);
+  options.max_collisions = scene.simulate.max_collisions.value_or(options.max_collisions);
+  options.record_collisions = record_collisions;
+  return options;
+}
 
 /// Along parabolas from event to event; flights that are exponentials the stepped simulator has in closed form.
 std::unique_ptr<Simulator> make_exact(const Scene& scene, bool record_collisions) {
@@ -30,16 +38,6 @@ std::unique_ptr<Simulator> make_exact(const Scene& scene, bool record_collisions
   options.merge = scene.simulate.merge;
   options.record_collisions = record_collisions;
   return make_exact_simulator(scene.world, scene.initial, options);
-}
-
-SteppedOptions stepped_options(const Scene& scene, bool record_collisions) {
-  SteppedOptions options;
-  options.duration = scene.simulate.duration;
-  options.integrator = scene.simulate.integrator;
-  options.rest_speed = scene.simulate.rest_speed.value_or(options.rest_speed);
-  options.max_collisions = scene.simulate.max_collisions.value_or(options.max_collisions);
-  options.record_collisions = record_collisions;
-  return options;
 }
 
 std::unique_ptr<Simulator> make_stepped(const Scene& scene, bool record_collisions, std::optional<double> step) {

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::size_t collision_buffer = 4096;
 constexpr int steps_at_a_time = 4096;
-constexpr std::uint32_t restless = 16;         // lossy impacts of a body in a step under load: it is of the crowd;
-constexpr std::uint32_t restless_most = 4096;  // where bounces are followed
-constexpr double hop = 1e-6;                   // of a step: the shortest bounce that is
+// Where bounces are followed:
+constexpr double hop = 1e-6;              // of a step: the shortest bounce that is one
+constexpr std::uint32_t followed = 4096;  // impacts of a body in a step
 
 }  // namespace
 
@@ -64,7 +64,10 @@ SteppedSimulator::SteppedSimulator(const World& world, const State& initial, con
     works_ = works_ || force.from > 0 || force.until < never || !is_constant(force.law);
   }
   std::sort(switches_.begin(), switches_.end());
-  shortest_hop_ = options.closed_form ? hop * options.step : options.step;
+  if (options.closed_form) {
+    shortest_hop_ = hop * options.step;
+    restless_ = many_impacts_ = followed;
+  }
   loaded_ = !world.gravity.isZero(0) || !world.forces.empty();
   for (Entity i = 0; i < n; ++i) {
     if (!world.impulse.empty()) v_[i] += world.impulse[i] / world.mass[i];
@@ -114,7 +117,7 @@ void SteppedSimulator::end_step() {
     x_[i] = end_x_[i];
     v_[i] = end_v_[i];
     start_[i] = 0;
-    if (loaded_ && impacts_[i] >= (options_.closed_form ? restless_most : restless)) join(i);
+    if (loaded_ && impacts_[i] >= restless_) join(i);
     impacts_[i] = 0;
     meetings_[i] = 0;
     in_crowd_[i] = 0;
@@ -265,8 +268,7 @@ std::span<const ContactForce> SteppedSimulator::contacts() {
     }
   }
   for (const CrowdContact& c : now_.contacts)
-    if (!c.strikes && c.impulse > 0 && cluster_of_[c.a] == none)
-      contact_forces_.push_back({c.a, c.b, c.impulse / length_});
+    if (carries(c)) contact_forces_.push_back({c.a, c.b, c.impulse / length_});
   std::sort(contact_forces_.begin(), contact_forces_.end(),
             [](const ContactForce& p, const ContactForce& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
   return contact_forces_;

@@ -325,7 +325,7 @@ void SteppedSimulator::step_crowd() {
   put_to_rest(crowd);
   std::vector<std::uint8_t> carried(n);
   for (const CrowdContact& c : crowd.contacts) {
-    if (c.strikes || !(c.impulse > 0) || cluster_of_[c.a] != none) continue;
+    if (!carries(c)) continue;
     carried[c.of_a] = 1;
     if (c.of_b != PressedPair::none) carried[c.of_b] = 1;
   }

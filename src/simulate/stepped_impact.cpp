@@ -12,8 +12,6 @@ namespace carom {
 namespace {
 
 constexpr double immovable = never;            // kg
-constexpr std::uint32_t many_impacts = 256;    // of a body in one step: with e < 1 a collapse;
-constexpr std::uint32_t most_impacts = 4096;   // where bounces are followed
 constexpr std::uint32_t most_meetings = 2000;  // of a body in one step under load: it waits for the next one
 
 }  // namespace
@@ -86,8 +84,7 @@ bool SteppedSimulator::slow(double e, double approach, double press) const {
 bool SteppedSimulator::taken_up(Entity a, Entity b, double e, double approach, double press, double noise) {
   std::uint32_t impacts = 0;
   if (e < 1) impacts = std::max(++impacts_[a], world_.is_body(b) ? ++impacts_[b] : 0);
-  return approach <= noise || slow(e, approach, press) ||
-         (impacts > (options_.closed_form ? most_impacts : many_impacts) && e < 1);
+  return approach <= noise || slow(e, approach, press) || (impacts > many_impacts_ && e < 1);
 }
 
 /// `still` is of the crowd, or of a sleeping pile, which wakes with the next step: who comes waits there.

@@ -178,6 +178,8 @@ class SteppedSimulator final : public Simulator {
   void stand(const Crowd& part);
   void put_to_rest(const Crowd& crowd);
   void fall_asleep(const Crowd& part);
+  /// Whether a contact of the crowd lasts, between bodies that do not sleep.
+  bool carries(const CrowdContact& c) const { return !c.strikes && c.impulse > 0 && cluster_of_[c.a] == none; }
   bool in_company(Entity i) const { return cluster_of_[i] != none || in_crowd_[i]; }
   bool crowded(Entity e) const { return world_.is_body(e) && in_crowd_[e]; }
 
@@ -218,7 +220,9 @@ class SteppedSimulator final : public Simulator {
   std::vector<Piece> pieces_;             // of the present step
   bool some_sleep_ = false;               // some cluster does
   bool loaded_ = false;                   // there is gravity, or a force
-  double shortest_hop_ = 0;               // s, of a bounce; a shorter one is none
+  double shortest_hop_ = options_.step;   // s, of a bounce; a shorter one is none
+  std::uint32_t restless_ = 16;           // lossy impacts of a body in a step under load: it is of the crowd
+  std::uint32_t many_impacts_ = 256;      // of a body in a step: with e < 1 a collapse
   bool constant_ = true, works_ = false;  // all forces are constant; some force does work (force.h)
   Neighbours neighbours_;
   std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;

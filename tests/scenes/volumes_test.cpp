@@ -1,5 +1,4 @@
-// Scenes of volumes, timed forces, merging and rest, against their comments and the closed forms. For tests/scenes, once
-// the simulator is there (uncompiled against it; tolerances to be measured).
+// Scenes of volumes, timed forces, merging and rest, against their comments and the closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>

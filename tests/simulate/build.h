@@ -61,6 +61,16 @@ struct Outcome {
   Tally tally;
 };
 
+/// J.
+inline double energy(const Problem& problem, const State& state) {
+  return kinetic_energy(problem.world, state) + potential_energy(problem.world, state);
+}
+
+/// J, that the books do not account for.
+inline double residual(const Problem& problem, const Outcome& run) {
+  return energy(problem, run.end) - energy(problem, problem.initial) - run.tally.work + run.tally.energy_lost;
+}
+
 inline Outcome run_to_end(Simulator& simulator, double duration) {
   Outcome run;
   do {

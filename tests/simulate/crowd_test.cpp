@@ -18,10 +18,6 @@ std::unique_ptr<Simulator> stepped(const Problem& problem, double step, Integrat
   return make_stepped_simulator(problem.world, problem.initial, options);
 }
 
-double energy(const Problem& problem, const State& state) {
-  return kinetic_energy(problem.world, state) + potential_energy(problem.world, state);
-}
-
 TEST(Crowd, OfEverySizeComesToRestByEveryMethodAtEveryStep) {
   for (const auto& [side, layers] : {std::pair(2, 8), std::pair(3, 10), std::pair(4, 4), std::pair(5, 5)})
     for (const Integrator method : {Integrator::euler, Integrator::verlet, Integrator::rk4})

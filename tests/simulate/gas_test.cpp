@@ -27,10 +27,6 @@ Problem gas(int side, double density, double e = 1, bool mixed = false) {
   return problem;
 }
 
-double energy(const Problem& problem, const State& state) {
-  return kinetic_energy(problem.world, state) + potential_energy(problem.world, state);
-}
-
 bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
 }

@@ -24,13 +24,6 @@ Outcome run(const Problem& problem) {
   return run_to_end(*simulator, problem.options.duration);
 }
 
-double residual(const Problem& problem, const Outcome& run) {
-  const auto energy = [&](const State& s) {
-    return kinetic_energy(problem.world, s) + potential_energy(problem.world, s);
-  };
-  return energy(run.end) - energy(problem.initial) - run.tally.work + run.tally.energy_lost;
-}
-
 /// Where a flight x'' = a - k x' is at t (s).
 struct Way {
   Vec3 x, v, a;
