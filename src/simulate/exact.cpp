@@ -29,10 +29,11 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       options_(options),
       pull_(world.body_count()),
       driven_(world.body_count(), Vec3::Zero()),
-      flight_(world.body_count()),
+      flight_(world.body_count(), world.gravity),
       origin_(world.body_count()),
       version_(world.body_count()),
       event_(world.body_count()),
+      leave_(world.body_count(), never),
       neighbours_(world_),
       stay_(world.body_count()),
       contacts_(world.body_count()),
@@ -69,7 +70,7 @@ void ExactSimulator::start(const State& initial) {
       pull_[i] = pull.all;
       driven_[i] = pull.working;
     }
-    flight_[i] = {{}, initial.position[i], v, pull_[i]};
+    flight_.set(i, {{}, initial.position[i], v, pull_[i]});
     tally_.max_speed = std::max(tally_.max_speed, v.norm());
   }
   neighbours_.start(initial.position);
@@ -82,8 +83,11 @@ void ExactSimulator::start(const State& initial) {
   if (!crowd_.empty()) step_crowd();
 }
 
-/// Events in their total order: time, kind, the lower and the higher number of those concerned.
+/// Of events at the same time, but for what the clock's second double tells: their total order, time, kind, the lower
+/// and the higher number of those concerned. Who leaves a region comes first, for there is no physics in it.
 bool ExactSimulator::before(Entity i, Entity j) const {
+  const bool leaves_i = leaves_first(i), leaves_j = leaves_first(j);
+  if (leaves_i || leaves_j) return leaves_i && (!leaves_j || i < j);
   const Event &p = event_[i], &q = event_[j];
   if (p.time < q.time) return true;
   if (q.time < p.time) return false;
@@ -98,8 +102,17 @@ void ExactSimulator::advance_to(double time) {
   state_fresh_ = false;
   const Instant until{std::min(time, options_.duration), 0};
   std::uint32_t events = 0;
-  for (Entity i = queue_.first(); i != no_entity && event_[i].time <= until; i = queue_.first()) {
-    process(i);
+  while (queue_.first_time() <= until.hi) {
+    const Entity i = queue_.first();
+    if (leaves_first(i)) {
+      if (now_.hi < leave_[i]) now_ = {leave_[i], 0};
+      rebuild_region(i);
+      check_limits(Kind::none);
+    } else if (event_[i].time <= until) {
+      process(i);
+    } else {
+      break;
+    }
     // After many events that no one has seen, the caller may want to look at the clock.
     if (++events % events_at_a_time == 0 && std::nextafter(now_.hi, 0) > time_) {
       time_ = std::nextafter(now_.hi, 0);
@@ -142,10 +155,6 @@ void ExactSimulator::process(Entity i) {
       else
         predict(i);  // there has been a step since
       break;
-    case Kind::leave_region:
-      rebuild_region(i);
-      predict(i);
-      break;
     case Kind::none:
       break;
   }
@@ -164,12 +173,12 @@ void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin orig
   tally_.max_speed = std::max(tally_.max_speed, speed);
   book_flight(i, x);
   const bool flies = place_[i] == Place::crowd && !following_ && flight_[i].a != Vec3::Zero();  // through a stride
-  flight_[i].start = now_;
-  flight_[i].x = x;
   const bool still = speed <= negligible_speed() ||
                      (contacts_[i].count > 0 && speed * speed < 0x1p-120 * pull_[i].norm() * world_.radius[i]);
-  for (int k = 0; k < 3; ++k) flight_[i].v[k] = still || std::abs(v[k]) <= negligible_speed() ? 0 : v[k];
-  flight_[i].a = flies ? pull_[i] : contact_acceleration(i);
+  Vec3 kept = v;
+  for (int k = 0; k < 3; ++k)
+    if (still || std::abs(v[k]) <= negligible_speed()) kept[k] = 0;
+  flight_.set(i, {now_, x, kept, flies ? pull_[i] : contact_acceleration(i)});
   origin_[i] = origin;
   ++version_[i];
   if (following_ && place_[i] == Place::crowd && now_ < crowd_end_) crowd_end_ = now_;
@@ -208,9 +217,7 @@ void ExactSimulator::switch_forces(Entity i) {
   const Vec3 x = flight_[i].position(t);
   Vec3 v = flight_[i].velocity(t);
   book_flight(i, x);
-  flight_[i].x = x;
-  flight_[i].v = v;
-  flight_[i].start = now_;
+  flight_.set(i, {now_, x, v, flight_.acceleration(i)});
   const Pull pull = pull_on(i);
   if (place_[i] == Place::asleep) join(i);
   if (place_[i] == Place::crowd) {  // the last step had the old forces in it until its end
@@ -246,7 +253,7 @@ void ExactSimulator::check_limits(Kind kind) {
                                       options_.max_collisions, now_.hi));
   const std::uint64_t many = 1'000'000 + 1000ull * world_.body_count();
   const bool impact = kind == Kind::body_body || kind == Kind::body_fixed;
-  const bool patient = kind == Kind::leave_region || (impact && struck_ == 1);
+  const bool patient = kind == Kind::none || (impact && struck_ == 1);
   if (impact) liveliest_ = std::max(liveliest_, struck_);
   Watch& watch = patient ? patient_ : impatient_;
   const bool full = ++watch.events >= (patient ? 1000 * many : many);

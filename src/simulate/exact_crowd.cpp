@@ -87,8 +87,8 @@ void ExactSimulator::wake(Entity i) {
     todo.pop_back();
     carry(k, false);
     join(k);
-    const Vec3& x = flight_[k].x;
-    for (Entity e : neighbours_.near(k)) {
+    const Vec3 x = flight_[k].x;
+    for (Entity e : known_to(k)) {
       if (!world_.is_body(e) || place_[e] != Place::asleep) continue;
       if (touch(world_, k, x, e, flight_[e].x).gap > 1e-6 * world_.radius[k]) continue;
       place_[e] = Place::outside;
@@ -113,7 +113,7 @@ void ExactSimulator::jostle(Entity i) {
   for (std::size_t k = 0; k < cluster.size(); ++k) {
     const Entity a = cluster[k];
     const Vec3 x = at(a);
-    for (Entity e : neighbours_.near(a)) {
+    for (Entity e : known_to(a)) {
       const bool body = world_.is_body(e);
       if (body && place_[e] != Place::crowd) continue;
       const Vec3 xe = body ? at(e) : world_.fixed_position(e);
@@ -163,7 +163,7 @@ void ExactSimulator::jostle(Entity i) {
     changed.push_back(a);
     lose(0.5 * world_.mass[a] * (before[k] - after[k]).dot(before[k] + after[k]));
     restart(a, at(a), after[k], {});
-    flight_[a].a.setZero();
+    flight_.accelerate(a, Vec3::Zero());
   }
   // Jostling has cost as much as a stride: the next one is due. This one was too long.
   jostled_pairs_ += pairs.size();

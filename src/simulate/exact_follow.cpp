@@ -98,7 +98,7 @@ bool ExactSimulator::follow_crowd() {
   bool overlap = false;
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = crowd_[k];
-    for (Entity e : neighbours_.near(i)) {
+    for (Entity e : known_to(i)) {
       const bool body = world_.is_body(e);
       if (body && (e < i || place_[e] != Place::crowd)) continue;
       // Whom it has struck just now it touches there, and nowhere else.
@@ -319,7 +319,7 @@ bool ExactSimulator::follow_crowd() {
       // Whom it has struck just now it has still just struck, if nothing has changed since.
       const bool same = flight_[i].start == now_ && x[k] == flight_[i].x && v[k] == before[k];
       restart(i, x[k], v[k], same ? origin_[i] : Origin{});
-      flight_[i].a = path[k];
+      flight_.accelerate(i, path[k]);
       arrival_[i] = end[k];
       arrival_version_[i] = version_[i];
     }

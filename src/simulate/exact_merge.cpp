@@ -61,18 +61,19 @@ void ExactSimulator::merge(Entity a, Entity b, const Touch& there) {
   neighbours_.remove(part);
   ++version_[part];
   event_[part] = {};
-  queue_.update(part);
-  flight_[part] = {now_, joint_x, Vec3::Zero(), Vec3::Zero()};
+  leave_[part] = never;
+  enqueue(part);
+  flight_.set(part, {now_, joint_x, Vec3::Zero(), Vec3::Zero()});
 
   if (!world.forces.empty()) lose(potential_before - potential_of(whole, joint_x));
-  Flight& f = flight_[whole];
-  f = {now_, joint_x, joint_v, pull_[whole]};
+  Flight f{now_, joint_x, joint_v, pull_[whole]};
+  flight_.set(whole, f);
   ++version_[whole];
   origin_[whole] = {};
   rebuild_region(whole);
   for (int pass = 0; pass < 8; ++pass) {
     bool free = true;
-    for (Entity e : neighbours_.near(whole)) {
+    for (Entity e : known_to(whole)) {
       if (world.is_body(e)) continue;
       const Touch t = touch(world, whole, f.x, e, world.fixed_position(e));
       if (!(t.gap < 0)) continue;
@@ -81,10 +82,11 @@ void ExactSimulator::merge(Entity a, Entity b, const Touch& there) {
       f.x += out;
       free = false;
     }
+    flight_.set(whole, f);
     if (free) break;
   }
   tally_.work = work_.value();
-  for (Entity e : neighbours_.near(whole)) {
+  for (Entity e : known_to(whole)) {
     if (!world.is_body(e)) continue;
     const Touch t = touch(world, std::min(whole, e), x(std::min(whole, e)), std::max(whole, e), x(std::max(whole, e)));
     if (t.gap < 0) return merge(std::min(whole, e), std::max(whole, e), t);

@@ -20,21 +20,10 @@ double sum_of_speeds(const Vec3& v) {
 /// with whichever of the two was predicted last.
 void ExactSimulator::predict(Entity i) {
   Event best;
-  if (neighbours_.near(i).size() > 96 + world_.fixed_count() && neighbours_.region(i).room > 0.05 * world_.radius[i])
+  if (neighbours_.bodies(i).size() > 128 && neighbours_.room(i) > 0.05 * world_.radius[i])
     neighbours_.shrink(i, flight_[i].position(now_ - flight_[i].start));
-  const bool follows = place_[i] == Place::crowd && following_;
-  for (Entity e : neighbours_.near(i)) {
-    if (follows && followed(i, e)) continue;
-    if (world_.is_body(e)) {
-      std::uint8_t feature = 0;
-      const Instant time = pair_time(i, e, feature);
-      offer(i, best, {time, e, version_[e], Kind::body_body, feature});
-    } else if (!in_contact(i, e)) {
-      std::uint8_t feature = no_feature;
-      const Instant time = fixed_time(i, e, feature);
-      offer(i, best, {time, e, 0, Kind::body_fixed, feature});
-    }
-  }
+  meet_bodies(i, neighbours_.bodies(i), best);
+  meet_each(i, neighbours_.surfaces(i), best);
   for (std::size_t k = 0; k < contacts_[i].count; ++k) {
     const Contact& contact = contacts_[i].at[k];
     if (contact.settling) offer(i, best, {contact.rest_time, contact.surface, 0, Kind::rest, contact.feature});
@@ -47,9 +36,58 @@ void ExactSimulator::predict(Entity i) {
   }
   if (!world_.forces.empty()) offer(i, best, {{next_force(i), 0}, no_entity, 0, Kind::force, no_feature});
   if (place_[i] == Place::crowd) offer(i, best, {crowd_end_, no_entity, 0, Kind::step, no_feature});
-  offer(i, best, {leave_time(i), no_entity, 0, Kind::leave_region, no_feature});
   event_[i] = best;
-  queue_.update(i);
+  leave_[i] = leave_time(i);
+  enqueue(i);
+}
+
+/// Offers when body i meets each of the others.
+void ExactSimulator::meet_each(Entity i, std::span<const Entity> others, Event& best) const {
+  const bool follows = place_[i] == Place::crowd && following_;
+  for (Entity e : others) {
+    if (follows && followed(i, e)) continue;
+    std::uint8_t feature = no_feature;
+    if (world_.is_body(e)) {
+      feature = 0;
+      const Instant time = pair_time(i, e, feature);
+      offer(i, best, {time, e, version_[e], Kind::body_body, feature});
+    } else if (!in_contact(i, e)) {
+      const Instant time = fixed_time(i, e, feature);
+      offer(i, best, {time, e, 0, Kind::body_fixed, feature});
+    }
+  }
+}
+
+/// The same of bodies, many at a time where all are balls and fall alike.
+void ExactSimulator::meet_bodies(Entity i, std::span<const Entity> others, Event& best) {
+  if (!world_.volume.empty() || place_[i] == Place::crowd) return meet_each(i, others, best);
+  if (others.empty()) return;
+  const Vec3& a = flight_.acceleration(i);
+  times_.find(flight_, world_.radius, i, others, a, options_.duration);
+  if (!crowd_.empty() || !flight_.alike())
+    for (std::size_t k = 0; k < others.size(); ++k)
+      if (place_[others[k]] == Place::crowd || flight_.acceleration(others[k]) != a) times_.set(k, {unsure, 0});
+  for (;;) {
+    const std::size_t k = times_.earliest();
+    Instant time = times_[k];
+    if (time.hi == never || best.time.hi < time.hi) return;
+    const Entity j = others[k];
+    if (time.hi == unsure) {
+      std::uint8_t feature = 0;
+      times_.set(k, pair_time(i, j, feature));
+      continue;
+    }
+    offer(i, best, {time, j, version_[j], Kind::body_body, 0});
+    times_.set(k, {never, 0});
+  }
+}
+
+/// Whom body i may meet in its region, and what, ascending: what is summed up in this order is the same for any lists.
+std::vector<Entity> ExactSimulator::known_to(Entity i) const {
+  const std::span<const Entity> near = neighbours_.near(i);
+  std::vector<Entity> known(near.begin(), near.end());
+  std::sort(known.begin(), known.end());
+  return known;
 }
 
 /// Keeps the earlier of two events of body i, by the total order.
@@ -141,19 +179,46 @@ Instant ExactSimulator::fixed_time(Entity i, Entity surface, std::uint8_t& featu
   return t == never ? Instant{never, 0} : f.start + t;
 }
 
-/// A time before which body i is surely within its region: each axis at its greatest possible haste.
-Instant ExactSimulator::leave_time(Entity i) const {
-  const Neighbours::Region& region = neighbours_.region(i);
-  const Flight& f = flight_[i];
-  const double since = now_ - f.start;
-  const Vec3 x = f.position(since), v = f.velocity(since);
-  double t = never;
-  for (int k = 0; k < 3; ++k) {
-    const double room = std::max(region.room - std::abs(x[k] - region.center[k]), 0.0);
-    const double haste = std::abs(v[k]) + std::sqrt(v[k] * v[k] + 2 * std::abs(f.a[k]) * room);
-    if (haste > 0) t = std::min(t, 2 * room / haste);
+/// A time (s) before which body i is surely within its region.
+double ExactSimulator::leave_time(Entity i) const {
+  const Flight f = flight_[i];
+  const double since = now_ - f.start, room = neighbours_.room(i);
+  const Vec3 v = f.velocity(since), off = f.position(since) - neighbours_.center(i);
+  const double speed2 = v.squaredNorm(), away2 = off.squaredNorm(), outward = off.dot(v);
+  const auto way_out = [&](double radius) {
+    const double left = radius * radius - away2;
+    if (!(left > 0)) return 0.0;
+    const double root = std::sqrt(outward * outward + speed2 * left);
+    return outward > 0 ? left / (root + outward) : speed2 > 0 ? (root - outward) / speed2 : never;
+  };
+  double t = way_out(room);
+  if (const double pull = f.a.norm(); pull > 0) {
+    // As far as a straight way within what the acceleration does not take from the room until then, or by the greatest
+    // possible haste.
+    const double narrowed = room - 0.5 * pull * t * t, left = std::max(room - std::sqrt(away2), 0.0);
+    const double surely = 2 * left / (std::sqrt(speed2) + std::sqrt(speed2 + 2 * pull * left));
+    t = left > 0 ? surely : 0;
+    if (narrowed > 0) t = std::max(t, way_out(narrowed));
   }
-  return t == never ? Instant{never, 0} : now_ + t;
+  return (now_.hi + t) * (1 - 0x1p-52);  // rather too soon than too late
+}
+
+/// Body i leaves its region: a new one, and whom it may meet in that. One that leaves region after region on one and
+/// the same flight tries wider ones: in company that flies along, they cost no more.
+void ExactSimulator::rebuild_region(Entity i) {
+  Stay& stay = stay_[i];
+  stay.left = stay.version == version_[i] ? stay.left + 1 : 0;
+  stay.version = version_[i];
+  const Flight f = flight_[i];
+  const double since = now_ - f.start, until = std::min(event_[i].time.hi, options_.duration);
+  const Vec3 ahead = 0.5 * std::max(until - now_.hi, 0.0) * f.velocity(since);
+  const std::span<const Entity> came = neighbours_.renew(i, f.position(since), ahead, stay.left >= 4);
+  Event best = event_[i];
+  meet_bodies(i, came, best);
+  meet_each(i, neighbours_.surfaces(i), best);
+  event_[i] = best;
+  leave_[i] = leave_time(i);
+  enqueue(i);
 }
 
 }  // namespace carom

@@ -93,14 +93,14 @@ bool ExactSimulator::too_slow_to_wake(Entity striker, Entity struck, double spee
   if (!(speed * speed < 2 * lift * pull_[struck].norm() * world_.radius[struck])) return false;
   // Three forces at least, not in a plane.
   std::vector<Vec3> normals;
-  const Vec3& x = flight_[struck].x;
+  const Vec3 x = flight_[struck].x;
   const auto hold = [&](Entity e) {
     const bool body = world_.is_body(e);
     normals.push_back(touch(world_, struck, x, e, body ? flight_[e].x : world_.fixed_position(e)).normal);
   };
   for (const Pressed& p : pressed_[struck])
     if (p.force > 0) hold(p.partner);
-  for (Entity e : neighbours_.near(struck))
+  for (Entity e : known_to(struck))
     if (world_.is_body(e) && place_[e] == Place::asleep)
       for (const Pressed& p : pressed_[e])
         if (p.partner == struck && p.force > 0) hold(e);
@@ -161,7 +161,8 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   }
   restart(a, xa, keep_contacts(a, va - (impulse / ma) * n), {b, feature});
   restart(b, xb, keep_contacts(b, vb + (impulse / mb) * n), {a, feature});
-  if (take_up) flight_[a].a = flight_[b].a = Vec3::Zero();
+  if (take_up)
+    for (Entity i : {a, b}) flight_.accelerate(i, Vec3::Zero());
   predict(a);
   predict(b);
   if (take_up) {
@@ -219,7 +220,7 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
   } else {
     restart(i, x, keep_contacts(i, v - ((take_up ? approach : met) + separation) * n), {surface, feature});
   }
-  if (take_up) flight_[i].a.setZero();
+  if (take_up) flight_.accelerate(i, Vec3::Zero());
   predict(i);
   if (take_up) {
     hasten(i, (met - approach) * n);

@@ -145,8 +145,8 @@ Vec3 ExactSimulator::free_acceleration(Entity i, Entity without) const {
 /// At the start: a body that touches a flat surface (but for rounding of the scene's numbers), does not move along its
 /// normal and is pressed on rests there from the first.
 void ExactSimulator::touch_down(Entity i) {
-  Flight& f = flight_[i];
-  for (Entity e : neighbours_.near(i)) {
+  Flight f = flight_[i];
+  for (Entity e : known_to(i)) {
     if (world_.is_body(e) || contacts_[i].count == max_contacts) continue;
     const Vec3& point = world_.fixed_position(e);
     const Touch there = touch(world_, i, f.x, e, point);
@@ -159,6 +159,7 @@ void ExactSimulator::touch_down(Entity i) {
     origin_[i] = {e, there.feature};
   }
   f.a = contact_acceleration(i);
+  flight_.set(i, f);
 }
 
 /// At the start: a body that touches others, or a curved surface, without speed along the normal and is pressed on is
@@ -168,11 +169,11 @@ void ExactSimulator::lean_together(Entity first) {
   while (!todo.empty()) {
     const Entity i = todo.back();
     todo.pop_back();
-    const Flight& f = flight_[i];
-    for (Entity e : neighbours_.near(i)) {
+    for (Entity e : known_to(i)) {
+      const Flight f = flight_[i];
       const bool body = world_.is_body(e);
       if (in_contact(i, e) || (crowded(i) && (!body || crowded(e)))) continue;
-      const Vec3& xe = body ? flight_[e].x : world_.fixed_position(e);
+      const Vec3 xe = body ? flight_[e].x : world_.fixed_position(e);
       const Vec3 ve = body ? flight_[e].v : Vec3(Vec3::Zero()), ae = body ? flight_[e].a : Vec3(Vec3::Zero());
       const Touch there = touch(world_, i, f.x, e, xe);
       const double rounding = 0x1p-46 * (f.x.cwiseAbs().sum() + xe.cwiseAbs().sum() + world_.radius[i]);
@@ -184,12 +185,12 @@ void ExactSimulator::lean_together(Entity first) {
       if (!leans && !(press > 0)) continue;
       if (!crowded(i)) {
         join(i);
-        flight_[i].a.setZero();
+        flight_.accelerate(i, Vec3::Zero());
         todo.push_back(i);
       }
       if (body && !crowded(e)) {
         join(e);
-        flight_[e].a.setZero();
+        flight_.accelerate(e, Vec3::Zero());
         todo.push_back(e);
       }
     }

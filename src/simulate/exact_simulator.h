@@ -2,7 +2,7 @@
 // The exact simulator's own parts. Its source files share this class: exact.cpp (the loop), exact_predict.cpp (what
 // comes next for a body), exact_resolve.cpp (impacts), exact_rest.cpp (rest on flat surfaces), exact_crowd.cpp (bodies
 // in contact with one another), exact_follow.cpp and exact_stride.cpp (how few and how many of them move),
-// exact_merge.cpp, exact_region.cpp (who is near).
+// exact_merge.cpp.
 //
 // Each body keeps its Flight and is not moved when somebody else collides. Each body keeps one Event, the first of its
 // own; the first of all of these is the next thing to happen. A predicted collision is a function of the two flights
@@ -17,6 +17,7 @@
 #include "simulate/exact.h"
 #include "simulate/flight.h"
 #include "simulate/neighbours.h"
+#include "simulate/straight_times.h"
 #include "simulate/tournament.h"
 
 namespace carom {
@@ -35,13 +36,12 @@ class ExactSimulator final : public Simulator {
  private:
   // In the order in which events of one instant happen.
   enum class Kind : std::uint8_t {
-    force,         // a force on the body sets in or ceases
-    rest,          // bounces end: a line in the record
-    release,       // a body slides off a wall's face
-    step,          // of the crowd: no impact, but new forces
-    body_fixed,    //
-    body_body,     //
-    leave_region,  // no physics
+    force,       // a force on the body sets in or ceases
+    rest,        // bounces end: a line in the record
+    release,     // a body slides off a wall's face
+    step,        // of the crowd: no impact, but new forces
+    body_fixed,  //
+    body_body,   //
     none
   };
 
@@ -119,6 +119,10 @@ class ExactSimulator final : public Simulator {
     double force;  // N
   };
 
+  /// What is next for a body: its event, or that it leaves its region before.
+  bool leaves_first(Entity i) const { return leave_[i] < event_[i].time.hi; }
+  double next_time(Entity i) const { return leaves_first(i) ? leave_[i] : event_[i].time.hi; }
+  void enqueue(Entity i) { queue_.update(i, next_time(i)); }
   bool before(Entity i, Entity j) const;
   struct Before {
     const ExactSimulator* simulator;
@@ -135,15 +139,20 @@ class ExactSimulator final : public Simulator {
   Vec3 velocity_now(Entity i, const Instant& at) const;
   void record(const Collision& collision);
   void lose(double energy);
-  void check_limits(Kind kind);
+  void check_limits(Kind kind);  // none: a region was left
 
   // exact_predict.cpp
   void predict(Entity i);
   Instant pair_time(Entity i, Entity j, std::uint8_t& feature) const;
   Instant fixed_time(Entity i, Entity surface, std::uint8_t& feature) const;
   void offer(Entity i, Event& best, Event candidate) const;
-  Instant leave_time(Entity i) const;
+  void meet_each(Entity i, std::span<const Entity> others, Event& best) const;
+  void meet_bodies(Entity i, std::span<const Entity> others, Event& best);
+  void rebuild_region(Entity i);
+  double leave_time(Entity i) const;
   double next_force(Entity i) const;
+
+  std::vector<Entity> known_to(Entity i) const;
 
   // exact_resolve.cpp
   void collide_pair(Entity a, Entity b, std::uint8_t feature);
@@ -199,9 +208,6 @@ class ExactSimulator final : public Simulator {
   bool followed(Entity i, Entity e) const;
   void report_followed();
 
-  // exact_region.cpp
-  void rebuild_region(Entity i);
-
   const World* given_;                  // before any merging
   std::unique_ptr<World> joint_world_;  // where bodies merge: with the joint bodies' masses and volumes
   const World& world_;
@@ -211,16 +217,18 @@ class ExactSimulator final : public Simulator {
 
   std::vector<Vec3> pull_;    // m/s^2, by body: gravity and the forces of now,
   std::vector<Vec3> driven_;  // and the part of it that does work (force.h)
-  std::vector<Flight> flight_;
+  Flights flight_;
   std::vector<Origin> origin_;
   std::vector<std::uint32_t> version_;  // counts a body's flights
   std::vector<Event> event_;
+  std::vector<double> leave_;  // s, by body: until then it is within its region
   Neighbours neighbours_;
   std::vector<Stay> stay_;
   std::vector<Contacts> contacts_;  // with flat fixed surfaces
   std::vector<Burst> burst_;
   std::vector<Collapse> collapse_;
   Tournament<Before> queue_;
+  StraightTimes times_;  // scratch
 
   std::vector<Place> place_;
   std::vector<std::vector<Pressed>> pressed_;   // by the lower body: bodies and fixed things that the crowd's last step

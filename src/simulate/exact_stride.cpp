@@ -130,7 +130,7 @@ void ExactSimulator::find_pairs(Stride& step) {
   step.gaps.clear();
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = crowd_[k];
-    for (Entity e : neighbours_.near(i)) {
+    for (Entity e : known_to(i)) {
       const bool asleep = world_.is_body(e) && place_[e] == Place::asleep;  // as if fixed; if pressed on, it wakes
       const bool body = world_.is_body(e) && !asleep;
       if (body && (e < i || place_[e] != Place::crowd)) continue;
@@ -330,7 +330,7 @@ void ExactSimulator::take_stride(const Stride& step) {
         pulled_[i] = now_;
         hastened_[i].setZero();
         go_on(v);
-        flight_[i].a = pull_[i];
+        flight_.accelerate(i, pull_[i]);
       }
     } else {
       place_[i] = Place::outside;

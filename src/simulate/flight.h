@@ -1,6 +1,11 @@
 #pragma once
 // A body's path since its last change: x + v t + a t^2/2 from its start on.
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "physics/vec3.h"
+#include "physics/world.h"
 #include "simulate/instant.h"
 
 namespace carom {
@@ -13,6 +18,44 @@ struct Flight {
 
   Vec3 position(double t) const { return x + t * (v + (0.5 * t) * a); }  // t: s since start
   Vec3 velocity(double t) const { return v + t * a; }
+};
+
+/// The flights of all bodies. What pairs are tested by is a cache line a body; accelerations are kept only once bodies
+/// differ in them.
+class Flights {
+ public:
+  struct alignas(64) Core {
+    Vec3 x, v;
+    Instant start;
+  };
+  static_assert(sizeof(Core) == 8 * sizeof(double));
+
+  /// `common`: m/s^2, the acceleration of all until told otherwise.
+  Flights(Entity bodies, const Vec3& common) : core_(bodies), common_(common) {}
+
+  Flight operator[](Entity i) const { return {core_[i].start, core_[i].x, core_[i].v, acceleration(i)}; }
+  const Vec3& acceleration(Entity i) const { return acceleration_.empty() ? common_ : acceleration_[i]; }
+  const Core* cores() const { return core_.data(); }
+  /// Whether all have the same acceleration.
+  bool alike() const { return acceleration_.empty(); }
+
+  void set(Entity i, const Flight& flight) {
+    core_[i] = {flight.x, flight.v, flight.start};
+    accelerate(i, flight.a);
+  }
+  /// Another acceleration, from its start on.
+  void accelerate(Entity i, const Vec3& a) {
+    if (acceleration_.empty()) {
+      if (a == common_) return;
+      acceleration_.assign(core_.size(), common_);
+    }
+    acceleration_[i] = a;
+  }
+
+ private:
+  std::vector<Core> core_;
+  Vec3 common_;
+  std::vector<Vec3> acceleration_;  // empty: all have the common one
 };
 
 }  // namespace carom

@@ -10,123 +10,191 @@ namespace carom {
 namespace {
 
 // How many neighbours a region is sized for. Fewer: it grows and is left less often. More: it shrinks and tests fewer
-// pairs.
-constexpr std::size_t few_neighbours = 8, many_neighbours = 24;
-constexpr double least_room = 0.02;  // of the radius
-
-double rounding_at(const Vec3& x, double radius) {
-  return 0x1p-48 * (x.cwiseAbs().maxCoeff() + radius);
-}
+// pairs. A body that leaves region after region without anything happening to it may have more.
+constexpr std::size_t few_neighbours = 8, many_neighbours = 40, many_on_the_way = 64;
+constexpr int wider = 2;              // levels, of a quarter octave
+constexpr double least_room = 0.02;   // of the radius
+constexpr double farthest = 0x1p+60;  // where positions end, in units of unit_: beyond, all are neighbours
 
 }  // namespace
 
 Neighbours::Neighbours(const World& world)
     : world_(world),
       region_(world.body_count()),
-      near_(world.body_count()),
-      news_(world.body_count(), 1),
-      grid_(world.body_count()) {}
+      level_(world.body_count(), nowhere),
+      list_(world.body_count()),
+      surfaces_(world.body_count()),
+      news_(world.body_count(), 1) {}
 
 void Neighbours::start(const std::vector<Vec3>& x) {
-  for (Entity i = 0; i < world_.body_count(); ++i) {
-    const double room = 0.5 * world_.radius[i];
-    region_[i] = {x[i], room, room + world_.radius[i]};
-    grid_.put(i, x[i], region_[i].half);
+  const Entity n = world_.body_count();
+  if (n == 0) return;
+  Vec3 low = x[0], high = x[0];
+  for (const Vec3& at : x) {
+    low = low.cwiseMin(at);
+    high = high.cwiseMax(at);
   }
-  for (Entity i = 0; i < world_.body_count(); ++i) find(i);
+  std::vector<double> radii = world_.radius;
+  std::nth_element(radii.begin(), radii.begin() + n / 2, radii.end());
+  int exponent;
+  std::frexp(radii[n / 2], &exponent);
+  unit_ = std::ldexp(1.0, exponent);
+  origin_ = 0.5 * low + 0.5 * high;
+  grid_.start(around(low, 0), around(high, 0));
+
+  std::vector<std::pair<int, std::size_t>> expected;  // regions, by level
+  for (Entity i = 0; i < n; ++i) {
+    const int level = level_for(i, x[i], world_.radius[i]);
+    region_[i] = around(x[i], level);
+    level_[i] = static_cast<std::int16_t>(level);
+    const auto known = std::find_if(expected.begin(), expected.end(), [&](const auto& e) { return e.first == level; });
+    known == expected.end() ? (void)expected.emplace_back(level, 1) : (void)++known->second;
+  }
+  for (const auto& [level, regions] : expected) grid_.expect(level, regions);
+  for (Entity i = 0; i < n; ++i) grid_.put(i, region_, level_[i]);
+  for (Entity i = 0; i < n; ++i) {
+    find(i, region_[i]);
+    write(i);
+  }
+  for (Entity i = 0; i < n; ++i)
+    if (bodies(i).size() > 2 * many_neighbours) shrink(i, x[i]);
 }
 
-void Neighbours::forget(Entity i) {
-  for (Entity j : near_[i]) {
-    if (!world_.is_body(j)) continue;
-    std::vector<Entity>& list = near_[j];
-    const auto found = std::find(list.begin(), list.end(), i);
-    *found = list.back();
-    list.pop_back();
-  }
-  near_[i].clear();
+Region Neighbours::around(const Vec3& x, int level) const {
+  const Vec3 p = ((x - origin_) / unit_).cwiseMax(-farthest).cwiseMin(farthest);
+  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), half_of_level(level)};
 }
 
-void Neighbours::find(Entity i) {
-  const Region& region = region_[i];
-  forget(i);
-  news_[i] = 1;
-  std::vector<Entity>& list = near_[i];
-  grid_.near(region.center, region.half, [&](Entity j) {
-    if (j == i) return;
-    const double reach = region.half + region_[j].half;
-    if ((region.center - region_[j].center).cwiseAbs().maxCoeff() > reach) return;
-    list.push_back(j);
-    near_[j].push_back(i);
-    news_[j] = 1;
-  });
-  const double slack = region.half - world_.radius[i];  // how far the centre may go along an axis, rounding included
+/// That gives body i at x (m) the room (m), or what rounding needs.
+int Neighbours::level_for(Entity i, const Vec3& x, double room) const {
+  const double rounding = 0x1p-20 * ((x - origin_).cwiseAbs().maxCoeff() + world_.radius[i]);
+  const Vec3 outside = ((x - origin_).cwiseAbs() - Vec3::Constant(farthest * unit_)).cwiseMax(0);
+  const double room_of_all = std::max({room, least_room * world_.radius[i], rounding}) + 2 * outside.norm();
+  return std::clamp(level_of_half((room_of_all + world_.radius[i]) / unit_), -400, widest_level);
+}
+
+/// Writes into found_ who may touch body i in this region.
+void Neighbours::find(Entity i, const Region& region) {
+  const std::size_t candidates = grid_.near(region, found_);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < candidates; ++k) {
+    const Entity j = found_[k];
+    found_[kept] = j;
+    kept += may_touch(region, region_[j]) && j != i;
+  }
+  found_count_ = kept;
+}
+
+/// What was found is body i's list, and the surfaces near it.
+void Neighbours::write(Entity i) {
+  ListPool::List& list = list_[i];
+  find_surfaces(i);
+  pool_.reserve(list, found_count_ + found_surfaces_.size());
+  std::uint32_t* const to = pool_.data(list);
+  std::copy_n(found_surfaces_.begin(), found_surfaces_.size(), std::copy_n(found_.begin(), found_count_, to));
+  surfaces_[i] = static_cast<std::uint32_t>(found_surfaces_.size());
+  list.count = static_cast<std::uint32_t>(found_count_ + found_surfaces_.size());
+}
+
+void Neighbours::find_surfaces(Entity i) {
+  found_surfaces_.clear();
+  if (world_.fixed_count() == 0) return;
+  const Vec3 center = this->center(i);
+  const double half = unit_ * static_cast<double>(region_[i].half);
+  const double slack = half - world_.radius[i];  // how far the centre may go, rounding included
   for (Entity e = world_.body_count(); e < world_.body_count() + world_.fixed_count(); ++e) {
+    bool near;
     if (world_.is_plane(e)) {
       const Plane& plane = world_.plane(e);
-      if (plane_gap(region.center, plane.point, plane.normal, world_.radius[i]) <=
-          slack * plane.normal.cwiseAbs().sum())
-        list.push_back(e);
+      near = plane_gap(center, plane.point, plane.normal, world_.radius[i]) <= slack;
     } else if (world_.is_obstacle(e)) {
       const Obstacle& o = world_.obstacle(e);
-      const Vec3 away = ((region.center - o.center).cwiseAbs() - o.volume.half).cwiseMax(0);
-      if (away.maxCoeff() <= region.half) list.push_back(e);
+      near = ((center - o.center).cwiseAbs() - o.volume.half).cwiseMax(0).norm() <= half;
     } else {
-      // The body's centre is within sqrt(3) rooms of the region's.
-      const double away2 = (region.center - nearest_on_wall(world_.wall(e), region.center)).squaredNorm();
-      if (away2 <= 3 * region.half * region.half) list.push_back(e);
+      near = (center - nearest_on_wall(world_.wall(e), center)).norm() <= half;
     }
+    if (near) found_surfaces_.push_back(e);
   }
 }
 
-std::size_t Neighbours::bodies_near(Entity i) const {
-  return static_cast<std::size_t>(
-      std::count_if(near_[i].begin(), near_[i].end(), [&](Entity e) { return world_.is_body(e); }));
+/// Body j's list gets i.
+void Neighbours::add(Entity j, Entity i) {
+  ListPool::List& list = list_[j];
+  pool_.push_back(list, i);
+  if (const std::uint32_t surfaces = surfaces_[j]; surfaces > 0) {
+    std::uint32_t* const of = pool_.data(list);
+    std::swap(of[list.count - 1 - surfaces], of[list.count - 1]);
+  }
+  news_[j] = 1;
 }
 
-void Neighbours::build(Entity i, double room) {
-  Region& region = region_[i];
-  const double radius = world_.radius[i], rounding = rounding_at(region.center, radius);
-  region.room = std::max({room, least_room * radius, rounding});
-  region.half = radius + region.room + rounding;
-  grid_.put(i, region.center, region.half);
-  find(i);
+/// Body j's list has i no more.
+void Neighbours::drop(Entity j, Entity i) {
+  ListPool::List& list = list_[j];
+  std::uint32_t* const of = pool_.data(list);
+  const std::uint32_t last = --list.count - surfaces_[j];
+  *std::find(of, of + last, i) = of[last];
+  of[last] = of[list.count];
 }
 
-bool Neighbours::renew(Entity i, const Vec3& x, bool far) {
-  Region& region = region_[i];
-  const std::size_t known = bodies_near(i);
-  if (known < few_neighbours) region.room *= 2;
-  if (known > many_neighbours && !far) region.room *= 0.5;
-  region.center = x;
-  if (far && known >= few_neighbours) {
-    const double room = region.room;
-    build(i, 2 * room);
-    if (bodies_near(i) <= 2 * known) return true;
-    region.room = room;
+/// Body i's new region, for which found_ is known: who comes and who goes.
+void Neighbours::settle(Entity i, const Region& region, int level) {
+  const Region old = region_[i];
+  came_.clear();
+  for (const Entity j : bodies(i))
+    if (!may_touch(region, region_[j])) drop(j, i);
+  for (std::size_t k = 0; k < found_count_; ++k)
+    if (!may_touch(old, region_[found_[k]])) {
+      came_.push_back(found_[k]);
+      add(found_[k], i);
+    }
+  region_[i] = region;
+  grid_.move(i, old, level_[i], region_, level);
+  level_[i] = static_cast<std::int16_t>(level);
+  news_[i] = 1;
+  write(i);
+}
+
+/// The widest region from this level down that has not too many in it. `least`: the narrowest level that will do.
+void Neighbours::settle_down(Entity i, const Vec3& x, const Vec3& ahead, double reach, int level, int least) {
+  for (;; level -= wider) {
+    level = std::max(level, least);
+    Region region = around(x, level);
+    const double room = unit_ * sure(region.half) - world_.radius[i] - reach, far = ahead.norm();
+    if (far > 0 && room > 0) region = around(x + std::min(1.0, 0.9 * room / far) * ahead, level);
+    find(i, region);
+    if (found_count_ <= 2 * many_neighbours || level == least) return settle(i, region, level);
   }
-  const double least = std::max(least_room * world_.radius[i], rounding_at(x, world_.radius[i]));
-  for (;;) {
-    build(i, region.room);
-    if (bodies_near(i) <= 2 * many_neighbours || region.room <= least) return far && known >= few_neighbours;
-    region.room *= 0.5;
-  }
+}
+
+std::span<const Entity> Neighbours::renew(Entity i, const Vec3& x, const Vec3& ahead, bool often) {
+  const std::size_t known = bodies(i).size();
+  int level = level_[i];
+  if (known < few_neighbours || (often && known < many_on_the_way)) level += wider;
+  if (known > (often ? 2 * many_neighbours : many_neighbours)) level -= wider;
+  const int least = level_for(i, x, 0);
+  settle_down(i, x, ahead, 0, std::max(level, least), least);
+  return came_;
 }
 
 void Neighbours::cover(Entity i, const Vec3& x, double reach, const Vec3& drift) {
-  const std::size_t known = bodies_near(i);
-  double room = region_[i].room;
-  if (known < few_neighbours) room *= 2;
-  if (known > many_neighbours) room *= 0.5;
-  const double far = drift.cwiseAbs().maxCoeff();
-  for (;; room *= 0.5) {
-    const bool least = room <= 1.5 * reach;
-    if (least) room = 1.5 * reach;
-    const double ahead = std::min(0.99 * (room - reach), far);
-    region_[i].center = ahead > 0 ? Vec3(x + ahead / far * drift) : x;
-    build(i, room);
-    if (least || bodies_near(i) <= 2 * many_neighbours || region_[i].room > room) return;
-  }
+  const std::size_t known = bodies(i).size();
+  int level = level_[i];
+  if (known < few_neighbours) level += wider;
+  if (known > many_neighbours) level -= wider;
+  const int least = level_for(i, x, 1.5 * reach);
+  settle_down(i, x, drift, reach, std::max(level, least), least);
+}
+
+void Neighbours::shrink(Entity i, const Vec3& x) {
+  const int least = level_for(i, x, 0);
+  settle_down(i, x, Vec3::Zero(), 0, std::max<int>(level_[i] - wider, least), least);
+}
+
+void Neighbours::remove(Entity i) {
+  for (const Entity j : bodies(i)) drop(j, i);
+  list_[i].count = surfaces_[i] = 0;
+  grid_.remove(i, region_[i], level_[i]);
 }
 
 }  // namespace carom

@@ -1,70 +1,85 @@
 #pragma once
-// Who may meet whom soon. A body lives in a region, a box that it cannot leave unnoticed; bodies whose regions overlap
-// know each other, and so do a body and the surfaces within its region (near-neighbour lists: Donev, Torquato &
-// Stillinger, J. Comput. Phys. 202 (2005) 737). A region grows while it is lonely, so a ball that flies off costs
-// little, however far it goes. Results must not depend on who is listed beyond those that meet, nor on the lists'
-// order.
+// Who may meet whom soon. A body lives in a region, a ball that its centre cannot leave unnoticed; bodies whose regions
+// are near enough for them to touch know each other, and so do a body and the surfaces within its region
+// (near-neighbour lists: Donev, Torquato & Stillinger, J. Comput. Phys. 202 (2005) 737). A region grows while it is
+// lonely, so a ball that flies off costs little, however far it goes. Results must not depend on who is listed beyond
+// those that meet, nor on the lists' order.
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "physics/world.h"
+#include "simulate/list_pool.h"
+#include "simulate/region.h"
 #include "simulate/region_grid.h"
 
 namespace carom {
 
 class Neighbours {
  public:
-  struct Region {
-    Vec3 center = Vec3::Zero();  // m
-    double room = 0;             // m, how far the body's centre may go from the region's, along each axis
-    double half = 0;             // m, half width: room and radius
-  };
-
   /// `world` must outlive this.
   explicit Neighbours(const World& world);
 
   /// All bodies at once, where they are at the start (m).
   void start(const std::vector<Vec3>& x);
 
-  /// Bodies and surfaces that body i may meet within its region.
-  const std::vector<Entity>& near(Entity i) const { return near_[i]; }
-  const Region& region(Entity i) const { return region_[i]; }
+  /// Bodies that body i may meet within its region, and surfaces.
+  std::span<const Entity> bodies(Entity i) const { return near(i).first(list_[i].count - surfaces_[i]); }
+  std::span<const Entity> surfaces(Entity i) const { return near(i).last(surfaces_[i]); }
+  /// Both.
+  std::span<const Entity> near(Entity i) const { return {pool_.data(list_[i]), list_[i].count}; }
+
+  /// m, where body i's region is, and how far the body's centre may go from there.
+  Vec3 center(Entity i) const {
+    const Region& r = region_[i];
+    return origin_ + unit_ * Vec3(r.x, r.y, r.z);
+  }
+  double room(Entity i) const { return unit_ * sure(region_[i].half) - world_.radius[i]; }
 
   /// Whether a body has come to body i's list since this was asked last.
   bool has_news(Entity i) { return std::exchange(news_[i], 0) != 0; }
 
-  /// A new region about x (m), wider where few are near and narrower where many are. `far`: the body goes a long way;
-  /// it gets a wider one than that if that costs no more. Whether it did.
-  bool renew(Entity i, const Vec3& x, bool far);
+  /// A new region for a body at x (m), wider where few are near and narrower where many are. `ahead`: m, the way on
+  /// which its middle may be. `often`: it has left several on one way; it gets a wider one. Gives who has come to the
+  /// list, valid until regions change.
+  std::span<const Entity> renew(Entity i, const Vec3& x, const Vec3& ahead, bool often);
 
-  /// A new region for a body at x (m) that may go as far as `reach` (m) along each axis, and whose way later leads
-  /// along `drift` (m): it lies ahead, as far as drift goes, so that it is left late.
+  /// A new region for a body at x (m) that may go as far as `reach` (m), and whose way later leads along `drift` (m):
+  /// it lies ahead, as far as drift goes, so that it is left late.
   void cover(Entity i, const Vec3& x, double reach, const Vec3& drift);
 
-  /// Half the room, about x.
-  void shrink(Entity i, const Vec3& x) {
-    region_[i].room *= 0.5;
-    renew(i, x, false);
-  }
+  /// A narrower region, about x.
+  void shrink(Entity i, const Vec3& x);
 
   /// Body i is no more.
-  void remove(Entity i) {
-    forget(i);
-    grid_.remove(i);
-  }
+  void remove(Entity i);
 
  private:
-  void forget(Entity i);
-  void find(Entity i);
-  void build(Entity i, double room);
-  std::size_t bodies_near(Entity i) const;
+  static constexpr std::int16_t nowhere = -32768;
+
+  Region around(const Vec3& x, int level) const;
+  int level_for(Entity i, const Vec3& x, double room) const;
+  void find(Entity i, const Region& region);
+  void write(Entity i);
+  void find_surfaces(Entity i);
+  void add(Entity j, Entity i);
+  void drop(Entity j, Entity i);
+  void settle(Entity i, const Region& region, int level);
+  void settle_down(Entity i, const Vec3& x, const Vec3& ahead, double reach, int level, int least);
 
   const World& world_;
+  Vec3 origin_ = Vec3::Zero();  // m
+  double unit_ = 1;             // m; regions are in units of it, from origin_
   std::vector<Region> region_;
-  std::vector<std::vector<Entity>> near_;
+  std::vector<std::int16_t> level_;  // of its half width
+  ListPool pool_;
+  std::vector<ListPool::List> list_;     // bodies, then surfaces,
+  std::vector<std::uint32_t> surfaces_;  // so many
   std::vector<std::uint8_t> news_;
   RegionGrid grid_;
+  std::vector<Entity> found_, came_, found_surfaces_;  // scratch
+  std::size_t found_count_ = 0;
 };
 
 }  // namespace carom

@@ -1,83 +1,199 @@
 #include "simulate/region_grid.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
 namespace carom {
 
-RegionGrid::RegionGrid(Entity bodies) : slot_(bodies, no_slot), next_(bodies, no_entity), previous_(bodies, no_entity) {
-  std::size_t size = 64;
-  while (size < 2 * static_cast<std::size_t>(bodies)) size *= 2;
-  slots_.resize(size);
-  mask_ = size - 1;
+namespace {
+
+constexpr std::size_t regions_a_cell = 4;  // that a grid is made for
+
+}  // namespace
+
+// Far beyond 2^60 cells everything shares the outermost cell: slower there, never wrong.
+RegionGrid::Cell RegionGrid::cell_of(float x, float half) {
+  const double c = static_cast<double>(x) / (2 * static_cast<double>(half));
+  if (!(std::abs(c) < 0x1p60)) return c < 0 ? -(Cell{1} << 60) : Cell{1} << 60;
+  const auto whole = static_cast<Cell>(c);
+  return whole - (static_cast<double>(whole) > c);
 }
 
-/// The narrowest width 2^(k/4) that holds a box.
-std::uint32_t RegionGrid::level_for(double half) {
-  int exponent;
-  const double mantissa = std::frexp(2 * half, &exponent);  // in [1/2, 1)
-  double width = 1;
-  for (double step : {0.8408964152537145, 0.7071067811865476, 0.5946035575013605})
-    if (mantissa <= step) width = step;
-  width = std::ldexp(width, exponent);
-  for (std::uint32_t l = 0; l < levels_.size(); ++l)
-    if (levels_[l].width == width) return l;
-  levels_.push_back({width});
-  return static_cast<std::uint32_t>(levels_.size() - 1);
+std::int64_t RegionGrid::wrap(Cell c, Cell low, std::int64_t cells) {
+  const Cell at = c - low;
+  if (static_cast<std::uint64_t>(at) < static_cast<std::uint64_t>(cells)) return at;
+  const Cell rest = at % cells;
+  return rest < 0 ? rest + cells : rest;
 }
 
-void RegionGrid::link(Entity i, const Key& key) {
-  const std::size_t s = find(key);
-  Slot& slot = slots_[s];
-  if (!slot.used) {
-    slot = {key, no_entity, true};
-    ++used_;
+void RegionGrid::start(const Region& low, const Region& high) {
+  low_ = low;
+  high_ = high;
+}
+
+RegionGrid::Level& RegionGrid::level(int number) {
+  for (Level& grid : levels_)
+    if (grid.level == number) return grid;
+  levels_.push_back({number, half_of_level(number), {}, {}, {}, 0, 0});
+  shape(levels_.back(), 1);
+  return levels_.back();
+}
+
+/// As many cells as space in use has, but no more than these regions need.
+void RegionGrid::shape(Level& grid, std::size_t regions) {
+  const float low[3] = {low_.x, low_.y, low_.z}, high[3] = {high_.x, high_.y, high_.z};
+  int axis[3] = {0, 1, 2};
+  double extent[3];
+  for (int k = 0; k < 3; ++k) {
+    grid.low[k] = cell_of(low[k], grid.half);
+    extent[k] = static_cast<double>(cell_of(high[k], grid.half)) - static_cast<double>(grid.low[k]) + 1;
   }
-  slot_[i] = static_cast<std::uint32_t>(s);
-  next_[i] = slot.head;
-  previous_[i] = no_entity;
-  if (slot.head != no_entity) previous_[slot.head] = i;
-  slot.head = i;
-  ++levels_[key.level].boxes;
+  // The shortest first: what it leaves is the others'.
+  std::sort(axis, axis + 3, [&](int k, int l) { return extent[k] < extent[l]; });
+  auto left = static_cast<double>(regions / regions_a_cell + 1);
+  bool all = true;
+  for (int k = 0; k < 3; ++k) {
+    const double most = k == 0 ? std::cbrt(left) : k == 1 ? std::sqrt(left) : left;
+    const double cells = std::min(extent[axis[k]], std::max(1.0, std::floor(most)));
+    all = all && cells == extent[axis[k]];
+    grid.cells[axis[k]] = static_cast<std::int64_t>(cells);
+    left /= cells;
+  }
+  grid.buckets.assign(static_cast<std::size_t>(grid.cells[0] * grid.cells[1] * grid.cells[2]), {});
+  grid.most = all ? ~std::size_t{0} : 2 * std::max(regions, 2 * regions_a_cell);
 }
 
-void RegionGrid::unlink(Entity i) {
-  if (slot_[i] == no_slot) return;
-  Slot& slot = slots_[slot_[i]];
-  if (previous_[i] == no_entity)
-    slot.head = next_[i];
-  else
-    next_[previous_[i]] = next_[i];
-  if (next_[i] != no_entity) previous_[next_[i]] = previous_[i];
-  --levels_[slot.key.level].boxes;
-  slot_[i] = no_slot;
+RegionGrid::Bucket& RegionGrid::bucket_of(Level& grid, const Region& region) {
+  const std::int64_t x = wrap(cell_of(region.x, grid.half), grid.low[0], grid.cells[0]);
+  const std::int64_t y = wrap(cell_of(region.y, grid.half), grid.low[1], grid.cells[1]);
+  const std::int64_t z = wrap(cell_of(region.z, grid.half), grid.low[2], grid.cells[2]);
+  return grid.buckets[static_cast<std::size_t>((z * grid.cells[1] + y) * grid.cells[0] + x)];
 }
 
-/// Drops cells that have emptied; twice the table if most are in use.
-void RegionGrid::make_room() {
-  std::vector<Slot> old;
-  old.swap(slots_);
-  std::size_t full = 0;
-  for (const Slot& slot : old) full += slot.used && slot.head != no_entity;
-  std::size_t size = old.size();
-  if (4 * full > size) size *= 2;
-  slots_.resize(size);
-  mask_ = size - 1;
-  used_ = 0;
-  for (const Slot& slot : old) {
-    if (!slot.used || slot.head == no_entity) continue;
-    const std::size_t s = find(slot.key);
-    slots_[s] = slot;
-    ++used_;
-    for (Entity i = slot.head; i != no_entity; i = next_[i]) slot_[i] = static_cast<std::uint32_t>(s);
+void RegionGrid::link(Bucket& first, Entity i) {
+  Bucket* bucket = &first;
+  while (bucket->count == Bucket::room) {
+    if (bucket->next == 0) {
+      const bool in_overflow = bucket != &first;
+      const std::size_t own = in_overflow ? static_cast<std::size_t>(bucket - overflow_.data()) : 0;
+      std::uint32_t number;
+      if (free_.empty()) {
+        overflow_.emplace_back();
+        number = static_cast<std::uint32_t>(overflow_.size());
+      } else {
+        number = free_.back();
+        free_.pop_back();
+      }
+      (in_overflow ? overflow_[own] : first).next = number;
+      bucket = &overflow_[number - 1];
+      break;
+    }
+    bucket = &overflow_[bucket->next - 1];
+  }
+  bucket->body[bucket->count++] = i;
+}
+
+void RegionGrid::unlink(Bucket& first, Entity i) {
+  // All but the last of a cell's buckets are full.
+  Bucket *at = &first, *before = nullptr;
+  Entity* place = nullptr;
+  for (;;) {
+    Entity* const end = at->body + at->count;
+    if (place == nullptr) {
+      Entity* const found = std::find(at->body, end, i);
+      if (found != end) place = found;
+    }
+    if (at->next == 0) break;
+    before = at;
+    at = &overflow_[at->next - 1];
+  }
+  *place = at->body[--at->count];
+  if (at->count == 0 && before != nullptr) {
+    free_.push_back(before->next);
+    before->next = 0;
   }
 }
 
-void RegionGrid::put(Entity i, const Vec3& center, double half) {
-  const std::uint32_t l = level_for(half);
-  const double width = levels_[l].width;
-  const Key key{cell_of(center.x(), width), cell_of(center.y(), width), cell_of(center.z(), width), l};
-  if (slot_[i] != no_slot && slots_[slot_[i]].key == key) return;
-  unlink(i);
-  if (2 * (used_ + 1) > slots_.size()) make_room();
-  link(i, key);
+void RegionGrid::grow(Level& grid, std::span<const Region> regions) {
+  std::vector<Entity> all;
+  all.reserve(grid.regions);
+  for (Bucket& first : grid.buckets) {
+    for (const Bucket* bucket = &first;; bucket = &overflow_[bucket->next - 1]) {
+      all.insert(all.end(), bucket->body, bucket->body + bucket->count);
+      if (bucket->next == 0) break;
+      free_.push_back(bucket->next);
+    }
+  }
+  for (const std::uint32_t number : free_) overflow_[number - 1] = {};
+  std::vector<Bucket>().swap(grid.buckets);
+  shape(grid, 2 * grid.regions);
+  for (const Entity i : all) link(bucket_of(grid, regions[i]), i);
+}
+
+void RegionGrid::expect(int number, std::size_t regions) {
+  Level& grid = level(number);
+  if (grid.regions == 0) shape(grid, regions);
+}
+
+void RegionGrid::put(Entity i, std::span<const Region> regions, int number) {
+  Level& grid = level(number);
+  link(bucket_of(grid, regions[i]), i);
+  if (++grid.regions > grid.most) grow(grid, regions);
+}
+
+void RegionGrid::remove(Entity i, const Region& region, int number) {
+  Level& grid = level(number);
+  unlink(bucket_of(grid, region), i);
+  --grid.regions;
+}
+
+void RegionGrid::move(Entity i, const Region& from, int from_level, std::span<const Region> regions, int to_level) {
+  if (from_level == to_level) {
+    Level& grid = level(to_level);
+    Bucket &old = bucket_of(grid, from), &now = bucket_of(grid, regions[i]);
+    if (&old == &now) return;
+    unlink(old, i);
+    link(now, i);
+    return;
+  }
+  remove(i, from, from_level);
+  put(i, regions, to_level);
+}
+
+std::size_t RegionGrid::near(const Region& region, std::vector<Entity>& found) const {
+  std::size_t count = 0;
+  const auto take = [&](const Bucket& first) {
+    for (const Bucket* bucket = &first;; bucket = &overflow_[bucket->next - 1]) {
+      if (found.size() < count + slack) found.resize(2 * found.size() + 4 * slack);
+      std::memcpy(found.data() + count, bucket->body, sizeof(bucket->body));
+      count += bucket->count;
+      if (bucket->next == 0) return;
+    }
+  };
+  const float middle[3] = {region.x, region.y, region.z};
+  for (const Level& grid : levels_) {
+    if (grid.regions == 0) continue;
+    const float reach = (region.half + grid.half) * (1 + 0x1p-20F);
+    std::int64_t from[3], cells[3];
+    for (int k = 0; k < 3; ++k) {
+      const Cell low = cell_of(middle[k] - reach, grid.half), high = cell_of(middle[k] + reach, grid.half);
+      const bool all = high - low + 1 >= grid.cells[k];
+      from[k] = all ? 0 : wrap(low, grid.low[k], grid.cells[k]);
+      cells[k] = all ? grid.cells[k] : high - low + 1;
+    }
+    const auto next = [&](std::int64_t at, int k) { return at + 1 == grid.cells[k] ? 0 : at + 1; };
+    std::int64_t z = from[2];
+    for (std::int64_t dz = 0; dz < cells[2]; ++dz, z = next(z, 2)) {
+      std::int64_t y = from[1];
+      for (std::int64_t dy = 0; dy < cells[1]; ++dy, y = next(y, 1)) {
+        const Bucket* const row = &grid.buckets[static_cast<std::size_t>((z * grid.cells[1] + y) * grid.cells[0])];
+        std::int64_t x = from[0];
+        for (std::int64_t dx = 0; dx < cells[0]; ++dx, x = next(x, 0)) take(row[x]);
+      }
+    }
+  }
+  return count;
 }
 
 }  // namespace carom

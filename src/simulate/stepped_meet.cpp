@@ -22,14 +22,12 @@ Vec3 reach_of(const Path& p, double length) {
 void SteppedSimulator::stay_known(Entity i) {
   const Path& path = path_[i];
   const double length = length_ - start_[i];
-  const Neighbours::Region& region = neighbours_.region(i);
-  const Vec3 reach = reach_of(path, length);
-  const double far = reach.norm();
+  const double far = reach_of(path, length).norm();
   const double rounding = 0x1p-48 * (path.x.cwiseAbs().maxCoeff() + world_.radius[i]);
   spot_[i] = {path.x, world_.radius[i] + far + rounding};
   if (length > 0) goes_ = std::max(goes_, far * (length_ / length));
-  if (((path.x - region.center).cwiseAbs() + reach).maxCoeff() <= region.room) return;
-  neighbours_.cover(i, path.x, reach.maxCoeff(), looks_ahead * length_ * v_[i]);
+  if ((path.x - neighbours_.center(i)).norm() + far <= neighbours_.room(i)) return;
+  neighbours_.cover(i, path.x, far, looks_ahead * length_ * v_[i]);
 }
 
 Path SteppedSimulator::path_of(Entity e, double time) const {

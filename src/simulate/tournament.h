@@ -1,41 +1,87 @@
 #pragma once
-// A priority queue with one entry a body: a tournament tree, in which an entry that changes replays its games to the
-// root, log2(n) comparisons and no moves of the entries themselves.
+// A priority queue with one entry a body: a tournament among eight at a time. Each node keeps its winner and that
+// winner's time, so that the eight times of a game stand side by side, and only equal times ask for more. An entry that
+// changes replays its games up to where the outcome stays the same.
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace carom {
 
-/// Before(i, j): whether entry i comes before entry j. A total order; between equals the lower number wins.
+/// Before(i, j): whether entry i comes before entry j, of two with the same time. With it, a total order.
 template <typename Before>
 class Tournament {
  public:
   Tournament(std::uint32_t entries, Before before) : before_(before) {
-    while (leaves_ < entries) leaves_ *= 2;
-    winner_.assign(2 * static_cast<std::size_t>(leaves_), none);
-    for (std::uint32_t i = 0; i < entries; ++i) winner_[leaves_ + i] = i;
-    for (std::uint32_t node = leaves_ - 1; node > 0; --node) play(node);
+    std::size_t nodes = entries;
+    do {
+      nodes = (nodes + width - 1) / width;
+      levels_.push_back({std::vector<double>(nodes * width, never_), {}});
+      if (levels_.size() > 1) levels_.back().winner.assign(nodes * width, none);
+    } while (nodes > 1);
   }
 
-  std::uint32_t first() const { return winner_[1]; }  // none if there is no entry
+  std::uint32_t first() const { return first_; }  // none: nothing is due
+  double first_time() const { return first_time_; }
 
-  /// Call after entry i has changed.
-  void update(std::uint32_t i) {
-    for (std::uint32_t node = (leaves_ + i) / 2; node > 0; node /= 2) play(node);
+  /// Call after entry i has changed; its time (s) may be infinite: it is never due.
+  void update(std::uint32_t i, double time) {
+    std::size_t at = i;
+    std::uint32_t winner = i;
+    levels_[0].time[i] = time;
+    for (std::size_t l = 0;; ++l) {
+      const std::size_t game = at / width;
+      play(l, game, winner, time);
+      if (l + 1 == levels_.size()) break;
+      at = game;
+      Level& up = levels_[l + 1];
+      // Entry i itself may have changed in more than its time.
+      if (up.winner[at] == winner && up.time[at] == time && winner != i) return;
+      up.winner[at] = winner;
+      up.time[at] = time;
+    }
+    first_ = winner;
+    first_time_ = time;
   }
 
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
  private:
-  void play(std::uint32_t node) {
-    const std::uint32_t l = winner_[2 * node], r = winner_[2 * node + 1];
-    winner_[node] = r == none || (l != none && !before_(r, l)) ? l : r;
+  static constexpr std::size_t width = 8;
+  static constexpr double never_ = std::numeric_limits<double>::infinity();
+
+  struct Level {
+    std::vector<double> time;           // s, padded to whole games
+    std::vector<std::uint32_t> winner;  // whose time it is; at the bottom the entry itself
+  };
+
+  void play(std::size_t l, std::size_t game, std::uint32_t& winner, double& time) const {
+    const Level& level = levels_[l];
+    const double* t = level.time.data() + game * width;
+    double least[4];
+    for (int k = 0; k < 4; ++k) least[k] = t[k] < t[k + 4] ? t[k] : t[k + 4];
+    for (int k = 0; k < 2; ++k) least[k] = least[k] < least[k + 2] ? least[k] : least[k + 2];
+    time = least[0] < least[1] ? least[0] : least[1];
+    unsigned ties = 0;
+    for (unsigned k = 0; k < width; ++k) ties |= static_cast<unsigned>(t[k] == time) << k;
+    const auto who = [&](unsigned k) {
+      return l == 0 ? static_cast<std::uint32_t>(game * width + k) : level.winner[game * width + k];
+    };
+    winner = time < never_ ? who(static_cast<unsigned>(std::countr_zero(ties))) : none;
+    if (time == never_) return;
+    for (ties &= ties - 1; ties != 0; ties &= ties - 1) {
+      const std::uint32_t other = who(static_cast<unsigned>(std::countr_zero(ties)));
+      if (before_(other, winner)) winner = other;
+    }
   }
 
   Before before_;
-  std::uint32_t leaves_ = 1;
-  std::vector<std::uint32_t> winner_;
+  std::vector<Level> levels_;
+  std::uint32_t first_ = none;
+  double first_time_ = never_;
 };
 
 }  // namespace carom

@@ -1,0 +1,93 @@
+#pragma once
+// Many short lists that grow and shrink, in few large pages: a list takes a block of eight entries, or of a multiple.
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace carom {
+
+class ListPool {
+ public:
+  /// A list's place. Zeroed: an empty one.
+  struct List {
+    std::uint32_t at = 0;       // in granules
+    std::uint32_t count = 0;    // entries
+    std::uint8_t capacity = 0;  // the block's kind
+  };
+
+  /// Null where it has never had an entry.
+  std::uint32_t* data(const List& list) {
+    return list.capacity == 0 ? nullptr : page_[list.at >> page_bits] + entries_in(list.at & page_mask);
+  }
+  const std::uint32_t* data(const List& list) const { return const_cast<ListPool*>(this)->data(list); }
+
+  /// Room for `count` entries; what the list held is lost.
+  void reserve(List& list, std::size_t count) {
+    if (count <= room(list.capacity)) return;
+    give_back(list);
+    take(list, count);
+  }
+
+  void push_back(List& list, std::uint32_t entry) {
+    if (list.count == room(list.capacity)) {
+      const List old = list;
+      take(list, list.count + 1);
+      std::copy_n(data(old), old.count, data(list));
+      give_back(old);
+    }
+    data(list)[list.count++] = entry;
+  }
+
+ private:
+  static constexpr std::size_t granule = 8;  // entries
+  static constexpr std::uint32_t page_bits = 15, page_mask = (1u << page_bits) - 1;
+  static constexpr std::uint8_t in_steps = 8;  // kinds 1..8 are as many granules, from then on each is twice the last
+
+  static std::size_t entries_in(std::size_t granules) { return granules * granule; }
+  static std::size_t granules_of(std::uint8_t capacity) {
+    return capacity <= in_steps ? capacity : std::size_t{in_steps} << (capacity - in_steps);
+  }
+  static std::size_t room(std::uint8_t capacity) { return entries_in(granules_of(capacity)); }
+
+  void take(List& list, std::size_t count) {
+    std::uint8_t kind = 1;
+    while (room(kind) < count) ++kind;
+    list.capacity = kind;
+    if (kind < free_.size() && !free_[kind].empty()) {
+      list.at = free_[kind].back();
+      free_[kind].pop_back();
+      return;
+    }
+    const std::size_t granules = granules_of(kind), page = std::size_t{1} << page_bits;
+    if (left_ < granules) {
+      for (; left_ > 0; ++next_, --left_) put_away(1, next_);  // the page's rest
+      next_ = static_cast<std::uint32_t>(page_.size() << page_bits);
+      left_ = (granules + page - 1) / page * page;
+      memory_.push_back(std::make_unique_for_overwrite<std::uint32_t[]>(entries_in(left_)));
+      for (std::size_t k = 0; k < left_ / page; ++k) page_.push_back(memory_.back().get() + k * entries_in(page));
+    }
+    list.at = next_;
+    next_ += static_cast<std::uint32_t>(granules);
+    left_ -= granules;
+  }
+
+  void give_back(const List& list) {
+    if (list.capacity > 0) put_away(list.capacity, list.at);
+  }
+  void put_away(std::uint8_t kind, std::uint32_t at) {
+    if (free_.size() <= kind) free_.resize(kind + std::size_t{1});
+    free_[kind].push_back(at);
+  }
+
+  std::vector<std::unique_ptr<std::uint32_t[]>> memory_;
+  std::vector<std::uint32_t*> page_;
+  std::vector<std::vector<std::uint32_t>> free_;  // by kind
+  std::uint32_t next_ = 0;
+  std::size_t left_ = 0;  // granules from next_ on
+};
+
+}  // namespace carom

@@ -1,0 +1,45 @@
+#pragma once
+// A body's region as its neighbours are found by: a ball, in single precision, a quarter of a cache line. Its half
+// widths come in steps of a quarter octave.
+#include <cmath>
+#include <cstdint>
+
+#include "physics/vec3.h"
+
+namespace carom {
+
+struct alignas(16) Region {
+  float x = 0, y = 0, z = 0;  // the middle
+  float half = 0;             // with the body in it, wherever it is
+};
+
+/// Whether bodies of two regions may touch. The same either way round.
+inline bool may_touch(const Region& a, const Region& b) {
+  const float dx = a.x - b.x, dy = a.y - b.y, dz = a.z - b.z, reach = a.half + b.half;
+  return dx * dx + (dy * dy + dz * dz) <= reach * reach;
+}
+
+/// What of a half width is sure, with all that single precision rounds.
+inline double sure(float half) {
+  return static_cast<double>(half) * (1 - 0x1p-19);
+}
+
+inline constexpr int widest_level = 512;  // without end
+
+/// Half width number `level`: 2^(level/4).
+inline float half_of_level(int level) {
+  constexpr float step[] = {1, 1.1892071F, 1.4142136F, 1.6817929F};
+  return std::ldexp(step[level & 3], level >> 2);
+}
+
+/// The narrowest level whose sure half width is at least this.
+inline int level_of_half(double half) {
+  if (!(half < 0x1p127)) return widest_level;
+  int exponent;
+  std::frexp(half, &exponent);  // in [2^(exponent - 1), 2^exponent)
+  int level = 4 * (exponent - 1);
+  while (sure(half_of_level(level)) < half) ++level;
+  return level;
+}
+
+}  // namespace carom
