@@ -61,24 +61,34 @@ void ExactSimulator::meet_each(Entity i, std::span<const Entity> others, Event& 
 /// The same of bodies, many at a time where all are balls and fall alike.
 void ExactSimulator::meet_bodies(Entity i, std::span<const Entity> others, Event& best) {
   if (!world_.volume.empty() || place_[i] == Place::crowd) return meet_each(i, others, best);
-  if (others.empty()) return;
   const Vec3& a = flight_.acceleration(i);
-  times_.find(flight_, world_.radius, i, others, a, options_.duration);
-  if (!crowd_.empty() || !flight_.alike())
-    for (std::size_t k = 0; k < others.size(); ++k)
-      if (place_[others[k]] == Place::crowd || flight_.acceleration(others[k]) != a) times_.set(k, {unsure, 0});
-  for (;;) {
-    const std::size_t k = times_.earliest();
-    Instant time = times_[k];
-    if (time.hi == never || best.time.hi < time.hi) return;
-    const Entity j = others[k];
-    if (time.hi == unsure) {
-      std::uint8_t feature = 0;
-      times_.set(k, pair_time(i, j, feature));
-      continue;
-    }
-    offer(i, best, {time, j, version_[j], Kind::body_body, 0});
-    times_.set(k, {never, 0});
+  if (!crowd_.empty() || !flight_.alike()) {
+    alike_.clear();
+    for (const Entity& e : others)
+      if (place_[e] == Place::crowd || flight_.acceleration(e) != a)
+        meet_each(i, {&e, 1}, best);
+      else
+        alike_.push_back(e);
+    others = alike_;
+  }
+  if (meets_.size() < others.size()) meets_.resize(2 * others.size());
+  const bool latest = flight_.cores()[i].start == now_;
+  std::size_t count = straight_times(flight_, world_.radius, i, others, a, latest, options_.duration, meets_.data());
+  for (Meet& meet : std::span(meets_.data(), count)) {
+    std::uint8_t feature = 0;
+    if (meet.time.hi == unsure) meet.time = pair_time(i, meet.with, feature);
+  }
+  // The earliest that the other one is free for: before it, what comes first has it look for body i itself.
+  while (count > 0) {
+    std::size_t first = 0;
+    for (std::size_t k = 1; k < count; ++k)
+      if (meets_[k].time < meets_[first].time) first = k;
+    const Meet& meet = meets_[first];
+    if (best.time.hi < meet.time.hi) return;
+    const Event& other = event_[meet.with];
+    const bool taken = other.kind == Kind::body_body && other.time.hi < meet.time.hi && now_.hi < other.time.hi;
+    if (!taken) offer(i, best, {meet.time, meet.with, version_[meet.with], Kind::body_body, 0});
+    meets_[first] = meets_[--count];
   }
 }
 

@@ -228,7 +228,8 @@ class ExactSimulator final : public Simulator {
   std::vector<Burst> burst_;
   std::vector<Collapse> collapse_;
   Tournament<Before> queue_;
-  StraightTimes times_;  // scratch
+  std::vector<Entity> alike_;  // scratch
+  std::vector<Meet> meets_;    // scratch
 
   std::vector<Place> place_;
   std::vector<std::vector<Pressed>> pressed_;   // by the lower body: bodies and fixed things that the crowd's last step

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/contact_time.h"
+#include "simulate/touching.h"
 
 namespace carom {
 
@@ -11,9 +12,9 @@ namespace {
 
 // How many neighbours a region is sized for. Fewer: it grows and is left less often. More: it shrinks and tests fewer
 // pairs. A body that leaves region after region without anything happening to it may have more.
-constexpr std::size_t few_neighbours = 8, many_neighbours = 40, many_on_the_way = 64;
-constexpr int wider = 2;              // levels, of a quarter octave
-constexpr double least_room = 0.02;   // of the radius
+constexpr std::size_t few_neighbours = 5, many_neighbours = 40, many_on_the_way = 64;
+constexpr int wider = 2;                             // levels, of a quarter octave
+constexpr double first_room = 1, least_room = 0.02;  // of the radius
 constexpr double farthest = 0x1p+60;  // where positions end, in units of unit_: beyond, all are neighbours
 
 }  // namespace
@@ -36,15 +37,13 @@ void Neighbours::start(const std::vector<Vec3>& x) {
   }
   std::vector<double> radii = world_.radius;
   std::nth_element(radii.begin(), radii.begin() + n / 2, radii.end());
-  int exponent;
-  std::frexp(radii[n / 2], &exponent);
-  unit_ = std::ldexp(1.0, exponent);
+  unit_ = (1 + first_room) * (1 + 0x1p-18) * radii[n / 2];  // so that most regions are the widest of an octave
   origin_ = 0.5 * low + 0.5 * high;
   grid_.start(around(low, 0), around(high, 0));
 
   std::vector<std::pair<int, std::size_t>> expected;  // regions, by level
   for (Entity i = 0; i < n; ++i) {
-    const int level = level_for(i, x[i], world_.radius[i]);
+    const int level = level_for(i, x[i], first_room * world_.radius[i]);
     region_[i] = around(x[i], level);
     level_[i] = static_cast<std::int16_t>(level);
     const auto known = std::find_if(expected.begin(), expected.end(), [&](const auto& e) { return e.first == level; });
@@ -76,13 +75,9 @@ int Neighbours::level_for(Entity i, const Vec3& x, double room) const {
 /// Writes into found_ who may touch body i in this region.
 void Neighbours::find(Entity i, const Region& region) {
   const std::size_t candidates = grid_.near(region, found_);
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < candidates; ++k) {
-    const Entity j = found_[k];
-    found_[kept] = j;
-    kept += may_touch(region, region_[j]) && j != i;
-  }
-  found_count_ = kept;
+  found_count_ = select_touching(region, region_.data(), found_.data(), candidates, true, found_.data());
+  const auto end = found_.begin() + static_cast<std::ptrdiff_t>(found_count_), own = std::find(found_.begin(), end, i);
+  if (own != end) *own = found_[--found_count_];
 }
 
 /// What was found is body i's list, and the surfaces near it.
@@ -140,14 +135,13 @@ void Neighbours::drop(Entity j, Entity i) {
 /// Body i's new region, for which found_ is known: who comes and who goes.
 void Neighbours::settle(Entity i, const Region& region, int level) {
   const Region old = region_[i];
-  came_.clear();
-  for (const Entity j : bodies(i))
-    if (!may_touch(region, region_[j])) drop(j, i);
-  for (std::size_t k = 0; k < found_count_; ++k)
-    if (!may_touch(old, region_[found_[k]])) {
-      came_.push_back(found_[k]);
-      add(found_[k], i);
-    }
+  const std::span<const Entity> known = bodies(i);
+  gone_.resize(std::max(gone_.size(), known.size() + select_slack));
+  const std::size_t gone = select_touching(region, region_.data(), known.data(), known.size(), false, gone_.data());
+  for (std::size_t k = 0; k < gone; ++k) drop(gone_[k], i);
+  came_.resize(std::max(came_.size(), found_count_ + select_slack));
+  came_count_ = select_touching(old, region_.data(), found_.data(), found_count_, false, came_.data());
+  for (std::size_t k = 0; k < came_count_; ++k) add(came_[k], i);
   region_[i] = region;
   grid_.move(i, old, level_[i], region_, level);
   level_[i] = static_cast<std::int16_t>(level);
@@ -174,7 +168,7 @@ std::span<const Entity> Neighbours::renew(Entity i, const Vec3& x, const Vec3& a
   if (known > (often ? 2 * many_neighbours : many_neighbours)) level -= wider;
   const int least = level_for(i, x, 0);
   settle_down(i, x, ahead, 0, std::max(level, least), least);
-  return came_;
+  return {came_.data(), came_count_};
 }
 
 void Neighbours::cover(Entity i, const Vec3& x, double reach, const Vec3& drift) {

@@ -78,8 +78,8 @@ class Neighbours {
   std::vector<std::uint32_t> surfaces_;  // so many
   std::vector<std::uint8_t> news_;
   RegionGrid grid_;
-  std::vector<Entity> found_, came_, found_surfaces_;  // scratch
-  std::size_t found_count_ = 0;
+  std::vector<Entity> found_, came_, gone_, found_surfaces_;  // scratch, the first three longer than what they hold
+  std::size_t found_count_ = 0, came_count_ = 0;
 };
 
 }  // namespace carom

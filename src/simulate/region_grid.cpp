@@ -13,8 +13,8 @@ constexpr std::size_t regions_a_cell = 4;  // that a grid is made for
 }  // namespace
 
 // Far beyond 2^60 cells everything shares the outermost cell: slower there, never wrong.
-RegionGrid::Cell RegionGrid::cell_of(float x, float half) {
-  const double c = static_cast<double>(x) / (2 * static_cast<double>(half));
+RegionGrid::Cell RegionGrid::cell_of(float x, double per_width) {
+  const double c = static_cast<double>(x) * per_width;
   if (!(std::abs(c) < 0x1p60)) return c < 0 ? -(Cell{1} << 60) : Cell{1} << 60;
   const auto whole = static_cast<Cell>(c);
   return whole - (static_cast<double>(whole) > c);
@@ -32,22 +32,24 @@ void RegionGrid::start(const Region& low, const Region& high) {
   high_ = high;
 }
 
-RegionGrid::Level& RegionGrid::level(int number) {
-  for (Level& grid : levels_)
-    if (grid.level == number) return grid;
-  levels_.push_back({number, half_of_level(number), {}, {}, {}, 0, 0});
-  shape(levels_.back(), 1);
-  return levels_.back();
+RegionGrid::Octave& RegionGrid::octave_of(int level) {
+  const int number = (level + 3) >> 2;
+  for (Octave& grid : octaves_)
+    if (grid.number == number) return grid;
+  const float half = half_of_level(4 * number);
+  octaves_.push_back({number, half, 0.5 / static_cast<double>(half), {}, {}, {}, 0, 0});
+  shape(octaves_.back(), 1);
+  return octaves_.back();
 }
 
 /// As many cells as space in use has, but no more than these regions need.
-void RegionGrid::shape(Level& grid, std::size_t regions) {
+void RegionGrid::shape(Octave& grid, std::size_t regions) {
   const float low[3] = {low_.x, low_.y, low_.z}, high[3] = {high_.x, high_.y, high_.z};
   int axis[3] = {0, 1, 2};
   double extent[3];
   for (int k = 0; k < 3; ++k) {
-    grid.low[k] = cell_of(low[k], grid.half);
-    extent[k] = static_cast<double>(cell_of(high[k], grid.half)) - static_cast<double>(grid.low[k]) + 1;
+    grid.low[k] = cell_of(low[k], grid.per_width);
+    extent[k] = static_cast<double>(cell_of(high[k], grid.per_width)) - static_cast<double>(grid.low[k]) + 1;
   }
   // The shortest first: what it leaves is the others'.
   std::sort(axis, axis + 3, [&](int k, int l) { return extent[k] < extent[l]; });
@@ -64,10 +66,10 @@ void RegionGrid::shape(Level& grid, std::size_t regions) {
   grid.most = all ? ~std::size_t{0} : 2 * std::max(regions, 2 * regions_a_cell);
 }
 
-RegionGrid::Bucket& RegionGrid::bucket_of(Level& grid, const Region& region) {
-  const std::int64_t x = wrap(cell_of(region.x, grid.half), grid.low[0], grid.cells[0]);
-  const std::int64_t y = wrap(cell_of(region.y, grid.half), grid.low[1], grid.cells[1]);
-  const std::int64_t z = wrap(cell_of(region.z, grid.half), grid.low[2], grid.cells[2]);
+RegionGrid::Bucket& RegionGrid::bucket_of(Octave& grid, const Region& region) {
+  const std::int64_t x = wrap(cell_of(region.x, grid.per_width), grid.low[0], grid.cells[0]);
+  const std::int64_t y = wrap(cell_of(region.y, grid.per_width), grid.low[1], grid.cells[1]);
+  const std::int64_t z = wrap(cell_of(region.z, grid.per_width), grid.low[2], grid.cells[2]);
   return grid.buckets[static_cast<std::size_t>((z * grid.cells[1] + y) * grid.cells[0] + x)];
 }
 
@@ -115,7 +117,7 @@ void RegionGrid::unlink(Bucket& first, Entity i) {
   }
 }
 
-void RegionGrid::grow(Level& grid, std::span<const Region> regions) {
+void RegionGrid::grow(Octave& grid, std::span<const Region> regions) {
   std::vector<Entity> all;
   all.reserve(grid.regions);
   for (Bucket& first : grid.buckets) {
@@ -131,26 +133,25 @@ void RegionGrid::grow(Level& grid, std::span<const Region> regions) {
   for (const Entity i : all) link(bucket_of(grid, regions[i]), i);
 }
 
-void RegionGrid::expect(int number, std::size_t regions) {
-  Level& grid = level(number);
+void RegionGrid::expect(int level, std::size_t regions) {
+  Octave& grid = octave_of(level);
   if (grid.regions == 0) shape(grid, regions);
 }
 
-void RegionGrid::put(Entity i, std::span<const Region> regions, int number) {
-  Level& grid = level(number);
+void RegionGrid::put(Entity i, std::span<const Region> regions, int level) {
+  Octave& grid = octave_of(level);
   link(bucket_of(grid, regions[i]), i);
   if (++grid.regions > grid.most) grow(grid, regions);
 }
 
-void RegionGrid::remove(Entity i, const Region& region, int number) {
-  Level& grid = level(number);
+void RegionGrid::remove(Entity i, const Region& region, int level) {
+  Octave& grid = octave_of(level);
   unlink(bucket_of(grid, region), i);
   --grid.regions;
 }
 
 void RegionGrid::move(Entity i, const Region& from, int from_level, std::span<const Region> regions, int to_level) {
-  if (from_level == to_level) {
-    Level& grid = level(to_level);
+  if (Octave& grid = octave_of(to_level); &grid == &octave_of(from_level)) {
     Bucket &old = bucket_of(grid, from), &now = bucket_of(grid, regions[i]);
     if (&old == &now) return;
     unlink(old, i);
@@ -163,33 +164,45 @@ void RegionGrid::move(Entity i, const Region& from, int from_level, std::span<co
 
 std::size_t RegionGrid::near(const Region& region, std::vector<Entity>& found) const {
   std::size_t count = 0;
-  const auto take = [&](const Bucket& first) {
-    for (const Bucket* bucket = &first;; bucket = &overflow_[bucket->next - 1]) {
-      if (found.size() < count + slack) found.resize(2 * found.size() + 4 * slack);
-      std::memcpy(found.data() + count, bucket->body, sizeof(bucket->body));
-      count += bucket->count;
-      if (bucket->next == 0) return;
-    }
-  };
   const float middle[3] = {region.x, region.y, region.z};
-  for (const Level& grid : levels_) {
+  for (const Octave& grid : octaves_) {
     if (grid.regions == 0) continue;
     const float reach = (region.half + grid.half) * (1 + 0x1p-20F);
     std::int64_t from[3], cells[3];
     for (int k = 0; k < 3; ++k) {
-      const Cell low = cell_of(middle[k] - reach, grid.half), high = cell_of(middle[k] + reach, grid.half);
-      const bool all = high - low + 1 >= grid.cells[k];
+      const Cell low = cell_of(middle[k] - reach, grid.per_width), high = cell_of(middle[k] + reach, grid.per_width);
+      const bool all = high - low + 1 >= grid.cells[k] || !(reach < 0x1p126F);
       from[k] = all ? 0 : wrap(low, grid.low[k], grid.cells[k]);
       cells[k] = all ? grid.cells[k] : high - low + 1;
     }
+    const std::size_t row_room = static_cast<std::size_t>(cells[0]) * Bucket::room + slack;
     const auto next = [&](std::int64_t at, int k) { return at + 1 == grid.cells[k] ? 0 : at + 1; };
     std::int64_t z = from[2];
     for (std::int64_t dz = 0; dz < cells[2]; ++dz, z = next(z, 2)) {
       std::int64_t y = from[1];
       for (std::int64_t dy = 0; dy < cells[1]; ++dy, y = next(y, 1)) {
-        const Bucket* const row = &grid.buckets[static_cast<std::size_t>((z * grid.cells[1] + y) * grid.cells[0])];
+        if (found.size() < count + row_room) found.resize(2 * (count + row_room));
+        const Bucket* const row = grid.buckets.data() + (z * grid.cells[1] + y) * grid.cells[0];
         std::int64_t x = from[0];
-        for (std::int64_t dx = 0; dx < cells[0]; ++dx, x = next(x, 0)) take(row[x]);
+        Entity* to = found.data() + count;
+        for (std::int64_t dx = 0; dx < cells[0]; ++dx, x = next(x, 0)) {
+          const Bucket* bucket = row + x;
+          if (bucket->count == 0) continue;
+          std::memcpy(to, bucket->body, sizeof(bucket->body));
+          to += bucket->count;
+          if (bucket->next == 0) [[likely]]
+            continue;
+          count = static_cast<std::size_t>(to - found.data());
+          do {
+            bucket = &overflow_[bucket->next - 1];
+            if (found.size() < count + row_room) found.resize(2 * (count + row_room));
+            std::memcpy(found.data() + count, bucket->body, sizeof(bucket->body));
+            count += bucket->count;
+          } while (bucket->next != 0);
+          if (found.size() < count + row_room) found.resize(2 * (count + row_room));
+          to = found.data() + count;
+        }
+        count = static_cast<std::size_t>(to - found.data());
       }
     }
   }

@@ -1,8 +1,8 @@
 #pragma once
-// Regions in unbounded space, found by place. Each level of half widths has a grid of its own, whose cells are as wide
-// as its regions; a region is kept in the cell of its middle. A grid has about as many cells as it needs for what is in
-// it, and goes on from its last cell with its first, so that it has no bounds and empty space costs nothing: what is
-// far off may come along with what is near.
+// Regions in unbounded space, found by place. Each octave of half widths has a grid of its own, whose cells are as wide
+// as its widest regions; a region is kept in the cell of its middle. A grid has about as many cells as it needs for
+// what is in it, and goes on from its last cell with its first, so that it has no bounds and empty space costs nothing:
+// what is far off may come along with what is near.
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -39,26 +39,27 @@ class RegionGrid {
     std::uint32_t next = 0;  // of the overflow: its number and one; 0: none
     Entity body[room];
   };
-  struct Level {
-    int level;
-    float half;
+  struct Octave {
+    int number;
+    float half;             // of its widest
+    double per_width;       // cells
     Cell low[3];            // the cell that space in use begins with
     std::int64_t cells[3];  // along each axis
     std::vector<Bucket> buckets;
     std::size_t regions = 0, most = 0;  // in it; and from how many on more cells are better
   };
 
-  static Cell cell_of(float x, float half);
+  static Cell cell_of(float x, double per_width);
   static std::int64_t wrap(Cell c, Cell low, std::int64_t cells);
-  Level& level(int number);
-  void shape(Level& grid, std::size_t regions);
-  Bucket& bucket_of(Level& grid, const Region& region);
+  Octave& octave_of(int level);
+  void shape(Octave& grid, std::size_t regions);
+  Bucket& bucket_of(Octave& grid, const Region& region);
   void link(Bucket& first, Entity i);
   void unlink(Bucket& first, Entity i);
-  void grow(Level& grid, std::span<const Region> regions);
+  void grow(Octave& grid, std::span<const Region> regions);
 
   Region low_, high_;
-  std::vector<Level> levels_;
+  std::vector<Octave> octaves_;
   std::vector<Bucket> overflow_;
   std::vector<std::uint32_t> free_;  // of the overflow, numbers and one
 };

@@ -3,34 +3,25 @@
 // eight pairs at a time, whatever the processor has. The arithmetic is that of sphere_contact_time (contact_time.h), in
 // the same order, so the bits are the same; pairs for which that takes more than a quadratic are left to it.
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "simulate/flight.h"
 
 namespace carom {
 
-/// An entry of StraightTimes that sphere_contact_time has to tell: touching, or grazing.
+/// A meeting that only sphere_contact_time can tell the time of, or that there is none: touching, or grazing.
 inline constexpr double unsure = -std::numeric_limits<double>::infinity();
 
-/// Times of meeting (s; infinite: none; `unsure`), by place in the list that was asked about.
-class StraightTimes {
- public:
-  /// radius: m, by body. a: m/s^2, of all of these. end: s, later meetings are none.
-  void find(const Flights& flights, std::span<const double> radius, Entity i, std::span<const Entity> others,
-            const Vec3& a, double end);
-
-  /// The place of the earliest, by its `hi`; of several the first. There must be one at least.
-  std::size_t earliest() const;
-
-  Instant operator[](std::size_t k) const { return {hi_[k], lo_[k]}; }
-  void set(std::size_t k, const Instant& time) {
-    hi_[k] = time.hi;
-    lo_[k] = time.lo;
-  }
-
- private:
-  std::vector<double> hi_, lo_;  // as many as are needed, and up to seven more that never come
-  std::size_t padded_ = 0;
+struct Meet {
+  Instant time;  // hi may be `unsure`
+  Entity with;
 };
+
+/// Writes body i's meetings with others, each by itself, in the others' order; gives how many. There must be room for
+/// as many as others. radius: m, by body. a: m/s^2, of all of these. latest: none of the others' flights began after
+/// body i's. end: s, later meetings are none.
+std::size_t straight_times(const Flights& flights, std::span<const double> radius, Entity i,
+                           std::span<const Entity> others, const Vec3& a, bool latest, double end, Meet* found);
 
 }  // namespace carom

@@ -9,6 +9,10 @@
 #include <limits>
 #include <vector>
 
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
+
 namespace carom {
 
 /// Before(i, j): whether entry i comes before entry j, of two with the same time. With it, a total order.
@@ -61,12 +65,19 @@ class Tournament {
   void play(std::size_t l, std::size_t game, std::uint32_t& winner, double& time) const {
     const Level& level = levels_[l];
     const double* t = level.time.data() + game * width;
-    double least[4];
-    for (int k = 0; k < 4; ++k) least[k] = t[k] < t[k + 4] ? t[k] : t[k + 4];
-    for (int k = 0; k < 2; ++k) least[k] = least[k] < least[k + 2] ? least[k] : least[k + 2];
-    time = least[0] < least[1] ? least[0] : least[1];
+#ifdef __SSE2__
+    __m128d pair[4];
+    for (int k = 0; k < 4; ++k) pair[k] = _mm_loadu_pd(t + 2 * k);
+    const __m128d least = _mm_min_pd(_mm_min_pd(pair[0], pair[1]), _mm_min_pd(pair[2], pair[3]));
+    const __m128d first = _mm_min_pd(least, _mm_shuffle_pd(least, least, 1));
+    time = _mm_cvtsd_f64(first);
+    unsigned ties = 0;
+    for (int k = 0; k < 4; ++k) ties |= static_cast<unsigned>(_mm_movemask_pd(_mm_cmpeq_pd(pair[k], first))) << (2 * k);
+#else
+    time = *std::min_element(t, t + width);
     unsigned ties = 0;
     for (unsigned k = 0; k < width; ++k) ties |= static_cast<unsigned>(t[k] == time) << k;
+#endif
     const auto who = [&](unsigned k) {
       return l == 0 ? static_cast<std::uint32_t>(game * width + k) : level.winner[game * width + k];
     };

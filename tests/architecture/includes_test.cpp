@@ -27,6 +27,7 @@ const std::map<std::string, std::string> header_words = {{"scene's types", "scen
                                                          {"render's Image", "render/image.h"}};
 const std::map<std::string, std::vector<std::string>> library_words = {
     {"Eigen", {"Eigen/"}},
+    {"vector intrinsics", {"immintrin.h"}},
     {"yaml-cpp", {"yaml-cpp/"}},
     {"OSMesa/OpenGL", {"GL/", "KHR/", "EGL/"}},
     {"assimp", {"assimp/"}},

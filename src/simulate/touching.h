@@ -1,0 +1,17 @@
+#pragma once
+// Which of many regions may touch one: four, eight or sixteen at a time, whatever the processor has; the same bits as
+// may_touch (region.h).
+#include <cstddef>
+
+#include "physics/world.h"
+#include "simulate/region.h"
+
+namespace carom {
+
+/// Writes those of `count` bodies whose regions may touch `region`, or (touching = false) those whose do not, in their
+/// order; gives how many. `to` may be `bodies`; it needs room for `select_slack` more than it gets.
+std::size_t select_touching(const Region& region, const Region* regions, const Entity* bodies, std::size_t count,
+                            bool touching, Entity* to);
+inline constexpr std::size_t select_slack = 16;
+
+}  // namespace carom
