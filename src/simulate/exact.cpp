@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "physics/complementarity.h"
 #include "physics/force.h"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::size_t collision_buffer = 4096;
 constexpr std::uint32_t events_at_a_time = 65536;
+constexpr Entity cached_bodies = 32768;  // that fit into a processor's own memory
 
 }  // namespace
 
@@ -27,20 +29,17 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       joint_world_(options.merge ? std::make_unique<World>(world) : nullptr),
       world_(options.merge ? *joint_world_ : world),
       options_(options),
-      pull_(world.body_count()),
+      same_radius_(!options.merge && std::adjacent_find(world.radius.begin(), world.radius.end(),
+                                                        std::not_equal_to{}) == world.radius.end()),
+      pull_(world.body_count(), world.gravity),
       driven_(world.body_count(), Vec3::Zero()),
       flight_(world.body_count(), world.gravity),
-      origin_(world.body_count()),
-      version_(world.body_count()),
-      event_(world.body_count()),
-      leave_(world.body_count(), never),
+      body_(world.body_count()),
       neighbours_(world_),
-      stay_(world.body_count()),
       contacts_(world.body_count()),
       burst_(world.body_count()),
       collapse_(world.body_count()),
       queue_(world.body_count(), Before{this}),
-      place_(world.body_count(), Place::outside),
       pressed_(world.body_count()),
       local_(world.body_count(), PressedPair::none),
       pulled_(world.body_count()),
@@ -51,24 +50,21 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       carried_(world.body_count()),
       needed_(world.body_count()),
       followed_(world.body_count()),
-      arrival_(world.body_count()),
+      arrival_(world.body_count(), Vec3::Zero()),
       arrival_version_(world.body_count()) {
   start(initial);
 }
 
 void ExactSimulator::start(const State& initial) {
   const Entity n = world_.body_count();
-  state_.position.resize(n);
-  state_.velocity.resize(n);
   if (options_.record_collisions) collisions_.reserve(collision_buffer);
   for (Entity i = 0; i < n; ++i) {
     Vec3 v = initial.velocity[i];
     if (!world_.impulse.empty()) v += world_.impulse[i] / world_.mass[i];
-    pull_[i] = world_.gravity;
     if (!world_.forces.empty()) {
       const Pull pull = pull_on(i);
-      pull_[i] = pull.all;
-      driven_[i] = pull.working;
+      pull_.write(i) = pull.all;
+      driven_.write(i) = pull.working;
     }
     flight_.set(i, {{}, initial.position[i], v, pull_[i]});
     tally_.max_speed = std::max(tally_.max_speed, v.norm());
@@ -88,7 +84,7 @@ void ExactSimulator::start(const State& initial) {
 bool ExactSimulator::before(Entity i, Entity j) const {
   const bool leaves_i = leaves_first(i), leaves_j = leaves_first(j);
   if (leaves_i || leaves_j) return leaves_i && (!leaves_j || i < j);
-  const Event &p = event_[i], &q = event_[j];
+  const Event &p = body_[i].event, &q = body_[j].event;
   if (p.time < q.time) return true;
   if (q.time < p.time) return false;
   if (p.kind != q.kind) return p.kind < q.kind;
@@ -104,11 +100,12 @@ void ExactSimulator::advance_to(double time) {
   std::uint32_t events = 0;
   while (queue_.first_time() <= until.hi) {
     const Entity i = queue_.first();
+    if (world_.body_count() > cached_bodies) look_ahead();
     if (leaves_first(i)) {
-      if (now_.hi < leave_[i]) now_ = {leave_[i], 0};
+      if (now_.hi < queue_.first_time()) now_ = {queue_.first_time(), 0};
       rebuild_region(i);
       check_limits(Kind::none);
-    } else if (event_[i].time <= until) {
+    } else if (body_[i].event.time <= until) {
       process(i);
     } else {
       break;
@@ -128,11 +125,11 @@ void ExactSimulator::advance_to(double time) {
 }
 
 void ExactSimulator::process(Entity i) {
-  const Event event = event_[i];
+  const Event event = body_[i].event;
   if (now_ < event.time) now_ = event.time;
   switch (event.kind) {
     case Kind::body_body:
-      if (version_[event.partner] == event.partner_version)
+      if (body_[event.partner].version == event.partner_version)
         collide_pair(std::min(i, event.partner), std::max(i, event.partner), event.feature);
       else
         predict(i);  // the other one has changed its path since
@@ -172,16 +169,25 @@ void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin orig
                     now_.hi));
   tally_.max_speed = std::max(tally_.max_speed, speed);
   book_flight(i, x);
-  const bool flies = place_[i] == Place::crowd && !following_ && flight_[i].a != Vec3::Zero();  // through a stride
+  const bool flies = body_[i].place == Place::crowd && !following_ && flight_[i].a != Vec3::Zero();  // through a stride
   const bool still = speed <= negligible_speed() ||
                      (contacts_[i].count > 0 && speed * speed < 0x1p-120 * pull_[i].norm() * world_.radius[i]);
   Vec3 kept = v;
   for (int k = 0; k < 3; ++k)
     if (still || std::abs(v[k]) <= negligible_speed()) kept[k] = 0;
   flight_.set(i, {now_, x, kept, flies ? pull_[i] : contact_acceleration(i)});
-  origin_[i] = origin;
-  ++version_[i];
-  if (following_ && place_[i] == Place::crowd && now_ < crowd_end_) crowd_end_ = now_;
+  body_[i].set_origin(origin);
+  neighbours_.turned(i);
+  new_version(i);
+  if (following_ && body_[i].place == Place::crowd && now_ < crowd_end_) crowd_end_ = now_;
+}
+
+/// Events with body i are stale from now on. When its count of flights begins anew, old ones must not look fresh.
+void ExactSimulator::new_version(Entity i) {
+  if (++body_[i].version != 0) return;
+  body_[i].version = 1;
+  for (Body& body : body_)
+    if (body.event.kind == Kind::body_body && body.event.partner == i) body.event.partner_version = 0;
 }
 
 /// Books what forces did to body i on the flight that ends at x (m): the World's, and those that held it against them.
@@ -219,16 +225,16 @@ void ExactSimulator::switch_forces(Entity i) {
   book_flight(i, x);
   flight_.set(i, {now_, x, v, flight_.acceleration(i)});
   const Pull pull = pull_on(i);
-  if (place_[i] == Place::asleep) join(i);
-  if (place_[i] == Place::crowd) {  // the last step had the old forces in it until its end
+  if (body_[i].place == Place::asleep) join(i);
+  if (body_[i].place == Place::crowd) {  // the last step had the old forces in it until its end
     const Vec3 slower = velocity_now(i, now_);
     lose(0.5 * world_.mass[i] * (v - slower).dot(v + slower));
     v = slower;
-    pulled_[i] = now_;
+    pulled_.write(i) = now_;
     crowd_end_ = now_;
   }
-  pull_[i] = pull.all;
-  driven_[i] = pull.working;
+  pull_.write(i) = pull.all;
+  driven_.write(i) = pull.working;
   restart(i, x, keep_contacts(i, v), {});
   predict(i);
 }
@@ -278,13 +284,15 @@ void ExactSimulator::check_limits(Kind kind) {
 /// A body's velocity at an instant of its flight. A stride has what forces do until its end in it from the start.
 Vec3 ExactSimulator::velocity_now(Entity i, const Instant& at) const {
   const Vec3 v = flight_[i].velocity(at - flight_[i].start);
-  if (place_[i] != Place::crowd || following_) return v;
+  if (body_[i].place != Place::crowd || following_) return v;
   return v - (pulled_[i] - at) * hastened_[i];
 }
 
 const State& ExactSimulator::state() {
   if (state_fresh_) return state_;
   state_.time = time_;
+  state_.position.resize(world_.body_count());
+  state_.velocity.resize(world_.body_count());
   const Instant at{time_, 0};
   for (Entity i = 0; i < world_.body_count(); ++i) {
     const double t = at - flight_[i].start;

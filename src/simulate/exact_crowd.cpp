@@ -14,21 +14,21 @@ namespace carom {
 /// Keeps count of who rests on something.
 void ExactSimulator::carry(Entity i, bool carried) {
   if (carried == (carried_[i] != 0)) return;
-  carried_[i] = carried;
+  carried_.write(i) = carried;
   carried ? ++tally_.resting : --tally_.resting;
 }
 
 /// Body i belongs to the crowd from now on.
 void ExactSimulator::join(Entity i) {
-  if (place_[i] == Place::asleep) wake(i);
-  if (place_[i] == Place::crowd) return;
-  place_[i] = Place::crowd;
-  pulled_[i] = now_;
-  hastened_[i].setZero();
-  kept_apart_[i] = 0;
-  jostled_[i] = 0;
+  if (body_[i].place == Place::asleep) wake(i);
+  if (body_[i].place == Place::crowd) return;
+  body_[i].place = Place::crowd;
+  pulled_.write(i) = now_;
+  hastened_.write(i).setZero();
+  kept_apart_.write(i) = 0;
+  jostled_.write(i) = 0;
   if (contacts_[i].count > 0) {
-    contacts_[i].count = 0;
+    contacts_.write(i).count = 0;
     --tally_.resting;
   }
   if (crowd_.empty()) {
@@ -37,23 +37,24 @@ void ExactSimulator::join(Entity i) {
     ++tally_.collapses;
   }
   if (following_) crowd_end_ = now_;
-  idle_[i] = 0;
-  needed_[i] = now_;
+  idle_.write(i) = 0;
+  needed_.write(i) = now_;
   crowd_.push_back(i);
 }
 
 /// A body of the crowd has been struck at this speed (m/s): for a while bodies are kept apart by about as much as they
 /// could move at that speed until the next step.
 void ExactSimulator::stir(Entity i, double approach) {
-  if (place_[i] != Place::crowd) return;
-  needed_[i] = now_;
-  kept_apart_[i] = std::max(kept_apart_[i], std::min(0.5 * approach * crowd_step_, restless_gap * world_.radius[i]));
+  if (body_[i].place != Place::crowd) return;
+  needed_.write(i) = now_;
+  kept_apart_.write(i) =
+      std::max(kept_apart_[i], std::min(0.5 * approach * crowd_step_, restless_gap * world_.radius[i]));
 }
 
 /// How much of an approach (m/s) along n is there already: a stride's flights have what forces do in its rest in them.
 double ExactSimulator::approach_now(double approach, const Vec3& n, Entity i, Entity e) const {
   const bool body = world_.is_body(e);
-  if (following_ || approach == 0 || (place_[i] != Place::crowd && !(body && place_[e] == Place::crowd)))
+  if (following_ || approach == 0 || (body_[i].place != Place::crowd && !(body && body_[e].place == Place::crowd)))
     return approach;
   const Vec3 w = velocity_now(i, now_) - (body ? velocity_now(e, now_) : Vec3(Vec3::Zero()));
   return std::max(n.dot(w), 0.0);
@@ -61,12 +62,12 @@ double ExactSimulator::approach_now(double approach, const Vec3& n, Entity i, En
 
 /// A force in what is left of a stride changes body i's velocity by dv (m/s), which is in its flight from now on.
 void ExactSimulator::hasten(Entity i, const Vec3& dv) {
-  if (following_ || place_[i] != Place::crowd || dv.isZero(0) || !(now_ < crowd_end_)) return;
+  if (following_ || body_[i].place != Place::crowd || dv.isZero(0) || !(now_ < crowd_end_)) return;
   if (!(now_ < pulled_[i])) {
-    pulled_[i] = crowd_end_;
-    hastened_[i].setZero();
+    pulled_.write(i) = crowd_end_;
+    hastened_.write(i).setZero();
   }
-  hastened_[i] += dv / (pulled_[i] - now_);
+  hastened_.write(i) += dv / (pulled_[i] - now_);
 }
 
 /// Whether body i of the crowd and e approach each other (m/s) for an impact that bounces: contact must not take it up.
@@ -81,7 +82,7 @@ bool ExactSimulator::strikes(Entity i, Entity e, double approach, double pull) c
 /// A struck body and all that rest against one another with it are of the crowd again.
 void ExactSimulator::wake(Entity i) {
   std::vector<Entity> todo{i};
-  place_[i] = Place::outside;
+  body_[i].place = Place::outside;
   while (!todo.empty()) {
     const Entity k = todo.back();
     todo.pop_back();
@@ -89,9 +90,9 @@ void ExactSimulator::wake(Entity i) {
     join(k);
     const Vec3 x = flight_[k].x;
     for (Entity e : known_to(k)) {
-      if (!world_.is_body(e) || place_[e] != Place::asleep) continue;
+      if (!world_.is_body(e) || body_[e].place != Place::asleep) continue;
       if (touch(world_, k, x, e, flight_[e].x).gap > 1e-6 * world_.radius[k]) continue;
-      place_[e] = Place::outside;
+      body_[e].place = Place::outside;
       todo.push_back(e);
     }
   }
@@ -103,33 +104,33 @@ void ExactSimulator::wake(Entity i) {
 void ExactSimulator::jostle(Entity i) {
   constexpr std::uint32_t many = 3;
   constexpr double parting = 0.01;  // of the fastest approach: what those struck at once part with
-  if (following_ || place_[i] != Place::crowd || ++jostled_[i] <= many) return;
+  if (following_ || body_[i].place != Place::crowd || ++jostled_.write(i) <= many) return;
   std::vector<Entity> cluster{i};
   std::vector<PressedPair> pairs;
   const std::uint32_t unseen = PressedPair::none;
   const double closed = 1e-3 * kept_apart_[i];  // m, a gap that counts as contact
-  local_[i] = 0;
+  local_.write(i) = 0;
   const auto at = [&](Entity k) { return flight_[k].position(now_ - flight_[k].start); };
   for (std::size_t k = 0; k < cluster.size(); ++k) {
     const Entity a = cluster[k];
     const Vec3 x = at(a);
     for (Entity e : known_to(a)) {
       const bool body = world_.is_body(e);
-      if (body && place_[e] != Place::crowd) continue;
+      if (body && body_[e].place != Place::crowd) continue;
       const Vec3 xe = body ? at(e) : world_.fixed_position(e);
       const double far = world_.radius[a] + (body ? world_.radius[e] : never) + closed;
       if ((xe - x).squaredNorm() > 1.001 * far * far) continue;
       const Touch there = touch(world_, a, x, e, xe);
       if (there.gap > closed) continue;
       if (body && local_[e] == unseen) {
-        local_[e] = static_cast<std::uint32_t>(cluster.size());
+        local_.write(e) = static_cast<std::uint32_t>(cluster.size());
         cluster.push_back(e);
       }
       if (!body || local_[e] > k)
         pairs.push_back({static_cast<std::uint32_t>(k), body ? local_[e] : unseen, there.normal});
     }
   }
-  for (Entity a : cluster) local_[a] = unseen;
+  for (Entity a : cluster) local_.write(a) = unseen;
   std::vector<Vec3> before(cluster.size()), after;
   std::vector<double> inverse_mass(cluster.size());
   for (std::size_t k = 0; k < cluster.size(); ++k) {
@@ -158,7 +159,7 @@ void ExactSimulator::jostle(Entity i) {
   std::vector<Entity> changed;
   for (std::size_t k = 0; k < cluster.size(); ++k) {
     const Entity a = cluster[k];
-    jostled_[a] = 1;
+    jostled_.write(a) = 1;
     if (after[k] == before[k]) continue;
     changed.push_back(a);
     lose(0.5 * world_.mass[a] * (before[k] - after[k]).dot(before[k] + after[k]));
@@ -178,7 +179,7 @@ void ExactSimulator::jostle(Entity i) {
 void ExactSimulator::step_crowd() {
   std::sort(crowd_.begin(), crowd_.end());
   if (follow_crowd()) return;
-  for (Entity i : crowd_) followed_[i].clear();
+  for (Entity i : crowd_) followed_.write(i).clear();
   following_ = false;
   stride();
 }

@@ -68,18 +68,18 @@ bool ExactSimulator::follow_crowd() {
   double pull = 0, smallest = never;
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = crowd_[k];
-    local_[i] = static_cast<std::uint32_t>(k);
+    local_.write(i) = static_cast<std::uint32_t>(k);
     const double t = now_ - flight_[i].start;
     x[k] = flight_[i].position(t);
     before[k] = flight_[i].velocity(t);
-    v[k] = following_ && version_[i] == arrival_version_[i] && now_ == arrival_time_ ? arrival_[i] : before[k];
+    v[k] = following_ && body_[i].version == arrival_version_[i] && now_ == arrival_time_ ? arrival_[i] : before[k];
     if (!following_ && now_ < pulled_[i]) v[k] -= (pulled_[i] - now_) * hastened_[i];
     inverse_mass[k] = 1 / world_.mass[i];
     pull = std::max(pull, load_on(i));
     smallest = std::min(smallest, world_.radius[i]);
   }
   const auto forget = [&] {
-    for (Entity i : crowd_) local_[i] = PressedPair::none;
+    for (Entity i : crowd_) local_.write(i) = PressedPair::none;
   };
 
   // The pairs in contact, but for those that are about to strike.
@@ -100,10 +100,10 @@ bool ExactSimulator::follow_crowd() {
     const Entity i = crowd_[k];
     for (Entity e : known_to(i)) {
       const bool body = world_.is_body(e);
-      if (body && (e < i || place_[e] != Place::crowd)) continue;
+      if (body && (e < i || body_[e].place != Place::crowd)) continue;
       // Whom it has struck just now it touches there, and nowhere else.
-      const bool struck = flight_[i].start == now_ && origin_[i].partner == e;
-      const Touch there = touch(world_, i, x[k], e, at(x, e), struck ? origin_[i].feature : no_feature);
+      const bool struck = flight_[i].start == now_ && body_[i].origin == e;
+      const Touch there = touch(world_, i, x[k], e, at(x, e), struck ? body_[i].origin_feature : no_feature);
       const double rounding = 0x1p-51 * (x[k].cwiseAbs().sum() + at(x, e).cwiseAbs().sum());
       if (there.gap > std::max(closed * world_.radius[i], rounding)) continue;
       const double approach = there.normal.dot(v[k] - moving(v, e));
@@ -136,8 +136,8 @@ bool ExactSimulator::follow_crowd() {
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = crowd_[k];
     if (needed_[i] < now_ || (v[k] - before[k]).norm() <= 0x1p-40 * before[k].norm()) continue;
-    ++collapse_[i].impacts;
-    collapse_[i].lost += 1;
+    ++collapse_.write(i).impacts;
+    collapse_.write(i).lost += 1;
   }
 
   // Pairs that part by more than paths stray are no contacts: if they come back, they meet.
@@ -283,16 +283,16 @@ bool ExactSimulator::follow_crowd() {
     }
   }
   for (Entity i : crowd_) {
-    followed_[i].clear();
-    pressed_[i].clear();
+    followed_.write(i).clear();
+    pressed_.write(i).clear();
   }
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const auto& [i, e, feature] = names[c];
-    followed_[i].push_back(e);
+    followed_.write(i).push_back(e);
     if (world_.is_body(e)) {
-      followed_[e].push_back(i);
+      followed_.write(e).push_back(i);
     }
-    if (first[c].force > 0) pressed_[i].push_back({e, first[c].force});
+    if (first[c].force > 0) pressed_.write(i).push_back({e, first[c].force});
   }
   forget();
 
@@ -302,26 +302,26 @@ bool ExactSimulator::follow_crowd() {
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = members[k];
     lose(0.5 * world_.mass[i] * (before[k] - v[k]).dot(before[k] + v[k]));
-    if (bound[k]) needed_[i] = now_;
+    if (bound[k]) needed_.write(i) = now_;
     if (!bound[k] && !(held[k] && rests[k]) && now_ - needed_[i] >= grace) {
-      place_[i] = Place::outside;
+      body_[i].place = Place::outside;
       carry(i, false);
       for (std::size_t c = 0; c < flats[k].count; ++c) settle(i, flats[k].at[c]);
       restart(i, x[k] + down[k], keep_contacts(i, v[k]), {});
     } else if (rests[k]) {
-      place_[i] = Place::asleep;
+      body_[i].place = Place::asleep;
       carry(i, true);
       restart(i, x[k], Vec3::Zero(), {});
     } else {
       crowd_.push_back(i);
       carry(i, held[k]);
-      pulled_[i] = now_;
+      pulled_.write(i) = now_;
       // Whom it has struck just now it has still just struck, if nothing has changed since.
       const bool same = flight_[i].start == now_ && x[k] == flight_[i].x && v[k] == before[k];
-      restart(i, x[k], v[k], same ? origin_[i] : Origin{});
+      restart(i, x[k], v[k], same ? body_[i].from() : Origin{});
       flight_.accelerate(i, path[k]);
-      arrival_[i] = end[k];
-      arrival_version_[i] = version_[i];
+      arrival_.write(i) = end[k];
+      arrival_version_.write(i) = body_[i].version;
     }
   }
   following_ = true;
@@ -339,7 +339,7 @@ void ExactSimulator::report_followed() {
   double pull = 0;
   for (Entity i : crowd_) {
     const double t = at - flight_[i].start;
-    local_[i] = static_cast<std::uint32_t>(x.size());
+    local_.write(i) = static_cast<std::uint32_t>(x.size());
     x.push_back(flight_[i].position(t));
     v.push_back(flight_[i].velocity(t));
     a.push_back(pull_[i]);
@@ -351,7 +351,7 @@ void ExactSimulator::report_followed() {
   for (Entity i : crowd_) {
     for (Entity e : followed_[i]) {
       const bool body = world_.is_body(e);
-      if (body && (e < i || place_[e] != Place::crowd)) continue;
+      if (body && (e < i || body_[e].place != Place::crowd)) continue;
       const std::uint32_t k = local_[i], other = body ? local_[e] : PressedPair::none;
       const Vec3 xe = body ? x[other] : world_.fixed_position(e), ve = body ? v[other] : Vec3(Vec3::Zero());
       const Touch there = touch(world_, i, x[k], e, xe);
@@ -363,7 +363,7 @@ void ExactSimulator::report_followed() {
   press_few_apart(inverse_mass, a, pairs);
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (pairs[c].force > 0) contact_forces_.push_back({names[c].first, names[c].second, pairs[c].force});
-  for (Entity i : crowd_) local_[i] = PressedPair::none;
+  for (Entity i : crowd_) local_.write(i) = PressedPair::none;
 }
 
 }  // namespace carom

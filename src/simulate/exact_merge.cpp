@@ -47,29 +47,31 @@ void ExactSimulator::merge(Entity a, Entity b, const Touch& there) {
   world.mass[whole] = mass;
   if (parts_[whole].empty()) parts_[whole].push_back(whole);
   if (parts_[part].empty()) parts_[part].push_back(part);
-  pull_[whole] += (mp / mass) * (pull_[part] - pull_[whole]);
-  driven_[whole] += (mp / mass) * (driven_[part] - driven_[whole]);
+  if (!world.forces.empty()) {
+    pull_.write(whole) += (mp / mass) * (pull_[part] - pull_[whole]);
+    driven_.write(whole) += (mp / mass) * (driven_[part] - driven_[whole]);
+  }
   for (Entity i : parts_[part]) parts_[whole].push_back(i);
   for (Entity i : parts_[whole]) joint_share_[i] = given_->mass[i] / mass;
   parts_[part].clear();
   part_of_[part] = whole;
 
   for (Entity i : {a, b}) {
-    if (contacts_[i].count > 0) --tally_.resting;
-    contacts_[i].count = 0;
+    if (contacts_[i].count == 0) continue;
+    contacts_.write(i).count = 0;
+    --tally_.resting;
   }
   neighbours_.remove(part);
-  ++version_[part];
-  event_[part] = {};
-  leave_[part] = never;
-  enqueue(part);
+  new_version(part);
+  body_[part].event = {};
+  queue_.update(part, never);
   flight_.set(part, {now_, joint_x, Vec3::Zero(), Vec3::Zero()});
 
   if (!world.forces.empty()) lose(potential_before - potential_of(whole, joint_x));
   Flight f{now_, joint_x, joint_v, pull_[whole]};
   flight_.set(whole, f);
-  ++version_[whole];
-  origin_[whole] = {};
+  new_version(whole);
+  body_[whole].set_origin({});
   rebuild_region(whole);
   for (int pass = 0; pass < 8; ++pass) {
     bool free = true;

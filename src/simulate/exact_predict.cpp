@@ -35,22 +35,21 @@ void ExactSimulator::predict(Entity i) {
     if (rim.time < never) offer(i, best, {f.start + rim.time, contact.surface, 0, Kind::release, rim.feature});
   }
   if (!world_.forces.empty()) offer(i, best, {{next_force(i), 0}, no_entity, 0, Kind::force, no_feature});
-  if (place_[i] == Place::crowd) offer(i, best, {crowd_end_, no_entity, 0, Kind::step, no_feature});
-  event_[i] = best;
-  leave_[i] = leave_time(i);
+  if (body_[i].place == Place::crowd) offer(i, best, {crowd_end_, no_entity, 0, Kind::step, no_feature});
+  body_[i].event = best;
   enqueue(i);
 }
 
 /// Offers when body i meets each of the others.
 void ExactSimulator::meet_each(Entity i, std::span<const Entity> others, Event& best) const {
-  const bool follows = place_[i] == Place::crowd && following_;
+  const bool follows = body_[i].place == Place::crowd && following_;
   for (Entity e : others) {
     if (follows && followed(i, e)) continue;
     std::uint8_t feature = no_feature;
     if (world_.is_body(e)) {
       feature = 0;
       const Instant time = pair_time(i, e, feature);
-      offer(i, best, {time, e, version_[e], Kind::body_body, feature});
+      offer(i, best, {time, e, body_[e].version, Kind::body_body, feature});
     } else if (!in_contact(i, e)) {
       const Instant time = fixed_time(i, e, feature);
       offer(i, best, {time, e, 0, Kind::body_fixed, feature});
@@ -60,12 +59,12 @@ void ExactSimulator::meet_each(Entity i, std::span<const Entity> others, Event& 
 
 /// The same of bodies, many at a time where all are balls and fall alike.
 void ExactSimulator::meet_bodies(Entity i, std::span<const Entity> others, Event& best) {
-  if (!world_.volume.empty() || place_[i] == Place::crowd) return meet_each(i, others, best);
+  if (!world_.volume.empty() || body_[i].place == Place::crowd) return meet_each(i, others, best);
   const Vec3& a = flight_.acceleration(i);
   if (!crowd_.empty() || !flight_.alike()) {
     alike_.clear();
     for (const Entity& e : others)
-      if (place_[e] == Place::crowd || flight_.acceleration(e) != a)
+      if (body_[e].place == Place::crowd || flight_.acceleration(e) != a)
         meet_each(i, {&e, 1}, best);
       else
         alike_.push_back(e);
@@ -73,7 +72,8 @@ void ExactSimulator::meet_bodies(Entity i, std::span<const Entity> others, Event
   }
   if (meets_.size() < others.size()) meets_.resize(2 * others.size());
   const bool latest = flight_.cores()[i].start == now_;
-  std::size_t count = straight_times(flight_, world_.radius, i, others, a, latest, options_.duration, meets_.data());
+  std::size_t count =
+      straight_times(flight_, world_.radius, i, others, same_radius_, a, latest, options_.duration, meets_.data());
   for (Meet& meet : std::span(meets_.data(), count)) {
     std::uint8_t feature = 0;
     if (meet.time.hi == unsure) meet.time = pair_time(i, meet.with, feature);
@@ -85,9 +85,9 @@ void ExactSimulator::meet_bodies(Entity i, std::span<const Entity> others, Event
       if (meets_[k].time < meets_[first].time) first = k;
     const Meet& meet = meets_[first];
     if (best.time.hi < meet.time.hi) return;
-    const Event& other = event_[meet.with];
+    const Event& other = body_[meet.with].event;
     const bool taken = other.kind == Kind::body_body && other.time.hi < meet.time.hi && now_.hi < other.time.hi;
-    if (!taken) offer(i, best, {meet.time, meet.with, version_[meet.with], Kind::body_body, 0});
+    if (!taken) offer(i, best, {meet.time, meet.with, body_[meet.with].version, Kind::body_body, 0});
     meets_[first] = meets_[--count];
   }
 }
@@ -137,9 +137,9 @@ Instant ExactSimulator::pair_time(Entity i, Entity j, std::uint8_t& feature) con
   const bool balls = world_.volume.empty();
   if (balls && m.a.isZero(0) && m.d.dot(m.w) >= 0) return {never, 0};
   m.speeds = sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a);
-  m.just_separated = p.start == q.start && origin_[a].partner == b && origin_[b].partner == a;
+  m.just_separated = p.start == q.start && body_[a].origin == b && body_[b].origin == a;
   // A flight of the crowd lasts until its next step.
-  const bool step = (place_[a] == Place::crowd || place_[b] == Place::crowd);
+  const bool step = (body_[a].place == Place::crowd || body_[b].place == Place::crowd);
   const double horizon =
       (step && crowd_end_.hi < options_.duration ? crowd_end_ : Instant{options_.duration, 0}) - base;
   const double s = world_.radius[a] + world_.radius[b];
@@ -152,7 +152,7 @@ Instant ExactSimulator::pair_time(Entity i, Entity j, std::uint8_t& feature) con
   if (balls) {
     t = sphere_contact_time(m, s, horizon);
   } else {
-    const Meeting first = meeting(world_, a, b, m, m.just_separated ? origin_[a].feature : no_feature, horizon);
+    const Meeting first = meeting(world_, a, b, m, m.just_separated ? body_[a].origin_feature : no_feature, horizon);
     t = first.time;
     feature = first.feature;
   }
@@ -162,9 +162,9 @@ Instant ExactSimulator::pair_time(Entity i, Entity j, std::uint8_t& feature) con
 /// When body i strikes a surface: reckoned from its flight's start.
 Instant ExactSimulator::fixed_time(Entity i, Entity surface, std::uint8_t& feature) const {
   const Flight& f = flight_[i];
-  const bool step = place_[i] == Place::crowd && crowd_end_.hi < options_.duration;
+  const bool step = body_[i].place == Place::crowd && crowd_end_.hi < options_.duration;
   const double horizon = (step ? crowd_end_ : Instant{options_.duration, 0}) - f.start;
-  const bool left = origin_[i].partner == surface;
+  const bool left = body_[i].origin == surface;
   double t;
   const bool ball = world_.volume.empty() || world_.volume[i].shape == Shape::sphere;
   const double steps = crowded(i) ? 512 * std::sqrt(pull_[i].norm() * world_.radius[i]) : 0;
@@ -177,12 +177,12 @@ Instant ExactSimulator::fixed_time(Entity i, Entity surface, std::uint8_t& featu
     const double reach = world_.radius[i] + horizon * (sum_of_speeds(f.v) + horizon * sum_of_speeds(f.a));
     if (step && (f.x - nearest_on_wall(world_.wall(surface), f.x)).squaredNorm() > reach * reach) return {never, 0};
     const WallContact contact = wall_contact_time(world_.wall(surface), f.x, f.v, f.a, world_.radius[i],
-                                                  left ? origin_[i].feature : no_feature, horizon);
+                                                  left ? body_[i].origin_feature : no_feature, horizon);
     t = contact.time;
     feature = contact.feature;
   } else {
     const RelativeMotion m{world_.fixed_position(surface) - f.x, -f.v, -f.a, sum_of_speeds(f.v) + steps, left};
-    const Meeting first = meeting(world_, i, surface, m, left ? origin_[i].feature : no_feature, horizon);
+    const Meeting first = meeting(world_, i, surface, m, left ? body_[i].origin_feature : no_feature, horizon);
     t = first.time;
     feature = first.feature;
   }
@@ -216,18 +216,14 @@ double ExactSimulator::leave_time(Entity i) const {
 /// Body i leaves its region: a new one, and whom it may meet in that. One that leaves region after region on one and
 /// the same flight tries wider ones: in company that flies along, they cost no more.
 void ExactSimulator::rebuild_region(Entity i) {
-  Stay& stay = stay_[i];
-  stay.left = stay.version == version_[i] ? stay.left + 1 : 0;
-  stay.version = version_[i];
   const Flight f = flight_[i];
-  const double since = now_ - f.start, until = std::min(event_[i].time.hi, options_.duration);
+  const double since = now_ - f.start, until = std::min(body_[i].event.time.hi, options_.duration);
   const Vec3 ahead = 0.5 * std::max(until - now_.hi, 0.0) * f.velocity(since);
-  const std::span<const Entity> came = neighbours_.renew(i, f.position(since), ahead, stay.left >= 4);
-  Event best = event_[i];
+  const std::span<const Entity> came = neighbours_.renew(i, f.position(since), ahead);
+  Event best = body_[i].event;
   meet_bodies(i, came, best);
   meet_each(i, neighbours_.surfaces(i), best);
-  event_[i] = best;
-  leave_[i] = leave_time(i);
+  body_[i].event = best;
   enqueue(i);
 }
 

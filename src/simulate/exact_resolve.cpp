@@ -22,7 +22,7 @@ double ExactSimulator::load_on(Entity i) const {
 
 /// Counts an impact of body i: whether it is one of many within a window of time (s).
 bool ExactSimulator::in_burst(Entity i, double window, int many) {
-  Burst& burst = burst_[i];
+  Burst& burst = burst_.write(i);
   if (now_.hi - burst.start > window) burst = {now_.hi, 0, false};
   return ++burst.impacts > many;
 }
@@ -36,10 +36,11 @@ bool ExactSimulator::in_burst(Entity i, double window, int many) {
 bool ExactSimulator::collapses(Entity i, Entity other, double e, double approach, double length) {
   constexpr int many = 64;
   constexpr double enough = 16;
-  Collapse& collapse = collapse_[i];
+  if (e >= 1 && collapse_.empty()) return false;  // none has lost anything yet
+  Collapse& collapse = collapse_.write(i);
   const double spot = std::max(1e-9 * length, 0x1p-48 * flight_[i].x.cwiseAbs().sum());
   if (approach * (now_ - collapse.start) > spot) collapse = {now_, 0, 0};
-  if (origin_[i].partner != other) {
+  if (body_[i].origin != other) {
     if (e < 1) ++collapse.impacts;
     collapse.lost = std::max(collapse.lost + 1 - e, 0.0);
   }
@@ -66,9 +67,9 @@ bool ExactSimulator::taken_up(Entity a, Entity b, double e, double approach, dou
   if (press > 0 && (a_in || b_in)) return true;
   const double window = 2 * slow / load;
   // Alone on flat surfaces a body comes to rest on each in closed form; only between several can it go on for ever.
-  if (alone) return origin_[a].partner != b && in_burst(a, window, 256);
+  if (alone) return body_[a].origin != b && in_burst(a, window, 256);
   const bool burst_a = in_burst(a, window, 16), burst_b = world_.is_body(b) && in_burst(b, window, 16);
-  if (world_.is_body(b)) burst_[a].bodies = burst_[b].bodies = true;
+  if (world_.is_body(b)) burst_.write(a).bodies = burst_.write(b).bodies = true;
   return burst_a || burst_b;
 }
 
@@ -89,7 +90,7 @@ Touch ExactSimulator::touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& x
 /// that it would lift it by no more than a ten-thousandth of its size.
 bool ExactSimulator::too_slow_to_wake(Entity striker, Entity struck, double speed) const {
   constexpr double lift = 1e-4;
-  if (place_[struck] != Place::asleep || contacts_[striker].count == 0) return false;
+  if (body_[struck].place != Place::asleep || contacts_[striker].count == 0) return false;
   if (!(speed * speed < 2 * lift * pull_[struck].norm() * world_.radius[struck])) return false;
   // Three forces at least, not in a plane.
   std::vector<Vec3> normals;
@@ -101,7 +102,7 @@ bool ExactSimulator::too_slow_to_wake(Entity striker, Entity struck, double spee
   for (const Pressed& p : pressed_[struck])
     if (p.force > 0) hold(p.partner);
   for (Entity e : known_to(struck))
-    if (world_.is_body(e) && place_[e] == Place::asleep)
+    if (world_.is_body(e) && body_[e].place == Place::asleep)
       for (const Pressed& p : pressed_[e])
         if (p.partner == struck && p.force > 0) hold(e);
   for (std::size_t i = 0; i < normals.size(); ++i)
@@ -156,7 +157,7 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
     record({now_.hi, CollisionKind::body_body, a, b, there.point, n, met, separation, e, impulse,
             impact_loss(ma, mb, met, separation)});
   for (Entity i : {a, b}) {
-    if (take_up || place_[i] == Place::asleep) join(i);
+    if (take_up || body_[i].place == Place::asleep) join(i);
     stir(i, approach);
   }
   restart(a, xa, keep_contacts(a, va - (impulse / ma) * n), {b, feature});
@@ -197,7 +198,7 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
   if (press > 0 && flat && !crowded(i) && contacts_[i].count < max_contacts && ends) {
     const double left = separation == 0 || e == 1 ? 0 : 2 * separation / (press * (1 - e));
     // Not by hops on this surface alone: thrown back at it by others in between, or by those that carry it, at once.
-    const bool carried = contacts_[i].count > 0 && (origin_[i].partner != surface || f.start == now_);
+    const bool carried = contacts_[i].count > 0 && (body_[i].origin != surface || f.start == now_);
     rests = now_.hi + left == now_.hi || approach < options_.rest_speed || (carried && too_low(x, approach, press));
     contact.rest_time = now_ + left;
     contact.settling = rests;
@@ -206,7 +207,7 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
       !rests && ((approach > 0 && met == 0) || taken_up(i, surface, e, met, press, radius, flat && !burst_[i].bodies) ||
                  (press > 0 && (!flat || crowded(i)) && (separation == 0 || too_low(x, separation, press))));
   if (take_up) separation = 0;
-  if (take_up || place_[i] == Place::asleep) join(i);
+  if (take_up || body_[i].place == Place::asleep) join(i);
   stir(i, approach);
   if (approach > 0 || separation > 0) {
     lose(impact_loss(mass, immovable, approach, take_up || met == approach ? separation : met + separation - approach));

@@ -24,7 +24,7 @@ constexpr double velocity_rounding = 0x1p-48;  // of the speeds that a component
 /// Adds a surface to those that carry body i.
 void ExactSimulator::settle(Entity i, const Contact& contact) {
   lose(impact_loss(world_.mass[i], immovable, contact.residual_speed, 0));
-  Contacts& contacts = contacts_[i];
+  Contacts& contacts = contacts_.write(i);
   if (contacts.count == 0) ++tally_.resting;
   contacts.at[contacts.count++] = contact;
 }
@@ -32,7 +32,7 @@ void ExactSimulator::settle(Entity i, const Contact& contact) {
 /// The bounces' end, as a line in the record: the body has been carried since the last impact.
 void ExactSimulator::finish_rest(Entity i) {
   for (std::size_t k = 0; k < contacts_[i].count; ++k) {
-    Contact& contact = contacts_[i].at[k];
+    Contact& contact = contacts_.write(i).at[k];
     if (!contact.settling || now_ < contact.rest_time) continue;
     contact.settling = false;
     const Vec3 n = -contact.normal;
@@ -49,7 +49,7 @@ void ExactSimulator::finish_rest(Entity i) {
 
 /// Body i slides over the rim of the wall's face that carried it; the rim's edge is what it has last touched.
 void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
-  Contacts& contacts = contacts_[i];
+  Contacts& contacts = contacts_.write(i);
   for (std::size_t k = 0; k < contacts.count; ++k)
     if (contacts.at[k].surface == surface) {
       contacts.at[k] = contacts.at[--contacts.count];
@@ -66,7 +66,7 @@ void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
 /// Gives the velocity that the contacts allow.
 Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v) {
   if (contacts_[i].count == 0) return v;
-  Contacts& contacts = contacts_[i];
+  Contacts& contacts = contacts_.write(i);
   const Vec3 x = flight_[i].position(now_ - flight_[i].start);
   const double noise = velocity_rounding * (v.norm() + flight_[i].v.norm());
   std::array<bool, max_contacts> keep;
@@ -81,8 +81,8 @@ Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v) {
     const double e = pair_restitution(world_, i, contact.surface);
     keep[k] = e < 1 && now_.hi + 2 * e * u / (press[k] * (1 - e)) == now_.hi;
     if (!keep[k]) continue;
-    ++collapse_[i].impacts;  // in turn with the one that threw it at the surface
-    collapse_[i].lost += 1 - e;
+    ++collapse_.write(i).impacts;  // in turn with the one that threw it at the surface
+    collapse_.write(i).lost += 1 - e;
     record({now_.hi, CollisionKind::body_fixed, i, contact.surface,
             touch_at(i, x, contact.surface, world_.fixed_position(contact.surface), contact.feature).point, n, u, 0, e,
             impact_impulse(world_.mass[i], immovable, u, 0), impact_loss(world_.mass[i], immovable, u, 0)});
@@ -117,7 +117,7 @@ Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v) {
 Vec3 ExactSimulator::contact_acceleration(Entity i) {
   if (crowded(i)) return Vec3::Zero();  // the crowd's steps have the forces in them
   if (contacts_[i].count == 0) return pull_[i];
-  Contacts& contacts = contacts_[i];
+  Contacts& contacts = contacts_.write(i);
   std::array<Vec3, max_contacts> normals;
   for (std::size_t k = 0; k < contacts.count; ++k) normals[k] = contacts.at[k].normal;
   unsigned active;
@@ -156,7 +156,7 @@ void ExactSimulator::touch_down(Entity i) {
       continue;
     settle(i, {e, there.feature, -there.normal, false, {}, 0});
     f.x += there.gap * there.normal;
-    origin_[i] = {e, there.feature};
+    body_[i].set_origin({e, there.feature});
   }
   f.a = contact_acceleration(i);
   flight_.set(i, f);
@@ -220,7 +220,7 @@ std::span<const ContactForce> ExactSimulator::contacts() {
   contact_forces_.clear();
   for (Entity i = 0; i < world_.body_count(); ++i) {
     if (contacts_[i].count > 0) report_rest(i);
-    if (place_[i] == Place::outside || (following_ && place_[i] == Place::crowd)) continue;
+    if (body_[i].place == Place::outside || (following_ && body_[i].place == Place::crowd)) continue;
     for (const Pressed& p : pressed_[i]) contact_forces_.push_back({i, p.partner, p.force});
   }
   if (following_ && !crowd_.empty()) report_followed();

@@ -14,6 +14,7 @@
 
 #include "physics/complementarity.h"
 #include "physics/touch.h"
+#include "simulate/by_need.h"
 #include "simulate/exact.h"
 #include "simulate/flight.h"
 #include "simulate/neighbours.h"
@@ -48,7 +49,7 @@ class ExactSimulator final : public Simulator {
   struct Event {
     Instant time{never, 0};
     Entity partner = no_entity;
-    std::uint32_t partner_version = 0;
+    std::uint16_t partner_version = 0;
     Kind kind = Kind::none;
     std::uint8_t feature = no_feature;
   };
@@ -59,10 +60,23 @@ class ExactSimulator final : public Simulator {
     std::uint8_t feature = no_feature;
   };
 
-  /// Of how many regions a body has come out on its flight.
-  struct Stay {
-    std::uint32_t version = 0, left = 0;
+  /// What a body of the crowd has to do with it.
+  enum class Place : std::uint8_t { outside, crowd, asleep };
+
+  /// What events need to know of a body, apart from its flight.
+  struct Body {
+    Event event;
+    std::uint16_t version = 1;  // counts its flights, and never is 0
+    Place place = Place::outside;
+    std::uint8_t origin_feature = no_feature;
+    Entity origin = no_entity;
+    Origin from() const { return {origin, origin_feature}; }
+    void set_origin(const Origin& it) {
+      origin = it.partner;
+      origin_feature = it.feature;
+    }
   };
+  static_assert(sizeof(Body) == 32);
 
   /// Flat surfaces that carry a body.
   struct Contact {
@@ -105,9 +119,6 @@ class ExactSimulator final : public Simulator {
     return speed * speed < press * 0x1p-48 * x.cwiseAbs().sum();
   }
 
-  /// What a body of the crowd has to do with it.
-  enum class Place : std::uint8_t { outside, crowd, asleep };
-
   /// m/s^2: what forces do to a body, and the part of it that does work.
   struct Pull {
     Vec3 all, working;
@@ -119,10 +130,10 @@ class ExactSimulator final : public Simulator {
     double force;  // N
   };
 
-  /// What is next for a body: its event, or that it leaves its region before.
-  bool leaves_first(Entity i) const { return leave_[i] < event_[i].time.hi; }
-  double next_time(Entity i) const { return leaves_first(i) ? leave_[i] : event_[i].time.hi; }
-  void enqueue(Entity i) { queue_.update(i, next_time(i)); }
+  /// Whether what is next for a body is not its event, but that it leaves its region.
+  bool leaves_first(Entity i) const { return queue_.time(i) < body_[i].event.time.hi; }
+  void enqueue(Entity i) { queue_.update(i, std::min(body_[i].event.time.hi, leave_time(i))); }
+  void new_version(Entity i);
   bool before(Entity i, Entity j) const;
   struct Before {
     const ExactSimulator* simulator;
@@ -139,6 +150,7 @@ class ExactSimulator final : public Simulator {
   Vec3 velocity_now(Entity i, const Instant& at) const;
   void record(const Collision& collision);
   void lose(double energy);
+  void look_ahead();
   void check_limits(Kind kind);  // none: a region was left
 
   // exact_predict.cpp
@@ -192,7 +204,7 @@ class ExactSimulator final : public Simulator {
   void jostle(Entity i);
   void step_crowd();
   void carry(Entity i, bool carried);
-  bool crowded(Entity e) const { return world_.is_body(e) && place_[e] != Place::outside; }
+  bool crowded(Entity e) const { return world_.is_body(e) && body_[e].place != Place::outside; }
 
   // exact_stride.cpp
   struct Stride;
@@ -212,48 +224,47 @@ class ExactSimulator final : public Simulator {
   std::unique_ptr<World> joint_world_;  // where bodies merge: with the joint bodies' masses and volumes
   const World& world_;
   const ExactOptions options_;
+  const bool same_radius_;  // of all bodies, for good
   Instant now_;
   double time_ = 0;  // s, how far advance_to has come
 
-  std::vector<Vec3> pull_;    // m/s^2, by body: gravity and the forces of now,
-  std::vector<Vec3> driven_;  // and the part of it that does work (force.h)
+  ByNeed<Vec3> pull_;    // m/s^2, by body: gravity and the forces of now,
+  ByNeed<Vec3> driven_;  // and the part of it that does work (force.h)
   Flights flight_;
-  std::vector<Origin> origin_;
-  std::vector<std::uint32_t> version_;  // counts a body's flights
-  std::vector<Event> event_;
-  std::vector<double> leave_;  // s, by body: until then it is within its region
+  std::vector<Body> body_;
   Neighbours neighbours_;
-  std::vector<Stay> stay_;
-  std::vector<Contacts> contacts_;  // with flat fixed surfaces
-  std::vector<Burst> burst_;
-  std::vector<Collapse> collapse_;
+  OneByOne<Contacts> contacts_;  // with flat fixed surfaces
+  ByNeed<Burst> burst_;
+  ByNeed<Collapse> collapse_;
   Tournament<Before> queue_;
-  std::vector<Entity> alike_;  // scratch
-  std::vector<Meet> meets_;    // scratch
+  std::vector<Tournament<Before>::Due> due_;  // what was due next when it was last asked for, in order
+  std::size_t next_due_ = 0, due_events_ = 0;
+  double due_from_ = 0, due_reach_ = 0;  // s
+  std::vector<Entity> alike_;            // scratch
+  std::vector<Meet> meets_;              // scratch
 
-  std::vector<Place> place_;
-  std::vector<std::vector<Pressed>> pressed_;   // by the lower body: bodies and fixed things that the crowd's last step
-                                                // found pressing on it
-  std::vector<Entity> crowd_;                   // ascending after each step
-  std::vector<std::uint32_t> local_;            // scratch of a step: a member's place in it
-  std::vector<Instant> pulled_;                 // by body of the crowd: forces are in its velocity up to this instant
-  std::vector<std::uint32_t> jostled_;          // by body of the crowd: impacts taken up since the last step
-  std::vector<std::uint8_t> idle_;              // by body of the crowd: steps since something pressed on it
-  std::vector<Vec3> hastened_;                  // m/s^2, by body of the crowd: what forces do to it in a stride, on
-                                                // average; it is in its velocity from the start
-  std::vector<double> kept_apart_;              // m, by body of the crowd: the gap that strides leave about it
-  std::size_t jostled_pairs_ = 0;               // since the last step
-  double crowd_step_ = 0;                       // s, length of the last step
-  std::uint32_t stuck_ = 0;                     // strides on end that jostling ended at once
-  std::vector<std::uint8_t> carried_;           // by body: of the crowd or asleep, and something presses on it
-  std::vector<Instant> needed_;                 // by body of the crowd: when it was last struck or pressed on, but by
-                                                // flat surfaces alone
-  bool following_ = false;                      // the last step was of follow_crowd
-  std::vector<std::vector<Entity>> followed_;   // by body: whom it is in contact with until the step ends
-  Instant arrival_time_;                        // when the step ends if nothing happens before
-  std::vector<Vec3> arrival_;                   // m/s, by body: its velocity when the step ends,
-  std::vector<std::uint32_t> arrival_version_;  // if it is still on this flight
-  Instant crowd_end_{never, 0};                 // when the next step is due
+  ByNeed<std::vector<Pressed>> pressed_;   // by the lower body: bodies and fixed things that the crowd's last step
+                                           // found pressing on it
+  std::vector<Entity> crowd_;              // ascending after each step
+  ByNeed<std::uint32_t> local_;            // scratch of a step: a member's place in it
+  ByNeed<Instant> pulled_;                 // by body of the crowd: forces are in its velocity up to this instant
+  ByNeed<std::uint32_t> jostled_;          // by body of the crowd: impacts taken up since the last step
+  ByNeed<std::uint8_t> idle_;              // by body of the crowd: steps since something pressed on it
+  ByNeed<Vec3> hastened_;                  // m/s^2, by body of the crowd: what forces do to it in a stride, on
+                                           // average; it is in its velocity from the start
+  ByNeed<double> kept_apart_;              // m, by body of the crowd: the gap that strides leave about it
+  std::size_t jostled_pairs_ = 0;          // since the last step
+  double crowd_step_ = 0;                  // s, length of the last step
+  std::uint32_t stuck_ = 0;                // strides on end that jostling ended at once
+  ByNeed<std::uint8_t> carried_;           // by body: of the crowd or asleep, and something presses on it
+  ByNeed<Instant> needed_;                 // by body of the crowd: when it was last struck or pressed on, but by
+                                           // flat surfaces alone
+  bool following_ = false;                 // the last step was of follow_crowd
+  ByNeed<std::vector<Entity>> followed_;   // by body: whom it is in contact with until the step ends
+  Instant arrival_time_;                   // when the step ends if nothing happens before
+  ByNeed<Vec3> arrival_;                   // m/s, by body: its velocity when the step ends,
+  ByNeed<std::uint16_t> arrival_version_;  // if it is still on this flight
+  Instant crowd_end_{never, 0};            // when the next step is due
 
   State state_;
   bool state_fresh_ = false, ended_ = false;

@@ -74,14 +74,14 @@ void ExactSimulator::stride() {
   double fastest = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = crowd_[k];
-    local_[i] = static_cast<std::uint32_t>(k);
+    local_.write(i) = static_cast<std::uint32_t>(k);
     const Flight& f = flight_[i];
     const double t = now_ - f.start;
     step.x.push_back(f.position(t));
     step.v.push_back(f.velocity(t));
     if (now_ < pulled_[i])  // the last step ends early: what forces do in the time that it had left is to come
       step.v[k] -= (pulled_[i] - now_) * hastened_[i];
-    pulled_[i] = now_;
+    pulled_.write(i) = now_;
     step.inverse_mass.push_back(1 / world_.mass[i]);
     step.smallest = std::min(step.smallest, world_.radius[i]);
     step.pull = std::max(step.pull, pull_[i].norm());
@@ -131,9 +131,9 @@ void ExactSimulator::find_pairs(Stride& step) {
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = crowd_[k];
     for (Entity e : known_to(i)) {
-      const bool asleep = world_.is_body(e) && place_[e] == Place::asleep;  // as if fixed; if pressed on, it wakes
+      const bool asleep = world_.is_body(e) && body_[e].place == Place::asleep;  // as if fixed; if pressed on, it wakes
       const bool body = world_.is_body(e) && !asleep;
-      if (body && (e < i || place_[e] != Place::crowd)) continue;
+      if (body && (e < i || body_[e].place != Place::crowd)) continue;
       const std::uint32_t other = body ? local_[e] : PressedPair::none;
       const Vec3 xe = body ? step.x[other] : asleep ? flight_[e].x : world_.fixed_position(e);
       const Touch there = touch(world_, i, step.x[k], e, xe);
@@ -233,7 +233,7 @@ void ExactSimulator::find_parts(Stride& step) {
     const double short_of = step.length * (p.target - p.normal.dot(w));
     if (short_of > 0) keep(p.a, std::min(2 * short_of, restless_gap * step.smallest));
   }
-  for (std::uint32_t k = 0; k < n; ++k) kept_apart_[crowd_[k]] = kept[part[k]];
+  for (std::uint32_t k = 0; k < n; ++k) kept_apart_.write(crowd_[k]) = kept[part[k]];
 }
 
 /// At rest are those parts that hardly move and that forces hold in balance. Slow sliders stop, and whoever is slow
@@ -297,10 +297,10 @@ void ExactSimulator::put_to_rest(Stride& step) {
 void ExactSimulator::take_stride(const Stride& step) {
   const double h = step.length;
   const Instant end = now_ + h;
-  for (Entity i : crowd_) pressed_[i].clear();
+  for (Entity i : crowd_) pressed_.write(i).clear();
   for (std::size_t c = 0; c < step.pairs.size(); ++c)
     if (step.pairs[c].force > 0)
-      pressed_[step.names[c].first].push_back({step.names[c].second, step.pairs[c].force / h});
+      pressed_.write(step.names[c].first).push_back({step.names[c].second, step.pairs[c].force / h});
   crowd_step_ = h;
   jostled_pairs_ = 0;
   crowd_end_ = end;
@@ -315,36 +315,36 @@ void ExactSimulator::take_stride(const Stride& step) {
       restart(i, x, velocity, {});
     };
     if (step.rests[k]) {
-      place_[i] = Place::asleep;
+      body_[i].place = Place::asleep;
       carry(i, true);
       go_on(Vec3::Zero());
-    } else if ((idle_[i] = step.carried[k] ? 0 : idle_[i] + 1) < patience) {
+    } else if ((idle_.write(i) = step.carried[k] ? 0 : idle_[i] + 1) < patience) {
       crowd_.push_back(i);
       carry(i, step.carried[k]);
-      jostled_[i] = 0;
+      jostled_.write(i) = 0;
       if (step.carried[k]) {
-        pulled_[i] = end;
-        hastened_[i] = step.pull > 0 ? Vec3((moved - v) / h) : Vec3(Vec3::Zero());
+        pulled_.write(i) = end;
+        hastened_.write(i) = step.pull > 0 ? Vec3((moved - v) / h) : Vec3(Vec3::Zero());
         go_on(moved);
       } else {  // flies as those outside
-        pulled_[i] = now_;
-        hastened_[i].setZero();
+        pulled_.write(i) = now_;
+        hastened_.write(i).setZero();
         go_on(v);
         flight_.accelerate(i, pull_[i]);
       }
     } else {
-      place_[i] = Place::outside;
+      body_[i].place = Place::outside;
       carry(i, false);
       go_on(v);
     }
   }
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
     const auto [i, e] = step.names[c];
-    if (step.pairs[c].b != PressedPair::none || !world_.is_body(e) || place_[e] != Place::asleep) continue;
-    if (step.pairs[c].force > 0 && place_[i] == Place::crowd) wake(e);
+    if (step.pairs[c].b != PressedPair::none || !world_.is_body(e) || body_[e].place != Place::asleep) continue;
+    if (step.pairs[c].force > 0 && body_[i].place == Place::crowd) wake(e);
   }
   if (crowd_.empty()) crowd_end_ = {never, 0};
-  for (Entity i : members) local_[i] = PressedPair::none;
+  for (Entity i : members) local_.write(i) = PressedPair::none;
   for (Entity i : members) predict(i);
 }
 

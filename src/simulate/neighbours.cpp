@@ -19,13 +19,7 @@ constexpr double farthest = 0x1p+60;  // where positions end, in units of unit_:
 
 }  // namespace
 
-Neighbours::Neighbours(const World& world)
-    : world_(world),
-      region_(world.body_count()),
-      level_(world.body_count(), nowhere),
-      list_(world.body_count()),
-      surfaces_(world.body_count()),
-      news_(world.body_count(), 1) {}
+Neighbours::Neighbours(const World& world) : world_(world), region_(world.body_count()), known_(world.body_count()) {}
 
 void Neighbours::start(const std::vector<Vec3>& x) {
   const Entity n = world_.body_count();
@@ -45,12 +39,12 @@ void Neighbours::start(const std::vector<Vec3>& x) {
   for (Entity i = 0; i < n; ++i) {
     const int level = level_for(i, x[i], first_room * world_.radius[i]);
     region_[i] = around(x[i], level);
-    level_[i] = static_cast<std::int16_t>(level);
+    known_[i].level = static_cast<std::int16_t>(level);
     const auto known = std::find_if(expected.begin(), expected.end(), [&](const auto& e) { return e.first == level; });
     known == expected.end() ? (void)expected.emplace_back(level, 1) : (void)++known->second;
   }
   for (const auto& [level, regions] : expected) grid_.expect(level, regions);
-  for (Entity i = 0; i < n; ++i) grid_.put(i, region_, level_[i]);
+  for (Entity i = 0; i < n; ++i) grid_.put(i, region_, known_[i].level);
   for (Entity i = 0; i < n; ++i) {
     find(i, region_[i]);
     write(i);
@@ -82,12 +76,12 @@ void Neighbours::find(Entity i, const Region& region) {
 
 /// What was found is body i's list, and the surfaces near it.
 void Neighbours::write(Entity i) {
-  ListPool::List& list = list_[i];
+  Known& list = known_[i];
   find_surfaces(i);
   pool_.reserve(list, found_count_ + found_surfaces_.size());
   std::uint32_t* const to = pool_.data(list);
   std::copy_n(found_surfaces_.begin(), found_surfaces_.size(), std::copy_n(found_.begin(), found_count_, to));
-  surfaces_[i] = static_cast<std::uint32_t>(found_surfaces_.size());
+  list.surfaces = static_cast<std::uint32_t>(found_surfaces_.size()) & 0xFFFFFF;
   list.count = static_cast<std::uint32_t>(found_count_ + found_surfaces_.size());
 }
 
@@ -114,20 +108,20 @@ void Neighbours::find_surfaces(Entity i) {
 
 /// Body j's list gets i.
 void Neighbours::add(Entity j, Entity i) {
-  ListPool::List& list = list_[j];
+  Known& list = known_[j];
   pool_.push_back(list, i);
-  if (const std::uint32_t surfaces = surfaces_[j]; surfaces > 0) {
+  if (const std::uint32_t surfaces = list.surfaces; surfaces > 0) {
     std::uint32_t* const of = pool_.data(list);
     std::swap(of[list.count - 1 - surfaces], of[list.count - 1]);
   }
-  news_[j] = 1;
+  known_[j].news = 1;
 }
 
 /// Body j's list has i no more.
 void Neighbours::drop(Entity j, Entity i) {
-  ListPool::List& list = list_[j];
+  Known& list = known_[j];
   std::uint32_t* const of = pool_.data(list);
-  const std::uint32_t last = --list.count - surfaces_[j];
+  const std::uint32_t last = --list.count - list.surfaces;
   *std::find(of, of + last, i) = of[last];
   of[last] = of[list.count];
 }
@@ -143,9 +137,9 @@ void Neighbours::settle(Entity i, const Region& region, int level) {
   came_count_ = select_touching(old, region_.data(), found_.data(), found_count_, false, came_.data());
   for (std::size_t k = 0; k < came_count_; ++k) add(came_[k], i);
   region_[i] = region;
-  grid_.move(i, old, level_[i], region_, level);
-  level_[i] = static_cast<std::int16_t>(level);
-  news_[i] = 1;
+  grid_.move(i, old, known_[i].level, region_, level);
+  known_[i].level = static_cast<std::int16_t>(level);
+  known_[i].news = 1;
   write(i);
 }
 
@@ -161,9 +155,12 @@ void Neighbours::settle_down(Entity i, const Vec3& x, const Vec3& ahead, double 
   }
 }
 
-std::span<const Entity> Neighbours::renew(Entity i, const Vec3& x, const Vec3& ahead, bool often) {
+std::span<const Entity> Neighbours::renew(Entity i, const Vec3& x, const Vec3& ahead) {
+  constexpr std::uint32_t several = 4;
+  const bool often = known_[i].left == several;
+  if (!often) known_[i].left = (known_[i].left + 1) & 0xFF;
   const std::size_t known = bodies(i).size();
-  int level = level_[i];
+  int level = known_[i].level;
   if (known < few_neighbours || (often && known < many_on_the_way)) level += wider;
   if (known > (often ? 2 * many_neighbours : many_neighbours)) level -= wider;
   const int least = level_for(i, x, 0);
@@ -173,7 +170,7 @@ std::span<const Entity> Neighbours::renew(Entity i, const Vec3& x, const Vec3& a
 
 void Neighbours::cover(Entity i, const Vec3& x, double reach, const Vec3& drift) {
   const std::size_t known = bodies(i).size();
-  int level = level_[i];
+  int level = known_[i].level;
   if (known < few_neighbours) level += wider;
   if (known > many_neighbours) level -= wider;
   const int least = level_for(i, x, 1.5 * reach);
@@ -182,13 +179,14 @@ void Neighbours::cover(Entity i, const Vec3& x, double reach, const Vec3& drift)
 
 void Neighbours::shrink(Entity i, const Vec3& x) {
   const int least = level_for(i, x, 0);
-  settle_down(i, x, Vec3::Zero(), 0, std::max<int>(level_[i] - wider, least), least);
+  settle_down(i, x, Vec3::Zero(), 0, std::max<int>(known_[i].level - wider, least), least);
 }
 
 void Neighbours::remove(Entity i) {
   for (const Entity j : bodies(i)) drop(j, i);
-  list_[i].count = surfaces_[i] = 0;
-  grid_.remove(i, region_[i], level_[i]);
+  known_[i].count = 0;
+  known_[i].surfaces = 0;
+  grid_.remove(i, region_[i], known_[i].level);
 }
 
 }  // namespace carom

@@ -11,6 +11,7 @@
 
 #include "physics/world.h"
 #include "simulate/list_pool.h"
+#include "simulate/prefetch.h"
 #include "simulate/region.h"
 #include "simulate/region_grid.h"
 
@@ -25,10 +26,10 @@ class Neighbours {
   void start(const std::vector<Vec3>& x);
 
   /// Bodies that body i may meet within its region, and surfaces.
-  std::span<const Entity> bodies(Entity i) const { return near(i).first(list_[i].count - surfaces_[i]); }
-  std::span<const Entity> surfaces(Entity i) const { return near(i).last(surfaces_[i]); }
+  std::span<const Entity> bodies(Entity i) const { return near(i).first(known_[i].count - known_[i].surfaces); }
+  std::span<const Entity> surfaces(Entity i) const { return near(i).last(known_[i].surfaces); }
   /// Both.
-  std::span<const Entity> near(Entity i) const { return {pool_.data(list_[i]), list_[i].count}; }
+  std::span<const Entity> near(Entity i) const { return {pool_.data(known_[i]), known_[i].count}; }
 
   /// m, where body i's region is, and how far the body's centre may go from there.
   Vec3 center(Entity i) const {
@@ -37,13 +38,23 @@ class Neighbours {
   }
   double room(Entity i) const { return unit_ * sure(region_[i].half) - world_.radius[i]; }
 
+  /// Asks memory for who is near body i, and for what is known of them.
+  void prefetch_known(Entity i) const { prefetch(&known_[i]); }
+  void prefetch_list(Entity i) const {
+    const std::uint32_t* const list = pool_.data(known_[i]);
+    for (std::uint32_t k = 0; k < known_[i].count; k += 16) prefetch(list + k);
+  }
+  void prefetch_region(Entity i) const { prefetch(&region_[i]); }
+
   /// Whether a body has come to body i's list since this was asked last.
-  bool has_news(Entity i) { return std::exchange(news_[i], 0) != 0; }
+  bool has_news(Entity i) { return std::exchange(known_[i].news, 0) != 0; }
 
   /// A new region for a body at x (m), wider where few are near and narrower where many are. `ahead`: m, the way on
-  /// which its middle may be. `often`: it has left several on one way; it gets a wider one. Gives who has come to the
-  /// list, valid until regions change.
-  std::span<const Entity> renew(Entity i, const Vec3& x, const Vec3& ahead, bool often);
+  /// which its middle may be. One that has left several on one way gets a wider one. Gives who has come to the list,
+  /// valid until regions change.
+  std::span<const Entity> renew(Entity i, const Vec3& x, const Vec3& ahead);
+  /// Body i goes another way from now on.
+  void turned(Entity i) { known_[i].left = 0; }
 
   /// A new region for a body at x (m) that may go as far as `reach` (m), and whose way later leads along `drift` (m):
   /// it lies ahead, as far as drift goes, so that it is left late.
@@ -56,7 +67,14 @@ class Neighbours {
   void remove(Entity i);
 
  private:
-  static constexpr std::int16_t nowhere = -32768;
+  /// Who is near a body: bodies, then surfaces.
+  struct Known : ListPool::List {
+    std::uint8_t news = 1;
+    std::int16_t level = 0;           // of its region's half width
+    std::uint32_t surfaces : 24 = 0;  // at the list's end
+    std::uint32_t left : 8 = 0;       // regions on its way, up to many
+  };
+  static_assert(sizeof(Known) == 16);
 
   Region around(const Vec3& x, int level) const;
   int level_for(Entity i, const Vec3& x, double room) const;
@@ -72,11 +90,8 @@ class Neighbours {
   Vec3 origin_ = Vec3::Zero();  // m
   double unit_ = 1;             // m; regions are in units of it, from origin_
   std::vector<Region> region_;
-  std::vector<std::int16_t> level_;  // of its half width
   ListPool pool_;
-  std::vector<ListPool::List> list_;     // bodies, then surfaces,
-  std::vector<std::uint32_t> surfaces_;  // so many
-  std::vector<std::uint8_t> news_;
+  std::vector<Known> known_;
   RegionGrid grid_;
   std::vector<Entity> found_, came_, gone_, found_surfaces_;  // scratch, the first three longer than what they hold
   std::size_t found_count_ = 0, came_count_ = 0;

@@ -11,7 +11,8 @@ namespace {
 /// What a kernel works on.
 struct Task {
   const Flights::Core* flights;
-  const double* radius;
+  const double* radius;  // m; null: all have the same
+  double own_radius;     // m
   Entity i;
   const Entity* others;
   std::size_t count;
@@ -60,10 +61,19 @@ const auto find = choose();
 }  // namespace
 
 std::size_t straight_times(const Flights& flights, std::span<const double> radius, Entity i,
-                           std::span<const Entity> others, const Vec3& a, bool latest, double end, Meet* found) {
-  return find(
-      {flights.cores(), radius.data(), i, others.data(), others.size(), {a[0], a[1], a[2]}, !a.isZero(0), latest, end},
-      found);
+                           std::span<const Entity> others, bool alike, const Vec3& a, bool latest, double end,
+                           Meet* found) {
+  const Task task{.flights = flights.cores(),
+                  .radius = alike ? nullptr : radius.data(),
+                  .own_radius = radius[i],
+                  .i = i,
+                  .others = others.data(),
+                  .count = others.size(),
+                  .a = {a[0], a[1], a[2]},
+                  .falls = !a.isZero(0),
+                  .latest = latest,
+                  .end = end};
+  return find(task, found);
 }
 
 }  // namespace carom

@@ -19,9 +19,10 @@ struct Meet {
 };
 
 /// Writes body i's meetings with others, each by itself, in the others' order; gives how many. There must be room for
-/// as many as others. radius: m, by body. a: m/s^2, of all of these. latest: none of the others' flights began after
-/// body i's. end: s, later meetings are none.
+/// as many as others. radius: m, by body; alike: all the same. a: m/s^2, of all of these. latest: none of the others'
+/// flights began after body i's. end: s, later meetings are none.
 std::size_t straight_times(const Flights& flights, std::span<const double> radius, Entity i,
-                           std::span<const Entity> others, const Vec3& a, bool latest, double end, Meet* found);
+                           std::span<const Entity> others, bool alike, const Vec3& a, bool latest, double end,
+                           Meet* found);
 
 }  // namespace carom

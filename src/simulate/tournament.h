@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+#include "simulate/prefetch.h"
+
 #ifdef __SSE2__
 #include <immintrin.h>
 #endif
@@ -30,6 +32,7 @@ class Tournament {
 
   std::uint32_t first() const { return first_; }  // none: nothing is due
   double first_time() const { return first_time_; }
+  double time(std::uint32_t i) const { return levels_[0].time[i]; }  // as it was told last
 
   /// Call after entry i has changed; its time (s) may be infinite: it is never due.
   void update(std::uint32_t i, double time) {
@@ -52,6 +55,21 @@ class Tournament {
   }
 
   static constexpr std::uint32_t none = ~std::uint32_t{0};
+  void prefetch(std::uint32_t i) const {
+    carom::prefetch(&levels_[0].time[i]);
+    if (levels_.size() > 1) carom::prefetch(&levels_[1].time[i / width]);
+    if (levels_.size() > 1) carom::prefetch(&levels_[1].winner[i / width]);
+  }
+
+  /// An entry and when it is due.
+  struct Due {
+    double time;
+    std::uint32_t entry;
+  };
+  /// Appends the entries that are due up to `until`, in no order.
+  void due_until(double until, std::vector<Due>& due) const {
+    if (first_time_ <= until) collect(levels_.size() - 1, 0, until, due);
+  }
 
  private:
   static constexpr std::size_t width = 8;
@@ -61,6 +79,17 @@ class Tournament {
     std::vector<double> time;           // s, padded to whole games
     std::vector<std::uint32_t> winner;  // whose time it is; at the bottom the entry itself
   };
+
+  void collect(std::size_t l, std::size_t game, double until, std::vector<Due>& due) const {
+    const double* const time = levels_[l].time.data();
+    for (std::size_t k = game * width; k < (game + 1) * width; ++k) {
+      if (time[k] > until) continue;
+      if (l == 0)
+        due.push_back({time[k], static_cast<std::uint32_t>(k)});
+      else
+        collect(l - 1, k, until, due);
+    }
+  }
 
   void play(std::size_t l, std::size_t game, std::uint32_t& winner, double& time) const {
     const Level& level = levels_[l];
