@@ -191,9 +191,10 @@ Instant ExactSimulator::fixed_time(Entity i, Entity surface, std::uint8_t& featu
 
 /// A time (s) before which body i is surely within its region.
 double ExactSimulator::leave_time(Entity i) const {
-  const Flight f = flight_[i];
+  const Flights::Core& f = flight_.cores()[i];
+  const Vec3& a = flight_.acceleration(i);
   const double since = now_ - f.start, room = neighbours_.room(i);
-  const Vec3 v = f.velocity(since), off = f.position(since) - neighbours_.center(i);
+  const Vec3 v = f.v + since * a, off = f.x + since * (f.v + (0.5 * since) * a) - neighbours_.center(i);
   const double speed2 = v.squaredNorm(), away2 = off.squaredNorm(), outward = off.dot(v);
   const auto way_out = [&](double radius) {
     const double left = radius * radius - away2;
@@ -202,9 +203,10 @@ double ExactSimulator::leave_time(Entity i) const {
     return outward > 0 ? left / (root + outward) : speed2 > 0 ? (root - outward) / speed2 : never;
   };
   double t = way_out(room);
-  if (const double pull = f.a.norm(); pull > 0) {
+  if (const double pull2 = a.squaredNorm(); pull2 > 0) {
     // As far as a straight way within what the acceleration does not take from the room until then, or by the greatest
     // possible haste.
+    const double pull = std::sqrt(pull2);
     const double narrowed = room - 0.5 * pull * t * t, left = std::max(room - std::sqrt(away2), 0.0);
     const double surely = 2 * left / (std::sqrt(speed2) + std::sqrt(speed2 + 2 * pull * left));
     t = left > 0 ? surely : 0;

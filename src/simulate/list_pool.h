@@ -8,6 +8,10 @@
 #include <span>
 #include <vector>
 
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
+
 namespace carom {
 
 class ListPool {
@@ -32,6 +36,24 @@ class ListPool {
     take(list, count);
   }
 
+  /// Where an entry stands that the list holds.
+  std::uint32_t* find(const List& list, std::uint32_t entry) {
+    std::uint32_t* at = data(list);
+#ifdef __SSE2__
+    // A block's end is beyond the list's: what stands there is found only if it is not in the list.
+    const __m128i wanted = _mm_set1_epi32(static_cast<int>(entry));
+    for (;; at += granule) {
+      const __m128i low = _mm_cmpeq_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at)), wanted);
+      const __m128i high = _mm_cmpeq_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at + 4)), wanted);
+      if (const int there = _mm_movemask_epi8(_mm_packs_epi32(low, high)))
+        return at + std::countr_zero(static_cast<unsigned>(there)) / 2;
+    }
+#else
+    while (*at != entry) ++at;
+    return at;
+#endif
+  }
+
   void push_back(List& list, std::uint32_t entry) {
     if (list.count == room(list.capacity)) {
       const List old = list;
@@ -47,11 +69,15 @@ class ListPool {
   static constexpr std::uint32_t page_bits = 15, page_mask = (1u << page_bits) - 1;
   static constexpr std::uint8_t in_steps = 8;  // kinds 1..8 are as many granules, from then on each is twice the last
 
-  static std::size_t entries_in(std::size_t granules) { return granules * granule; }
+  static std::size_t entries_in(std::size_t granules) {
+    return granules * granule;
+  }
   static std::size_t granules_of(std::uint8_t capacity) {
     return capacity <= in_steps ? capacity : std::size_t{in_steps} << (capacity - in_steps);
   }
-  static std::size_t room(std::uint8_t capacity) { return entries_in(granules_of(capacity)); }
+  static std::size_t room(std::uint8_t capacity) {
+    return entries_in(granules_of(capacity));
+  }
 
   void take(List& list, std::size_t count) {
     std::uint8_t kind = 1;
@@ -67,7 +93,7 @@ class ListPool {
       for (; left_ > 0; ++next_, --left_) put_away(1, next_);  // the page's rest
       next_ = static_cast<std::uint32_t>(page_.size() << page_bits);
       left_ = (granules + page - 1) / page * page;
-      memory_.push_back(std::make_unique_for_overwrite<std::uint32_t[]>(entries_in(left_)));
+      memory_.push_back(std::make_unique<std::uint32_t[]>(entries_in(left_)));
       for (std::size_t k = 0; k < left_ / page; ++k) page_.push_back(memory_.back().get() + k * entries_in(page));
     }
     list.at = next_;

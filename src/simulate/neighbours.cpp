@@ -95,7 +95,8 @@ void Neighbours::find_surfaces(Entity i) {
     bool near;
     if (world_.is_plane(e)) {
       const Plane& plane = world_.plane(e);
-      near = plane_gap(center, plane.point, plane.normal, world_.radius[i]) <= slack;
+      const double rounding = 0x1p-48 * (center.cwiseAbs().sum() + plane.point.cwiseAbs().sum() + world_.radius[i]);
+      near = (center - plane.point).dot(plane.normal) - world_.radius[i] <= slack + rounding;
     } else if (world_.is_obstacle(e)) {
       const Obstacle& o = world_.obstacle(e);
       near = ((center - o.center).cwiseAbs() - o.volume.half).cwiseMax(0).norm() <= half;
@@ -122,7 +123,7 @@ void Neighbours::drop(Entity j, Entity i) {
   Known& list = known_[j];
   std::uint32_t* const of = pool_.data(list);
   const std::uint32_t last = --list.count - list.surfaces;
-  *std::find(of, of + last, i) = of[last];
+  *pool_.find(list, i) = of[last];
   of[last] = of[list.count];
 }
 
@@ -132,9 +133,11 @@ void Neighbours::settle(Entity i, const Region& region, int level) {
   const std::span<const Entity> known = bodies(i);
   gone_.resize(std::max(gone_.size(), known.size() + select_slack));
   const std::size_t gone = select_touching(region, region_.data(), known.data(), known.size(), false, gone_.data());
+  for (std::size_t k = 0; k < gone; ++k) prefetch(pool_.data(known_[gone_[k]]));
   for (std::size_t k = 0; k < gone; ++k) drop(gone_[k], i);
   came_.resize(std::max(came_.size(), found_count_ + select_slack));
   came_count_ = select_touching(old, region_.data(), found_.data(), found_count_, false, came_.data());
+  for (std::size_t k = 0; k < came_count_; ++k) prefetch(pool_.data(known_[came_[k]]) + known_[came_[k]].count);
   for (std::size_t k = 0; k < came_count_; ++k) add(came_[k], i);
   region_[i] = region;
   grid_.move(i, old, known_[i].level, region_, level);

@@ -162,6 +162,20 @@ void RegionGrid::move(Entity i, const Region& from, int from_level, std::span<co
   put(i, regions, to_level);
 }
 
+/// Copies what is in these cells; gives the end. Beyond it, as much as a bucket holds is overwritten.
+Entity* RegionGrid::take(const Bucket* from, const Bucket* end, Entity* to) const {
+  for (; from != end; ++from) {
+    std::memcpy(to, from->body, sizeof(from->body));
+    to += from->count;
+    for (const Bucket* bucket = from; bucket->next != 0;) {
+      bucket = &overflow_[bucket->next - 1];
+      std::memcpy(to, bucket->body, sizeof(bucket->body));
+      to += bucket->count;
+    }
+  }
+  return to;
+}
+
 std::size_t RegionGrid::near(const Region& region, std::vector<Entity>& found) const {
   std::size_t count = 0;
   const float middle[3] = {region.x, region.y, region.z};
@@ -175,36 +189,23 @@ std::size_t RegionGrid::near(const Region& region, std::vector<Entity>& found) c
       from[k] = all ? 0 : wrap(low, grid.low[k], grid.cells[k]);
       cells[k] = all ? grid.cells[k] : high - low + 1;
     }
-    const std::size_t row_room = static_cast<std::size_t>(cells[0]) * Bucket::room + slack;
+    const auto most = static_cast<std::size_t>(cells[0] * cells[1] * cells[2]) * Bucket::room;
+    const std::size_t room = count + std::min(most, grid.regions) + slack;
+    if (found.size() < room) found.resize(2 * room);
+    Entity* to = found.data() + count;
+    // A row's cells lie side by side, but for those beyond the grid's last one.
+    const std::int64_t first = std::min(cells[0], grid.cells[0] - from[0]), rest = cells[0] - first;
     const auto next = [&](std::int64_t at, int k) { return at + 1 == grid.cells[k] ? 0 : at + 1; };
     std::int64_t z = from[2];
     for (std::int64_t dz = 0; dz < cells[2]; ++dz, z = next(z, 2)) {
       std::int64_t y = from[1];
       for (std::int64_t dy = 0; dy < cells[1]; ++dy, y = next(y, 1)) {
-        if (found.size() < count + row_room) found.resize(2 * (count + row_room));
         const Bucket* const row = grid.buckets.data() + (z * grid.cells[1] + y) * grid.cells[0];
-        std::int64_t x = from[0];
-        Entity* to = found.data() + count;
-        for (std::int64_t dx = 0; dx < cells[0]; ++dx, x = next(x, 0)) {
-          const Bucket* bucket = row + x;
-          if (bucket->count == 0) continue;
-          std::memcpy(to, bucket->body, sizeof(bucket->body));
-          to += bucket->count;
-          if (bucket->next == 0) [[likely]]
-            continue;
-          count = static_cast<std::size_t>(to - found.data());
-          do {
-            bucket = &overflow_[bucket->next - 1];
-            if (found.size() < count + row_room) found.resize(2 * (count + row_room));
-            std::memcpy(found.data() + count, bucket->body, sizeof(bucket->body));
-            count += bucket->count;
-          } while (bucket->next != 0);
-          if (found.size() < count + row_room) found.resize(2 * (count + row_room));
-          to = found.data() + count;
-        }
-        count = static_cast<std::size_t>(to - found.data());
+        to = take(row + from[0], row + from[0] + first, to);
+        if (rest > 0) to = take(row, row + rest, to);
       }
     }
+    count = static_cast<std::size_t>(to - found.data());
   }
   return count;
 }

@@ -39,19 +39,18 @@ class Tournament {
     std::size_t at = i;
     std::uint32_t winner = i;
     levels_[0].time[i] = time;
-    for (std::size_t l = 0;; ++l) {
-      const std::size_t game = at / width;
-      play(l, game, winner, time);
-      if (l + 1 == levels_.size()) break;
-      at = game;
-      Level& up = levels_[l + 1];
+    for (std::size_t l = 1; l < levels_.size(); ++l) {
+      at /= width;
+      Level& up = levels_[l];
+      // Who did not win before and comes later than who did changes nothing.
+      if (up.winner[at] != i && up.time[at] < time) return;
+      play(l - 1, at, winner, time);
       // Entry i itself may have changed in more than its time.
       if (up.winner[at] == winner && up.time[at] == time && winner != i) return;
       up.winner[at] = winner;
       up.time[at] = time;
     }
-    first_ = winner;
-    first_time_ = time;
+    play(levels_.size() - 1, 0, first_, first_time_);
   }
 
   static constexpr std::uint32_t none = ~std::uint32_t{0};
