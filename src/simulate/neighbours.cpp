@@ -19,7 +19,10 @@ constexpr double farthest = 0x1p+60;  // where positions end, in units of unit_:
 
 }  // namespace
 
-Neighbours::Neighbours(const World& world) : world_(world), region_(world.body_count()), known_(world.body_count()) {}
+Neighbours::Neighbours(const World& world) : world_(world), region_(world.body_count()), known_(world.body_count()) {
+  for (const Plane& plane : world.planes)
+    planes_.push_back({plane.normal, plane.point.dot(plane.normal), 0x1p-48 * plane.point.cwiseAbs().sum()});
+}
 
 void Neighbours::start(const std::vector<Vec3>& x) {
   const Entity n = world_.body_count();
@@ -58,11 +61,15 @@ Region Neighbours::around(const Vec3& x, int level) const {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), half_of_level(level)};
 }
 
+/// m, room that rounding needs at x (m).
+double Neighbours::rounding_at(Entity i, const Vec3& x) const {
+  return 0x1p-20 * ((x - origin_).cwiseAbs().maxCoeff() + world_.radius[i]);
+}
+
 /// That gives body i at x (m) the room (m), or what rounding needs.
 int Neighbours::level_for(Entity i, const Vec3& x, double room) const {
-  const double rounding = 0x1p-20 * ((x - origin_).cwiseAbs().maxCoeff() + world_.radius[i]);
   const Vec3 outside = ((x - origin_).cwiseAbs() - Vec3::Constant(farthest * unit_)).cwiseMax(0);
-  const double room_of_all = std::max({room, least_room * world_.radius[i], rounding}) + 2 * outside.norm();
+  const double room_of_all = std::max({room, least_room * world_.radius[i], rounding_at(i, x)}) + 2 * outside.norm();
   return std::clamp(level_of_half((room_of_all + world_.radius[i]) / unit_), -400, widest_level);
 }
 
@@ -90,20 +97,22 @@ void Neighbours::find_surfaces(Entity i) {
   if (world_.fixed_count() == 0) return;
   const Vec3 center = this->center(i);
   const double half = unit_ * static_cast<double>(region_[i].half);
-  const double slack = half - world_.radius[i];  // how far the centre may go, rounding included
-  for (Entity e = world_.body_count(); e < world_.body_count() + world_.fixed_count(); ++e) {
-    bool near;
-    if (world_.is_plane(e)) {
-      const Plane& plane = world_.plane(e);
-      const double rounding = 0x1p-48 * (center.cwiseAbs().sum() + plane.point.cwiseAbs().sum() + world_.radius[i]);
-      near = (center - plane.point).dot(plane.normal) - world_.radius[i] <= slack + rounding;
-    } else if (world_.is_obstacle(e)) {
+  const double size = 0x1p-48 * center.cwiseAbs().sum();  // what rounds a plane's distance, and its own place
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
+    const HalfSpace& plane = planes_[k];
+    if (center.dot(plane.normal) - plane.offset <= half + size + plane.rounding)
+      found_surfaces_.push_back(world_.body_count() + static_cast<Entity>(k));
+  }
+  for (Entity e = world_.body_count() + static_cast<Entity>(planes_.size());
+       e < world_.body_count() + world_.fixed_count(); ++e) {
+    Vec3 away;
+    if (world_.is_obstacle(e)) {
       const Obstacle& o = world_.obstacle(e);
-      near = ((center - o.center).cwiseAbs() - o.volume.half).cwiseMax(0).norm() <= half;
+      away = ((center - o.center).cwiseAbs() - o.volume.half).cwiseMax(0);
     } else {
-      near = (center - nearest_on_wall(world_.wall(e), center)).norm() <= half;
+      away = center - nearest_on_wall(world_.wall(e), center);
     }
-    if (near) found_surfaces_.push_back(e);
+    if (away.squaredNorm() <= half * half) found_surfaces_.push_back(e);
   }
 }
 
@@ -146,15 +155,21 @@ void Neighbours::settle(Entity i, const Region& region, int level) {
   write(i);
 }
 
-/// The widest region from this level down that has not too many in it. `least`: the narrowest level that will do.
-void Neighbours::settle_down(Entity i, const Vec3& x, const Vec3& ahead, double reach, int level, int least) {
+/// The widest region from this level down that has not too many in it, with `reach` (m) of room and more.
+void Neighbours::settle_down(Entity i, const Vec3& x, const Vec3& ahead, double reach, int level) {
+  const double enough = std::max({1.5 * reach, least_room * world_.radius[i], rounding_at(i, x)});
+  const double far = ahead.norm();
   for (;; level -= wider) {
-    level = std::max(level, least);
-    Region region = around(x, level);
-    const double room = unit_ * sure(region.half) - world_.radius[i] - reach, far = ahead.norm();
-    if (far > 0 && room > 0) region = around(x + std::min(1.0, 0.9 * room / far) * ahead, level);
+    double room = unit_ * sure(half_of_level(level)) - world_.radius[i];
+    const bool least = !(room >= enough);
+    if (least) {
+      level = level_for(i, x, 1.5 * reach);
+      room = unit_ * sure(half_of_level(level)) - world_.radius[i];
+    }
+    const double share = far > 0 && room > reach ? std::min(1.0, 0.9 * (room - reach) / far) : 0;
+    const Region region = around(x + share * ahead, level);
     find(i, region);
-    if (found_count_ <= 2 * many_neighbours || level == least) return settle(i, region, level);
+    if (found_count_ <= 2 * many_neighbours || least) return settle(i, region, level);
   }
 }
 
@@ -166,8 +181,7 @@ std::span<const Entity> Neighbours::renew(Entity i, const Vec3& x, const Vec3& a
   int level = known_[i].level;
   if (known < few_neighbours || (often && known < many_on_the_way)) level += wider;
   if (known > (often ? 2 * many_neighbours : many_neighbours)) level -= wider;
-  const int least = level_for(i, x, 0);
-  settle_down(i, x, ahead, 0, std::max(level, least), least);
+  settle_down(i, x, ahead, 0, level);
   return {came_.data(), came_count_};
 }
 
@@ -176,13 +190,11 @@ void Neighbours::cover(Entity i, const Vec3& x, double reach, const Vec3& drift)
   int level = known_[i].level;
   if (known < few_neighbours) level += wider;
   if (known > many_neighbours) level -= wider;
-  const int least = level_for(i, x, 1.5 * reach);
-  settle_down(i, x, drift, reach, std::max(level, least), least);
+  settle_down(i, x, drift, reach, level);
 }
 
 void Neighbours::shrink(Entity i, const Vec3& x) {
-  const int least = level_for(i, x, 0);
-  settle_down(i, x, Vec3::Zero(), 0, std::max<int>(known_[i].level - wider, least), least);
+  settle_down(i, x, Vec3::Zero(), 0, known_[i].level - wider);
 }
 
 void Neighbours::remove(Entity i) {

@@ -77,6 +77,7 @@ class Neighbours {
   static_assert(sizeof(Known) == 16);
 
   Region around(const Vec3& x, int level) const;
+  double rounding_at(Entity i, const Vec3& x) const;
   int level_for(Entity i, const Vec3& x, double room) const;
   void find(Entity i, const Region& region);
   void write(Entity i);
@@ -84,9 +85,16 @@ class Neighbours {
   void add(Entity j, Entity i);
   void drop(Entity j, Entity i);
   void settle(Entity i, const Region& region, int level);
-  void settle_down(Entity i, const Vec3& x, const Vec3& ahead, double reach, int level, int least);
+  void settle_down(Entity i, const Vec3& x, const Vec3& ahead, double reach, int level);
+
+  /// (x - 0) . normal - offset is the way from a plane.
+  struct HalfSpace {
+    Vec3 normal;
+    double offset, rounding;  // m
+  };
 
   const World& world_;
+  std::vector<HalfSpace> planes_;
   Vec3 origin_ = Vec3::Zero();  // m
   double unit_ = 1;             // m; regions are in units of it, from origin_
   std::vector<Region> region_;

@@ -1,8 +1,10 @@
 #pragma once
 // A body's region as its neighbours are found by: a ball, in single precision, a quarter of a cache line. Its half
 // widths come in steps of a quarter octave.
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "physics/vec3.h"
 
@@ -26,10 +28,12 @@ inline double sure(float half) {
 
 inline constexpr int widest_level = 512;  // without end
 
-/// Half width number `level`: 2^(level/4).
+/// Half width number `level`: 2^(level/4), made of its bits.
 inline float half_of_level(int level) {
   constexpr float step[] = {1, 1.1892071F, 1.4142136F, 1.6817929F};
-  return std::ldexp(step[level & 3], level >> 2);
+  const int octave = level >> 2;
+  if (octave > 127) return std::numeric_limits<float>::infinity();
+  return step[level & 3] * std::bit_cast<float>(static_cast<std::uint32_t>(octave + 127) << 23);
 }
 
 /// The narrowest level whose sure half width is at least this.

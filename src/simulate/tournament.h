@@ -22,13 +22,25 @@ template <typename Before>
 class Tournament {
  public:
   Tournament(std::uint32_t entries, Before before) : before_(before) {
-    std::size_t nodes = entries;
+    std::vector<std::size_t> sizes;
+    std::size_t nodes = entries, all = 0;
     do {
       nodes = (nodes + width - 1) / width;
-      levels_.push_back({std::vector<double>(nodes * width, never_), {}});
-      if (levels_.size() > 1) levels_.back().winner.assign(nodes * width, none);
+      sizes.push_back(nodes * width);
+      all += sizes.back();
     } while (nodes > 1);
+    times_.assign(all, never_);
+    winners_.assign(all - sizes[0], none);
+    double* time = times_.data();
+    std::uint32_t* winner = winners_.data();
+    for (std::size_t l = 0; l < sizes.size(); ++l) {
+      levels_.push_back({time, l == 0 ? nullptr : winner});
+      time += sizes[l];
+      if (l > 0) winner += sizes[l];
+    }
   }
+  Tournament(const Tournament&) = delete;
+  Tournament& operator=(const Tournament&) = delete;
 
   std::uint32_t first() const { return first_; }  // none: nothing is due
   double first_time() const { return first_time_; }
@@ -75,12 +87,12 @@ class Tournament {
   static constexpr double never_ = std::numeric_limits<double>::infinity();
 
   struct Level {
-    std::vector<double> time;           // s, padded to whole games
-    std::vector<std::uint32_t> winner;  // whose time it is; at the bottom the entry itself
+    double* time;           // s, padded to whole games
+    std::uint32_t* winner;  // whose time it is; at the bottom: none, for it is the entry itself
   };
 
   void collect(std::size_t l, std::size_t game, double until, std::vector<Due>& due) const {
-    const double* const time = levels_[l].time.data();
+    const double* const time = levels_[l].time;
     for (std::size_t k = game * width; k < (game + 1) * width; ++k) {
       if (time[k] > until) continue;
       if (l == 0)
@@ -92,7 +104,7 @@ class Tournament {
 
   void play(std::size_t l, std::size_t game, std::uint32_t& winner, double& time) const {
     const Level& level = levels_[l];
-    const double* t = level.time.data() + game * width;
+    const double* t = level.time + game * width;
 #ifdef __SSE2__
     __m128d pair[4];
     for (int k = 0; k < 4; ++k) pair[k] = _mm_loadu_pd(t + 2 * k);
@@ -118,6 +130,8 @@ class Tournament {
   }
 
   Before before_;
+  std::vector<double> times_;           // of all levels
+  std::vector<std::uint32_t> winners_;  // of all but the first
   std::vector<Level> levels_;
   std::uint32_t first_ = none;
   double first_time_ = never_;
