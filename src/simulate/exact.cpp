@@ -73,7 +73,9 @@ void ExactSimulator::start(const State& initial) {
   if (!options_.merge) {
     for (Entity i = 0; i < n; ++i)
       if (!pull_[i].isZero(0)) touch_down(i);
-    for (Entity i = 0; i < n; ++i) lean_together(i);
+    // Where nothing pulls, nothing presses.
+    if (!(world_.gravity.isZero(0) && world_.forces.empty()))
+      for (Entity i = 0; i < n; ++i) lean_together(i);
   }
   for (Entity i = 0; i < n; ++i) predict(i);
   if (!crowd_.empty()) step_crowd();

@@ -72,8 +72,9 @@ void ExactSimulator::meet_bodies(Entity i, std::span<const Entity> others, Event
   }
   if (meets_.size() < others.size()) meets_.resize(2 * others.size());
   const bool latest = flight_.cores()[i].start == now_;
-  std::size_t count =
-      straight_times(flight_, world_.radius, i, others, same_radius_, a, latest, options_.duration, meets_.data());
+  const double* const radius = same_radius_ ? nullptr : world_.radius.data();
+  std::size_t count = straight_times(
+      {flight_.cores(), radius, world_.radius[i], i, others, a, latest, options_.duration}, meets_.data());
   for (Meet& meet : std::span(meets_.data(), count)) {
     std::uint8_t feature = 0;
     if (meet.time.hi == unsure) meet.time = pair_time(i, meet.with, feature);

@@ -175,8 +175,9 @@ void ExactSimulator::lean_together(Entity first) {
       if (in_contact(i, e) || (crowded(i) && (!body || crowded(e)))) continue;
       const Vec3 xe = body ? flight_[e].x : world_.fixed_position(e);
       const Vec3 ve = body ? flight_[e].v : Vec3(Vec3::Zero()), ae = body ? flight_[e].a : Vec3(Vec3::Zero());
-      const Touch there = touch(world_, i, f.x, e, xe);
       const double rounding = 0x1p-46 * (f.x.cwiseAbs().sum() + xe.cwiseAbs().sum() + world_.radius[i]);
+      if (body && (xe - f.x).norm() > world_.radius[i] + world_.radius[e] + 2 * rounding) continue;
+      const Touch there = touch(world_, i, f.x, e, xe);
       if (std::abs(there.gap) > rounding) continue;
       const Vec3 w = ve - f.v;
       if (std::abs(there.normal.dot(w)) > velocity_rounding * (f.v.norm() + ve.norm())) continue;

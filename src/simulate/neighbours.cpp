@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/contact_time.h"
 #include "simulate/touching.h"
 
 namespace carom {
@@ -19,10 +18,8 @@ constexpr double farthest = 0x1p+60;  // where positions end, in units of unit_:
 
 }  // namespace
 
-Neighbours::Neighbours(const World& world) : world_(world), region_(world.body_count()), known_(world.body_count()) {
-  for (const Plane& plane : world.planes)
-    planes_.push_back({plane.normal, plane.point.dot(plane.normal), 0x1p-48 * plane.point.cwiseAbs().sum()});
-}
+Neighbours::Neighbours(const World& world)
+    : world_(world), region_(world.body_count()), known_(world.body_count()), surfaces_(world) {}
 
 void Neighbours::start(const std::vector<Vec3>& x) {
   const Entity n = world_.body_count();
@@ -84,36 +81,12 @@ void Neighbours::find(Entity i, const Region& region) {
 /// What was found is body i's list, and the surfaces near it.
 void Neighbours::write(Entity i) {
   Known& list = known_[i];
-  find_surfaces(i);
+  surfaces_.find(center(i), unit_ * static_cast<double>(region_[i].half), found_surfaces_);
   pool_.reserve(list, found_count_ + found_surfaces_.size());
   std::uint32_t* const to = pool_.data(list);
   std::copy_n(found_surfaces_.begin(), found_surfaces_.size(), std::copy_n(found_.begin(), found_count_, to));
   list.surfaces = static_cast<std::uint32_t>(found_surfaces_.size()) & 0xFFFFFF;
   list.count = static_cast<std::uint32_t>(found_count_ + found_surfaces_.size());
-}
-
-void Neighbours::find_surfaces(Entity i) {
-  found_surfaces_.clear();
-  if (world_.fixed_count() == 0) return;
-  const Vec3 center = this->center(i);
-  const double half = unit_ * static_cast<double>(region_[i].half);
-  const double size = 0x1p-48 * center.cwiseAbs().sum();  // what rounds a plane's distance, and its own place
-  for (std::size_t k = 0; k < planes_.size(); ++k) {
-    const HalfSpace& plane = planes_[k];
-    if (center.dot(plane.normal) - plane.offset <= half + size + plane.rounding)
-      found_surfaces_.push_back(world_.body_count() + static_cast<Entity>(k));
-  }
-  for (Entity e = world_.body_count() + static_cast<Entity>(planes_.size());
-       e < world_.body_count() + world_.fixed_count(); ++e) {
-    Vec3 away;
-    if (world_.is_obstacle(e)) {
-      const Obstacle& o = world_.obstacle(e);
-      away = ((center - o.center).cwiseAbs() - o.volume.half).cwiseMax(0);
-    } else {
-      away = center - nearest_on_wall(world_.wall(e), center);
-    }
-    if (away.squaredNorm() <= half * half) found_surfaces_.push_back(e);
-  }
 }
 
 /// Body j's list gets i.

@@ -14,6 +14,7 @@
 #include "simulate/prefetch.h"
 #include "simulate/region.h"
 #include "simulate/region_grid.h"
+#include "simulate/surfaces_near.h"
 
 namespace carom {
 
@@ -81,26 +82,19 @@ class Neighbours {
   int level_for(Entity i, const Vec3& x, double room) const;
   void find(Entity i, const Region& region);
   void write(Entity i);
-  void find_surfaces(Entity i);
   void add(Entity j, Entity i);
   void drop(Entity j, Entity i);
   void settle(Entity i, const Region& region, int level);
   void settle_down(Entity i, const Vec3& x, const Vec3& ahead, double reach, int level);
 
-  /// (x - 0) . normal - offset is the way from a plane.
-  struct HalfSpace {
-    Vec3 normal;
-    double offset, rounding;  // m
-  };
-
   const World& world_;
-  std::vector<HalfSpace> planes_;
   Vec3 origin_ = Vec3::Zero();  // m
   double unit_ = 1;             // m; regions are in units of it, from origin_
   std::vector<Region> region_;
   ListPool pool_;
   std::vector<Known> known_;
   RegionGrid grid_;
+  SurfacesNear surfaces_;
   std::vector<Entity> found_, came_, gone_, found_surfaces_;  // scratch, the first three longer than what they hold
   std::size_t found_count_ = 0, came_count_ = 0;
 };

@@ -8,19 +8,6 @@ namespace carom {
 
 namespace {
 
-/// What a kernel works on.
-struct Task {
-  const Flights::Core* flights;
-  const double* radius;  // m; null: all have the same
-  double own_radius;     // m
-  Entity i;
-  const Entity* others;
-  std::size_t count;
-  double a[3];
-  bool falls, latest;  // a is not zero; no flight of the others began later
-  double end;
-};
-
 namespace pairs {
 #define LANES 2
 #include "simulate/straight_times_kernel.inc"
@@ -47,33 +34,21 @@ namespace eights {
 #pragma GCC pop_options
 #endif
 
-auto choose() {
-#ifdef __x86_64__
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
-    return eights::find;
-  if (__builtin_cpu_supports("avx2")) return fours::find;
-#endif
-  return pairs::find;
-}
-
-const auto find = choose();
-
 }  // namespace
 
-std::size_t straight_times(const Flights& flights, std::span<const double> radius, Entity i,
-                           std::span<const Entity> others, bool alike, const Vec3& a, bool latest, double end,
-                           Meet* found) {
-  const Task task{.flights = flights.cores(),
-                  .radius = alike ? nullptr : radius.data(),
-                  .own_radius = radius[i],
-                  .i = i,
-                  .others = others.data(),
-                  .count = others.size(),
-                  .a = {a[0], a[1], a[2]},
-                  .falls = !a.isZero(0),
-                  .latest = latest,
-                  .end = end};
-  return find(task, found);
+std::vector<StraightKernel> straight_kernels() {
+  std::vector<StraightKernel> kernels{pairs::find};
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx2")) kernels.push_back(fours::find);
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+    kernels.push_back(eights::find);
+#endif
+  return kernels;
+}
+
+std::size_t straight_times(const StraightTask& task, Meet* found) {
+  static const StraightKernel widest = straight_kernels().back();
+  return widest(task, found);
 }
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "simulate/flight.h"
 
@@ -18,11 +19,23 @@ struct Meet {
   Entity with;
 };
 
-/// Writes body i's meetings with others, each by itself, in the others' order; gives how many. There must be room for
-/// as many as others. radius: m, by body; alike: all the same. a: m/s^2, of all of these. latest: none of the others'
-/// flights began after body i's. end: s, later meetings are none.
-std::size_t straight_times(const Flights& flights, std::span<const double> radius, Entity i,
-                           std::span<const Entity> others, bool alike, const Vec3& a, bool latest, double end,
-                           Meet* found);
+/// Body i's meetings with others are asked for. None of them is of the crowd; all have the same acceleration.
+struct StraightTask {
+  const Flights::Core* flights;
+  const double* radius;  // m, by body; null: all have the same,
+  double own_radius;     // m, as body i
+  Entity i;
+  std::span<const Entity> others;
+  Vec3 a;       // m/s^2
+  bool latest;  // none of the others' flights began after body i's
+  double end;   // s, later meetings are none
+};
+
+/// Writes the meetings, each by itself, in the others' order; gives how many. There must be room for as many as others.
+std::size_t straight_times(const StraightTask& task, Meet* found);
+
+/// What straight_times chooses from, on this processor.
+using StraightKernel = std::size_t (*)(const StraightTask& task, Meet* found);
+std::vector<StraightKernel> straight_kernels();
 
 }  // namespace carom

@@ -40,16 +40,10 @@ namespace sixteens {
 
 #pragma GCC diagnostic pop
 
-auto choose() {
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
-    return sixteens::select;
-  return __builtin_cpu_supports("avx2") ? eights::select : fours::select;
-}
+#endif
 
-#else
-
-std::size_t select(const Region& region, const Region* regions, const Entity* bodies, std::size_t count, bool touching,
-                   Entity* to) {
+std::size_t select_one_by_one(const Region& region, const Region* regions, const Entity* bodies, std::size_t count,
+                              bool touching, Entity* to) {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const Entity body = bodies[k];
@@ -58,19 +52,23 @@ std::size_t select(const Region& region, const Region* regions, const Entity* bo
   return kept;
 }
 
-auto choose() {
-  return select;
-}
-
-#endif
-
-const auto chosen_select = choose();
-
 }  // namespace
+
+std::vector<SelectKernel> select_kernels() {
+  std::vector<SelectKernel> kernels{select_one_by_one};
+#ifdef __x86_64__
+  kernels.push_back(fours::select);
+  if (__builtin_cpu_supports("avx2")) kernels.push_back(eights::select);
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+    kernels.push_back(sixteens::select);
+#endif
+  return kernels;
+}
 
 std::size_t select_touching(const Region& region, const Region* regions, const Entity* bodies, std::size_t count,
                             bool touching, Entity* to) {
-  return chosen_select(region, regions, bodies, count, touching, to);
+  static const SelectKernel widest = select_kernels().back();
+  return widest(region, regions, bodies, count, touching, to);
 }
 
 }  // namespace carom

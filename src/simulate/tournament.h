@@ -77,7 +77,7 @@ class Tournament {
     double time;
     std::uint32_t entry;
   };
-  /// Appends the entries that are due up to `until`, in no order.
+  /// Appends entries that are due up to `until`, in no order: of those in the same games below, only the first.
   void due_until(double until, std::vector<Due>& due) const {
     if (first_time_ <= until) collect(levels_.size() - 1, 0, until, due);
   }
@@ -92,11 +92,14 @@ class Tournament {
   };
 
   void collect(std::size_t l, std::size_t game, double until, std::vector<Due>& due) const {
-    const double* const time = levels_[l].time;
+    constexpr std::size_t low = 2;
+    const Level& level = levels_[l];
     for (std::size_t k = game * width; k < (game + 1) * width; ++k) {
-      if (time[k] > until) continue;
+      if (level.time[k] > until) continue;
       if (l == 0)
-        due.push_back({time[k], static_cast<std::uint32_t>(k)});
+        due.push_back({level.time[k], static_cast<std::uint32_t>(k)});
+      else if (l == low)
+        due.push_back({level.time[k], level.winner[k]});
       else
         collect(l - 1, k, until, due);
     }

@@ -1,0 +1,71 @@
+#include "simulate/surfaces_near.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/contact_time.h"
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t few = 12;            // surfaces that are as soon asked one by one
+constexpr std::size_t most_cells = 65536;  // that are remembered
+
+}  // namespace
+
+std::size_t SurfacesNear::Hash::operator()(const Cell& cell) const {
+  auto hash = static_cast<std::uint64_t>(cell.size);
+  for (const std::int64_t c : {cell.x, cell.y, cell.z}) {
+    hash = (hash ^ static_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15;
+    hash ^= hash >> 29;
+  }
+  return hash;
+}
+
+SurfacesNear::SurfacesNear(const World& world) : world_(world) {
+  for (const Plane& plane : world.planes)
+    planes_.push_back({plane.normal, plane.point.dot(plane.normal), 0x1p-48 * plane.point.cwiseAbs().sum()});
+  for (Entity k = 0; k < world.fixed_count(); ++k) all_.push_back(world.body_count() + k);
+}
+
+bool SurfacesNear::is_near(Entity e, const Vec3& center, double reach) const {
+  if (world_.is_plane(e)) {
+    const HalfSpace& plane = planes_[e - world_.body_count()];
+    return center.dot(plane.normal) - plane.offset <= reach + plane.rounding + 0x1p-48 * center.cwiseAbs().sum();
+  }
+  if (world_.is_obstacle(e)) {
+    const Obstacle& o = world_.obstacle(e);
+    return ((center - o.center).cwiseAbs() - o.volume.half).cwiseMax(0).squaredNorm() <= reach * reach;
+  }
+  return (center - nearest_on_wall(world_.wall(e), center)).squaredNorm() <= reach * reach;
+}
+
+void SurfacesNear::find(const Vec3& center, double reach, std::vector<Entity>& found) {
+  found.clear();
+  const std::vector<Entity>* asked = &all_;
+  // Cells twice to four times as wide as the reach, so that one serves many.
+  int size;
+  std::frexp(2 * reach, &size);
+  const double width = std::ldexp(1.0, size);
+  const Vec3 at = center / width;
+  if (all_.size() > few && at.cwiseAbs().maxCoeff() < 0x1p40 && width > 0 && width < 0x1p1000) {
+    const auto floor = [](double x) { return static_cast<std::int64_t>(std::floor(x)); };
+    const Cell cell{floor(at.x()), floor(at.y()), floor(at.z()), size};
+    auto known = cells_.find(cell);
+    if (known == cells_.end()) {
+      if (cells_.size() >= most_cells) cells_.clear();
+      const Vec3 middle = width * Vec3(static_cast<double>(cell.x) + 0.5, static_cast<double>(cell.y) + 0.5,
+                                       static_cast<double>(cell.z) + 0.5);
+      std::vector<Entity> in_reach;
+      for (const Entity e : all_)
+        if (is_near(e, middle, (0.5 + 0.8661) * width)) in_reach.push_back(e);  // half its diagonal
+      known = cells_.emplace(cell, std::move(in_reach)).first;
+    }
+    asked = &known->second;
+  }
+  for (const Entity e : *asked)
+    if (is_near(e, center, reach)) found.push_back(e);
+}
+
+}  // namespace carom

@@ -1,0 +1,117 @@
+// The kernels that take many pairs at a time against the laws that they repeat, for every width that the processor has.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "physics/contact_time.h"
+#include "simulate/random.h"
+#include "simulate/straight_times.h"
+#include "simulate/touching.h"
+
+namespace carom {
+namespace {
+
+Vec3 in_cube(Random& random, double half) {
+  const double x = random(-half, half), y = random(-half, half), z = random(-half, half);
+  return {x, y, z};
+}
+
+/// When i and j meet, by the law for a single pair.
+Instant meeting_of(const Flights& flights, const std::vector<double>& radius, Entity i, Entity j, double end) {
+  const Flight p = flights[i], q = flights[j];
+  const Instant base = p.start < q.start ? q.start : p.start;
+  const double tp = base - p.start, tq = base - q.start;
+  const RelativeMotion m{q.position(tq) - p.position(tp), q.velocity(tq) - p.velocity(tp), Vec3::Zero(), 0, false};
+  const double t = sphere_contact_time(m, radius[i] + radius[j], Instant{end, 0} - base);
+  return t == never ? Instant{never, 0} : base + t;
+}
+
+class StraightTimes : public ::testing::TestWithParam<bool> {};
+
+/// Of what the kernels do not leave to the law: the same bits. They leave touching and grazing pairs, and few others.
+TEST_P(StraightTimes, HasTheBitsOfTheLawForEveryWidth) {
+  constexpr Entity bodies = 400;
+  constexpr double end = 3;
+  const Vec3 a = GetParam() ? Vec3(0.3, -9.81, 0) : Vec3(Vec3::Zero());
+  Random random;
+  Flights flights(bodies, a);
+  std::vector<double> radius(bodies), same(bodies, 0.5);
+  for (Entity i = 0; i < bodies; ++i) {
+    radius[i] = random(0.1, 0.6);
+    flights.set(i, {Instant{random(0, 1), 0} + 0x1p-60, in_cube(random, 4), in_cube(random, 2), a});
+  }
+  flights.set(0, {Instant{1, 0}, Vec3::Zero(), Vec3(1, 0, 0), a});
+  // Touching, grazing, and just apart.
+  flights.set(1, {Instant{1, 0}, Vec3(1, 0, 0), Vec3(-1, 0, 0), a});
+  flights.set(2, {Instant{1, 0}, Vec3(5, 1, 0), Vec3(-1, 0, 0), a});
+  flights.set(3, {Instant{1, 0}, Vec3(1 + 0x1p-40, 0, 0), Vec3(-1, 0, 0), a});
+  std::vector<Entity> others(bodies - 1);
+  std::iota(others.begin(), others.end(), Entity{1});
+  for (const StraightKernel kernel : straight_kernels()) {
+    int met = 0, left = 0;
+    for (const bool alike : {false, true})
+      for (Entity i = 0; i < 40; ++i)
+        for (const std::size_t count : {1u, 2u, 5u, 8u, 17u, 399u}) {
+          std::vector<Entity> asked(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count));
+          std::erase(asked, i);
+          const std::vector<double>& r = alike ? same : radius;
+          std::vector<Meet> found(asked.size());
+          bool latest = true;
+          for (const Entity j : asked) latest = latest && flights[j].start <= flights[i].start;
+          for (const bool told : {false, latest}) {
+            const std::size_t meetings =
+                kernel({flights.cores(), alike ? nullptr : r.data(), r[i], i, asked, a, told, end}, found.data());
+            std::size_t next = 0;
+            for (const Entity j : asked) {
+              const Instant law = meeting_of(flights, r, i, j, end);
+              if (next < meetings && found[next].with == j) {
+                const Instant time = found[next++].time;
+                if (time.hi == unsure) {
+                  ++left;
+                  continue;
+                }
+                EXPECT_EQ(time, law) << i << " and " << j;
+                ++met;
+              } else {
+                EXPECT_EQ(law.hi, never) << i << " and " << j;
+              }
+            }
+            EXPECT_EQ(next, meetings);
+          }
+        }
+    EXPECT_GT(met, 500);
+    EXPECT_GT(left, 3);
+    EXPECT_LT(left, met / 2);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Fall, StraightTimes, ::testing::Bool());
+
+TEST(Touching, IsTheSameForEveryWidth) {
+  Random random;
+  std::vector<Region> regions(300);
+  for (Region& r : regions) {
+    const Vec3 at = in_cube(random, 4);
+    r = {static_cast<float>(at.x()), static_cast<float>(at.y()), static_cast<float>(at.z()),
+         static_cast<float>(random(0.1, 2))};
+  }
+  regions[1] = regions[0];
+  regions[2].half = std::numeric_limits<float>::infinity();
+  std::vector<Entity> bodies(regions.size());
+  std::iota(bodies.begin(), bodies.end(), Entity{0});
+  for (const SelectKernel kernel : select_kernels())
+    for (const std::size_t count : {0u, 1u, 3u, 4u, 15u, 16u, 17u, 299u})
+      for (const bool touching : {false, true})
+        for (const Region& region : regions) {
+          std::vector<Entity> expected;
+          for (std::size_t k = 0; k < count; ++k)
+            if (may_touch(region, regions[k]) == touching) expected.push_back(bodies[k]);
+          std::vector<Entity> found(bodies);
+          found.resize(bodies.size() + select_slack);
+          found.resize(kernel(region, regions.data(), found.data(), count, touching, found.data()));
+          ASSERT_EQ(found, expected);
+        }
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,131 @@
+// Who is told to be near, against all pairs; and who is next, against a search.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "simulate/neighbours.h"
+#include "simulate/random.h"
+#include "simulate/tournament.h"
+
+namespace carom {
+namespace {
+
+Vec3 in_cube(Random& random, double half) {
+  const double x = random(-half, half), y = random(-half, half), z = random(-half, half);
+  return {x, y, z};
+}
+
+struct Wandering {
+  std::string name;
+  double radii;  // the largest over the smallest
+  Vec3 from;     // m
+  double half;   // m, of the cube that bodies wander in
+  double scale;
+};
+
+class Near : public ::testing::TestWithParam<Wandering> {};
+
+/// Bodies wander and get new regions when they leave theirs. All the time, whoever may touch within their regions is
+/// on both lists, once, and so is every plane in reach.
+TEST_P(Near, KnowsAllThatMayTouch) {
+  const Wandering& how = GetParam();
+  constexpr Entity bodies = 150;
+  Random random;
+  World world;
+  std::vector<Vec3> x;
+  for (Entity i = 0; i < bodies; ++i) {
+    world.mass.push_back(1);
+    world.radius.push_back(how.scale * 0.1 * std::pow(how.radii, random(0, 1)));
+    world.restitution.push_back(1);
+    x.push_back(how.scale * (how.from + in_cube(random, how.half)));
+  }
+  for (int k = 0; k < 20; ++k) {
+    const Vec3 normal = in_cube(random, 1).normalized();
+    world.planes.push_back({how.scale * (how.from - random(0.2, 1) * how.half * normal), normal, 1.0});
+  }
+  Neighbours neighbours(world);
+  neighbours.start(x);
+  int renewed = 0;
+  for (int round = 0; round < 60; ++round) {
+    for (Entity i = 0; i < bodies; ++i) {
+      x[i] += how.scale * in_cube(random, 0.1 * how.half);
+      if (random(0, 1) < 0.01) x[i] = how.scale * (how.from + in_cube(random, 100 * how.half));
+      if ((x[i] - neighbours.center(i)).norm() <= neighbours.room(i)) continue;
+      ++renewed;
+      const std::span<const Entity> before = neighbours.bodies(i);
+      const std::set<Entity> known(before.begin(), before.end());
+      const std::span<const Entity> came = neighbours.renew(i, x[i], how.scale * in_cube(random, 1));
+      for (const Entity j : came) EXPECT_FALSE(known.contains(j));
+      for (const Entity j : neighbours.bodies(i))
+        EXPECT_TRUE(known.contains(j) || std::find(came.begin(), came.end(), j) != came.end());
+      EXPECT_LE((x[i] - neighbours.center(i)).norm(), neighbours.room(i));
+      if (random(0, 1) < 0.05) neighbours.shrink(i, x[i]);
+    }
+    if (round % 10 != 9) continue;
+    for (Entity i = 0; i < bodies; ++i) {
+      const std::span<const Entity> list = neighbours.bodies(i);
+      const std::set<Entity> known(list.begin(), list.end());
+      EXPECT_EQ(known.size(), list.size());
+      for (Entity j = 0; j < bodies; ++j) {
+        const double apart = (neighbours.center(i) - neighbours.center(j)).norm();
+        const double reach = neighbours.room(i) + neighbours.room(j) + world.radius[i] + world.radius[j];
+        if (j != i && apart <= reach) {
+          EXPECT_TRUE(known.contains(j)) << i << " and " << j;
+        }
+        if (apart > 1.001 * reach) {
+          EXPECT_FALSE(known.contains(j)) << i << " and " << j;
+        }
+      }
+      const std::span<const Entity> surfaces = neighbours.surfaces(i);
+      for (Entity k = 0; k < world.planes.size(); ++k) {
+        const Plane& plane = world.planes[k];
+        const double gap = (neighbours.center(i) - plane.point).dot(plane.normal) - world.radius[i];
+        if (gap <= neighbours.room(i)) {
+          EXPECT_TRUE(std::find(surfaces.begin(), surfaces.end(), bodies + k) != surfaces.end());
+        }
+      }
+    }
+  }
+  EXPECT_GT(renewed, 500);
+}
+
+INSTANTIATE_TEST_SUITE_P(Wander, Near,
+                         ::testing::Values(Wandering{"equal", 1, {0, 0, 0}, 1, 1},
+                                           Wandering{"unequal", 30, {0, 0, 0}, 3, 1},
+                                           Wandering{"far_off", 3, {1e7, -1e6, 3e5}, 2, 1},
+                                           Wandering{"tiny", 3, {0, 1, 0}, 1, 0x1p-200},
+                                           Wandering{"huge", 3, {0, 1, 0}, 1, 0x1p200}),
+                         [](const auto& wandering) { return wandering.param.name; });
+
+struct First {
+  const std::vector<int>* rank;
+  bool operator()(std::uint32_t i, std::uint32_t j) const { return (*rank)[i] < (*rank)[j]; }
+};
+
+TEST(Tournament, FindsTheFirstOfManyAndOfEqualTimesTheOneBefore) {
+  Random random;
+  for (const std::uint32_t entries : {1u, 7u, 8u, 9u, 64u, 65u, 700u}) {
+    std::vector<double> time(entries, std::numeric_limits<double>::infinity());
+    std::vector<int> rank(entries);
+    for (int& r : rank) r = static_cast<int>(random(0, 5));
+    Tournament<First> queue(entries, First{&rank});
+    EXPECT_EQ(queue.first(), Tournament<First>::none);
+    for (int step = 0; step < 3000; ++step) {
+      const auto i = static_cast<std::uint32_t>(random(0, entries));
+      rank[i] = static_cast<int>(random(0, 1000)) * 1000 + static_cast<int>(i);  // no two alike
+      time[i] = random(0, 1) < 0.2 ? std::numeric_limits<double>::infinity() : std::floor(random(0, 9));
+      queue.update(i, time[i]);
+      std::uint32_t first = 0;
+      for (std::uint32_t k = 1; k < entries; ++k)
+        if (time[k] < time[first] || (time[k] == time[first] && rank[k] < rank[first])) first = k;
+      EXPECT_EQ(queue.first_time(), time[first]);
+      if (time[first] < std::numeric_limits<double>::infinity()) {
+        ASSERT_EQ(queue.first(), first);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom
