@@ -1,5 +1,5 @@
 #pragma once
-// Many short lists that grow and shrink, in few large pages: a list takes a block of eight entries, or of a multiple.
+// Many short lists that grow and shrink, in few large pages: a list takes a block of four entries, or of a multiple.
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -42,12 +42,10 @@ class ListPool {
 #ifdef __SSE2__
     // A block's end is beyond the list's: what stands there is found only if it is not in the list.
     const __m128i wanted = _mm_set1_epi32(static_cast<int>(entry));
-    for (;; at += granule) {
-      const __m128i low = _mm_cmpeq_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at)), wanted);
-      const __m128i high = _mm_cmpeq_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at + 4)), wanted);
-      if (const int there = _mm_movemask_epi8(_mm_packs_epi32(low, high)))
-        return at + std::countr_zero(static_cast<unsigned>(there)) / 2;
-    }
+    for (;; at += granule)
+      if (const int there = _mm_movemask_ps(
+              _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at)), wanted))))
+        return at + std::countr_zero(static_cast<unsigned>(there));
 #else
     while (*at != entry) ++at;
     return at;
@@ -65,9 +63,9 @@ class ListPool {
   }
 
  private:
-  static constexpr std::size_t granule = 8;  // entries
-  static constexpr std::uint32_t page_bits = 15, page_mask = (1u << page_bits) - 1;
-  static constexpr std::uint8_t in_steps = 8;  // kinds 1..8 are as many granules, from then on each is twice the last
+  static constexpr std::size_t granule = 4;  // entries
+  static constexpr std::uint32_t page_bits = 16, page_mask = (1u << page_bits) - 1;
+  static constexpr std::uint8_t in_steps = 16;  // kinds 1..16 are as many granules, from then on each is twice the last
 
   static std::size_t entries_in(std::size_t granules) {
     return granules * granule;

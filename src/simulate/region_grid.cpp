@@ -8,7 +8,7 @@ namespace carom {
 
 namespace {
 
-constexpr std::size_t regions_a_cell = 4;  // that a grid is made for
+constexpr std::size_t regions_a_cell = 3;  // that a grid is made for
 
 }  // namespace
 
@@ -162,18 +162,24 @@ void RegionGrid::move(Entity i, const Region& from, int from_level, std::span<co
   put(i, regions, to_level);
 }
 
-/// Copies what is in these cells; gives the end. Beyond it, as much as a bucket holds is overwritten.
-Entity* RegionGrid::take(const Bucket* from, const Bucket* end, Entity* to) const {
+/// Appends what is in these cells to the `count` found. There is room for what is in their own buckets, and `slack`.
+void RegionGrid::take(const Bucket* from, const Bucket* end, std::size_t& count, std::vector<Entity>& found) const {
+  Entity* to = found.data() + count;
   for (; from != end; ++from) {
     std::memcpy(to, from->body, sizeof(from->body));
     to += from->count;
+    if (from->next == 0) [[likely]]
+      continue;
+    count = static_cast<std::size_t>(to - found.data());
     for (const Bucket* bucket = from; bucket->next != 0;) {
       bucket = &overflow_[bucket->next - 1];
-      std::memcpy(to, bucket->body, sizeof(bucket->body));
-      to += bucket->count;
+      found.resize(found.size() + bucket->count);
+      std::memcpy(found.data() + count, bucket->body, sizeof(bucket->body));
+      count += bucket->count;
     }
+    to = found.data() + count;
   }
-  return to;
+  count = static_cast<std::size_t>(to - found.data());
 }
 
 std::size_t RegionGrid::near(const Region& region, std::vector<Entity>& found) const {
@@ -190,9 +196,8 @@ std::size_t RegionGrid::near(const Region& region, std::vector<Entity>& found) c
       cells[k] = all ? grid.cells[k] : high - low + 1;
     }
     const auto most = static_cast<std::size_t>(cells[0] * cells[1] * cells[2]) * Bucket::room;
-    const std::size_t room = count + std::min(most, grid.regions) + slack;
+    const std::size_t room = count + most + slack;
     if (found.size() < room) found.resize(2 * room);
-    Entity* to = found.data() + count;
     // A row's cells lie side by side, but for those beyond the grid's last one.
     const std::int64_t first = std::min(cells[0], grid.cells[0] - from[0]), rest = cells[0] - first;
     const auto next = [&](std::int64_t at, int k) { return at + 1 == grid.cells[k] ? 0 : at + 1; };
@@ -201,11 +206,10 @@ std::size_t RegionGrid::near(const Region& region, std::vector<Entity>& found) c
       std::int64_t y = from[1];
       for (std::int64_t dy = 0; dy < cells[1]; ++dy, y = next(y, 1)) {
         const Bucket* const row = grid.buckets.data() + (z * grid.cells[1] + y) * grid.cells[0];
-        to = take(row + from[0], row + from[0] + first, to);
-        if (rest > 0) to = take(row, row + rest, to);
+        take(row + from[0], row + from[0] + first, count, found);
+        if (rest > 0) take(row, row + rest, count, found);
       }
     }
-    count = static_cast<std::size_t>(to - found.data());
   }
   return count;
 }

@@ -26,6 +26,28 @@ struct Wandering {
 
 class Near : public ::testing::TestWithParam<Wandering> {};
 
+/// Along a space diagonal most of the cells of a grid made for all of that space are empty, and the others are full.
+TEST(NearOnADiagonal, KnowsAllThatMayTouch) {
+  constexpr Entity bodies = 3000;
+  World world;
+  std::vector<Vec3> x;
+  for (Entity i = 0; i < bodies; ++i) {
+    world.mass.push_back(1);
+    world.radius.push_back(0.1);
+    world.restitution.push_back(1);
+    x.push_back(0.12 * i * Vec3::Ones());
+  }
+  Neighbours neighbours(world);
+  neighbours.start(x);
+  for (int round = 0; round < 2; ++round)
+    for (Entity i = 1; i + 1 < bodies; ++i) {
+      const std::span<const Entity> list = neighbours.bodies(i);
+      EXPECT_LT(list.size(), 50u);
+      for (const Entity j : {i - 1, i + 1}) EXPECT_EQ(std::count(list.begin(), list.end(), j), 1);
+      neighbours.renew(i, x[i], Vec3::Zero());
+    }
+}
+
 /// Bodies wander and get new regions when they leave theirs. All the time, whoever may touch within their regions is
 /// on both lists, once, and so is every plane in reach.
 TEST_P(Near, KnowsAllThatMayTouch) {
