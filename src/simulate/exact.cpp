@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t collision_buffer = 4096;
 constexpr std::uint32_t events_at_a_time = 65536;
-constexpr Entity cached_bodies = 32768;  // that fit into a processor's own memory
+constexpr Entity cached_bodies = 24576;  // that fit into a processor's own memory
 
 }  // namespace
 
@@ -128,6 +128,8 @@ void ExactSimulator::advance_to(double time) {
 
 void ExactSimulator::process(Entity i) {
   const Event event = body_[i].event;
+  neighbours_.prefetch_list(i);
+  if (event.kind == Kind::body_body) neighbours_.prefetch_list(event.partner);
   if (now_ < event.time) now_ = event.time;
   switch (event.kind) {
     case Kind::body_body:

@@ -11,7 +11,7 @@ namespace {
 
 // How many neighbours a region is sized for. Fewer: it grows and is left less often. More: it shrinks and tests fewer
 // pairs. A body that leaves region after region without anything happening to it may have more.
-constexpr std::size_t few_neighbours = 5, many_neighbours = 40, many_on_the_way = 64;
+constexpr std::size_t few_neighbours = 7, many_neighbours = 40, many_on_the_way = 16;
 constexpr int wider = 2;                             // levels, of a quarter octave
 constexpr double first_room = 1, least_room = 0.02;  // of the radius
 constexpr double farthest = 0x1p+60;  // where positions end, in units of unit_: beyond, all are neighbours
