@@ -106,6 +106,7 @@ void ExactSimulator::advance_to(double time) {
     if (leaves_first(i)) {
       if (now_.hi < queue_.first_time()) now_ = {queue_.first_time(), 0};
       rebuild_region(i);
+      neighbours_.tidy();
       check_limits(Kind::none);
     } else if (body_[i].event.time <= until) {
       process(i);

@@ -29,6 +29,17 @@ class ListPool {
   }
   const std::uint32_t* data(const List& list) const { return const_cast<ListPool*>(this)->data(list); }
 
+  /// Whether much of the memory is in blocks that nobody has.
+  bool wasteful() const { return 4 * unused_ > used_ + 4096; }
+  /// Of a list of another pool: a copy here.
+  void copy(const ListPool& from, List& list) {
+    const List old = list;
+    list.capacity = 0;
+    if (old.count == 0) return;
+    take(list, old.count);
+    std::copy_n(from.data(old), old.count, data(list));
+  }
+
   /// Room for `count` entries; what the list held is lost.
   void reserve(List& list, std::size_t count) {
     if (count <= room(list.capacity)) return;
@@ -81,7 +92,9 @@ class ListPool {
     std::uint8_t kind = 1;
     while (room(kind) < count) ++kind;
     list.capacity = kind;
+    used_ += granules_of(kind);
     if (kind < free_.size() && !free_[kind].empty()) {
+      unused_ -= granules_of(kind);
       list.at = free_[kind].back();
       free_[kind].pop_back();
       return;
@@ -100,16 +113,20 @@ class ListPool {
   }
 
   void give_back(const List& list) {
-    if (list.capacity > 0) put_away(list.capacity, list.at);
+    if (list.capacity == 0) return;
+    used_ -= granules_of(list.capacity);
+    put_away(list.capacity, list.at);
   }
   void put_away(std::uint8_t kind, std::uint32_t at) {
     if (free_.size() <= kind) free_.resize(kind + std::size_t{1});
     free_[kind].push_back(at);
+    unused_ += granules_of(kind);
   }
 
   std::vector<std::unique_ptr<std::uint32_t[]>> memory_;
   std::vector<std::uint32_t*> page_;
   std::vector<std::vector<std::uint32_t>> free_;  // by kind
+  std::size_t used_ = 0, unused_ = 0;             // granules, in lists' blocks and in nobody's
   std::uint32_t next_ = 0;
   std::size_t left_ = 0;  // granules from next_ on
 };

@@ -78,6 +78,13 @@ void Neighbours::find(Entity i, const Region& region) {
   if (own != end) *own = found_[--found_count_];
 }
 
+void Neighbours::tidy() {
+  if (!pool_.wasteful()) return;
+  ListPool tidied;
+  for (Known& list : known_) tidied.copy(pool_, list);
+  pool_ = std::move(tidied);
+}
+
 /// What was found is body i's list, and the surfaces near it.
 void Neighbours::write(Entity i) {
   Known& list = known_[i];

@@ -162,8 +162,10 @@ void RegionGrid::move(Entity i, const Region& from, int from_level, std::span<co
   put(i, regions, to_level);
 }
 
-/// Appends what is in these cells to the `count` found. There is room for what is in their own buckets, and `slack`.
-void RegionGrid::take(const Bucket* from, const Bucket* end, std::size_t& count, std::vector<Entity>& found) const {
+/// Appends what is in these cells to the `count` found, and sees to it that there is room for `most` more after each
+/// overflow, and `slack`.
+void RegionGrid::take(const Bucket* from, const Bucket* end, std::size_t most, std::size_t& count,
+                      std::vector<Entity>& found) const {
   Entity* to = found.data() + count;
   for (; from != end; ++from) {
     std::memcpy(to, from->body, sizeof(from->body));
@@ -173,7 +175,8 @@ void RegionGrid::take(const Bucket* from, const Bucket* end, std::size_t& count,
     count = static_cast<std::size_t>(to - found.data());
     for (const Bucket* bucket = from; bucket->next != 0;) {
       bucket = &overflow_[bucket->next - 1];
-      found.resize(found.size() + bucket->count);
+      const std::size_t room = count + bucket->count + most + slack;
+      if (found.size() < room) found.resize(2 * room);
       std::memcpy(found.data() + count, bucket->body, sizeof(bucket->body));
       count += bucket->count;
     }
@@ -206,8 +209,8 @@ std::size_t RegionGrid::near(const Region& region, std::vector<Entity>& found) c
       std::int64_t y = from[1];
       for (std::int64_t dy = 0; dy < cells[1]; ++dy, y = next(y, 1)) {
         const Bucket* const row = grid.buckets.data() + (z * grid.cells[1] + y) * grid.cells[0];
-        take(row + from[0], row + from[0] + first, count, found);
-        if (rest > 0) take(row, row + rest, count, found);
+        take(row + from[0], row + from[0] + first, most, count, found);
+        if (rest > 0) take(row, row + rest, most, count, found);
       }
     }
   }

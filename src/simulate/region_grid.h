@@ -56,7 +56,8 @@ class RegionGrid {
   Bucket& bucket_of(Octave& grid, const Region& region);
   void link(Bucket& first, Entity i);
   void unlink(Bucket& first, Entity i);
-  void take(const Bucket* from, const Bucket* end, std::size_t& count, std::vector<Entity>& found) const;
+  void take(const Bucket* from, const Bucket* end, std::size_t most, std::size_t& count,
+            std::vector<Entity>& found) const;
   void grow(Octave& grid, std::span<const Region> regions);
 
   Region low_, high_;

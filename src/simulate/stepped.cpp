@@ -106,6 +106,7 @@ void SteppedSimulator::advance_to(double time) {
       return;
     }
     do_step();
+    neighbours_.tidy();
   }
   time_ = std::max(time_, time);
 }

@@ -1,0 +1,190 @@
+// What a collision costs the exact simulator: balls on a face-centred cubic lattice set free in a room, e = 1, by their
+// number, their density and what else is in the scene. Each line is measured in a process of its own, which is warmed
+// up first; the CPU time is the median of three such processes. Beside the time stands a hash of the final state: the
+// same number is the same result, bit for bit.
+//
+//   carom_gas                 the table, as CSV
+//   carom_gas K COLLISIONS    4 K^3 balls at density 0.5, so many collisions a ball after the warm-up, in this process
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "simulate/exact.h"
+
+namespace carom {
+namespace {
+
+struct Gas {
+  std::string name;
+  int cells;               // 4 cells^3 balls
+  double density = 0.5;    // balls per cubed diameter
+  double gravity = 0;      // m/s^2; balls weigh 1 kg, are 1 m wide and about 1 m/s fast along each axis
+  bool shuffled = false;   // numbered in no order of places
+  bool large = false;      // one of radius 15 m among them
+  double collisions = 10;  // a ball
+};
+
+struct Result {
+  std::uint64_t collisions, hash;
+  double seconds;  // of CPU
+  double bytes;    // a ball, with the scene
+};
+
+double cpu_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+double peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024 * static_cast<double>(usage.ru_maxrss);
+}
+
+/// FNV-1a over the bits of all positions and velocities.
+std::uint64_t hash_of(const State& state) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const auto* vectors : {&state.position, &state.velocity})
+    for (const Vec3& v : *vectors)
+      for (double x : v) hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3;
+  return hash;
+}
+
+Result run(const Gas& gas) {
+  const double before = peak_bytes();
+  std::mt19937_64 bits(7);
+  const auto unit = [&] { return static_cast<double>(bits() >> 11) * 0x1p-53; };
+  const auto normal = [&] {
+    double sum = -6;
+    for (int k = 0; k < 12; ++k) sum += unit();
+    return sum;
+  };
+  const double pitch = std::cbrt(4 / gas.density), side = pitch * gas.cells;
+  World world;
+  State start;
+  const Vec3 middle = Vec3::Constant(side / 2);
+  constexpr double large = 15;
+  const auto put = [&](const Vec3& x, const Vec3& v, double radius) {
+    world.mass.push_back(8 * radius * radius * radius);
+    world.radius.push_back(radius);
+    world.restitution.push_back(1);
+    start.position.push_back(x);
+    start.velocity.push_back(v);
+  };
+  const std::size_t balls = 4 * static_cast<std::size_t>(gas.cells) * static_cast<std::size_t>(gas.cells) *
+                            static_cast<std::size_t>(gas.cells);
+  for (auto* values : {&world.mass, &world.radius, &world.restitution}) values->reserve(balls + 1);
+  for (auto* values : {&start.position, &start.velocity}) values->reserve(balls + 1);
+  if (gas.large) put(middle, Vec3::Zero(), large);
+  for (int z = 0; z < gas.cells; ++z)
+    for (int y = 0; y < gas.cells; ++y)
+      for (int x = 0; x < gas.cells; ++x)
+        for (const Vec3& in_cell : {Vec3(1, 1, 1), Vec3(1, 3, 3), Vec3(3, 1, 3), Vec3(3, 3, 1)}) {
+          const Vec3 at = pitch * (Vec3(x, y, z) + 0.25 * in_cell);
+          const double vx = normal(), vy = normal(), vz = normal();
+          if (gas.large && (at - middle).norm() < large + 0.5) continue;
+          put(at, Vec3(vx, vy, vz), 0.5);
+        }
+  if (gas.shuffled)
+    for (std::size_t i = start.position.size() - 1; i > 0; --i)
+      std::swap(start.position[i], start.position[bits() % (i + 1)]);
+  world.gravity = Vec3(0, -gas.gravity, 0);
+  for (int k = 0; k < 3; ++k) {
+    world.planes.push_back({Vec3::Zero(), Vec3::Unit(k), 1.0});
+    world.planes.push_back({Vec3::Constant(side), -Vec3::Unit(k), 1.0});
+  }
+  ExactOptions options;
+  options.duration = 1e9;
+  options.record_collisions = false;
+  const auto simulator = make_exact_simulator(world, start, options);
+  const auto go_on = [&](double a_ball) {
+    const std::uint64_t until =
+        simulator->tally().collisions() + static_cast<std::uint64_t>(a_ball * 0.5 * static_cast<double>(balls));
+    // By Enskog's rate of collisions, until there are enough of them.
+    const double packed = gas.density * 3.14159265358979 / 6;
+    const double rate = 0.5 * gas.density * 3.14159265358979 * 1.6 * 1.414 * (1 - packed / 2) / std::pow(1 - packed, 3);
+    while (simulator->tally().collisions() < until) {
+      const double to = simulator->time() + 0.02 * a_ball / rate;
+      while (simulator->time() < to) simulator->advance_to(to);
+    }
+  };
+  go_on(std::min(4.0, gas.collisions));
+  const std::uint64_t first = simulator->tally().collisions();
+  const double from = cpu_seconds();
+  go_on(gas.collisions);
+  Result result{};
+  result.seconds = cpu_seconds() - from;
+  result.collisions = simulator->tally().collisions() - first;
+  result.bytes = (peak_bytes() - before) / static_cast<double>(balls);
+  result.hash = hash_of(simulator->state());
+  return result;
+}
+
+/// The same in a process of its own, so that it finds memory as a new program does.
+Result run_apart(const Gas& gas) {
+  int ends[2];
+  if (pipe(ends) != 0) std::abort();
+  const pid_t child = fork();
+  if (child == 0) {
+    const Result result = run(gas);
+    _exit(write(ends[1], &result, sizeof(result)) == sizeof(result) ? 0 : 1);
+  }
+  close(ends[1]);
+  Result result{};
+  if (read(ends[0], &result, sizeof(result)) != sizeof(result)) std::abort();
+  close(ends[0]);
+  waitpid(child, nullptr, 0);
+  return result;
+}
+
+void measure(const Gas& gas) {
+  std::vector<Result> results;
+  for (int k = 0; k < 3; ++k) results.push_back(run_apart(gas));
+  std::sort(results.begin(), results.end(), [](const Result& p, const Result& q) { return p.seconds < q.seconds; });
+  const Result& median = results[1];
+  const int balls = 4 * gas.cells * gas.cells * gas.cells;
+  fmt::print("{},{},{},{},{:.3f},{},{:016x}\n", gas.name, balls, gas.density, median.collisions,
+             1e6 * median.seconds / static_cast<double>(median.collisions),
+             balls > 5000 ? fmt::format("{:.0f}", median.bytes) : "", median.hash);
+  std::fflush(stdout);
+}
+
+int table() {
+  fmt::print("gas,balls,density,collisions,cpu_us_per_collision,bytes_per_ball,hash\n");
+  for (const int cells : {1, 3, 7, 14, 30, 63})
+    measure({.name = "plain",
+             .cells = cells,
+             .collisions = cells < 7    ? 1000.0
+                           : cells < 30 ? 40.0
+                           : cells < 63 ? 8.0
+                                        : 3.0});
+  for (const double density : {0.01, 0.03, 0.1, 0.3, 0.8, 1.0})
+    measure({.name = "plain", .cells = 14, .density = density});
+  measure({.name = "gravity", .cells = 14, .gravity = 0.04, .collisions = 40});
+  measure({.name = "plain", .cells = 30});
+  measure({.name = "radii 1:30", .cells = 30, .large = true});
+  measure({.name = "shuffled", .cells = 30, .shuffled = true});
+  return 0;
+}
+
+}  // namespace
+}  // namespace carom
+
+int main(int count, char** arguments) {
+  if (count < 3) return carom::table();
+  const carom::Result result =
+      carom::run({.name = "plain", .cells = std::atoi(arguments[1]), .collisions = std::atof(arguments[2])});
+  fmt::print("{} collisions, {:.3f} us of CPU each, hash {:016x}\n", result.collisions,
+             1e6 * result.seconds / static_cast<double>(result.collisions), result.hash);
+}
