@@ -2,7 +2,7 @@
 // The exact simulator's own parts. Its source files share this class: exact.cpp (the loop), exact_predict.cpp (what
 // comes next for a body), exact_resolve.cpp (impacts), exact_rest.cpp (rest on flat surfaces), exact_crowd.cpp (bodies
 // in contact with one another), exact_follow.cpp and exact_stride.cpp (how few and how many of them move),
-// exact_merge.cpp.
+// exact_merge.cpp, exact_ahead.cpp (what memory is asked for ahead of its time).
 //
 // Each body keeps its Flight and is not moved when somebody else collides. Each body keeps one Event, the first of its
 // own; the first of all of these is the next thing to happen. A predicted collision is a function of the two flights

@@ -1,5 +1,7 @@
 #include "simulate/straight_times.h"
 
+#include "simulate/processor.h"
+
 #ifdef __x86_64__
 #include <immintrin.h>
 #endif
@@ -39,9 +41,8 @@ namespace eights {
 std::vector<StraightKernel> straight_kernels() {
   std::vector<StraightKernel> kernels{pairs::find};
 #ifdef __x86_64__
-  if (__builtin_cpu_supports("avx2")) kernels.push_back(fours::find);
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
-    kernels.push_back(eights::find);
+  if (has_avx2()) kernels.push_back(fours::find);
+  if (has_avx512()) kernels.push_back(eights::find);
 #endif
   return kernels;
 }

@@ -1,5 +1,7 @@
 #include "simulate/touching.h"
 
+#include "simulate/processor.h"
+
 #ifdef __x86_64__
 #include <immintrin.h>
 #endif
@@ -58,9 +60,8 @@ std::vector<SelectKernel> select_kernels() {
   std::vector<SelectKernel> kernels{select_one_by_one};
 #ifdef __x86_64__
   kernels.push_back(fours::select);
-  if (__builtin_cpu_supports("avx2")) kernels.push_back(eights::select);
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
-    kernels.push_back(sixteens::select);
+  if (has_avx2()) kernels.push_back(eights::select);
+  if (has_avx512()) kernels.push_back(sixteens::select);
 #endif
   return kernels;
 }
