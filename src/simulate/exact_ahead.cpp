@@ -17,9 +17,10 @@ constexpr std::size_t steps = 2;       // events from one step to the next
 void ExactSimulator::look_ahead() {
   const double now = queue_.first_time();
   while (next_due_ < due_.size() && due_[next_due_].time <= now) ++next_due_;
-  if (next_due_ + far_ahead / 2 >= due_.size()) {
+  // Asked again after many events only: where few are due at all, that many are never found.
+  if (due_events_ >= far_ahead / 2 && next_due_ + far_ahead / 2 >= due_.size()) {
     // As far as so many events took before, or farther.
-    if (due_events_ > 0)
+    if (!due_.empty())
       due_reach_ = (now - due_from_) * static_cast<double>(far_ahead) / static_cast<double>(due_events_);
     due_from_ = now;
     due_events_ = 0;
@@ -27,7 +28,7 @@ void ExactSimulator::look_ahead() {
     for (int attempt = 0; attempt < 8; ++attempt) {
       due_.clear();
       queue_.due_until(now + due_reach_, due_);
-      if (due_.size() >= far_ahead || due_.size() == world_.body_count()) break;
+      if (due_.size() >= far_ahead) break;
       due_reach_ = 2 * due_reach_ + 0x1p-40 * now;
     }
     if (due_.size() > 4 * far_ahead) {

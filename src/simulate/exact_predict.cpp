@@ -17,7 +17,7 @@ double sum_of_speeds(const Vec3& v) {
 }  // namespace
 
 /// Finds body i's next event among its neighbours. Other bodies' events stay as they are: a pair's collision stands
-/// with whichever of the two was predicted last.
+/// with whichever of the two was predicted last, or with neither while one of them is taken before.
 void ExactSimulator::predict(Entity i) {
   Event best;
   if (neighbours_.bodies(i).size() > 128 && neighbours_.room(i) > 0.05 * world_.radius[i])

@@ -145,6 +145,7 @@ Vec3 ExactSimulator::free_acceleration(Entity i, Entity without) const {
 /// At the start: a body that touches a flat surface (but for rounding of the scene's numbers), does not move along its
 /// normal and is pressed on rests there from the first.
 void ExactSimulator::touch_down(Entity i) {
+  if (neighbours_.surfaces(i).empty()) return;
   Flight f = flight_[i];
   for (Entity e : known_to(i)) {
     if (world_.is_body(e) || contacts_[i].count == max_contacts) continue;

@@ -237,11 +237,11 @@ class ExactSimulator final : public Simulator {
   ByNeed<Burst> burst_;
   ByNeed<Collapse> collapse_;
   Tournament<Before> queue_;
-  std::vector<Tournament<Before>::Due> due_;  // what was due next when it was last asked for, in order
-  std::size_t next_due_ = 0, due_events_ = 0;
-  double due_from_ = 0, due_reach_ = 0;  // s
-  std::vector<Entity> alike_;            // scratch
-  std::vector<Meet> meets_;              // scratch
+  std::vector<Tournament<Before>::Due> due_;                 // what was due next when it was last asked for, in order
+  std::size_t next_due_ = 0, due_events_ = ~std::size_t{0};  // none was asked for yet
+  double due_from_ = 0, due_reach_ = 0;                      // s
+  std::vector<Entity> alike_;                                // scratch
+  std::vector<Meet> meets_;                                  // scratch
 
   ByNeed<std::vector<Pressed>> pressed_;   // by the lower body: bodies and fixed things that the crowd's last step
                                            // found pressing on it

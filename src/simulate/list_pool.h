@@ -29,8 +29,9 @@ class ListPool {
   }
   const std::uint32_t* data(const List& list) const { return const_cast<ListPool*>(this)->data(list); }
 
-  /// Whether much of the memory is in blocks that nobody has.
-  bool wasteful() const { return 4 * unused_ > used_ + 4096; }
+  /// Whether more of the memory is in blocks that nobody has than a pool that has just been filled may leave: what is
+  /// left of a page is less than the list that did not fit in.
+  bool wasteful() const { return unused_ > used_ + page_granules; }
   /// Of a list of another pool: a copy here.
   void copy(const ListPool& from, List& list) {
     const List old = list;
@@ -76,6 +77,7 @@ class ListPool {
  private:
   static constexpr std::size_t granule = 4;  // entries
   static constexpr std::uint32_t page_bits = 16, page_mask = (1u << page_bits) - 1;
+  static constexpr std::size_t page_granules = std::size_t{1} << page_bits;
   static constexpr std::uint8_t in_steps = 16;  // kinds 1..16 are as many granules, from then on each is twice the last
 
   static std::size_t entries_in(std::size_t granules) {
@@ -99,7 +101,7 @@ class ListPool {
       free_[kind].pop_back();
       return;
     }
-    const std::size_t granules = granules_of(kind), page = std::size_t{1} << page_bits;
+    const std::size_t granules = granules_of(kind), page = page_granules;
     if (left_ < granules) {
       for (; left_ > 0; ++next_, --left_) put_away(1, next_);  // the page's rest
       next_ = static_cast<std::uint32_t>(page_.size() << page_bits);

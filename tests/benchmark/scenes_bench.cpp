@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "benchmark/state_hash.h"
 #include "export/png.h"
 #include "render/renderer.h"
 #include "scene/load.h"
@@ -16,19 +16,6 @@
 
 namespace carom {
 namespace {
-
-/// FNV-1a over the bits of all positions and velocities.
-std::uint64_t hash(const State& state) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const auto* vectors : {&state.position, &state.velocity}) {
-    for (const Vec3& v : *vectors) {
-      for (double x : v) {
-        hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3;
-      }
-    }
-  }
-  return hash;
-}
 
 void load(benchmark::State& state, const std::string& file) {
   for (auto _ : state) {
@@ -49,7 +36,7 @@ void simulate(benchmark::State& state, const std::string& file) {
       simulator->advance_to(options.duration);
     }
     collisions = simulator->tally().collisions();
-    result = hash(simulator->state());
+    result = hash_of(simulator->state());
   }
   const double all = static_cast<double>(collisions);
   state.counters["collisions"] = all;

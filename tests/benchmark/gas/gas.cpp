@@ -12,13 +12,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "benchmark/state_hash.h"
 #include "simulate/exact.h"
 
 namespace carom {
@@ -50,15 +50,6 @@ double peak_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return 1024 * static_cast<double>(usage.ru_maxrss);
-}
-
-/// FNV-1a over the bits of all positions and velocities.
-std::uint64_t hash_of(const State& state) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const auto* vectors : {&state.position, &state.velocity})
-    for (const Vec3& v : *vectors)
-      for (double x : v) hash = (hash ^ std::bit_cast<std::uint64_t>(x)) * 0x100000001b3;
-  return hash;
 }
 
 Result run(const Gas& gas) {
