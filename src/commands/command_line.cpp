@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <limits>
 
 #include "commands/text.h"
@@ -39,6 +40,7 @@ class HelpFormatter : public CLI::Formatter {
 /// Words of the command line by option; every option that takes a value may come several times until it is read.
 struct Words {
   std::vector<std::string> scenes, output, set, only, seed, jobs, progress, color;
+  std::vector<std::string> steps, repeat, budget, reference;  // of bench
   bool force = false, quiet = false, json = false;
 };
 
@@ -53,19 +55,33 @@ CLI::Option* add_value(CLI::App& app, const std::string& names, std::vector<std:
 
 void add_options(CLI::App& app, const CommandText& command, Words& words) {
   app.add_option("SCENE", words.scenes, "scene files (YAML)")->type_name("");
-  add_value(app, "-o,--output", words.output, "DIR",
-            "the run's folder; with several scenes, the folder that\nholds theirs (output/<scene file's stem>)");
+  add_value(
+      app, "-o,--output", words.output, "DIR",
+      fmt::format("the {}'s folder; with several scenes, the folder that\nholds theirs (output/<scene file's stem>{})",
+                  command.bench ? "bench" : "run", command.bench ? ".bench" : ""));
   add_value(app, "--set", words.set, "PATH=VALUE",
             "change a value of the scene, balls.red.mass=2 say;\nmay be repeated");
-  add_value(app, "--only", words.only, "LIST",
-            "write these outputs alone, of trajectory, collisions,\n"
-            "energy, contacts, frames, video, sheet; one that the\n"
-            "scene does not ask for is written with default settings");
+  if (command.outputs)
+    add_value(app, "--only", words.only, "LIST",
+              "write these outputs alone, of trajectory, collisions,\n"
+              "energy, contacts, frames, video, sheet; one that the\n"
+              "scene does not ask for is written with default settings");
   add_value(app, "--seed", words.seed, "N", "the scene's seed");
+  if (command.bench) {
+    add_value(app, "--steps", words.steps, "FROM:TO",
+              "step sizes in s, from FROM down to TO by halves (by\nthe scene: ten halvings)");
+    add_value(app, "--repeat", words.repeat, "N", "timed runs of each row, at most (5)");
+    add_value(app, "--budget", words.budget, "SECONDS",
+              "of CPU time for each scene, roughly; steps that cost\nmore are left out (20)");
+    add_value(app, "--reference", words.reference, "ENGINE",
+              "exact or stepped (exact, if it has all that the scene\nasks for)");
+  }
   if (command.progress) {
     add_value(app, "-j,--jobs", words.jobs, "N", "at most N scenes at a time; changes no result");
     app.add_flag("--force", words.force,
-                 "overwrite other content of the folder, run again what\nis up to date, lift the budget")
+                 command.bench
+                     ? "overwrite other content of the folder"
+                     : "overwrite other content of the folder, run again what\nis up to date, lift the budget")
         ->disable_flag_override();
     add_value(app, "--progress", words.progress, "HOW",
               "auto, bar, lines or none (auto: a bar on a terminal,\nlines elsewhere)");
@@ -142,6 +158,38 @@ std::optional<std::uint64_t> read_whole(const std::vector<std::string>& words, s
   return value;
 }
 
+/// A positive number.
+double read_number(const std::string& word, std::string_view option) {
+  double value = 0;
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  if (error != std::errc() || stop != end || !(value > 0) || !std::isfinite(value))
+    throw UsageError(fmt::format("{} takes a number above 0, not {}", option, carom::quoted(word)));
+  return value;
+}
+
+BenchOptions read_bench(const Words& words) {
+  constexpr double most_halvings = 30;
+  BenchOptions bench;
+  if (const auto steps = single(words.steps, "--steps")) {
+    const std::size_t colon = steps->find(':');
+    bench.longest = read_number(steps->substr(0, colon), "--steps");
+    bench.shortest = colon == std::string::npos ? bench.longest : read_number(steps->substr(colon + 1), "--steps");
+    if (!(*bench.shortest <= *bench.longest))
+      throw UsageError(fmt::format("--steps goes from the longest step to the shortest, 0.1:0.001 say, not {}",
+                                   carom::quoted(*steps)));
+    if (std::log2(*bench.longest / *bench.shortest) > most_halvings)
+      throw UsageError(
+          fmt::format("--steps halves at most {} times, not as often as {}", most_halvings, carom::quoted(*steps)));
+  }
+  bench.repeat = static_cast<int>(read_whole(words.repeat, "--repeat", 1, 1000).value_or(5));
+  if (const auto budget = single(words.budget, "--budget")) bench.budget = read_number(*budget, "--budget");
+  if (!words.reference.empty())
+    bench.reference =
+        chosen<int>(words.reference, "--reference", {"exact", "stepped"}) == 0 ? Engine::exact : Engine::stepped;
+  return bench;
+}
+
 std::optional<std::vector<std::string>> read_only(const std::vector<std::string>& words) {
   if (words.empty()) return std::nullopt;
   std::vector<std::string> only;
@@ -176,6 +224,7 @@ Options read(const CommandText& command, const Words& words) {
   options.jobs = read_whole(words.jobs, "--jobs", 1, 4096).value_or(options.jobs);
   options.progress = chosen<ProgressChoice>(words.progress, "--progress", {"auto", "bar", "lines", "none"});
   options.color = chosen<ColorChoice>(words.color, "--color", {"auto", "always", "never"});
+  options.bench = read_bench(words);
   options.force = words.force;
   options.quiet = words.quiet;
   options.json = words.json;

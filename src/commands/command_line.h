@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "commands/terminal.h"
+#include "study/bench.h"
 
 namespace carom {
 
@@ -31,6 +32,7 @@ struct Options {
   bool json = false;
   ProgressChoice progress = ProgressChoice::automatic;
   ColorChoice color = ColorChoice::automatic;
+  BenchOptions bench;
 };
 
 /// One command: what its help says and which options it has beyond those of all commands.
@@ -40,6 +42,8 @@ struct CommandText {
   std::string examples;   // lines, stand first in the help
   std::string notes;      // lines, stand last
   bool progress = false;  // has --progress
+  bool outputs = true;    // has --only
+  bool bench = false;     // has the options of BenchOptions
 };
 
 /// Reads the words after the command's name. Throws UsageError. `help`: its text was asked for instead.

@@ -14,6 +14,7 @@
 #include "commands/text.h"
 #include "render/mesh.h"
 #include "scene/load.h"
+#include "study/bench_folder.h"
 
 namespace carom {
 
@@ -21,8 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string folder_of(const Options& options, const std::string& name) {
-  if (!options.output) return (fs::path("output") / name).string();
+std::string folder_of(const Options& options, const std::string& name, Purpose purpose) {
+  if (!options.output) return (fs::path("output") / (purpose == Purpose::bench ? name + ".bench" : name)).string();
   return options.scenes.size() == 1 ? *options.output : (fs::path(*options.output) / name).string();
 }
 
@@ -46,12 +47,13 @@ void fail(PlannedScene& planned, std::size_t errors, const std::string& text) {
   if (planned.error.empty() || planned.error.back() != '\n') planned.error += '\n';
 }
 
-LoadOptions load_options(const Options& options) {
+LoadOptions load_options(const Options& options, Purpose purpose) {
   LoadOptions load;
   load.set = options.set;
   load.seed = options.seed;
   load.budget.enforced = !options.force;
-  if (options.only) load.budget.frames = load.budget.rows = std::numeric_limits<std::uint64_t>::max();  // see below
+  if (options.only || purpose == Purpose::bench)
+    load.budget.frames = load.budget.rows = std::numeric_limits<std::uint64_t>::max();  // see below
   load.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
   load.color = !options.json && wants_color(options.color, STDERR_FILENO);
   return load;
@@ -70,9 +72,9 @@ void hold_to_budget(const Forecast& forecast) {
   }
 }
 
-void check(PlannedScene& planned, const Options& options) {
+void check(PlannedScene& planned, const Options& options, Purpose purpose) {
   const auto start = std::chrono::steady_clock::now();
-  planned.scene = std::make_unique<Scene>(load_scene(planned.file, load_options(options)));
+  planned.scene = std::make_unique<Scene>(load_scene(planned.file, load_options(options, purpose)));
   const Output asked = planned.scene->output;
   if (options.only) planned.scene->output = restricted(asked, *options.only);
   planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -82,6 +84,10 @@ void check(PlannedScene& planned, const Options& options) {
   std::error_code ignored;
   if (fs::exists(planned.folder, ignored) && !fs::is_directory(planned.folder, ignored)) {
     throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
+  }
+  if (purpose == Purpose::bench) {
+    planned.content = inspect_bench_folder(planned.folder, *planned.scene, options.bench);
+    return;
   }
   planned.content = inspect_folder(planned.folder, *planned.scene);
   const bool differs = planned.content == FolderContent::incomplete || planned.content == FolderContent::more;
@@ -95,18 +101,18 @@ void check(PlannedScene& planned, const Options& options) {
 
 }  // namespace
 
-std::vector<PlannedScene> plan_scenes(const Options& options) {
+std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose) {
   std::vector<PlannedScene> scenes(options.scenes.size());
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     scenes[i].file = options.scenes[i];
     scenes[i].name = fs::path(options.scenes[i]).stem().string();
-    scenes[i].folder = folder_of(options, scenes[i].name);
+    scenes[i].folder = folder_of(options, scenes[i].name, purpose);
   }
   refuse_shared_folders(scenes);
   for (PlannedScene& planned : scenes) {
     stop_if_interrupted();
     try {
-      check(planned, options);
+      check(planned, options, purpose);
     } catch (const SceneError& error) {
       fail(planned, error.count, error.what());
     } catch (const std::bad_alloc&) {
@@ -116,6 +122,18 @@ std::vector<PlannedScene> plan_scenes(const Options& options) {
     }
   }
   return scenes;
+}
+
+void refuse_other_content(std::vector<PlannedScene>& scenes, const Options& options) {
+  for (PlannedScene& planned : scenes) {
+    const bool other = planned.content == FolderContent::other_run, more = planned.content == FolderContent::more;
+    if (planned.errors > 0 || !(other || more) || options.force) continue;
+    planned.errors = 1;
+    planned.error = fmt::format(
+        "{}: the folder {} holds {}\n  write elsewhere with -o, or overwrite it with --force\n",
+        printable(planned.file), printable(planned.folder),
+        other ? "another run, or files that no run wrote" : "more outputs of this scene, which this run would remove");
+  }
 }
 
 std::string error_count(const std::vector<PlannedScene>& scenes) {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "commands/command_line.h"
-#include "commands/engine.h"
 #include "export/exports.h"
+#include "study/engine.h"
 
 namespace carom {
 
@@ -24,9 +24,14 @@ struct PlannedScene {
   FolderContent content = FolderContent::nothing;
 };
 
+enum class Purpose { run, bench };
+
 /// Loads and checks every scene, a wrong one too far as it goes, so that all errors of all files are shown in one run.
 /// Throws UsageError where two scenes would share a folder.
-std::vector<PlannedScene> plan_scenes(const Options& options);
+std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose = Purpose::run);
+
+/// Makes an error of each folder that holds something else, unless --force.
+void refuse_other_content(std::vector<PlannedScene>& scenes, const Options& options);
 
 /// "2 errors in 1 of 3 scenes", or empty if there is none.
 std::string error_count(const std::vector<PlannedScene>& scenes);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "commands/engine.h"
 #include "commands/interrupt.h"
 #include "render/camera.h"
+#include "study/engine.h"
 
 namespace carom {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <new>
 
+#include "commands/bench.h"
 #include "commands/check.h"
 #include "commands/interrupt.h"
 #include "commands/report.h"
@@ -22,13 +23,13 @@ struct Command {
 };
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {{run_text(), run_command}, {check_text(), check_command}};
+  static const std::vector<Command> all = {
+      {run_text(), run_command}, {check_text(), check_command}, {bench_text(), bench_command}};
   return all;
 }
 
 // Commands of the scene format that this version does not have.
-const std::vector<std::string> commands_of_the_format = {"sweep", "gather", "compare", "render",
-                                                         "bench", "new",    "schema"};
+const std::vector<std::string> commands_of_the_format = {"sweep", "gather", "compare", "render", "new", "schema"};
 
 std::string program_help() {
   std::string text =
@@ -58,7 +59,7 @@ const Command* find_command(const std::string& name) {
 [[noreturn]] void refuse_command(const std::string& word) {
   const auto& later = commands_of_the_format;
   if (std::find(later.begin(), later.end(), word) != later.end()) {
-    throw UsageError(fmt::format("this version has no command {}; it has run and check", carom::quoted(word)));
+    throw UsageError(fmt::format("this version has no command {}; it has run, check and bench", carom::quoted(word)));
   }
   if (word.starts_with('-')) {
     throw UsageError(fmt::format("options stand after the command: carom run SCENE {}", printable(word)));
@@ -71,7 +72,7 @@ const Command* find_command(const std::string& name) {
   if (word.ends_with(".yaml") || word.ends_with(".yml")) {
     throw UsageError(fmt::format("name a command first: carom run {}", printable(word)));
   }
-  throw UsageError(fmt::format("no command {}; it has run and check", carom::quoted(word)));
+  throw UsageError(fmt::format("no command {}; it has run, check and bench", carom::quoted(word)));
 }
 
 int usage_error(const std::string& command, const UsageError& error) {

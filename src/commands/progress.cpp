@@ -10,6 +10,14 @@
 
 namespace carom {
 
+ProgressChoice progress_choice(const Options& options) {
+  const bool terminal = is_terminal(STDERR_FILENO);
+  if (options.progress == ProgressChoice::automatic && options.quiet) return ProgressChoice::none;
+  if (options.progress == ProgressChoice::automatic) return terminal ? ProgressChoice::bar : ProgressChoice::lines;
+  // A bar redraws its line, which only a terminal can.
+  return options.progress == ProgressChoice::bar && !terminal ? ProgressChoice::lines : options.progress;
+}
+
 Progress::Progress(ProgressChoice choice, bool color, std::string name, double duration, std::uint64_t frames)
     : choice_(choice), color_(color), name_(std::move(name)), duration_(duration), frames_to_come_(frames) {}
 
@@ -33,15 +41,7 @@ std::string left_text(double elapsed, double done) {
 
 }  // namespace
 
-std::string Progress::counts(double elapsed, double done) const {
-  std::string text = fmt::format("{:.4g} of {:.4g} s", time_, duration_);
-  if (frames_to_come_ > 0) text += fmt::format(", {} of {} pictures", grouped(frames_), grouped(frames_to_come_));
-  text += ", " + counted(collisions_, "collision", "collisions");
-  const std::string left = left_text(elapsed, done);
-  return left.empty() ? text : text + ", " + left;
-}
-
-void Progress::draw_bar(double done, double elapsed) {
+void Progress::draw_bar(double done, const std::string& counts, const std::string& left) {
   // One line, never wider than the terminal: a line that wraps could not be drawn over.
   const std::size_t width = terminal_width(STDERR_FILENO) - 1;
   constexpr std::size_t bar_width = 20;
@@ -50,9 +50,8 @@ void Progress::draw_bar(double done, double elapsed) {
     const auto full = static_cast<std::size_t>(done * bar_width);
     const Palette palette(color_);
     std::string rest = fmt::format(" {:3.0f} % ", std::min(99.0, done * 100));
-    const std::string tail = counts(elapsed, done);
     const std::size_t taken = columns_of(text) + bar_width + 2 + rest.size();
-    rest += taken + columns_of(tail) <= width ? tail : left_text(elapsed, done);
+    rest += taken + columns_of(counts) <= width ? counts : left;
     text += fmt::format("[{}{}{}{:{}}]{}", palette.green, std::string(full, '='), palette.reset, "", bar_width - full,
                         rest);
   } else {
@@ -62,25 +61,38 @@ void Progress::draw_bar(double done, double elapsed) {
   drawn_ = true;
 }
 
-void Progress::update(double time, std::uint64_t collisions, std::uint64_t frames) {
-  if (choice_ == ProgressChoice::none) return;
+bool Progress::due() const {
+  if (choice_ == ProgressChoice::none) return false;
+  const double since_last = std::chrono::duration<double>(Clock::now() - last_).count();
+  return since_last >= (choice_ == ProgressChoice::bar ? 0.1 : 2.0);
+}
+
+void Progress::show(double done, const std::string& what) {
   const Clock::time_point now = Clock::now();
   const double since_last = std::chrono::duration<double>(now - last_).count();
-  if (since_last < (choice_ == ProgressChoice::bar ? 0.1 : 2.0)) return;
-  time_ = time;
-  collisions_ = collisions;
-  frames_ = frames;
-  const double done = duration_ > 0 ? std::clamp(time / duration_, 0.0, 1.0) : 1;
-  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const std::string left = left_text(std::chrono::duration<double>(now - start_).count(), done);
+  const std::string counts = left.empty() ? what : what + ", " + left;
   if (choice_ == ProgressChoice::bar) {
-    draw_bar(done, elapsed);
+    draw_bar(done, counts, left);
   } else {
     const int tenth = static_cast<int>(done * 10);
     if (tenth == 10 || (tenth == tenth_ && since_last < 5)) return;  // the result tells the end
     tenth_ = tenth;
-    write_err(fmt::format("{}: {:.0f} %, {}\n", name_, done * 100, counts(elapsed, done)));
+    write_err(fmt::format("{}: {:.0f} %, {}\n", name_, done * 100, counts));
   }
   last_ = now;
+}
+
+void Progress::update(double time, std::uint64_t collisions, std::uint64_t frames) {
+  if (!due()) return;
+  std::string what = fmt::format("{:.4g} of {:.4g} s", time, duration_);
+  if (frames_to_come_ > 0) what += fmt::format(", {} of {} pictures", grouped(frames), grouped(frames_to_come_));
+  what += ", " + counted(collisions, "collision", "collisions");
+  show(duration_ > 0 ? std::clamp(time / duration_, 0.0, 1.0) : 1, what);
+}
+
+void Progress::update(double done, const std::string& what) {
+  if (due()) show(std::clamp(done, 0.0, 1.0), what);
 }
 
 }  // namespace carom

@@ -8,6 +8,9 @@
 
 namespace carom {
 
+/// How --progress is to be taken where stderr is what it is.
+ProgressChoice progress_choice(const Options& options);
+
 class Progress {
  public:
   /// `name`: the scene's; `duration`: simulated seconds to go through; `frames`: pictures to come, 0: none.
@@ -19,13 +22,16 @@ class Progress {
   /// Cheap: writes at most ten times a second (bar), or a line at each tenth of the way and after five seconds, but
   /// never two within two seconds.
   void update(double time, std::uint64_t collisions, std::uint64_t frames);
+  /// The same for work that is not measured in simulated time: `done` of it, 0 to 1, and what it is at.
+  void update(double done, const std::string& what);
   /// The bar's line is free again; to be called before anything else is written to the terminal.
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
-  void draw_bar(double done, double elapsed);
-  std::string counts(double elapsed, double done) const;
+  bool due() const;
+  void show(double done, const std::string& counts);
+  void draw_bar(double done, const std::string& counts, const std::string& left);
 
   ProgressChoice choice_;
   bool color_;
@@ -33,8 +39,6 @@ class Progress {
   double duration_;  // s
   std::uint64_t frames_to_come_;
   Clock::time_point start_ = Clock::now(), last_ = start_;
-  double time_ = 0;  // s
-  std::uint64_t collisions_ = 0, frames_ = 0;
   int tenth_ = 0;
   bool drawn_ = false;
 };

@@ -78,6 +78,22 @@ void Block::line(std::string_view label, std::string_view text) {
                        wrapped(text, label_width + 2, width_));
 }
 
+void Block::table(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const auto& row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], columns_of(row[k]));
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      const std::string gap(widths[k] - columns_of(row[k]), ' ');
+      line += k == 0 ? row[k] + gap : "  " + gap + row[k];
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    const bool head = &row == &rows.front();
+    text_ += fmt::format("  {}{}{}\n", head ? palette_.dim : "", line, head ? palette_.reset : "");
+  }
+}
+
 std::vector<std::string> files_in(const std::string& folder) {
   std::vector<std::string> files;
   const Descriptor opened = open_folder(AT_FDCWD, folder, true);

@@ -17,6 +17,8 @@ class Block {
   Block(const Palette& palette, std::size_t width) : palette_(palette), width_(width) {}
   void heading(std::string_view name, std::string_view title);
   void line(std::string_view label, std::string_view text);
+  /// Rows of as many cells each, the first the heading; the first column to the left, numbers to the right.
+  void table(const std::vector<std::vector<std::string>>& rows);
   const std::string& text() const { return text_; }
 
  private:

@@ -28,7 +28,7 @@ class Session {
         scenes_(plan_scenes(options)) {}
 
   int go() {
-    refuse_other_runs();
+    refuse_other_content(scenes_, options_);
     if (const std::string errors = error_count(scenes_); !errors.empty()) return refuse(errors);
     const auto start = std::chrono::steady_clock::now();
     int interrupted = 0;
@@ -48,19 +48,6 @@ class Session {
   }
 
  private:
-  void refuse_other_runs() {
-    for (PlannedScene& planned : scenes_) {
-      const bool other = planned.content == FolderContent::other_run, more = planned.content == FolderContent::more;
-      if (planned.errors > 0 || !(other || more) || options_.force) continue;
-      planned.errors = 1;
-      planned.error =
-          fmt::format("{}: the folder {} holds {}\n  write elsewhere with -o, or overwrite it with --force\n",
-                      printable(planned.file), printable(planned.folder),
-                      other ? "another run, or files that no run wrote"
-                            : "more outputs of this scene, which this run would remove");
-    }
-  }
-
   int refuse(const std::string& errors) {
     for (const PlannedScene& planned : scenes_) {
       write_err(planned.error);
@@ -79,7 +66,7 @@ class Session {
       up_to_date(planned);
       return 0;
     }
-    Progress progress(progress_choice(), wants_color(options_.color, STDERR_FILENO), label(planned),
+    Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO), label(planned),
                       planned.scene->simulate.duration, planned.forecast.frames);
     try {
       const RunResult result = run_scene(*planned.scene, planned.engine, planned.folder, planned.load_s, progress);
@@ -168,14 +155,6 @@ class Session {
     const auto number = static_cast<std::size_t>(&planned - scenes_.data()) + 1;
     const std::string name = printable(planned.name);
     return scenes_.size() == 1 ? name : fmt::format("{}/{} {}", number, scenes_.size(), name);
-  }
-
-  ProgressChoice progress_choice() const {
-    const bool terminal = is_terminal(STDERR_FILENO);
-    if (options_.progress == ProgressChoice::automatic && options_.quiet) return ProgressChoice::none;
-    if (options_.progress == ProgressChoice::automatic) return terminal ? ProgressChoice::bar : ProgressChoice::lines;
-    // A bar redraws its line, which only a terminal can.
-    return options_.progress == ProgressChoice::bar && !terminal ? ProgressChoice::lines : options_.progress;
   }
 
   const Options& options_;

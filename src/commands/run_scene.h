@@ -2,9 +2,9 @@
 // One checked scene -> its folder: joins simulator, timeline, renderers and exports.
 #include <string>
 
-#include "commands/engine.h"
 #include "commands/progress.h"
 #include "export/exports.h"
+#include "study/engine.h"
 
 namespace carom {
 

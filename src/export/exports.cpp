@@ -172,14 +172,9 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
   manifest.write(manifest_text(impl_->scene, summary, facts, records));
   manifest.complete();
 
-  // One sync for all of them costs a fraction of one each. Names follow bytes, and the manifest's name the others'.
-  impl_->folder->sync_all();
-  impl_->folder->keep();
-  for (OutputFile* file : files) file->publish();
-  if (impl_->film) impl_->film->publish();
-  impl_->folder->sync_names();
-  manifest.publish();
-  impl_->folder->sync_names();
+  impl_->folder->publish(files, manifest, [&] {
+    if (impl_->film) impl_->film->publish();
+  });
 }
 
 }  // namespace carom

@@ -72,7 +72,7 @@ std::string outputs_text(const Output& output) {
   return to_text(outputs_json(output), -1);
 }
 
-std::string manifest_text(const Scene& scene, const Summary& summary, const RunFacts& facts,
+std::string manifest_text(const Scene& scene, const std::string& outputs, const std::string& facts,
                           const std::vector<FileRecord>& files) {
   Json json;
   json["tool"] = tool;
@@ -80,17 +80,24 @@ std::string manifest_text(const Scene& scene, const Summary& summary, const RunF
   json["scene"] = {{"file", std::filesystem::path(scene.file).filename().string()},
                    {"title", scene.title},
                    {"sha256", sha256(scene.resolved)}};
-  json["outputs"] = outputs_json(scene.output);
+  json["outputs"] = Json::parse(outputs);
   if (!scene.meshes.empty()) json["meshes"] = Json::parse(meshes_text(scene));
-  json["counts"] = {{"bodies", summary.bodies}, {"collisions", summary.collisions}, {"frames", summary.frames}};
-  json["wall_times_s"] = {
-      {"load", facts.load_s}, {"simulate", facts.simulate_s}, {"render", facts.render_s}, {"export", facts.export_s}};
-  json["peak_memory_bytes"] = facts.peak_memory;
+  json.update(Json::parse(facts));
   Json list = Json::array();
   for (const FileRecord& file : files)
     list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
   json["files"] = std::move(list);
   return to_text(json, 2) + "\n";
+}
+
+std::string manifest_text(const Scene& scene, const Summary& summary, const RunFacts& facts,
+                          const std::vector<FileRecord>& files) {
+  Json json;
+  json["counts"] = {{"bodies", summary.bodies}, {"collisions", summary.collisions}, {"frames", summary.frames}};
+  json["wall_times_s"] = {
+      {"load", facts.load_s}, {"simulate", facts.simulate_s}, {"render", facts.render_s}, {"export", facts.export_s}};
+  json["peak_memory_bytes"] = facts.peak_memory;
+  return manifest_text(scene, outputs_text(scene.output), to_text(json, -1), files);
 }
 
 std::optional<Manifest> read_manifest(int folder, const std::string& name) {

@@ -1,5 +1,6 @@
 #pragma once
 // manifest.json: what a run wrote, and of which request. Written last: with it a folder is whole.
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,13 +29,20 @@ struct Manifest {
 /// out.
 std::string outputs_text(const Output& output);
 
-/// The manifest's whole text.
+/// The text of a manifest of any kind. `outputs` and `facts`: objects, as JSON; the facts' members stand as they are.
+std::string manifest_text(const Scene& scene, const std::string& outputs, const std::string& facts,
+                          const std::vector<FileRecord>& files);
+
+/// The whole text of a run's manifest.
 std::string manifest_text(const Scene& scene, const Summary& summary, const RunFacts& facts,
                           const std::vector<FileRecord>& files);
 
 /// A manifest that this tool wrote; none if the file is not there, not whole, another program's, or names files that no
 /// run writes.
 std::optional<Manifest> read_manifest(int folder, const std::string& name);
+
+/// What a bench writes beside scene.yaml.
+inline constexpr std::array<const char*, 3> bench_files = {"bench.csv", "bench.png", "bench.svg"};
 
 /// Whether a run may write a file of this name: a plain one, or frames/frame_<digits>.png.
 bool is_run_file(std::string_view name);

@@ -56,6 +56,7 @@ void add_remains(std::vector<std::string>& names, int folder, const Scene& scene
   all.sheet.emplace();
   if (!all.video) all.video.emplace();
   for (std::string& name : run_files(scene, all)) names.push_back(std::move(name));
+  names.insert(names.end(), bench_files.begin(), bench_files.end());
   if (const Descriptor frames = open_folder(folder, "frames", false))
     for (const std::string& name : folder_names(frames.get())) names.push_back("frames/" + name);
 }
@@ -138,6 +139,17 @@ FilePlace OpenFolder::frames() {
   const bool other = !frames_ && (errno == ENOTDIR || errno == ELOOP);
   if (!frames_) fail("open", place, "", other ? "it is no folder, or a link; remove it" : "");
   return {frames_.get(), place.path};
+}
+
+void OpenFolder::publish(const std::vector<OutputFile*>& files, OutputFile& manifest,
+                         const std::function<void()>& others) {
+  sync_all();
+  keep();
+  for (OutputFile* file : files) file->publish();
+  if (others) others();
+  sync_names();
+  manifest.publish();
+  sync_names();
 }
 
 void OpenFolder::sync_all() {

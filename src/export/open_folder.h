@@ -1,5 +1,6 @@
 #pragma once
 // The run's folder while a run writes it: locked, freed of a former run, put in order when a run fails.
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,10 +35,14 @@ class OpenFolder {
   /// Something stands in the folder now that is worth keeping even if the run fails.
   void keep() { keep_ = true; }
 
+  /// Gives files that are complete their names, then the manifest its own. One sync for all of them costs a fraction of
+  /// one each. Names follow bytes, and the manifest's name the others'. `others` publishes what else there is.
+  void publish(const std::vector<OutputFile*>& files, OutputFile& manifest, const std::function<void()>& others = {});
+
+ private:
   void sync_all();    // all that was written to its file system, to the disk
   void sync_names();  // what was renamed in it
 
- private:
   Descriptor folder_, frames_;
   FilePlace place_;
   bool made_ = false, keep_ = false;

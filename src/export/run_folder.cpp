@@ -43,16 +43,14 @@ bool names_all(const Manifest& manifest, const std::vector<std::string>& names) 
 }
 
 /// Sizes before hashes: what is cut off is found without reading gigabytes.
-bool is_whole(int folder, const Manifest& manifest, const Scene& scene) {
-  return manifest.version == CAROM_VERSION && manifest.outputs == outputs_text(scene.output) &&
-         names_all(manifest, run_files(scene, scene.output)) && all_files(folder, manifest, has_size) &&
-         all_files(folder, manifest, has_hash);
+bool is_whole(int folder, const Manifest& manifest, const std::string& outputs, const std::vector<std::string>& names) {
+  return manifest.version == CAROM_VERSION && manifest.outputs == outputs && names_all(manifest, names) &&
+         all_files(folder, manifest, has_size) && all_files(folder, manifest, has_hash);
 }
 
 /// Whether the folder has a file of this tool's run that a run of the scene's outputs would not write anew.
-bool has_more(int folder, const Manifest& manifest, const Scene& scene) {
+bool has_more(int folder, const Manifest& manifest, const Scene& scene, const std::vector<std::string>& names) {
   if (manifest.version != CAROM_VERSION) return false;
-  const std::vector<std::string> names = run_files(scene, scene.output);
   const Descriptor frames = open_folder(folder, "frames", false);
   return std::any_of(manifest.files.begin(), manifest.files.end(), [&](const FileRecord& file) {
     const std::string_view head = "frames/";
@@ -67,6 +65,11 @@ bool has_more(int folder, const Manifest& manifest, const Scene& scene) {
 }  // namespace
 
 FolderContent inspect_folder(const std::string& path, const Scene& scene) {
+  return inspect_folder(path, scene, outputs_text(scene.output), run_files(scene, scene.output));
+}
+
+FolderContent inspect_folder(const std::string& path, const Scene& scene, const std::string& outputs,
+                             const std::vector<std::string>& files) {
   const Descriptor folder = open_folder(AT_FDCWD, path.empty() ? "." : path, true);
   if (!folder && errno == ENOENT) return FolderContent::nothing;
   if (!folder && errno == ENOTDIR) return FolderContent::other_run;
@@ -83,8 +86,8 @@ FolderContent inspect_folder(const std::string& path, const Scene& scene) {
     if (!manifest || manifest->scene_sha256 != hash || manifest->meshes != meshes_text(scene)) {
       return FolderContent::other_run;
     }
-    if (is_whole(folder.get(), *manifest, scene)) return FolderContent::this_run;
-    return has_more(folder.get(), *manifest, scene) ? FolderContent::more : FolderContent::incomplete;
+    if (is_whole(folder.get(), *manifest, outputs, files)) return FolderContent::this_run;
+    return has_more(folder.get(), *manifest, scene, files) ? FolderContent::more : FolderContent::incomplete;
   }
   if (there("scene.yaml")) {
     const auto stored = read_record(folder.get(), "scene.yaml");

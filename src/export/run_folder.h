@@ -2,6 +2,7 @@
 // The folder that a run writes: what is in it already, and files that appear whole or not at all.
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "scene/scene.h"
 
@@ -22,5 +23,8 @@ enum class FolderContent {
 
 /// What stands in `folder`, read from its manifest.json. Changes nothing.
 FolderContent inspect_folder(const std::string& folder, const Scene& scene);
+/// The same for what is no run: `outputs` as in its manifest, `files` that it must have.
+FolderContent inspect_folder(const std::string& folder, const Scene& scene, const std::string& outputs,
+                             const std::vector<std::string>& files);
 
 }  // namespace carom

@@ -6,6 +6,7 @@
 
 #include "physics/force.h"
 #include "scene/decode.h"
+#include "scene/unsupported.h"
 #include "scene/values.h"
 
 namespace carom {
@@ -251,33 +252,10 @@ class Requests {
 
 void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics) {
   const View simulate = scene_part(root, "simulate");
-  const Force* varying = varying_force(scene.world);
-  if (const Force* open = force_without_closed_form(scene.world);
-      scene.simulate.engine == Engine::exact && open != nullptr)
-    diagnostics.add(simulate.place("engine"),
-                    fmt::format("under {}`{}` paths have no closed form, which `engine: exact` follows",
-                                std::holds_alternative<Drag>(open->law) ? "quadratic " : "", name_of(open->law)),
-                    "expected `engine: stepped`, or `auto`");
-  const bool parabolas = scene.simulate.engine != Engine::stepped && varying == nullptr;
-  if (!parabolas && scene.simulate.engine != Engine::book && scene.simulate.merge)
-    diagnostics.add(simulate.place("contact"),
-                    scene.simulate.engine == Engine::stepped
-                        ? "`engine: stepped` has no `contact: merge`"
-                        : fmt::format("`contact: merge` is for parabolas, not for `{}`", name_of(varying->law)),
-                    "expected `contact: bounce`");
-  if (scene.simulate.engine != Engine::book) return;
-  // The chapter's listings know spheres, planes and walls, gravity and the impulses of the first frame.
-  const auto refuse = [&](Place place, std::string_view what, std::string_view instead) {
-    diagnostics.add(place, fmt::format("`engine: book` has no {}", what), fmt::format("expected {}", instead));
-  };
-  if (scene.simulate.merge) refuse(simulate.place("contact"), "`contact: merge`", "`engine: exact`");
-  if (scene.simulate.tolerance) refuse(simulate.place("tolerance"), "`tolerance`", "`step`");
-  if (!scene.world.volume.empty())
-    refuse(simulate.place("engine"), "cylinders and boxes: its bodies are spheres", "`engine: exact`");
-  if (const Key* key = root.find_key("obstacles"); key != nullptr && !scene.world.obstacles.empty())
-    refuse(key->place, "obstacles", "`engine: exact`");
-  if (const Key* key = root.find_key("forces"); key != nullptr && !scene.world.forces.empty())
-    refuse(key->place, "forces beside gravity", varying == nullptr ? "`engine: exact`" : "`engine: stepped`");
+  for (const Unsupported& lack : unsupported(scene.world, scene.simulate)) {
+    const Key* key = root.find_key(lack.at);
+    diagnostics.add(key != nullptr ? key->place : simulate.place(lack.at), lack.what, lack.instead);
+  }
 }
 
 bool wanted(const View& output, std::string_view part) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/state_hash.h"
+#include "study/state_hash.h"
 #include "export/png.h"
 #include "render/renderer.h"
 #include "scene/load.h"

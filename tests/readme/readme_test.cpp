@@ -15,7 +15,7 @@
 #include <set>
 #include <sstream>
 
-#include "commands/engine.h"
+#include "study/engine.h"
 #include "physics/energy.h"
 #include "physics/restitution.h"
 #include "scene/fields.h"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <set>
 
-#include "commands/engine.h"
+#include "study/engine.h"
 #include "physics/force.h"
 #include "scenes/play.h"
 #include "simulate/stepped.h"

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "commands/engine.h"
+#include "study/engine.h"
 #include "physics/energy.h"
 #include "render/mesh.h"
 #include "scene/load.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "commands/engine.h"
+#include "study/engine.h"
 #include "scenes/play.h"
 
 namespace carom::testing {

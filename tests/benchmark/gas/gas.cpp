@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/state_hash.h"
+#include "study/state_hash.h"
 #include "simulate/exact.h"
 
 namespace carom {

@@ -18,6 +18,8 @@ struct EngineChoice {
 
 EngineChoice choose_engine(const Scene& scene);
 
+const char* name_of(Integrator integrator);  // "euler", "verlet", "rk4"; as in scene files
+
 /// Finds the step of engine stepped where the scene asks for a tolerance, by running it again and again. `look` is
 /// called now and then, and may throw. Throws SimulationError.
 void settle_step(const Scene& scene, EngineChoice& engine, const std::function<void()>& look);
@@ -25,6 +27,11 @@ void settle_step(const Scene& scene, EngineChoice& engine, const std::function<v
 /// The scene's simulator at time 0. `scene` must outlive it. `step`: as settled; else the scene's own, or the default.
 /// Throws SimulationError.
 std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions, std::optional<double> step = {});
+
+/// The simulator that `simulate` names (its engine: not automatic), from any state of any world on; both must outlive
+/// it. Without a step of its own: the default. Throws SimulationError.
+std::unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
+                                          bool record_collisions);
 
 /// The most exact simulator that there is for the scene, whatever engine it asks for: what really happens first.
 std::unique_ptr<Simulator> make_oracle(const Scene& scene);

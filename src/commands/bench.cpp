@@ -1,0 +1,127 @@
+#include "commands/bench.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <new>
+
+#include "commands/bench_report.h"
+#include "commands/interrupt.h"
+#include "commands/plan.h"
+#include "commands/progress.h"
+#include "commands/report.h"
+#include "commands/text.h"
+#include "study/bench_folder.h"
+
+namespace carom {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// All scenes of one command line, one after the other, so that none disturbs another's times.
+class BenchSession {
+ public:
+  explicit BenchSession(const Options& options)
+      : options_(options), gnuplot_(find_gnuplot()), scenes_(plan_scenes(options, Purpose::bench)) {}
+
+  int go() {
+    refuse_other_content(scenes_, options_);
+    if (const std::string errors = error_count(scenes_); !errors.empty()) return refuse(errors);
+    int code = 0, interrupted = 0;
+    for (PlannedScene& planned : scenes_) {
+      Json entry = {{"scene", planned.file}, {"status", "not run"}, {"folder", planned.folder}};
+      if (interrupted == 0) {
+        try {
+          measure(planned, entry);
+        } catch (const Interrupted& stop) {
+          interrupted = stop.exit_code();
+          entry["status"] = "interrupted";
+          complain(options_, fmt::format("{}: interrupted; nothing was written", printable(planned.file)));
+        } catch (const std::bad_alloc&) {
+          fail(planned, entry, "not enough memory");
+          code = 1;
+        } catch (const std::exception& error) {
+          fail(planned, entry, error.what());
+          code = 1;
+        }
+      }
+      document_.push_back(std::move(entry));
+      planned.scene.reset();  // the next one may need the memory
+    }
+    if (options_.json) write_out(document("bench", document_));
+    return interrupted != 0 ? interrupted : code;
+  }
+
+ private:
+  int refuse(const std::string& errors) {
+    for (const PlannedScene& planned : scenes_) {
+      write_err(planned.error);
+      Json entry = {{"scene", planned.file}, {"status", planned.errors > 0 ? "wrong" : "not run"}};
+      if (planned.errors > 0) entry["error"] = planned.error;
+      document_.push_back(std::move(entry));
+    }
+    complain(options_, errors + "; nothing was run");
+    if (options_.json) write_out(document("bench", document_));
+    return 2;
+  }
+
+  void measure(const PlannedScene& planned, Json& entry) {
+    const Scene& scene = *planned.scene;
+    BenchFolder folder(planned.folder, gnuplot_);
+    Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO), printable(planned.name),
+                      scene.simulate.duration, 0);
+    const BenchWatch watch{stop_if_interrupted,
+                           [&](double done, const std::string& what) { progress.update(done, what); }};
+    const BenchResult result = run_bench(scene, options_.bench, watch);
+    stop_if_interrupted();
+    progress.clear();
+    folder.write(scene, options_.bench, result);
+    entry["status"] = "done";
+    entry.update(bench_json(result));
+    entry["files"] = files_in(planned.folder);
+    if (options_.json || options_.quiet) return;
+    Block block(Palette(wants_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+    block.heading(planned.name, scene.title);
+    describe(block, planned, result);
+    write_out(block.text());
+    flush_out();
+  }
+
+  void fail(const PlannedScene& planned, Json& entry, std::string_view text) {
+    complain(options_, fmt::format("{}: the bench failed: {}", printable(planned.file), text));
+    entry["status"] = "failed";
+    entry["error"] = std::string(text);
+  }
+
+  const Options& options_;
+  std::string gnuplot_;
+  std::vector<PlannedScene> scenes_;
+  Json document_ = Json::array();
+};
+
+}  // namespace
+
+const CommandText& bench_text() {
+  static const CommandText text = {
+      "bench",
+      "measures run time against error by every engine, integrator and step",
+      "  carom bench scenes/two_bowling_balls.yaml\n"
+      "  carom bench scene.yaml --steps 0.1:0.0001 --repeat 9  which steps, how many timed runs\n"
+      "  carom bench scenes/*.yaml --budget 5 -o benches       benches/<scene file's stem>/...\n",
+      "Without -o a scene's bench goes to output/<scene file's stem>.bench/: bench.csv, the plot as\n"
+      "bench.png and bench.svg, scene.yaml and manifest.json. A bench of the same scene is replaced.\n"
+      "Scenes are measured one after another: --jobs is taken and changes nothing.\n\n"
+      "Exit codes: 0 done, 1 a bench failed, 2 the command line or a scene is wrong, 130 or 143\n"
+      "interrupted.",
+      true,
+      false,
+      true};
+  return text;
+}
+
+int bench_command(const Options& options) {
+  return BenchSession(options).go();
+}
+
+}  // namespace carom

@@ -1,0 +1,148 @@
+#include "commands/bench_report.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "commands/text.h"
+#include "study/engine.h"
+
+namespace carom {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+using Cells = std::vector<std::string>;
+
+std::string digits(double value) {
+  return value == 0 ? "0" : std::isfinite(value) ? fmt::format("{:.3g}", value) : "";
+}
+
+std::string reference_text(const BenchResult& result) {
+  const Differences& error = result.reference_error;
+  std::string text = method_name(result.reference, Integrator::rk4);
+  if (result.reference == Engine::stepped) text += fmt::format(", steps of {:.3g} s", result.reference_step);
+  if (!(result.horizon > 0)) return text;
+  const char* how = result.reference == Engine::stepped ? "with steps twice as long it differs by"
+                    : result.checked_by_steps           ? "the stepped engine's finest runs differ from it by"
+                                                        : "rounding moves it by";
+  return text +
+         fmt::format("; {} {} and {} at most", how, quantity(error.position, "m"), quantity(error.velocity, "m/s"));
+}
+
+std::string motion_text(const BenchResult& result) {
+  if (!result.chaotic)
+    return fmt::format("regular: rounding moves no body by more than {}", quantity(result.rounding, "m"));
+  return fmt::format(
+      "chaotic: rounding moves bodies by up to {}; trajectories are compared until {}, statistics with those of {} "
+      "runs that differ by rounding (a deviation below {} is theirs too)",
+      quantity(result.rounding, "m"), quantity(result.horizon, "s"), result.members, significant_deviation);
+}
+
+Cells heading(const BenchResult& result) {
+  Cells cells = {"engine",   "step s",    "CPU s",  "position m", "velocity m/s",
+                 "energy J", "overlap m", "missed", "invented"};
+  if (result.chaotic) cells.push_back("deviation");
+  return cells;
+}
+
+Cells cells_of(const BenchRow& row, bool chaotic) {
+  Cells cells = {method_name(row.engine, row.integrator), digits(row.step)};
+  if (!row.failure.empty()) {
+    cells.push_back("failed");
+    cells.resize(chaotic ? 10 : 9);
+    return cells;
+  }
+  cells.push_back(digits(row.cpu_s));
+  if (row.errors) {
+    for (const double error : {row.errors->position, row.errors->velocity, row.errors->energy})
+      cells.push_back(digits(error));
+  } else {
+    cells.insert(cells.end(), 3, "");
+  }
+  cells.push_back(digits(std::max(row.max_overlap, 0.0)));
+  cells.push_back(row.errors ? grouped(row.errors->missed) : "");
+  cells.push_back(row.errors ? grouped(row.errors->invented) : "");
+  if (chaotic) cells.push_back(digits(row.deviation));
+  return cells;
+}
+
+Json errors_json(const Differences& errors) {
+  return {{"position_error_m", errors.position},
+          {"velocity_error_m_per_s", errors.velocity},
+          {"energy_error_J", errors.energy},
+          {"collisions_missed", errors.missed},
+          {"collisions_invented", errors.invented}};
+}
+
+Json statistics_json(const Statistics& s) {
+  return {{"collision_rate_per_s", s.collision_rate},
+          {"mean_speed_m_per_s", s.mean_speed},
+          {"force_on_fixed_N", s.force_on_fixed}};
+}
+
+Json row_json(const BenchRow& row, bool chaotic) {
+  Json json = {{"engine", name_of(row.engine)}};
+  if (row.engine == Engine::stepped) json["integrator"] = name_of(row.integrator);
+  if (std::isfinite(row.step)) json["step_s"] = row.step;
+  json["status"] = row.failure.empty() ? "done" : "failed";
+  if (!row.failure.empty()) {
+    json["error"] = row.failure;
+    return json;
+  }
+  json["cpu_s"] = row.cpu_s;
+  json["repeats"] = row.repeats;
+  if (row.errors) json.update(errors_json(*row.errors));
+  json["max_overlap_m"] = row.max_overlap;
+  json["collisions"] = row.collisions;
+  json["result_hash"] = fmt::format("{:016x}", row.hash);
+  if (!chaotic) return json;
+  json.update(statistics_json(row.statistics));
+  json["speed_distance"] = row.speed_distance;
+  json["deviation"] = row.deviation;
+  return json;
+}
+
+}  // namespace
+
+void describe(Block& block, const PlannedScene& planned, const BenchResult& result) {
+  block.line("reference", reference_text(result));
+  block.line("motion", motion_text(result));
+  std::vector<Cells> rows = {heading(result)};
+  for (const BenchRow& row : result.rows) rows.push_back(cells_of(row, result.chaotic));
+  block.table(rows);
+  for (const std::string& line : result.left_out) block.line("left out", line);
+  for (const BenchRow& row : result.rows)
+    if (!row.failure.empty())
+      block.line("failed", fmt::format("{}{}: {}", method_name(row.engine, row.integrator),
+                                       std::isfinite(row.step) ? fmt::format(", steps of {} s", digits(row.step)) : "",
+                                       row.failure));
+  block.line("wrote", fmt::format("{}: {}", printable(planned.folder), listed(files_in(planned.folder), 100)));
+  block.line("time", fmt::format("{} of CPU time", wait_text(result.cpu_s)));
+}
+
+Json bench_json(const BenchResult& result) {
+  Json reference = {{"engine", name_of(result.reference)}};
+  if (result.reference == Engine::stepped) {
+    reference["integrator"] = "rk4";
+    reference["step_s"] = result.reference_step;
+  }
+  reference.update(errors_json(result.reference_error));
+  Json json = {{"reference", reference},
+               {"rounding_m", result.rounding},
+               {"chaotic", result.chaotic},
+               {"compared_until_s", result.horizon}};
+  if (result.chaotic) {
+    json["ensemble"] = statistics_json(result.mean);
+    json["ensemble"]["runs"] = result.members;
+  }
+  json["rows"] = Json::array();
+  for (const BenchRow& row : result.rows) json["rows"].push_back(row_json(row, result.chaotic));
+  json["left_out"] = result.left_out;
+  json["cpu_s"] = result.cpu_s;
+  return json;
+}
+
+}  // namespace carom

@@ -1,0 +1,14 @@
+#pragma once
+// A bench's result as lines and a table for a person, and as JSON for a program.
+#include <nlohmann/json.hpp>
+
+#include "commands/report.h"
+#include "study/bench.h"
+
+namespace carom {
+
+void describe(Block& block, const PlannedScene& planned, const BenchResult& result);
+/// Members named as bench.csv's columns are.
+nlohmann::ordered_json bench_json(const BenchResult& result);
+
+}  // namespace carom

@@ -1,0 +1,145 @@
+#include "export/plot.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "export/child.h"
+#include "export/run_folder.h"
+
+namespace carom {
+
+namespace {
+
+constexpr auto patience = std::chrono::minutes(1);
+constexpr std::size_t most_bytes = (1 << 20) - 1;  // of a picture, as much as Child::output() keeps
+
+/// Colours that every kind of sight tells apart (Okabe & Ito 2008), and gnuplot's numbers of marks.
+struct Look {
+  const char* color;
+  int mark;
+};
+constexpr std::array<Look, 8> looks = {{{"#D55E00", 13},
+                                        {"#E69F00", 7},
+                                        {"#009E73", 5},
+                                        {"#0072B2", 9},
+                                        {"#CC79A7", 11},
+                                        {"#56B4E9", 15},
+                                        {"#000000", 6},
+                                        {"#8C8C00", 4}}};
+
+/// Text in single quotes, as gnuplot takes it to the letter.
+std::string quoted_text(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'') quoted += '\'';
+    quoted += static_cast<unsigned char>(c) < ' ' || c == 127 ? ' ' : c;
+  }
+  return quoted + "'";
+}
+
+struct Range {
+  double from = std::numeric_limits<double>::infinity(), to = 0;
+  void take(double value) {
+    from = std::min(from, value);
+    to = std::max(to, value);
+  }
+  /// Whole powers of ten around what was taken, with some room beside it.
+  std::string decades() const {
+    if (!(from <= to)) return "[0.1:10]";
+    return fmt::format("[1e{}:1e{}]", static_cast<int>(std::floor(std::log10(from) - 0.15)),
+                       static_cast<int>(std::ceil(std::log10(to) + 0.15)));
+  }
+};
+
+std::string script(const Plot& plot, const std::string& terminal) {
+  const auto height = [&](double y) { return std::max(y, plot.floor); };
+  Range x, y;
+  for (const PlotSeries& series : plot.series)
+    for (const PlotPoint& point : series.points) x.take(point.x), y.take(height(point.y));
+  if (plot.level) y.take(height(plot.level->y));
+
+  std::string text = fmt::format(
+      "set terminal {}\nset encoding utf8\nset termoption noenhanced\n"
+      "set logscale xy\nset xrange {}\nset yrange {}\n"
+      "set format x '10^{{%T}}'\nset format y '10^{{%T}}'\nset tics enhanced nomirror scale 0.8,0.4\n"
+      "set mxtics 10\nset mytics 10\n"
+      "set grid xtics ytics linetype 1 linecolor '#E4E4E4' linewidth 1\n"
+      "set border 3 linecolor '#606060' linewidth 1.2\n"
+      "set key outside right center vertical Left reverse spacing 1.5 samplen 2.5 width 1 noenhanced\n"
+      "set lmargin at screen 0.1\nset rmargin at screen 0.8\nset bmargin at screen 0.115\nset tmargin at screen 0.86\n"
+      "set label 1 {} at screen 0.1, screen 0.95 left font ',17' noenhanced\n"
+      "set label 2 {} at screen 0.1, screen 0.9 left font ',12' textcolor '#505050' noenhanced\n"
+      "set xlabel {} noenhanced offset 0,0.2\nset ylabel {} noenhanced offset 0.5,0\n",
+      terminal, x.decades(), y.decades(), quoted_text(plot.title), quoted_text(plot.subtitle),
+      quoted_text(plot.x_label), quoted_text(plot.y_label));
+  std::string data;
+  std::vector<std::string> layers;
+  if (plot.level)
+    layers.push_back(fmt::format("{:.17g} with lines linetype 1 linecolor '#808080' linewidth 1.5 dashtype 2 title {}",
+                                 height(plot.level->y), quoted_text(plot.level->name)));
+  for (std::size_t s = 0; s < plot.series.size(); ++s) {
+    const PlotSeries& series = plot.series[s];
+    if (series.points.empty()) continue;
+    const Look look = looks[s % looks.size()];
+    std::string labels;
+    data += fmt::format("$series{} << END\n", s);
+    for (const PlotPoint& point : series.points) {
+      data += fmt::format("{:.17g} {:.17g}\n", point.x, height(point.y));
+      if (!point.label.empty())
+        labels += fmt::format("{:.17g} {:.17g} \"{}\"\n", point.x, height(point.y), point.label);
+    }
+    data += "END\n";
+    layers.push_back(
+        fmt::format("$series{} using 1:2 with linespoints linetype 1 linecolor '{}' linewidth 2 pointtype {} pointsize "
+                    "1.3 title {}",
+                    s, look.color, look.mark, quoted_text(series.name)));
+    if (labels.empty()) continue;
+    data += fmt::format("$labels{} << END\n{}END\n", s, labels);
+    layers.push_back(fmt::format(
+        "$labels{} using 1:2:3 with labels left offset 0.9,0.5 font ',10' textcolor '{}' noenhanced notitle", s,
+        look.color));
+  }
+  if (layers.empty()) layers.push_back("NaN notitle");
+  return text + data + fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));
+}
+
+/// What gnuplot writes to its standard output when it reads a script from its standard input.
+std::string drawn(const std::string& gnuplot, const std::string& script) {
+  const Descriptor folder(open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  Child child({gnuplot, "--default-settings"}, folder.get(), true);
+  const bool sent = child.send(script.data(), script.size(), patience) == Child::Sent::all;
+  child.end_input();
+  const auto code = child.wait(patience);
+  if (!sent || code != 0)
+    throw ExportError("cannot draw the plot: gnuplot " +
+                      (code ? fmt::format("failed with code {}: {}", *code, child.errors())
+                            : std::string("did not end within a minute and was stopped")));
+  std::string picture = child.output();
+  if (picture.empty()) throw ExportError("cannot draw the plot: gnuplot wrote nothing: " + child.errors());
+  if (picture.size() > most_bytes) throw ExportError("cannot draw the plot: it takes more than a megabyte");
+  return picture;
+}
+
+}  // namespace
+
+std::string find_gnuplot() {
+  const auto gnuplot = find_program("gnuplot");
+  if (!gnuplot)
+    throw ExportError(
+        "gnuplot, which draws the plots, is not on this machine's PATH: install it (on Debian: apt install "
+        "gnuplot-nox)");
+  return *gnuplot;
+}
+
+PlotPictures draw_plot(const Plot& plot, const std::string& gnuplot) {
+  return {drawn(gnuplot, script(plot, "pngcairo size 1600,1000 fontscale 1.35 linewidth 1.35 font 'DejaVu Sans,13'")),
+          drawn(gnuplot, script(plot, "svg size 1200,750 dynamic font 'DejaVu Sans,13' background 'white'"))};
+}
+
+}  // namespace carom

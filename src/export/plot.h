@@ -1,0 +1,46 @@
+#pragma once
+// Log-log plots, drawn by gnuplot from a script that names every colour, font and range: the same plot gives the same
+// bytes.
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+struct PlotPoint {
+  double x, y;
+  std::string label{};  // beside it; empty: none
+};
+
+struct PlotSeries {
+  std::string name;               // in the legend
+  std::vector<PlotPoint> points;  // joined by a line, in this order
+};
+
+/// A height that others are held against.
+struct PlotLevel {
+  std::string name;  // in the legend
+  double y;
+};
+
+struct Plot {
+  std::string title;
+  std::string subtitle;  // smaller, below the title; empty: none
+  std::string x_label, y_label;
+  std::vector<PlotSeries> series;  // at most 8, each with a colour and a mark of its own
+  std::optional<PlotLevel> level;
+  double floor = 0;  // what is less than this (zero, say, which has no logarithm) stands at this height
+};
+
+/// The absolute path of gnuplot. Throws ExportError, which names the remedy.
+std::string find_gnuplot();
+
+/// Whole files.
+struct PlotPictures {
+  std::string png, svg;
+};
+
+/// Throws ExportError.
+PlotPictures draw_plot(const Plot& plot, const std::string& gnuplot);
+
+}  // namespace carom

@@ -1,0 +1,71 @@
+#pragma once
+// Run time against error: one scene by every engine, integrator and step, held against a reference.
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "study/differences.h"
+#include "study/statistics.h"
+
+namespace carom {
+
+struct BenchOptions {
+  std::optional<double> longest, shortest;  // s, of the steps; none: by the scene
+  int repeat = 5;                           // timed runs of each row, at most
+  double budget = 20;                       // s of CPU time for the whole scene, roughly
+  std::optional<Engine> reference;          // exact or stepped; none: exact if it has all that the scene asks for
+};
+
+/// One way to simulate, what it costs and how far off it is.
+struct BenchRow {
+  Engine engine = Engine::exact;
+  Integrator integrator = Integrator::rk4;                 // stepped
+  double step = std::numeric_limits<double>::quiet_NaN();  // s; the exact engine has none
+  std::string failure;  // empty: the run came to its end, and all of the rest is there
+  double cpu_s = 0;     // of one run, the median of `repeats`
+  int repeats = 0;
+  std::optional<Differences> errors;  // none: at no instant has the motion one trajectory only
+  double max_overlap = 0;             // m
+  std::uint64_t collisions = 0;
+  std::uint64_t hash = 0;
+  // Of a chaotic scene:
+  Statistics statistics;      // without speeds
+  double speed_distance = 0;  // Kolmogorov and Smirnov's, from the ensemble's speeds
+  double deviation = 0;       // from the ensemble's means, in its standard deviations
+};
+
+/// "exact", "stepped rk4", "book".
+std::string method_name(Engine engine, Integrator integrator);
+const char* name_of(Engine engine);  // as in scene files
+
+struct BenchResult {
+  Engine reference = Engine::exact;                                  // or stepped, by rk4
+  double reference_step = std::numeric_limits<double>::quiet_NaN();  // s, stepped
+  Differences reference_error;                                       // an estimate; how it was come by: see bench.cpp
+  bool checked_by_steps = false;  // it is what the stepped engine's finest runs say, not what rounding does
+  double rounding = 0;            // m: by how much runs in shifted coordinates differ, anywhere at any instant
+  bool chaotic = false;
+  double horizon = 0;       // s: trajectories are compared until then
+  std::size_t members = 0;  // of the ensemble of a chaotic scene, the reference included
+  Statistics mean;          // of the ensemble
+  std::vector<BenchRow> rows;
+  std::vector<std::string> left_out;  // a line for each engine, or engine's steps, that have no row
+  double cpu_s = 0;                   // of it all
+};
+
+struct BenchWatch {
+  std::function<void()> look;                                      // called often; may throw
+  std::function<void(double done, const std::string& what)> tell;  // done: 0 to 1
+};
+
+/// Throws SimulationError: the reference cannot be had, or a run's result is not that of the run before.
+BenchResult run_bench(const Scene& scene, const BenchOptions& options, const BenchWatch& watch);
+
+/// J, m: below them a difference is rounding: 2^-53 of the scene's extent.
+double rounding_of(const Scene& scene);
+
+}  // namespace carom

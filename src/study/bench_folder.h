@@ -1,0 +1,29 @@
+#pragma once
+// What a bench leaves: bench.csv, the plot, the scene, and a manifest that has the reference and the rest of the facts.
+#include <string>
+
+#include "export/open_folder.h"
+#include "export/plot.h"
+#include "export/run_folder.h"
+#include "study/bench.h"
+
+namespace carom {
+
+/// What stands in a folder; of a bench of this scene, with whatever options: this_run or incomplete.
+FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene, const BenchOptions& options);
+
+/// The work-precision plot: CPU time of a run against its error, or, of a chaotic scene, its statistics' deviation.
+Plot work_precision_plot(const Scene& scene, const BenchResult& result);
+
+class BenchFolder {
+ public:
+  /// Makes and locks the folder; what is in it stays until write(). Throws ExportError, as all of this class does.
+  BenchFolder(const std::string& path, std::string gnuplot) : folder_(path), gnuplot_(std::move(gnuplot)) {}
+  void write(const Scene& scene, const BenchOptions& options, const BenchResult& result);
+
+ private:
+  OpenFolder folder_;
+  std::string gnuplot_;
+};
+
+}  // namespace carom

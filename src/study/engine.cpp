@@ -1,0 +1,141 @@
+#include "study/engine.h"
+
+#include <fmt/format.h>
+
+#include "physics/force.h"
+#include "simulate/book.h"
+#include "simulate/exact.h"
+#include "simulate/step_choice.h"
+#include "simulate/stepped.h"
+
+namespace carom {
+
+namespace {
+
+SteppedOptions stepped_options(const Simulate& simulate, bool record_collisions) {
+  SteppedOptions options;
+  options.duration = simulate.duration;
+  options.integrator = simulate.integrator;
+  options.rest_speed = simulate.rest_speed.value_or(options.rest_speed);
+  options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
+  options.record_collisions = record_collisions;
+  return options;
+}
+
+/// Along parabolas from event to event; flights that are exponentials the stepped simulator has in closed form.
+std::unique_ptr<Simulator> make_exact(const World& world, const State& initial, const Simulate& simulate,
+                                      bool record_collisions) {
+  if (varying_force(world) != nullptr) {
+    SteppedOptions options = stepped_options(simulate, record_collisions);
+    options.integrator = Integrator::rk4;
+    options.closed_form = true;
+    options.step = default_step(world, initial);
+    return make_stepped_simulator(world, initial, options);
+  }
+  ExactOptions options;
+  options.duration = simulate.duration;
+  options.rest_speed = simulate.rest_speed.value_or(options.rest_speed);
+  options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
+  options.merge = simulate.merge;
+  options.record_collisions = record_collisions;
+  return make_exact_simulator(world, initial, options);
+}
+
+std::unique_ptr<Simulator> make_stepped(const World& world, const State& initial, const Simulate& simulate,
+                                        bool record_collisions) {
+  SteppedOptions options = stepped_options(simulate, record_collisions);
+  options.step = simulate.step ? *simulate.step : default_step(world, initial);
+  return make_stepped_simulator(world, initial, options);
+}
+
+std::unique_ptr<Simulator> make_book(const World& world, const State& initial, const Simulate& simulate,
+                                     bool record_collisions) {
+  BookOptions options;
+  options.step = simulate.step.value_or(options.step);
+  options.as_printed = simulate.as_printed;
+  options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
+  options.record_collisions = record_collisions;
+  return make_book_simulator(world, initial, options);
+}
+
+std::string joined(const std::string& why, const std::string& more) {
+  return why.empty() ? more : why + "; " + more;
+}
+
+}  // namespace
+
+const char* name_of(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::euler:
+      return "euler";
+    case Integrator::verlet:
+      return "verlet";
+    case Integrator::rk4:
+      break;
+  }
+  return "rk4";
+}
+
+EngineChoice choose_engine(const Scene& scene) {
+  EngineChoice choice{"exact", ""};
+  switch (scene.simulate.engine) {
+    case Engine::automatic:
+      if (const Force* open = force_without_closed_form(scene.world))
+        choice = {"stepped", fmt::format("auto: under `{}` paths have no closed form", name_of(open->law))};
+      else
+        choice.why = "auto: every path of this scene has a closed form";
+      break;
+    case Engine::exact:
+      break;
+    case Engine::stepped:
+      choice.name = "stepped";
+      break;
+    case Engine::book:
+      choice.name = "book";
+      break;
+  }
+  if (choice.name == "stepped" && !scene.simulate.tolerance) {
+    choice.step = scene.simulate.step.value_or(default_step(scene.world, scene.initial));
+    choice.why =
+        joined(choice.why, fmt::format("{}, steps of {:.4g} s", name_of(scene.simulate.integrator), *choice.step));
+  }
+  return choice;
+}
+
+void settle_step(const Scene& scene, EngineChoice& engine, const std::function<void()>& look) {
+  if (engine.name != "stepped" || engine.step) return;
+  const Simulate& simulate = scene.simulate;
+  const StepChoice choice =
+      choose_step(scene.world, scene.initial, stepped_options(simulate, false), *simulate.tolerance, look);
+  engine.step = choice.step;
+  engine.why = joined(engine.why, fmt::format("{}, steps of {:.4g} s, ", name_of(simulate.integrator), choice.step));
+  engine.why +=
+      choice.chaotic_from <= simulate.duration
+          ? fmt::format("chaotic: from {:.4g} s on positions differ by more than {} m, and no later with shorter ones",
+                        choice.chaotic_from, *simulate.tolerance)
+          : fmt::format("with which positions agree within {:.2g} m", choice.difference);
+}
+
+std::unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
+                                          bool record_collisions) {
+  const auto make = simulate.engine == Engine::exact     ? make_exact
+                    : simulate.engine == Engine::stepped ? make_stepped
+                                                         : make_book;
+  return make(world, initial, simulate, record_collisions);
+}
+
+std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions, std::optional<double> step) {
+  Simulate simulate = scene.simulate;
+  if (simulate.engine == Engine::automatic)
+    simulate.engine = force_without_closed_form(scene.world) == nullptr ? Engine::exact : Engine::stepped;
+  if (step) simulate.step = step;
+  return make_simulator(scene.world, scene.initial, simulate, record_collisions);
+}
+
+std::unique_ptr<Simulator> make_oracle(const Scene& scene) {
+  Simulate simulate = scene.simulate;
+  simulate.engine = force_without_closed_form(scene.world) == nullptr ? Engine::exact : Engine::stepped;
+  return make_simulator(scene.world, scene.initial, simulate, true);
+}
+
+}  // namespace carom

@@ -1,0 +1,42 @@
+#pragma once
+// One run, with what must be known of it to hold it against another one.
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "physics/state.h"
+#include "physics/tally.h"
+#include "physics/world.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+/// CPU time of this process so far (s).
+double cpu_time();
+
+/// What is compared of a collision. (The end of bounces is none, and is not kept.)
+struct Impact {
+  double time;            // s
+  double approach_speed;  // m/s
+  Entity a, b;            // as in Collision
+};
+
+struct RecordedRun {
+  std::vector<State> states;    // at the instants asked for
+  std::vector<Impact> impacts;  // by a, then b, then time
+  double fixed_impulse = 0;     // N s, the sum of all impulses on fixed things
+  Tally tally;                  // of the whole run
+  std::uint64_t hash = 0;       // of the result (state_hash.h)
+  double cpu_s = 0;
+};
+
+/// Runs from `initial` on to the end of simulate.duration, and looks at `instants` (s, ascending). `look` is called
+/// now and then, and may throw. Throws SimulationError.
+RecordedRun record_run(const World& world, const State& initial, const Simulate& simulate,
+                       const std::vector<double>& instants, const std::function<void()>& look);
+
+/// The same run, looked at by nobody and recorded nowhere: what is timed. Gives the result's hash.
+std::uint64_t bare_run(const World& world, const State& initial, const Simulate& simulate,
+                       const std::function<void()>& look);
+
+}  // namespace carom
