@@ -26,7 +26,7 @@ std::string reference_text(const BenchResult& result) {
   if (result.reference == Engine::stepped) text += fmt::format(", steps of {:.3g} s", result.reference_step);
   if (!(result.horizon > 0)) return text;
   const char* how = result.reference == Engine::stepped ? "with steps twice as long it differs by"
-                    : result.checked_by_steps           ? "the stepped engine's finest runs differ from it by"
+                    : result.checked_by_steps           ? "the stepped engine, by rk4, differs from it by"
                                                         : "rounding moves it by";
   return text +
          fmt::format("; {} {} and {} at most", how, quantity(error.position, "m"), quantity(error.velocity, "m/s"));

@@ -24,14 +24,14 @@ struct Look {
   const char* color;
   int mark;
 };
-constexpr std::array<Look, 8> looks = {{{"#D55E00", 13},
-                                        {"#E69F00", 7},
-                                        {"#009E73", 5},
-                                        {"#0072B2", 9},
-                                        {"#CC79A7", 11},
-                                        {"#56B4E9", 15},
-                                        {"#000000", 6},
-                                        {"#8C8C00", 4}}};
+constexpr std::array<Look, plot_looks> looks = {{{"#D55E00", 13},
+                                                 {"#E69F00", 7},
+                                                 {"#009E73", 5},
+                                                 {"#0072B2", 9},
+                                                 {"#CC79A7", 11},
+                                                 {"#56B4E9", 15},
+                                                 {"#000000", 6},
+                                                 {"#8C8C00", 4}}};
 
 /// Text in single quotes, as gnuplot takes it to the letter.
 std::string quoted_text(const std::string& text) {
@@ -43,18 +43,39 @@ std::string quoted_text(const std::string& text) {
   return quoted + "'";
 }
 
+/// Of one axis; at the end whole powers of ten, with some room beside what was taken.
 struct Range {
   double from = std::numeric_limits<double>::infinity(), to = 0;
   void take(double value) {
     from = std::min(from, value);
     to = std::max(to, value);
   }
-  /// Whole powers of ten around what was taken, with some room beside it.
-  std::string decades() const {
-    if (!(from <= to)) return "[0.1:10]";
-    return fmt::format("[1e{}:1e{}]", static_cast<int>(std::floor(std::log10(from) - 0.15)),
-                       static_cast<int>(std::ceil(std::log10(to) + 0.15)));
+  void widen() {
+    if (!(from <= to)) from = to = 1;
+    from = std::floor(std::log10(from) - 0.15);
+    to = std::ceil(std::log10(to) + 0.15);
   }
+  std::string text() const { return fmt::format("[1e{}:1e{}]", static_cast<int>(from), static_cast<int>(to)); }
+  double part(double value) const { return (std::log10(value) - from) / (to - from); }
+};
+
+/// Where a label would stand on another one it is left out. In parts of the picture's width and height.
+class Labels {
+ public:
+  Labels(const Range& x, const Range& y) : x_(x), y_(y) {}
+  bool fits(double x, double y) {
+    const double across = x_.part(x), up = y_.part(y);
+    const auto covers = [&](const auto& p) {
+      return std::abs(p.first - across) < 0.1 && std::abs(p.second - up) < 0.03;
+    };
+    if (std::any_of(taken_.begin(), taken_.end(), covers)) return false;
+    taken_.emplace_back(across, up);
+    return true;
+  }
+
+ private:
+  const Range &x_, &y_;
+  std::vector<std::pair<double, double>> taken_;
 };
 
 std::string script(const Plot& plot, const std::string& terminal) {
@@ -63,41 +84,44 @@ std::string script(const Plot& plot, const std::string& terminal) {
   for (const PlotSeries& series : plot.series)
     for (const PlotPoint& point : series.points) x.take(point.x), y.take(height(point.y));
   if (plot.level) y.take(height(plot.level->y));
+  x.widen();
+  y.widen();
 
   std::string text = fmt::format(
-      "set terminal {}\nset encoding utf8\nset termoption noenhanced\n"
+      "set terminal {}\nset encoding utf8\n"
       "set logscale xy\nset xrange {}\nset yrange {}\n"
-      "set format x '10^{{%T}}'\nset format y '10^{{%T}}'\nset tics enhanced nomirror scale 0.8,0.4\n"
+      "set format x '10^{{%T}}'\nset format y '10^{{%T}}'\nset tics nomirror scale 0.8,0.4\n"
       "set mxtics 10\nset mytics 10\n"
       "set grid xtics ytics linetype 1 linecolor '#E4E4E4' linewidth 1\n"
       "set border 3 linecolor '#606060' linewidth 1.2\n"
-      "set key outside right center vertical Left reverse spacing 1.5 samplen 2.5 width 1 noenhanced\n"
-      "set lmargin at screen 0.1\nset rmargin at screen 0.8\nset bmargin at screen 0.115\nset tmargin at screen 0.86\n"
+      "set lmargin at screen 0.1\nset rmargin at screen 0.8\nset bmargin at screen 0.11\nset tmargin at screen 0.86\n"
+      "set key at screen 0.815, graph 0.98 left top vertical Left reverse noenhanced spacing 1.5 samplen 2.5\n"
       "set label 1 {} at screen 0.1, screen 0.95 left font ',17' noenhanced\n"
       "set label 2 {} at screen 0.1, screen 0.9 left font ',12' textcolor '#505050' noenhanced\n"
       "set xlabel {} noenhanced offset 0,0.2\nset ylabel {} noenhanced offset 0.5,0\n",
-      terminal, x.decades(), y.decades(), quoted_text(plot.title), quoted_text(plot.subtitle),
-      quoted_text(plot.x_label), quoted_text(plot.y_label));
+      terminal, x.text(), y.text(), quoted_text(plot.title), quoted_text(plot.subtitle), quoted_text(plot.x_label),
+      quoted_text(plot.y_label));
   std::string data;
   std::vector<std::string> layers;
   if (plot.level)
     layers.push_back(fmt::format("{:.17g} with lines linetype 1 linecolor '#808080' linewidth 1.5 dashtype 2 title {}",
                                  height(plot.level->y), quoted_text(plot.level->name)));
+  Labels places(x, y);
   for (std::size_t s = 0; s < plot.series.size(); ++s) {
     const PlotSeries& series = plot.series[s];
     if (series.points.empty()) continue;
-    const Look look = looks[s % looks.size()];
+    const Look look = looks.at(series.look);
     std::string labels;
     data += fmt::format("$series{} << END\n", s);
     for (const PlotPoint& point : series.points) {
       data += fmt::format("{:.17g} {:.17g}\n", point.x, height(point.y));
-      if (!point.label.empty())
+      if (!point.label.empty() && places.fits(point.x, height(point.y)))
         labels += fmt::format("{:.17g} {:.17g} \"{}\"\n", point.x, height(point.y), point.label);
     }
     data += "END\n";
     layers.push_back(
-        fmt::format("$series{} using 1:2 with linespoints linetype 1 linecolor '{}' linewidth 2 pointtype {} pointsize "
-                    "1.3 title {}",
+        fmt::format("$series{} using 1:2 with linespoints linetype 1 linecolor '{}' linewidth 2 pointtype {} "
+                    "pointsize 1.3 title {}",
                     s, look.color, look.mark, quoted_text(series.name)));
     if (labels.empty()) continue;
     data += fmt::format("$labels{} << END\n{}END\n", s, labels);

@@ -1,6 +1,7 @@
 #pragma once
 // Log-log plots, drawn by gnuplot from a script that names every colour, font and range: the same plot gives the same
 // bytes.
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,8 +13,12 @@ struct PlotPoint {
   std::string label{};  // beside it; empty: none
 };
 
+/// How many colours with a mark each there are.
+inline constexpr std::size_t plot_looks = 8;
+
 struct PlotSeries {
   std::string name;               // in the legend
+  std::size_t look;               // its colour and mark, below plot_looks
   std::vector<PlotPoint> points;  // joined by a line, in this order
 };
 
@@ -27,7 +32,7 @@ struct Plot {
   std::string title;
   std::string subtitle;  // smaller, below the title; empty: none
   std::string x_label, y_label;
-  std::vector<PlotSeries> series;  // at most 8, each with a colour and a mark of its own
+  std::vector<PlotSeries> series;
   std::optional<PlotLevel> level;
   double floor = 0;  // what is less than this (zero, say, which has no logarithm) stands at this height
 };

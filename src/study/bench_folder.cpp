@@ -74,13 +74,26 @@ void write_table(OutputFile& file, const BenchResult& result) {
   }
 }
 
+std::size_t look_of(const BenchRow& row) {
+  return row.engine == Engine::exact  ? 0
+         : row.engine == Engine::book ? 4
+                                      : 1 + static_cast<std::size_t>(row.integrator);
+}
+
+/// "1/16 s", or a decimal where it is no such fraction.
+std::string step_label(double step) {
+  const double per_second = 1 / step;
+  return per_second == std::round(per_second) && per_second < 1e7 ? fmt::format("1/{:.0f} s", per_second)
+                                                                  : fmt::format("{:.2g} s", step);
+}
+
 std::string plot_subtitle(const BenchResult& result) {
   std::string text = result.reference == Engine::exact
-                         ? "reference: the exact engine, its own error as estimated"
-                         : fmt::format("reference: stepped rk4, steps of {:.3g} s", result.reference_step);
+                         ? "error: from the exact engine's run; its own is estimated"
+                         : fmt::format("error: from a run by rk4 in steps of {}", step_label(result.reference_step));
   if (result.chaotic)
-    return fmt::format("a chaotic scene; reference: {} runs of the {} engine that differ by rounding", result.members,
-                       name_of(result.reference));
+    return fmt::format("a chaotic scene: from the mean of {} runs by the {} engine that differ by rounding",
+                       result.members, name_of(result.reference));
   return text;
 }
 
@@ -91,18 +104,18 @@ Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
   plot.title = valid_utf8(scene.title);
   plot.subtitle = plot_subtitle(result);
   plot.x_label = "CPU time of the run (s)";
-  plot.y_label = result.chaotic ? "deviation of statistics (their spread by rounding = 1)"
+  plot.y_label = result.chaotic ? "deviation of statistics (1: their spread by rounding)"
                                 : "position error (m), greatest of all bodies and instants";
   plot.floor = result.chaotic ? least_deviation : rounding_of(scene);
-  if (result.chaotic) plot.level = PlotLevel{"not significant below", significant_deviation};
+  if (result.chaotic) plot.level = PlotLevel{"significant above", significant_deviation};
   if (!result.chaotic && result.reference == Engine::stepped)
     plot.level = PlotLevel{"reference's own error", result.reference_error.position};
   for (const BenchRow& row : result.rows) {
     if (!row.failure.empty() || (!result.chaotic && !row.errors)) continue;
     const std::string name = method_name(row.engine, row.integrator);
-    if (plot.series.empty() || plot.series.back().name != name) plot.series.push_back({name, {}});
+    if (plot.series.empty() || plot.series.back().name != name) plot.series.push_back({name, look_of(row), {}});
     plot.series.back().points.push_back({row.cpu_s, result.chaotic ? row.deviation : row.errors->position});
-    if (std::isfinite(row.step)) plot.series.back().points.back().label = fmt::format("{:.2g} s", row.step);
+    if (std::isfinite(row.step)) plot.series.back().points.back().label = step_label(row.step);
   }
   // The steps of the first and the last point tell those between.
   for (PlotSeries& series : plot.series)

@@ -22,7 +22,11 @@ struct Interval {
 class Matching {
  public:
   Matching(const World& world, const RecordedRun& reference, const RecordedRun& run, double until)
-      : world_(world), until_(until), least_speed_(slow * reference.tally.max_speed), between_(world.body_count()) {
+      : world_(world),
+        until_(until),
+        end_(reference.duration),
+        least_speed_(slow * reference.tally.max_speed),
+        between_(world.body_count()) {
     auto r = reference.impacts.begin();
     auto s = run.impacts.begin();
     while (r != reference.impacts.end() || s != run.impacts.end()) {
@@ -57,22 +61,16 @@ class Matching {
     return size / i.approach_speed;  // a speed of 0: for ever
   }
 
-  /// One pair's collisions, in order of time. Two are matched in turn, unless the next of one run fits better.
+  /// One pair's collisions, in order of time: matched in turn, or else the earlier one has no counterpart.
   void match(std::span<const Impact> reference, std::span<const Impact> run) {
     std::size_t i = 0, j = 0;
-    const auto apart = [&](std::size_t p, std::size_t q) { return std::abs(run[q].time - reference[p].time); };
     while (i < reference.size() && j < run.size()) {
-      const double now = apart(i, j);
-      const bool skip_reference = i + 1 < reference.size() && apart(i + 1, j) < now &&
-                                  (j + 1 == run.size() || apart(i + 1, j) <= apart(i + 1, j + 1));
-      const bool skip_run = j + 1 < run.size() && apart(i, j + 1) < now &&
-                            (i + 1 == reference.size() || apart(i, j + 1) <= apart(i + 1, j + 1));
-      if (now <= passage(reference[i]) && !skip_reference && !skip_run) {
-        const Interval between{std::min(reference[i].time, run[j].time), std::max(reference[i].time, run[j].time)};
-        between_[reference[i].a].push_back(between);
-        if (world_.is_body(reference[i].b)) between_[reference[i].b].push_back(between);
+      const auto [from, to] = std::minmax(reference[i].time, run[j].time);
+      if (to - from <= passage(reference[i])) {
+        between_[reference[i].a].push_back({from, to});
+        if (world_.is_body(reference[i].b)) between_[reference[i].b].push_back({from, to});
         ++i, ++j;
-      } else if (skip_reference || (!skip_run && reference[i].time < run[j].time)) {
+      } else if (reference[i].time < run[j].time) {
         count(reference[i++], missed_);
       } else {
         count(run[j++], invented_);
@@ -82,12 +80,13 @@ class Matching {
     for (; j < run.size(); ++j) count(run[j], invented_);
   }
 
+  /// One near the end may have its counterpart beyond it.
   void count(const Impact& impact, std::uint64_t& sum) const {
-    if (impact.time <= until_ && impact.approach_speed >= least_speed_) ++sum;
+    if (impact.time <= until_ && impact.time + passage(impact) <= end_ && impact.approach_speed >= least_speed_) ++sum;
   }
 
   const World& world_;
-  double until_, least_speed_;
+  double until_, end_, least_speed_;
   std::vector<std::vector<Interval>> between_;  // by body
   std::uint64_t missed_ = 0, invented_ = 0;
 };

@@ -19,6 +19,7 @@ RecordedRun record_run(const World& world, const State& initial, const Simulate&
                        const std::vector<double>& instants, const std::function<void()>& look) {
   const double start = cpu_time();
   RecordedRun run;
+  run.duration = simulate.duration;
   const auto simulator = make_simulator(world, initial, simulate, true);
   const auto go_to = [&](double time) {
     while (simulator->time() < time) {

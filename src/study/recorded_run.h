@@ -24,6 +24,7 @@ struct Impact {
 struct RecordedRun {
   std::vector<State> states;    // at the instants asked for
   std::vector<Impact> impacts;  // by a, then b, then time
+  double duration = 0;          // s
   double fixed_impulse = 0;     // N s, the sum of all impulses on fixed things
   Tally tally;                  // of the whole run
   std::uint64_t hash = 0;       // of the result (state_hash.h)

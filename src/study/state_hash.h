@@ -23,14 +23,13 @@ inline std::uint64_t hash_of(const State& state) {
   return hash;
 }
 
-/// Over these, and over how many collisions there were, when the first and the last one, and what energy all of them
-/// took.
+/// Over these, and over how many collisions there were, and when the first and the last one.
 inline std::uint64_t hash_of(const State& state, const Tally& tally) {
   std::uint64_t hash = hash_of(state);
   for (const std::uint64_t count : {tally.body_body, tally.body_fixed, tally.merges, tally.collapses})
     add_to_hash(hash, count);
-  for (const double sum : {tally.first_collision, tally.last_collision, tally.energy_lost})
-    add_to_hash(hash, std::bit_cast<std::uint64_t>(sum));
+  for (const double time : {tally.first_collision, tally.last_collision})
+    add_to_hash(hash, std::bit_cast<std::uint64_t>(time));
   return hash;
 }
 
