@@ -94,8 +94,8 @@ std::string script(const Plot& plot, const std::string& terminal) {
       "set mxtics 10\nset mytics 10\n"
       "set grid xtics ytics linetype 1 linecolor '#E4E4E4' linewidth 1\n"
       "set border 3 linecolor '#606060' linewidth 1.2\n"
-      "set lmargin at screen 0.1\nset rmargin at screen 0.8\nset bmargin at screen 0.11\nset tmargin at screen 0.86\n"
-      "set key at screen 0.815, graph 0.98 left top vertical Left reverse noenhanced spacing 1.5 samplen 2.5\n"
+      "set lmargin at screen 0.1\nset rmargin at screen 0.79\nset bmargin at screen 0.11\nset tmargin at screen 0.86\n"
+      "set key at screen 0.805, graph 0.98 left top vertical Left reverse noenhanced spacing 1.5 samplen 2.5\n"
       "set label 1 {} at screen 0.1, screen 0.95 left font ',17' noenhanced\n"
       "set label 2 {} at screen 0.1, screen 0.9 left font ',12' textcolor '#505050' noenhanced\n"
       "set xlabel {} noenhanced offset 0,0.2\nset ylabel {} noenhanced offset 0.5,0\n",

@@ -43,6 +43,8 @@ void SteppedSimulator::dissolve(std::uint32_t c, double time, std::vector<Entity
       if (!is_awake_[i]) awake_.push_back(i);
       is_awake_[i] = 1;
       start_[i] = time;
+      const Vec3 zero = Vec3::Zero();
+      if (time > 0) pieces_.push_back({i, 0, time, {x_[i], zero, zero, zero}, zero, true});
     }
     ++version_[i];  // what was predicted for the cluster is void, even if it has gone nowhere
     cluster_of_[i] = none;

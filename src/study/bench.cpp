@@ -1,6 +1,5 @@
 // Every run is first recorded and held against the reference, then timed bare: without a record, a look or a file, from
-// the making of the simulator to the scene's end. Timed runs of all rows take turns, so that a machine that is slow for
-// a while is slow for all, and the median counts; runs too short for the clock are repeated within a turn.
+// the making of the simulator to the scene's end. Timed runs of all rows take turns (timing.h).
 //
 // Rounding. The scene is run again in shifted coordinates (shifted.h), where every place has other last digits. What
 // differs then is what rounding does. Where it costs more than half of a double's digits, the scene is chaotic: its
@@ -22,6 +21,7 @@
 #include "simulate/stepped.h"
 #include "study/engine.h"
 #include "study/shifted.h"
+#include "study/timing.h"
 
 namespace carom {
 
@@ -33,7 +33,7 @@ constexpr double states_kept = 1e6;            // of all bodies, in one run
 constexpr int halvings = 10;
 constexpr int shifted_runs = 3;
 constexpr int ensemble_runs = 12;
-constexpr double resolved = 2e-3;  // s: the shortest time that is measured
+constexpr double resolved = 2e-3;  // s: a run that takes this long tells what a longer one takes
 constexpr double half_of_the_digits = 0x1p-26, last_digit = 0x1p-53, grown = 0x1p14;
 
 /// One run takes more than what is left.
@@ -106,6 +106,7 @@ class Bench {
   /// Powers of two (s), from 1/4 of the duration or 64 default steps down, unless they are given.
   void choose_steps() {
     const double duration = scene_.simulate.duration;
+    if (!(duration > 0)) throw SimulationError("the scene lasts 0 s: there is nothing to measure");
     const double most = std::min(0.25 * duration, 64 * default_step(world_, scene_.initial));
     const double longest = options_.longest.value_or(std::exp2(std::floor(std::log2(most))));
     const double shortest = options_.shortest.value_or(std::ldexp(longest, -halvings));
@@ -313,47 +314,23 @@ class Bench {
       if (row.engine == Engine::exact && row.errors) row.errors = result_.reference_error;
   }
 
-  struct Timed {
-    BenchRow* row;
-    Simulate way;
-    int runs = 1;  // in one turn
-    std::vector<double> times{};
-  };
-
-  /// s of CPU time of one run.
-  double turn(const Timed& timed) {
-    const double start = cpu_time();
-    for (int k = 0; k < timed.runs; ++k)
-      if (bare_run(world_, scene_.initial, timed.way, watch_.look) != timed.row->hash)
-        throw SimulationError(fmt::format("the {} engine's result is another one at each run",
-                                          method_name(timed.row->engine, timed.row->integrator)));
-    return (cpu_time() - start) / timed.runs;
-  }
-
   void time_rows() {
-    std::vector<Timed> all;
-    int rounds = 0;
+    std::vector<BenchRow*> rows;
+    std::vector<TimedTask> tasks;
     for (BenchRow& row : result_.rows) {
       if (!row.failure.empty()) continue;
+      rows.push_back(&row);
       const auto step = std::isnan(row.step) ? std::nullopt : std::optional(row.step);
-      Timed& timed = all.emplace_back(Timed{&row, simulate(row.engine, row.integrator, step)});
-      while (timed.runs < 100'000 && timed.row->repeats > 1) {
-        const double once = turn(timed);
-        if (once * timed.runs >= resolved) break;
-        timed.runs = std::max(timed.runs * 2, static_cast<int>(std::min(1e5, resolved / std::max(once, 1e-8))));
-      }
-      rounds = std::max(rounds, row.repeats);
+      const auto run = [this, &row, way = simulate(row.engine, row.integrator, step)] {
+        if (bare_run(world_, scene_.initial, way, watch_.look) == row.hash) return;
+        throw SimulationError(
+            fmt::format("the result is another one at each run of {}", method_name(row.engine, row.integrator)));
+      };
+      tasks.push_back({run, row.repeats});
     }
-    for (int round = 0; round < rounds; ++round) {
-      watch_.tell(0.5 + 0.5 * round / rounds, fmt::format("timed runs, {} of {}", round + 1, rounds));
-      for (Timed& timed : all)
-        if (round < timed.row->repeats) timed.times.push_back(turn(timed));
-    }
-    for (Timed& timed : all) {
-      std::vector<double>& times = timed.times;
-      std::sort(times.begin(), times.end());
-      timed.row->cpu_s = 0.5 * (times[(times.size() - 1) / 2] + times[times.size() / 2]);
-    }
+    const auto tell = [&](double done) { watch_.tell(0.5 + 0.5 * done, "timed runs"); };
+    const std::vector<double> medians = time_in_turns(tasks, tell);
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k]->cpu_s = medians[k];
   }
 
   const Scene& scene_;

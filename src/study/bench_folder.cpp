@@ -109,7 +109,7 @@ Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
   plot.floor = result.chaotic ? least_deviation : rounding_of(scene);
   if (result.chaotic) plot.level = PlotLevel{"significant above", significant_deviation};
   if (!result.chaotic && result.reference == Engine::stepped)
-    plot.level = PlotLevel{"reference's own error", result.reference_error.position};
+    plot.level = PlotLevel{"reference's error", result.reference_error.position};
   for (const BenchRow& row : result.rows) {
     if (!row.failure.empty() || (!result.chaotic && !row.errors)) continue;
     const std::string name = method_name(row.engine, row.integrator);

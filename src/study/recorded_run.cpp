@@ -1,19 +1,13 @@
 #include "study/recorded_run.h"
 
 #include <algorithm>
-#include <ctime>
 #include <tuple>
 
 #include "study/engine.h"
 #include "study/state_hash.h"
+#include "study/timing.h"
 
 namespace carom {
-
-double cpu_time() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 RecordedRun record_run(const World& world, const State& initial, const Simulate& simulate,
                        const std::vector<double>& instants, const std::function<void()>& look) {

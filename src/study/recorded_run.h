@@ -11,9 +11,6 @@
 
 namespace carom {
 
-/// CPU time of this process so far (s).
-double cpu_time();
-
 /// What is compared of a collision. (The end of bounces is none, and is not kept.)
 struct Impact {
   double time;            // s

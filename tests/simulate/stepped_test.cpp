@@ -219,5 +219,23 @@ TEST(Outputs, ChangeNothing) {
   EXPECT_EQ(once->state().velocity, often->state().velocity);
 }
 
+// Looked at within the step in which it is struck: of a body asleep there was only the step's end to be seen.
+TEST(Looks, ABodyThatLiesStillDoesUntilItIsStruck) {
+  Problem problem;
+  problem.ball({-1, 0.5, 0}, {2, 0, 0}, 1, 0.5);
+  problem.ball({1, 0.5, 0}, {0, 0, 0}, 1, 0.5);
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  problem.options.duration = 2;
+  const auto simulator = make_stepped_simulator(problem.world, problem.initial, options_of(problem, 1));
+  simulator->advance_to(0.25);
+  for (const double time : {0.3, 0.4, 0.49}) {  // they meet at 0.5 s, each ball moves at 2 m/s for half of the step
+    simulator->advance_to(time);
+    EXPECT_EQ(simulator->state().position[1].x(), 1) << time;
+    EXPECT_EQ(simulator->state().velocity[1].x(), 0) << time;
+  }
+  simulator->advance_to(0.75);
+  EXPECT_NEAR(simulator->state().position[1].x(), 1.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace carom

@@ -1,0 +1,156 @@
+// carom bench, by the real program.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "commands/program.h"
+
+namespace carom::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::vector<std::string> quick = {"bench", "balls.yaml", "--steps", "0.1:0.05", "--repeat", "1"};
+
+std::vector<std::string> with(std::vector<std::string> words, const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+std::vector<std::vector<std::string>> table_of(const std::string& text) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    rows.emplace_back();
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+TEST(BenchCommand, WritesATableAPlotAndAManifest) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  const Finished run = here.carom(quick);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  const auto files = here.files("output/balls.bench");
+  ASSERT_EQ(files.size(), 5u);
+  const auto table = table_of(files.at("bench.csv"));
+  ASSERT_EQ(table.size(), 1u + 1 + 3 * 2 + 2);
+  const std::string contract =
+      "engine,integrator,step_s,cpu_s,position_error_m,velocity_error_m_per_s,energy_error_J,max_overlap_m,"
+      "collisions_missed,collisions_invented,result_hash,";
+  EXPECT_TRUE(files.at("bench.csv").starts_with(contract));
+  std::vector<std::string> ways;
+  for (std::size_t k = 1; k < table.size(); ++k) ways.push_back(table[k][0] + " " + table[k][1] + " " + table[k][2]);
+  EXPECT_EQ(ways, (std::vector<std::string>{"exact  ", "stepped euler 0.1", "stepped euler 0.05", "stepped verlet 0.1",
+                                            "stepped verlet 0.05", "stepped rk4 0.1", "stepped rk4 0.05", "book  0.1",
+                                            "book  0.05"}));
+  for (std::size_t k = 1; k < table.size(); ++k) {
+    EXPECT_GT(std::stod(table[k][3]), 0) << k;
+    EXPECT_EQ(table[k][10].size(), 16u) << k;
+    EXPECT_EQ(table[k][11], "done") << k;
+  }
+  EXPECT_TRUE(files.at("bench.png").starts_with("\x89PNG"));
+  EXPECT_TRUE(files.at("bench.svg").starts_with("<?xml"));
+  EXPECT_EQ(here.carom({"run", "output/balls.bench/scene.yaml", "-o", "again"}).code, 0);
+  const Json manifest = Json::parse(files.at("manifest.json"));
+  EXPECT_EQ(manifest["reference"]["engine"], "exact");
+  EXPECT_EQ(manifest["files"].size(), 4u);
+  EXPECT_NE(run.out.find("\n  reference   exact; rounding moves it by "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("\n  motion      regular: "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find(
+                "\n  wrote       output/balls.bench: bench.csv, bench.png, bench.svg, manifest.json and scene.yaml\n"),
+            std::string::npos)
+      << run.out;
+}
+
+TEST(BenchCommand, JsonHasTheSameRows) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  const Finished run = here.carom(with(quick, {"--json"}));
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Json scene = Json::parse(run.out)["scenes"][0];
+  const auto table = table_of(here.read("output/balls.bench/bench.csv"));
+  ASSERT_EQ(scene["rows"].size() + 1, table.size());
+  for (std::size_t k = 1; k < table.size(); ++k) {
+    const Json& row = scene["rows"][k - 1];
+    EXPECT_EQ(row["engine"], table[k][0]);
+    EXPECT_EQ(row["position_error_m"].get<double>(), std::stod(table[k][4]));
+    EXPECT_EQ(row["result_hash"], table[k][10]);
+  }
+  EXPECT_EQ(scene["status"], "done");
+  EXPECT_EQ(scene["chaotic"], false);
+}
+
+TEST(BenchCommand, ReplacesABenchOfTheSceneAndNothingElse) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  ASSERT_EQ(here.carom(quick).code, 0);
+  EXPECT_EQ(here.carom(with(quick, {"--repeat", "2"})).code, 2);  // given twice
+  EXPECT_EQ(here.carom({"bench", "balls.yaml", "--steps", "0.1"}).code, 0);
+  EXPECT_EQ(table_of(here.read("output/balls.bench/bench.csv")).size(), 6u);
+  ASSERT_EQ(here.carom({"run", "balls.yaml"}).code, 0);
+  const auto before = here.files("output");
+  for (const auto& words : {with(quick, {"-o", "output/balls"}), with(quick, {"--set", "balls.red.mass=11"})}) {
+    const Finished refused = here.carom(words);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("overwrite it with --force"), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", "output/balls.bench"}).code, 2);
+  EXPECT_EQ(here.files("output"), before);
+  EXPECT_EQ(here.carom(with(quick, {"-o", "output/balls", "--force"})).code, 0);
+  EXPECT_EQ(here.files("output/balls").size(), 5u);
+}
+
+TEST(BenchCommand, WithoutGnuplotRunsNothing) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  const Finished run = here.shell("PATH=/nowhere \"$CAROM\" bench balls.yaml");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(run.out, "");
+  EXPECT_NE(run.err.find("apt install gnuplot-nox"), std::string::npos) << run.err;
+  EXPECT_FALSE(here.has("output"));
+}
+
+TEST(BenchCommand, InterruptedLeavesNothing) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  const Finished run =
+      here.interrupted({"bench", "balls.yaml", "--repeat", "1000", "--budget", "1000"}, "output/balls.bench", SIGINT);
+  EXPECT_EQ(run.code, 130);
+  EXPECT_EQ(run.out, "");
+  EXPECT_TRUE(run.err.ends_with("carom: balls.yaml: interrupted; nothing was written\n")) << run.err;
+  EXPECT_FALSE(here.has("output/balls.bench"));
+}
+
+TEST(BenchCommand, ThatFailsSaysWhyAndLeavesNothing) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  const Finished run = here.carom(with(quick, {"--set", "simulate.duration=0"}));
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(run.err, "carom: balls.yaml: the bench failed: the scene lasts 0 s: there is nothing to measure\n");
+  EXPECT_FALSE(here.has("output/balls.bench"));
+}
+
+TEST(BenchCommand, RefusesWordsThatMeanNothing) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  const auto complaint = [&](const std::vector<std::string>& words) {
+    const Finished run = here.carom(with({"bench", "balls.yaml"}, words));
+    EXPECT_EQ(run.code, 2);
+    return run.err.substr(0, run.err.find('\n'));
+  };
+  EXPECT_EQ(complaint({"--steps", "0.1:x"}), "carom bench: --steps takes a number above 0, not `x`");
+  EXPECT_EQ(complaint({"--steps", "0.001:0.1"}),
+            "carom bench: --steps goes from the longest step to the shortest, 0.1:0.001 say, not `0.001:0.1`");
+  EXPECT_EQ(complaint({"--budget", "-1"}), "carom bench: --budget takes a number above 0, not `-1`");
+  EXPECT_EQ(complaint({"--reference", "book"}), "carom bench: --reference is exact, stepped, not `book`");
+  EXPECT_EQ(complaint({"--only", "energy"}), "carom bench: no option `--only`");
+}
+
+}  // namespace
+}  // namespace carom::testing

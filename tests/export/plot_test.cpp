@@ -1,0 +1,88 @@
+// Plots, by the real gnuplot.
+#include "export/plot.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <functional>
+
+#include "export/run_folder.h"
+
+namespace carom {
+namespace {
+
+Plot small_plot() {
+  Plot plot;
+  plot.title = "Orders 1 and 2";
+  plot.subtitle = "made up";
+  plot.x_label = "time (s)";
+  plot.y_label = "error (m)";
+  plot.series = {{"first", 1, {{1e-3, 1e-1, "1/16 s"}, {2e-3, 5e-2}, {4e-3, 2.5e-2, "1/64 s"}}},
+                 {"second", 2, {{1e-3, 1e-2}, {2e-3, 2.5e-3}, {4e-3, 0}}}};
+  plot.level = PlotLevel{"rounding", 1e-6};
+  plot.floor = 1e-8;
+  return plot;
+}
+
+std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
+  std::uint32_t value = 0;
+  for (std::size_t k = at; k < at + 4; ++k) value = value << 8 | static_cast<unsigned char>(bytes[k]);
+  return value;
+}
+
+TEST(Plot, IsAPngAndAnSvgWithTheSameBytesEachTime) {
+  const PlotPictures once = draw_plot(small_plot(), find_gnuplot()), again = draw_plot(small_plot(), find_gnuplot());
+  EXPECT_EQ(once.png, again.png);
+  EXPECT_EQ(once.svg, again.svg);
+  ASSERT_TRUE(once.png.starts_with("\x89PNG\r\n\x1a\n"));
+  EXPECT_EQ(big_endian(once.png, 16), 1600u);
+  EXPECT_EQ(big_endian(once.png, 20), 1000u);
+  ASSERT_TRUE(once.svg.starts_with("<?xml"));
+  EXPECT_TRUE(once.svg.ends_with("</svg>\n\n") || once.svg.ends_with("</svg>\n"));
+  for (const char* text : {"Orders 1 and 2", "made up", "time (s)", "error (m)", ">first<", ">second<", ">rounding<",
+                           ">1/16 s<", ">1/64 s<"})
+    EXPECT_NE(once.svg.find(text), std::string::npos) << text;
+}
+
+TEST(Plot, TakesAnyTextToTheLetter) {
+  Plot plot = small_plot();
+  plot.title = "it's `x` $HOME \"q\" {/Symbol a} x^2_3 <b> \\n %d\n!touch";
+  const std::string svg = draw_plot(plot, find_gnuplot()).svg;
+  EXPECT_NE(svg.find("it's `x` $HOME \"q\" {/Symbol a} x^2_3 &lt;b> \\n %d !touch"), std::string::npos) << svg;
+}
+
+TEST(Plot, OfNothingAndOfOnePointIsDrawn) {
+  Plot plot;
+  plot.title = "empty";
+  EXPECT_FALSE(draw_plot(plot, find_gnuplot()).png.empty());
+  plot.series = {{"one", 0, {{1, 1}}}, {"none", 1, {}}};
+  EXPECT_FALSE(draw_plot(plot, find_gnuplot()).png.empty());
+}
+
+std::string error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const ExportError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Plot, WithoutGnuplotNamesTheRemedy) {
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nowhere", 1);
+  EXPECT_EQ(error_of([] { find_gnuplot(); }),
+            "gnuplot, which draws the plots, is not on this machine's PATH: install it (on Debian: apt install "
+            "gnuplot-nox)");
+  setenv("PATH", path.c_str(), 1);
+}
+
+TEST(Plot, ThatGnuplotDoesNotDrawIsAnError) {
+  EXPECT_EQ(error_of([] { draw_plot(small_plot(), "/bin/false"); }).substr(0, 47),
+            "cannot draw the plot: gnuplot failed with code ");
+  EXPECT_EQ(error_of([] { draw_plot(small_plot(), "/bin/true"); }).substr(0, 43),
+            "cannot draw the plot: gnuplot wrote nothing");
+}
+
+}  // namespace
+}  // namespace carom

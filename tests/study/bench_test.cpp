@@ -1,0 +1,173 @@
+// Benches of real scenes: errors fall as methods promise, chaos is known, what an engine does not have is said.
+#include "study/bench.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "scene/load.h"
+#include "simulate/simulator.h"
+
+namespace carom {
+namespace {
+
+constexpr double unlimited = 1e6;  // s, of budget: no row hangs on how fast the machine is
+
+Scene scene_of(const std::string& name, const std::vector<std::string>& set = {}) {
+  LoadOptions options;
+  options.set = set;
+  return load_scene(SCENES_DIR "/" + name + ".yaml", options);
+}
+
+BenchResult bench(const Scene& scene, double longest, double shortest, double budget = unlimited) {
+  BenchOptions options;
+  options.longest = longest;
+  options.shortest = shortest;
+  options.repeat = 1;
+  options.budget = budget;
+  return run_bench(scene, options, {[] {}, [](double, const std::string&) {}});
+}
+
+std::vector<BenchRow> rows_of(const BenchResult& result, Engine engine, Integrator integrator = Integrator::rk4) {
+  std::vector<BenchRow> rows;
+  for (const BenchRow& row : result.rows)
+    if (row.engine == engine && (engine != Engine::stepped || row.integrator == integrator)) rows.push_back(row);
+  return rows;
+}
+
+/// The slope of log error over log step, fitted through all rows.
+double order_of(const std::vector<BenchRow>& rows, double Differences::*error) {
+  double sx = 0, sy = 0, sxx = 0, sxy = 0;
+  for (const BenchRow& row : rows) {
+    const double x = std::log(row.step), y = std::log((*row.errors).*error);
+    sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  const auto n = static_cast<double>(rows.size());
+  return (n * sxy - sx * sy) / (n * sxx - sx * sx);
+}
+
+// A spring and impacts. measured: position 0.99, 2.00, 4.00; energy 0.98, 2.00, 5.02: rk4's amplitude is of one order
+// more.
+TEST(Bench, ErrorsFallByTheOrderOfTheMethod) {
+  const BenchResult result = bench(scene_of("bumper"), 0x1p-6, 0x1p-10);
+  EXPECT_EQ(result.reference, Engine::stepped);
+  EXPECT_EQ(result.reference_step, 0x1p-12);
+  EXPECT_FALSE(result.chaotic);
+  const std::map<Integrator, double> orders = {{Integrator::euler, 1}, {Integrator::verlet, 2}, {Integrator::rk4, 4}};
+  for (const auto& [integrator, order] : orders) {
+    const auto rows = rows_of(result, Engine::stepped, integrator);
+    ASSERT_EQ(rows.size(), 5u);
+    EXPECT_NEAR(order_of(rows, &Differences::position), order, 0.1);
+    EXPECT_GT(order_of(rows, &Differences::energy), order - 0.1);
+    for (const BenchRow& row : rows) EXPECT_EQ(row.errors->missed + row.errors->invented, 0u);
+  }
+}
+
+// Under linear drag the exact engine has exponentials, the stepped one polynomials.
+TEST(Bench, TheExactEngineIsItsOwnReferenceAndItsErrorEstimated) {
+  const BenchResult result = bench(scene_of("raindrops"), 0x1p-6, 0x1p-10);
+  EXPECT_EQ(result.reference, Engine::exact);
+  const auto exact = rows_of(result, Engine::exact), rk4 = rows_of(result, Engine::stepped);
+  ASSERT_EQ(exact.size(), 1u);
+  EXPECT_TRUE(std::isnan(exact[0].step));
+  EXPECT_GT(exact[0].errors->position, 0);
+  EXPECT_LT(exact[0].errors->position, 1e-11);  // measured: 6e-13
+  EXPECT_NEAR(order_of(rk4, &Differences::position), 4, 0.15);
+}
+
+// The exact engine goes along curved contact in steps of its own: rounding does not tell what these cost.
+TEST(Bench, TheSteppedEngineShowsAnErrorOfTheExactOneThatRoundingDoesNot) {
+  const BenchResult result = bench(scene_of("rolling_off"), 0x1p-9, 0x1p-11);
+  EXPECT_LT(result.rounding, 1e-12);  // measured: 2e-14
+  EXPECT_TRUE(result.checked_by_steps);
+  EXPECT_NEAR(result.reference_error.position, 1.4e-9, 1e-10);
+}
+
+// Impacts at round times, the last one at the end: velocities differ by 1 m/s around each of them.
+TEST(Bench, ImpactsAtRoundTimesMakeNoErrorOfVelocity) {
+  const Scene scene = scene_of("newtons_cradle_gap");
+  for (const BenchRow& row : bench(scene, 0x1p-5, 0x1p-6).rows) {
+    if (row.engine == Engine::book) continue;
+    EXPECT_LT(row.errors->velocity, 1e-12) << row.step;
+    EXPECT_LT(row.errors->position, 1e-12) << row.step;
+  }
+}
+
+TEST(Bench, TheBookMissesAndInventsCollisionsInLongSteps) {
+  const auto rows = rows_of(bench(scene_of("basketball_and_tennis_ball"), 0x1p-4, 0x1p-13), Engine::book);
+  ASSERT_EQ(rows.size(), 10u);
+  EXPECT_GT(rows.front().errors->missed, 3u);  // of 6
+  EXPECT_EQ(rows.back().errors->missed, 0u);
+  EXPECT_GT(rows.front().max_overlap + rows[1].max_overlap, 0.1);
+  EXPECT_LT(rows.back().max_overlap, 0.001);
+  EXPECT_LT(rows.back().errors->position, 0.01);
+}
+
+TEST(Bench, AGasIsChaoticAndComparedByItsStatistics) {
+  const BenchResult result = bench(scene_of("gas_in_a_room"), 0x1p-4, 0x1p-4);
+  EXPECT_TRUE(result.chaotic);
+  EXPECT_GT(result.rounding, 0.1);
+  EXPECT_GT(result.horizon, 0.2);
+  EXPECT_LT(result.horizon, 2);
+  EXPECT_EQ(result.members, 13u);
+  for (const BenchRow& row : result.rows) {
+    if (row.engine == Engine::book) {
+      EXPECT_GT(row.deviation, 10);  // measured: 170; most collisions of a frame are not seen
+    } else {
+      EXPECT_LT(row.deviation, significant_deviation);  // measured: 1.3
+      EXPECT_LT(row.errors->position, 1e-9);            // until the horizon; measured: 3e-12
+      EXPECT_EQ(row.errors->missed + row.errors->invented, 0u);
+    }
+  }
+}
+
+TEST(Bench, TheSameGasIsRegularForAWhileAndSoIsABilliardBreak) {
+  EXPECT_FALSE(bench(scene_of("gas_in_a_room", {"simulate.duration=0.5"}), 0x1p-4, 0x1p-4).chaotic);
+  EXPECT_FALSE(bench(scene_of("billiard_break"), 0x1p-4, 0x1p-4).chaotic);
+}
+
+TEST(Bench, WhatAnEngineDoesNotHaveIsSaid) {
+  const BenchResult spring = bench(scene_of("bumper"), 0.01, 0.01), clay = bench(scene_of("clay"), 0.01, 0.01);
+  EXPECT_EQ(spring.left_out,
+            (std::vector<std::string>{"exact: under `spring` paths have no closed form, which `engine: exact` follows",
+                                      "book: `engine: book` has no forces beside gravity"}));
+  EXPECT_EQ(clay.left_out, (std::vector<std::string>{"stepped: `engine: stepped` has no `contact: merge`",
+                                                     "book: `engine: book` has no `contact: merge`"}));
+  EXPECT_EQ(clay.rows.size(), 1u);
+}
+
+TEST(Bench, WhatNoEngineHasHasNoReference) {
+  BenchOptions options;
+  options.reference = Engine::exact;
+  EXPECT_THROW(run_bench(scene_of("bumper"), options, {[] {}, [](double, const std::string&) {}}), SimulationError);
+}
+
+TEST(Bench, ResultsAreTheSameEachTime) {
+  const Scene scene = scene_of("basketball_and_tennis_ball");
+  const BenchResult once = bench(scene, 0.01, 0.005), again = bench(scene, 0.01, 0.005);
+  ASSERT_EQ(once.rows.size(), 9u);
+  for (std::size_t k = 0; k < once.rows.size(); ++k) {
+    EXPECT_EQ(once.rows[k].hash, again.rows[k].hash);
+    EXPECT_EQ(once.rows[k].errors->position, again.rows[k].errors->position);
+    EXPECT_GT(once.rows[k].cpu_s, 0);
+  }
+}
+
+TEST(Bench, StepsThatCostMoreThanTheBudgetAreLeftOut) {
+  const BenchResult result = bench(scene_of("bumper"), 0x1p-4, 0x1p-14, 0.05);
+  EXPECT_LT(result.cpu_s, 0.5);
+  EXPECT_FALSE(result.left_out.empty());
+  EXPECT_LT(rows_of(result, Engine::stepped).size(), 11u);
+  EXPECT_GE(rows_of(result, Engine::stepped).size(), 1u);
+}
+
+TEST(Bench, ARunThatFailsIsARowWithoutFigures) {
+  const auto rows = rows_of(bench(scene_of("book_as_printed"), 0x1p-6, 0x1p-6), Engine::book);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_NE(rows[0].failure.find("two centres coincide"), std::string::npos) << rows[0].failure;
+}
+
+}  // namespace
+}  // namespace carom
