@@ -2,9 +2,9 @@
 // the making of the simulator to the scene's end. Timed runs of all rows take turns (timing.h).
 //
 // Rounding. The scene is run again in shifted coordinates (shifted.h), where every place has other last digits. What
-// differs then is what rounding does. Where it costs more than half of a double's digits, the scene is chaotic: its
-// trajectories are compared only until rounding has grown 2^14-fold; beyond, its statistics are, and more shifted runs
-// say how much these may differ.
+// differs then is what rounding does. Where it moves a body by more than a hundredth of the largest radius, others meet
+// in the end than would have met, and the scene is chaotic: its trajectories are compared only until rounding has grown
+// 2^14-fold; beyond, its statistics are, and more shifted runs say how much these may differ.
 //
 // The reference's own error. What rounding does is the least it can be off. The exact engine is also held against that
 // run of the stepped one, by rk4, that comes closest to it: where that still differs from it more than twice as much as
@@ -34,7 +34,8 @@ constexpr int halvings = 10;
 constexpr int shifted_runs = 3;
 constexpr int ensemble_runs = 12;
 constexpr double resolved = 2e-3;  // s: a run that takes this long tells what a longer one takes
-constexpr double half_of_the_digits = 0x1p-26, last_digit = 0x1p-53, grown = 0x1p14;
+constexpr double astray = 0.01;    // of the largest radius
+constexpr double last_digit = 0x1p-53, grown = 0x1p14;
 
 /// One run takes more than what is left.
 struct Overrun {};
@@ -106,6 +107,7 @@ class Bench {
   /// Powers of two (s), from 1/4 of the duration or 64 default steps down, unless they are given.
   void choose_steps() {
     const double duration = scene_.simulate.duration;
+    if (world_.body_count() == 0) throw SimulationError("the scene has no bodies: there is nothing to measure");
     if (!(duration > 0)) throw SimulationError("the scene lasts 0 s: there is nothing to measure");
     const double most = std::min(0.25 * duration, 64 * default_step(world_, scene_.initial));
     const double longest = options_.longest.value_or(std::exp2(std::floor(std::log2(most))));
@@ -135,8 +137,8 @@ class Bench {
     try {
       reference_ = record(world_, scene_.initial, way, 0.5 * options_.budget);
       std::vector<RecordedRun> others;
-      const double share = 0.5 * options_.budget - reference_.cpu_s;
-      for (int k = 1; k <= shifted_runs && (k == 1 || (k + 1) * reference_.cpu_s < share); ++k)
+      const double share = 0.5 * options_.budget;
+      for (int k = 1; k <= shifted_runs && (k == 1 || (k + 1) * reference_.cpu_s < 0.2 * options_.budget); ++k)
         others.push_back(shifted_run(way, k, share));
       judge(others);
       result_.reference_error = {};
@@ -146,7 +148,7 @@ class Bench {
         trajectory_instants_ = instants_.size();
         for (const double later : instants_in(result_.horizon, duration, world_.body_count()))
           instants_.push_back(later);
-        reference_ = record(world_, scene_.initial, way, options_.budget);
+        reference_ = record(world_, scene_.initial, way, share);
         gather_ensemble(way);
       } else {
         for (const RecordedRun& other : others) result_.reference_error = larger(result_.reference_error, off(other));
@@ -162,7 +164,7 @@ class Bench {
                       "shorten simulate.duration",
                       method_name(result_.reference, Integrator::rk4), options_.budget));
     }
-    left_ = std::max(0.25 * options_.budget, options_.budget - spent());
+    left_ = std::max(0.2 * options_.budget, options_.budget - spent());
   }
 
   double spent() const { return cpu_time() - start_; }
@@ -203,14 +205,13 @@ class Bench {
               std::max(result_.rounding, (other.states[k].position[i] - reference_.states[k].position[i]).norm());
       if (result_.rounding <= grown * last_digit * size) until = instants_[k];
     }
-    result_.chaotic = result_.rounding > half_of_the_digits * size;
+    result_.chaotic = result_.rounding > astray * *std::max_element(world_.radius.begin(), world_.radius.end());
     if (result_.chaotic) result_.horizon = until;
   }
 
   void gather_ensemble(const Simulate& way) {
     std::vector<Statistics> members = {statistics(reference_)};
-    const double limit = spent() + 0.4 * options_.budget;
-    for (int k = 1; k <= ensemble_runs && (k <= 3 || spent() + reference_.cpu_s < limit); ++k) {
+    for (int k = 1; k <= ensemble_runs && (k <= 3 || spent() + reference_.cpu_s < 0.5 * options_.budget); ++k) {
       watch_.tell(0, "the reference, shifted");
       const RecordedRun run = shifted_run(way, k, options_.budget);
       members.push_back(statistics(run));
@@ -261,9 +262,9 @@ class Bench {
 
   /// From the longest step on, until the next one would cost more than this method's share.
   void rows_of(Engine engine, Integrator integrator) {
-    double share = left_ / 4, last = 0;  // s
+    double share = left_ / 4, bare = 0, records = 0;  // s: what a run takes, and what recording it takes beside that
     for (const double step : steps_) {
-      if (4 * 2 * last > share) {
+      if (records + 5 * 2 * bare > share) {
         result_.left_out.push_back(fmt::format("{}: steps below {:.4g} s, for the budget of {:.4g} s of CPU time",
                                                method_name(engine, integrator), 2 * step, options_.budget));
         return;
@@ -275,11 +276,16 @@ class Bench {
       row.integrator = integrator;
       row.step = step;
       try {
-        RecordedRun run = record(world_, scene_.initial, simulate(engine, integrator, step), share);
-        last = run.cpu_s;
+        const Simulate way = simulate(engine, integrator, step);
+        RecordedRun run = record(world_, scene_.initial, way, share);
         fill(row, run);
-        row.repeats = std::clamp(static_cast<int>(share / last) - 1, 1, options_.repeat);
-        share -= (1 + row.repeats) * last;
+        const double start = cpu_time();
+        run_again(row, way);
+        bare = cpu_time() - start;
+        records = std::max(0.0, run.cpu_s - bare);
+        share -= run.cpu_s + bare;
+        row.repeats = std::clamp(static_cast<int>(share / bare), 1, options_.repeat);
+        share -= row.repeats * bare;
         if (engine == Engine::stepped && integrator == Integrator::rk4) check_reference(std::move(run));
       } catch (const Overrun&) {
         result_.left_out.push_back(fmt::format("{}: steps of {:.4g} s and shorter, one run takes more than {:.2g} s",
@@ -314,6 +320,13 @@ class Bench {
       if (row.engine == Engine::exact && row.errors) row.errors = result_.reference_error;
   }
 
+  /// Nothing recorded; the result must be the row's.
+  void run_again(const BenchRow& row, const Simulate& way) const {
+    if (bare_run(world_, scene_.initial, way, watch_.look) == row.hash) return;
+    throw SimulationError(
+        fmt::format("the result is another one at each run of {}", method_name(row.engine, row.integrator)));
+  }
+
   void time_rows() {
     std::vector<BenchRow*> rows;
     std::vector<TimedTask> tasks;
@@ -321,12 +334,8 @@ class Bench {
       if (!row.failure.empty()) continue;
       rows.push_back(&row);
       const auto step = std::isnan(row.step) ? std::nullopt : std::optional(row.step);
-      const auto run = [this, &row, way = simulate(row.engine, row.integrator, step)] {
-        if (bare_run(world_, scene_.initial, way, watch_.look) == row.hash) return;
-        throw SimulationError(
-            fmt::format("the result is another one at each run of {}", method_name(row.engine, row.integrator)));
-      };
-      tasks.push_back({run, row.repeats});
+      tasks.push_back(
+          {[this, &row, way = simulate(row.engine, row.integrator, step)] { run_again(row, way); }, row.repeats});
     }
     const auto tell = [&](double done) { watch_.tell(0.5 + 0.5 * done, "timed runs"); };
     const std::vector<double> medians = time_in_turns(tasks, tell);

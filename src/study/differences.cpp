@@ -12,8 +12,6 @@ namespace carom {
 
 namespace {
 
-constexpr double slow = 1e-3;  // of the greatest speed
-
 struct Interval {
   double from, to;  // s
 };
@@ -25,7 +23,7 @@ class Matching {
       : world_(world),
         until_(until),
         end_(reference.duration),
-        least_speed_(slow * reference.tally.max_speed),
+        least_speed_(reference.least_speed()),
         between_(world.body_count()) {
     auto r = reference.impacts.begin();
     auto s = run.impacts.begin();

@@ -26,6 +26,9 @@ struct RecordedRun {
   Tally tally;                  // of the whole run
   std::uint64_t hash = 0;       // of the result (state_hash.h)
   double cpu_s = 0;
+
+  /// m/s: slower collisions are bounces that die away, of which no two engines see the same number.
+  double least_speed() const { return 1e-3 * tally.max_speed; }
 };
 
 /// Runs from `initial` on to the end of simulate.duration, and looks at `instants` (s, ascending). `look` is called

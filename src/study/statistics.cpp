@@ -8,10 +8,10 @@ namespace carom {
 
 Statistics statistics_of(const World& world, const RecordedRun& run, double duration, std::size_t from) {
   Statistics statistics;
-  const Tally& tally = run.tally;
-  const auto bodies = static_cast<double>(world.body_count());
-  statistics.collision_rate =
-      static_cast<double>(2 * (tally.body_body + tally.merges) + tally.body_fixed) / (bodies * duration);
+  std::uint64_t struck = 0;  // bodies, in all
+  for (const Impact& impact : run.impacts)
+    if (impact.approach_speed >= run.least_speed()) struck += world.is_body(impact.b) ? 2 : 1;
+  statistics.collision_rate = static_cast<double>(struck) / (static_cast<double>(world.body_count()) * duration);
   statistics.force_on_fixed = run.fixed_impulse / duration;
   for (std::size_t k = from; k < run.states.size(); ++k)
     for (const Vec3& v : run.states[k].velocity) statistics.speeds.push_back(v.norm());

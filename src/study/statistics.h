@@ -8,7 +8,7 @@
 namespace carom {
 
 struct Statistics {
-  double collision_rate = 0;   // 1/s, collisions of a body: one between two counts for both
+  double collision_rate = 0;   // 1/s, collisions of a body but for the slowest: one of two counts for both
   double mean_speed = 0;       // m/s
   double force_on_fixed = 0;   // N, impulse on fixed things by time: all pressure
   std::vector<double> speeds;  // m/s, of all bodies at all instants, ascending
