@@ -65,7 +65,7 @@ Cells cells_of(const BenchRow& row, bool chaotic) {
   cells.push_back(digits(std::max(row.max_overlap, 0.0)));
   cells.push_back(row.errors ? grouped(row.errors->missed) : "");
   cells.push_back(row.errors ? grouped(row.errors->invented) : "");
-  if (chaotic) cells.push_back(digits(row.deviation));
+  if (chaotic) cells.push_back(digits(row.deviation.value));
   return cells;
 }
 
@@ -101,7 +101,8 @@ Json row_json(const BenchRow& row, bool chaotic) {
   if (!chaotic) return json;
   json.update(statistics_json(row.statistics));
   json["speed_distance"] = row.speed_distance;
-  json["deviation"] = row.deviation;
+  json["deviation"] = row.deviation.value;
+  json["deviation_of"] = row.deviation.of;
   return json;
 }
 

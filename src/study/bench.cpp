@@ -269,7 +269,8 @@ class Bench {
                                                method_name(engine, integrator), 2 * step, options_.budget));
         return;
       }
-      watch_.tell(0.5 * static_cast<double>(result_.rows.size()) / static_cast<double>(4 * steps_.size() + 1),
+      const double rows = static_cast<double>(result_.rows.size()) / static_cast<double>(4 * steps_.size() + 1);
+      watch_.tell(0.5 * std::max(rows, std::min(1.0, spent() / options_.budget)),
                   fmt::format("{}, steps of {:.3g} s", method_name(engine, integrator), step));
       BenchRow row;
       row.engine = engine;
@@ -277,19 +278,17 @@ class Bench {
       row.step = step;
       try {
         const Simulate way = simulate(engine, integrator, step);
-        RecordedRun run = record(world_, scene_.initial, way, share);
+        RecordedRun run = record(world_, scene_.initial, way, 0.5 * share);
         fill(row, run);
-        const double start = cpu_time();
-        run_again(row, way);
-        bare = cpu_time() - start;
+        row.cpu_s = bare = time_once(row, way);
         records = std::max(0.0, run.cpu_s - bare);
         share -= run.cpu_s + bare;
-        row.repeats = std::clamp(static_cast<int>(share / bare), 1, options_.repeat);
+        row.repeats = std::clamp(static_cast<int>(share / bare), 0, options_.repeat);
         share -= row.repeats * bare;
         if (engine == Engine::stepped && integrator == Integrator::rk4) check_reference(std::move(run));
       } catch (const Overrun&) {
         result_.left_out.push_back(fmt::format("{}: steps of {:.4g} s and shorter, one run takes more than {:.2g} s",
-                                               method_name(engine, integrator), step, share));
+                                               method_name(engine, integrator), step, 0.5 * share));
         return;
       } catch (const SimulationError& error) {
         row.failure = error.what();
@@ -327,11 +326,19 @@ class Bench {
         fmt::format("the result is another one at each run of {}", method_name(row.engine, row.integrator)));
   }
 
+  /// s of CPU time.
+  double time_once(const BenchRow& row, const Simulate& way) const {
+    const double start = cpu_time();
+    run_again(row, way);
+    return cpu_time() - start;
+  }
+
+  /// A row without repeats has its time already, from the one run that there was time for.
   void time_rows() {
     std::vector<BenchRow*> rows;
     std::vector<TimedTask> tasks;
     for (BenchRow& row : result_.rows) {
-      if (!row.failure.empty()) continue;
+      if (!row.failure.empty() || row.repeats == 0) continue;
       rows.push_back(&row);
       const auto step = std::isnan(row.step) ? std::nullopt : std::optional(row.step);
       tasks.push_back(
@@ -340,6 +347,7 @@ class Bench {
     const auto tell = [&](double done) { watch_.tell(0.5 + 0.5 * done, "timed runs"); };
     const std::vector<double> medians = time_in_turns(tasks, tell);
     for (std::size_t k = 0; k < rows.size(); ++k) rows[k]->cpu_s = medians[k];
+    for (BenchRow& row : result_.rows) row.repeats = std::max(row.repeats, 1);
   }
 
   const Scene& scene_;

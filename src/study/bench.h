@@ -35,7 +35,7 @@ struct BenchRow {
   // Of a chaotic scene:
   Statistics statistics;      // without speeds
   double speed_distance = 0;  // Kolmogorov and Smirnov's, from the ensemble's speeds
-  double deviation = 0;       // from the ensemble's means, in its standard deviations
+  Deviation deviation;        // from the ensemble's means
 };
 
 /// "exact", "stepped rk4", "book".

@@ -53,7 +53,7 @@ void write_table(OutputFile& file, const BenchResult& result) {
   file.write(
       "engine,integrator,step_s,cpu_s,position_error_m,velocity_error_m_per_s,energy_error_J,max_overlap_m,"
       "collisions_missed,collisions_invented,result_hash,status,repeats,collisions,compared_until_s,"
-      "collision_rate_per_s,mean_speed_m_per_s,force_on_fixed_N,speed_distance,deviation\n");
+      "collision_rate_per_s,mean_speed_m_per_s,force_on_fixed_N,speed_distance,deviation,deviation_of\n");
   for (const BenchRow& row : result.rows) {
     const bool done = row.failure.empty(), errors = done && row.errors, statistics = done && result.chaotic;
     const auto if_any = [](bool there, double value) { return there ? value : nothing; };
@@ -70,7 +70,8 @@ void write_table(OutputFile& file, const BenchResult& result) {
     cells.number(if_any(statistics, row.statistics.collision_rate));
     cells.number(if_any(statistics, row.statistics.mean_speed));
     cells.number(if_any(statistics, row.statistics.force_on_fixed));
-    cells.number(if_any(statistics, row.speed_distance)).number(if_any(statistics, row.deviation)).end();
+    cells.number(if_any(statistics, row.speed_distance)).number(if_any(statistics, row.deviation.value));
+    cells.text(statistics ? row.deviation.of : "").end();
   }
 }
 
@@ -114,7 +115,7 @@ Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
     if (!row.failure.empty() || (!result.chaotic && !row.errors)) continue;
     const std::string name = method_name(row.engine, row.integrator);
     if (plot.series.empty() || plot.series.back().name != name) plot.series.push_back({name, look_of(row), {}});
-    plot.series.back().points.push_back({row.cpu_s, result.chaotic ? row.deviation : row.errors->position});
+    plot.series.back().points.push_back({row.cpu_s, result.chaotic ? row.deviation.value : row.errors->position});
     if (std::isfinite(row.step)) plot.series.back().points.back().label = step_label(row.step);
   }
   // The steps of the first and the last point tell those between.

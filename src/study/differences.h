@@ -20,7 +20,7 @@ struct Differences {
 /// Two collisions of the same two things are one and the same if their times are nearer to each other than the two
 /// need to pass through each other (the sum of their radii over their speed of approach), each to one only, in turn.
 /// Those of the reference that are left are missed, those of the run invented, but for two kinds: slow ones, of less
-/// than 1/1000 of the greatest speed (bounces that die away, of which no two engines see the same number), and those so
+/// than 1/100 of the greatest speed (bounces that die away, of which no two engines see the same number), and those so
 /// near the end of the run that their counterpart may lie beyond it.
 ///
 /// The velocity and energy of a body count as long as both runs are on the same side of its collisions: not between the

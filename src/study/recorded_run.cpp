@@ -21,8 +21,7 @@ RecordedRun record_run(const World& world, const State& initial, const Simulate&
       simulator->advance_to(time);
       for (const Collision& c : simulator->collisions()) {
         if (c.kind == CollisionKind::rest) continue;
-        run.impacts.push_back({c.time, c.approach_speed, c.a, c.b});
-        if (!world.is_body(c.b)) run.fixed_impulse += c.impulse;
+        run.impacts.push_back({c.time, c.approach_speed, c.a, c.b, c.impulse});
       }
     }
   };

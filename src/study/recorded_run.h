@@ -16,19 +16,19 @@ struct Impact {
   double time;            // s
   double approach_speed;  // m/s
   Entity a, b;            // as in Collision
+  double impulse = 0;     // N s
 };
 
 struct RecordedRun {
   std::vector<State> states;    // at the instants asked for
   std::vector<Impact> impacts;  // by a, then b, then time
   double duration = 0;          // s
-  double fixed_impulse = 0;     // N s, the sum of all impulses on fixed things
   Tally tally;                  // of the whole run
   std::uint64_t hash = 0;       // of the result (state_hash.h)
   double cpu_s = 0;
 
   /// m/s: slower collisions are bounces that die away, of which no two engines see the same number.
-  double least_speed() const { return 1e-3 * tally.max_speed; }
+  double least_speed() const { return 0.01 * tally.max_speed; }
 };
 
 /// Runs from `initial` on to the end of simulate.duration, and looks at `instants` (s, ascending). `look` is called

@@ -9,10 +9,15 @@ namespace carom {
 Statistics statistics_of(const World& world, const RecordedRun& run, double duration, std::size_t from) {
   Statistics statistics;
   std::uint64_t struck = 0;  // bodies, in all
-  for (const Impact& impact : run.impacts)
-    if (impact.approach_speed >= run.least_speed()) struck += world.is_body(impact.b) ? 2 : 1;
+  double on_fixed = 0;       // N s
+  for (const Impact& impact : run.impacts) {
+    if (impact.approach_speed < run.least_speed()) continue;
+    const bool bodies = world.is_body(impact.b);
+    struck += bodies ? 2 : 1;
+    if (!bodies) on_fixed += impact.impulse;
+  }
   statistics.collision_rate = static_cast<double>(struck) / (static_cast<double>(world.body_count()) * duration);
-  statistics.force_on_fixed = run.fixed_impulse / duration;
+  statistics.force_on_fixed = on_fixed / duration;
   for (std::size_t k = from; k < run.states.size(); ++k)
     for (const Vec3& v : run.states[k].velocity) statistics.speeds.push_back(v.norm());
   std::sort(statistics.speeds.begin(), statistics.speeds.end());
@@ -83,11 +88,16 @@ Ensemble::Ensemble(std::vector<Statistics> members) : members_(std::move(members
   std::sort(speeds_.begin(), speeds_.end());
 }
 
-double Ensemble::deviation(const Statistics& run) const {
-  double most = 0;
-  for (const auto get : {rate, speed, force})
-    most = std::max(most, std::abs(deviation_from(each(members_, get), get(run))));
-  return std::max(most, deviation_from(distances_, speed_distance(run)));
+Deviation Ensemble::deviation(const Statistics& run) const {
+  Deviation most{0, "collision_rate_per_s"};
+  const auto take = [&](double value, const char* of) {
+    if (value > most.value) most = {value, of};
+  };
+  take(std::abs(deviation_from(each(members_, rate), run.collision_rate)), "collision_rate_per_s");
+  take(std::abs(deviation_from(each(members_, speed), run.mean_speed)), "mean_speed_m_per_s");
+  take(std::abs(deviation_from(each(members_, force), run.force_on_fixed)), "force_on_fixed_N");
+  take(deviation_from(distances_, speed_distance(run)), "speed_distance");
+  return most;
 }
 
 }  // namespace carom

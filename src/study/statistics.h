@@ -8,9 +8,9 @@
 namespace carom {
 
 struct Statistics {
-  double collision_rate = 0;   // 1/s, collisions of a body but for the slowest: one of two counts for both
+  double collision_rate = 0;   // 1/s, collisions of a body, but for slow ones (RecordedRun::least_speed)
   double mean_speed = 0;       // m/s
-  double force_on_fixed = 0;   // N, impulse on fixed things by time: all pressure
+  double force_on_fixed = 0;   // N, their impulse on fixed things by time
   std::vector<double> speeds;  // m/s, of all bodies at all instants, ascending
 };
 
@@ -24,6 +24,11 @@ double distance(std::span<const double> a, std::span<const double> b);
 /// A deviation (see below) that rounding alone shows once in fifty runs, at twelve members (Student's t, four numbers).
 inline constexpr double significant_deviation = 3.5;
 
+struct Deviation {
+  double value = 0;                         // in standard deviations
+  const char* of = "collision_rate_per_s";  // the column that deviates most
+};
+
 /// Runs that differ by rounding alone, and how far apart chaos has brought them.
 class Ensemble {
  public:
@@ -33,7 +38,7 @@ class Ensemble {
   double speed_distance(const Statistics& run) const { return distance(run.speeds, speeds_); }
   /// The deviation of a run from the members' mean over what one more member would show (a standard deviation): the
   /// greatest of collision rate, mean speed, force on fixed things and speed distance.
-  double deviation(const Statistics& run) const;
+  Deviation deviation(const Statistics& run) const;
   std::size_t size() const { return members_.size(); }
   const Statistics& mean() const { return mean_; }
 

@@ -20,6 +20,7 @@
 #include "scene/fields.h"
 #include "scene/load.h"
 #include "simulate/book.h"
+#include "study/bench.h"
 #include "study/engine.h"
 
 namespace carom::testing {
@@ -218,6 +219,46 @@ TEST(ReadmePicture, IsWhatTheProgramDraws) {
   std::size_t far_off = 0;
   for (std::size_t i = 0; i < kept.rgb.size(); ++i) far_off += std::abs(kept.rgb[i] - drawn.rgb[i]) > 24;
   EXPECT_LT(far_off, kept.rgb.size() / 100);  // measured: 0
+}
+
+BenchResult bench(const std::string& scene, double longest, double shortest) {
+  BenchOptions options;
+  options.longest = longest;
+  options.shortest = shortest;
+  options.repeat = 1;
+  options.budget = 1e6;
+  return run_bench(load_scene(SCENES_DIR "/" + scene), options, {[] {}, [](double, const std::string&) {}});
+}
+
+// All but the times, which are of another machine, to the digits that are given.
+TEST(ReadmeBench, TableHasTheErrorsThatAreMeasured) {
+  const BenchResult result = bench("raindrops.yaml", 0x1p-4, 0x1p-10);
+  const std::regex line(
+      R"(\| (exact|euler|verlet|rk4) \| (?:1/(\d+) s)? ?\| \S+ ms \| (\S+) m \| (\S+) m/s \| (\S+) J \|)");
+  int lines = 0;
+  for (std::sregex_iterator i(readme().begin(), readme().end(), line), end; i != end; ++i, ++lines) {
+    const std::string name = (*i)[1], per_second = (*i)[2];
+    const auto row = std::find_if(result.rows.begin(), result.rows.end(), [&](const BenchRow& r) {
+      if (r.engine == Engine::exact) return name == "exact";
+      return name == name_of(r.integrator) && per_second == std::to_string(std::lround(1 / r.step));
+    });
+    ASSERT_NE(row, result.rows.end()) << name << " 1/" << per_second;
+    const Differences& errors = *row->errors;
+    for (const auto& [said, measured] :
+         {std::pair((*i)[3], errors.position), std::pair((*i)[4], errors.velocity), std::pair((*i)[5], errors.energy)})
+      EXPECT_NEAR(std::stod(said), measured, 0.05 * measured) << name << " 1/" << per_second;
+  }
+  EXPECT_EQ(lines, 7);
+}
+
+TEST(ReadmeBench, DeviationsAreMeasured) {
+  const BenchResult result = bench("gas_in_a_room.yaml", 0x1p-4, 0x1p-4);
+  ASSERT_TRUE(result.chaotic);
+  EXPECT_NEAR(result.rows[1].deviation.value, said("and steps of 1/16 s it is "), 0.05);
+  EXPECT_NEAR(result.rows.back().deviation.value, said("by the stepped engine and "), 5);
+  EXPECT_NEAR(result.rows.back().statistics.collision_rate / result.mean.collision_rate, 0.25, 0.02);
+  EXPECT_NEAR(bench("rolling_off.yaml", 0x1p-9, 0x1p-11).reference_error.position,
+              said("where its own steps do not explain it: "), 1e-10);
 }
 
 TEST(ReadmeScenes, TellOfEveryKey) {

@@ -114,10 +114,10 @@ TEST(Bench, AGasIsChaoticAndComparedByItsStatistics) {
   EXPECT_EQ(result.members, 13u);
   for (const BenchRow& row : result.rows) {
     if (row.engine == Engine::book) {
-      EXPECT_GT(row.deviation, 10);  // measured: 170; most collisions of a frame are not seen
+      EXPECT_GT(row.deviation.value, 10);  // measured: 170; most collisions of a frame are not seen
     } else {
-      EXPECT_LT(row.deviation, significant_deviation);  // measured: 1.3
-      EXPECT_LT(row.errors->position, 1e-9);            // until the horizon; measured: 3e-12
+      EXPECT_LT(row.deviation.value, significant_deviation);  // measured: 1.3
+      EXPECT_LT(row.errors->position, 1e-9);                  // until the horizon; measured: 3e-12
       EXPECT_EQ(row.errors->missed + row.errors->invented, 0u);
     }
   }

@@ -103,9 +103,8 @@ TEST(Differences, OfOtherPairsAreOtherCollisions) {
 
 TEST(Differences, SlowBouncesAndThoseAtTheVeryEndAreNotMissed) {
   const RecordedRun none = with_impacts({});
-  EXPECT_EQ(differences(one_ball(), with_impacts({{10, 0.0009, 0, 1}}), none, {}, 100).missed, 0u);
-  EXPECT_EQ(differences(one_ball(), with_impacts({{10, 0.0011, 0, 1}}), none, {}, 1000).missed,
-            0u);  // a passage: 455 s
+  EXPECT_EQ(differences(one_ball(), with_impacts({{10, 0.009, 0, 1}}), none, {}, 100).missed, 0u);
+  EXPECT_EQ(differences(one_ball(), with_impacts({{10, 0.011, 0, 1}}), none, {}, 100).missed, 1u);
   EXPECT_EQ(differences(one_ball(), with_impacts({{10, 0.1, 0, 1}}), none, {}, 100).missed, 1u);
   EXPECT_EQ(differences(one_ball(), with_impacts({{99.4, 1, 0, 1}}), none, {}, 100).missed, 1u);
   EXPECT_EQ(differences(one_ball(), with_impacts({{99.6, 1, 0, 1}}), none, {}, 100).missed, 0u);

@@ -26,14 +26,14 @@ TEST(Statistics, DeviationIsInStandardDeviationsOfOneMoreRun) {
   // Rates of 9, 10, 11: mean 10, standard deviation 1; of one more run's distance from the mean, sqrt(1 + 1/3).
   const Ensemble ensemble({run_with(9, 1), run_with(10, 1), run_with(11, 1)});
   EXPECT_EQ(ensemble.mean().collision_rate, 10);
-  EXPECT_EQ(ensemble.deviation(run_with(10, 1)), 0);
-  EXPECT_NEAR(ensemble.deviation(run_with(12, 1)), 2 / std::sqrt(4.0 / 3), 1e-12);
-  EXPECT_NEAR(ensemble.deviation(run_with(8, 1)), 2 / std::sqrt(4.0 / 3), 1e-12);
+  EXPECT_EQ(ensemble.deviation(run_with(10, 1)).value, 0);
+  EXPECT_NEAR(ensemble.deviation(run_with(12, 1)).value, 2 / std::sqrt(4.0 / 3), 1e-12);
+  EXPECT_NEAR(ensemble.deviation(run_with(8, 1)).value, 2 / std::sqrt(4.0 / 3), 1e-12);
 }
 
 TEST(Statistics, WhatIsTheSameInAllRunsTellsNothing) {
   const Ensemble ensemble({run_with(10, 1), run_with(10, 1), run_with(10, 1)});
-  EXPECT_EQ(ensemble.deviation(run_with(10 + 1e-12, 1)), 0);
+  EXPECT_EQ(ensemble.deviation(run_with(10 + 1e-12, 1)).value, 0);
 }
 
 }  // namespace
