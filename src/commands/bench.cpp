@@ -33,17 +33,11 @@ class BenchSession {
       Json entry = {{"scene", planned.file}, {"status", "not run"}, {"folder", planned.folder}};
       if (interrupted == 0) {
         try {
-          measure(planned, entry);
+          if (!measure(planned, entry)) code = 1;
         } catch (const Interrupted& stop) {
           interrupted = stop.exit_code();
           entry["status"] = "interrupted";
           complain(options_, fmt::format("{}: interrupted; nothing was written", printable(planned.file)));
-        } catch (const std::bad_alloc&) {
-          fail(planned, entry, "not enough memory");
-          code = 1;
-        } catch (const std::exception& error) {
-          fail(planned, entry, error.what());
-          code = 1;
         }
       }
       document_.push_back(std::move(entry));
@@ -66,7 +60,21 @@ class BenchSession {
     return 2;
   }
 
-  void measure(const PlannedScene& planned, Json& entry) {
+  /// Whether it came about. Throws Interrupted.
+  bool measure(const PlannedScene& planned, Json& entry) {
+    try {
+      bench(planned, entry);
+      return true;
+    } catch (const std::bad_alloc&) {
+      fail(planned, entry, "not enough memory");
+    } catch (const std::exception& error) {
+      stop_if_interrupted();  // gnuplot hears a Ctrl-C too: what looks like an error of the plot is the interrupt
+      fail(planned, entry, error.what());
+    }
+    return false;
+  }
+
+  void bench(const PlannedScene& planned, Json& entry) {
     const Scene& scene = *planned.scene;
     BenchFolder folder(planned.folder, gnuplot_);
     Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO), printable(planned.name),

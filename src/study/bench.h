@@ -40,7 +40,6 @@ struct BenchRow {
 
 /// "exact", "stepped rk4", "book".
 std::string method_name(Engine engine, Integrator integrator);
-const char* name_of(Engine engine);  // as in scene files
 
 struct BenchResult {
   Engine reference = Engine::exact;                                  // or stepped, by rk4

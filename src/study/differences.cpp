@@ -101,6 +101,11 @@ double body_energy(const World& world, const State& state, Entity body) {
 
 }  // namespace
 
+Differences larger(const Differences& a, const Differences& b) {
+  return {std::max(a.position, b.position), std::max(a.velocity, b.velocity), std::max(a.energy, b.energy),
+          std::max(a.missed, b.missed), std::max(a.invented, b.invented)};
+}
+
 Differences differences(const World& world, const RecordedRun& reference, const RecordedRun& run,
                         const std::vector<double>& instants, double until) {
   const Matching matching(world, reference, run, until);

@@ -14,6 +14,9 @@ struct Differences {
   std::uint64_t missed = 0, invented = 0;  // collisions
 };
 
+/// The larger one of each.
+Differences larger(const Differences& a, const Differences& b);
+
 /// At `instants` (s), both runs' own, and over all collisions before the last of them; those after `until` (s) do not
 /// count.
 ///

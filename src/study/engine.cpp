@@ -64,6 +64,28 @@ std::string joined(const std::string& why, const std::string& more) {
 
 }  // namespace
 
+const char* name_of(Engine engine) {
+  switch (engine) {
+    case Engine::exact:
+      return "exact";
+    case Engine::stepped:
+      return "stepped";
+    case Engine::book:
+      return "book";
+    case Engine::automatic:
+      break;
+  }
+  return "auto";
+}
+
+Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator, std::optional<double> step) {
+  simulate.engine = engine;
+  simulate.integrator = integrator;
+  simulate.step = step;
+  simulate.tolerance.reset();
+  return simulate;
+}
+
 const char* name_of(Integrator integrator) {
   switch (integrator) {
     case Integrator::euler:

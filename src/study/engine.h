@@ -18,7 +18,12 @@ struct EngineChoice {
 
 EngineChoice choose_engine(const Scene& scene);
 
+const char* name_of(Engine engine);          // as in scene files
 const char* name_of(Integrator integrator);  // "euler", "verlet", "rk4"; as in scene files
+
+/// A scene's settings with another engine, integrator and step (s; none: the default).
+Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator = Integrator::rk4,
+                     std::optional<double> step = {});
 
 /// Finds the step of engine stepped where the scene asks for a tolerance, by running it again and again. `look` is
 /// called now and then, and may throw. Throws SimulationError.

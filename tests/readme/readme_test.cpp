@@ -258,7 +258,7 @@ TEST(ReadmeBench, DeviationsAreMeasured) {
   EXPECT_NEAR(result.rows.back().deviation.value, said("by the stepped engine and "), 5);
   EXPECT_NEAR(result.rows.back().statistics.collision_rate / result.mean.collision_rate, 0.25, 0.02);
   EXPECT_NEAR(bench("rolling_off.yaml", 0x1p-9, 0x1p-11).reference_error.position,
-              said("where its own steps do not explain it: "), 1e-10);
+              said("if its own steps do not explain it: "), 1e-10);
 }
 
 TEST(ReadmeScenes, TellOfEveryKey) {

@@ -1,0 +1,178 @@
+#include "study/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/unsupported.h"
+#include "study/engine.h"
+#include "study/shifted.h"
+#include "study/timing.h"
+
+namespace carom {
+
+namespace {
+
+constexpr int most_instants = 64;
+constexpr double golden = 0.6180339887498949;  // where in its part an instant lies: no round number is there
+constexpr double states_kept = 1e6;            // of all bodies, in one run
+constexpr int shifted_runs = 3;
+constexpr int ensemble_runs = 12;
+constexpr double astray = 0.01;  // of the largest radius
+constexpr double last_digit = 0x1p-53, grown = 0x1p14;
+
+std::vector<double> instants_in(double from, double to, std::size_t bodies) {
+  const auto most = static_cast<int>(states_kept / static_cast<double>(std::max<std::size_t>(bodies, 1)));
+  const int count = std::clamp(most, 8, most_instants);
+  std::vector<double> instants;
+  for (int k = 0; k < count; ++k) instants.push_back(from + (to - from) * (k + golden) / count);
+  return instants;
+}
+
+class Making {
+ public:
+  Making(const Scene& scene, const BenchOptions& options, std::vector<double>& steps, const BenchWatch& watch)
+      : scene_(scene), world_(scene.world), options_(options), steps_(steps), watch_(watch) {}
+
+  Reference go() {
+    watch_.tell(0, "the reference");
+    const Simulate exact = with_engine(scene_.simulate, Engine::exact);
+    const bool exact_runs = unsupported(world_, exact).empty();
+    reference_.way =
+        with_engine(scene_.simulate, options_.reference.value_or(exact_runs ? Engine::exact : Engine::stepped));
+    if (const auto lacks = unsupported(world_, reference_.way); !lacks.empty())
+      throw SimulationError("there is no reference: " + lacks.front().what);
+    try {
+      if (reference_.way.engine == Engine::stepped) choose_step();
+      run();
+    } catch (const Overrun&) {
+      throw SimulationError(
+          fmt::format("the reference, by {}, takes too long for a budget of {} s: give it more (--budget), or "
+                      "shorten simulate.duration",
+                      method_name(reference_.way.engine, Integrator::rk4), options_.budget));
+    }
+    return std::move(reference_);
+  }
+
+ private:
+  double spent() const { return cpu_time() - start_; }
+
+  RecordedRun record(const World& world, const State& initial, const Simulate& way) const {
+    return record_run(world, initial, way, reference_.instants, look_within(0.5 * options_.budget, watch_.look));
+  }
+
+  void run() {
+    const double duration = scene_.simulate.duration;
+    reference_.instants = instants_in(0, duration, world_.body_count());
+    reference_.run = record(world_, scene_.initial, reference_.way);
+    const double once = reference_.run.cpu_s;
+    std::vector<RecordedRun> others;
+    for (int k = 1; k <= shifted_runs && (k == 1 || (k + 1) * once < 0.2 * options_.budget); ++k)
+      others.push_back(shifted_run(k));
+    judge(others);
+    if (reference_.chaotic) {
+      gather_ensemble();
+    } else {
+      for (const RecordedRun& other : others) take_error(other);
+    }
+    if (reference_.way.engine != Engine::stepped) return;
+    Simulate coarser = reference_.way;
+    coarser.step = 2 * *coarser.step;
+    take_error(record(world_, scene_.initial, coarser));
+  }
+
+  RecordedRun shifted_run(int number) const {
+    const Vec3 by = shift(extent(world_, scene_.initial), number);
+    const World world = shifted(world_, by);
+    RecordedRun run = record(world, shifted(scene_.initial, by), reference_.way);
+    for (State& state : run.states) state = shifted(std::move(state), -by);
+    return run;
+  }
+
+  void take_error(const RecordedRun& other) {
+    reference_.error = larger(reference_.error, reference_.off(world_, other));
+  }
+
+  /// Whether rounding grows until trajectories mean nothing, and until when they do.
+  void judge(const std::vector<RecordedRun>& others) {
+    const double first = last_digit * extent(world_, scene_.initial);
+    double until = 0;
+    for (std::size_t k = 0; k < reference_.instants.size(); ++k) {
+      for (const RecordedRun& other : others)
+        for (Entity i = 0; i < world_.body_count(); ++i)
+          reference_.rounding = std::max(reference_.rounding,
+                                         (other.states[k].position[i] - reference_.run.states[k].position[i]).norm());
+      if (reference_.rounding <= grown * first) until = reference_.instants[k];
+    }
+    reference_.chaotic = reference_.rounding > astray * *std::max_element(world_.radius.begin(), world_.radius.end());
+    reference_.horizon = reference_.chaotic ? until : scene_.simulate.duration;
+  }
+
+  /// The reference itself and more shifted runs, all looked at before the horizon, and then behind it.
+  void gather_ensemble() {
+    std::vector<double>& instants = reference_.instants;
+    instants = instants_in(0, reference_.horizon, world_.body_count());
+    if (!(reference_.horizon > 0)) instants.clear();
+    reference_.trajectory_instants = instants.size();
+    for (const double later : instants_in(reference_.horizon, scene_.simulate.duration, world_.body_count()))
+      instants.push_back(later);
+    reference_.run = record(world_, scene_.initial, reference_.way);
+    std::vector<Statistics> members = {reference_.statistics(world_, reference_.run)};
+    for (int k = 1; k <= ensemble_runs; ++k) {
+      if (k > 3 && spent() + reference_.run.cpu_s > 0.5 * options_.budget) break;
+      watch_.tell(0, "the reference, shifted");
+      const RecordedRun run = shifted_run(k);
+      members.push_back(reference_.statistics(world_, run));
+      take_error(run);
+    }
+    reference_.ensemble.emplace(std::move(members));
+  }
+
+  /// A quarter of the shortest step, or longer, so that all runs together take a third of the budget.
+  void choose_step() {
+    const double share = options_.budget / 3 / (2 + shifted_runs);
+    double step = steps_.front(), cost = 0;
+    std::string trouble;
+    for (const double next : steps_) {
+      const double start = cpu_time();
+      reference_.way.step = step = next;
+      try {
+        bare_run(world_, scene_.initial, reference_.way, look_within(share, watch_.look));
+        trouble.clear();
+      } catch (const SimulationError& error) {  // too long a step for these forces, perhaps
+        trouble = error.what();
+      }
+      cost = cpu_time() - start;
+      if (cost > 0.05 * share) break;
+    }
+    if (!trouble.empty()) throw SimulationError("there is no reference: " + trouble);
+    for (; step > 0.25 * steps_.back() && 2 * cost < share; step *= 0.5) cost *= 2;
+    while (steps_.size() > 1 && steps_.back() < 3.9 * step) steps_.pop_back();
+    reference_.way.step = step;
+  }
+
+  const Scene& scene_;
+  const World& world_;
+  const BenchOptions& options_;
+  std::vector<double>& steps_;
+  const BenchWatch& watch_;
+  const double start_ = cpu_time();
+  Reference reference_;
+};
+
+}  // namespace
+
+std::function<void()> look_within(double share, const std::function<void()>& look) {
+  return [end = cpu_time() + share, &look] {
+    look();
+    if (cpu_time() > end) throw Overrun{};
+  };
+}
+
+Reference make_reference(const Scene& scene, const BenchOptions& options, std::vector<double>& steps,
+                         const BenchWatch& watch) {
+  return Making(scene, options, steps, watch).go();
+}
+
+}  // namespace carom
