@@ -82,6 +82,7 @@ struct Renderer::Impl {
   std::optional<Solids> solids;
   std::vector<std::uint8_t> rgba;
   Image image;
+  std::uint64_t drawn = 0;
 };
 
 void Renderer::Impl::copy_backdrop() {
@@ -93,7 +94,8 @@ void Renderer::Impl::copy_backdrop() {
 }
 
 void Renderer::Impl::draw(const State& state) {
-  things.place(state);
+  if (!things.place(state) && drawn > 0) return;
+  ++drawn;
   if (solids) solids->prepare(things, *backdrop, rows);
   copy_backdrop();
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
@@ -131,6 +133,10 @@ const Image& Renderer::draw(const State& state) {
   impl_->context.make_current();
   impl_->draw(state);
   return impl_->image;
+}
+
+std::uint64_t Renderer::drawn() const {
+  return impl_->drawn;
 }
 
 }  // namespace carom
