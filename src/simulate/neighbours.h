@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "physics/prefetch.h"
 #include "physics/world.h"
 #include "simulate/list_pool.h"
-#include "simulate/prefetch.h"
 #include "simulate/region.h"
 #include "simulate/region_grid.h"
 #include "simulate/surfaces_near.h"

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "simulate/prefetch.h"
+#include "physics/prefetch.h"
 
 #ifdef __SSE2__
 #include <immintrin.h>
