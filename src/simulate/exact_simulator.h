@@ -17,6 +17,7 @@
 #include "simulate/by_need.h"
 #include "simulate/exact.h"
 #include "simulate/flight.h"
+#include "simulate/large_pages.h"
 #include "simulate/neighbours.h"
 #include "simulate/straight_times.h"
 #include "simulate/tournament.h"
@@ -238,7 +239,7 @@ class ExactSimulator final : public Simulator {
   ByNeed<Vec3> pull_;    // m/s^2, by body: gravity and the forces of now,
   ByNeed<Vec3> driven_;  // and the part of it that does work (force.h)
   Flights flight_;
-  std::vector<Body> body_;
+  LargeVector<Body> body_;
   Neighbours neighbours_;
   OneByOne<Contacts> contacts_;  // with flat fixed surfaces
   ByNeed<Burst> burst_;
