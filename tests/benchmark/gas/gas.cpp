@@ -173,7 +173,7 @@ int table() {
   measure({.name = "ten", .cells = 2, .most = 10, .collisions = 20'000});
   measure({.name = "ten of 10000", .cells = 2, .most = 10, .still = 9990, .collisions = 20'000});
   measure({.name = "gravity", .cells = 14, .gravity = 0.04, .collisions = 40});
-  measure({.name = "plain", .cells = 30});
+  measure({.name = "base", .cells = 30});
   measure({.name = "radii 1:30", .cells = 30, .large = true});
   measure({.name = "shuffled", .cells = 30, .shuffled = true});
   return 0;
