@@ -26,20 +26,15 @@ struct Rule {
 const std::map<std::string, std::string> header_words = {{"scene's types", "scene/scene.h"},
                                                          {"render's Image", "render/image.h"}};
 const std::map<std::string, std::vector<std::string>> library_words = {
-    {"Eigen", {"Eigen/"}},
-    {"vector intrinsics", {"immintrin.h"}},
-    {"yaml-cpp", {"yaml-cpp/"}},
-    {"OSMesa/OpenGL", {"GL/", "KHR/", "EGL/"}},
-    {"assimp", {"assimp/"}},
-    {"PNG", {"png.h", "zlib.h"}},
-    {"nettle", {"nettle/"}},
-    {"libxlsxwriter", {"xlsxwriter"}},
-    {"CLI11", {"CLI/"}},
-    {"ffmpeg's pipe", {}},  // not a header: see OnlyExportStartsFfmpeg
+    {"Eigen", {"Eigen/"}},       {"vector intrinsics", {"immintrin.h"}},
+    {"yaml-cpp", {"yaml-cpp/"}}, {"OSMesa/OpenGL", {"GL/", "KHR/", "EGL/"}},
+    {"assimp", {"assimp/"}},     {"PNG", {"png.h", "zlib.h"}},
+    {"nettle", {"nettle/"}},     {"libxlsxwriter", {"xlsxwriter"}},
+    {"CLI11", {"CLI/"}},         {"ffmpeg's pipe", {}},  // not a header: see OnlyExportStartsFfmpeg
 };
 /// What any folder may include: text and JSON, and the system's own headers.
-const std::vector<std::string> free_libraries = {"fmt/",   "nlohmann/", "sys/",    "dirent.h", "fcntl.h",
-                                                 "poll.h", "signal.h",  "spawn.h", "unistd.h"};
+const std::vector<std::string> free_libraries = {"fmt/",    "nlohmann/", "sys/",     "dirent.h", "dlfcn.h",
+                                                 "fcntl.h", "poll.h",    "signal.h", "spawn.h",  "unistd.h"};
 
 std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> parts(1);
