@@ -97,15 +97,18 @@ class Run {
       if (!exports_.timeline().due(streams[i].timeline_stream)) continue;
       stop_if_interrupted();
       const Image* image = nullptr;
+      bool again = false;
       {
         const Stopwatch watch(facts_.render_s);
         // Made at the first picture that is due, and never for a scene that wants none: no OpenGL context, no mesh.
         if (!renderers_[i]) renderers_[i] = std::make_unique<Renderer>(scene_, streams[i].size, streams[i].samples);
+        const std::uint64_t before = renderers_[i]->drawn();
         image = &renderers_[i]->draw(state);
+        again = renderers_[i]->drawn() == before;
       }
       {
         const Stopwatch watch(facts_.export_s);
-        exports_.picture(i, *image);
+        exports_.picture(i, *image, again);
       }
       progress_.update(simulator_->time(), simulator_->tally().collisions(), exports_.frames());
     }

@@ -63,9 +63,10 @@ struct Exports::Impl {
     for (std::size_t i = 0; i < plan.streams.size(); ++i) plan.streams[i].timeline_stream = timeline.add(plan.ticks[i]);
   }
 
-  void write_frame(std::int64_t number, const Image& image) {
+  void write_frame(std::int64_t number, const Image& image, bool again) {
     OutputFile file(frames_place, fmt::format("frame_{:05}.png", number));
-    file.write(encode_png(image, PngEffort::fast));
+    if (!again || frame.empty()) frame = encode_png(image, PngEffort::fast);
+    file.write(frame);
     file.publish();
     folder->keep();
     frame_records.push_back(file.record());
@@ -84,6 +85,7 @@ struct Exports::Impl {
   // What writes into the folder is gone before the folder is put in order.
   std::optional<OpenFolder> folder;
   FilePlace frames_place;
+  std::string frame;  // the last one, as PNG
   std::optional<TrajectoryTable> trajectory;
   std::optional<CollisionTable> collisions;
   std::optional<EnergyTable> energy;
@@ -126,11 +128,11 @@ const std::vector<PictureStream>& Exports::pictures() const {
   return impl_->plan.streams;
 }
 
-void Exports::picture(std::size_t stream, const Image& image) {
+void Exports::picture(std::size_t stream, const Image& image, bool again) {
   const auto number = impl_->timeline.due(impl_->plan.streams.at(stream).timeline_stream);
   if (!number) return;
   const PictureUse& use = impl_->plan.uses[stream];
-  if (use.frames) impl_->write_frame(*number, image);
+  if (use.frames) impl_->write_frame(*number, image, again);
   if (use.film) impl_->film->add(image);
   if (use.sheet) impl_->sheet->put(*number, image);
   impl_->pictures += use.frames || use.film;

@@ -71,7 +71,8 @@ class Exports {
   /// Writes the rows that are due now. `contacts`: by a, then b; looked at only if wants_contacts().
   void sample(const State& state, std::span<const ContactForce> contacts = {});
   const std::vector<PictureStream>& pictures() const;
-  void picture(std::size_t stream, const Image& image);  // the picture due now of pictures()[stream]
+  /// The picture due now of pictures()[stream]. `again`: it is the stream's last one once more.
+  void picture(std::size_t stream, const Image& image, bool again = false);
   std::uint64_t frames() const;  // pictures taken so far for frames and video; the sheet's do not count
 
   /// Completes every file, then gives them their names, summary.csv's too and last manifest.json's. (scene.yaml stands

@@ -15,7 +15,14 @@ namespace carom {
 namespace {
 
 /// Large enough that system calls cost nothing, small enough to stay in a processor's cache while it is hashed.
-constexpr std::size_t buffer_size = std::size_t{256} * 1024;
+constexpr std::size_t piece_size = std::size_t{256} * 1024;
+
+/// After so many pieces a file is worth a thread.
+constexpr std::uint64_t pieces_alone = 8;
+
+/// So much is left to the system before it is told to begin writing, so that the sync at the end has little to wait
+/// for.
+constexpr std::uint64_t early_size = std::uint64_t{32} * 1024 * 1024;
 
 }  // namespace
 
@@ -54,7 +61,8 @@ void fail(const std::string& what, const FilePlace& place, std::string_view name
   throw ExportError("cannot " + what + " " + place.path + slash + std::string(name) + ": " + why);
 }
 
-OutputFile::OutputFile(const FilePlace& place, std::string name) : place_(place) {
+OutputFile::OutputFile(const FilePlace& place, std::string name)
+    : place_(place), pieces_([this](const Piece& piece) { put(piece); }, pieces_alone) {
   if (!is_plain_name(name))
     fail("write", place, name, "a file's name may hold no slash, no control character and no dot at its start");
   record_.name = std::move(name);
@@ -63,7 +71,6 @@ OutputFile::OutputFile(const FilePlace& place, std::string name) : place_(place)
   if (unlinkat(place_.folder, part.c_str(), 0) != 0 && errno != ENOENT) fail("replace", place_, part);
   file_ = Descriptor(openat(place_.folder, part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
   if (!file_) fail("write", place_, record_.name);
-  buffer_.resize(buffer_size);
 }
 
 OutputFile::~OutputFile() {
@@ -71,39 +78,55 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::write(std::string_view bytes) {
-  if (bytes.size() > buffer_.size() - used_) flush();
-  while (bytes.size() > buffer_.size()) {
-    std::memcpy(buffer_.data(), bytes.data(), buffer_.size());
-    used_ = buffer_.size();
-    bytes.remove_prefix(used_);
-    flush();
+  while (used_ + bytes.size() > size_) {
+    if (used_ == size_) make_room(1);
+    const std::size_t now = std::min(bytes.size(), size_ - used_);
+    std::memcpy(data_ + used_, bytes.data(), now);
+    used_ += now;
+    bytes.remove_prefix(now);
   }
-  std::memcpy(buffer_.data() + used_, bytes.data(), bytes.size());
+  if (bytes.empty()) return;
+  std::memcpy(data_ + used_, bytes.data(), bytes.size());
   used_ += bytes.size();
 }
 
 void OutputFile::make_room(std::size_t size) {
   flush();
-  if (size > buffer_.size()) buffer_.resize(size);
+  std::vector<char>& bytes = pieces_.item().bytes;
+  if (bytes.size() < size) bytes.resize(std::max(size, piece_size));
+  data_ = bytes.data();
+  size_ = bytes.size();
 }
 
 void OutputFile::flush() {
-  hash_.add({buffer_.data(), used_});
-  for (std::size_t done = 0; done < used_;) {
-    const ssize_t n = ::write(file_.get(), buffer_.data() + done, used_ - done);
+  if (used_ == 0) return;
+  pieces_.item().used = used_;
+  used_ = 0;
+  size_ = 0;
+  pieces_.send();
+}
+
+void OutputFile::put(const Piece& piece) {
+  hash_.add({piece.bytes.data(), piece.used});
+  for (std::size_t done = 0; done < piece.used;) {
+    const ssize_t n = ::write(file_.get(), piece.bytes.data() + done, piece.used - done);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) fail("write", place_, record_.name);
     done += static_cast<std::size_t>(n);
   }
-  record_.bytes += used_;
-  used_ = 0;
+  record_.bytes += piece.used;
+  if (const std::uint64_t more = record_.bytes - on_the_way_; more >= early_size) {
+    // Where a file system cannot, the sync at the end does it all.
+    sync_file_range(file_.get(), static_cast<off_t>(on_the_way_), static_cast<off_t>(more), SYNC_FILE_RANGE_WRITE);
+    on_the_way_ = record_.bytes;
+  }
 }
 
 void OutputFile::complete() {
   if (!file_) return;
   flush();
+  pieces_.finish();
   record_.sha256 = hash_.hex();
-  buffer_ = {};
   // Some file systems own up to a full disk only here.
   if (close(file_.release()) != 0) fail("write", place_, record_.name);
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "export/conveyor.h"
 #include "export/hash.h"
 
 namespace carom {
@@ -49,6 +50,7 @@ std::string part_name(std::string_view name);
 [[noreturn]] void fail(const std::string& what, const FilePlace& place, std::string_view name,
                        const std::string& reason = {});
 
+/// What is written is hashed and handed to the system in large pieces, by a thread of its own once there are many.
 class OutputFile {
  public:
   /// Opens `.name.part` in the folder. `name` must be plain. Throws ExportError, as all of this class does.
@@ -61,10 +63,10 @@ class OutputFile {
   void write(std::string_view bytes);
   /// Room for `size` bytes to be written in place; written(end) then says how far they reach.
   char* room(std::size_t size) {
-    if (used_ + size > buffer_.size()) make_room(size);
-    return buffer_.data() + used_;
+    if (used_ + size > size_) make_room(size);
+    return data_ + used_;
   }
-  void written(const char* end) { used_ = static_cast<std::size_t>(end - buffer_.data()); }
+  void written(const char* end) { used_ = static_cast<std::size_t>(end - data_); }
 
   /// All bytes handed to the system, the file closed. Not yet under its own name.
   void complete();
@@ -74,16 +76,24 @@ class OutputFile {
   const FileRecord& record() const { return record_; }
 
  private:
+  struct Piece {
+    std::vector<char> bytes;
+    std::size_t used = 0;
+  };
   void flush();
   void make_room(std::size_t size);
+  void put(const Piece& piece);
 
   FilePlace place_;
   FileRecord record_;
   Descriptor file_;
-  std::vector<char> buffer_;
-  std::size_t used_ = 0;
   Sha256 hash_;
+  std::uint64_t on_the_way_ = 0;  // bytes of the file that the system was told to write to the disk
   bool published_ = false;
+  // The piece that is being filled.
+  char* data_ = nullptr;
+  std::size_t size_ = 0, used_ = 0;
+  Conveyor<Piece> pieces_;  // last: its thread uses what stands above
 };
 
 }  // namespace carom

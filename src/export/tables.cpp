@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "export/exports.h"
 #include "export/manifest.h"
@@ -15,6 +17,12 @@ constexpr std::array<std::string_view, 6> motion_columns = {"x_m",        "y_m",
 
 /// The most characters of six numbers, each after its comma.
 constexpr std::size_t motion_size = 6 * (number_size + 1);
+
+/// Rows of a block: enough that handing it on costs nothing, few enough to stay in a processor's cache.
+constexpr std::size_t block_rows = 4096;
+
+/// A block's digits are worth a thread from the second block on.
+constexpr std::uint64_t blocks_alone = 1;
 
 /// The most characters of a member's name behind its group's: a dot and the member's number.
 constexpr std::size_t member_size = 1 + number_size;
@@ -71,7 +79,7 @@ std::string_view kind_name(CollisionKind kind) {
 }  // namespace
 
 TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
-    : scene_(scene), file_(place, "trajectory.csv") {
+    : scene_(scene), file_(place, "trajectory.csv"), blocks_([this](Block& block) { write(block); }, blocks_alone) {
   if (!scene.output.trajectory->wide) {
     file_.write("time_s,body,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\n");
     return;
@@ -92,51 +100,99 @@ TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
 }
 
 void TrajectoryTable::add(double time, const State& state) {
-  if (scene_.output.trajectory->wide)
-    add_wide(time, state);
-  else
-    add_long(time, state);
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const Entity bodies = scene_.world.body_count();
+  Entity first = 0;
+  do {
+    Block& block = blocks_.item();
+    const auto room = static_cast<Entity>(block_rows - block.motions.size());
+    const Part part{time, first, std::min(room, bodies - first)};
+    block.parts.push_back(part);
+    for (Entity body = first; body < first + part.count; ++body) {
+      block.motions.push_back({state.position[body], state.velocity[body]});
+      if (is_part_of_another(state, body)) block.motions.back().position.x() = none;
+    }
+    first += part.count;
+    if (block.motions.size() == block_rows || block.parts.size() == block_rows) blocks_.send();
+  } while (first < bodies);
 }
 
-void TrajectoryTable::add_long(double time, const State& state) {
+OutputFile& TrajectoryTable::file() {
+  if (!blocks_.item().parts.empty()) blocks_.send();
+  blocks_.finish();
+  return file_;
+}
+
+void TrajectoryTable::write(Block& block) {
+  const Motion* motion = block.motions.data();
+  for (const Part& part : block.parts) {
+    if (scene_.output.trajectory->wide)
+      write_wide(part, motion);
+    else
+      write_long(part, motion);
+    motion += part.count;
+  }
+  block.parts.clear();
+  block.motions.clear();
+}
+
+void TrajectoryTable::write_long(const Part& part, const Motion* motion) {
+  if (part.count == 0) return;
   // The time's digits are the same for all bodies: written once, copied then.
   char time_text[number_size];
-  const std::string_view time_cell(time_text, static_cast<std::size_t>(put_number(time_text, time) - time_text));
-  for (const BodyRange& range : scene_.roster.bodies) {
-    for (Entity body = range.first; body < range.first + range.count; ++body) {
-      if (is_part_of_another(state, body)) continue;
-      char* to = file_.room(number_size + range.name.size() + member_size + motion_size + 2);
-      to = put_text(to, time_cell);
-      *to++ = ',';
-      to = put_member(to, range, body);
-      to = put_motion(to, state.position[body], state.velocity[body]);
-      *to++ = '\n';
-      file_.written(to);
-    }
+  const std::string_view time_cell(time_text, static_cast<std::size_t>(put_number(time_text, part.time) - time_text));
+  const BodyRange* range = &scene_.roster.range_of(part.first);
+  for (Entity body = part.first; body < part.first + part.count; ++body, ++motion) {
+    while (body >= range->first + range->count) ++range;
+    if (!std::isfinite(motion->position.x())) continue;
+    char* to = file_.room(number_size + range->name.size() + member_size + motion_size + 2);
+    to = put_text(to, time_cell);
+    *to++ = ',';
+    to = put_member(to, *range, body);
+    to = put_motion(to, motion->position, motion->velocity);
+    *to++ = '\n';
+    file_.written(to);
   }
 }
 
-void TrajectoryTable::add_wide(double time, const State& state) {
-  file_.written(put_number(file_.room(number_size), time));
-  for (const BodyRange& range : scene_.roster.bodies) {
-    for (Entity body = range.first; body < range.first + range.count; ++body) {
-      if (is_part_of_another(state, body))
-        file_.write(",,,,,,");
-      else
-        file_.written(put_motion(file_.room(motion_size), state.position[body], state.velocity[body]));
-    }
+void TrajectoryTable::write_wide(const Part& part, const Motion* motion) {
+  if (part.first == 0) file_.written(put_number(file_.room(number_size), part.time));
+  for (Entity i = 0; i < part.count; ++i, ++motion) {
+    if (std::isfinite(motion->position.x()))
+      file_.written(put_motion(file_.room(motion_size), motion->position, motion->velocity));
+    else
+      file_.write(",,,,,,");
   }
-  file_.write("\n");
+  if (part.first + part.count == scene_.world.body_count()) file_.write("\n");
 }
 
 CollisionTable::CollisionTable(const FilePlace& place, const Scene& scene)
-    : roster_(scene.roster), bodies_(scene.world.body_count()), file_(place, "collisions.csv") {
+    : roster_(scene.roster),
+      bodies_(scene.world.body_count()),
+      file_(place, "collisions.csv"),
+      blocks_([this](std::vector<Collision>& collisions) { write(collisions); }, blocks_alone) {
   file_.write(
       "time_s,kind,a,b,x_m,y_m,z_m,nx,ny,nz,approach_speed_m_per_s,separation_speed_m_per_s,restitution,impulse_N_s,"
       "energy_lost_J\n");
 }
 
 void CollisionTable::add(std::span<const Collision> collisions) {
+  while (!collisions.empty()) {
+    std::vector<Collision>& block = blocks_.item();
+    const std::size_t count = std::min(block_rows - block.size(), collisions.size());
+    block.insert(block.end(), collisions.begin(), collisions.begin() + static_cast<std::ptrdiff_t>(count));
+    collisions = collisions.subspan(count);
+    if (block.size() == block_rows) blocks_.send();
+  }
+}
+
+OutputFile& CollisionTable::file() {
+  if (!blocks_.item().empty()) blocks_.send();
+  blocks_.finish();
+  return file_;
+}
+
+void CollisionTable::write(std::vector<Collision>& collisions) {
   for (const Collision& collision : collisions) {
     file_.written(put_number(file_.room(number_size), collision.time));
     file_.write(",");
@@ -151,6 +207,7 @@ void CollisionTable::add(std::span<const Collision> collisions) {
     *to++ = '\n';
     file_.written(to);
   }
+  collisions.clear();
 }
 
 ContactTable::ContactTable(const FilePlace& place, const Scene& scene)

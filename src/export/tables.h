@@ -1,8 +1,11 @@
 #pragma once
-// The CSV files of a run. Each is made only if the scene asks for it.
+// The CSV files of a run. Each is made only if the scene asks for it. Those that grow long get their digits on a thread
+// of their own.
 #include <cstdint>
 #include <span>
+#include <vector>
 
+#include "export/conveyor.h"
 #include "export/csv.h"
 #include "export/output_file.h"
 #include "physics/collision.h"
@@ -21,14 +24,30 @@ class TrajectoryTable {
  public:
   TrajectoryTable(const FilePlace& place, const Scene& scene);
   void add(double time, const State& state);  // s
-  OutputFile& file() { return file_; }
+  /// All rows, in the file.
+  OutputFile& file();
 
  private:
-  void add_long(double time, const State& state);
-  void add_wide(double time, const State& state);
+  struct Motion {
+    Vec3 position, velocity;  // m, m/s; not finite: the body has become part of another
+  };
+  /// Some bodies' motions at one instant: numbers first, first + 1, ...
+  struct Part {
+    double time;  // s
+    Entity first, count;
+  };
+  /// Numbers that wait for their digits.
+  struct Block {
+    std::vector<Part> parts;
+    std::vector<Motion> motions;
+  };
+  void write(Block& block);
+  void write_long(const Part& part, const Motion* motion);
+  void write_wide(const Part& part, const Motion* motion);
 
   const Scene& scene_;
   OutputFile file_;
+  Conveyor<Block> blocks_;  // last: its thread writes into file_
 };
 
 /// collisions.csv: a row a collision, in the order in which they happened.
@@ -36,12 +55,16 @@ class CollisionTable {
  public:
   CollisionTable(const FilePlace& place, const Scene& scene);
   void add(std::span<const Collision> collisions);
-  OutputFile& file() { return file_; }
+  /// All rows, in the file.
+  OutputFile& file();
 
  private:
+  void write(std::vector<Collision>& collisions);
+
   const Roster& roster_;
   Entity bodies_;
   OutputFile file_;
+  Conveyor<std::vector<Collision>> blocks_;  // last: its thread writes into file_
 };
 
 /// contacts.csv: a row an instant and pair in lasting contact, by time, then a, then b.

@@ -21,24 +21,25 @@ GLuint made(void (*generate)(GLsizei, GLuint*)) {
 GLuint compile(GLenum kind, std::initializer_list<std::string_view> parts) {
   std::string text = "#version 450 core\n";
   for (std::string_view part : parts) text += part;
-  const GLuint shader = glCreateShader(kind);
+  const GLuint shader = gl::CreateShader(kind);
   const char* source = text.c_str();
-  glShaderSource(shader, 1, &source, nullptr);
-  glCompileShader(shader);
+  gl::ShaderSource(shader, 1, &source, nullptr);
+  gl::CompileShader(shader);
   GLint ok = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+  gl::GetShaderiv(shader, GL_COMPILE_STATUS, &ok);
   if (ok) return shader;
   std::string log(4096, '\0');
   GLsizei length = 0;
-  glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
+  gl::GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
   log.resize(static_cast<std::size_t>(length));
-  glDeleteShader(shader);
+  gl::DeleteShader(shader);
   throw RenderError(fmt::format("a shader does not compile on this OpenGL: {}", log));
 }
 
 }  // namespace
 
 Context::Context() {
+  load_functions();
   // The other drivers that OSMesa may choose give other bytes, or are many times slower.
   setenv("GALLIUM_DRIVER", "llvmpipe", 1);
   const int attributes[] = {OSMESA_FORMAT,
@@ -51,7 +52,7 @@ Context::Context() {
                             5,
                             0,
                             0};
-  context_ = OSMesaCreateContextAttribs(attributes, nullptr);
+  context_ = CreateContextAttribs(attributes, nullptr);
   if (!context_)
     throw RenderError(
         "cannot make an OpenGL 4.5 context for pictures. Remedy: install libosmesa6 22.3 or later with llvmpipe "
@@ -60,104 +61,104 @@ Context::Context() {
   try {
     make_current();
   } catch (...) {
-    OSMesaDestroyContext(context_);
+    DestroyContext(context_);
     throw;
   }
 }
 
 Context::~Context() {
-  OSMesaDestroyContext(context_);
+  DestroyContext(context_);
 }
 
 void Context::make_current() {
-  if (!OSMesaMakeCurrent(context_, window_.data(), GL_UNSIGNED_BYTE, 8, 8))
+  if (!MakeCurrent(context_, window_.data(), GL_UNSIGNED_BYTE, 8, 8))
     throw RenderError("cannot use the OpenGL context for pictures: is there enough memory?");
 }
 
 Buffer make_buffer() {
-  return Buffer(made(glGenBuffers));
+  return Buffer(made(gl::GenBuffers));
 }
 
 Vertices make_vertices() {
-  return Vertices(made(glGenVertexArrays));
+  return Vertices(made(gl::GenVertexArrays));
 }
 
 Texture make_texture(GLenum format, int width, int height) {
-  Texture texture(made(glGenTextures));
-  glBindTexture(GL_TEXTURE_2D, texture.name());
-  glTexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+  Texture texture(made(gl::GenTextures));
+  gl::BindTexture(GL_TEXTURE_2D, texture.name());
+  gl::TexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
+  gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   return texture;
 }
 
 Texture make_outlines(int side, int layers) {
-  Texture texture(made(glGenTextures));
-  glBindTexture(GL_TEXTURE_2D_ARRAY, texture.name());
+  Texture texture(made(gl::GenTextures));
+  gl::BindTexture(GL_TEXTURE_2D_ARRAY, texture.name());
   GLsizei levels = 1;
   while (side >> levels > 0) ++levels;
-  glTexStorage3D(GL_TEXTURE_2D_ARRAY, levels, GL_R8, side, side, layers);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-  glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+  gl::TexStorage3D(GL_TEXTURE_2D_ARRAY, levels, GL_R8, side, side, layers);
+  gl::TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl::TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  gl::TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+  gl::TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
   return texture;
 }
 
 Framebuffer make_layer_framebuffer(const Texture& outlines, int layer) {
-  Framebuffer framebuffer(made(glGenFramebuffers));
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-  glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, outlines.name(), 0, layer);
+  Framebuffer framebuffer(made(gl::GenFramebuffers));
+  gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+  gl::FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, outlines.name(), 0, layer);
   check("making room for a mesh's outline");
   return framebuffer;
 }
 
 Framebuffer make_framebuffer(std::span<const GLuint> colors, GLuint depth) {
-  Framebuffer framebuffer(made(glGenFramebuffers));
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+  Framebuffer framebuffer(made(gl::GenFramebuffers));
+  gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   std::vector<GLenum> targets;
   for (GLuint color : colors) {
     targets.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(targets.size()));
-    glFramebufferTexture2D(GL_FRAMEBUFFER, targets.back(), GL_TEXTURE_2D, color, 0);
+    gl::FramebufferTexture2D(GL_FRAMEBUFFER, targets.back(), GL_TEXTURE_2D, color, 0);
   }
-  if (depth) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
-  glDrawBuffers(static_cast<GLsizei>(targets.size()), targets.data());
+  if (depth) gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+  gl::DrawBuffers(static_cast<GLsizei>(targets.size()), targets.data());
   check("making room for the picture");
-  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+  if (gl::CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
     throw RenderError("this OpenGL cannot draw into pictures of this size");
   return framebuffer;
 }
 
 Program::Program(std::initializer_list<std::string_view> vertex, std::initializer_list<std::string_view> fragment)
-    : handle_(glCreateProgram()) {
+    : handle_(gl::CreateProgram()) {
   for (const auto& [kind, parts] : {std::pair{GL_VERTEX_SHADER, vertex}, std::pair{GL_FRAGMENT_SHADER, fragment}}) {
     const GLuint shader = compile(static_cast<GLenum>(kind), parts);
-    glAttachShader(handle_.name(), shader);
-    glDeleteShader(shader);
+    gl::AttachShader(handle_.name(), shader);
+    gl::DeleteShader(shader);
   }
-  glLinkProgram(handle_.name());
+  gl::LinkProgram(handle_.name());
   GLint ok = 0;
-  glGetProgramiv(handle_.name(), GL_LINK_STATUS, &ok);
+  gl::GetProgramiv(handle_.name(), GL_LINK_STATUS, &ok);
   if (ok) return;
   std::string log(4096, '\0');
   GLsizei length = 0;
-  glGetProgramInfoLog(handle_.name(), static_cast<GLsizei>(log.size()), &length, log.data());
+  gl::GetProgramInfoLog(handle_.name(), static_cast<GLsizei>(log.size()), &length, log.data());
   log.resize(static_cast<std::size_t>(length));
   throw RenderError(fmt::format("a shader does not link on this OpenGL: {}", log));
 }
 
 Instances::Instances(std::initializer_list<int> floats)
-    : vertices_(made(glGenVertexArrays)), buffer_(made(glGenBuffers)) {
+    : vertices_(made(gl::GenVertexArrays)), buffer_(made(gl::GenBuffers)) {
   for (int n : floats) stride_ += static_cast<std::size_t>(n) * sizeof(float);
-  glBindVertexArray(vertices_.name());
-  glBindBuffer(GL_ARRAY_BUFFER, buffer_.name());
+  gl::BindVertexArray(vertices_.name());
+  gl::BindBuffer(GL_ARRAY_BUFFER, buffer_.name());
   GLuint index = 0;
   std::size_t offset = 0;
   for (int n : floats) {
-    glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, n, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride_),
-                          reinterpret_cast<const void*>(offset));
-    glVertexAttribDivisor(index, 1);
+    gl::EnableVertexAttribArray(index);
+    gl::VertexAttribPointer(index, n, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride_),
+                            reinterpret_cast<const void*>(offset));
+    gl::VertexAttribDivisor(index, 1);
     ++index;
     offset += static_cast<std::size_t>(n) * sizeof(float);
   }
@@ -165,47 +166,47 @@ Instances::Instances(std::initializer_list<int> floats)
 
 void Instances::draw(std::span<const float> rows) {
   count_ = static_cast<GLsizei>(rows.size_bytes() / std::max<std::size_t>(stride_, 1));
-  glBindBuffer(GL_ARRAY_BUFFER, buffer_.name());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size_bytes()), rows.data(), GL_STREAM_DRAW);
+  gl::BindBuffer(GL_ARRAY_BUFFER, buffer_.name());
+  gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size_bytes()), rows.data(), GL_STREAM_DRAW);
   draw_again();
 }
 
 void Instances::draw_again() const {
-  glBindVertexArray(vertices_.name());
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count_);
+  gl::BindVertexArray(vertices_.name());
+  gl::DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count_);
 }
 
-TexelBuffer::TexelBuffer() : buffer_(made(glGenBuffers)), texture_(made(glGenTextures)) {
+TexelBuffer::TexelBuffer() : buffer_(made(gl::GenBuffers)), texture_(made(gl::GenTextures)) {
   const float nothing[4] = {};
   fill(nothing);
 }
 
 void TexelBuffer::fill(std::span<const float> values) {
-  glBindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
-  glBufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(values.size_bytes()), values.data(), GL_STREAM_DRAW);
-  glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
-  glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer_.name());
+  gl::BindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
+  gl::BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(values.size_bytes()), values.data(), GL_STREAM_DRAW);
+  gl::BindTexture(GL_TEXTURE_BUFFER, texture_.name());
+  gl::TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer_.name());
 }
 
 void TexelBuffer::bind(GLuint unit) const {
-  glActiveTexture(GL_TEXTURE0 + unit);
-  glBindTexture(GL_TEXTURE_BUFFER, texture_.name());
+  gl::ActiveTexture(GL_TEXTURE0 + unit);
+  gl::BindTexture(GL_TEXTURE_BUFFER, texture_.name());
 }
 
 void draw_picture() {
-  const Vertices none(made(glGenVertexArrays));
-  glBindVertexArray(none.name());
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  glBindVertexArray(0);
+  const Vertices none(made(gl::GenVertexArrays));
+  gl::BindVertexArray(none.name());
+  gl::DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  gl::BindVertexArray(0);
 }
 
 void bind_texture(GLuint unit, const Texture& texture) {
-  glActiveTexture(GL_TEXTURE0 + unit);
-  glBindTexture(GL_TEXTURE_2D, texture.name());
+  gl::ActiveTexture(GL_TEXTURE0 + unit);
+  gl::BindTexture(GL_TEXTURE_2D, texture.name());
 }
 
 void check(const char* doing) {
-  const GLenum error = glGetError();
+  const GLenum error = gl::GetError();
   if (error == GL_NO_ERROR) return;
   if (error == GL_OUT_OF_MEMORY) throw RenderError(fmt::format("out of memory while {}", doing));
   throw RenderError(fmt::format("OpenGL error 0x{:04x} while {}", error, doing));

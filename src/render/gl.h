@@ -1,9 +1,5 @@
 #pragma once
-// The little of OpenGL that the passes use: an off-screen context, and objects that free themselves. OSMesa exports the
-// functions of OpenGL 4.5 by name, so nothing has to be looked up at run time.
-#define GL_GLEXT_PROTOTYPES
-#include <GL/osmesa.h>
-
+// The little of OpenGL that the passes use: an off-screen context, and objects that free themselves.
 #include <array>
 #include <cstddef>
 #include <initializer_list>
@@ -11,6 +7,8 @@
 #include <string>
 #include <string_view>
 #include <utility>
+
+#include "render/gl_functions.h"
 
 namespace carom::gl {
 
@@ -49,19 +47,19 @@ class Handle {
 };
 
 inline void release_texture(GLuint name) {
-  glDeleteTextures(1, &name);
+  gl::DeleteTextures(1, &name);
 }
 inline void release_buffer(GLuint name) {
-  glDeleteBuffers(1, &name);
+  gl::DeleteBuffers(1, &name);
 }
 inline void release_framebuffer(GLuint name) {
-  glDeleteFramebuffers(1, &name);
+  gl::DeleteFramebuffers(1, &name);
 }
 inline void release_vertices(GLuint name) {
-  glDeleteVertexArrays(1, &name);
+  gl::DeleteVertexArrays(1, &name);
 }
 inline void release_program(GLuint name) {
-  glDeleteProgram(name);
+  gl::DeleteProgram(name);
 }
 
 using Texture = Handle<release_texture>;
@@ -84,8 +82,8 @@ class Program {
  public:
   /// `parts` are joined behind the version line.
   Program(std::initializer_list<std::string_view> vertex, std::initializer_list<std::string_view> fragment);
-  void use() const { glUseProgram(handle_.name()); }
-  GLint at(const char* uniform) const { return glGetUniformLocation(handle_.name(), uniform); }
+  void use() const { gl::UseProgram(handle_.name()); }
+  GLint at(const char* uniform) const { return gl::GetUniformLocation(handle_.name(), uniform); }
 
  private:
   Handle<release_program> handle_;

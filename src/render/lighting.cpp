@@ -155,14 +155,14 @@ void Lighting::set(const gl::Program& program) const {
     radiance.insert(radiance.end(), light.radiance.begin(), light.radiance.end());
   }
   const auto count = static_cast<GLsizei>(lights_.size());
-  glUniform4fv(program.at("light_vector"), count, vectors.data());
-  glUniform3fv(program.at("light_radiance"), count, radiance.data());
-  glUniform1f(program.at("lamp_radius"), static_cast<float>(lamp_radius_));
-  glUniform3fv(program.at("ambient"), 1, ambient_.data());
+  gl::Uniform4fv(program.at("light_vector"), count, vectors.data());
+  gl::Uniform3fv(program.at("light_radiance"), count, radiance.data());
+  gl::Uniform1f(program.at("lamp_radius"), static_cast<float>(lamp_radius_));
+  gl::Uniform3fv(program.at("ambient"), 1, ambient_.data());
   const std::array<const char*, 3> names{"world_right", "world_up", "world_back"};
   for (std::size_t i = 0; i < 3; ++i)
-    glUniform3f(program.at(names[i]), static_cast<float>(axes_[i].x()), static_cast<float>(axes_[i].y()),
-                static_cast<float>(axes_[i].z()));
+    gl::Uniform3f(program.at(names[i]), static_cast<float>(axes_[i].x()), static_cast<float>(axes_[i].y()),
+                  static_cast<float>(axes_[i].z()));
 }
 
 }  // namespace carom

@@ -40,7 +40,7 @@ float through_mesh(vec3 p, vec3 l, vec3 to_middle, float file, float reach) {
 )";
 
 void set_vector(const gl::Program& program, const char* name, const Vec3& v) {
-  glUniform3f(program.at(name), static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()));
+  gl::Uniform3f(program.at(name), static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()));
 }
 
 }  // namespace
@@ -59,34 +59,34 @@ MeshShadows::MeshShadows(const Shapes& shapes, std::size_t files, const Eye& eye
   std::array<float, 9> axes{};
   for (int i = 0; i < 9; ++i)
     axes[static_cast<std::size_t>(i)] = static_cast<float>(eye.direction(Vec3::Unit(i / 3))[i % 3]);
-  glUniformMatrix3fv(program.at("axes"), 1, GL_FALSE, axes.data());
+  gl::UniformMatrix3fv(program.at("axes"), 1, GL_FALSE, axes.data());
   set_vector(program, "across_u", across_u_);
   set_vector(program, "across_v", across_v_);
   shapes.fill_instances(std::array<float, Shapes::row>{});
   for (std::size_t i = 0; i < files; ++i) {
     const gl::Framebuffer framebuffer = gl::make_layer_framebuffer(outlines_, static_cast<int>(i));
-    glViewport(0, 0, side, side);
-    glDisable(GL_BLEND);
-    glDisable(GL_DEPTH_TEST);
+    gl::Viewport(0, 0, side, side);
+    gl::Disable(GL_BLEND);
+    gl::Disable(GL_DEPTH_TEST);
     const float nothing[4] = {};
-    glClearBufferfv(GL_COLOR, 0, nothing);
-    glUniform1f(program.at("reach"), static_cast<float>(reach(shapes, i)));
+    gl::ClearBufferfv(GL_COLOR, 0, nothing);
+    gl::Uniform1f(program.at("reach"), static_cast<float>(reach(shapes, i)));
     shapes.draw(Shapes::file(i), 0, 1);
   }
   bind(0);
-  glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
+  gl::GenerateMipmap(GL_TEXTURE_2D_ARRAY);
   gl::check("drawing the meshes' outlines");
 }
 
 void MeshShadows::set(const gl::Program& program, GLuint unit) const {
-  glUniform1i(program.at("mesh_outlines"), static_cast<GLint>(unit));
+  gl::Uniform1i(program.at("mesh_outlines"), static_cast<GLint>(unit));
   set_vector(program, "across_u", across_u_);
   set_vector(program, "across_v", across_v_);
 }
 
 void MeshShadows::bind(GLuint unit) const {
-  glActiveTexture(GL_TEXTURE0 + unit);
-  glBindTexture(GL_TEXTURE_2D_ARRAY, outlines_.name());
+  gl::ActiveTexture(GL_TEXTURE0 + unit);
+  gl::BindTexture(GL_TEXTURE_2D_ARRAY, outlines_.name());
 }
 
 }  // namespace carom

@@ -82,23 +82,25 @@ struct Renderer::Impl {
   std::optional<Solids> solids;
   std::vector<std::uint8_t> rgba;
   Image image;
+  std::uint64_t drawn = 0;
 };
 
 void Renderer::Impl::copy_backdrop() {
   const auto [width, height] = eye.size;
-  glCopyImageSubData(backdrop->lit.name(), GL_TEXTURE_2D, 0, 0, 0, 0, color.name(), GL_TEXTURE_2D, 0, 0, 0, 0, width,
-                     height, 1);
-  glCopyImageSubData(backdrop->depth.name(), GL_TEXTURE_2D, 0, 0, 0, 0, depth.name(), GL_TEXTURE_2D, 0, 0, 0, 0, width,
-                     height, 1);
+  gl::CopyImageSubData(backdrop->lit.name(), GL_TEXTURE_2D, 0, 0, 0, 0, color.name(), GL_TEXTURE_2D, 0, 0, 0, 0, width,
+                       height, 1);
+  gl::CopyImageSubData(backdrop->depth.name(), GL_TEXTURE_2D, 0, 0, 0, 0, depth.name(), GL_TEXTURE_2D, 0, 0, 0, 0,
+                       width, height, 1);
 }
 
 void Renderer::Impl::draw(const State& state) {
-  things.place(state);
+  if (!things.place(state) && drawn > 0) return;
+  ++drawn;
   if (solids) solids->prepare(things, *backdrop, rows);
   copy_backdrop();
-  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-  glViewport(0, 0, eye.size.width, eye.size.height);
-  glEnable(GL_FRAMEBUFFER_SRGB);
+  gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+  gl::Viewport(0, 0, eye.size.width, eye.size.height);
+  gl::Enable(GL_FRAMEBUFFER_SRGB);
   if (shade) shade->draw(things, *backdrop, rows);
   if (solids) solids->draw(Solids::Cover::whole);
   if (spheres) spheres->draw(things, *backdrop, rows);
@@ -110,8 +112,8 @@ void Renderer::Impl::read() {
   const std::size_t pixels = static_cast<std::size_t>(eye.size.width) * static_cast<std::size_t>(eye.size.height);
   rgba.resize(4 * pixels);
   image.pixels.resize(3 * pixels);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, eye.size.width, eye.size.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  gl::PixelStorei(GL_PACK_ALIGNMENT, 1);
+  gl::ReadPixels(0, 0, eye.size.width, eye.size.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   gl::check("reading the picture");
   for (std::size_t i = 0; i < pixels; ++i)
     for (std::size_t c = 0; c < 3; ++c) image.pixels[3 * i + c] = rgba[4 * i + c];
@@ -131,6 +133,10 @@ const Image& Renderer::draw(const State& state) {
   impl_->context.make_current();
   impl_->draw(state);
   return impl_->image;
+}
+
+std::uint64_t Renderer::drawn() const {
+  return impl_->drawn;
 }
 
 }  // namespace carom

@@ -1,5 +1,6 @@
 #pragma once
 // What a scene looks like + a State -> pixels. One renderer is one off-screen OpenGL context of one picture size.
+#include <cstdint>
 #include <memory>
 #include <stdexcept>
 
@@ -22,8 +23,10 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Draws the bodies of `state` and what stands still. The picture is valid until the next draw.
+  /// Draws the bodies of `state` and what stands still; nothing, where all is as in the last picture. The picture is
+  /// valid until the next draw.
   const Image& draw(const State& state);
+  std::uint64_t drawn() const;  // pictures so far, but for those that were the last one again
 
  private:
   struct Impl;

@@ -123,18 +123,18 @@ Shade::Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces,
   program_.use();
   lighting.set(program_);
   if (meshes) meshes->set(program_, 2);
-  glUniform2f(program_.at("tangent"), static_cast<float>(eye.tan_x), static_cast<float>(eye.tan_y));
-  glUniform1f(program_.at("near"), static_cast<float>(eye.camera.near));
-  glUniform1f(program_.at("pixel"), static_cast<float>(eye.pixel));
-  glUniform1i(program_.at("lit"), 0);
-  glUniform1i(program_.at("rows"), 1);
+  gl::Uniform2f(program_.at("tangent"), static_cast<float>(eye.tan_x), static_cast<float>(eye.tan_y));
+  gl::Uniform1f(program_.at("near"), static_cast<float>(eye.camera.near));
+  gl::Uniform1f(program_.at("pixel"), static_cast<float>(eye.pixel));
+  gl::Uniform1i(program_.at("lit"), 0);
+  gl::Uniform1i(program_.at("rows"), 1);
   std::vector<float> planes;
   for (std::size_t k = 0; k < cutting_planes(surfaces); ++k) {
     const Surface& s = surfaces.all()[k];
     for (double x : {s.normal.x(), s.normal.y(), s.normal.z(), s.height}) planes.push_back(static_cast<float>(x));
   }
-  if (!planes.empty()) glUniform4fv(program_.at("planes"), static_cast<GLsizei>(planes.size() / 4), planes.data());
-  glUniform1f(program_.at("slack"), static_cast<float>(1e-5 * surfaces.reach()));
+  if (!planes.empty()) gl::Uniform4fv(program_.at("planes"), static_cast<GLsizei>(planes.size() / 4), planes.data());
+  gl::Uniform1f(program_.at("slack"), static_cast<float>(1e-5 * surfaces.reach()));
 }
 
 bool Shade::in_picture(const Vec3& center, double radius) const {
@@ -256,14 +256,14 @@ void Shade::draw(const Things& things, const Backdrop& backdrop, const gl::Texel
   gl::bind_texture(0, backdrop.lit);
   rows.bind(1);
   if (meshes_) meshes_->bind(2);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_GREATER);
-  glDepthMask(GL_FALSE);
-  glEnable(GL_BLEND);
-  glBlendEquation(GL_MIN);
+  gl::Enable(GL_DEPTH_TEST);
+  gl::DepthFunc(GL_GREATER);
+  gl::DepthMask(GL_FALSE);
+  gl::Enable(GL_BLEND);
+  gl::BlendEquation(GL_MIN);
   instances_.draw(rows_);
-  glBlendEquation(GL_FUNC_ADD);
-  glDepthMask(GL_TRUE);
+  gl::BlendEquation(GL_FUNC_ADD);
+  gl::DepthMask(GL_TRUE);
   gl::check("drawing shadows");
 }
 

@@ -81,24 +81,24 @@ void Shapes::upload(const Mesh& mesh) {
   shape.vertices = gl::make_buffer();
   shape.triangles = gl::make_buffer();
   shape.indices = static_cast<GLsizei>(mesh.triangles.size());
-  glBindVertexArray(shape.array.name());
-  glBindBuffer(GL_ARRAY_BUFFER, shape.vertices.name());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size() * sizeof(float)), rows.data(), GL_STATIC_DRAW);
-  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, shape.triangles.name());
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.triangles.size() * sizeof(std::uint32_t)),
-               mesh.triangles.data(), GL_STATIC_DRAW);
+  gl::BindVertexArray(shape.array.name());
+  gl::BindBuffer(GL_ARRAY_BUFFER, shape.vertices.name());
+  gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size() * sizeof(float)), rows.data(), GL_STATIC_DRAW);
+  gl::BindBuffer(GL_ELEMENT_ARRAY_BUFFER, shape.triangles.name());
+  gl::BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.triangles.size() * sizeof(std::uint32_t)),
+                 mesh.triangles.data(), GL_STATIC_DRAW);
   const auto attribute = [](GLuint index, GLint floats, std::size_t stride, std::size_t offset) {
-    glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride * sizeof(float)),
-                          reinterpret_cast<const void*>(offset * sizeof(float)));
+    gl::EnableVertexAttribArray(index);
+    gl::VertexAttribPointer(index, floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride * sizeof(float)),
+                            reinterpret_cast<const void*>(offset * sizeof(float)));
   };
   attribute(0, 3, 6, 0);
   attribute(1, 3, 6, 3);
-  glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
+  gl::BindBuffer(GL_ARRAY_BUFFER, instances_.name());
   attribute(2, 4, row, 0);
   attribute(3, 4, row, 4);
-  for (const GLuint index : {2U, 3U}) glVertexAttribDivisor(index, 1);
-  glBindVertexArray(0);
+  for (const GLuint index : {2U, 3U}) gl::VertexAttribDivisor(index, 1);
+  gl::BindVertexArray(0);
   shapes_.push_back(std::move(shape));
 }
 
@@ -109,14 +109,14 @@ double Shapes::radius(std::size_t file, const Vec3& center) const {
 }
 
 void Shapes::fill_instances(std::span<const float> rows) const {
-  glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size_bytes()), rows.data(), GL_STREAM_DRAW);
+  gl::BindBuffer(GL_ARRAY_BUFFER, instances_.name());
+  gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size_bytes()), rows.data(), GL_STREAM_DRAW);
 }
 
 void Shapes::draw(std::size_t shape, std::size_t first, std::size_t count) const {
-  glBindVertexArray(shapes_[shape].array.name());
-  glDrawElementsInstancedBaseInstance(GL_TRIANGLES, shapes_[shape].indices, GL_UNSIGNED_INT, nullptr,
-                                      static_cast<GLsizei>(count), static_cast<GLuint>(first));
+  gl::BindVertexArray(shapes_[shape].array.name());
+  gl::DrawElementsInstancedBaseInstance(GL_TRIANGLES, shapes_[shape].indices, GL_UNSIGNED_INT, nullptr,
+                                        static_cast<GLsizei>(count), static_cast<GLuint>(first));
 }
 
 }  // namespace carom

@@ -53,20 +53,20 @@ Solids::Solids(const Shapes& shapes, const Eye& eye, const Lighting& lighting, c
   for (std::size_t i = 0; i < 9; ++i) axes[i] = f(axes_[i / 3][static_cast<int>(i % 3)]);
   for (const gl::Program* program : {&closed_points_, &open_points_, &shade_, &draw_}) {
     program->use();
-    glUniformMatrix3fv(program->at("axes"), 1, GL_FALSE, axes.data());
-    glUniform2f(program->at("tangent"), f(eye.tan_x), f(eye.tan_y));
-    glUniform2f(program->at("picture"), f(width), f(height));
-    glUniform1f(program->at("near"), f(eye.camera.near));
+    gl::UniformMatrix3fv(program->at("axes"), 1, GL_FALSE, axes.data());
+    gl::Uniform2f(program->at("tangent"), f(eye.tan_x), f(eye.tan_y));
+    gl::Uniform2f(program->at("picture"), f(width), f(height));
+    gl::Uniform1f(program->at("near"), f(eye.camera.near));
   }
   shade_.use();
   lighting.set(shade_);
   if (meshes) meshes->set(shade_, 7);
   GLint unit = 0;
   for (const char* name : {"occluder_rows", "rows", "edges", "edge_depths", "looks", "what", "what_depth"})
-    glUniform1i(shade_.at(name), unit++);
+    gl::Uniform1i(shade_.at(name), unit++);
   draw_.use();
-  glUniform1i(draw_.at("color"), 0);
-  glUniform1i(draw_.at("color_depth"), 1);
+  gl::Uniform1i(draw_.at("color"), 0);
+  gl::Uniform1i(draw_.at("color_depth"), 1);
   gl::check("preparing to draw boxes, cylinders and meshes");
 }
 
@@ -149,10 +149,10 @@ void Solids::prepare(const Things& things, const Backdrop& backdrop, const gl::T
   rectangle_row_.clear();
   if (things.solids().empty()) return;
   collect(things);
-  glDisable(GL_BLEND);
-  glBindFramebuffer(GL_FRAMEBUFFER, color_buffer_.name());
+  gl::Disable(GL_BLEND);
+  gl::BindFramebuffer(GL_FRAMEBUFFER, color_buffer_.name());
   const float nothing[4] = {};
-  glClearBufferfv(GL_COLOR, 0, nothing);
+  gl::ClearBufferfv(GL_COLOR, 0, nothing);
   for (Tile& tile : tiles_) {
     if (tile.solids.empty()) continue;
     // Those of one shape together; front to back, so that little is drawn in vain.
@@ -170,21 +170,21 @@ void Solids::prepare(const Things& things, const Backdrop& backdrop, const gl::T
 
 void Solids::draw_points(const Tile& tile) {
   const auto [left, top, right, bottom] = tile.bounds;
-  glBindFramebuffer(GL_FRAMEBUFFER, point_buffer_.name());
-  glViewport(0, 0, (right - left) * fine_, (bottom - top) * fine_);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_GREATER);
-  glFrontFace(GL_CW);  // pictures have their top row first
+  gl::BindFramebuffer(GL_FRAMEBUFFER, point_buffer_.name());
+  gl::Viewport(0, 0, (right - left) * fine_, (bottom - top) * fine_);
+  gl::Enable(GL_DEPTH_TEST);
+  gl::DepthFunc(GL_GREATER);
+  gl::FrontFace(GL_CW);  // pictures have their top row first
   const GLuint nothing[4] = {};
   const float infinitely_far = 0;
-  glClearBufferuiv(GL_COLOR, 0, nothing);
-  glClearBufferfv(GL_DEPTH, 0, &infinitely_far);
+  gl::ClearBufferuiv(GL_COLOR, 0, nothing);
+  gl::ClearBufferfv(GL_DEPTH, 0, &infinitely_far);
   const double x = 1.0 / (right - left), y = 1.0 / (bottom - top);
   const auto [width, height] = eye_.size;
   for (const gl::Program* program : {&closed_points_, &open_points_}) {
     program->use();
-    glUniform4f(program->at("to_tile"), f(width * x), f(height * y), f((width - 2 * left) * x - 1),
-                f((height - 2 * top) * y - 1));
+    gl::Uniform4f(program->at("to_tile"), f(width * x), f(height * y), f((width - 2 * left) * x - 1),
+                  f((height - 2 * top) * y - 1));
   }
   instance_row_.clear();
   for (const std::uint32_t i : tile.solids)
@@ -196,18 +196,18 @@ void Solids::draw_points(const Tile& tile) {
     while (end < tile.solids.size() && alike(placed_[tile.solids[end]])) ++end;
     const bool closed = like.shape < Shapes::file(0);
     (closed ? closed_points_ : open_points_).use();
-    if (closed && !like.cut) glEnable(GL_CULL_FACE);
+    if (closed && !like.cut) gl::Enable(GL_CULL_FACE);
     shapes_.draw(like.shape, first, end - first);
-    glDisable(GL_CULL_FACE);
+    gl::Disable(GL_CULL_FACE);
   }
 }
 
 void Solids::shade(const Tile& tile, const Backdrop& backdrop, const gl::TexelBuffer& rows) {
-  glBindFramebuffer(GL_FRAMEBUFFER, color_buffer_.name());
-  glViewport(0, 0, eye_.size.width, eye_.size.height);
-  glDisable(GL_DEPTH_TEST);
+  gl::BindFramebuffer(GL_FRAMEBUFFER, color_buffer_.name());
+  gl::Viewport(0, 0, eye_.size.width, eye_.size.height);
+  gl::Disable(GL_DEPTH_TEST);
   shade_.use();
-  glUniform2i(shade_.at("tile"), tile.bounds.left, tile.bounds.top);
+  gl::Uniform2i(shade_.at("tile"), tile.bounds.left, tile.bounds.top);
   occluders_.bind(0);
   rows.bind(1);
   if (meshes_) meshes_->bind(7);
@@ -225,13 +225,13 @@ void Solids::shade(const Tile& tile, const Backdrop& backdrop, const gl::TexelBu
 void Solids::draw(Cover cover) {
   if (rectangle_row_.empty()) return;
   draw_.use();
-  glUniform1i(draw_.at("whole"), cover == Cover::whole ? 1 : 0);
+  gl::Uniform1i(draw_.at("whole"), cover == Cover::whole ? 1 : 0);
   gl::bind_texture(0, color_);
   gl::bind_texture(1, color_depth_);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_GREATER);
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl::Enable(GL_DEPTH_TEST);
+  gl::DepthFunc(GL_GREATER);
+  gl::Enable(GL_BLEND);
+  gl::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   rectangles_.draw(rectangle_row_);
 }
 

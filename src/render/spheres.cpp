@@ -117,13 +117,13 @@ Spheres::Spheres(const Eye& eye, const Lighting& lighting, const Surfaces& surfa
   program_.use();
   lighting.set(program_);
   if (meshes) meshes->set(program_, 4);
-  glUniform2f(program_.at("tangent"), static_cast<float>(eye.tan_x), static_cast<float>(eye.tan_y));
-  glUniform1f(program_.at("pixel"), static_cast<float>(eye.pixel));
-  glUniform1f(program_.at("near"), static_cast<float>(eye.camera.near));
-  glUniform1i(program_.at("occluder_rows"), 0);
-  glUniform1i(program_.at("rows"), 1);
-  glUniform1i(program_.at("edges"), 2);
-  glUniform1i(program_.at("edge_depths"), 3);
+  gl::Uniform2f(program_.at("tangent"), static_cast<float>(eye.tan_x), static_cast<float>(eye.tan_y));
+  gl::Uniform1f(program_.at("pixel"), static_cast<float>(eye.pixel));
+  gl::Uniform1f(program_.at("near"), static_cast<float>(eye.camera.near));
+  gl::Uniform1i(program_.at("occluder_rows"), 0);
+  gl::Uniform1i(program_.at("rows"), 1);
+  gl::Uniform1i(program_.at("edges"), 2);
+  gl::Uniform1i(program_.at("edge_depths"), 3);
 }
 
 void Spheres::draw(const Things& things, const Backdrop& backdrop, const gl::TexelBuffer& rows) {
@@ -173,10 +173,10 @@ void Spheres::draw(const Things& things, const Backdrop& backdrop, const gl::Tex
     gl::bind_texture(2, backdrop.edge);
     gl::bind_texture(3, backdrop.edge_depth);
   }
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  glEnable(GL_DEPTH_TEST);
-  glDepthFunc(GL_GREATER);
+  gl::Enable(GL_BLEND);
+  gl::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  gl::Enable(GL_DEPTH_TEST);
+  gl::DepthFunc(GL_GREATER);
   instances_.draw(row_);
   gl::check("drawing balls");
 }

@@ -52,22 +52,36 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, std:
     thing.radius = std::max(radius, looks_[look].mesh_radius);
     thing.mesh_middle = eye_.point(position + looks_[look].mesh_middle);
   }
-  const auto i = static_cast<std::uint32_t>(all_.size());
-  all_.push_back(thing);
   // A thing around the eye would only be its own inside.
   const double distance2 = thing.center.squaredNorm();
   const bool ball = volume.shape == Shape::sphere && !mesh;
   const Vec3 eye = (eye_.camera.eye - position).cwiseAbs();
   const bool around = ball ? distance2 <= radius * radius : (eye.array() <= volume.half.array()).all();
-  if (around || !sees_sphere(eye_.camera, eye_.view, position, thing.radius)) return;
+  if (around || !sees_sphere(eye_.camera, eye_.view, position, thing.radius)) {
+    keep(thing);
+    return;
+  }
   // What is smaller than a pixel is drawn as a ball, which is as faint as it is small.
   const bool tiny = !ball && thing.radius * thing.radius < 0.25 * eye_.pixel * eye_.pixel * distance2;
-  if (tiny) all_.back().radius = std::cbrt(0.2387 * volume.size());
-  (ball || tiny ? balls_ : solids_).push_back(i);
+  if (tiny) thing.radius = std::cbrt(0.2387 * volume.size());
+  (ball || tiny ? balls_ : solids_).push_back(keep(thing));
 }
 
-void Things::place(const State& state) {
-  all_.clear();
+/// Gives its number.
+std::uint32_t Things::keep(const Thing& thing) {
+  if (placed_ == all_.size()) {
+    all_.push_back(thing);
+    differs_ = true;
+  } else if (!(all_[placed_] == thing)) {
+    all_[placed_] = thing;
+    differs_ = true;
+  }
+  return placed_++;
+}
+
+bool Things::place(const State& state) {
+  placed_ = 0;
+  differs_ = false;
   balls_.clear();
   solids_.clear();
   const World& world = scene_.world;
@@ -89,7 +103,12 @@ void Things::place(const State& state) {
     add(obstacle.center, obstacle.volume, obstacle.volume.reach(), look, looks_[look].mesh.has_value());
     ++look;
   }
+  if (placed_ < all_.size()) {
+    all_.erase(all_.begin() + placed_, all_.end());
+    differs_ = true;
+  }
   sort_balls();
+  return differs_;
 }
 
 void Things::sort_balls() {

@@ -25,6 +25,8 @@ struct Thing {
   std::uint32_t look = 0;           // Things::look
   bool mesh = false;                // is drawn as its look's mesh
   Vec3 mesh_middle = Vec3::Zero();  // m, of that mesh
+
+  bool operator==(const Thing&) const = default;
 };
 
 /// What a body or obstacle always looks like.
@@ -51,8 +53,8 @@ class Things {
   bool any_solids() const { return any_solids_; }  // whether there may be something that is no ball
 
   /// Bodies where `state` has them, and the obstacles. A body that is part of another is not there; the joint body has
-  /// the state's volume.
-  void place(const State& state);
+  /// the state's volume. Gives whether anything is not as it was when this was last called.
+  bool place(const State& state);
   std::span<const Thing> all() const { return all_; }
   std::span<const std::uint32_t> balls() const { return balls_; }    // of all(): those in the picture, back to front
   std::span<const std::uint32_t> solids() const { return solids_; }  // of all(): the others in the picture
@@ -61,6 +63,7 @@ class Things {
  private:
   Look look_of(const Color& color, const std::optional<MeshUse>& mesh);
   void add(const Vec3& position, const Volume& volume, double radius, std::uint32_t look, bool mesh);
+  std::uint32_t keep(const Thing& thing);
   void sort_balls();
 
   const Scene& scene_;
@@ -69,7 +72,9 @@ class Things {
   std::vector<std::uint32_t> obstacles_;  // those that are drawn as things
   std::vector<std::string> files_;
   bool any_solids_ = false;
-  std::vector<Thing> all_;
+  std::vector<Thing> all_;    // while it is placed anew: what was there before, and of it
+  std::uint32_t placed_ = 0;  // so many are placed,
+  bool differs_ = false;      // some of them otherwise than before
   std::vector<std::uint32_t> balls_, solids_;
   std::vector<std::pair<double, std::uint32_t>> order_;
 };

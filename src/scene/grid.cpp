@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/prefetch.h"
 #include "physics/touch.h"
 
 namespace carom {
@@ -28,29 +29,29 @@ double touch_tolerance(double relative, double smaller_reach, const Vec3& a, con
 
 void BodyGrid::reserve(std::size_t members) {
   members_.reserve(members);
-  exponents_.reserve(members);
-  next_.reserve(members);
+  level_.reserve(members);
   std::size_t size = 64;
-  while (size < 2 * members) size *= 2;
+  while (size < 4 * members) size *= 2;
   if (size <= heads_.size()) return;
   heads_.assign(size, none);
   for (std::uint32_t i = 0; i < members_.size(); ++i) link(i);
 }
 
-std::size_t BodyGrid::bucket(int exponent, std::int64_t x, std::int64_t y, std::int64_t z) const {
+std::size_t BodyGrid::bucket(std::uint32_t level, std::int64_t x, std::int64_t y, std::int64_t z) const {
   // Cells that are neighbours along x share a line of memory.
   const std::uint64_t row = static_cast<std::uint64_t>(y) * 0x9E3779B97F4A7C15ULL +
-                            static_cast<std::uint64_t>(z) * 0xC2B2AE3D27D4EB4FULL +
-                            static_cast<std::uint64_t>(exponent) * 0x165667B19E3779F9ULL;
+                            static_cast<std::uint64_t>(z) * 0xC2B2AE3D27D4EB4FULL + level * 0x165667B19E3779F9ULL;
   return (static_cast<std::uint64_t>(x) + (row ^ (row >> 29))) & (heads_.size() - 1);
 }
 
+std::size_t BodyGrid::bucket(std::uint32_t level, const Vec3& center) const {
+  const double cell = levels_[level].cell;
+  return bucket(level, cell_of(center.x(), cell), cell_of(center.y(), cell), cell_of(center.z(), cell));
+}
+
 void BodyGrid::link(std::uint32_t i) {
-  const Member& member = members_[i];
-  const double cell = std::ldexp(1.0, exponents_[i]);
-  std::uint32_t& head = heads_[bucket(exponents_[i], cell_of(member.center.x(), cell), cell_of(member.center.y(), cell),
-                                      cell_of(member.center.z(), cell))];
-  next_[i] = head;
+  std::uint32_t& head = heads_[bucket(level_[i], members_[i].member.center)];
+  members_[i].next = head;
   head = i;
 }
 
@@ -59,17 +60,17 @@ void BodyGrid::insert(const Member& member) {
   int exponent = 0;
   std::frexp(2 * member.radius, &exponent);
   const auto index = static_cast<std::uint32_t>(members_.size());
-  members_.push_back(member);
-  exponents_.push_back(exponent);
-  next_.push_back(none);
   auto level = std::find_if(levels_.begin(), levels_.end(), [&](const Level& l) { return l.exponent == exponent; });
-  if (level == levels_.end()) level = levels_.insert(level, {exponent, std::ldexp(1.0, exponent), {}});
+  if (level == levels_.end()) level = levels_.insert(level, {exponent, 2 * member.radius, 0, {}});
+  level->largest = std::max(level->largest, 2 * member.radius);
   level->members.push_back(index);
+  members_.push_back({member, none});
+  level_.push_back(static_cast<std::uint32_t>(level - levels_.begin()));
   link(index);
 }
 
-std::optional<BodyGrid::Overlap> BodyGrid::overlap_with(std::uint32_t i, const Member& body, double relative) const {
-  const Member& member = members_[i];
+std::optional<BodyGrid::Overlap> BodyGrid::overlap_with(const Member& member, const Member& body,
+                                                        double relative) const {
   const Vec3 d = member.center - body.center;
   const double sum = member.radius + body.radius;
   const double squared = dot(d, d);
@@ -83,42 +84,83 @@ std::optional<BodyGrid::Overlap> BodyGrid::overlap_with(std::uint32_t i, const M
   return Overlap{member.entity, depth};
 }
 
-std::optional<BodyGrid::Overlap> BodyGrid::find_overlap(const Member& body, double relative) const {
-  const Vec3& center = body.center;
-  const double radius = body.radius;
-  for (const Level& level : levels_) {
-    const double reach = radius + level.cell / 2;
-    std::int64_t low[3], high[3];
-    double cells = 1;
-    for (int k = 0; k < 3; ++k) {
-      low[k] = cell_of(center[k] - reach, level.cell);
-      high[k] = cell_of(center[k] + reach, level.cell);
-      cells *= static_cast<double>(high[k] - low[k] + 1);
-    }
-    // A large body among few small ones: cheaper to ask them all.
-    if (cells > static_cast<double>(level.members.size()) + 27) {
-      for (const std::uint32_t i : level.members) {
-        if (auto overlap = overlap_with(i, body, relative)) return overlap;
-      }
-      continue;
-    }
-    // The body's own cell first: where there is an overlap, it is most often there.
-    for (std::uint32_t i = heads_[bucket(level.exponent, cell_of(center.x(), level.cell),
-                                         cell_of(center.y(), level.cell), cell_of(center.z(), level.cell))];
-         i != none; i = next_[i]) {
-      if (auto overlap = overlap_with(i, body, relative)) return overlap;
-    }
-    for (std::int64_t z = low[2]; z <= high[2]; ++z) {
-      for (std::int64_t y = low[1]; y <= high[1]; ++y) {
-        for (std::int64_t x = low[0]; x <= high[0]; ++x) {
-          for (std::uint32_t i = heads_[bucket(level.exponent, x, y, z)]; i != none; i = next_[i]) {
-            if (auto overlap = overlap_with(i, body, relative)) return overlap;
-          }
-        }
+std::optional<BodyGrid::Overlap> BodyGrid::overlap_in_chain(std::uint32_t head, const Member& body,
+                                                            double relative) const {
+  for (std::uint32_t i = head; i != none; i = members_[i].next)
+    if (auto overlap = overlap_with(members_[i].member, body, relative)) return overlap;
+  return std::nullopt;
+}
+
+BodyGrid::Cells BodyGrid::cells_about(const Level& level, const Member& body) const {
+  const double reach = body.radius + level.largest / 2;
+  Cells cells;
+  for (int k = 0; k < 3; ++k) {
+    cells.low[k] = cell_of(body.center[k] - reach, level.cell);
+    cells.high[k] = cell_of(body.center[k] + reach, level.cell);
+    cells.count *= static_cast<double>(cells.high[k] - cells.low[k] + 1);
+  }
+  return cells;
+}
+
+/// visit(bucket, order) -> go on? The nearest cells come first: those on the body's side along 3 axes, 2, 1, none.
+/// `order` is the number of axes along which a cell lies on the other side.
+template <typename Visit>
+void BodyGrid::each_bucket(std::uint32_t level, const Cells& cells, const Vec3& center, Visit visit) const {
+  const double cell = levels_[level].cell;
+  // Along each axis: where the nearer ones of the cells begin and end.
+  std::int64_t from[3], to[3];
+  for (int k = 0; k < 3; ++k) {
+    const double at = center[k] / cell, own = std::floor(at);
+    const auto side = static_cast<std::int64_t>(own) + (at - own < 0.5 ? -1 : 0);
+    from[k] = std::max(cells.low[k], side);
+    to[k] = std::min(cells.high[k], side + 1);
+  }
+  for (int order = 0; order <= 3; ++order) {
+    for (std::int64_t z = cells.low[2]; z <= cells.high[2]; ++z) {
+      const int off_z = z < from[2] || z > to[2];
+      for (std::int64_t y = cells.low[1]; y <= cells.high[1]; ++y) {
+        const int off_y = off_z + (y < from[1] || y > to[1]);
+        if (off_y > order || off_y + 1 < order) continue;
+        for (std::int64_t x = cells.low[0]; x <= cells.high[0]; ++x)
+          if (off_y + (x < from[0] || x > to[0]) == order && !visit(bucket(level, x, y, z), order)) return;
       }
     }
   }
+}
+
+std::optional<BodyGrid::Overlap> BodyGrid::find_overlap(const Member& body, double relative) const {
+  std::optional<Overlap> overlap;
+  for (std::uint32_t l = 0; l < levels_.size(); ++l) {
+    const Level& level = levels_[l];
+    const Cells cells = cells_about(level, body);
+    // A large body among few small ones: cheaper to ask them all.
+    if (cells.count > static_cast<double>(level.members.size()) + 27) {
+      for (const std::uint32_t i : level.members)
+        if ((overlap = overlap_with(members_[i].member, body, relative))) return overlap;
+      continue;
+    }
+    // The body's own cell first: where there is an overlap, it is most often there.
+    if ((overlap = overlap_in_chain(heads_[bucket(l, body.center)], body, relative))) return overlap;
+    each_bucket(l, cells, body.center, [&](std::size_t at, int /*order*/) {
+      return !(overlap = overlap_in_chain(heads_[at], body, relative));
+    });
+    if (overlap) return overlap;
+  }
   return std::nullopt;
+}
+
+void BodyGrid::prefetch(const Member& body, Prefetch what) const {
+  if (levels_.size() != 1) return;
+  const Cells cells = cells_about(levels_[0], body);
+  if (cells.count > 64) return;
+  each_bucket(0, cells, body.center, [&](std::size_t at, int order) {
+    if (order > 0) return false;  // the rest is seldom looked at
+    if (what == Prefetch::cells)
+      carom::prefetch(&heads_[at]);
+    else if (heads_[at] != none)
+      carom::prefetch(&members_[heads_[at]]);
+    return true;
+  });
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #include "scene/placement.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace carom {
@@ -123,11 +124,23 @@ class Placer {
     grid.reserve(p_.count);
     Placed placed;
     placed.centers.reserve(p_.count);
-    while (placed.centers.size() < p_.count) {
-      if (tries-- == 0) return {};
+    const auto draw = [&](Random& random) {
       // One call a statement: the order of evaluation inside an expression is the compiler's choice.
       Vec3 center;
-      for (int k = 0; k < 3; ++k) center[k] = low[k] + random_.uniform() * free[k];
+      for (int k = 0; k < 3; ++k) center[k] = low[k] + random.uniform() * free[k];
+      return center;
+    };
+    // Most of the time goes by waiting for memory: a copy of the random numbers runs ahead and asks for it.
+    constexpr std::uint64_t far = 16, near = 8;
+    Random ahead = random_;
+    std::array<Vec3, far> coming;
+    for (Vec3& center : coming) center = draw(ahead);
+    for (std::uint64_t next = 0; placed.centers.size() < p_.count; ++next) {
+      if (tries-- == 0) return {};
+      const Vec3 center = draw(random_);
+      coming[next % far] = draw(ahead);
+      grid.prefetch({coming[next % far], p_.radius, p_.first}, BodyGrid::Prefetch::cells);
+      grid.prefetch({coming[(next + near) % far], p_.radius, p_.first}, BodyGrid::Prefetch::members);
       if (grid.find_overlap({center, p_.radius, p_.first}) || !is_free(center)) continue;
       grid.insert({center, p_.radius, p_.first});
       placed.centers.push_back(center);

@@ -77,7 +77,7 @@ void ExactSimulator::start(const State& initial) {
     if (!(world_.gravity.isZero(0) && world_.forces.empty()))
       for (Entity i = 0; i < n; ++i) lean_together(i);
   }
-  for (Entity i = 0; i < n; ++i) predict(i);
+  predict_all();
   if (!crowd_.empty()) step_crowd();
 }
 
@@ -105,10 +105,13 @@ void ExactSimulator::advance_to(double time) {
     if (world_.body_count() > cached_bodies) look_ahead();
     if (leaves_first(i)) {
       if (now_.hi < queue_.first_time()) now_ = {queue_.first_time(), 0};
+      ++effort_.events;
+      ++effort_.regions;
       rebuild_region(i);
       neighbours_.tidy();
       check_limits(Kind::none);
     } else if (body_[i].event.time <= until) {
+      ++effort_.events;
       process(i);
     } else {
       break;
@@ -291,6 +294,12 @@ Vec3 ExactSimulator::velocity_now(Entity i, const Instant& at) const {
   const Vec3 v = flight_[i].velocity(at - flight_[i].start);
   if (body_[i].place != Place::crowd || following_) return v;
   return v - (pulled_[i] - at) * hastened_[i];
+}
+
+Effort ExactSimulator::effort() const {
+  Effort effort = effort_;
+  effort.next = queue_.first_time();
+  return effort;
 }
 
 const State& ExactSimulator::state() {

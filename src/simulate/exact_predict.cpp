@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "physics/contact_time.h"
 #include "physics/force.h"
@@ -19,10 +20,35 @@ double sum_of_speeds(const Vec3& v) {
 /// Finds body i's next event among its neighbours. Other bodies' events stay as they are: a pair's collision stands
 /// with whichever of the two was predicted last, or with neither while one of them is taken before.
 void ExactSimulator::predict(Entity i) {
-  Event best;
   if (neighbours_.bodies(i).size() > 128 && neighbours_.room(i) > 0.05 * world_.radius[i])
     neighbours_.shrink(i, flight_[i].position(now_ - flight_[i].start));
-  meet_bodies(i, neighbours_.bodies(i), best);
+  predict_among(i, neighbours_.bodies(i));
+}
+
+/// The same for all bodies at once. A pair is asked once, by the higher number; nobody asks for two that fall alike
+/// from rest.
+void ExactSimulator::predict_all() {
+  std::vector<Entity> others;
+  const auto together = [&](Entity i, Entity j) {
+    const Flights::Core* const f = flight_.cores();
+    return f[i].v.isZero(0) && f[j].v.isZero(0) && flight_.acceleration(i) == flight_.acceleration(j);
+  };
+  for (Entity i = 0; i < world_.body_count(); ++i) {
+    if (!crowd_.empty()) {
+      predict(i);
+      continue;
+    }
+    others.clear();
+    std::ranges::copy_if(neighbours_.bodies(i), std::back_inserter(others),
+                         [&](Entity j) { return j < i && !together(i, j); });
+    predict_among(i, others);
+  }
+}
+
+/// The first of what may happen to body i with these bodies, with surfaces and by itself.
+void ExactSimulator::predict_among(Entity i, std::span<const Entity> bodies) {
+  Event best;
+  meet_bodies(i, bodies, best);
   meet_each(i, neighbours_.surfaces(i), best);
   for (std::size_t k = 0; k < contacts_[i].count; ++k) {
     const Contact& contact = contacts_[i].at[k];
@@ -41,16 +67,18 @@ void ExactSimulator::predict(Entity i) {
 }
 
 /// Offers when body i meets each of the others.
-void ExactSimulator::meet_each(Entity i, std::span<const Entity> others, Event& best) const {
+void ExactSimulator::meet_each(Entity i, std::span<const Entity> others, Event& best) {
   const bool follows = body_[i].place == Place::crowd && following_;
   for (Entity e : others) {
     if (follows && followed(i, e)) continue;
     std::uint8_t feature = no_feature;
     if (world_.is_body(e)) {
       feature = 0;
+      ++effort_.pair_tests;
       const Instant time = pair_time(i, e, feature);
       offer(i, best, {time, e, body_[e].version, Kind::body_body, feature});
     } else if (!in_contact(i, e)) {
+      ++effort_.surface_tests;
       const Instant time = fixed_time(i, e, feature);
       offer(i, best, {time, e, 0, Kind::body_fixed, feature});
     }
@@ -72,6 +100,7 @@ void ExactSimulator::meet_bodies(Entity i, std::span<const Entity> others, Event
   }
   if (meets_.size() < others.size()) meets_.resize(2 * others.size());
   const bool latest = flight_.cores()[i].start == now_;
+  effort_.pair_tests += others.size();
   const double* const radius = same_radius_ ? nullptr : world_.radius.data();
   std::size_t count = straight_times(
       {flight_.cores(), radius, world_.radius[i], i, others, a, latest, options_.duration}, meets_.data());
@@ -190,28 +219,43 @@ Instant ExactSimulator::fixed_time(Entity i, Entity surface, std::uint8_t& featu
   return t == never ? Instant{never, 0} : f.start + t;
 }
 
-/// A time (s) before which body i is surely within its region.
+/// A time (s) before which body i is surely within its region, or that is later than its event.
 double ExactSimulator::leave_time(Entity i) const {
   const Flights::Core& f = flight_.cores()[i];
   const Vec3& a = flight_.acceleration(i);
   const double since = now_ - f.start, room = neighbours_.room(i);
-  const Vec3 v = f.v + since * a, off = f.x + since * (f.v + (0.5 * since) * a) - neighbours_.center(i);
-  const double speed2 = v.squaredNorm(), away2 = off.squaredNorm(), outward = off.dot(v);
-  const auto way_out = [&](double radius) {
-    const double left = radius * radius - away2;
+  const Vec3 center = neighbours_.center(i);
+  // From `since` on along a straight way, until it is `radius` away from the middle.
+  const auto way_out = [](const Vec3& off, const Vec3& v, double radius) {
+    const double speed2 = v.squaredNorm(), outward = off.dot(v), left = radius * radius - off.squaredNorm();
     if (!(left > 0)) return 0.0;
     const double root = std::sqrt(outward * outward + speed2 * left);
     return outward > 0 ? left / (root + outward) : speed2 > 0 ? (root - outward) / speed2 : never;
   };
-  double t = way_out(room);
+  const auto start_of = [&](double t, Vec3& off, Vec3& v) {
+    v = f.v + t * a;
+    off = f.x + t * (f.v + (0.5 * t) * a) - center;
+  };
+  Vec3 off, v;
+  start_of(since, off, v);
+  double t = way_out(off, v, room);
   if (const double pull2 = a.squaredNorm(); pull2 > 0) {
     // As far as a straight way within what the acceleration does not take from the room until then, or by the greatest
-    // possible haste.
-    const double pull = std::sqrt(pull2);
-    const double narrowed = room - 0.5 * pull * t * t, left = std::max(room - std::sqrt(away2), 0.0);
-    const double surely = 2 * left / (std::sqrt(speed2) + std::sqrt(speed2 + 2 * pull * left));
-    t = left > 0 ? surely : 0;
-    if (narrowed > 0) t = std::max(t, way_out(narrowed));
+    // possible haste; and on from there, while that leads on.
+    const double pull = std::sqrt(pull2), end = body_[i].event.time.hi - now_.hi;
+    const auto bound = [&](double straight) {
+      const double narrowed = room - 0.5 * pull * straight * straight, left = room - off.norm();
+      if (!(left > 0)) return 0.0;
+      const double surely = 2 * left / (v.norm() + std::sqrt(v.squaredNorm() + 2 * pull * left));
+      return narrowed > 0 ? std::max(surely, way_out(off, v, narrowed)) : surely;
+    };
+    const double straight = t;
+    t = bound(straight);
+    for (double step = t < 0.75 * straight ? t : 0; t < end && step > 0x1p-5 * t;) {
+      start_of(since + t, off, v);
+      step = bound(way_out(off, v, room));
+      t += step;
+    }
   }
   return (now_.hi + t) * (1 - 0x1p-52);  // rather too soon than too late
 }
@@ -221,7 +265,14 @@ double ExactSimulator::leave_time(Entity i) const {
 void ExactSimulator::rebuild_region(Entity i) {
   const Flight f = flight_[i];
   const double since = now_ - f.start, until = std::min(body_[i].event.time.hi, options_.duration);
-  const Vec3 ahead = 0.5 * std::max(until - now_.hi, 0.0) * f.velocity(since);
+  // Half way to what comes next, or to where what pulls has had its way with it.
+  double half = 0.5 * std::max(until - now_.hi, 0.0);
+  if (const double pull2 = f.a.squaredNorm(); pull2 > 0) {
+    const Vec3 v = f.velocity(since);
+    const double pull = std::sqrt(pull2);
+    half = std::min(half, (v.norm() + std::sqrt(v.squaredNorm() + 2 * pull * neighbours_.room(i))) / pull);
+  }
+  const Vec3 ahead = half * (f.velocity(since) + (0.5 * half) * f.a);
   const std::span<const Entity> came = neighbours_.renew(i, f.position(since), ahead);
   Event best = body_[i].event;
   meet_bodies(i, came, best);

@@ -17,6 +17,7 @@
 #include "simulate/by_need.h"
 #include "simulate/exact.h"
 #include "simulate/flight.h"
+#include "simulate/large_pages.h"
 #include "simulate/neighbours.h"
 #include "simulate/straight_times.h"
 #include "simulate/tournament.h"
@@ -32,6 +33,7 @@ class ExactSimulator final : public Simulator {
   const State& state() override;
   std::span<const Collision> collisions() const override { return collisions_; }
   const Tally& tally() const override { return tally_; }
+  Effort effort() const override;
   std::span<const ContactForce> contacts() override;
 
  private:
@@ -132,7 +134,11 @@ class ExactSimulator final : public Simulator {
 
   /// Whether what is next for a body is not its event, but that it leaves its region.
   bool leaves_first(Entity i) const { return queue_.time(i) < body_[i].event.time.hi; }
-  void enqueue(Entity i) { queue_.update(i, std::min(body_[i].event.time.hi, leave_time(i))); }
+  /// After the duration nothing is due.
+  void enqueue(Entity i) {
+    const double next = std::min(body_[i].event.time.hi, leave_time(i));
+    queue_.update(i, next <= options_.duration ? next : never);
+  }
   void new_version(Entity i);
   bool before(Entity i, Entity j) const;
   struct Before {
@@ -155,10 +161,12 @@ class ExactSimulator final : public Simulator {
 
   // exact_predict.cpp
   void predict(Entity i);
+  void predict_all();
+  void predict_among(Entity i, std::span<const Entity> bodies);
   Instant pair_time(Entity i, Entity j, std::uint8_t& feature) const;
   Instant fixed_time(Entity i, Entity surface, std::uint8_t& feature) const;
   void offer(Entity i, Event& best, Event candidate) const;
-  void meet_each(Entity i, std::span<const Entity> others, Event& best) const;
+  void meet_each(Entity i, std::span<const Entity> others, Event& best);
   void meet_bodies(Entity i, std::span<const Entity> others, Event& best);
   void rebuild_region(Entity i);
   double leave_time(Entity i) const;
@@ -231,7 +239,7 @@ class ExactSimulator final : public Simulator {
   ByNeed<Vec3> pull_;    // m/s^2, by body: gravity and the forces of now,
   ByNeed<Vec3> driven_;  // and the part of it that does work (force.h)
   Flights flight_;
-  std::vector<Body> body_;
+  LargeVector<Body> body_;
   Neighbours neighbours_;
   OneByOne<Contacts> contacts_;  // with flat fixed surfaces
   ByNeed<Burst> burst_;
@@ -270,6 +278,7 @@ class ExactSimulator final : public Simulator {
   bool state_fresh_ = false, ended_ = false;
   std::vector<Collision> collisions_;
   Tally tally_;
+  Effort effort_;
   std::vector<Entity> part_of_;             // empty: nothing has merged
   std::vector<std::vector<Entity>> parts_;  // by joint body: itself and what has become part of it
   std::vector<double> joint_share_;         // by body: its own mass over its joint body's

@@ -7,6 +7,7 @@
 #include "physics/vec3.h"
 #include "physics/world.h"
 #include "simulate/instant.h"
+#include "simulate/large_pages.h"
 
 namespace carom {
 
@@ -53,9 +54,9 @@ class Flights {
   }
 
  private:
-  std::vector<Core> core_;
+  LargeVector<Core> core_;
   Vec3 common_;
-  std::vector<Vec3> acceleration_;  // empty: all have the common one
+  LargeVector<Vec3> acceleration_;  // empty: all have the common one
 };
 
 }  // namespace carom

@@ -12,6 +12,8 @@
 #include <immintrin.h>
 #endif
 
+#include "simulate/large_pages.h"
+
 namespace carom {
 
 class ListPool {
@@ -105,8 +107,8 @@ class ListPool {
     if (left_ < granules) {
       for (; left_ > 0; ++next_, --left_) put_away(1, next_);  // the page's rest
       next_ = static_cast<std::uint32_t>(page_.size() << page_bits);
-      left_ = (granules + page - 1) / page * page;
-      memory_.push_back(std::make_unique<std::uint32_t[]>(entries_in(left_)));
+      left_ = std::max((granules + page - 1) / page, std::min<std::size_t>(page_.size(), 16)) * page;
+      memory_.emplace_back(LargePages<std::uint32_t>().allocate(entries_in(left_)));
       for (std::size_t k = 0; k < left_ / page; ++k) page_.push_back(memory_.back().get() + k * entries_in(page));
     }
     list.at = next_;
@@ -125,7 +127,10 @@ class ListPool {
     unused_ += granules_of(kind);
   }
 
-  std::vector<std::unique_ptr<std::uint32_t[]>> memory_;
+  struct Free {
+    void operator()(std::uint32_t* memory) const { LargePages<std::uint32_t>().deallocate(memory, 0); }
+  };
+  std::vector<std::unique_ptr<std::uint32_t[], Free>> memory_;
   std::vector<std::uint32_t*> page_;
   std::vector<std::vector<std::uint32_t>> free_;  // by kind
   std::size_t used_ = 0, unused_ = 0;             // granules, in lists' blocks and in nobody's

@@ -9,9 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "physics/prefetch.h"
 #include "physics/world.h"
+#include "simulate/large_pages.h"
 #include "simulate/list_pool.h"
-#include "simulate/prefetch.h"
 #include "simulate/region.h"
 #include "simulate/region_grid.h"
 #include "simulate/surfaces_near.h"
@@ -93,9 +94,9 @@ class Neighbours {
   const World& world_;
   Vec3 origin_ = Vec3::Zero();  // m
   double unit_ = 1;             // m; regions are in units of it, from origin_
-  std::vector<Region> region_;
+  LargeVector<Region> region_;
   ListPool pool_;
-  std::vector<Known> known_;
+  LargeVector<Known> known_;
   RegionGrid grid_;
   SurfacesNear surfaces_;
   std::vector<Entity> found_, came_, gone_, found_surfaces_;  // scratch, the first three longer than what they hold

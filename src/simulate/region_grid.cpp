@@ -128,7 +128,7 @@ void RegionGrid::grow(Octave& grid, std::span<const Region> regions) {
     }
   }
   for (const std::uint32_t number : free_) overflow_[number - 1] = {};
-  std::vector<Bucket>().swap(grid.buckets);
+  LargeVector<Bucket>().swap(grid.buckets);
   shape(grid, 2 * grid.regions);
   for (const Entity i : all) link(bucket_of(grid, regions[i]), i);
 }

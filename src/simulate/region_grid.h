@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "physics/world.h"
+#include "simulate/large_pages.h"
 #include "simulate/region.h"
 
 namespace carom {
@@ -45,7 +46,7 @@ class RegionGrid {
     double per_width;       // cells
     Cell low[3];            // the cell that space in use begins with
     std::int64_t cells[3];  // along each axis
-    std::vector<Bucket> buckets;
+    LargeVector<Bucket> buckets;
     std::size_t regions = 0, most = 0;  // in it; and from how many on more cells are better
   };
 
@@ -62,7 +63,7 @@ class RegionGrid {
 
   Region low_, high_;
   std::vector<Octave> octaves_;
-  std::vector<Bucket> overflow_;
+  LargeVector<Bucket> overflow_;
   std::vector<std::uint32_t> free_;  // of the overflow, numbers and one
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 // The one door to every way of carrying a World forward in time. Crossed once per output time, never per event.
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <stdexcept>
 
@@ -16,6 +18,15 @@ struct SimulationError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a simulator did to get where it is. Results do not depend on it.
+struct Effort {
+  std::uint64_t pair_tests = 0;                           // pairs of bodies asked when they meet
+  std::uint64_t surface_tests = 0;                        // bodies asked when they meet a fixed surface
+  std::uint64_t events = 0;                               // taken from the queue, and
+  std::uint64_t regions = 0;                              // of these, bodies that left their region
+  double next = std::numeric_limits<double>::infinity();  // s, when the next one is scheduled; infinite: there is none
+};
+
 /// Carries a World forward from its initial State. Asking never changes what happens next.
 class Simulator {
  public:
@@ -27,8 +38,9 @@ class Simulator {
   virtual double time() const = 0;   // s
   virtual const State& state() = 0;  // at time(); valid until the next advance_to
   virtual std::span<const Collision> collisions()
-      const = 0;                           // since the last advance_to, in order; empty if not recorded
-  virtual const Tally& tally() const = 0;  // up to time()
+      const = 0;                                // since the last advance_to, in order; empty if not recorded
+  virtual const Tally& tally() const = 0;       // up to time()
+  virtual Effort effort() const { return {}; }  // up to now; zero where it is not counted
   virtual std::span<const ContactForce> contacts() { return {}; }  // at time(), by a, then b; until the next advance_to
 };
 

@@ -9,7 +9,8 @@
 #include <limits>
 #include <vector>
 
-#include "simulate/prefetch.h"
+#include "physics/prefetch.h"
+#include "simulate/large_pages.h"
 
 #ifdef __SSE2__
 #include <immintrin.h>
@@ -133,8 +134,8 @@ class Tournament {
   }
 
   Before before_;
-  std::vector<double> times_;           // of all levels
-  std::vector<std::uint32_t> winners_;  // of all but the first
+  LargeVector<double> times_;           // of all levels
+  LargeVector<std::uint32_t> winners_;  // of all but the first
   std::vector<Level> levels_;
   std::uint32_t first_ = none;
   double first_time_ = never_;

@@ -115,5 +115,24 @@ TEST(Sheet, OneTooLargeIsRefusedBeforeAnythingIsWritten) {
   EXPECT_FALSE(fs::exists(temp / "run"));
 }
 
+TEST(Frames, APictureThatIsTheLastOneAgainIsNotEncodedAgain) {
+  TempFolder temp;
+  Scene scene = small_scene();
+  scene.output.frames = FramesOutput{20, {32, 18}, 1, 0, {}};
+  Exports exports(scene, temp / "run");
+  int number = 0;
+  while (exports.timeline().advance()) {
+    if (!exports.wants_state()) continue;
+    // Another picture comes with the second one: that it is not looked at shows that it need not be encoded.
+    exports.picture(0, picture({32, 18}, number), number == 1);
+    ++number;
+  }
+  EXPECT_EQ(number, 5);
+  const std::string first = read(temp / "run/frames/frame_00000.png");
+  EXPECT_EQ(first, encode_png(picture({32, 18}, 0), PngEffort::fast));
+  EXPECT_EQ(read(temp / "run/frames/frame_00001.png"), first);
+  EXPECT_EQ(read(temp / "run/frames/frame_00002.png"), encode_png(picture({32, 18}, 2), PngEffort::fast));
+}
+
 }  // namespace
 }  // namespace carom

@@ -35,6 +35,34 @@ TEST(Bytes, AreTheSameAtEveryDraw) {
   EXPECT_EQ(hash_of(drawn(scene, {320, 180})), first);
 }
 
+TEST(Bytes, WhatIsAsInTheLastPictureIsNotDrawnAgain) {
+  Scene scene = test::gas(60);
+  test::add_body(scene, Vec3(0, 0, 0), Volume::box(Vec3(1, 0.7, 0.5)), {0.8, 0.2, 0.5});
+  Renderer renderer(scene, {320, 180}, 4);
+  const std::uint64_t first = hash_of(renderer.draw(scene.initial));
+  EXPECT_EQ(renderer.drawn(), 1U);
+  State later = scene.initial;
+  later.time = 1;
+  for (Vec3& v : later.velocity) v.x() += 1;
+  EXPECT_EQ(hash_of(renderer.draw(later)), first);
+  EXPECT_EQ(renderer.drawn(), 1U);
+  // Whoever moves, and however little.
+  for (std::size_t i = 0; i < later.position.size(); ++i) {
+    later.position[i].x() += 1e-12;
+    renderer.draw(later);
+    EXPECT_EQ(renderer.drawn(), 2 + i);
+  }
+  // One that has become part of another.
+  later.part_of.resize(later.position.size());
+  for (std::size_t i = 0; i < later.part_of.size(); ++i) later.part_of[i] = static_cast<Entity>(i);
+  const std::uint64_t before = renderer.drawn();
+  renderer.draw(later);
+  EXPECT_EQ(renderer.drawn(), before);
+  later.part_of.back() = 0;
+  renderer.draw(later);
+  EXPECT_EQ(renderer.drawn(), before + 1);
+}
+
 /// Not a claim of its own: prints a picture's hash for the test below, which runs it in processes of its own.
 TEST(Bytes, Probe) {
   if (!std::getenv("CAROM_PRINT_HASH")) return;  // only the test below asks

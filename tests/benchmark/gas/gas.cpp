@@ -1,7 +1,7 @@
 // What a collision costs the exact simulator: balls on a face-centred cubic lattice set free in a room, e = 1, by their
-// number, their density and what else is in the scene. Each line is measured in a process of its own, which is warmed
-// up first; the CPU time is the median of three such processes. Beside the time stands a hash of the final state: the
-// same number is the same result, bit for bit.
+// number (from one to a million), their density and what else is in the scene. Each line is measured in a process of
+// its own, which is warmed up first; the CPU time is the median of three such processes. Beside the time stands a hash
+// of the final state: the same number is the same result, bit for bit.
 //
 //   carom_gas                 the table, as CSV
 //   carom_gas K COLLISIONS    4 K^3 balls at density 0.5, so many collisions a ball after the warm-up, in this process
@@ -26,12 +26,14 @@ namespace {
 
 struct Gas {
   std::string name;
-  int cells;               // 4 cells^3 balls
-  double density = 0.5;    // balls per cubed diameter
-  double gravity = 0;      // m/s^2; balls weigh 1 kg, are 1 m wide and about 1 m/s fast along each axis
-  bool shuffled = false;   // numbered in no order of places
-  bool large = false;      // one of radius 15 m among them
-  double collisions = 10;  // a ball
+  int cells;                           // 4 cells^3 balls, unless
+  std::size_t most = ~std::size_t{0};  // of them are fewer
+  std::size_t still = 0;               // and so many stand still, far from the room
+  double density = 0.5;                // balls per cubed diameter
+  double gravity = 0;                  // m/s^2; balls weigh 1 kg, are 1 m wide and about 1 m/s fast along each axis
+  bool shuffled = false;               // numbered in no order of places
+  bool large = false;                  // one of radius 15 m among them
+  double collisions = 10;              // a ball
 };
 
 struct Result {
@@ -39,6 +41,11 @@ struct Result {
   double seconds;                       // of CPU
   double bytes;                         // a ball, with the scene
 };
+
+std::size_t moving(const Gas& gas) {
+  const auto cells = static_cast<std::size_t>(gas.cells);
+  return std::min(gas.most, 4 * cells * cells * cells);
+}
 
 double cpu_seconds() {
   timespec t{};
@@ -73,8 +80,7 @@ Result run(const Gas& gas) {
     start.position.push_back(x);
     start.velocity.push_back(v);
   };
-  const std::size_t balls = 4 * static_cast<std::size_t>(gas.cells) * static_cast<std::size_t>(gas.cells) *
-                            static_cast<std::size_t>(gas.cells);
+  const std::size_t balls = moving(gas);
   for (auto* values : {&world.mass, &world.radius, &world.restitution}) values->reserve(balls + 1);
   for (auto* values : {&start.position, &start.velocity}) values->reserve(balls + 1);
   if (gas.large) put(middle, Vec3::Zero(), large);
@@ -84,12 +90,13 @@ Result run(const Gas& gas) {
         for (const Vec3& in_cell : {Vec3(1, 1, 1), Vec3(1, 3, 3), Vec3(3, 1, 3), Vec3(3, 3, 1)}) {
           const Vec3 at = pitch * (Vec3(x, y, z) + 0.25 * in_cell);
           const double vx = normal(), vy = normal(), vz = normal();
-          if (gas.large && (at - middle).norm() < large + 0.5) continue;
+          if (start.position.size() == gas.most || (gas.large && (at - middle).norm() < large + 0.5)) continue;
           put(at, Vec3(vx, vy, vz), 0.5);
         }
   if (gas.shuffled)
     for (std::size_t i = start.position.size() - 1; i > 0; --i)
       std::swap(start.position[i], start.position[bits() % (i + 1)]);
+  for (std::size_t i = 0; i < gas.still; ++i) put(Vec3(-1000 - 2 * static_cast<double>(i), 0, 0), Vec3::Zero(), 0.5);
   world.gravity = Vec3(0, -gas.gravity, 0);
   for (int k = 0; k < 3; ++k) {
     world.planes.push_back({Vec3::Zero(), Vec3::Unit(k), 1.0});
@@ -106,7 +113,7 @@ Result run(const Gas& gas) {
     const double packed = gas.density * 3.14159265358979 / 6;
     const double rate = 0.5 * gas.density * 3.14159265358979 * 1.6 * 1.414 * (1 - packed / 2) / std::pow(1 - packed, 3);
     while (simulator->tally().collisions() < until) {
-      const double to = simulator->time() + 0.02 * a_ball / rate;
+      const double to = simulator->time() + std::max(0.02 * a_ball, 100 / static_cast<double>(balls)) / rate;
       while (simulator->time() < to) simulator->advance_to(to);
     }
   };
@@ -118,7 +125,7 @@ Result run(const Gas& gas) {
   result.seconds = cpu_seconds() - from;
   result.all = simulator->tally().collisions();
   result.collisions = result.all - first;
-  result.bytes = (peak_bytes() - before) / static_cast<double>(balls);
+  result.bytes = (peak_bytes() - before) / static_cast<double>(world.body_count());
   result.hash = hash_of(simulator->state());
   return result;
 }
@@ -145,26 +152,28 @@ void measure(const Gas& gas) {
   for (int k = 0; k < 3; ++k) results.push_back(run_apart(gas));
   std::sort(results.begin(), results.end(), [](const Result& p, const Result& q) { return p.seconds < q.seconds; });
   const Result& median = results[1];
-  const int balls = 4 * gas.cells * gas.cells * gas.cells;
-  fmt::print("{},{},{},{},{:.3f},{},{:016x}\n", gas.name, balls, gas.density, median.collisions,
-             1e6 * median.seconds / static_cast<double>(median.collisions),
-             balls > 5000 ? fmt::format("{:.0f}", median.bytes) : "", median.hash);
+  fmt::print("{},{},{},{},{:.3f},{:.0f},{:016x}\n", gas.name, moving(gas) + gas.still, gas.density, median.collisions,
+             1e6 * median.seconds / static_cast<double>(median.collisions), median.bytes, median.hash);
   std::fflush(stdout);
 }
 
 int table() {
   fmt::print("gas,balls,density,collisions,cpu_us_per_collision,bytes_per_ball,hash\n");
-  for (const int cells : {1, 3, 7, 14, 30, 63})
+  measure({.name = "plain", .cells = 1, .most = 1, .collisions = 100'000});
+  for (const int cells : {1, 2, 4, 7, 14, 30, 63})
     measure({.name = "plain",
              .cells = cells,
-             .collisions = cells < 7    ? 1000.0
+             .collisions = cells < 4    ? 10'000.0
+                           : cells < 14 ? 200.0
                            : cells < 30 ? 40.0
                            : cells < 63 ? 8.0
                                         : 3.0});
   for (const double density : {0.01, 0.03, 0.1, 0.3, 0.8, 1.0})
     measure({.name = "plain", .cells = 14, .density = density});
+  measure({.name = "ten", .cells = 2, .most = 10, .collisions = 20'000});
+  measure({.name = "ten of 10000", .cells = 2, .most = 10, .still = 9990, .collisions = 20'000});
   measure({.name = "gravity", .cells = 14, .gravity = 0.04, .collisions = 40});
-  measure({.name = "plain", .cells = 30});
+  measure({.name = "base", .cells = 30});
   measure({.name = "radii 1:30", .cells = 30, .large = true});
   measure({.name = "shuffled", .cells = 30, .shuffled = true});
   return 0;

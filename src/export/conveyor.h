@@ -1,0 +1,112 @@
+#pragma once
+// Work for a thread of its own: items filled here are used there, in order. A few items exist, however many are sent.
+#include <array>
+#include <condition_variable>
+#include <csignal>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace carom {
+
+template <typename Item>
+class Conveyor {
+ public:
+  /// How many items there are: one is filled, one is used, the others make up for an uneven pace.
+  static constexpr std::size_t items = 4;
+
+  /// `use` is called once for each item sent: for the first `alone` of them by the sender, so that little work starts
+  /// no thread; then by the thread. It leaves the item ready to be filled again.
+  Conveyor(std::function<void(Item&)> use, std::uint64_t alone) : use_(std::move(use)), alone_(alone) {}
+  /// What is sent and not yet used never is.
+  ~Conveyor() {
+    if (!thread_.joinable()) return;
+    {
+      const std::lock_guard lock(mutex_);
+      end_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+  }
+  Conveyor(const Conveyor&) = delete;
+  Conveyor& operator=(const Conveyor&) = delete;
+
+  /// The item to be filled; the same one until it is sent.
+  Item& item() { return items_[sent_ % items]; }
+
+  /// Hands the item on and waits until there is another one. Throws what `use` threw, of this item or a former one.
+  void send() {
+    if (!thread_.joinable() && (sent_ < alone_ || !start())) {
+      use_(item());
+      ++sent_;
+      ++used_;
+      return;
+    }
+    std::unique_lock lock(mutex_);
+    ++sent_;
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return failure_ || sent_ - used_ < items; });
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+  /// Waits until all that was sent is used. Throws what `use` threw.
+  void finish() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return failure_ || sent_ == used_; });
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+  /// Whether there is a thread.
+  bool started() const { return thread_.joinable(); }
+
+ private:
+  /// False where the system has no thread to give; the sender then does the work.
+  bool start() {
+    // Signals are for the thread that runs the scene.
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    try {
+      thread_ = std::thread([this] { run(); });
+    } catch (const std::system_error&) {
+    }
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    return thread_.joinable();
+  }
+
+  void run() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      changed_.wait(lock, [&] { return end_ || used_ < sent_; });
+      if (end_) return;
+      lock.unlock();
+      std::exception_ptr failure;
+      try {
+        use_(items_[used_ % items]);
+      } catch (...) {
+        failure = std::current_exception();
+      }
+      lock.lock();
+      failure_ = failure;
+      ++used_;
+      changed_.notify_all();
+      if (failure) return;
+    }
+  }
+
+  std::function<void(Item&)> use_;
+  std::uint64_t alone_;
+  std::array<Item, items> items_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::uint64_t sent_ = 0, used_ = 0;  // changed under the mutex once there is a thread
+  std::exception_ptr failure_;
+  bool end_ = false;
+  std::thread thread_;
+};
+
+}  // namespace carom

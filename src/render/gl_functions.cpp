@@ -1,0 +1,44 @@
+#include "render/gl_functions.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include "render/renderer.h"
+
+namespace carom::gl {
+namespace {
+
+[[noreturn]] void fail() {
+  const char* const reason = dlerror();
+  throw RenderError(
+      fmt::format("cannot load OSMesa for pictures: {}. Remedy: install libosmesa6 22.3 or later (Debian: "
+                  "apt-get install libosmesa6), or run without frames, video and sheet.",
+                  reason ? reason : "no reason is given"));
+}
+
+template <typename Function>
+void find(void* library, const char* name, Function& function) {
+  function = reinterpret_cast<Function>(dlsym(library, name));
+  if (!function) fail();
+}
+
+bool load() {
+  void* const library = dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL);
+  if (!library) fail();
+#define CAROM_FUNCTION(name) find(library, "gl" #name, name);
+  CAROM_GL_FUNCTIONS(CAROM_FUNCTION)
+#undef CAROM_FUNCTION
+#define CAROM_FUNCTION(name) find(library, "OSMesa" #name, name);
+  CAROM_OSMESA_FUNCTIONS(CAROM_FUNCTION)
+#undef CAROM_FUNCTION
+  return true;
+}
+
+}  // namespace
+
+void load_functions() {
+  static const bool loaded = load();
+  (void)loaded;
+}
+
+}  // namespace carom::gl

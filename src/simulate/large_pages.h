@@ -1,0 +1,42 @@
+#pragma once
+// Memory for what is large and read here and there: in pages of 2 MiB, where the system gives them, so that an address
+// is found without a walk through the tables of small pages.
+#include <sys/mman.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <vector>
+
+namespace carom {
+
+template <typename T>
+struct LargePages {
+  using value_type = T;
+
+  LargePages() = default;
+  template <typename U>
+  explicit LargePages(const LargePages<U>&) {}
+
+  T* allocate(std::size_t count) {
+    const std::size_t bytes = count * sizeof(T);
+    auto* const start = static_cast<T*>(::operator new(bytes, alignment));
+    constexpr std::uintptr_t page = std::uintptr_t{2} << 20;
+    const auto address = reinterpret_cast<std::uintptr_t>(start);
+    const std::uintptr_t from = (address + page - 1) & ~(page - 1), to = (address + bytes) & ~(page - 1);
+    // It may refuse: then the pages are small.
+    if (from < to) madvise(reinterpret_cast<void*>(from), to - from, MADV_HUGEPAGE);
+    return start;
+  }
+  void deallocate(T* start, std::size_t /*count*/) { ::operator delete(start, alignment); }
+
+  bool operator==(const LargePages&) const = default;
+
+ private:
+  static constexpr std::align_val_t alignment{64};
+};
+
+template <typename T>
+using LargeVector = std::vector<T, LargePages<T>>;
+
+}  // namespace carom

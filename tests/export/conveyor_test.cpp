@@ -1,0 +1,201 @@
+// What a thread of its own does for a file: all of it, in order, with few items, and nothing where there is little.
+#include "export/conveyor.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+#include "export/export_testing.h"
+#include "export/tables.h"
+
+namespace carom {
+namespace {
+
+using namespace testing_export;
+
+TEST(Conveyor, UsesWhatIsSentInOrder) {
+  std::vector<int> used;
+  std::set<const int*> items;
+  Conveyor<int> conveyor(
+      [&](int& item) {
+        used.push_back(item);
+        items.insert(&item);
+      },
+      0);
+  for (int i = 0; i < 1000; ++i) {
+    conveyor.item() = i;
+    conveyor.send();
+  }
+  conveyor.finish();
+  ASSERT_EQ(used.size(), 1000U);
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(used[static_cast<std::size_t>(i)], i);
+  EXPECT_EQ(items.size(), Conveyor<int>::items);
+}
+
+TEST(Conveyor, ASlowUserMakesTheSenderWait) {
+  std::atomic<int> used = 0;
+  Conveyor<int> conveyor(
+      [&](int&) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        ++used;
+      },
+      0);
+  for (int sent = 1; sent <= 20; ++sent) {
+    conveyor.send();
+    // The one that is filled next is free.
+    EXPECT_LT(sent - used, static_cast<int>(Conveyor<int>::items));
+  }
+}
+
+TEST(Conveyor, LittleWorkStartsNoThread) {
+  int used = 0;
+  Conveyor<int> conveyor([&](int&) { ++used; }, 3);
+  for (int i = 1; i <= 3; ++i) {
+    conveyor.send();
+    EXPECT_EQ(used, i);
+  }
+  conveyor.finish();
+  EXPECT_FALSE(conveyor.started());
+  conveyor.send();
+  EXPECT_TRUE(conveyor.started());
+  conveyor.finish();
+  EXPECT_EQ(used, 4);
+}
+
+TEST(Conveyor, WhatFailsThereIsThrownHere) {
+  for (const std::uint64_t alone : {0U, 100U}) {
+    int used = 0;
+    Conveyor<int> conveyor(
+        [&](int&) {
+          if (++used == 5) throw std::runtime_error("the disk is full");
+        },
+        alone);
+    const auto send_all = [&] {
+      for (int i = 0; i < 20; ++i) conveyor.send();
+      conveyor.finish();
+    };
+    EXPECT_THROW(send_all(), std::runtime_error);
+    EXPECT_EQ(used, 5);
+  }
+}
+
+TEST(Conveyor, IsLeftWithoutUsingWhatWaits) {
+  std::atomic<int> used = 0;
+  {
+    Conveyor<int> conveyor(
+        [&](int&) {
+          ++used;
+          std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        },
+        0);
+    conveyor.send();
+    while (used == 0) std::this_thread::yield();
+    conveyor.send();
+    conveyor.send();
+  }
+  EXPECT_EQ(used, 1);
+}
+
+// Numbers that differ from one another in length, so that no two rows end at the same place of a piece.
+State many_bodies(Entity count, double time) {
+  State state;
+  for (Entity i = 0; i < count; ++i) {
+    const double x = 1 / (i + 1.0) + time;
+    state.position.emplace_back(x, i, -x * x);
+    state.velocity.emplace_back(x / 3, 0, i / 7.0);
+  }
+  return state;
+}
+
+Scene many_bodies_scene(Entity count) {
+  Scene scene = small_scene();
+  scene.world.mass.assign(count, 1);
+  scene.roster.bodies = {{"one", 0, 1, false, {}}, {"none", 1, 0, true, {}}, {"gas", 1, count - 1, true, {}}};
+  return scene;
+}
+
+TEST(Conveyor, ALongTrajectoryHasEveryRowOnce) {
+  constexpr Entity count = 9001;
+  for (const bool wide : {false, true}) {
+    TempFolder temp;
+    Scene scene = many_bodies_scene(count);
+    scene.output.trajectory = TrajectoryOutput{0.1, wide};
+    std::string expected = wide ? "" : "time_s,body,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\n";
+    const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY));
+    TrajectoryTable table({folder.get(), temp.path()}, scene);
+    char text[number_size];
+    const auto number = [&](double x) { return std::string(text, put_number(text, x)); };
+    for (const double time : {0.0, 0.1, 0.2, 0.3}) {
+      State state = many_bodies(count, time);
+      if (time > 0.1) {
+        state.part_of.resize(count);
+        for (Entity i = 0; i < count; ++i) state.part_of[i] = i % 5 == 4 ? i - 1 : i;
+      }
+      table.add(time, state);
+      if (wide) expected += number(time);
+      for (Entity i = 0; i < count; ++i) {
+        const bool part = !state.part_of.empty() && state.part_of[i] != i;
+        if (part && !wide) continue;
+        if (!wide) expected += number(time) + "," + (i == 0 ? "one" : "gas." + std::to_string(i - 1));
+        for (const Vec3* vector : {&state.position[i], &state.velocity[i]})
+          for (int axis = 0; axis < 3; ++axis) expected += "," + (part ? "" : number((*vector)[axis]));
+        if (!wide) expected += "\n";
+      }
+      if (wide) expected += "\n";
+    }
+    table.file().publish();
+    std::string written = read(temp / "trajectory.csv");
+    if (wide) written.erase(0, written.find('\n') + 1);
+    ASSERT_EQ(written.size(), expected.size());
+    EXPECT_TRUE(written == expected);
+    EXPECT_EQ(table.file().record().sha256, sha256(read(temp / "trajectory.csv")));
+  }
+}
+
+TEST(Conveyor, ALongFileOfWhichNothingIsPublishedLeavesNothing) {
+  TempFolder temp;
+  const Scene scene = [] {
+    Scene made = many_bodies_scene(5000);
+    made.output.trajectory = TrajectoryOutput{0.1, false};
+    return made;
+  }();
+  {
+    const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY));
+    TrajectoryTable table({folder.get(), temp.path()}, scene);
+    const State state = many_bodies(5000, 0);
+    for (int i = 0; i < 20; ++i) table.add(i, state);
+  }
+  EXPECT_TRUE(names_in(temp.path()).empty());
+}
+
+TEST(Conveyor, AFullDiskIsAnErrorOfTheRun) {
+  TempFolder temp;
+  const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY));
+  // No file may grow beyond 1 MiB; the signal that would come with it is off.
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{rlim_t{1} << 20, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  for (const std::size_t size : {std::size_t{2} << 20, std::size_t{8} << 20}) {  // without a thread; with one
+    OutputFile file({folder.get(), temp.path()}, "large.csv");
+    const auto fill = [&] {
+      for (std::size_t done = 0; done < size; done += 1000) file.write(std::string(1000, 'x'));
+      file.complete();
+    };
+    EXPECT_THROW(fill(), ExportError);
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_TRUE(names_in(temp.path()).empty());
+}
+
+}  // namespace
+}  // namespace carom
