@@ -61,10 +61,11 @@ struct BenchWatch {
   std::function<void(double done, const std::string& what)> tell;  // done: 0 to 1
 };
 
-/// Throws SimulationError: the reference cannot be had, or a run's result is not that of the run before.
+/// Throws SimulationError where there is no reference; std::runtime_error where a run's result is not that of the one
+/// before.
 BenchResult run_bench(const Scene& scene, const BenchOptions& options, const BenchWatch& watch);
 
-/// J, m: below them a difference is rounding: 2^-53 of the scene's extent.
+/// m: 2^-53 of the scene's extent, below which a distance is rounding.
 double rounding_of(const Scene& scene);
 
 }  // namespace carom

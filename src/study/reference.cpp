@@ -25,8 +25,8 @@ constexpr double last_digit = 0x1p-53, grown = 0x1p14;
 std::vector<double> instants_in(double from, double to, std::size_t bodies) {
   const auto most = static_cast<int>(states_kept / static_cast<double>(std::max<std::size_t>(bodies, 1)));
   const int count = std::clamp(most, 8, most_instants);
-  std::vector<double> instants;
-  for (int k = 0; k < count; ++k) instants.push_back(from + (to - from) * (k + golden) / count);
+  std::vector<double> instants(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) instants[static_cast<std::size_t>(k)] = from + (to - from) * (k + golden) / count;
   return instants;
 }
 

@@ -52,8 +52,8 @@ double deviation_from(const std::vector<double>& sample, double value) {
 
 template <typename Get>
 std::vector<double> each(const std::vector<Statistics>& members, const Get& get) {
-  std::vector<double> values;
-  for (const Statistics& member : members) values.push_back(get(member));
+  std::vector<double> values(members.size());
+  std::transform(members.begin(), members.end(), values.begin(), get);
   return values;
 }
 

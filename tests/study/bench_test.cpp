@@ -9,6 +9,7 @@
 
 #include "scene/load.h"
 #include "simulate/simulator.h"
+#include "study/bench_folder.h"
 
 namespace carom {
 namespace {
@@ -161,6 +162,24 @@ TEST(Bench, StepsThatCostMoreThanTheBudgetAreLeftOut) {
   EXPECT_FALSE(result.left_out.empty());
   EXPECT_LT(rows_of(result, Engine::stepped).size(), 11u);
   EXPECT_GE(rows_of(result, Engine::stepped).size(), 1u);
+}
+
+TEST(WorkPrecisionPlot, HasALineForEachMethodAndNoZeros) {
+  const Scene scene = scene_of("pyramid");  // nothing moves: the stepped engine's errors are 0
+  const BenchResult result = bench(scene, 0.01, 0.0025);
+  EXPECT_EQ(rows_of(result, Engine::stepped).back().errors->position, 0);
+  const Plot plot = work_precision_plot(scene, result);
+  std::vector<std::string> names;
+  for (const PlotSeries& series : plot.series) names.push_back(series.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"exact", "stepped euler", "stepped verlet", "stepped rk4", "book"}));
+  EXPECT_EQ(plot.title, scene.title);
+  EXPECT_GT(plot.floor, 1e-17);
+  EXPECT_LT(plot.floor, 1e-15);
+  EXPECT_EQ(plot.series[0].points.size(), 1u);
+  ASSERT_EQ(plot.series[4].points.size(), 3u);
+  EXPECT_EQ(plot.series[4].points[0].label, "1/100 s");
+  EXPECT_EQ(plot.series[4].points[1].label, "");
+  EXPECT_EQ(plot.series[4].points[2].label, "1/400 s");
 }
 
 TEST(Bench, ARunThatFailsIsARowWithoutFigures) {
