@@ -1,0 +1,27 @@
+#pragma once
+// What peers are measured on: scenes, and what is known of their true motion.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace carom {
+
+/// The true state at a time (s); times rise from call to call.
+using Truth = std::function<const State&(double time)>;
+
+struct Case {
+  std::string name;
+  Scene scene;
+  double end;                                  // s
+  double look;                                 // s; a peer is looked at so often, or at every step if that is longer
+  double horizon;                              // s; positions are compared up to there: beyond, a gas is chaotic
+  double budget;                               // s of CPU time, after which a run is ended
+  std::function<Truth(const Scene&)> truth{};  // none: nothing is known
+};
+
+/// Those whose names begin with `name`, or all. Throws SceneError.
+std::vector<Case> cases_named(const std::string& name);
+
+}  // namespace carom

@@ -1,0 +1,40 @@
+#pragma once
+// One run of a peer on a case, measured in a process of its own.
+#include <array>
+#include <cstdint>
+
+#include "benchmark/peers/cases.h"
+#include "benchmark/peers/peer.h"
+
+namespace carom {
+
+enum class Outcome : std::uint8_t {
+  done,
+  stopped,  // by the budget
+  failed,
+  beyond  // the peer's reach
+};
+
+inline constexpr std::array<double, 3> settling_times{2, 5, 10};  // s
+
+/// What does not apply is NaN.
+struct Result {
+  Outcome outcome = Outcome::failed;
+  double reached = 0;             // s
+  double cpu = 0;                 // s, without looks where the run is short
+  double position_error = 0;      // m, the largest of all balls' at any look up to the horizon
+  double velocity_error = 0;      // m/s, the largest at the end, of a case whose horizon is its end
+  double energy_error = 0;        // by the energy of the start, at the end
+  double overlap = 0;             // by a radius, the deepest at any look
+  double end_overlap = 0;         // by a radius
+  double exchange = 0;            // momentum that balls were given from look to look, by what it should be
+  double kinetic = 0;             // J, at the end
+  std::array<double, 3> until{};  // s of CPU time, to settling_times
+  std::uint64_t collisions = 0;   // 0: not counted
+  std::uint64_t hash = 0;         // of the state at the end
+};
+
+/// Runs the case once.
+Result measure(const Peer& peer, const Case& what, double step);
+
+}  // namespace carom
