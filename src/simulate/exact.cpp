@@ -177,12 +177,14 @@ void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin orig
                     now_.hi));
   tally_.max_speed = std::max(tally_.max_speed, speed);
   book_flight(i, x);
-  const bool flies = body_[i].place == Place::crowd && !following_ && flight_[i].a != Vec3::Zero();  // through a stride
-  const bool still = speed <= negligible_speed() ||
-                     (contacts_[i].count > 0 && speed * speed < 0x1p-120 * pull_[i].norm() * world_.radius[i]);
+  const bool flies =
+      body_[i].place == Place::crowd && !following_ && flight_.acceleration(i) != Vec3::Zero();  // through a stride
+  const double negligible = negligible_speed();
+  const bool still =
+      speed <= negligible || (contacts_[i].count > 0 && speed * speed < 0x1p-120 * pull_[i].norm() * world_.radius[i]);
   Vec3 kept = v;
   for (int k = 0; k < 3; ++k)
-    if (still || std::abs(v[k]) <= negligible_speed()) kept[k] = 0;
+    if (still || std::abs(v[k]) <= negligible) kept[k] = 0;
   flight_.set(i, {now_, x, kept, flies ? pull_[i] : contact_acceleration(i)});
   body_[i].set_origin(origin);
   neighbours_.turned(i);
@@ -200,7 +202,7 @@ void ExactSimulator::new_version(Entity i) {
 
 /// Books what forces did to body i on the flight that ends at x (m): the World's, and those that held it against them.
 void ExactSimulator::book_flight(Entity i, const Vec3& x) {
-  if (flight_[i].a == world_.gravity && world_.forces.empty()) return;
+  if (flight_.acceleration(i) == world_.gravity && world_.forces.empty()) return;
   const Vec3 way = x - flight_[i].x;
   lose(world_.mass[i] * (pull_[i] - flight_[i].a).dot(way));
   if (world_.forces.empty()) return;

@@ -90,7 +90,7 @@ Touch ExactSimulator::touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& x
 /// that it would lift it by no more than a ten-thousandth of its size.
 bool ExactSimulator::too_slow_to_wake(Entity striker, Entity struck, double speed) const {
   constexpr double lift = 1e-4;
-  if (body_[struck].place != Place::asleep || contacts_[striker].count == 0) return false;
+  if (contacts_[striker].count == 0) return false;
   if (!(speed * speed < 2 * lift * pull_[struck].norm() * world_.radius[struck])) return false;
   // Three forces at least, not in a plane.
   std::vector<Vec3> normals;
@@ -145,7 +145,8 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   if (p.a != q.a) press = -(n.dot(q.a - p.a) + bending(world_, a, xa, b, xb, there, w));
   if (press <= 0)
     for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})
-      if (too_slow_to_wake(striker, struck, w.norm())) return stop_at(striker, struck, feature, there, approach);
+      if (body_[struck].place == Place::asleep && too_slow_to_wake(striker, struck, w.norm()))
+        return stop_at(striker, struck, feature, there, approach);
   // Where nothing presses, an approach that is but rounding is over with this impact.
   const bool told = approach > 0x1p-50 * (va.norm() + vb.norm()) || load_on(a) > 0 || load_on(b) > 0;
   const bool take_up = (approach > 0 && met == 0) || (told && taken_up(a, b, e, met, press, length, false)) ||
