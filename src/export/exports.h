@@ -42,7 +42,7 @@ struct Summary {
 
 /// How the run went, for manifest.json alone (nothing here may stand in a CSV).
 struct RunFacts {
-  double load_s = 0, simulate_s = 0, render_s = 0, export_s = 0;  // wall times
+  double load_s = 0, simulate_s = 0, render_s = 0, export_s = 0;  // wall times, of the thread that runs the scene
   std::uint64_t peak_memory = 0;                                  // bytes
 };
 
