@@ -102,30 +102,13 @@ BodyGrid::Cells BodyGrid::cells_about(const Level& level, const Member& body) co
   return cells;
 }
 
-/// visit(bucket, order) -> go on? The nearest cells come first: those on the body's side along 3 axes, 2, 1, none.
-/// `order` is the number of axes along which a cell lies on the other side.
+/// visit(bucket) -> go on?
 template <typename Visit>
-void BodyGrid::each_bucket(std::uint32_t level, const Cells& cells, const Vec3& center, Visit visit) const {
-  const double cell = levels_[level].cell;
-  // Along each axis: where the nearer ones of the cells begin and end.
-  std::int64_t from[3], to[3];
-  for (int k = 0; k < 3; ++k) {
-    const double at = center[k] / cell, own = std::floor(at);
-    const auto side = static_cast<std::int64_t>(own) + (at - own < 0.5 ? -1 : 0);
-    from[k] = std::max(cells.low[k], side);
-    to[k] = std::min(cells.high[k], side + 1);
-  }
-  for (int order = 0; order <= 3; ++order) {
-    for (std::int64_t z = cells.low[2]; z <= cells.high[2]; ++z) {
-      const int off_z = z < from[2] || z > to[2];
-      for (std::int64_t y = cells.low[1]; y <= cells.high[1]; ++y) {
-        const int off_y = off_z + (y < from[1] || y > to[1]);
-        if (off_y > order || off_y + 1 < order) continue;
-        for (std::int64_t x = cells.low[0]; x <= cells.high[0]; ++x)
-          if (off_y + (x < from[0] || x > to[0]) == order && !visit(bucket(level, x, y, z), order)) return;
-      }
-    }
-  }
+void BodyGrid::each_bucket(std::uint32_t level, const Cells& cells, Visit visit) const {
+  for (std::int64_t z = cells.low[2]; z <= cells.high[2]; ++z)
+    for (std::int64_t y = cells.low[1]; y <= cells.high[1]; ++y)
+      for (std::int64_t x = cells.low[0]; x <= cells.high[0]; ++x)
+        if (!visit(bucket(level, x, y, z))) return;
 }
 
 std::optional<BodyGrid::Overlap> BodyGrid::find_overlap(const Member& body, double relative) const {
@@ -141,9 +124,7 @@ std::optional<BodyGrid::Overlap> BodyGrid::find_overlap(const Member& body, doub
     }
     // The body's own cell first: where there is an overlap, it is most often there.
     if ((overlap = overlap_in_chain(heads_[bucket(l, body.center)], body, relative))) return overlap;
-    each_bucket(l, cells, body.center, [&](std::size_t at, int /*order*/) {
-      return !(overlap = overlap_in_chain(heads_[at], body, relative));
-    });
+    each_bucket(l, cells, [&](std::size_t at) { return !(overlap = overlap_in_chain(heads_[at], body, relative)); });
     if (overlap) return overlap;
   }
   return std::nullopt;
@@ -153,8 +134,7 @@ void BodyGrid::prefetch(const Member& body, Prefetch what) const {
   if (levels_.size() != 1) return;
   const Cells cells = cells_about(levels_[0], body);
   if (cells.count > 64) return;
-  each_bucket(0, cells, body.center, [&](std::size_t at, int order) {
-    if (order > 0) return false;  // the rest is seldom looked at
+  each_bucket(0, cells, [&](std::size_t at) {
     if (what == Prefetch::cells)
       carom::prefetch(&heads_[at]);
     else if (heads_[at] != none)

@@ -55,7 +55,7 @@ class BodyGrid {
   };
   Cells cells_about(const Level& level, const Member& body) const;
   template <typename Visit>
-  void each_bucket(std::uint32_t level, const Cells& cells, const Vec3& center, Visit visit) const;
+  void each_bucket(std::uint32_t level, const Cells& cells, Visit visit) const;
   std::size_t bucket(std::uint32_t level, std::int64_t x, std::int64_t y, std::int64_t z) const;
   std::size_t bucket(std::uint32_t level, const Vec3& center) const;
   void link(std::uint32_t member);
