@@ -67,6 +67,19 @@ Descriptor open_folder(int parent, const std::string& name, bool follow) {
   return Descriptor(openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | (follow ? 0 : O_NOFOLLOW)));
 }
 
+void remove_files_of_run(int folder) {
+  std::vector<std::string> names;
+  add_files(names, read_manifest(folder, manifest_name));
+  add_files(names, read_manifest(folder, former_manifest));
+  unlinkat(folder, manifest_name, 0);
+  remove_files(folder, names);
+  unlinkat(folder, "scene.yaml", 0);
+  remove_parts(folder);
+  if (const Descriptor frames = open_folder(folder, "frames", false)) remove_parts(frames.get());
+  unlinkat(folder, "frames", AT_REMOVEDIR);  // if it is empty
+  unlinkat(folder, former_manifest, 0);
+}
+
 OpenFolder::OpenFolder(const std::string& path, Durability durability) : durability_(durability) {
   place_.path = path.empty() ? "." : path;
   while (place_.path.size() > 1 && place_.path.ends_with('/')) place_.path.pop_back();

@@ -14,6 +14,9 @@ namespace carom {
 /// A folder's descriptor; none if it is not there, or no folder, or (unless `follow`) a link. Sets errno.
 Descriptor open_folder(int parent, const std::string& name, bool follow);
 
+/// Removes all files that the manifest in this folder names, the manifest first, and parts that were left.
+void remove_files_of_run(int folder);
+
 class OpenFolder {
  public:
   /// Makes the folder and its parents if need be, and locks it against other runs. Throws ExportError, as all of this

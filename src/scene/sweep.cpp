@@ -94,7 +94,7 @@ std::string block_text(const SweepBlock& block, const std::vector<std::string>& 
 
 }  // namespace
 
-std::string Sweep::resolved(const std::string& base_name) const {
+std::string Sweep::resolved(std::string_view base_name) const {
   std::string out = fmt::format("sweep: 1\ntitle: {}\nbase: {}\n", in_quotes(title), in_quotes(base_name));
   if (!set_values.empty()) out += "set:\n";
   for (const SweepValue& value : set_values) {
@@ -104,6 +104,11 @@ std::string Sweep::resolved(const std::string& base_name) const {
   out += "runs:\n";
   for (const SweepBlock& block : blocks) out += block_text(block, paths);
   if (seeds > 0) out += fmt::format("repeat: {{seeds: {}, first: {}}}\n", seeds, first_seed.value_or(0));
+  if (!only.empty()) {
+    std::string names;
+    for (const SweepValue& name : only) names += (names.empty() ? "" : ", ") + in_quotes(name.text);
+    out += fmt::format("only: [{}]\n", names);
+  }
   if (measures.empty() && charts.empty()) return out;
   out += "compare:\n";
   if (!measures.empty()) out += "  measures:\n";

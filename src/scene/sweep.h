@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/load.h"
@@ -62,6 +63,7 @@ class Sweep {
   std::vector<SweepBlock> blocks;
   std::uint64_t seeds = 0;  // of each combination; 0: no repeats
   std::optional<std::uint64_t> first_seed;
+  std::vector<SweepValue> only;  // outputs; empty: what the base asks for
   std::vector<SweepMeasure> measures;
   std::vector<SweepChart> charts;
 
@@ -70,7 +72,7 @@ class Sweep {
   std::string id(std::size_t number) const;
 
   /// A sweep file that says the same of the base `base` beside it.
-  std::string resolved(const std::string& base_name) const;
+  std::string resolved(std::string_view base_name) const;
 };
 
 inline constexpr std::size_t most_runs = 1'000'000;

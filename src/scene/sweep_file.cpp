@@ -40,6 +40,9 @@ class Reader {
     }
     blocks();
     repeat();
+    if (const Node* only = usable(root_.find("only"))) {
+      for (const Node& item : only->items) sweep_.only.push_back({item.text, where(item.place)});
+    }
     compare();
     if (sweep_.size() > most_runs)
       diagnostics_.add(root_.keys.front().place, fmt::format("{} runs", sweep_.size()),
