@@ -10,10 +10,13 @@
 
 #include "commands/text.h"
 #include "scene/diagnostics.h"
+#include "scene/output.h"
 
 namespace carom {
 
 namespace {
+
+constexpr std::size_t help_width = 56;  // columns of an option's text
 
 // Examples first, then usage, and option lines without CLI11's notes on types and repetition.
 class HelpFormatter : public CLI::Formatter {
@@ -62,10 +65,12 @@ void add_options(CLI::App& app, const CommandText& command, Words& words) {
   add_value(app, "--set", words.set, "PATH=VALUE",
             "change a value of the scene, balls.red.mass=2 say;\nmay be repeated");
   if (command.outputs)
-    add_value(app, "--only", words.only, "LIST",
-              "write these outputs alone, of trajectory, collisions,\n"
-              "energy, contacts, frames, video, sheet; one that the\n"
-              "scene does not ask for is written with default settings");
+    add_value(
+        app, "--only", words.only, "LIST",
+        wrapped(fmt::format("write these outputs alone, of {}; one that the scene does not ask for is written with "
+                            "default settings",
+                            fmt::join(output_names(), ", ")),
+                0, help_width));
   add_value(app, "--seed", words.seed, "N", "the scene's seed");
   if (command.bench) {
     add_value(app, "--steps", words.steps, "FROM:TO",
@@ -247,8 +252,11 @@ std::string in_our_words(const CLI::ParseError& error) {
 }  // namespace
 
 const std::vector<std::string>& output_names() {
-  static const std::vector<std::string> names = {"trajectory", "collisions", "energy", "contacts",
-                                                 "frames",     "video",      "sheet"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const OutputKind& kind : output_kinds()) all.emplace_back(kind.name);
+    return all;
+  }();
   return names;
 }
 
