@@ -10,7 +10,9 @@
 #include <cstdlib>
 #include <limits>
 
+#include "commands/text.h"
 #include "scene/diagnostics.h"
+#include "scene/output.h"
 
 namespace carom {
 
@@ -98,6 +100,16 @@ void read_steps(Options& options, const Words& words) {
         fmt::format("--steps halves at most {} times, not as often as {}", most_halvings, carom::quoted(steps)));
 }
 
+std::string_view only_help() {
+  constexpr std::size_t width = 56;  // columns
+  static const std::string text = wrapped(
+      fmt::format(
+          "write these outputs alone, of {}; one that the scene does not ask for is written with default settings",
+          fmt::join(output_names(), ", ")),
+      0, width);
+  return text;
+}
+
 constexpr std::array<std::string_view, 4> progress_names = {"auto", "bar", "lines", "none"};
 constexpr std::array<std::string_view, 3> color_names = {"auto", "always", "never"};
 constexpr std::array<std::string_view, 2> reference_names = {"exact", "stepped"};
@@ -107,11 +119,7 @@ const Option table[] = {
      "the run's folder; with several scenes, the folder that\nholds theirs (output/<scene file's stem>)",
      [](Options& o, const Words& w) { o.output = single(w, "--output"); }},
     {"--set", "", "PATH=VALUE", "change a value of the scene, balls.red.mass=2 say;\nmay be repeated", read_set},
-    {"--only", "", "LIST",
-     "write these outputs alone, of trajectory, collisions,\n"
-     "energy, contacts, frames, video, sheet; one that the\n"
-     "scene does not ask for is written with default settings",
-     read_only},
+    {"--only", "", "LIST", only_help(), read_only},
     {"--seed", "", "N", "the scene's seed",
      [](Options& o, const Words& w) { o.seed = whole(w, "--seed", 0, std::numeric_limits<std::uint64_t>::max()); }},
     {"--steps", "", "FROM:TO", "step sizes in s, from FROM down to TO by halves (by\nthe scene: ten halvings)",
@@ -157,8 +165,11 @@ std::vector<OptionUse> options_of(const CommandText& command) {
 }
 
 const std::vector<std::string>& output_names() {
-  static const std::vector<std::string> names = {"trajectory", "collisions", "energy", "contacts",
-                                                 "frames",     "video",      "sheet"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const OutputKind& kind : output_kinds()) all.emplace_back(kind.name);
+    return all;
+  }();
   return names;
 }
 
