@@ -6,6 +6,7 @@
 
 #include "export/mesh_copies.h"
 #include "export/output_file.h"
+#include "export/run_folder.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -13,11 +14,14 @@ namespace carom {
 /// A folder's descriptor; none if it is not there, or no folder, or (unless `follow`) a link. Sets errno.
 Descriptor open_folder(int parent, const std::string& name, bool follow);
 
+/// Removes all files that the manifest in this folder names, the manifest first, and parts that were left.
+void remove_files_of_run(int folder);
+
 class OpenFolder {
  public:
   /// Makes the folder and its parents if need be, and locks it against other runs. Throws ExportError, as all of this
   /// class does.
-  explicit OpenFolder(const std::string& path);
+  explicit OpenFolder(const std::string& path, Durability durability = Durability::synced);
   /// Without keep(): takes back scene.yaml and meshes, and the folders that are empty then and that this run made.
   ~OpenFolder();
   OpenFolder(const OpenFolder&) = delete;
@@ -29,8 +33,8 @@ class OpenFolder {
   /// folder that inspect_folder judges rightly. Then the copies of its meshes. Gives the records of all these.
   std::vector<FileRecord> begin(const Scene& scene, const std::vector<MeshCopy>& meshes = {});
 
-  /// Makes, if need be, and opens the folder of frames.
-  FilePlace frames();
+  /// Makes, if need be, and opens the folder of a series.
+  FilePlace series(const FileSeries& series);
 
   /// Something stands in the folder now that is worth keeping even if the run fails.
   void keep() { keep_ = true; }
@@ -43,7 +47,9 @@ class OpenFolder {
   void sync_all();    // all that was written to its file system, to the disk
   void sync_names();  // what was renamed in it
 
-  Descriptor folder_, frames_;
+  Durability durability_;
+  Descriptor folder_;
+  std::vector<Descriptor> series_;
   FilePlace place_;
   bool made_ = false, keep_ = false;
   std::vector<FileRecord> begun_;  // what stands there from the beginning

@@ -1,6 +1,7 @@
 #include "export/run_folder.h"
 
 #include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -10,28 +11,28 @@
 #include "export/manifest.h"
 #include "export/mesh_copies.h"
 #include "export/open_folder.h"
+#include "export/series_folders.h"
 #include "export/stored_file.h"
 
 namespace carom {
 namespace {
 
-/// Calls `check(folder, plain name, record)` for each file of the manifest until one fails.
+/// Calls `check(spot, record)` for each file of the manifest until one fails.
 template <typename Check>
 bool all_files(int folder, const Manifest& manifest, const Check& check) {
-  const Descriptor frames = open_folder(folder, "frames", false);
+  SeriesFolders folders(folder);
   return std::all_of(manifest.files.begin(), manifest.files.end(), [&](const FileRecord& file) {
-    const std::string_view head = "frames/";
-    return file.name.starts_with(head) ? frames && check(frames.get(), file.name.substr(head.size()), file)
-                                       : check(folder, file.name, file);
+    const FileSpot spot = folders.spot(file.name);
+    return spot.folder >= 0 && check(spot, file);
   });
 }
 
-bool has_size(int folder, const std::string& name, const FileRecord& file) {
-  return stored_size(folder, name) == file.bytes;
+bool has_size(const FileSpot& spot, const FileRecord& file) {
+  return stored_size(spot.folder, spot.name) == file.bytes;
 }
 
-bool has_hash(int folder, const std::string& name, const FileRecord& file) {
-  const auto stored = read_record(folder, name);
+bool has_hash(const FileSpot& spot, const FileRecord& file) {
+  const auto stored = read_record(spot.folder, spot.name);
   return stored && stored->bytes == file.bytes && stored->sha256 == file.sha256;
 }
 
@@ -51,18 +52,23 @@ bool is_whole(int folder, const Manifest& manifest, const std::string& outputs, 
 /// Whether the folder has a file of this tool's run that a run of the scene's outputs would not write anew.
 bool has_more(int folder, const Manifest& manifest, const Scene& scene, const std::vector<std::string>& names) {
   if (manifest.version != CAROM_VERSION) return false;
-  const Descriptor frames = open_folder(folder, "frames", false);
+  SeriesFolders folders(folder);
   return std::any_of(manifest.files.begin(), manifest.files.end(), [&](const FileRecord& file) {
-    const std::string_view head = "frames/";
-    if (file.name.starts_with(head)) {
-      return !scene.output.frames && frames && stored_size(frames.get(), file.name.substr(head.size()));
-    }
-    return std::find(names.begin(), names.end(), file.name) == names.end() &&
-           stored_size(folder, file.name).has_value();
+    const OutputKind* kind = series_of(file.name);
+    const bool anew =
+        kind ? kind->asked(scene.output) : std::find(names.begin(), names.end(), file.name) != names.end();
+    if (anew) return false;
+    const FileSpot spot = folders.spot(file.name);
+    return spot.folder >= 0 && stored_size(spot.folder, spot.name).has_value();
   });
 }
 
 }  // namespace
+
+void sync_file_system(const std::string& path) {
+  const Descriptor folder = open_folder(AT_FDCWD, path, true);
+  if (!folder || syncfs(folder.get()) != 0) fail("write", {-1, path}, "");
+}
 
 FolderContent inspect_folder(const std::string& path, const Scene& scene) {
   return inspect_folder(path, scene, outputs_text(scene.output), run_files(scene, scene.output));

@@ -1,0 +1,91 @@
+#include "export/copied_run.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <optional>
+#include <vector>
+
+#include "export/folder_names.h"
+#include "export/manifest.h"
+#include "export/open_folder.h"
+#include "export/stored_file.h"
+
+namespace carom {
+namespace {
+
+constexpr std::string_view in_frames = "frames/";
+constexpr std::uint64_t longest_reason = 1 << 20;  // bytes
+
+/// Its bytes and its hash must be those of the record.
+void copy_file(int from, const FilePlace& to, const FileRecord& record, const std::string& name) {
+  const Descriptor source = open_stored(from, name);
+  if (!source) fail("copy", to, name, "the run that it is a copy of does not have it any more");
+  OutputFile file(to, name);
+  std::array<char, 65536> buffer{};
+  ssize_t n;
+  while ((n = read(source.get(), buffer.data(), buffer.size())) != 0) {
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail("copy", to, name);
+    file.write({buffer.data(), static_cast<std::size_t>(n)});
+  }
+  file.complete();
+  if (file.record().sha256 != record.sha256) fail("copy", to, name, "the run that it is a copy of has changed");
+  file.publish();
+}
+
+}  // namespace
+
+void copy_run(const std::string& from, const std::string& to) {
+  const Descriptor source = open_folder(AT_FDCWD, from, true);
+  const std::optional<Manifest> manifest = source ? read_manifest(source.get(), manifest_name) : std::nullopt;
+  const std::optional<std::string> text = manifest ? read_text(source.get(), manifest_name, 256 << 20) : std::nullopt;
+  if (!text) fail("copy", {-1, from}, "", "it holds no whole run");
+  OpenFolder folder(to, Durability::deferred);
+  remove_files_of_run(folder.place().folder);
+  const Descriptor frames = open_folder(source.get(), "frames", false);
+  std::optional<FilePlace> to_frames;
+  for (const FileRecord& record : manifest->files) {
+    if (!record.name.starts_with(in_frames)) {
+      copy_file(source.get(), folder.place(), record, record.name);
+      continue;
+    }
+    if (!frames) fail("copy", {-1, from}, record.name, "it is not there");
+    if (!to_frames) to_frames = folder.frames();
+    copy_file(frames.get(), *to_frames, record, record.name.substr(in_frames.size()));
+  }
+  OutputFile last(folder.place(), manifest_name);
+  last.write(*text);
+  last.publish();
+  folder.keep();
+}
+
+void remove_run(const std::string& path) {
+  const Descriptor folder = open_folder(AT_FDCWD, path, false);
+  if (!folder) return;
+  remove_files_of_run(folder.get());
+  unlinkat(folder.get(), failure_file, 0);
+  rmdir(path.c_str());
+}
+
+void store_failure(const std::string& path, const std::string& why) {
+  OpenFolder folder(path, Durability::deferred);
+  OutputFile file(folder.place(), failure_file);
+  file.write(why);
+  file.write("\n");
+  file.publish();
+  folder.keep();
+}
+
+std::string stored_failure(const std::string& path) {
+  const Descriptor folder = open_folder(AT_FDCWD, path, true);
+  if (!folder) return "";
+  std::string text = read_text(folder.get(), failure_file, longest_reason).value_or("");
+  while (text.ends_with('\n')) text.pop_back();
+  return text;
+}
+
+}  // namespace carom

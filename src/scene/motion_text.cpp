@@ -1,0 +1,111 @@
+// Every member of the structs concerned has a name here, so that a new one does not compile until it is in the text.
+#include "scene/motion_text.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <type_traits>
+
+#include "physics/force.h"
+
+namespace carom {
+namespace {
+
+class MotionText {
+ public:
+  explicit MotionText(const Scene& scene) : scene_(scene) {}
+
+  std::string run() {
+    simulate();
+    const auto& [mass, radius, volume, restitution, impulse, planes, walls, obstacles, forces, gravity, combine,
+                 pairs] = scene_.world;
+    line("gravity", gravity, "combine", static_cast<int>(combine));
+    for (const auto& [a_first, a_count, b_first, b_count, value] : pairs)
+      line("pair", a_first, a_count, b_first, b_count, value);
+    for (std::size_t i = 0; i < mass.size(); ++i) {
+      line("body", mass[i], radius[i], restitution[i], scene_.initial.position[i], scene_.initial.velocity[i]);
+      if (!volume.empty()) line("volume", volume[i]);
+      if (!impulse.empty()) line("impulse", impulse[i]);
+    }
+    for (const auto& [point, normal, own] : planes) line("plane", point, normal, own);
+    for (const auto& [center, normal, right, up, half_width, half_height, own] : walls)
+      line("wall", center, normal, right, up, half_width, half_height, own);
+    for (const auto& [center, shape, own] : obstacles) line("obstacle", center, shape, own);
+    for (const Force& force : forces) write(force);
+    return std::move(text_);
+  }
+
+ private:
+  void simulate() {
+    const auto& [duration, engine, integrator, step, tolerance, rest_speed, max_collisions, as_printed, merge] =
+        scene_.simulate;
+    const Engine chosen = engine != Engine::automatic                          ? engine
+                          : force_without_closed_form(scene_.world) == nullptr ? Engine::exact
+                                                                               : Engine::stepped;
+    line("simulate", duration, "engine", static_cast<int>(chosen), "integrator", static_cast<int>(integrator));
+    line("step", step, "tolerance", tolerance, "rest_speed", rest_speed, "max_collisions", max_collisions);
+    line("as_printed", as_printed, "merge", merge);
+  }
+
+  void write(const Force& force) {
+    const auto& [law, from, until, on] = force;
+    std::visit([&](const auto& it) { line("force", it.name, it, from, until); }, law);
+    for (const Entity body : on) line("on", body);
+  }
+
+  template <typename... Values>
+  void line(const Values&... values) {
+    (write(values), ...);
+    text_.back() = '\n';
+  }
+
+  // Each followed by a blank.
+  template <typename T>
+  requires(std::is_arithmetic_v<T> || std::is_convertible_v<T, std::string_view>) void write(const T& value) {
+    fmt::format_to(std::back_inserter(text_), "{} ", value);
+  }
+  template <typename T>
+  void write(const std::optional<T>& value) {
+    value ? write(*value) : write("-");
+  }
+  void write(const Vec3& v) {
+    for (int k = 0; k < 3; ++k) write(v[k]);
+  }
+  void write(const Volume& volume) {
+    const auto& [shape, half] = volume;
+    write(static_cast<int>(shape));
+    write(half);
+  }
+  void write(const UniformForce& law) { write(law.force); }
+  void write(const UniformAcceleration& law) { write(law.value); }
+  void write(const Drag& law) {
+    const auto& [linear, quadratic, wind] = law;
+    write(linear);
+    write(quadratic);
+    write(wind);
+  }
+  void write(const Spring& law) {
+    const auto& [anchor, stiffness, rest_length, damping] = law;
+    write(anchor);
+    write(stiffness);
+    write(rest_length);
+    write(damping);
+  }
+  void write(const Attractor& law) {
+    const auto& [center, strength, softening] = law;
+    write(center);
+    write(strength);
+    write(softening);
+  }
+
+  const Scene& scene_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string motion_text(const Scene& scene) {
+  return MotionText(scene).run();
+}
+
+}  // namespace carom
