@@ -6,23 +6,24 @@
 
 #include <array>
 #include <cerrno>
+#include <map>
 #include <optional>
-#include <vector>
 
 #include "export/folder_names.h"
 #include "export/manifest.h"
 #include "export/open_folder.h"
+#include "export/series_folders.h"
 #include "export/stored_file.h"
 
 namespace carom {
 namespace {
 
-constexpr std::string_view in_frames = "frames/";
 constexpr std::uint64_t longest_reason = 1 << 20;  // bytes
 
 /// Its bytes and its hash must be those of the record.
-void copy_file(int from, const FilePlace& to, const FileRecord& record, const std::string& name) {
-  const Descriptor source = open_stored(from, name);
+void copy_file(const FileSpot& from, const FilePlace& to, const FileRecord& record) {
+  const std::string& name = from.name;
+  const Descriptor source = open_stored(from.folder, name);
   if (!source) fail("copy", to, name, "the run that it is a copy of does not have it any more");
   OutputFile file(to, name);
   std::array<char, 65536> buffer{};
@@ -46,16 +47,14 @@ void copy_run(const std::string& from, const std::string& to) {
   if (!text) fail("copy", {-1, from}, "", "it holds no whole run");
   OpenFolder folder(to, Durability::deferred);
   remove_files_of_run(folder.place().folder);
-  const Descriptor frames = open_folder(source.get(), "frames", false);
-  std::optional<FilePlace> to_frames;
+  SeriesFolders from_series(source.get());
+  std::map<const OutputKind*, FilePlace> to_series;
   for (const FileRecord& record : manifest->files) {
-    if (!record.name.starts_with(in_frames)) {
-      copy_file(source.get(), folder.place(), record, record.name);
-      continue;
-    }
-    if (!frames) fail("copy", {-1, from}, record.name, "it is not there");
-    if (!to_frames) to_frames = folder.frames();
-    copy_file(frames.get(), *to_frames, record, record.name.substr(in_frames.size()));
+    const FileSpot spot = from_series.spot(record.name);
+    if (spot.folder < 0) fail("copy", {-1, from}, record.name, "it is not there");
+    const OutputKind* series = series_of(record.name);
+    if (series != nullptr && !to_series.contains(series)) to_series[series] = folder.series(series->series);
+    copy_file(spot, series == nullptr ? folder.place() : to_series[series], record);
   }
   OutputFile last(folder.place(), manifest_name);
   last.write(*text);

@@ -40,6 +40,18 @@ void remove_parts(int folder) {
     if (is_part_name(name)) remove_entry(folder, name);
 }
 
+/// Parts of files, and series' folders without files.
+void remove_leavings(int folder) {
+  remove_parts(folder);
+  SeriesFolders folders(folder);
+  for (const std::string& series : series_folder_names()) {
+    const int inner = folders.open(series);
+    if (inner < 0) continue;
+    remove_parts(inner);
+    unlinkat(folder, series.c_str(), AT_REMOVEDIR);  // if it is empty
+  }
+}
+
 void add_files(std::vector<std::string>& names, const std::optional<Manifest>& manifest) {
   if (!manifest) return;
   for (const FileRecord& file : manifest->files) names.push_back(file.name);
@@ -68,9 +80,7 @@ void remove_files_of_run(int folder) {
   unlinkat(folder, manifest_name, 0);
   remove_files(folder, names);
   unlinkat(folder, "scene.yaml", 0);
-  remove_parts(folder);
-  if (const Descriptor frames = open_folder(folder, "frames", false)) remove_parts(frames.get());
-  unlinkat(folder, "frames", AT_REMOVEDIR);  // if it is empty
+  remove_leavings(folder);
   unlinkat(folder, former_manifest, 0);
 }
 
@@ -132,14 +142,7 @@ std::vector<FileRecord> OpenFolder::begin(const Scene& scene, const std::vector<
   };
   put("scene.yaml", scene.resolved);
   remove_files(folder, names);
-  remove_parts(folder);
-  SeriesFolders folders(folder);
-  for (const std::string& series : series_folder_names()) {
-    const int inner = folders.open(series);
-    if (inner < 0) continue;
-    remove_parts(inner);
-    unlinkat(folder, series.c_str(), AT_REMOVEDIR);  // if it is empty
-  }
+  remove_leavings(folder);
   unlinkat(folder, former_manifest, 0);
   for (const MeshCopy& mesh : meshes) put(mesh.name, mesh.bytes);
   return begun_;

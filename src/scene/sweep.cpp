@@ -39,6 +39,7 @@ SweepRun Sweep::run(std::size_t number) const {
     }
   }
   if (seeds > 0) {
+    // (Without repeats there is no seed among the paths.)
     const std::string seed = std::to_string(first_seed.value_or(0) + number % repeats);
     run.values.back() = seed;
     run.settings.push_back({"seed=" + seed, file});

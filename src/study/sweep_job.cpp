@@ -47,7 +47,12 @@ SweepJob::SweepJob(Sweep sweep, std::string folder, SweepSettings settings)
       folder_(std::move(folder)),
       settings_(std::move(settings)),
       base_(sweep_.base, settings_.load),
-      runs_(sweep_.size()) {}
+      runs_(sweep_.size()) {
+  if (sweep_.seeds == 0 || sweep_.first_seed) return;
+  Sweep once = sweep_;
+  once.seeds = 0;
+  sweep_.first_seed = base_.scene(once.run(0).settings).seed;
+}
 
 std::string SweepJob::run_folder(std::size_t number) const {
   return fmt::format("{}/runs/{}", folder_, sweep_.id(number));

@@ -9,14 +9,10 @@
 #include "export/exports.h"
 #include "scene/load.h"
 #include "scene/sweep.h"
+#include "study/shard.h"
 #include "study/workers.h"
 
 namespace carom {
-
-/// One of `count` parts of a sweep, from 1 on. Runs that share a motion are in the same part.
-struct Shard {
-  std::size_t index = 1, count = 1;
-};
 
 struct SweepSettings {
   LoadOptions load;  // without settings of its own
@@ -43,10 +39,13 @@ struct SweepProgress {
 
 class SweepJob {
  public:
-  /// Throws SceneError where the base is wrong.
+  /// Reads the base; the first seed of repeats is its seed, unless the sweep says another. Throws SceneError.
   SweepJob(Sweep sweep, std::string folder, SweepSettings settings);
 
   const Sweep& sweep() const { return sweep_; }
+  const std::string& base_text() const { return base_.text(); }
+  /// A run's scenario, with the outputs that are written. Throws SceneError.
+  Scene scene(std::size_t number);
   const std::string& folder() const { return folder_; }
   const std::vector<PlannedRun>& runs() const { return runs_; }
   std::string run_folder(std::size_t number) const;
@@ -70,7 +69,6 @@ class SweepJob {
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  Scene scene(std::size_t number);
   std::string look_at(std::size_t first, std::size_t last);
   std::vector<Unit> units() const;
   std::string work(const Unit& unit);
