@@ -7,6 +7,8 @@
 
 #include "commands/bench.h"
 #include "commands/check.h"
+#include "commands/compare.h"
+#include "commands/diff.h"
 #include "commands/interrupt.h"
 #include "commands/report.h"
 #include "commands/run.h"
@@ -23,8 +25,11 @@ struct Command {
 };
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {
-      {run_text(), run_command}, {check_text(), check_command}, {bench_text(), bench_command}};
+  static const std::vector<Command> all = {{run_text(), run_command},
+                                           {check_text(), check_command},
+                                           {bench_text(), bench_command},
+                                           {compare_text(), compare_command},
+                                           {diff_text(), diff_command}};
   return all;
 }
 

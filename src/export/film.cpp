@@ -33,10 +33,10 @@ void Film::add(const Image& image) {
   const int width = video_.size.width, height = video_.size.height;
   if (image.width != width || image.height != height) file_.fail_with("a picture is of another size");
   if (!file_.started())
-    file_.start({"-f", "rawvideo", "-pixel_format", "rgb24", "-video_size",
-                 std::to_string(width) + "x" + std::to_string(height), "-framerate", decimal(video_.fps), "-i",
-                 "pipe:0"},
-                {"-vf", film_filter(video_.size)}, video_.crf, true);
+    file_.start(
+        {"-f", "rawvideo", "-pixel_format", "rgb24", "-video_size",
+         std::to_string(width) + "x" + std::to_string(height), "-framerate", decimal(video_.fps), "-i", "pipe:0"},
+        {"-vf", film_filter(video_.size)}, video_.crf, true);
   file_.send(image.pixels.data(), image.pixels.size());
   ++frames_;
 }

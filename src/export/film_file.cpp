@@ -87,8 +87,7 @@ FilePlace FilmFile::workshop() {
   return {workshop_.get(), place_.path + "/" + part};
 }
 
-void FilmFile::start(const std::vector<std::string>& input, const std::vector<std::string>& filter, int crf,
-                     bool fed) {
+void FilmFile::start(const std::vector<std::string>& input, const std::vector<std::string>& filter, int crf, bool fed) {
   std::vector<std::string> arguments = {tools_.ffmpeg, "-nostdin", "-hide_banner", "-loglevel", "error", "-y"};
   arguments.insert(arguments.end(), input.begin(), input.end());
   arguments.emplace_back("-an");
@@ -96,10 +95,12 @@ void FilmFile::start(const std::vector<std::string>& input, const std::vector<st
   // As many threads everywhere and no version numbers, for the same bytes everywhere.
   const std::string quality = std::to_string(crf), out = std::string("file:") + film_name;
   for (const std::string_view argument :
-       {"-c:v", "libx264", "-preset", "medium", "-crf", quality.c_str(), "-pix_fmt", "yuv420p", "-threads", "4",
-        "-fps_mode", "passthrough", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
-        "-color_range", "tv", "-movflags", "+faststart", "-fflags", "+bitexact", "-flags:v", "+bitexact",
-        "-map_metadata", "-1", "-f", "mp4", out.c_str()})
+       {"-c:v",         "libx264",   "-preset",          "medium",     "-crf",       quality.c_str(),
+        "-pix_fmt",     "yuv420p",   "-threads",         "4",          "-fps_mode",  "passthrough",
+        "-colorspace",  "bt709",     "-color_primaries", "bt709",      "-color_trc", "bt709",
+        "-color_range", "tv",        "-movflags",        "+faststart", "-fflags",    "+bitexact",
+        "-flags:v",     "+bitexact", "-map_metadata",    "-1",         "-f",         "mp4",
+        out.c_str()})
     arguments.emplace_back(argument);
   const FilePlace place = workshop();
   ffmpeg_ = std::make_unique<Child>(arguments, place.folder, fed);

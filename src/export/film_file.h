@@ -37,8 +37,8 @@ class FilmFile {
 
   /// ffmpeg's own folder; made by the first call.
   FilePlace workshop();
-  /// Starts ffmpeg there: `input` says what comes, `filter` (an option and its value) what is done to it. The rest, H.264
-  /// in yuv420p and BT.709, index in front, the same pictures the same bytes, is every film's.
+  /// Starts ffmpeg there: `input` says what comes, `filter` (an option and its value) what is done to it. The rest,
+  /// H.264 in yuv420p and BT.709, index in front, the same pictures the same bytes, is every film's.
   void start(const std::vector<std::string>& input, const std::vector<std::string>& filter, int crf, bool fed);
   bool started() const { return ffmpeg_ != nullptr; }
   void send(const void* bytes, std::size_t size);
@@ -63,8 +63,8 @@ class FilmFile {
 
 /// What there is to know of a stored film.
 struct FilmFacts {
-  int width = 0, height = 0;         // pixels
-  std::uint64_t rate = 0, per = 1;   // frames a second: rate / per
+  int width = 0, height = 0;        // pixels
+  std::uint64_t rate = 0, per = 1;  // frames a second: rate / per
   std::uint64_t frames = 0;
 };
 /// Asks ffprobe. Throws ExportError.

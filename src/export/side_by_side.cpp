@@ -36,8 +36,8 @@ Grid grid_of(const std::vector<FilmFacts>& films) {
     width = std::max(width, film.width);
     height = std::max(height, film.height);
   }
-  const double scale = std::min({1.0, widest / static_cast<double>(width * columns),
-                                 highest / static_cast<double>(height * rows)});
+  const double scale =
+      std::min({1.0, widest / static_cast<double>(width * columns), highest / static_cast<double>(height * rows)});
   return {columns, rows, even(width * scale), even(height * scale)};
 }
 
@@ -84,9 +84,10 @@ SideBySide::SideBySide(const FilePlace& place, const std::string& name, std::vec
   if (tiles_.size() < 2 || tiles_.size() > most_tiles)
     file_.fail_with(fmt::format("it shows 2 to {} runs, not {}: name fewer", most_tiles, tiles_.size()));
   if (access(font, R_OK) != 0)
-    file_.fail_with(fmt::format("the font of its labels, {}, is not there: install it (on Debian: apt install "
-                                "fonts-dejavu-core)",
-                                font));
+    file_.fail_with(
+        fmt::format("the font of its labels, {}, is not there: install it (on Debian: apt install "
+                    "fonts-dejavu-core)",
+                    font));
   for (const FilmTile& tile : tiles_) {
     const Descriptor folder = open_folder(AT_FDCWD, tile.folder, true);
     if (!folder) fail("open", {-1, tile.folder}, "");
@@ -96,8 +97,8 @@ SideBySide::SideBySide(const FilePlace& place, const std::string& name, std::vec
 
 void SideBySide::complete(const std::function<void()>& look) {
   const Grid grid = grid_of(facts_);
-  const FilmFacts& fastest = *std::max_element(facts_.begin(), facts_.end(),
-                                               [](const auto& a, const auto& b) { return is_faster(b, a); });
+  const FilmFacts& fastest =
+      *std::max_element(facts_.begin(), facts_.end(), [](const auto& a, const auto& b) { return is_faster(b, a); });
   double start = tiles_.front().from;
   for (const FilmTile& tile : tiles_) start = std::min(start, tile.from);
   const int size = font_size(tiles_, grid);
@@ -114,9 +115,9 @@ void SideBySide::complete(const std::function<void()>& look) {
     const FilmFacts& film = facts_[k];
     const std::string label = fmt::format("label_{}.txt", k);
     write_label(file_.workshop(), label, tiles_[k]);
-    input.insert(input.end(),
-                 {"-i", "file:" + std::filesystem::absolute(std::filesystem::path(tiles_[k].folder) / tiles_[k].file)
-                                      .string()});
+    input.insert(
+        input.end(),
+        {"-i", "file:" + std::filesystem::absolute(std::filesystem::path(tiles_[k].folder) / tiles_[k].file).string()});
     graph += fmt::format("[{}:v]", k);
     if (is_faster(fastest, film)) graph += fmt::format("fps={}/{},", fastest.rate, fastest.per);
     if (film.width != grid.width || film.height != grid.height)

@@ -62,7 +62,7 @@ FolderContent inspect_comparison_folder(const std::string& path, const std::stri
     return stored && stored->bytes == file.bytes && stored->sha256 == file.sha256;
   });
   return whole && manifest->version == CAROM_VERSION && manifest->outputs == request ? FolderContent::this_run
-                                                                                    : FolderContent::incomplete;
+                                                                                     : FolderContent::incomplete;
 }
 
 void ComparisonFolder::publish(const std::vector<std::unique_ptr<OutputFile>>& files, SideBySide* film,

@@ -61,7 +61,8 @@ std::vector<std::string> runs_of_sweep(const std::string& folder) {
   const std::string runs = (fs::path(folder) / "runs").string();
   if (const Descriptor opened = open_folder(AT_FDCWD, runs, true))
     for (const std::string& name : folder_names(opened.get()))
-      if (is_plain_name(name) && open_folder(opened.get(), name, true)) found.push_back((fs::path(runs) / name).string());
+      if (is_plain_name(name) && open_folder(opened.get(), name, true))
+        found.push_back((fs::path(runs) / name).string());
   return found;
 }
 
@@ -139,7 +140,7 @@ std::string digest_of(const std::vector<ListedRun>& runs) {
 }
 
 SceneDifferences::SceneDifferences(std::vector<ListedRun> runs) : runs_(std::move(runs)) {
-  std::vector<SceneValue> all;              // of all scenes, each path once, in the order of the first that has it
+  std::vector<SceneValue> all;               // of all scenes, each path once, in the order of the first that has it
   std::map<std::string, std::size_t> known;  // its paths
   std::vector<std::size_t> seen;             // by path: how many scenes have it
   std::set<std::size_t> varying;
