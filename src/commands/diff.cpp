@@ -32,11 +32,9 @@ std::string collision_text(const std::optional<CollisionFacts>& collision) {
 
 std::string count_text(const CollisionDifference& difference) {
   if (!difference.part)
-    return difference.same == 0 ? "none in both" : fmt::format("all {} are the same", grouped(difference.same));
+    return difference.same == 0 ? "none in both" : fmt::format("{}, the same in both", grouped(difference.same));
   const std::string all = fmt::format("{} and {}", grouped(difference.count_a), grouped(difference.count_b));
-  if (difference.same == 0) return all + "; they part in the first";
-  return fmt::format("{}; the first {} the same, then they part", all,
-                     difference.same == 1 ? "is" : grouped(difference.same) + " are");
+  return difference.same == 0 ? all : fmt::format("{}, of which the same: the first {}", all, grouped(difference.same));
 }
 
 std::string end_text(const RunDifference& difference) {

@@ -9,9 +9,11 @@
 #include "commands/check.h"
 #include "commands/compare.h"
 #include "commands/diff.h"
+#include "commands/gather.h"
 #include "commands/interrupt.h"
 #include "commands/report.h"
 #include "commands/run.h"
+#include "commands/sweep.h"
 #include "commands/text.h"
 #include "scene/diagnostics.h"
 
@@ -27,9 +29,11 @@ struct Command {
 const std::vector<Command>& commands() {
   static const std::vector<Command> all = {{run_text(), run_command},
                                            {check_text(), check_command},
-                                           {bench_text(), bench_command},
+                                           {sweep_text(), sweep_command},
+                                           {gather_text(), gather_command},
                                            {compare_text(), compare_command},
-                                           {diff_text(), diff_command}};
+                                           {diff_text(), diff_command},
+                                           {bench_text(), bench_command}};
   return all;
 }
 

@@ -68,30 +68,36 @@ std::vector<std::string> runs_of_sweep(const std::string& folder) {
 
 /// Ids of the last names of the paths; of those that share one, with names before it, `runs` left out.
 void name_all(std::vector<ListedRun>& runs) {
-  std::vector<std::vector<std::string>> names;
-  for (const ListedRun& run : runs) {
-    names.push_back(names_of(run.folder));
-    std::vector<std::string>& all = names.back();
+  std::vector<std::vector<std::string>> names;  // of each folder once
+  std::map<std::vector<std::string>, std::vector<std::size_t>> folders;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    std::vector<std::string> all = names_of(runs[i].folder);
     if (all.size() > 1) all.erase(std::remove(all.begin() + 1, all.end(), "runs"), all.end());
-    runs[names.size() - 1].id = all.empty() ? "run" : all[0];
+    const auto [found, fresh] = folders.try_emplace(all);
+    found->second.push_back(i);
+    if (fresh) names.push_back(std::move(all));
   }
-  std::vector<std::size_t> used(runs.size(), 1);
+  std::vector<std::string> ids;
+  for (const auto& all : names) ids.push_back(all.empty() ? "run" : all[0]);
+  std::vector<std::size_t> used(names.size(), 1);
   for (bool longer = true; longer;) {
     longer = false;
     std::map<std::string, std::vector<std::size_t>> same;
-    for (std::size_t i = 0; i < runs.size(); ++i) same[runs[i].id].push_back(i);
+    for (std::size_t k = 0; k < ids.size(); ++k) same[ids[k]].push_back(k);
     for (const auto& [id, numbers] : same) {
-      for (const std::size_t i : numbers) {
-        if (numbers.size() < 2 || used[i] >= names[i].size()) continue;
-        runs[i].id = names[i][used[i]++] + "/" + runs[i].id;
+      for (const std::size_t k : numbers) {
+        if (numbers.size() < 2 || used[k] >= names[k].size()) continue;
+        ids[k] = names[k][used[k]++] + "/" + ids[k];
         longer = true;
       }
     }
   }
-  // What is left was named twice.
-  std::map<std::string, int> taken;
-  for (ListedRun& run : runs)
-    if (const int before = taken[run.id]++; before > 0) run.id += fmt::format(" ({})", before + 1);
+  std::map<std::string, int> taken;  // a folder that is named twice
+  for (std::size_t k = 0; k < names.size(); ++k)
+    for (const std::size_t i : folders[names[k]]) {
+      const int before = taken[ids[k]]++;
+      runs[i].id = before == 0 ? ids[k] : fmt::format("{} ({})", ids[k], before + 1);
+    }
 }
 
 bool is_parameter(const std::string& path) {
