@@ -173,6 +173,17 @@ const Option table[] = {
      }},
     {"--shard", "", "I/N", "part I of N, the first is 1; gather joins them (in a\njob array of Slurm: the task's part)",
      [](Options& o, const Words& w) { o.shard = read_shard(single(w, "--shard")); }},
+    {"--slurm", "", "", "for Slurm", [](Options& o, const Words&) { o.slurm = true; }},
+    {"--parts", "", "N", "tasks of the array (one for 50 runs, at most 16)",
+     [](Options& o, const Words& w) { o.parts = whole(w, "--parts", 1, 1'000'000); }},
+    {"--batch", "", "OPTION", "a further option of sbatch, --batch=--time=1:00:00 say;\nmay be repeated",
+     [](Options& o, const Words& w) {
+       for (const std::string& option : w)
+         if (!option.starts_with("-") || option.find('\n') != std::string::npos)
+           throw UsageError(fmt::format("--batch takes an option of sbatch, --batch=--time=1:00:00 say, not {}",
+                                        carom::quoted(option)));
+       o.batch = w;
+     }},
     {"--plan", "", "", "show the runs, their values and what is done already",
      [](Options& o, const Words&) { o.plan = true; }},
     {"--seed", "", "N", "the scene's seed",

@@ -13,6 +13,7 @@
 #include "commands/interrupt.h"
 #include "commands/report.h"
 #include "commands/run.h"
+#include "commands/submit.h"
 #include "commands/sweep.h"
 #include "commands/text.h"
 #include "scene/diagnostics.h"
@@ -27,13 +28,11 @@ struct Command {
 };
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {{run_text(), run_command},
-                                           {check_text(), check_command},
-                                           {sweep_text(), sweep_command},
-                                           {gather_text(), gather_command},
-                                           {compare_text(), compare_command},
-                                           {diff_text(), diff_command},
-                                           {bench_text(), bench_command}};
+  static const std::vector<Command> all = {
+      {run_text(), run_command},       {check_text(), check_command},   {sweep_text(), sweep_command},
+      {gather_text(), gather_command}, {submit_text(), submit_command}, {compare_text(), compare_command},
+      {diff_text(), diff_command},     {bench_text(), bench_command},
+  };
   return all;
 }
 
