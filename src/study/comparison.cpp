@@ -185,7 +185,7 @@ class Comparison {
     }
     sheet_.fit_all(9, 60, 3);  // room for the filters' buttons
     sheet_.freeze(1, 1);
-    sheet_.print_wide();
+    sheet_.print_table();
   }
 
   void write_pivot_sheet() {

@@ -88,6 +88,20 @@ TEST(CompareCommand, TakesASweepsRunsAndNamesRunsApart) {
   for (const char* id : {"\none/a,", "\none/b,", "\ntwo/c,"}) EXPECT_NE(table.find(id), std::string::npos) << table;
 }
 
+TEST(CompareCommand, OfASweepGivesTheSweepsTable) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(tables));
+  here.write("sweep.yaml",
+             "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.restitution: [0.5, 1], balls.blue.position.z: [0, 0.1]}\n"
+             "repeat: {seeds: 2}\ncompare: {measures: [energy_lost_J, balls.red.speed_m_per_s]}\n");
+  const Finished sweep = here.carom({"sweep", "sweep.yaml", "-o", "swept"});
+  ASSERT_EQ(sweep.code, 0) << sweep.err;
+  const Finished run = here.carom({"compare", "swept"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  for (const char* file : {"summary.csv", "repeats.csv"})
+    EXPECT_EQ(here.read(std::string("output/comparison/") + file), here.read(std::string("swept/") + file)) << file;
+}
+
 TEST(CompareCommand, TakesRunsThatDifferInTheSeedAsRepeats) {
   const Workplace here;
   here.write("gas.yaml",
