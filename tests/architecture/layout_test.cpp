@@ -48,7 +48,8 @@ TEST(Layout, EverySceneOpensWithACommentAndNamesItsFormat) {
     const auto first =
         std::find_if(lines.begin(), lines.end(), [](const auto& line) { return !std::regex_match(line, modeline); });
     EXPECT_TRUE(first != lines.end() && first->starts_with("# ")) << file.path << " says nothing of itself";
-    EXPECT_EQ(std::count(lines.begin(), lines.end(), "scene: 1"), 1) << file.path;
+    const auto format = [&](const char* line) { return std::count(lines.begin(), lines.end(), line); };
+    EXPECT_EQ(format("scene: 1") + format("sweep: 1"), 1) << file.path;
   }
 }
 
