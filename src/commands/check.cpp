@@ -174,6 +174,7 @@ std::string as_text(const PlannedScene& planned, const Findings& findings, const
   if (!planned.scene->world.forces.empty()) block.line("forces", forces_text(planned.scene->world));
   block.line("engine", engine_text(planned));
   block.line("first hit", first_collision_text(planned, findings.foresight));
+  if (!findings.foresight.failure.empty()) block.line("trouble", "a run stops: " + findings.foresight.failure);
   if (findings.camera) {
     block.line("camera", fmt::format("{}; fields of view {:.4g} x {:.4g} degrees", plus_x_text(findings.camera->plus_x),
                                      findings.camera->fov_x, findings.camera->fov_y));
@@ -241,6 +242,7 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
   entry["first_collision"] =
       findings.foresight.first ? collision_json(scene, *findings.foresight.first) : Json(nullptr);
   if (!findings.foresight.trouble.empty()) entry["first_collision_trouble"] = findings.foresight.trouble;
+  if (!findings.foresight.failure.empty()) entry["failure"] = findings.foresight.failure;
   entry["camera"] = findings.camera ? camera_json(scene, *findings.camera, findings.foresight) : Json(nullptr);
   entry["pictures"] = planned.forecast.frames;
   entry["trajectory_rows"] = planned.forecast.rows;

@@ -57,7 +57,8 @@ class Trial {
       look_if_due();
       while (oracle_->time() < scene_.simulate.duration && wants_more()) advance();
     } catch (const SimulationError& error) {
-      if (!result_.first) result_.trouble = error.what();
+      (result_.first ? result_.failure : result_.trouble) = error.what();
+      result_.cut = result_.cut || next_ <= last_;
     }
     return std::move(result_);
   }
@@ -145,8 +146,9 @@ std::optional<double> own_engine_s(const Scene& scene, const EngineChoice& engin
 Foresight foresee(const Scene& scene, const EngineChoice& engine, bool watch, double budget) {
   Trial trial(scene, watch, budget);
   Foresight result = trial.go();
-  const bool settled = engine.name != "stepped" || engine.step;  // a tolerance is to be met by runs that nobody counted
   const std::string oracle = force_without_closed_form(scene.world) == nullptr ? "exact" : "stepped";
+  if (engine.name != oracle) result.failure.clear();             // of another simulator
+  const bool settled = engine.name != "stepped" || engine.step;  // a tolerance is to be met by runs that nobody counted
   if (!settled) return result;
   result.simulate_s = engine.name == oracle ? trial.whole() : own_engine_s(scene, engine, budget);
   return result;

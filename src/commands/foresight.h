@@ -21,6 +21,7 @@ struct Crossing {
 struct Foresight {
   std::optional<Collision> first;              // none: none before the duration
   std::string trouble;                         // why it is not known; empty: it is
+  std::string failure;                         // what stops a run later on, as far as was looked; empty: nothing
   std::vector<Crossing> crossings;             // in order of time
   double watched_from = 0, watched_until = 0;  // s: crossings are known in between
   double every = 0;                            // s between the instants that were looked at; 0: none was

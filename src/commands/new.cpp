@@ -2,7 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
@@ -46,11 +46,14 @@ Descriptor opened(const std::string& folder) {
   return open;
 }
 
-/// Whether a file may take its name: it is not there, or --force.
+/// Throws UsageError where something has the name, a folder, or unless --force anything.
 void refuse_existing(const FilePlace& place, const std::string& name, bool force) {
-  if (force || faccessat(place.folder, name.c_str(), F_OK, AT_SYMLINK_NOFOLLOW) != 0) return;
-  throw UsageError(fmt::format("{} is there already: choose another name, or overwrite it with --force",
-                               printable((fs::path(place.path) / name).lexically_normal().string())));
+  struct stat info {};
+  if (fstatat(place.folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) return;
+  const std::string path = printable((fs::path(place.path) / name).lexically_normal().string());
+  if (S_ISDIR(info.st_mode)) throw UsageError(fmt::format("{} is a folder: choose another name", path));
+  if (!force)
+    throw UsageError(fmt::format("{} is there already: choose another name, or overwrite it with --force", path));
 }
 
 /// A schema that another version wrote is replaced; anything else of that name is the author's.
@@ -88,7 +91,7 @@ int new_command(const Options& options) {
   const Descriptor open = opened(folder);
   const FilePlace place{open.get(), folder};
   refuse_existing(place, file, options.force);
-  if (!is_schema(place)) refuse_existing(place, std::string(schema_name), options.force);
+  refuse_existing(place, std::string(schema_name), options.force || is_schema(place));
 
   OutputFile schema(place, std::string(schema_name)), scene(place, file);
   schema.write(json_schema("scene"));

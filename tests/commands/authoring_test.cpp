@@ -95,6 +95,15 @@ TEST(New, OverwritesNothingWithoutForce) {
   EXPECT_EQ(here.read("first.yaml"), starting_scene());
 }
 
+TEST(New, ReplacesNoFolder) {
+  const Workplace here;
+  here.write("first.yaml/file", "");
+  const Finished refused = here.carom({"new", "first", "--force"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("first.yaml is a folder"), std::string::npos) << refused.err;
+  EXPECT_EQ(here.files().size(), 1u);
+}
+
 TEST(New, ReplacesAnOldSchemaButNothingElseOfItsName) {
   const Workplace here;
   const std::string schema = here.carom({"schema"}).out;

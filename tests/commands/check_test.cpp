@@ -120,6 +120,20 @@ TEST(Check, EndsItsTrialSoon) {
   EXPECT_GT(scene.at("seconds"), 100);
 }
 
+TEST(Check, TellsWhatStopsARunLater) {
+  const Workplace here;
+  here.write("bouncing.yaml",
+             "scene: 1\nballs: {red: {mass: 1, radius: 0.1, position: [0, 1, 0], restitution: 0.9}}\n"
+             "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n"
+             "simulate: {duration: 9, max_collisions: 3}\n");
+  const Finished check = here.carom({"check", "bouncing.yaml"}), run = here.carom({"run", "bouncing.yaml"});
+  EXPECT_EQ(check.code, 0);
+  EXPECT_EQ(run.code, 1);
+  const std::size_t at = check.out.find("  trouble     a run stops: ") + 27;
+  const std::string why = check.out.substr(at, 20);
+  EXPECT_NE(run.err.find(why), std::string::npos) << check.out << run.err;
+}
+
 TEST(Check, NamesWhatOverlapsAndHowDeep) {
   const Workplace here;
   here.write("deep.yaml",
