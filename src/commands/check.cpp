@@ -162,7 +162,7 @@ std::string to_come_text(const PlannedScene& planned, const Findings& findings) 
                      !seconds         ? "a time that only a run can tell"
                      : *seconds < 0.5 ? "less than a second"
                      : *seconds < 9.5 ? fmt::format("roughly {:.0f} s", *seconds)
-                                      : "roughly " + wait_text(*seconds));
+                                      : "roughly " + wait_text(std::round(*seconds)));
 }
 
 std::string as_text(const PlannedScene& planned, const Findings& findings, const Palette& palette, std::size_t width) {
