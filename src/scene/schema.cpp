@@ -44,12 +44,14 @@ Json at(std::string_view key, Json schema) {
   return {{"properties", {{std::string(key), std::move(schema)}}}};
 }
 
-/// No double is beyond these bounds, and so no infinity within.
+/// No double is beyond these bounds, and so no infinity within. What is not a number fails no comparison: refused is
+/// what is not refused for being too small to be infinite.
 Json number_schema(const Range& range) {
   constexpr double largest = std::numeric_limits<double>::max();
   Json schema = {{"type", "number"}};
   schema[range.above_min ? "exclusiveMinimum" : "minimum"] = number_json(std::max(range.min, -largest));
-  schema[range.below_max ? "exclusiveMaximum" : "maximum"] = number_json(std::min(range.max, largest));
+  if (range.max <= largest) schema[range.below_max ? "exclusiveMaximum" : "maximum"] = number_json(range.max);
+  schema["not"] = {{"exclusiveMinimum", largest}};
   return schema;
 }
 

@@ -189,7 +189,7 @@ TEST(Schema, AgreesWithTheLoaderOnHowNumbersAndFlagsAreWritten) {
       {"1e999", false, false},
       {"NaN", false, false},
       {"0b1", false, false},
-      {".nan", false, true, "a schema compares numbers, and no comparison refuses it"},
+      {".nan", false, false},
       {"010", false, true, "YAML 1.2 reads 10, YAML 1.1 reads 8: the loader wants it said"},
       {"0x10", false, true, "YAML reads 16: numbers of a scene are decimal"},
       {"0o17", false, true, "YAML reads 15: numbers of a scene are decimal"},
