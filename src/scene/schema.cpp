@@ -44,8 +44,8 @@ Json at(std::string_view key, Json schema) {
   return {{"properties", {{std::string(key), std::move(schema)}}}};
 }
 
-/// No double is beyond these bounds, and so no infinity within. What is not a number fails no comparison: refused is
-/// what is not refused for being too small to be infinite.
+/// Finite numbers. That nothing is beyond the largest double stands under `not`: to a validator .nan is within any
+/// bounds, and so beyond that one.
 Json number_schema(const Range& range) {
   constexpr double largest = std::numeric_limits<double>::max();
   Json schema = {{"type", "number"}};
