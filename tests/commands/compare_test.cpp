@@ -203,11 +203,11 @@ TEST(DiffCommand, TellsWhereRunsPartAndHowFarApartTheyEnd) {
   EXPECT_EQ(outcome.out,
             "a and b\n"
             "  scenes      1 value is not the same\n"
-            "                           a     b\n"
+            "                             a     b\n"
             "    balls.red.restitution  0.5  0.75\n"
             "  collisions  1, the same in both\n"
-            "  outcome     of collision 1, red and blue at 0.44499999999999995 s (body-body), is not the same: they\n"
-            "              leave at 2.8 m/s in a, 3.3 m/s in b\n"
+            "  outcome     of collision 1, red and blue at 0.44499999999999995 s (body-body), is not the same:\n"
+            "              they leave at 2.8 m/s in a, 3.3 m/s in b\n"
             "  end         at most 0.13875000000000004 m apart: red\n");
   const Json part = Json::parse(here.carom({"diff", "runs/b", "runs/aside", "--json"}).out);
   EXPECT_EQ(part["equal"], false);

@@ -94,7 +94,7 @@ def main():
         page = subprocess.run(["pdftotext", "-l", "1", str(out / "comparison.pdf"), "-"], check=True, capture_output=True,
                               text=True).stdout
         for text in ("energy lost (J) by restitution.default", "kinetic energy (J) over time", "time (s)",
-                     "balls.red.position.z = -0.025"):
+                     "balls.red.position.z = -0.025 m"):
             assert text in page, text
     print(f"{numbers} numbers, {len(sheets)} sheets")
 

@@ -28,8 +28,7 @@ def chart_of(chart):
                 "name": series.tx.v if series.tx else None,
                 "x": (series.xVal or series.cat).numRef.f if (series.xVal or series.cat).numRef else None,
                 "y": (series.yVal or series.val).numRef.f,
-                "bar": series.errBars.val.numLit.pt[0].v if series.errBars and series.errBars.val and series.errBars.val.numLit else
-                       (series.errBars.val if series.errBars else None),
+                "bar": series.errBars.val if series.errBars else None,  # its length
             }
             for series in chart.series
         ],
@@ -48,7 +47,7 @@ for sheet in book:
         "widths": {name: column.width for name, column in sheet.column_dimensions.items()},
         "frozen": sheet.freeze_panes,
         "filter": sheet.auto_filter.ref,
-        "tables": {name: table.ref for name, table in sheet.tables.items()},
+        "tables": dict(sheet.tables.items()),
         "charts": [chart_of(chart) for chart in sheet._charts],
     }
 json.dump({"active": book.active.title, "created": str(book.properties.created), "sheets": sheets,
