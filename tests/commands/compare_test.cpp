@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "commands/program.h"
 
@@ -100,6 +101,19 @@ TEST(CompareCommand, OfASweepGivesTheSweepsTable) {
   ASSERT_EQ(run.code, 0) << run.err;
   for (const char* file : {"summary.csv", "repeats.csv"})
     EXPECT_EQ(here.read(std::string("output/comparison/") + file), here.read(std::string("swept/") + file)) << file;
+}
+
+TEST(CompareCommand, TakesASweepsRunsInTheOrderOfTheirNumbers) {
+  const Workplace here;
+  make_runs(here);
+  ASSERT_EQ(
+      here.shell("mkdir -p one/runs && for n in r9999 r10000 r0010 r002 last; do cp -r runs/a one/runs/$n; done").code,
+      0);
+  ASSERT_EQ(here.carom({"compare", "one"}).code, 0);
+  std::istringstream rows(here.read("output/comparison/summary.csv"));
+  std::string ids;
+  for (std::string row; std::getline(rows, row);) ids += row.substr(0, row.find(',') + 1);
+  EXPECT_EQ(ids, "run,last,r002,r0010,r9999,r10000,");
 }
 
 TEST(CompareCommand, TakesRunsThatDifferInTheSeedAsRepeats) {
