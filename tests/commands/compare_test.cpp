@@ -99,7 +99,7 @@ TEST(CompareCommand, OfASweepGivesTheSweepsTable) {
   ASSERT_EQ(sweep.code, 0) << sweep.err;
   const Finished run = here.carom({"compare", "swept"});
   ASSERT_EQ(run.code, 0) << run.err;
-  for (const char* file : {"summary.csv", "repeats.csv"})
+  for (const char* file : {"summary.csv", "repeats.csv", "comparison.xlsx"})
     EXPECT_EQ(here.read(std::string("output/comparison/") + file), here.read(std::string("swept/") + file)) << file;
 }
 
