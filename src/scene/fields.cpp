@@ -1,7 +1,5 @@
 #include "scene/fields.h"
 
-#include <fmt/format.h>
-
 #include <cstdlib>
 
 namespace carom {
@@ -207,6 +205,9 @@ constexpr Field output_fields[] = {
     {.key = "frames", .type = Type::part_or_flag, .of = "frames", .doc = "frames/frame_00000.png and on."},
     {.key = "video", .type = Type::part_or_flag, .of = "video", .doc = "A film, H.264."},
     {.key = "sheet", .type = Type::part_or_flag, .of = "sheet", .doc = "sheet.png: pictures from start to end side by side."},
+    {.key = "vtk", .type = Type::part_or_flag, .of = "vtk", .doc = "For ParaView: trajectory.pvd, vtk/bodies_00000.vtp and on, surfaces.vtp."},
+    {.key = "xyz", .type = Type::part_or_flag, .of = "xyz", .doc = "For OVITO: trajectory.xyz, extended XYZ."},
+    {.key = "gltf", .type = Type::part_or_flag, .of = "gltf", .doc = "For Blender: animation.glb, the scene and its motion."},
 };
 
 constexpr std::string_view thirtieth = "0.03333333333333333";  // 1/30, to the last bit
@@ -223,6 +224,18 @@ constexpr Field energy_fields[] = {
 
 constexpr Field contacts_fields[] = {
     {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .initial = thirtieth, .doc = "Time between rows."},
+};
+
+constexpr Field vtk_fields[] = {
+    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .initial = thirtieth, .doc = "Time between files."},
+};
+
+constexpr Field xyz_fields[] = {
+    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .initial = thirtieth, .doc = "Time between frames."},
+};
+
+constexpr Field gltf_fields[] = {
+    {.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .initial = "30", .doc = "Keys a second; one more at the end."},
 };
 
 constexpr Field fps{.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .initial = "30", .doc = "Pictures a second."};
@@ -275,6 +288,9 @@ constexpr Kind all_kinds[] = {
     {"frames", "", "One PNG a picture.", frames_fields},
     {"video", "", "A film; what it does not say itself is taken from frames.", video_fields},
     {"sheet", "", "A contact sheet.", sheet_fields},
+    {"vtk", "", "Files for ParaView.", vtk_fields},
+    {"xyz", "", "A file for OVITO.", xyz_fields},
+    {"gltf", "", "An animation for Blender.", gltf_fields},
 };
 
 }  // namespace
@@ -296,102 +312,6 @@ const Field* find_field(const Kind& kind, std::string_view key) {
     if (field.key == key) return &field;
   }
   return nullptr;
-}
-
-bool contains(const Range& range, double value) {
-  return (range.above_min ? value > range.min : value >= range.min) &&
-         (range.below_max ? value < range.max : value <= range.max);
-}
-
-std::string describe(const Range& range) {
-  if (range.min == range.max) return fmt::format("{}", range.min);
-  const bool low = range.min > -infinity, high = range.max < infinity;
-  if (low && high) {
-    return range.above_min || range.below_max ? fmt::format("between {} and {}", range.min, range.max)
-                                              : fmt::format("from {} to {}", range.min, range.max);
-  }
-  if (low) return range.above_min ? fmt::format("above {}", range.min) : fmt::format("of at least {}", range.min);
-  if (high) return fmt::format("of at most {}", range.max);
-  return {};
-}
-
-std::vector<std::string_view> parts_of(std::string_view text) {
-  std::vector<std::string_view> out;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t end = std::min(text.find('|', i), text.size());
-    out.push_back(text.substr(i, end - i));
-    i = end + 1;
-  }
-  return out;
-}
-
-std::vector<std::string_view> rivals(const Field& field) {
-  std::vector<std::string_view> out = parts_of(field.one_of);
-  std::erase(out, field.key);
-  return out;
-}
-
-std::vector<std::string_view> choices(const Field& field) {
-  return parts_of(field.of);
-}
-
-std::string listed(const std::vector<std::string_view>& words) {
-  std::string out;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) out += i + 1 == words.size() ? " or " : ", ";
-    out += words[i];
-  }
-  return out;
-}
-
-std::string expected(const Field& field) {
-  const std::string range = describe(field.range);
-  const std::string limits = range.empty() ? "" : " " + range;
-  const std::string unit = field.unit.empty() ? "" : fmt::format(" in {}", field.unit);
-  switch (field.type) {
-    case Type::number:
-      return fmt::format("a number{}{}", limits, unit);
-    case Type::whole:
-      return field.range.min == field.range.max ? range : fmt::format("a whole number{}", limits);
-    case Type::flag:
-      return "true or false";
-    case Type::text:
-      return "a text";
-    case Type::choice:
-      return listed(choices(field));
-    case Type::vector:
-      return fmt::format("[x, y, z], three numbers{}{}", limits, unit);
-    case Type::direction:
-      return "[x, y, z], three numbers, not all zero";
-    case Type::extent:
-      return fmt::format("[width, height], two numbers{}{}", limits, unit);
-    case Type::pixels:
-      return fmt::format("[width, height], two whole numbers{}{}", limits, unit);
-    case Type::color:
-      return "a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
-    case Type::file:
-      return "the path of a file, from the folder of the scene";
-    case Type::two_names:
-      return "[name, name]";
-    case Type::names:
-      return "a list of names, such as [red, gas.3]";
-    case Type::part:
-      return "a map of keys";
-    case Type::part_or_flag:
-      return "true, false or a map of keys";
-    case Type::named:
-      return "a map from names to what they are";
-    case Type::list:
-      return "a list";
-    case Type::settings:
-      return "a map from paths to values, such as {balls.red.mass: 2}";
-    case Type::axes:
-      return "a map from paths to lists or ranges, such as {balls.red.mass: [1, 2]} or {balls.red.mass: {from: 1, to: "
-             "2, count: 3}}";
-    case Type::cases:
-      return "a list of maps from paths to values, such as [{balls.red.mass: 2}]";
-  }
-  return {};
 }
 
 }  // namespace carom
