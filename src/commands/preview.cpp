@@ -11,12 +11,6 @@ namespace carom {
 
 namespace {
 
-Size picture_size(const Output& output) {
-  if (output.frames) return output.frames->size;
-  if (output.video) return output.video->size;
-  return {};
-}
-
 // The picture's axis that +x lies along most; ahead and back only where it has no length in the picture at all.
 std::string direction_of_plus_x(const View& view) {
   const double right = view.right.x(), up = view.up.x();
