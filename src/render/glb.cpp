@@ -135,6 +135,14 @@ class Builder {
     return found->second;
   }
 
+  /// Of the camera or a light, which may be called as a thing is.
+  std::string free_name(const std::string& name) const {
+    std::string free = name;
+    const auto taken = [&](const GlbNode& node) { return node.name == free; };
+    for (int i = 2; std::any_of(nodes_.begin(), nodes_.end(), taken); ++i) free = fmt::format("{} {}", name, i);
+    return free;
+  }
+
   void add_body(const BodyRange& range, Entity body) {
     const Volume volume = scene_.world.volume_of(body);
     GlbNode node{scene_.roster.name(body), scene_.initial.position[body]};
@@ -158,7 +166,7 @@ class Builder {
     const Camera camera = camera_of(scene_);
     const Size size = picture_size(scene_.output);
     const View view = view_of(camera, size);
-    GlbNode eye{"camera", camera.eye, rotation_to(view.right, view.up, -view.forward)};
+    GlbNode eye{free_name("camera"), camera.eye, rotation_to(view.right, view.up, -view.forward)};
     eye.camera = GlbCamera{static_cast<double>(size.width) / size.height, view.fov_y * std::numbers::pi / 180,
                            camera.near, camera.far};
     nodes_.push_back(std::move(eye));
@@ -168,7 +176,7 @@ class Builder {
       } else {
         // It weakens with distance here: it is as bright as it should be where the camera looks.
         const double distance2 = (camera.target - *light.position).squaredNorm();
-        GlbNode node{light.name, *light.position};
+        GlbNode node{free_name(light.name), *light.position};
         node.light = GlbLight{light.name, false, linear(light.color), usual * light.intensity * distance2};
         nodes_.push_back(std::move(node));
       }
@@ -181,7 +189,7 @@ class Builder {
 
   void add_sun(const std::string& name, const Vec3& towards, const std::array<float, 3>& color, double intensity) {
     const Vec3 right = (std::abs(towards.y()) < 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0)).cross(towards).normalized();
-    GlbNode node{name};
+    GlbNode node{free_name(name)};
     node.rotation = rotation_to(right, towards.cross(right), towards);
     node.light = GlbLight{name, true, color, usual * intensity};
     nodes_.push_back(std::move(node));

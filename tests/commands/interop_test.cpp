@@ -1,5 +1,6 @@
 // What a run writes for other programs, read back by programs of others' making.
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <fstream>
 #include <iterator>
@@ -70,6 +71,29 @@ TEST(Interop, OnlyAddsThemWithDefaultSettings) {
   ASSERT_EQ(here.carom({"run", "balls.yaml", "--only", "energy", "--force", "-q"}).code, 0);
   EXPECT_EQ(here.files("output/balls").size(), 4U);
   EXPECT_FALSE(here.has("output/balls/vtk"));
+}
+
+TEST(Interop, AnInterruptedRunLeavesWholeFilesThatTheNextOneTakesAway) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("output: {vtk: {every: 2e-4}, xyz: true, gltf: true}\n"));
+  const Finished done = here.interrupted({"run", "balls.yaml", "--set", "simulate.duration=10"},
+                                         "output/balls/vtk/bodies_00010.vtp", SIGTERM);
+  ASSERT_EQ(done.code, 143) << done.err;
+  for (const auto& [name, content] : here.files("output/balls")) {
+    EXPECT_TRUE(name == "scene.yaml" || name.starts_with("vtk/bodies_")) << name;
+    if (name != "scene.yaml") EXPECT_TRUE(content.ends_with("</VTKFile>\n")) << name;
+  }
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "--set", "simulate.duration=10", "--only", "energy", "-q"}).code, 0);
+  EXPECT_FALSE(here.has("output/balls/vtk"));
+}
+
+TEST(Interop, TheSunIsNoBodyOfThatName) {
+  const Workplace here;
+  ASSERT_EQ(here.carom({"run", SCENES_DIR "/comet.yaml", "-q", "--set", "simulate.duration=1", "--set",
+                        "output={trajectory: {every: 0.25}}", "--set", "output.gltf={fps: 4}"})
+                .code,
+            0);
+  EXPECT_EQ(read_back(here, "output/comet"), "gltf\n");
 }
 
 TEST(Interop, TooManyFilesAndKeysAreRefused) {
