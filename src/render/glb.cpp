@@ -46,7 +46,8 @@ aiMesh* mesh_of(const Mesh& mesh, std::size_t material, const std::string& name)
   out->mVertices = new aiVector3D[mesh.vertices.size()];
   std::transform(mesh.vertices.begin(), mesh.vertices.end(), out->mVertices, vector_of);
   out->mNormals = new aiVector3D[mesh.normals.size()];
-  std::transform(mesh.normals.begin(), mesh.normals.end(), out->mNormals, vector_of);
+  std::transform(mesh.normals.begin(), mesh.normals.end(), out->mNormals,
+                 [](const Vec3& n) { return vector_of(n.isZero(0) ? Vec3(0, 1, 0) : n); });
   out->mNumFaces = static_cast<unsigned>(mesh.triangles.size() / 3);
   out->mFaces = new aiFace[out->mNumFaces];
   for (std::size_t i = 0; i < out->mNumFaces; ++i) {
