@@ -210,6 +210,9 @@ constexpr Field output_fields[] = {
     {.key = "frames", .type = Type::part_or_flag, .of = "frames", .doc = "frames/frame_00000.png and on.", .example = "{fps: 30, size: [1280, 720]}"},
     {.key = "video", .type = Type::part_or_flag, .of = "video", .doc = "A film, H.264.", .example = "true"},
     {.key = "sheet", .type = Type::part_or_flag, .of = "sheet", .doc = "sheet.png: pictures from start to end side by side.", .example = "{columns: 4, rows: 3}"},
+    {.key = "vtk", .type = Type::part_or_flag, .of = "vtk", .doc = "For ParaView: trajectory.pvd, vtk/bodies_00000.vtp and on, surfaces.vtp.", .example = "{every: 0.1}"},
+    {.key = "xyz", .type = Type::part_or_flag, .of = "xyz", .doc = "For OVITO: trajectory.xyz, extended XYZ.", .example = "{every: 0.1}"},
+    {.key = "gltf", .type = Type::part_or_flag, .of = "gltf", .doc = "For Blender: animation.glb, the scene and its motion.", .example = "{fps: 24}"},
 };
 
 constexpr std::string_view thirtieth = "0.03333333333333333";  // 1/30, to the last bit
@@ -226,6 +229,18 @@ constexpr Field energy_fields[] = {
 
 constexpr Field contacts_fields[] = {
     {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .initial = thirtieth, .doc = "Time between rows.", .example = "0.1", .title = "Time between rows"},
+};
+
+constexpr Field vtk_fields[] = {
+    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .initial = thirtieth, .doc = "Time between files.", .example = "0.1", .title = "Time between files"},
+};
+
+constexpr Field xyz_fields[] = {
+    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .initial = thirtieth, .doc = "Time between frames.", .example = "0.1", .title = "Time between frames"},
+};
+
+constexpr Field gltf_fields[] = {
+    {.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .initial = "30", .doc = "Keys a second; one more at the end.", .example = "24", .title = "Keys a second"},
 };
 
 constexpr Field fps{.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .initial = "30", .doc = "Pictures a second.", .example = "25", .title = "Pictures a second"};
@@ -281,6 +296,9 @@ constexpr Kind all_kinds[] = {
     {"frames", "", "One PNG a picture.", frames_fields},
     {"video", "", "A film; what it does not say itself is taken from frames.", video_fields, nullptr, "", "", "frames"},
     {"sheet", "", "A contact sheet.", sheet_fields},
+    {"vtk", "", "Files for ParaView.", vtk_fields},
+    {"xyz", "", "A file for OVITO.", xyz_fields},
+    {"gltf", "", "An animation for Blender.", gltf_fields},
 };
 
 }  // namespace

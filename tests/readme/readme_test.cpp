@@ -175,7 +175,7 @@ TEST(ReadmeFirstScene, IsTheFileWithoutItsComment) {
   for (std::string line; std::getline(in, line);) {
     if (!line.starts_with('#')) body += line + "\n";
   }
-  ASSERT_EQ(blocks("yaml").size(), 1u);
+  ASSERT_EQ(blocks("yaml").size(), 2u);
   EXPECT_EQ(blocks("yaml")[0], body);
 }
 
