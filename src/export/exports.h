@@ -54,9 +54,11 @@ struct RunFacts {
   std::vector<Measured> measures{};
 };
 
-/// How many trajectory rows, pictures and, roughly, bytes a run of this scene will write.
+/// How many trajectory rows, pictures and, roughly, bytes a run of this scene will write, and how long that and drawing
+/// may take.
 struct Forecast {
   std::uint64_t rows = 0, frames = 0, bytes = 0;
+  double seconds = 0;
 };
 Forecast forecast(const Scene& scene);
 

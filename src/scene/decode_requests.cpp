@@ -57,9 +57,6 @@ class Requests {
     s.step = view.number("step");
     if (s.engine == Engine::book && view.given("step") == nullptr) s.step = 1.0 / 60;
     s.tolerance = view.number("tolerance");
-    if (s.tolerance && view.given("step") != nullptr)
-      diagnostics_.add(view.place("tolerance"), "`simulate` has both `step` and `tolerance`",
-                       "expected one of them: the step itself, or the error that it is chosen for");
     s.rest_speed = view.number("rest_speed");
     s.max_collisions = view.whole("max_collisions");
     s.as_printed = view.flag("as_printed").value_or(false);
@@ -267,9 +264,10 @@ bool wanted(const View& output, std::string_view part) {
 }
 
 View video_view(const View& output) {
-  const Node* frames = output.given("frames");
+  const Kind& video = kind_named("video");
+  const Node* frames = output.given(video.beneath);
   const Key* key = output.own() == nullptr ? nullptr : output.own()->find_key("video");
-  return View(output.given("video"), kind_named("video"), key == nullptr ? output.where() : key->place,
+  return View(output.given("video"), video, key == nullptr ? output.where() : key->place,
               frames != nullptr && frames->is(Node::Kind::map) ? frames : nullptr);
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/fields.h"
 
@@ -10,11 +11,16 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+std::string capital(std::string text) {
+  if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
+  return text;
+}
+
 }  // namespace
 
 bool contains(const Range& range, double value) {
   return (range.above_min ? value > range.min : value >= range.min) &&
-         (range.below_max ? value < range.max : value <= range.max);
+         (range.below_max ? value < range.max : value <= range.max) && (!range.even || std::fmod(value, 2) == 0);
 }
 
 std::string describe(const Range& range) {
@@ -49,6 +55,44 @@ std::vector<std::string_view> choices(const Field& field) {
   return parts_of(field.of);
 }
 
+std::string title_of(const Field& field) {
+  std::string title(field.title.empty() ? field.key : field.title);
+  for (char& c : title) c = c == '_' ? ' ' : c;
+  return capital(std::move(title));
+}
+
+std::string described(const Field& field) {
+  std::string text(field.doc);
+  if (field.type == Type::choice) {
+    text += fmt::format(" One of {}.", expected(field));
+  } else if (field.range.min == field.range.max) {
+    text += fmt::format(" Always {}.", field.range.min);
+  } else if (held_kind(field) == nullptr) {
+    text += fmt::format(" {}.", capital(expected(field)));
+  }
+  if (!field.initial.empty()) text += fmt::format(" Default: {}.", field.initial);
+  std::vector<std::string> others;
+  for (const std::string_view rival : rivals(field)) others.push_back(fmt::format("`{}`", rival));
+  if (!others.empty()) text += fmt::format(" Not beside {}.", listed({others.begin(), others.end()}));
+  if (!field.with.empty()) text += fmt::format(" Only beside `{}`.", field.with);
+  if (!field.engines.empty()) text += fmt::format(" Only with engine {}.", listed(parts_of(field.engines)));
+  return text;
+}
+
+const Kind* held_kind(const Field& field) {
+  switch (field.type) {
+    case Type::part:
+    case Type::part_or_flag:
+    case Type::named:
+    case Type::list:
+      return &kind_named(field.of);
+    case Type::axes:
+      return &kind_named("range");
+    default:
+      return nullptr;
+  }
+}
+
 std::string listed(const std::vector<std::string_view>& words) {
   std::string out;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -66,7 +110,9 @@ std::string expected(const Field& field) {
     case Type::number:
       return fmt::format("a number{}{}", limits, unit);
     case Type::whole:
-      return field.range.min == field.range.max ? range : fmt::format("a whole number{}", limits);
+      return field.range.min == field.range.max
+                 ? range
+                 : fmt::format("{} whole number{}", field.range.even ? "an even" : "a", limits);
     case Type::flag:
       return "true or false";
     case Type::text:
@@ -80,7 +126,7 @@ std::string expected(const Field& field) {
     case Type::extent:
       return fmt::format("[width, height], two numbers{}{}", limits, unit);
     case Type::pixels:
-      return fmt::format("[width, height], two whole numbers{}{}", limits, unit);
+      return fmt::format("[width, height], two {}whole numbers{}{}", field.range.even ? "even " : "", limits, unit);
     case Type::color:
       return "a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
     case Type::file:
