@@ -122,9 +122,17 @@ const CommandText& bench_text() {
       "Scenes are measured one after another: --jobs is taken and changes nothing.\n\n"
       "Exit codes: 0 done, 1 a bench failed, 2 the command line or a scene is wrong, 130 or 143\n"
       "interrupted.",
-      true,
-      false,
-      true};
+      {{"--output",
+        "the bench's folder; with several scenes, the folder that\nholds theirs (output/<scene file's stem>.bench)"},
+       {"--set"},
+       {"--seed"},
+       {"--steps"},
+       {"--repeat"},
+       {"--budget"},
+       {"--reference"},
+       {"--jobs"},
+       {"--force", "overwrite other content of the folder"},
+       {"--progress"}}};
   return text;
 }
 

@@ -202,11 +202,13 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
 
 const CommandText& check_text() {
   static const CommandText text = {
-      "check", "shows what a run would do and all that is wrong with scenes, and writes nothing",
+      "check",
+      "shows what a run would do and all that is wrong with scenes, and writes nothing",
       "  carom check scenes/two_bowling_balls.yaml\n"
       "  carom check scenes/*.yaml -q                          only what is wrong\n"
       "  carom check scene.yaml --set simulate.duration=60     is it still of a size to run?\n",
-      "Exit codes: 0 all scenes are right, 2 the command line or a scene is wrong.", false};
+      "Exit codes: 0 all scenes are right, 2 the command line or a scene is wrong.",
+      {{"--output"}, {"--set"}, {"--only"}, {"--seed"}, {"--force", "lift the budget"}}};
   return text;
 }
 

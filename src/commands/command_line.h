@@ -2,9 +2,11 @@
 // The words of the command line -> options, or a text that says what is wrong and what to do. The only place with
 // CLI11, whose own texts and exit codes the user never meets.
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "commands/terminal.h"
@@ -21,12 +23,12 @@ enum class ProgressChoice { automatic, bar, lines, none };
 
 /// What one command was asked to do. A command that lacks an option leaves its default.
 struct Options {
-  std::vector<std::string> scenes;               // files, in order, at least one
+  std::vector<std::string> operands;             // scene files or what else the command takes, in order
   std::optional<std::string> output;             // folder
   std::vector<std::string> set;                  // path=value
   std::optional<std::vector<std::string>> only;  // names of outputs, none empty
   std::optional<std::uint64_t> seed;
-  std::uint64_t jobs = 1;  // scenes at a time; no result depends on it
+  std::optional<std::uint64_t> jobs;  // at a time; no result depends on it
   bool force = false;
   bool quiet = false;
   bool json = false;
@@ -35,15 +37,24 @@ struct Options {
   BenchOptions bench;
 };
 
-/// One command: what its help says and which options it has beyond those of all commands.
+/// An option that a command has, by its name in the table of options (options.h).
+struct OptionUse {
+  std::string_view name;       // "--jobs"
+  std::string_view help = {};  // what it means for this command; empty: the table's text
+};
+
+/// One command: what it takes, and what its help says. --color, --json, --quiet and --help are every command's.
 struct CommandText {
-  std::string name;       // "run"
-  std::string line;       // one sentence
-  std::string examples;   // lines, stand first in the help
-  std::string notes;      // lines, stand last
-  bool progress = false;  // has --progress
-  bool outputs = true;    // has --only
-  bool bench = false;     // has the options of BenchOptions
+  std::string name;                // "run"
+  std::string line;                // one sentence
+  std::string examples;            // lines, stand first in the help
+  std::string notes;               // lines, stand last
+  std::vector<OptionUse> options;  // in the order of the help
+  std::string operand = "SCENE";   // what its other words are
+  std::string operand_help = "scene files (YAML)";
+  std::size_t least = 1, most = std::numeric_limits<std::size_t>::max();  // so many of them
+  std::string missing =
+      "name a scene file: carom {} scenes/two_bowling_balls.yaml";  // what a command line with too few is told
 };
 
 /// Reads the words after the command's name. Throws UsageError. `help`: its text was asked for instead.
@@ -52,8 +63,5 @@ struct ParsedOptions {
   std::optional<std::string> help;
 };
 ParsedOptions parse_options(const CommandText& command, const std::vector<std::string>& words);
-
-/// The outputs that --only knows.
-const std::vector<std::string>& output_names();
 
 }  // namespace carom

@@ -24,7 +24,7 @@ namespace {
 
 std::string folder_of(const Options& options, const std::string& name, Purpose purpose) {
   if (!options.output) return (fs::path("output") / (purpose == Purpose::bench ? name + ".bench" : name)).string();
-  return options.scenes.size() == 1 ? *options.output : (fs::path(*options.output) / name).string();
+  return options.operands.size() == 1 ? *options.output : (fs::path(*options.output) / name).string();
 }
 
 // Two runs in one folder would overwrite each other.
@@ -102,10 +102,10 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
 }  // namespace
 
 std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose) {
-  std::vector<PlannedScene> scenes(options.scenes.size());
+  std::vector<PlannedScene> scenes(options.operands.size());
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    scenes[i].file = options.scenes[i];
-    scenes[i].name = fs::path(options.scenes[i]).stem().string();
+    scenes[i].file = options.operands[i];
+    scenes[i].name = fs::path(options.operands[i]).stem().string();
     scenes[i].folder = folder_of(options, scenes[i].name, purpose);
   }
   refuse_shared_folders(scenes);

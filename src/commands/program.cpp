@@ -28,8 +28,12 @@ const std::vector<Command>& commands() {
   return all;
 }
 
-// Commands of the scene format that this version does not have.
-const std::vector<std::string> commands_of_the_format = {"sweep", "gather", "compare", "render", "new", "schema"};
+// "run, check and bench"
+std::string command_names() {
+  std::vector<std::string> names;
+  for (const Command& command : commands()) names.push_back(command.text.name);
+  return listed(names, names.size());
+}
 
 std::string program_help() {
   std::string text =
@@ -57,10 +61,6 @@ const Command* find_command(const std::string& name) {
 }
 
 [[noreturn]] void refuse_command(const std::string& word) {
-  const auto& later = commands_of_the_format;
-  if (std::find(later.begin(), later.end(), word) != later.end()) {
-    throw UsageError(fmt::format("this version has no command {}; it has run, check and bench", carom::quoted(word)));
-  }
   if (word.starts_with('-')) {
     throw UsageError(fmt::format("options stand after the command: carom run SCENE {}", printable(word)));
   }
@@ -72,7 +72,7 @@ const Command* find_command(const std::string& name) {
   if (word.ends_with(".yaml") || word.ends_with(".yml")) {
     throw UsageError(fmt::format("name a command first: carom run {}", printable(word)));
   }
-  throw UsageError(fmt::format("no command {}; it has run, check and bench", carom::quoted(word)));
+  throw UsageError(fmt::format("no command {}; it has {}", carom::quoted(word), command_names()));
 }
 
 int usage_error(const std::string& command, const UsageError& error) {

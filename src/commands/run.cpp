@@ -7,8 +7,8 @@
 
 #include "commands/interrupt.h"
 #include "commands/plan.h"
+#include "commands/progress.h"
 #include "commands/report.h"
-#include "commands/run_scene.h"
 #include "commands/text.h"
 #include "render/renderer.h"
 
@@ -69,7 +69,12 @@ class Session {
     Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO), label(planned),
                       planned.scene->simulate.duration, planned.forecast.frames);
     try {
-      const RunResult result = run_scene(*planned.scene, planned.engine, planned.folder, planned.load_s, progress);
+      const RunWatch watch{stop_if_interrupted, [&](double time, std::uint64_t collisions, std::uint64_t pictures) {
+                             progress.update(time, collisions, pictures);
+                           }};
+      const RunResult result =
+          run_scene({planned.scene.get(), planned.folder, planned.load_s}, planned.engine, {}, watch);
+      progress.clear();
       done(planned, result);
       return 0;
     } catch (const Interrupted& interrupted) {
@@ -77,12 +82,6 @@ class Session {
     } catch (const std::bad_alloc&) {
       fail(planned, progress, "not enough memory");
     } catch (const std::exception& error) {
-      // ffmpeg hears a Ctrl-C too and ends first: what looks like an error of writing is the interrupt.
-      try {
-        stop_if_interrupted();
-      } catch (const Interrupted& interrupted) {
-        return interrupt(planned, progress, interrupted);
-      }
       fail(planned, progress, error.what());
     }
     return 0;
@@ -169,7 +168,8 @@ class Session {
 
 const CommandText& run_text() {
   static const CommandText text = {
-      "run", "simulates scenes and writes what they ask for",
+      "run",
+      "simulates scenes and writes what they ask for",
       "  carom run scenes/two_bowling_balls.yaml\n"
       "  carom run scene.yaml --only trajectory,collisions     data alone, no pictures\n"
       "  carom run scene.yaml --set balls.red.restitution=0.5 -o output/half\n"
@@ -179,7 +179,7 @@ const CommandText& run_text() {
       "Scenes run one after another: --jobs is taken and changes nothing.\n\n"
       "Exit codes: 0 done or up to date, 1 a run failed, 2 the command line or a scene is wrong,\n"
       "130 or 143 interrupted.",
-      true};
+      {{"--output"}, {"--set"}, {"--only"}, {"--seed"}, {"--jobs"}, {"--force"}, {"--progress"}}};
   return text;
 }
 

@@ -33,7 +33,7 @@ void check_film_name(const Scene& scene) {
 
 struct Exports::Impl {
   // What can be refused is refused here, before the folder is touched.
-  Impl(const Scene& the_scene, const std::string& path)
+  Impl(const Scene& the_scene, const std::string& path, Durability durability)
       : scene(the_scene), timeline(the_scene.simulate.duration), plan(plan_pictures(the_scene)) {
     const Output& output = scene.output;
     check_film_name(scene);
@@ -41,7 +41,7 @@ struct Exports::Impl {
     std::optional<FilmTools> tools;
     if (output.video) tools = find_film_tools();
 
-    folder.emplace(path);
+    folder.emplace(path, durability);
     first_records = folder->begin(scene, meshes);
     const FilePlace& place = folder->place();
     if (output.trajectory) {
@@ -94,7 +94,8 @@ struct Exports::Impl {
   std::optional<Sheet> sheet;
 };
 
-Exports::Exports(const Scene& scene, const std::string& folder) : impl_(std::make_unique<Impl>(scene, folder)) {}
+Exports::Exports(const Scene& scene, const std::string& folder, Durability durability)
+    : impl_(std::make_unique<Impl>(scene, folder, durability)) {}
 
 Exports::~Exports() = default;
 

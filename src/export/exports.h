@@ -40,10 +40,17 @@ struct Summary {
   std::uint64_t collapses = 0;  // clusters taken into contact
 };
 
+/// A quantity of the run's end that somebody asked for; not finite: undefined.
+struct Measured {
+  std::string name;  // "balls.red.speed_m_per_s"
+  double value = 0;
+};
+
 /// How the run went, for manifest.json alone (nothing here may stand in a CSV).
 struct RunFacts {
   double load_s = 0, simulate_s = 0, render_s = 0, export_s = 0;  // wall times, of the thread that runs the scene
   std::uint64_t peak_memory = 0;                                  // bytes
+  std::vector<Measured> measures{};
 };
 
 /// How many trajectory rows, pictures and, roughly, bytes a run of this scene will write.
@@ -58,7 +65,7 @@ class Exports {
   /// Removes what a former run left there (by its manifest). What can be known to fail is refused before anything is
   /// touched: ffmpeg missing, a video without pictures, a sheet too large. `scene` must outlive this. Throws
   /// ExportError.
-  Exports(const Scene& scene, const std::string& folder);
+  Exports(const Scene& scene, const std::string& folder, Durability durability = Durability::synced);
   /// Without finish(): what was not whole is removed; frames that are whole stay.
   ~Exports();
   Exports(const Exports&) = delete;

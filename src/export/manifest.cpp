@@ -1,6 +1,7 @@
 #include "export/manifest.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -97,6 +98,8 @@ std::string manifest_text(const Scene& scene, const Summary& summary, const RunF
   json["wall_times_s"] = {
       {"load", facts.load_s}, {"simulate", facts.simulate_s}, {"render", facts.render_s}, {"export", facts.export_s}};
   json["peak_memory_bytes"] = facts.peak_memory;
+  for (const Measured& measure : facts.measures)
+    json["measures"][measure.name] = std::isfinite(measure.value) ? Json(measure.value) : Json();
   return manifest_text(scene, outputs_text(scene.output), to_text(json, -1), files);
 }
 

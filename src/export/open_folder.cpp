@@ -67,7 +67,7 @@ Descriptor open_folder(int parent, const std::string& name, bool follow) {
   return Descriptor(openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | (follow ? 0 : O_NOFOLLOW)));
 }
 
-OpenFolder::OpenFolder(const std::string& path) {
+OpenFolder::OpenFolder(const std::string& path, Durability durability) : durability_(durability) {
   place_.path = path.empty() ? "." : path;
   while (place_.path.size() > 1 && place_.path.ends_with('/')) place_.path.pop_back();
   std::error_code error;
@@ -153,10 +153,12 @@ void OpenFolder::publish(const std::vector<OutputFile*>& files, OutputFile& mani
 }
 
 void OpenFolder::sync_all() {
+  if (durability_ == Durability::deferred) return;
   if (syncfs(place_.folder) != 0) fail("write", place_, "");
 }
 
 void OpenFolder::sync_names() {
+  if (durability_ == Durability::deferred) return;
   // Some file systems cannot sync a folder, and need not.
   if (fsync(place_.folder) != 0 && errno != EINVAL && errno != ENOTSUP) fail("write", place_, "");
 }

@@ -6,6 +6,7 @@
 
 #include "export/mesh_copies.h"
 #include "export/output_file.h"
+#include "export/run_folder.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -17,7 +18,7 @@ class OpenFolder {
  public:
   /// Makes the folder and its parents if need be, and locks it against other runs. Throws ExportError, as all of this
   /// class does.
-  explicit OpenFolder(const std::string& path);
+  explicit OpenFolder(const std::string& path, Durability durability = Durability::synced);
   /// Without keep(): takes back scene.yaml and meshes, and the folders that are empty then and that this run made.
   ~OpenFolder();
   OpenFolder(const OpenFolder&) = delete;
@@ -43,6 +44,7 @@ class OpenFolder {
   void sync_all();    // all that was written to its file system, to the disk
   void sync_names();  // what was renamed in it
 
+  Durability durability_;
   Descriptor folder_, frames_;
   FilePlace place_;
   bool made_ = false, keep_ = false;

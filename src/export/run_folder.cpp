@@ -1,6 +1,7 @@
 #include "export/run_folder.h"
 
 #include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -63,6 +64,11 @@ bool has_more(int folder, const Manifest& manifest, const Scene& scene, const st
 }
 
 }  // namespace
+
+void sync_file_system(const std::string& path) {
+  const Descriptor folder = open_folder(AT_FDCWD, path, true);
+  if (!folder || syncfs(folder.get()) != 0) fail("write", {-1, path}, "");
+}
 
 FolderContent inspect_folder(const std::string& path, const Scene& scene) {
   return inspect_folder(path, scene, outputs_text(scene.output), run_files(scene, scene.output));

@@ -13,6 +13,13 @@ struct ExportError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Whether what was written outlasts a power cut once it has its name. Not synced, it may be lost then, which a reader
+/// sees by size and hash; of many small runs the caller syncs the file system now and then (sync_file_system).
+enum class Durability { synced, deferred };
+
+/// All that was written to the file system of `path`, to the disk. Throws ExportError.
+void sync_file_system(const std::string& path);
+
 enum class FolderContent {
   nothing,     // it is not there, or empty
   this_run,    // this very run, by the same tool, whole: every file of the manifest has its size and hash

@@ -1,0 +1,170 @@
+#include "commands/options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "scene/diagnostics.h"
+
+namespace carom {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+const std::string& single(const Words& words, std::string_view option) {
+  if (words.size() > 1) throw UsageError(fmt::format("{} is given {} times", option, words.size()));
+  if (words.front().empty()) throw UsageError(fmt::format("{} is given an empty value", option));
+  return words.front();
+}
+
+template <typename Choice>
+Choice chosen(const Words& words, std::string_view option, std::span<const std::string_view> names) {
+  const std::string& word = single(words, option);
+  const auto found = std::find(names.begin(), names.end(), word);
+  if (found == names.end()) {
+    throw UsageError(fmt::format("{} is {}, not {}{}", option, fmt::join(names, ", "), carom::quoted(word),
+                                 did_you_mean(word, {names.begin(), names.end()})));
+  }
+  return static_cast<Choice>(found - names.begin());
+}
+
+std::uint64_t whole(const Words& words, std::string_view option, std::uint64_t least, std::uint64_t most) {
+  const std::string& word = single(words, option);
+  std::uint64_t value = 0;
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  if (error != std::errc() || stop != end || value < least || value > most) {
+    throw UsageError(
+        fmt::format("{} is a whole number from {} to {}, not {}", option, least, most, carom::quoted(word)));
+  }
+  return value;
+}
+
+/// A positive number.
+double number(const std::string& word, std::string_view option) {
+  double value = 0;
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  if (error != std::errc() || stop != end || !(value > 0) || !std::isfinite(value))
+    throw UsageError(fmt::format("{} takes a number above 0, not {}", option, carom::quoted(word)));
+  return value;
+}
+
+void read_set(Options& options, const Words& words) {
+  options.set = words;
+  for (const std::string& set : words) {
+    if (const std::size_t equals = set.find('='); equals == std::string::npos || equals == 0)
+      throw UsageError(fmt::format("--set takes path=value, balls.red.mass=2 say, not {}", carom::quoted(set)));
+  }
+}
+
+void read_only(Options& options, const Words& words) {
+  std::vector<std::string> only;
+  for (const std::string& list : words) {
+    for (std::size_t begin = 0; begin <= list.size();) {
+      const std::size_t end = std::min(list.find(',', begin), list.size());
+      const std::string name = list.substr(begin, end - begin);
+      begin = end + 1;
+      const auto& known = output_names();
+      if (std::find(known.begin(), known.end(), name) == known.end()) {
+        throw UsageError(fmt::format("--only takes {}, not {}{}", fmt::join(known, ", "), carom::quoted(name),
+                                     did_you_mean(name, known)));
+      }
+      if (std::find(only.begin(), only.end(), name) == only.end()) only.push_back(name);
+    }
+  }
+  options.only = std::move(only);
+}
+
+void read_steps(Options& options, const Words& words) {
+  constexpr double most_halvings = 30;
+  const std::string& steps = single(words, "--steps");
+  const std::size_t colon = steps.find(':');
+  BenchOptions& bench = options.bench;
+  bench.longest = number(steps.substr(0, colon), "--steps");
+  bench.shortest = colon == std::string::npos ? bench.longest : number(steps.substr(colon + 1), "--steps");
+  if (!(*bench.shortest <= *bench.longest))
+    throw UsageError(
+        fmt::format("--steps goes from the longest step to the shortest, 0.1:0.001 say, not {}", carom::quoted(steps)));
+  if (std::log2(*bench.longest / *bench.shortest) > most_halvings)
+    throw UsageError(
+        fmt::format("--steps halves at most {} times, not as often as {}", most_halvings, carom::quoted(steps)));
+}
+
+constexpr std::array<std::string_view, 4> progress_names = {"auto", "bar", "lines", "none"};
+constexpr std::array<std::string_view, 3> color_names = {"auto", "always", "never"};
+constexpr std::array<std::string_view, 2> reference_names = {"exact", "stepped"};
+
+const Option table[] = {
+    {"--output", "-o", "DIR",
+     "the run's folder; with several scenes, the folder that\nholds theirs (output/<scene file's stem>)",
+     [](Options& o, const Words& w) { o.output = single(w, "--output"); }},
+    {"--set", "", "PATH=VALUE", "change a value of the scene, balls.red.mass=2 say;\nmay be repeated", read_set},
+    {"--only", "", "LIST",
+     "write these outputs alone, of trajectory, collisions,\n"
+     "energy, contacts, frames, video, sheet; one that the\n"
+     "scene does not ask for is written with default settings",
+     read_only},
+    {"--seed", "", "N", "the scene's seed",
+     [](Options& o, const Words& w) { o.seed = whole(w, "--seed", 0, std::numeric_limits<std::uint64_t>::max()); }},
+    {"--steps", "", "FROM:TO", "step sizes in s, from FROM down to TO by halves (by\nthe scene: ten halvings)",
+     read_steps},
+    {"--repeat", "", "N", "timed runs of each row, at most (5)",
+     [](Options& o, const Words& w) { o.bench.repeat = static_cast<int>(whole(w, "--repeat", 1, 1000)); }},
+    {"--budget", "", "SECONDS", "of CPU time for each scene, roughly; steps that cost\nmore are left out (20)",
+     [](Options& o, const Words& w) { o.bench.budget = number(single(w, "--budget"), "--budget"); }},
+    {"--reference", "", "ENGINE", "exact or stepped (exact, if it has all that the scene\nasks for)",
+     [](Options& o, const Words& w) {
+       o.bench.reference = chosen<int>(w, "--reference", reference_names) == 0 ? Engine::exact : Engine::stepped;
+     },
+     reference_names},
+    {"--jobs", "-j", "N", "at most N scenes at a time; changes no result",
+     [](Options& o, const Words& w) { o.jobs = whole(w, "--jobs", 1, 4096); }},
+    {"--force", "", "", "overwrite other content of the folder, run again what\nis up to date, lift the budget",
+     [](Options& o, const Words&) { o.force = true; }},
+    {"--progress", "", "HOW", "auto, bar, lines or none (auto: a bar on a terminal,\nlines elsewhere)",
+     [](Options& o, const Words& w) { o.progress = chosen<ProgressChoice>(w, "--progress", progress_names); },
+     progress_names},
+    {"--color", "", "WHEN", "auto, always or never (auto: on a terminal, unless\nNO_COLOR is set)",
+     [](Options& o, const Words& w) { o.color = chosen<ColorChoice>(w, "--color", color_names); }, color_names},
+    {"--json", "", "", "results as one JSON document", [](Options& o, const Words&) { o.json = true; }},
+    {"--quiet", "-q", "", "nothing but errors, and the document of --json",
+     [](Options& o, const Words&) { o.quiet = true; }},
+};
+
+}  // namespace
+
+const Option& option_named(std::string_view name) {
+  for (const Option& option : table) {
+    if (option.name == name) return option;
+  }
+  std::abort();  // a command names an option that the table does not have
+}
+
+std::vector<OptionUse> options_of(const CommandText& command) {
+  std::vector<OptionUse> options = command.options;
+  for (const std::string_view name : {"--color", "--json", "--quiet"}) options.push_back({name});
+  for (OptionUse& use : options)
+    if (use.help.empty()) use.help = option_named(use.name).help;
+  return options;
+}
+
+const std::vector<std::string>& output_names() {
+  static const std::vector<std::string> names = {"trajectory", "collisions", "energy", "contacts",
+                                                 "frames",     "video",      "sheet"};
+  return names;
+}
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
+  const std::string name = nearest(word, {known.begin(), known.end()});
+  return name.empty() ? "" : fmt::format("; did you mean {}?", carom::quoted(name));
+}
+
+}  // namespace carom

@@ -1,0 +1,277 @@
+#include "study/run_scene.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "physics/energy.h"
+#include "render/renderer.h"
+
+namespace carom {
+
+namespace {
+
+/// Adds the time from its making to its end to `sum` (s).
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& sum) : sum_(sum) {}
+  ~Stopwatch() { sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& sum_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::uint64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+double energy(const Scene& scene, const State& state) {
+  return kinetic_energy(scene.world, state) + potential_energy(scene.world, state);
+}
+
+/// One show on its way.
+class Stage {
+ public:
+  Stage(const Show& show, const RunSettings& settings)
+      : scene(*show.scene), exports(scene, show.folder, settings.durability), renderers_(exports.pictures().size()) {
+    facts.load_s = show.load_s;
+    more = exports.timeline().advance();
+  }
+
+  double time() { return exports.timeline().time(); }  // s, of its next instant
+
+  /// Writes and draws what is due now. `look`, `tell`: of the watch.
+  template <typename Look, typename Tell>
+  void sample(Simulator& simulator, const Look& look, const Tell& tell) {
+    if (exports.wants_state()) {
+      const State& state = simulator.state();
+      {
+        const Stopwatch watch(facts.export_s);
+        exports.sample(state, exports.wants_contacts() ? simulator.contacts() : std::span<const ContactForce>{});
+      }
+      draw_what_is_due(state, look, tell);
+    }
+    more = exports.timeline().advance();
+  }
+
+  const Scene& scene;
+  RunFacts facts;
+  Exports exports;
+  bool more = false;  // whether there is a next instant
+
+ private:
+  template <typename Look, typename Tell>
+  void draw_what_is_due(const State& state, const Look& look, const Tell& tell) {
+    const std::vector<PictureStream>& streams = exports.pictures();
+    for (std::size_t i = 0; i < streams.size(); ++i) {
+      if (!exports.timeline().due(streams[i].timeline_stream)) continue;
+      look();
+      const Image* image = nullptr;
+      bool again = false;
+      {
+        const Stopwatch watch(facts.render_s);
+        // Made at the first picture that is due, and never for a scene that wants none: no OpenGL context, no mesh.
+        if (!renderers_[i]) renderers_[i] = std::make_unique<Renderer>(scene, streams[i].size, streams[i].samples);
+        const std::uint64_t before = renderers_[i]->drawn();
+        image = &renderers_[i]->draw(state);
+        again = renderers_[i]->drawn() == before;
+      }
+      {
+        const Stopwatch watch(facts.export_s);
+        exports.picture(i, *image, again);
+      }
+      tell();
+    }
+  }
+
+  std::vector<std::unique_ptr<Renderer>> renderers_;  // by picture stream
+};
+
+// Momentum just after the impulses given at time 0.
+Vec3 starting_momentum(const Scene& scene) {
+  Vec3 sum = momentum(scene.world, scene.initial);
+  for (const Vec3& impulse : scene.world.impulse) sum += impulse;
+  return sum;
+}
+
+// The energy at the start is that of energy.csv's first row: the exact engine's bodies have their impulses by then, the
+// book engine's get theirs as a force of the first frame, whose work counts. What energy the collisions, work and
+// motion do not account for is the residual: zero but for rounding.
+Summary summarize(const Scene& scene, const EngineChoice& engine, double energy_start, const State& end,
+                  const Tally& tally) {
+  Summary summary;
+  summary.title = scene.title;
+  summary.engine = engine.name;
+  summary.status = "done";
+  summary.duration = scene.simulate.duration;
+  summary.bodies = scene.world.body_count();
+  summary.collisions = tally.collisions();
+  summary.body_body = tally.body_body;
+  summary.body_fixed = tally.body_fixed;
+  summary.first_collision = tally.first_collision;
+  summary.last_collision = tally.last_collision;
+  summary.energy_start = energy_start;
+  summary.energy_end = energy(scene, end);
+  summary.energy_lost = tally.energy_lost;
+  summary.work = tally.work;
+  summary.energy_residual = summary.energy_end - summary.energy_start - summary.work + summary.energy_lost;
+  summary.momentum_drift = (momentum(scene.world, end) - starting_momentum(scene)).norm();
+  summary.max_overlap = tally.max_overlap;
+  summary.max_speed = tally.max_speed;
+  summary.resting = tally.resting;
+  summary.merges = tally.merges;
+  summary.collapses = tally.collapses;
+  return summary;
+}
+
+class Run {
+ public:
+  Run(std::span<const Show> shows, const EngineChoice& engine, const RunSettings& settings, const RunWatch& watch)
+      : shows_(shows), settings_(settings), watch_(watch), engine_(engine), results_(shows.size()) {
+    for (std::size_t i = 0; i < shows.size(); ++i) {
+      stages_.emplace_back();
+      guarded(i, [&] { stages_[i] = std::make_unique<Stage>(shows[i], settings); });
+    }
+    const Stopwatch stopwatch(simulate_s_);
+    settle_step(scene(), engine_, watch_.look);
+    const bool record =
+        std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.collisions; });
+    simulator_ = make_simulator(scene(), record, engine_.step);
+    energy_start_ = energy(scene(), simulator_->state());
+  }
+
+  void go() {
+    while (const std::optional<double> time = next_instant()) {
+      carry_to(*time);
+      for (std::size_t i = 0; i < stages_.size(); ++i) {
+        if (stages_[i] && stages_[i]->more && stages_[i]->time() <= *time)
+          guarded(i, [&] { stages_[i]->sample(*simulator_, watch_.look, [&] { tell(); }); });
+      }
+    }
+  }
+
+  std::vector<RunResult> finish() {
+    for (std::size_t i = 0; i < stages_.size(); ++i)
+      if (stages_[i]) guarded(i, [&] { finish(i); });
+    return std::move(results_);
+  }
+
+ private:
+  const Scene& scene() const { return *shows_.front().scene; }  // whose motion it is
+
+  /// What fails for one of several shows is no other's failure.
+  template <typename Work>
+  void guarded(std::size_t i, const Work& work) {
+    try {
+      work();
+    } catch (const std::exception&) {
+      watch_.look();  // ffmpeg hears a Ctrl-C too and ends first: what looks like an error of writing is the interrupt
+      if (shows_.size() == 1) throw;
+      results_[i].failure = std::current_exception();
+      stages_[i].reset();
+    }
+  }
+
+  std::optional<double> next_instant() const {
+    std::optional<double> next;
+    for (const auto& stage : stages_)
+      if (stage && stage->more && !(next && *next <= stage->time())) next = stage->time();
+    return next;
+  }
+
+  // In slices, so that a signal is heard and progress shown where no output is due for long. Looking moves nothing, so
+  // the slices change no bit of the motion.
+  void carry_to(double time) {
+    const double slice = scene().simulate.duration / 1000;
+    watch_.look();
+    while (simulator_->time() < time) {
+      const double before = simulator_->time();
+      const std::uint64_t collisions_before = simulator_->tally().collisions();
+      const double next = std::min(time, before + slice);
+      {
+        const Stopwatch watch(simulate_s_);
+        simulator_->advance_to(next > before ? next : time);
+      }
+      const std::span<const Collision> collisions = simulator_->collisions();
+      if (!collisions.empty()) {
+        record(collisions);
+      } else if (!(simulator_->time() > before) && simulator_->tally().collisions() == collisions_before) {
+        throw SimulationError("the simulator does not go on");
+      }
+      watch_.look();
+      tell();
+    }
+  }
+
+  void record(std::span<const Collision> collisions) {
+    for (std::size_t i = 0; i < stages_.size(); ++i) {
+      if (!stages_[i]) continue;
+      guarded(i, [&] {
+        const Stopwatch watch(stages_[i]->facts.export_s);
+        stages_[i]->exports.record(collisions);
+      });
+    }
+  }
+
+  void tell() const {
+    std::uint64_t pictures = 0;
+    for (const auto& stage : stages_)
+      if (stage) pictures += stage->exports.frames();
+    watch_.tell(simulator_->time(), simulator_->tally().collisions(), pictures);
+  }
+
+  void finish(std::size_t i) {
+    Stage& stage = *stages_[i];
+    RunResult& result = results_[i];
+    const State& end = simulator_->state();
+    result.engine = engine_;
+    result.summary = summarize(stage.scene, engine_, energy_start_, end, simulator_->tally());
+    result.summary.frames = stage.exports.frames();
+    result.facts = stage.facts;
+    result.facts.simulate_s = simulate_s_;
+    result.facts.peak_memory = peak_memory();
+    if (settings_.measure) result.facts.measures = settings_.measure(stage.scene, end, result.summary);
+    stage.exports.finish(result.summary, result.facts);
+  }
+
+  std::span<const Show> shows_;
+  const RunSettings& settings_;
+  const RunWatch& watch_;
+  EngineChoice engine_;
+  std::vector<RunResult> results_;              // by show
+  std::vector<std::unique_ptr<Stage>> stages_;  // by show; none: it has failed
+  std::unique_ptr<Simulator> simulator_;
+  double energy_start_ = 0;  // J
+  double simulate_s_ = 0;    // wall time
+};
+
+}  // namespace
+
+std::vector<RunResult> run_shows(std::span<const Show> shows, const EngineChoice& engine, const RunSettings& settings,
+                                 const RunWatch& watch) {
+  double wall_s = 0;
+  std::vector<RunResult> results;
+  {
+    const Stopwatch wall(wall_s);
+    Run run(shows, engine, settings, watch);
+    run.go();
+    results = run.finish();
+  }
+  for (RunResult& result : results) result.wall_s = wall_s;
+  return results;
+}
+
+RunResult run_scene(const Show& show, const EngineChoice& engine, const RunSettings& settings, const RunWatch& watch) {
+  return std::move(run_shows({&show, 1}, engine, settings, watch).front());
+}
+
+}  // namespace carom

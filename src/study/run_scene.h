@@ -1,0 +1,50 @@
+#pragma once
+// Checked scenes -> their folders: joins simulator, timelines, renderers and exports.
+#include <exception>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "export/exports.h"
+#include "study/engine.h"
+
+namespace carom {
+
+struct RunWatch {
+  std::function<void()> look;  // called often; may throw
+  /// How far it is: simulated time (s), collisions, pictures of all shows.
+  std::function<void(double time, std::uint64_t collisions, std::uint64_t pictures)> tell;
+};
+
+/// What is to be seen of a motion, and where it is written. Scenes that share a motion differ in their pictures and
+/// outputs alone.
+struct Show {
+  const Scene* scene = nullptr;
+  std::string folder;
+  double load_s = 0;  // what reading the scene took, for the manifest
+};
+
+struct RunSettings {
+  Durability durability = Durability::synced;
+  /// What else the manifest says of a run's end; may be unset.
+  std::function<std::vector<Measured>(const Scene&, const State& end, const Summary&)> measure;
+};
+
+struct RunResult {
+  Summary summary;
+  RunFacts facts;
+  EngineChoice engine{};         // with its step settled
+  double wall_s = 0;             // all of it, finishing the files included
+  std::exception_ptr failure{};  // of this show alone: RenderError, ExportError; then the rest of this means nothing
+};
+
+/// Simulates once, draws and writes each show. Throws SimulationError, what `watch.look` throws, and for a single show
+/// its failure; then nothing that is not whole stays in the folders.
+std::vector<RunResult> run_shows(std::span<const Show> shows, const EngineChoice& engine, const RunSettings& settings,
+                                 const RunWatch& watch);
+
+/// The same for one scene.
+RunResult run_scene(const Show& show, const EngineChoice& engine, const RunSettings& settings, const RunWatch& watch);
+
+}  // namespace carom
