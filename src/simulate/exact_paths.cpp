@@ -1,5 +1,5 @@
-// Paths as they are recorded. A path is final once all that happens at an instant has happened: it is looked at when the
-// first change at a later one is about to come, or when somebody wants to see it.
+// Paths as they are recorded. A path is final once all that happens at an instant has happened: it is looked at when
+// the first change at a later one is about to come, or when somebody wants to see it.
 #include <algorithm>
 #include <cmath>
 #include <limits>
