@@ -234,6 +234,20 @@ class Checker : ValueChecker {
           map(item, kind_named(field.of), "this entry of " + name, item.place, false);
         }
         break;
+      case Type::settings:
+        settings(value, name, wanted);
+        break;
+      case Type::axes:
+        axes(value, name, wanted);
+        break;
+      case Type::cases:
+        if (!value.is(Node::Kind::sequence)) {
+          wrong_type(value, name, wanted);
+        } else if (value.items.empty()) {
+          refuse(value, name + " has no entries", wanted);
+        }
+        for (Node& item : value.items) settings(item, "this entry of " + name, wanted);
+        break;
     }
   }
 
@@ -241,6 +255,40 @@ class Checker : ValueChecker {
     const Kind& kind = kind_named(field.of);
     // `defaults: {ball: ...}` is partial; so is what stands in it, if it has defaults of its own.
     map(value, kind, quoted(key.text), key.place, kind.name == "defaults" || (partial && !defaults_key(kind).empty()));
+  }
+
+  bool has_entries(Node& value, const std::string& name, const std::string& wanted) {
+    if (!value.is(Node::Kind::map))
+      wrong_type(value, name, wanted);
+    else if (value.items.empty())
+      refuse(value, name + " has no entries", wanted);
+    return !value.bad;
+  }
+
+  void settings(Node& value, const std::string& name, const std::string& wanted) {
+    if (!has_entries(value, name, wanted)) return;
+    for (std::size_t i = 0; i < value.keys.size(); ++i) {
+      if (value.items[i].is(Node::Kind::null))
+        wrong_type(value.items[i], quoted(value.keys[i].text), "expected a value");
+    }
+  }
+
+  void axes(Node& value, const std::string& name, const std::string& wanted) {
+    if (!has_entries(value, name, wanted)) return;
+    for (std::size_t i = 0; i < value.keys.size(); ++i) {
+      const std::string path = quoted(value.keys[i].text);
+      Node& values = value.items[i];
+      if (values.is(Node::Kind::map)) {
+        map(values, kind_named("range"), path, value.keys[i].place, false);
+      } else if (!values.is(Node::Kind::sequence)) {
+        wrong_type(values, path, "expected a list of values, or {from, to, count} or {from, to, step}");
+      } else if (values.items.empty()) {
+        refuse(values, path + " has no values", "expected at least one");
+      } else {
+        for (Node& item : values.items)
+          if (item.is(Node::Kind::null)) wrong_type(item, "an entry of " + path, "expected a value");
+      }
+    }
   }
 
   void named(Node& value, const Field& field, const std::string& name) {
@@ -274,6 +322,11 @@ void check_scene(Node& root, const std::string& folder, Diagnostics& diagnostics
   Checker(root, folder, diagnostics).map(root, kind_named("scene"), "the scene", start, false);
 }
 
+void check_sweep(Node& root, Diagnostics& diagnostics) {
+  const Place start = root.keys.empty() ? root.place : root.keys.front().place;
+  Checker(root, "", diagnostics).map(root, kind_named("sweep"), "the sweep", start, false);
+}
+
 const Node* defaults_for(const Node& root, const Kind& kind) {
   const std::string_view key = defaults_key(kind);
   if (key.empty()) return nullptr;
@@ -292,9 +345,11 @@ std::string suggest_key(std::string_view wrong, const Kind& kind) {
   const std::string known = "expected " + listed(keys);
   std::vector<std::string_view> owners;
   std::vector<std::string> shown;
-  for (const Kind& other : kinds()) {
+  const bool of_sweep = &kind >= sweep_kinds().data() && &kind < sweep_kinds().data() + sweep_kinds().size();
+  for (const Kind& other : of_sweep ? sweep_kinds() : kinds()) {
     if (other.name == kind.name || other.name == "member" || find_field(other, wrong) == nullptr) continue;
-    shown.push_back(other.name == "scene" ? "the scene itself" : quoted(other.name));
+    shown.push_back(other.name == "scene" || other.name == "sweep" ? fmt::format("the {} itself", other.name)
+                                                                   : quoted(other.name));
   }
   for (const std::string& owner : shown) owners.push_back(owner);
   if (!owners.empty()) return fmt::format("{} is a key of {}\n{}", quoted(wrong), listed(owners), known);

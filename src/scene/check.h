@@ -12,6 +12,9 @@ namespace carom {
 /// wrong stay and are ignored by whoever looks up known keys. `folder` is that of the scene file, for its meshes.
 void check_scene(Node& root, const std::string& folder, Diagnostics& diagnostics);
 
+/// The same for the tree of a sweep file; what its paths mean is the scene's matter.
+void check_sweep(Node& root, Diagnostics& diagnostics);
+
 /// The defaults that a map of `kind` falls back on: scene -> defaults -> kind; null: none.
 const Node* defaults_for(const Node& root, const Kind& kind);
 

@@ -284,8 +284,9 @@ std::span<const Kind> kinds() {
 }
 
 const Kind& kind_named(std::string_view name) {
-  for (const Kind& kind : all_kinds) {
-    if (kind.name == name) return kind;
+  for (const std::span<const Kind> family : {kinds(), sweep_kinds()}) {
+    for (const Kind& kind : family)
+      if (kind.name == name) return kind;
   }
   std::abort();  // a row of the table names a kind that it does not have
 }
@@ -382,6 +383,13 @@ std::string expected(const Field& field) {
       return "a map from names to what they are";
     case Type::list:
       return "a list";
+    case Type::settings:
+      return "a map from paths to values, such as {balls.red.mass: 2}";
+    case Type::axes:
+      return "a map from paths to lists or ranges, such as {balls.red.mass: [1, 2]} or {balls.red.mass: {from: 1, to: "
+             "2, count: 3}}";
+    case Type::cases:
+      return "a list of maps from paths to values, such as [{balls.red.mass: 2}]";
   }
   return {};
 }

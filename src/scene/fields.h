@@ -27,7 +27,10 @@ enum class Type : std::uint8_t {
   part,          // a map of kind Field::of
   part_or_flag,  // the same, or true: a map of defaults, or false: absent
   named,         // a map from names to kind Field::of
-  list           // a list of maps of kind Field::of
+  list,          // a list of maps of kind Field::of
+  settings,      // a map from paths into a scene, such as balls.red.mass, to values there
+  axes,          // a map from paths to lists of values, or to maps of kind "range"
+  cases          // a list of maps from paths to values
 };
 
 /// Numbers from `min` to `max`, ends included unless told otherwise.
@@ -58,8 +61,10 @@ struct Kind {
   std::string_view also = {};  // a named map of this kind may hold this key of another type too (lights: ambient)
 };
 
-/// Every kind, "scene" first.
+/// Every kind of a scene file, "scene" first.
 std::span<const Kind> kinds();
+/// Every kind of a sweep file, "sweep" first.
+std::span<const Kind> sweep_kinds();
 const Kind& kind_named(std::string_view name);  // there must be one
 const Field* find_field(const Kind& kind, std::string_view key);
 

@@ -24,51 +24,97 @@ std::string folder_of(const std::string& path) {
   return slash == std::string::npos ? "" : slash == 0 ? "/" : path.substr(0, slash);
 }
 
-Scene load(const std::string& path, const LoadOptions& options) {
-  std::vector<Source> sources(1 + options.set.size());
-  Diagnostics diagnostics(sources);
-  for (std::size_t i = 0; i < options.set.size(); ++i)
-    sources[i + 1] = {"--set " + options.set[i], options.set[i], true};
+}  // namespace
 
-  std::optional<Node> root;
-  if (read_source(path, sources[0], diagnostics) && check_text(sources[0], 0, diagnostics)) {
-    root = parse_document(sources, 0, 0, diagnostics);
+struct SceneFile::Impl {
+  Impl(const std::string& the_path, const LoadOptions& the_options)
+      : path(the_path), options(the_options), sources(1), parsing(sources) {
+    std::optional<Node> tree;
+    if (read_source(path, sources[0], parsing) && check_text(sources[0], 0, parsing)) {
+      tree = parse_document(sources, 0, 0, parsing);
+    }
+    if (!tree) stop_if_wrong(parsing, options);
+    if (!tree->is(Node::Kind::map)) {
+      parsing.add(tree->place, tree->is(Node::Kind::null) ? "this file holds no scene" : "this is not a scene",
+                  "expected a map of keys, such as `scene: 1`");
+      stop_if_wrong(parsing, options);
+    }
+    if (tree->find("scene") == nullptr && tree->find("sweep") != nullptr) {
+      parsing.add(tree->find_key("sweep")->place, "this is a sweep, not a scene",
+                  fmt::format("its runs are made by `carom sweep {}`", path));
+      stop_if_wrong(parsing, options);
+    }
+    root = std::move(*tree);
   }
-  if (!root) stop_if_wrong(diagnostics, options);
-  if (!root->is(Node::Kind::map)) {
-    diagnostics.add(root->place, root->is(Node::Kind::null) ? "this file holds no scene" : "this is not a scene",
-                    "expected a map of keys, such as `scene: 1`");
+
+  Scene scene(const std::vector<Setting>& settings) {
+    sources.resize(1);
+    for (const std::string& set : options.set) sources.push_back({"--set " + set, set, true});
+    for (const Setting& setting : settings)
+      sources.push_back({setting.where.empty() ? "--set " + setting.text : setting.where, setting.text, true});
+    Diagnostics diagnostics = parsing;
+    Node tree = root;
+    for (std::uint32_t i = 1; i < sources.size(); ++i) apply_setting(tree, sources, i, diagnostics);
+    return resolve(tree, diagnostics);
+  }
+
+  Scene resolve(Node& tree, Diagnostics& diagnostics) const {
+    const std::string folder = folder_of(path);
+    check_scene(tree, folder, diagnostics);
+    Scene scene;
+    scene.file = path;
+    const View whole(&tree, kind_named("scene"), Place{});
+    scene.title = whole.text("title").value_or("");
+    scene.seed = options.seed ? *options.seed : whole.whole("seed").value_or(0);
+    const Inventory inventory = take_inventory(tree, options.budget, diagnostics);
+    decode_laws(tree, inventory, scene, diagnostics);
+    Forms forms(folder, options, diagnostics);
+    decode_fixed(tree, inventory, forms, scene, diagnostics);
+    decode_requests(tree, inventory, options.budget, scene, diagnostics);
+    if (inventory.fits) decode_bodies(tree, inventory, forms, scene, diagnostics);
+    check_engine(tree, scene, diagnostics);
     stop_if_wrong(diagnostics, options);
+    scene.meshes = forms.files(scene.output.video ? scene.output.video->file : "");
+    scene.resolved = resolved_text(tree, inventory, scene);
+    return scene;
   }
-  for (std::uint32_t i = 1; i < sources.size(); ++i) apply_setting(*root, sources, i, diagnostics);
-  check_scene(*root, folder_of(path), diagnostics);
 
-  Scene scene;
-  scene.file = path;
-  const View whole(&*root, kind_named("scene"), Place{});
-  scene.title = whole.text("title").value_or("");
-  scene.seed = options.seed ? *options.seed : whole.whole("seed").value_or(0);
-  const Inventory inventory = take_inventory(*root, options.budget, diagnostics);
-  decode_laws(*root, inventory, scene, diagnostics);
-  Forms forms(folder_of(path), options, diagnostics);
-  decode_fixed(*root, inventory, forms, scene, diagnostics);
-  decode_requests(*root, inventory, options.budget, scene, diagnostics);
-  if (inventory.fits) decode_bodies(*root, inventory, forms, scene, diagnostics);
-  check_engine(*root, scene, diagnostics);
-  stop_if_wrong(diagnostics, options);
-  scene.meshes = forms.files(scene.output.video ? scene.output.video->file : "");
-  scene.resolved = resolved_text(*root, inventory, scene);
-  return scene;
+  std::string path;
+  LoadOptions options;
+  std::vector<Source> sources;  // the file, then one for each setting
+  Diagnostics parsing;          // what was wrong with the text and could be read over
+  Node root;
+};
+
+namespace {
+
+/// Does `work`; a lack of memory is an error of the scene.
+template <typename Work>
+auto within_memory(const std::string& path, const Work& work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    throw SceneError(fmt::format("{}: error: not enough memory for this scene\n   = expected fewer bodies\n", path), 1);
+  }
 }
 
 }  // namespace
 
+SceneFile::SceneFile(const std::string& path, const LoadOptions& options)
+    : impl_(within_memory(path, [&] { return std::make_unique<Impl>(path, options); })) {}
+SceneFile::~SceneFile() = default;
+SceneFile::SceneFile(SceneFile&&) noexcept = default;
+
+Scene SceneFile::scene(const std::vector<Setting>& settings) {
+  return within_memory(impl_->path, [&] { return impl_->scene(settings); });
+}
+
+const std::string& SceneFile::text() const {
+  return impl_->sources.front().text;
+}
+
 Scene load_scene(const std::string& path, const LoadOptions& options) {
-  try {
-    return load(path, options);
-  } catch (const std::bad_alloc&) {
-    throw SceneError(fmt::format("{}: error: not enough memory for this scene\n   = expected fewer bodies\n", path), 1);
-  }
+  return SceneFile(path, options).scene();
 }
 
 }  // namespace carom

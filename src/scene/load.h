@@ -2,6 +2,7 @@
 // YAML -> checked Scene, or errors that point at the character.
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -35,6 +36,30 @@ struct LoadOptions {
 struct SceneError : std::runtime_error {
   SceneError(const std::string& text, std::size_t errors) : std::runtime_error(text), count(errors) {}
   std::size_t count;
+};
+
+/// A change to a scene: what --set says.
+struct Setting {
+  std::string text;   // "path=value"
+  std::string where;  // before errors about it: "falls.yaml:7:3"; empty: "--set path=value"
+};
+
+/// A scene file that is read once and resolved with one setting after another.
+class SceneFile {
+ public:
+  /// Reads and parses. Throws SceneError, as all of this class does.
+  SceneFile(const std::string& path, const LoadOptions& options);
+  ~SceneFile();
+  SceneFile(SceneFile&&) noexcept;
+
+  /// The scene with these settings after those of the options, checked and resolved.
+  Scene scene(const std::vector<Setting>& settings = {});
+  /// The file's text, without byte order mark and carriage returns.
+  const std::string& text() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// Reads, checks and resolves one scene file. Throws SceneError, which holds every error of the file.

@@ -23,20 +23,6 @@ std::string in_quotes(std::string_view text) {
   return out + "\"";
 }
 
-std::string flow(const Node& node) {
-  if (node.is(Node::Kind::scalar)) {
-    const bool plain = !node.quoted && (is_name(node.text) || parse_number(node.text));
-    return plain ? node.text : in_quotes(node.text);
-  }
-  std::string out;
-  for (std::size_t i = 0; i < node.items.size(); ++i) {
-    if (i > 0) out += ", ";
-    if (node.is(Node::Kind::map)) out += node.keys[i].text + ": ";
-    out += flow(node.items[i]);
-  }
-  return node.is(Node::Kind::map) ? "{" + out + "}" : "[" + out + "]";
-}
-
 std::string flow(const View& view, const Overrides& overrides = {}) {
   std::string out;
   for (const Field& field : view.kind().fields) {
@@ -44,7 +30,7 @@ std::string flow(const View& view, const Overrides& overrides = {}) {
     if (const auto it = overrides.find(field.key); it != overrides.end()) {
       text = it->second;
     } else if (const Node* node = view.find(field.key)) {
-      text = flow(*node);
+      text = flow_text(*node);
     }
     if (text.empty()) continue;
     if (!out.empty()) out += ", ";
@@ -62,9 +48,9 @@ class Resolver {
     const Kind& kind = kind_named("scene");
     const View whole(&root_, kind, Place{});
     line("scene", "1");
-    line("title", flow(*whole.find("title")));
+    line("title", flow_text(*whole.find("title")));
     line("seed", std::to_string(scene_.seed));
-    line("gravity", flow(*whole.find("gravity")));
+    line("gravity", flow_text(*whole.find("gravity")));
     line("restitution", flow(scene_part(root_, "restitution")));
     // The order of these in the file is the order of the bodies and of the planes.
     for (const Key& key : root_.keys) {
@@ -80,7 +66,7 @@ class Resolver {
     simulate();
     if (root_.find("camera") != nullptr) line("camera", flow(scene_part(root_, "camera")));
     lights();
-    if (const Node* background = root_.find("background")) line("background", flow(*background));
+    if (const Node* background = root_.find("background")) line("background", flow_text(*background));
     output();
     return std::move(out_);
   }
@@ -94,7 +80,7 @@ class Resolver {
     out_ += empty ? fmt::format("{}: {{}}\n", key) : fmt::format("{}:\n", key);
   }
 
-  std::string default_restitution() const { return flow(*scene_part(root_, "restitution").find("default")); }
+  std::string default_restitution() const { return flow_text(*scene_part(root_, "restitution").find("default")); }
 
   /// The key `mesh`: the copy in the run's folder; where there is none, the file itself from anywhere.
   void name_copy(const std::optional<MeshUse>& mesh, Overrides& overrides) const {
@@ -123,7 +109,7 @@ class Resolver {
       overrides["velocity"] = "";
       Overrides group_overrides{{"ball", flow(each, overrides)}, {"in", flow(view.part("in", "in"))}};
       if (view.find("speed") == nullptr && view.find("velocity") == nullptr)
-        group_overrides["velocity"] = flow(*each.find("velocity"));
+        group_overrides["velocity"] = flow_text(*each.find("velocity"));
       entry(body.key->text, flow(view, group_overrides));
     }
   }
@@ -176,7 +162,7 @@ class Resolver {
     for (std::size_t i = 0; i < node->keys.size(); ++i) {
       const bool ambient = node->keys[i].text == "ambient";
       entry(node->keys[i].text,
-            ambient ? flow(node->items[i]) : flow(View(&node->items[i], kind_named("light"), Place{})));
+            ambient ? flow_text(node->items[i]) : flow(View(&node->items[i], kind_named("light"), Place{})));
     }
   }
 
@@ -203,6 +189,20 @@ class Resolver {
 };
 
 }  // namespace
+
+std::string flow_text(const Node& node) {
+  if (node.is(Node::Kind::scalar)) {
+    const bool plain = !node.quoted && (is_name(node.text) || parse_number(node.text));
+    return plain ? node.text : in_quotes(node.text);
+  }
+  std::string out;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    if (i > 0) out += ", ";
+    if (node.is(Node::Kind::map)) out += node.keys[i].text + ": ";
+    out += flow_text(node.items[i]);
+  }
+  return node.is(Node::Kind::map) ? "{" + out + "}" : "[" + out + "]";
+}
 
 std::string resolved_text(const Node& root, const Inventory& inventory, const Scene& scene) {
   return Resolver(root, inventory, scene).run();

@@ -6,6 +6,9 @@
 
 namespace carom {
 
+/// A value as YAML in one line, numbers as authored.
+std::string flow_text(const Node& node);
+
 /// The scene with every default written out, numbers as authored. Loading it gives the same Scene, and the same text
 /// again. Keys stand in the order of the table; things in the order of the file. Groups stay groups.
 std::string resolved_text(const Node& root, const Inventory& inventory, const Scene& scene);

@@ -1,0 +1,69 @@
+// The rows of the table of fields that describe sweep files.
+#include "scene/fields.h"
+
+namespace carom {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// clang-format off
+constexpr Field grid{.key = "grid", .type = Type::axes, .doc = "Every combination of the values; the last path varies fastest."};
+constexpr Field zip{.key = "zip", .type = Type::axes, .doc = "Values in step: as many of each path."};
+constexpr Field list{.key = "list", .type = Type::cases, .doc = "Combinations as given."};
+constexpr Field skip{.key = "skip", .type = Type::cases, .doc = "Runs that are left out: those that have all values of an entry. A list of numbers or words stands for any of them."};
+
+constexpr Field sweep_fields[] = {
+    {.key = "sweep", .type = Type::whole, .range = {1, 1}, .needed = true, .doc = "Kind of file and version of the format."},
+    {.key = "title", .type = Type::text, .initial = "\"\"", .doc = "What the sweep is, in one line."},
+    {.key = "base", .type = Type::text, .needed = true, .doc = "The scene file that is varied, from the folder of the sweep file."},
+    {.key = "set", .type = Type::settings, .doc = "What differs from the base in every run."},
+    grid, zip, list, skip,
+    {.key = "runs", .type = Type::list, .of = "block", .doc = "Several such blocks, one after the other, instead of grid, zip, list and skip."},
+    {.key = "repeat", .type = Type::part, .of = "repeat", .doc = "Each combination several times, with other seeds."},
+    {.key = "compare", .type = Type::part, .of = "compare", .doc = "What the comparison shows."},
+};
+
+constexpr Field block_fields[] = {
+    grid, zip, list, skip,
+};
+
+constexpr Field range_fields[] = {
+    {.key = "from", .type = Type::number, .needed = true, .doc = "The first value."},
+    {.key = "to", .type = Type::number, .needed = true, .doc = "The last value; with step none lies beyond."},
+    {.key = "count", .type = Type::whole, .range = {1, 1e6}, .one_of = "count|step", .needed = true, .doc = "How many values, ends included, evenly spread."},
+    {.key = "step", .type = Type::number, .one_of = "count|step", .doc = "From one value to the next."},
+};
+
+constexpr Field repeat_fields[] = {
+    {.key = "seeds", .type = Type::whole, .range = {1, 1e6}, .needed = true, .doc = "How many seeds, one after the other."},
+    {.key = "first", .type = Type::whole, .range = {0, infinity}, .doc = "The first one. Default: the scene's seed."},
+};
+
+constexpr Field compare_fields[] = {
+    {.key = "measures", .type = Type::names, .doc = "Columns of summary.csv, and quantities of bodies at the end, such as balls.red.speed_m_per_s."},
+    {.key = "charts", .type = Type::list, .of = "chart", .doc = "Charts of the workbook. Default: each measure over the first path."},
+};
+
+constexpr Field chart_fields[] = {
+    {.key = "x", .type = Type::text, .needed = true, .doc = "A swept path, or a measure."},
+    {.key = "y", .type = Type::text, .needed = true, .doc = "A measure."},
+    {.key = "by", .type = Type::text, .doc = "A swept path: a line for each of its values."},
+};
+// clang-format on
+
+constexpr Kind all_kinds[] = {
+    {"sweep", "the", "Many runs of one scene with other values.", sweep_fields},
+    {"block", "a", "Runs with other values.", block_fields},
+    {"range", "a", "Evenly spread numbers, computed as decimals.", range_fields},
+    {"repeat", "", "The same with other seeds.", repeat_fields},
+    {"compare", "", "What summary.csv and the workbook have beside the usual.", compare_fields},
+    {"chart", "a", "A chart of the workbook.", chart_fields},
+};
+
+}  // namespace
+
+std::span<const Kind> sweep_kinds() {
+  return all_kinds;
+}
+
+}  // namespace carom
