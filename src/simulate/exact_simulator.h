@@ -232,7 +232,8 @@ class ExactSimulator final : public Simulator {
   // exact_paths.cpp
   /// Before body i gets another path at this instant, or anything that its path is made of changes.
   void path_changes(Entity i) {
-    if (options_.record_paths) note_path(i);
+    if (options_.record_paths) [[unlikely]]
+      note_path(i);
   }
   void note_path(Entity i);
   void record_paths();
