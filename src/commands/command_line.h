@@ -11,6 +11,7 @@
 
 #include "commands/terminal.h"
 #include "study/bench.h"
+#include "study/shard.h"
 
 namespace carom {
 
@@ -35,6 +36,9 @@ struct Options {
   ProgressChoice progress = ProgressChoice::automatic;
   ColorChoice color = ColorChoice::automatic;
   BenchOptions bench;
+  std::vector<std::string> grid;  // path=from:to:count, path=value,value
+  std::optional<Shard> shard;
+  bool plan = false;  // show, do not do
 };
 
 /// An option that a command has, by its name in the table of options (options.h).

@@ -10,7 +10,9 @@
 #include <cstdlib>
 #include <limits>
 
+#include "commands/text.h"
 #include "scene/diagnostics.h"
+#include "scene/output.h"
 
 namespace carom {
 
@@ -98,6 +100,30 @@ void read_steps(Options& options, const Words& words) {
         fmt::format("--steps halves at most {} times, not as often as {}", most_halvings, carom::quoted(steps)));
 }
 
+std::string_view only_help() {
+  constexpr std::size_t width = 56;  // columns
+  static const std::string text = wrapped(
+      fmt::format(
+          "write these outputs alone, of {}; one that the scene does not ask for is written with default settings",
+          fmt::join(output_names(), ", ")),
+      0, width);
+  return text;
+}
+
+/// "2/5"
+Shard read_shard(const std::string& word) {
+  Shard shard;
+  const std::size_t slash = word.find('/');
+  const auto part = [&](std::string_view text, std::size_t& value) {
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && stop == text.data() + text.size() && !text.empty();
+  };
+  if (slash == std::string::npos || !part(std::string_view(word).substr(0, slash), shard.index) ||
+      !part(std::string_view(word).substr(slash + 1), shard.count) || shard.index < 1 || shard.index > shard.count)
+    throw UsageError(fmt::format("--shard takes I/N, 1/4 to 4/4 say, not {}", carom::quoted(word)));
+  return shard;
+}
+
 constexpr std::array<std::string_view, 4> progress_names = {"auto", "bar", "lines", "none"};
 constexpr std::array<std::string_view, 3> color_names = {"auto", "always", "never"};
 constexpr std::array<std::string_view, 2> reference_names = {"exact", "stepped"};
@@ -107,11 +133,20 @@ const Option table[] = {
      "the run's folder; with several scenes, the folder that\nholds theirs (output/<scene file's stem>)",
      [](Options& o, const Words& w) { o.output = single(w, "--output"); }},
     {"--set", "", "PATH=VALUE", "change a value of the scene, balls.red.mass=2 say;\nmay be repeated", read_set},
-    {"--only", "", "LIST",
-     "write these outputs alone, of trajectory, collisions,\n"
-     "energy, contacts, frames, video, sheet; one that the\n"
-     "scene does not ask for is written with default settings",
-     read_only},
+    {"--only", "", "LIST", only_help(), read_only},
+    {"--grid", "", "PATH=FROM:TO:COUNT",
+     "vary a value of a scene, restitution.default=0.5:1:6\nor balls.red.mass=1,2,5; several make every combination",
+     [](Options& o, const Words& w) {
+       for (const std::string& grid : w)
+         if (const std::size_t equals = grid.find('='); equals == std::string::npos || equals == 0)
+           throw UsageError(fmt::format("--grid takes path=from:to:count or path=value,value, not {}", carom::quoted(grid)));
+       o.grid = w;
+     }},
+    {"--shard", "", "I/N",
+     "part I of N, the first is 1; gather joins them (in a\njob array of Slurm: the task's part)",
+     [](Options& o, const Words& w) { o.shard = read_shard(single(w, "--shard")); }},
+    {"--plan", "", "", "show the runs, their values and what is done already",
+     [](Options& o, const Words&) { o.plan = true; }},
     {"--seed", "", "N", "the scene's seed",
      [](Options& o, const Words& w) { o.seed = whole(w, "--seed", 0, std::numeric_limits<std::uint64_t>::max()); }},
     {"--steps", "", "FROM:TO", "step sizes in s, from FROM down to TO by halves (by\nthe scene: ten halvings)",
@@ -157,8 +192,11 @@ std::vector<OptionUse> options_of(const CommandText& command) {
 }
 
 const std::vector<std::string>& output_names() {
-  static const std::vector<std::string> names = {"trajectory", "collisions", "energy", "contacts",
-                                                 "frames",     "video",      "sheet"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const OutputKind& kind : output_kinds()) all.emplace_back(kind.name);
+    return all;
+  }();
   return names;
 }
 

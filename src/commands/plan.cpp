@@ -10,7 +10,6 @@
 #include <new>
 
 #include "commands/interrupt.h"
-#include "commands/outputs.h"
 #include "commands/text.h"
 #include "render/mesh.h"
 #include "scene/load.h"

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "commands/text.h"
 #include "export/manifest.h"
 #include "export/open_folder.h"
+#include "export/series_folders.h"
 
 namespace carom {
 
@@ -22,15 +24,19 @@ constexpr std::size_t label_width = 12;
 // "a.csv, b.csv and 60 pictures in frames/".
 std::string file_list(const std::string& folder) {
   std::vector<std::string> names;
-  std::uint64_t frames = 0;
+  std::map<const OutputKind*, std::uint64_t> series;
   for (const std::string& file : files_in(folder)) {
-    if (file.starts_with("frames/")) {
-      ++frames;
+    if (const OutputKind* kind = series_of(file)) {
+      ++series[kind];
     } else {
       names.push_back(printable(file));
     }
   }
-  if (frames > 0) names.push_back(counted(frames, "picture", "pictures") + " in frames/");
+  for (const OutputKind& kind : output_kinds()) {
+    const FileSeries& files = kind.series;
+    if (const std::uint64_t count = series[&kind]; count > 0)
+      names.push_back(fmt::format("{} in {}/", counted(count, files.what, files.whats), files.folder));
+  }
   return listed(names, names.size());
 }
 

@@ -1,7 +1,5 @@
 #include "export/exports.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -14,6 +12,7 @@
 #include "export/png.h"
 #include "export/sheet.h"
 #include "export/tables.h"
+#include "export/writer.h"
 
 namespace carom {
 namespace {
@@ -23,15 +22,18 @@ void check_film_name(const Scene& scene) {
   const Output& output = scene.output;
   if (!output.video) return;
   const std::string& name = output.video->file;
-  for (const std::string taken : {"scene.yaml", "summary.csv", "trajectory.csv", "collisions.csv", "energy.csv",
-                                  "contacts.csv", "sheet.png", "frames", manifest_name})
-    if (name == taken) throw ExportError("cannot make the film " + name + ": another output has that name");
+  if (is_reserved(name)) throw ExportError("cannot make the film " + name + ": another output has that name");
   if (!is_plain_name(name)) throw ExportError("cannot make the film " + name + ": that is no plain file name");
 }
 
 }  // namespace
 
 struct Exports::Impl {
+  struct OpenWriter {
+    std::unique_ptr<Writer> writer;
+    int timeline_stream;  // -1: it is written of no states
+  };
+
   // What can be refused is refused here, before the folder is touched.
   Impl(const Scene& the_scene, const std::string& path, Durability durability)
       : scene(the_scene), timeline(the_scene.simulate.duration), plan(plan_pictures(the_scene)) {
@@ -43,34 +45,26 @@ struct Exports::Impl {
 
     folder.emplace(path, durability);
     first_records = folder->begin(scene, meshes);
-    const FilePlace& place = folder->place();
-    if (output.trajectory) {
-      trajectory.emplace(place, scene);
-      trajectory_ticks = timeline.add(Ticks::every(output.trajectory->every, scene.simulate.duration));
+    for (const OutputKind& kind : output_kinds()) {
+      const WriterKind* writer = writer_named(kind.name);
+      if (writer == nullptr || !kind.asked(output)) continue;
+      const int ticks = kind.every ? timeline.add(Ticks::every(kind.every(output), scene.simulate.duration)) : -1;
+      writers.push_back({writer->open(*folder, scene), ticks});
     }
-    if (output.collisions) collisions.emplace(place, scene);
-    if (output.energy) {
-      energy.emplace(place, scene);
-      energy_ticks = timeline.add(Ticks::every(output.energy->every, scene.simulate.duration));
-    }
-    if (output.contacts) {
-      contacts.emplace(place, scene);
-      contact_ticks = timeline.add(Ticks::every(output.contacts->every, scene.simulate.duration));
-    }
-    if (output.frames) frames_place = folder->frames();
-    if (output.video) film.emplace(place, *output.video, std::move(*tools));
+    if (output.frames) frames_place = folder->series(frame_files);
+    if (output.video) film.emplace(folder->place(), *output.video, std::move(*tools));
     if (output.sheet) sheet.emplace(*output.sheet, sheet_model(output).size);
     for (std::size_t i = 0; i < plan.streams.size(); ++i) plan.streams[i].timeline_stream = timeline.add(plan.ticks[i]);
   }
 
   void write_frame(std::int64_t number, const Image& image, bool again) {
-    OutputFile file(frames_place, fmt::format("frame_{:05}.png", number));
+    OutputFile file(frames_place, frame_files.name(number));
     if (!again || frame.empty()) frame = encode_png(image, PngEffort::fast);
     file.write(frame);
     file.publish();
     folder->keep();
     frame_records.push_back(file.record());
-    frame_records.back().name.insert(0, "frames/");
+    frame_records.back().name.insert(0, std::string(frame_files.folder) + "/");
   }
 
   bool due(int stream) const { return stream >= 0 && timeline.due(stream); }
@@ -78,7 +72,6 @@ struct Exports::Impl {
   const Scene& scene;
   Timeline timeline;
   PictureStreams plan;
-  int trajectory_ticks = -1, energy_ticks = -1, contact_ticks = -1;  // the timeline's streams
   std::uint64_t pictures = 0;
   std::vector<FileRecord> first_records;  // of what stands there from the beginning
   std::vector<FileRecord> frame_records;
@@ -86,10 +79,7 @@ struct Exports::Impl {
   std::optional<OpenFolder> folder;
   FilePlace frames_place;
   std::string frame;  // the last one, as PNG
-  std::optional<TrajectoryTable> trajectory;
-  std::optional<CollisionTable> collisions;
-  std::optional<EnergyTable> energy;
-  std::optional<ContactTable> contacts;
+  std::vector<OpenWriter> writers;
   std::optional<Film> film;
   std::optional<Sheet> sheet;
 };
@@ -105,24 +95,25 @@ Timeline& Exports::timeline() {
 
 bool Exports::wants_state() const {
   const auto& streams = impl_->plan.streams;
-  return impl_->due(impl_->trajectory_ticks) || impl_->due(impl_->energy_ticks) || wants_contacts() ||
-         std::any_of(streams.begin(), streams.end(),
-                     [&](const PictureStream& s) { return impl_->due(s.timeline_stream); });
+  const auto due = [&](const auto& stream) { return impl_->due(stream.timeline_stream); };
+  return std::any_of(impl_->writers.begin(), impl_->writers.end(), due) ||
+         std::any_of(streams.begin(), streams.end(), due);
 }
 
 bool Exports::wants_contacts() const {
-  return impl_->due(impl_->contact_ticks);
+  return std::any_of(impl_->writers.begin(), impl_->writers.end(), [&](const Impl::OpenWriter& open) {
+    return impl_->due(open.timeline_stream) && open.writer->wants_contacts();
+  });
 }
 
 void Exports::record(std::span<const Collision> collisions) {
-  if (impl_->collisions) impl_->collisions->add(collisions);
+  for (const Impl::OpenWriter& open : impl_->writers) open.writer->record(collisions);
 }
 
 void Exports::sample(const State& state, std::span<const ContactForce> contacts) {
   const double time = impl_->timeline.time();
-  if (impl_->due(impl_->trajectory_ticks)) impl_->trajectory->add(time, state);
-  if (impl_->due(impl_->energy_ticks)) impl_->energy->add(time, state);
-  if (wants_contacts()) impl_->contacts->add(time, contacts);
+  for (const Impl::OpenWriter& open : impl_->writers)
+    if (impl_->due(open.timeline_stream)) open.writer->add(time, state, contacts);
 }
 
 const std::vector<PictureStream>& Exports::pictures() const {
@@ -152,10 +143,8 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
   OutputFile summary_file(place, "summary.csv");
   write_summary(summary_file, summary);
   files.push_back(&summary_file);
-  if (impl_->trajectory) files.push_back(&impl_->trajectory->file());
-  if (impl_->collisions) files.push_back(&impl_->collisions->file());
-  if (impl_->energy) files.push_back(&impl_->energy->file());
-  if (impl_->contacts) files.push_back(&impl_->contacts->file());
+  for (const Impl::OpenWriter& open : impl_->writers)
+    for (OutputFile* file : open.writer->files()) files.push_back(file);
   std::optional<OutputFile> sheet_file;
   if (impl_->sheet) {
     sheet_file.emplace(place, "sheet.png");

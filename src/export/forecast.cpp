@@ -4,14 +4,12 @@
 #include "export/exports.h"
 #include "export/picture_streams.h"
 #include "export/timeline.h"
+#include "export/writer.h"
 
 namespace carom {
 namespace {
 
-// Typical sizes, bytes: a motion's six numbers, a time, a name, a row of energy.csv; what a pixel of a rendered picture
-// takes as PNG, and in a film at crf 18, which halves for each 6 more.
-constexpr double motion_bytes = 114, time_bytes = 6, name_bytes = 8, energy_bytes = 110, collision_bytes = 260,
-                 contact_bytes = 40;
+// Bytes: what a pixel of a rendered picture takes as PNG, and in a film at crf 18, which halves for each 6 more.
 constexpr double png_bytes_per_pixel = 0.3, film_bytes_per_pixel = 0.02;
 
 std::uint64_t whole(double x) {
@@ -29,16 +27,14 @@ Forecast forecast(const Scene& scene) {
   const Output& output = scene.output;
   const double bodies = scene.world.body_count(), duration = scene.simulate.duration;
   double rows = 0, frames = 0, bytes = static_cast<double>(scene.resolved.size()) + 2000;
-  if (output.trajectory) {
-    const auto instants = static_cast<double>(Ticks::every(output.trajectory->every, duration).count());
-    rows = instants * bodies;
-    bytes += output.trajectory->wide ? rows * motion_bytes + bodies * 6 * (name_bytes + 8) + instants * time_bytes
-                                     : rows * (motion_bytes + time_bytes + name_bytes);
+  const auto instants = [&](const OutputKind& kind) {
+    return kind.every ? static_cast<double>(Ticks::every(kind.every(output), duration).count()) : 0;
+  };
+  for (const OutputKind& kind : output_kinds()) {
+    if (!kind.asked(output)) continue;
+    if (const WriterKind* writer = writer_named(kind.name)) bytes += writer->bytes(scene, instants(kind));
+    if (kind.name == "trajectory") rows += instants(kind) * bodies;
   }
-  if (output.energy) bytes += static_cast<double>(Ticks::every(output.energy->every, duration).count()) * energy_bytes;
-  if (output.contacts)  // which bodies rest when nobody knows; half of them always
-    bytes += static_cast<double>(Ticks::every(output.contacts->every, duration).count()) * contact_bytes * bodies / 2;
-  if (output.collisions) bytes += collision_bytes * bodies;  // how many there will be nobody knows; one a body
   const PictureStreams plan = plan_pictures(scene);
   for (std::size_t i = 0; i < plan.streams.size(); ++i) {
     const auto count = static_cast<double>(plan.ticks[i].count());

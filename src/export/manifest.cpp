@@ -1,6 +1,5 @@
 #include "export/manifest.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -9,6 +8,7 @@
 #include "export/exports.h"
 #include "export/hash.h"
 #include "export/mesh_copies.h"
+#include "export/series_folders.h"
 #include "export/stored_file.h"
 
 namespace carom {
@@ -23,31 +23,10 @@ std::string to_text(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-Json size_json(Size size) {
-  return Json::array({size.width, size.height});
-}
-
-Json optional_json(const std::optional<double>& value) {
-  return value ? Json(*value) : Json();
-}
-
 Json outputs_json(const Output& output) {
   Json json = Json::object();
-  if (const auto& t = output.trajectory)
-    json["trajectory"] = {{"every", t->every}, {"layout", t->wide ? "wide" : "long"}};
-  if (output.collisions) json["collisions"] = true;
-  if (const auto& e = output.energy) json["energy"] = {{"every", e->every}};
-  if (const auto& c = output.contacts) json["contacts"] = {{"every", c->every}};
-  if (const auto& f = output.frames)
-    json["frames"] = {{"fps", f->fps},
-                      {"size", size_json(f->size)},
-                      {"samples", f->samples},
-                      {"from", f->from},
-                      {"until", optional_json(f->until)}};
-  if (const auto& v = output.video)
-    json["video"] = {{"file", v->file}, {"fps", v->fps},   {"size", size_json(v->size)},      {"samples", v->samples},
-                     {"crf", v->crf},   {"from", v->from}, {"until", optional_json(v->until)}};
-  if (const auto& s = output.sheet) json["sheet"] = {{"columns", s->columns}, {"rows", s->rows}};
+  for (const OutputKind& kind : output_kinds())
+    if (kind.asked(output)) json[std::string(kind.name)] = kind.settings(output);
   return json;
 }
 
@@ -121,11 +100,7 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name) {
 }
 
 bool is_run_file(std::string_view name) {
-  constexpr std::string_view head = "frames/frame_", tail = ".png";
-  if (!name.starts_with(head)) return is_plain_name(name);
-  if (!name.ends_with(tail) || name.size() < head.size() + tail.size() + 5) return false;
-  const std::string_view digits = name.substr(head.size(), name.size() - head.size() - tail.size());
-  return std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return series_of(name) != nullptr || is_plain_name(name);
 }
 
 std::vector<std::string> run_files(const Scene& scene, const Output& output) {
@@ -133,12 +108,7 @@ std::vector<std::string> run_files(const Scene& scene, const Output& output) {
   for (const MeshFile& mesh : scene.meshes) {
     if (!mesh.copy.empty()) names.push_back(mesh.copy);
   }
-  if (output.trajectory) names.push_back("trajectory.csv");
-  if (output.collisions) names.push_back("collisions.csv");
-  if (output.energy) names.push_back("energy.csv");
-  if (output.contacts) names.push_back("contacts.csv");
-  if (output.video) names.push_back(output.video->file);
-  if (output.sheet) names.push_back("sheet.png");
+  for (std::string& name : output_files(output)) names.push_back(std::move(name));
   return names;
 }
 

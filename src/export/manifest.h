@@ -44,10 +44,10 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name);
 /// What a bench writes beside scene.yaml.
 inline constexpr std::array<const char*, 3> bench_files = {"bench.csv", "bench.png", "bench.svg"};
 
-/// Whether a run may write a file of this name: a plain one, or frames/frame_<digits>.png.
+/// Whether a run may write a file of this name: a plain one, or one of a series: frames/frame_<digits>.png.
 bool is_run_file(std::string_view name);
 
-/// The files of a run of this scene with these outputs, frames aside.
+/// The files of a run of this scene with these outputs, series aside.
 std::vector<std::string> run_files(const Scene& scene, const Output& output);
 
 /// The text with whatever is not UTF-8 in it replaced.

@@ -16,6 +16,7 @@
 #include "export/folder_names.h"
 #include "export/manifest.h"
 #include "export/run_folder.h"
+#include "export/series_folders.h"
 #include "export/stored_file.h"
 
 namespace carom {
@@ -26,19 +27,29 @@ constexpr const char* former_manifest = ".manifest.json.former";
 
 /// Removes the named files of a run, but for scene.yaml. What cannot be removed will be told when it is written anew.
 void remove_files(int folder, const std::vector<std::string>& names) {
-  const Descriptor frames = open_folder(folder, "frames", false);
+  SeriesFolders folders(folder);
   for (const std::string& name : names) {
     if (!is_run_file(name) || name == "scene.yaml") continue;
-    if (!name.starts_with("frames/"))
-      unlinkat(folder, name.c_str(), 0);
-    else if (frames)
-      unlinkat(frames.get(), name.c_str() + std::string_view("frames/").size(), 0);
+    const FileSpot spot = folders.spot(name);
+    if (spot.folder >= 0) unlinkat(spot.folder, spot.name.c_str(), 0);
   }
 }
 
 void remove_parts(int folder) {
   for (const std::string& name : folder_names(folder))
     if (is_part_name(name)) remove_entry(folder, name);
+}
+
+/// Parts of files, and series' folders without files.
+void remove_leavings(int folder) {
+  remove_parts(folder);
+  SeriesFolders folders(folder);
+  for (const std::string& series : series_folder_names()) {
+    const int inner = folders.open(series);
+    if (inner < 0) continue;
+    remove_parts(inner);
+    unlinkat(folder, series.c_str(), AT_REMOVEDIR);  // if it is empty
+  }
 }
 
 void add_files(std::vector<std::string>& names, const std::optional<Manifest>& manifest) {
@@ -48,23 +59,29 @@ void add_files(std::vector<std::string>& names, const std::optional<Manifest>& m
 
 /// The files that an interrupted run of this scene may have left without a manifest that names them.
 void add_remains(std::vector<std::string>& names, int folder, const Scene& scene) {
-  Output all = scene.output;
-  all.trajectory.emplace();
-  all.collisions = true;
-  all.energy.emplace();
-  all.contacts.emplace();
-  all.sheet.emplace();
-  if (!all.video) all.video.emplace();
-  for (std::string& name : run_files(scene, all)) names.push_back(std::move(name));
+  for (std::string& name : run_files(scene, with_all(scene.output))) names.push_back(std::move(name));
   names.insert(names.end(), bench_files.begin(), bench_files.end());
-  if (const Descriptor frames = open_folder(folder, "frames", false))
-    for (const std::string& name : folder_names(frames.get())) names.push_back("frames/" + name);
+  SeriesFolders folders(folder);
+  for (const std::string& series : series_folder_names())
+    if (const int inner = folders.open(series); inner >= 0)
+      for (const std::string& name : folder_names(inner)) names.push_back(series + "/" + name);
 }
 
 }  // namespace
 
 Descriptor open_folder(int parent, const std::string& name, bool follow) {
   return Descriptor(openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | (follow ? 0 : O_NOFOLLOW)));
+}
+
+void remove_files_of_run(int folder) {
+  std::vector<std::string> names;
+  add_files(names, read_manifest(folder, manifest_name));
+  add_files(names, read_manifest(folder, former_manifest));
+  unlinkat(folder, manifest_name, 0);
+  remove_files(folder, names);
+  unlinkat(folder, "scene.yaml", 0);
+  remove_leavings(folder);
+  unlinkat(folder, former_manifest, 0);
 }
 
 OpenFolder::OpenFolder(const std::string& path, Durability durability) : durability_(durability) {
@@ -94,7 +111,10 @@ OpenFolder::OpenFolder(const std::string& path, Durability durability) : durabil
 
 OpenFolder::~OpenFolder() {
   if (keep_) return;
-  if (!begun_.empty()) unlinkat(place_.folder, "frames", AT_REMOVEDIR);  // if it is empty
+  if (!begun_.empty()) {
+    for (const std::string& series : series_folder_names())
+      unlinkat(place_.folder, series.c_str(), AT_REMOVEDIR);  // if it is empty
+  }
   for (const FileRecord& file : begun_) unlinkat(place_.folder, file.name.c_str(), 0);
   if (made_) rmdir(place_.path.c_str());
 }
@@ -122,23 +142,21 @@ std::vector<FileRecord> OpenFolder::begin(const Scene& scene, const std::vector<
   };
   put("scene.yaml", scene.resolved);
   remove_files(folder, names);
-  remove_parts(folder);
-  if (const Descriptor frames = open_folder(folder, "frames", false)) {
-    remove_parts(frames.get());
-    unlinkat(folder, "frames", AT_REMOVEDIR);  // if it is empty
-  }
+  remove_leavings(folder);
   unlinkat(folder, former_manifest, 0);
   for (const MeshCopy& mesh : meshes) put(mesh.name, mesh.bytes);
   return begun_;
 }
 
-FilePlace OpenFolder::frames() {
-  const FilePlace place{-1, place_.path + "/frames"};
-  if (mkdirat(place_.folder, "frames", 0777) != 0 && errno != EEXIST) fail("make", place, "");
-  frames_ = open_folder(place_.folder, "frames", false);
-  const bool other = !frames_ && (errno == ENOTDIR || errno == ELOOP);
-  if (!frames_) fail("open", place, "", other ? "it is no folder, or a link; remove it" : "");
-  return {frames_.get(), place.path};
+FilePlace OpenFolder::series(const FileSeries& series) {
+  const std::string name(series.folder);
+  const FilePlace place{-1, place_.path + "/" + name};
+  if (mkdirat(place_.folder, name.c_str(), 0777) != 0 && errno != EEXIST) fail("make", place, "");
+  Descriptor folder = open_folder(place_.folder, name, false);
+  const bool other = !folder && (errno == ENOTDIR || errno == ELOOP);
+  if (!folder) fail("open", place, "", other ? "it is no folder, or a link; remove it" : "");
+  series_.push_back(std::move(folder));
+  return {series_.back().get(), place.path};
 }
 
 void OpenFolder::publish(const std::vector<OutputFile*>& files, OutputFile& manifest,

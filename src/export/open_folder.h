@@ -14,6 +14,9 @@ namespace carom {
 /// A folder's descriptor; none if it is not there, or no folder, or (unless `follow`) a link. Sets errno.
 Descriptor open_folder(int parent, const std::string& name, bool follow);
 
+/// Removes all files that the manifest in this folder names, the manifest first, and parts that were left.
+void remove_files_of_run(int folder);
+
 class OpenFolder {
  public:
   /// Makes the folder and its parents if need be, and locks it against other runs. Throws ExportError, as all of this
@@ -30,8 +33,8 @@ class OpenFolder {
   /// folder that inspect_folder judges rightly. Then the copies of its meshes. Gives the records of all these.
   std::vector<FileRecord> begin(const Scene& scene, const std::vector<MeshCopy>& meshes = {});
 
-  /// Makes, if need be, and opens the folder of frames.
-  FilePlace frames();
+  /// Makes, if need be, and opens the folder of a series.
+  FilePlace series(const FileSeries& series);
 
   /// Something stands in the folder now that is worth keeping even if the run fails.
   void keep() { keep_ = true; }
@@ -45,7 +48,8 @@ class OpenFolder {
   void sync_names();  // what was renamed in it
 
   Durability durability_;
-  Descriptor folder_, frames_;
+  Descriptor folder_;
+  std::vector<Descriptor> series_;
   FilePlace place_;
   bool made_ = false, keep_ = false;
   std::vector<FileRecord> begun_;  // what stands there from the beginning

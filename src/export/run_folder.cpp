@@ -1,38 +1,40 @@
 #include "export/run_folder.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <tuple>
 #include <vector>
 
 #include "export/folder_names.h"
 #include "export/manifest.h"
 #include "export/mesh_copies.h"
 #include "export/open_folder.h"
+#include "export/series_folders.h"
 #include "export/stored_file.h"
 
 namespace carom {
 namespace {
 
-/// Calls `check(folder, plain name, record)` for each file of the manifest until one fails.
+/// Calls `check(spot, record)` for each file of the manifest until one fails.
 template <typename Check>
 bool all_files(int folder, const Manifest& manifest, const Check& check) {
-  const Descriptor frames = open_folder(folder, "frames", false);
+  SeriesFolders folders(folder);
   return std::all_of(manifest.files.begin(), manifest.files.end(), [&](const FileRecord& file) {
-    const std::string_view head = "frames/";
-    return file.name.starts_with(head) ? frames && check(frames.get(), file.name.substr(head.size()), file)
-                                       : check(folder, file.name, file);
+    const FileSpot spot = folders.spot(file.name);
+    return spot.folder >= 0 && check(spot, file);
   });
 }
 
-bool has_size(int folder, const std::string& name, const FileRecord& file) {
-  return stored_size(folder, name) == file.bytes;
+bool has_size(const FileSpot& spot, const FileRecord& file) {
+  return stored_size(spot.folder, spot.name) == file.bytes;
 }
 
-bool has_hash(int folder, const std::string& name, const FileRecord& file) {
-  const auto stored = read_record(folder, name);
+bool has_hash(const FileSpot& spot, const FileRecord& file) {
+  const auto stored = read_record(spot.folder, spot.name);
   return stored && stored->bytes == file.bytes && stored->sha256 == file.sha256;
 }
 
@@ -52,18 +54,41 @@ bool is_whole(int folder, const Manifest& manifest, const std::string& outputs, 
 /// Whether the folder has a file of this tool's run that a run of the scene's outputs would not write anew.
 bool has_more(int folder, const Manifest& manifest, const Scene& scene, const std::vector<std::string>& names) {
   if (manifest.version != CAROM_VERSION) return false;
-  const Descriptor frames = open_folder(folder, "frames", false);
+  SeriesFolders folders(folder);
   return std::any_of(manifest.files.begin(), manifest.files.end(), [&](const FileRecord& file) {
-    const std::string_view head = "frames/";
-    if (file.name.starts_with(head)) {
-      return !scene.output.frames && frames && stored_size(frames.get(), file.name.substr(head.size()));
-    }
-    return std::find(names.begin(), names.end(), file.name) == names.end() &&
-           stored_size(folder, file.name).has_value();
+    const OutputKind* kind = series_of(file.name);
+    const bool anew =
+        kind ? kind->asked(scene.output) : std::find(names.begin(), names.end(), file.name) != names.end();
+    if (anew) return false;
+    const FileSpot spot = folders.spot(file.name);
+    return spot.folder >= 0 && stored_size(spot.folder, spot.name).has_value();
   });
 }
 
+/// When anything about a file was changed last: content, name, owner; no program can set it back.
+std::optional<timespec> changed(int folder, const std::string& name) {
+  struct stat info {};
+  if (fstatat(folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) return std::nullopt;
+  return info.st_ctim;
+}
+
+bool is_before(const timespec& a, const timespec& b) {
+  return std::tie(a.tv_sec, a.tv_nsec) < std::tie(b.tv_sec, b.tv_nsec);
+}
+
 }  // namespace
+
+bool is_whole_since(const std::string& path, const std::string& mark) {
+  const timespec marked = changed(AT_FDCWD, mark).value_or(timespec{});
+  const Descriptor folder = open_folder(AT_FDCWD, path, true);
+  const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : std::nullopt;
+  if (!manifest || manifest->version != CAROM_VERSION) return false;
+  const auto unchanged = [&](int in, const std::string& name, const FileRecord& file) {
+    const std::optional<timespec> when = changed(in, name);
+    return when && has_size(in, name, file) && (is_before(*when, marked) || has_hash(in, name, file));
+  };
+  return all_files(folder.get(), *manifest, unchanged);
+}
 
 void sync_file_system(const std::string& path) {
   const Descriptor folder = open_folder(AT_FDCWD, path, true);

@@ -28,6 +28,11 @@ enum class FolderContent {
   other_run    // another scene's run, or files that no run wrote
 };
 
+/// Whether the run in `folder` is whole, as its manifest says: every file of its size, and of its hash too if anything
+/// about it has changed since the file `mark` was written. `mark`: a path, empty: every hash counts; what was written
+/// within the same clock tick counts as changed.
+bool is_whole_since(const std::string& folder, const std::string& mark);
+
 /// What stands in `folder`, read from its manifest.json. Changes nothing.
 FolderContent inspect_folder(const std::string& folder, const Scene& scene);
 /// The same for what is no run: `outputs` as in its manifest, `files` that it must have.

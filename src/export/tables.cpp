@@ -99,7 +99,7 @@ TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
   file_.write("\n");
 }
 
-void TrajectoryTable::add(double time, const State& state) {
+void TrajectoryTable::add(double time, const State& state, std::span<const ContactForce>) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Entity bodies = scene_.world.body_count();
   Entity first = 0;
@@ -117,10 +117,10 @@ void TrajectoryTable::add(double time, const State& state) {
   } while (first < bodies);
 }
 
-OutputFile& TrajectoryTable::file() {
+std::vector<OutputFile*> TrajectoryTable::files() {
   if (!blocks_.item().parts.empty()) blocks_.send();
   blocks_.finish();
-  return file_;
+  return {&file_};
 }
 
 void TrajectoryTable::write(Block& block) {
@@ -176,7 +176,7 @@ CollisionTable::CollisionTable(const FilePlace& place, const Scene& scene)
       "energy_lost_J\n");
 }
 
-void CollisionTable::add(std::span<const Collision> collisions) {
+void CollisionTable::record(std::span<const Collision> collisions) {
   while (!collisions.empty()) {
     std::vector<Collision>& block = blocks_.item();
     const std::size_t count = std::min(block_rows - block.size(), collisions.size());
@@ -186,10 +186,10 @@ void CollisionTable::add(std::span<const Collision> collisions) {
   }
 }
 
-OutputFile& CollisionTable::file() {
+std::vector<OutputFile*> CollisionTable::files() {
   if (!blocks_.item().empty()) blocks_.send();
   blocks_.finish();
-  return file_;
+  return {&file_};
 }
 
 void CollisionTable::write(std::vector<Collision>& collisions) {
@@ -215,7 +215,7 @@ ContactTable::ContactTable(const FilePlace& place, const Scene& scene)
   file_.write("time_s,a,b,force_N\n");
 }
 
-void ContactTable::add(double time, std::span<const ContactForce> contacts) {
+void ContactTable::add(double time, const State&, std::span<const ContactForce> contacts) {
   for (const ContactForce& contact : contacts) {
     file_.written(put_number(file_.room(number_size), time));
     for (const Entity entity : {contact.a, contact.b}) write_name(file_, roster_, bodies_, entity);
@@ -229,7 +229,7 @@ EnergyTable::EnergyTable(const FilePlace& place, const Scene& scene) : world_(sc
   file_.write("time_s,kinetic_J,potential_J,total_J,px_kg_m_per_s,py_kg_m_per_s,pz_kg_m_per_s\n");
 }
 
-void EnergyTable::add(double time, const State& state) {
+void EnergyTable::add(double time, const State& state, std::span<const ContactForce>) {
   const double kinetic = kinetic_energy(world_, state);
   const double potential = potential_energy(world_, state);
   const Vec3 p = momentum(world_, state);

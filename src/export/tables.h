@@ -1,17 +1,13 @@
 #pragma once
 // The CSV files of a run. Each is made only if the scene asks for it. Those that grow long get their digits on a thread
 // of their own.
-#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "export/conveyor.h"
 #include "export/csv.h"
 #include "export/output_file.h"
-#include "physics/collision.h"
-#include "physics/contact_force.h"
-#include "physics/state.h"
-#include "scene/scene.h"
+#include "export/writer.h"
 
 namespace carom {
 
@@ -20,12 +16,11 @@ struct Summary;
 /// trajectory.csv. Long: a row a body and instant, by time then body. Wide: a row an instant, six columns a body:
 /// time_s,<name>.x_m,<name>.y_m,<name>.z_m,<name>.vx_m_per_s,<name>.vy_m_per_s,<name>.vz_m_per_s,...
 /// A body that has become part of another has no rows from then on; in a wide table its cells are empty.
-class TrajectoryTable {
+class TrajectoryTable : public Writer {
  public:
   TrajectoryTable(const FilePlace& place, const Scene& scene);
-  void add(double time, const State& state);  // s
-  /// All rows, in the file.
-  OutputFile& file();
+  void add(double time, const State& state, std::span<const ContactForce> contacts) override;
+  std::vector<OutputFile*> files() override;
 
  private:
   struct Motion {
@@ -51,12 +46,11 @@ class TrajectoryTable {
 };
 
 /// collisions.csv: a row a collision, in the order in which they happened.
-class CollisionTable {
+class CollisionTable : public Writer {
  public:
   CollisionTable(const FilePlace& place, const Scene& scene);
-  void add(std::span<const Collision> collisions);
-  /// All rows, in the file.
-  OutputFile& file();
+  void record(std::span<const Collision> collisions) override;
+  std::vector<OutputFile*> files() override;
 
  private:
   void write(std::vector<Collision>& collisions);
@@ -68,11 +62,12 @@ class CollisionTable {
 };
 
 /// contacts.csv: a row an instant and pair in lasting contact, by time, then a, then b.
-class ContactTable {
+class ContactTable : public Writer {
  public:
   ContactTable(const FilePlace& place, const Scene& scene);
-  void add(double time, std::span<const ContactForce> contacts);  // s
-  OutputFile& file() { return file_; }
+  bool wants_contacts() const override { return true; }
+  void add(double time, const State& state, std::span<const ContactForce> contacts) override;
+  std::vector<OutputFile*> files() override { return {&file_}; }
 
  private:
   const Roster& roster_;
@@ -81,11 +76,11 @@ class ContactTable {
 };
 
 /// energy.csv: a row an instant.
-class EnergyTable {
+class EnergyTable : public Writer {
  public:
   EnergyTable(const FilePlace& place, const Scene& scene);
-  void add(double time, const State& state);  // s
-  OutputFile& file() { return file_; }
+  void add(double time, const State& state, std::span<const ContactForce> contacts) override;
+  std::vector<OutputFile*> files() override { return {&file_}; }
 
  private:
   const World& world_;

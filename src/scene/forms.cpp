@@ -18,10 +18,7 @@ constexpr std::string_view shape_names[] = {"sphere", "cylinder", "box"};
 
 /// Whatever a run may write beside the copies of meshes.
 bool is_taken(const std::string& name, const std::string& film) {
-  static const std::set<std::string> outputs = {"scene.yaml",    "summary.csv",  "trajectory.csv", "collisions.csv",
-                                                "energy.csv",    "contacts.csv", "sheet.png",      "frames",
-                                                "manifest.json", "animation.mp4"};
-  return outputs.contains(name) || name == film;
+  return is_reserved(name) || name == VideoOutput{}.file || name == film;
 }
 
 /// Files and their readers hold floats: 0.381 in a file comes as 0.38100001215934753. The shortest decimal that is the

@@ -14,15 +14,6 @@ namespace {
 /// Texts that replace what a View gives, by key; an empty one leaves the key out.
 using Overrides = std::map<std::string_view, std::string>;
 
-std::string in_quotes(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + "\"";
-}
-
 std::string flow(const View& view, const Overrides& overrides = {}) {
   std::string out;
   for (const Field& field : view.kind().fields) {
@@ -189,6 +180,15 @@ class Resolver {
 };
 
 }  // namespace
+
+std::string in_quotes(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "\"";
+}
 
 std::string flow_text(const Node& node) {
   if (node.is(Node::Kind::scalar)) {

@@ -1,10 +1,14 @@
 #pragma once
 // A scene -> the YAML text that says the same without defaults.
 #include <string>
+#include <string_view>
 
 #include "scene/decode.h"
 
 namespace carom {
+
+/// Text as a YAML scalar that is text whatever it looks like.
+std::string in_quotes(std::string_view text);
 
 /// A value as YAML in one line, numbers as authored.
 std::string flow_text(const Node& node);

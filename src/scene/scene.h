@@ -10,6 +10,7 @@
 #include "physics/state.h"
 #include "physics/vec3.h"
 #include "physics/world.h"
+#include "scene/output.h"
 
 namespace carom {
 
@@ -86,53 +87,6 @@ struct Light {
   std::optional<Vec3> position;   // m
   Color color;
   double intensity = 1;
-};
-
-struct Size {
-  int width = 1280, height = 720;  // pixels
-};
-
-struct TrajectoryOutput {
-  double every = 1.0 / 30;  // s
-  bool wide = false;
-};
-struct EnergyOutput {
-  double every = 1.0 / 30;  // s
-};
-struct ContactsOutput {
-  double every = 1.0 / 30;  // s
-};
-struct FramesOutput {
-  double fps = 30;
-  Size size;
-  int samples = 4;              // per pixel
-  double from = 0;              // s
-  std::optional<double> until;  // s; none: the duration
-};
-struct VideoOutput {
-  std::string file = "animation.mp4";  // a plain file name
-  double fps = 30;
-  Size size;
-  int samples = 4;
-  int crf = 18;
-  double from = 0;
-  std::optional<double> until;
-};
-struct SheetOutput {
-  int columns = 4, rows = 3;
-};
-
-/// What the run shall write; absent means not wanted and nothing is made for it. summary, manifest and scene.yaml
-/// always are.
-struct Output {
-  std::optional<TrajectoryOutput> trajectory;
-  bool collisions = false;
-  std::optional<EnergyOutput> energy;
-  std::optional<ContactsOutput> contacts;
-  std::optional<FramesOutput> frames;
-  std::optional<VideoOutput> video;
-  std::optional<SheetOutput> sheet;
-  bool pictures() const { return frames || video || sheet; }
 };
 
 struct Scene {

@@ -20,6 +20,7 @@ constexpr Field sweep_fields[] = {
     grid, zip, list, skip,
     {.key = "runs", .type = Type::list, .of = "block", .doc = "Several such blocks, one after the other, instead of grid, zip, list and skip."},
     {.key = "repeat", .type = Type::part, .of = "repeat", .doc = "Each combination several times, with other seeds."},
+    {.key = "only", .type = Type::names, .doc = "The outputs that are written, of those of --only. Default: what the base asks for."},
     {.key = "compare", .type = Type::part, .of = "compare", .doc = "What the comparison shows."},
 };
 

@@ -72,9 +72,9 @@ void trajectory(benchmark::State& state) {
     const Descriptor open_folder(open(folder.path().c_str(), O_RDONLY | O_DIRECTORY));
     TrajectoryTable table({open_folder.get(), folder.path()}, scene);
     for (std::int64_t instant = 0; instant < state.range(0) / bodies; ++instant)
-      table.add(0.001 * static_cast<double>(instant), of);
-    table.file().complete();
-    state.SetLabel(table.file().record().sha256.substr(0, 16));
+      table.add(0.001 * static_cast<double>(instant), of, {});
+    table.files().front()->complete();
+    state.SetLabel(table.files().front()->record().sha256.substr(0, 16));
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }

@@ -138,7 +138,7 @@ TEST(Conveyor, ALongTrajectoryHasEveryRowOnce) {
         state.part_of.resize(count);
         for (Entity i = 0; i < count; ++i) state.part_of[i] = i % 5 == 4 ? i - 1 : i;
       }
-      table.add(time, state);
+      table.add(time, state, {});
       if (wide) expected += number(time);
       for (Entity i = 0; i < count; ++i) {
         const bool part = !state.part_of.empty() && state.part_of[i] != i;
@@ -150,12 +150,12 @@ TEST(Conveyor, ALongTrajectoryHasEveryRowOnce) {
       }
       if (wide) expected += "\n";
     }
-    table.file().publish();
+    table.files().front()->publish();
     std::string written = read(temp / "trajectory.csv");
     if (wide) written.erase(0, written.find('\n') + 1);
     ASSERT_EQ(written.size(), expected.size());
     EXPECT_TRUE(written == expected);
-    EXPECT_EQ(table.file().record().sha256, sha256(read(temp / "trajectory.csv")));
+    EXPECT_EQ(table.files().front()->record().sha256, sha256(read(temp / "trajectory.csv")));
   }
 }
 
@@ -170,7 +170,7 @@ TEST(Conveyor, ALongFileOfWhichNothingIsPublishedLeavesNothing) {
     const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY));
     TrajectoryTable table({folder.get(), temp.path()}, scene);
     const State state = many_bodies(5000, 0);
-    for (int i = 0; i < 20; ++i) table.add(i, state);
+    for (int i = 0; i < 20; ++i) table.add(i, state, {});
   }
   EXPECT_TRUE(names_in(temp.path()).empty());
 }

@@ -1,0 +1,90 @@
+#include "export/copied_run.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <map>
+#include <optional>
+
+#include "export/folder_names.h"
+#include "export/manifest.h"
+#include "export/open_folder.h"
+#include "export/series_folders.h"
+#include "export/stored_file.h"
+
+namespace carom {
+namespace {
+
+constexpr std::uint64_t longest_reason = 1 << 20;  // bytes
+
+/// Its bytes and its hash must be those of the record.
+void copy_file(const FileSpot& from, const FilePlace& to, const FileRecord& record) {
+  const std::string& name = from.name;
+  const Descriptor source = open_stored(from.folder, name);
+  if (!source) fail("copy", to, name, "the run that it is a copy of does not have it any more");
+  OutputFile file(to, name);
+  std::array<char, 65536> buffer{};
+  ssize_t n;
+  while ((n = read(source.get(), buffer.data(), buffer.size())) != 0) {
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail("copy", to, name);
+    file.write({buffer.data(), static_cast<std::size_t>(n)});
+  }
+  file.complete();
+  if (file.record().sha256 != record.sha256) fail("copy", to, name, "the run that it is a copy of has changed");
+  file.publish();
+}
+
+}  // namespace
+
+void copy_run(const std::string& from, const std::string& to) {
+  const Descriptor source = open_folder(AT_FDCWD, from, true);
+  const std::optional<Manifest> manifest = source ? read_manifest(source.get(), manifest_name) : std::nullopt;
+  const std::optional<std::string> text = manifest ? read_text(source.get(), manifest_name, 256 << 20) : std::nullopt;
+  if (!text) fail("copy", {-1, from}, "", "it holds no whole run");
+  OpenFolder folder(to, Durability::deferred);
+  remove_files_of_run(folder.place().folder);
+  SeriesFolders from_series(source.get());
+  std::map<const OutputKind*, FilePlace> to_series;
+  for (const FileRecord& record : manifest->files) {
+    const FileSpot spot = from_series.spot(record.name);
+    if (spot.folder < 0) fail("copy", {-1, from}, record.name, "it is not there");
+    const OutputKind* series = series_of(record.name);
+    if (series != nullptr && !to_series.contains(series)) to_series[series] = folder.series(series->series);
+    copy_file(spot, series == nullptr ? folder.place() : to_series[series], record);
+  }
+  OutputFile last(folder.place(), manifest_name);
+  last.write(*text);
+  last.publish();
+  folder.keep();
+}
+
+void remove_run(const std::string& path) {
+  const Descriptor folder = open_folder(AT_FDCWD, path, false);
+  if (!folder) return;
+  remove_files_of_run(folder.get());
+  unlinkat(folder.get(), failure_file, 0);
+  rmdir(path.c_str());
+}
+
+void store_failure(const std::string& path, const std::string& why) {
+  OpenFolder folder(path, Durability::deferred);
+  OutputFile file(folder.place(), failure_file);
+  file.write(why);
+  file.write("\n");
+  file.publish();
+  folder.keep();
+}
+
+std::string stored_failure(const std::string& path) {
+  const Descriptor folder = open_folder(AT_FDCWD, path, true);
+  if (!folder) return "";
+  std::string text = read_text(folder.get(), failure_file, longest_reason).value_or("");
+  while (text.ends_with('\n')) text.pop_back();
+  return text;
+}
+
+}  // namespace carom

@@ -1,0 +1,34 @@
+#include "export/series_folders.h"
+
+#include "export/open_folder.h"
+
+namespace carom {
+
+const OutputKind* series_of(std::string_view name) {
+  const std::size_t slash = name.find('/');
+  if (slash == std::string_view::npos) return nullptr;
+  for (const OutputKind& kind : output_kinds())
+    if (kind.series.folder == name.substr(0, slash) && kind.series.has(name.substr(slash + 1))) return &kind;
+  return nullptr;
+}
+
+FileSpot SeriesFolders::spot(std::string_view name) {
+  const std::size_t slash = name.find('/');
+  if (slash == std::string_view::npos) return {folder_, std::string(name)};
+  return {open(name.substr(0, slash)), std::string(name.substr(slash + 1))};
+}
+
+int SeriesFolders::open(std::string_view name) {
+  const auto found = opened_.find(name);
+  if (found != opened_.end()) return found->second.get();
+  return opened_.emplace(name, open_folder(folder_, std::string(name), false)).first->second.get();
+}
+
+std::vector<std::string> series_folder_names() {
+  std::vector<std::string> names;
+  for (const OutputKind& kind : output_kinds())
+    if (!kind.series.folder.empty()) names.emplace_back(kind.series.folder);
+  return names;
+}
+
+}  // namespace carom

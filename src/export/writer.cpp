@@ -1,0 +1,46 @@
+#include "export/writer.h"
+
+#include "export/tables.h"
+
+namespace carom {
+namespace {
+
+// Typical sizes, bytes: a motion's six numbers, a time, a name, a row of energy.csv.
+constexpr double motion_bytes = 114, time_bytes = 6, name_bytes = 8, energy_bytes = 110, collision_bytes = 260,
+                 contact_bytes = 40;
+
+template <typename Table>
+std::unique_ptr<Writer> open(OpenFolder& folder, const Scene& scene) {
+  return std::make_unique<Table>(folder.place(), scene);
+}
+
+double trajectory_bytes(const Scene& scene, double instants) {
+  const double bodies = scene.world.body_count(), rows = instants * bodies;
+  return scene.output.trajectory->wide ? rows * motion_bytes + bodies * 6 * (name_bytes + 8) + instants * time_bytes
+                                       : rows * (motion_bytes + time_bytes + name_bytes);
+}
+
+constexpr WriterKind all_kinds[] = {
+    {"trajectory", open<TrajectoryTable>, trajectory_bytes},
+    // How many there will be nobody knows; one a body.
+    {"collisions", open<CollisionTable>,
+     [](const Scene& scene, double) { return collision_bytes * scene.world.body_count(); }},
+    {"energy", open<EnergyTable>, [](const Scene&, double instants) { return energy_bytes * instants; }},
+    // Which bodies rest when nobody knows; half of them always.
+    {"contacts", open<ContactTable>,
+     [](const Scene& scene, double instants) { return contact_bytes * instants * scene.world.body_count() / 2; }},
+};
+
+}  // namespace
+
+std::span<const WriterKind> writer_kinds() {
+  return all_kinds;
+}
+
+const WriterKind* writer_named(std::string_view name) {
+  for (const WriterKind& kind : all_kinds)
+    if (kind.name == name) return &kind;
+  return nullptr;
+}
+
+}  // namespace carom

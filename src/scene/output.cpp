@@ -1,0 +1,172 @@
+#include "scene/output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "scene/fields.h"
+
+namespace carom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename Settings>
+void take(std::optional<Settings>& to, const std::optional<Settings>& asked) {
+  to = asked.value_or(Settings{});
+}
+
+FramesOutput frames_like(const VideoOutput& video) {
+  return {video.fps, video.size, video.samples, video.from, video.until};
+}
+
+VideoOutput video_like(const FramesOutput& frames) {
+  VideoOutput video;
+  video.fps = frames.fps;
+  video.size = frames.size;
+  video.samples = frames.samples;
+  video.from = frames.from;
+  video.until = frames.until;
+  return video;
+}
+
+Json size_json(Size size) {
+  return Json::array({size.width, size.height});
+}
+
+Json optional_json(const std::optional<double>& value) {
+  return value ? Json(*value) : Json();
+}
+
+constexpr OutputKind all_kinds[] = {
+    {.name = "trajectory",
+     .asked = [](const Output& o) { return o.trajectory.has_value(); },
+     .add = [](Output& to, const Output& asked) { take(to.trajectory, asked.trajectory); },
+     .settings =
+         [](const Output& o) {
+           return Json{{"every", o.trajectory->every}, {"layout", o.trajectory->wide ? "wide" : "long"}};
+         },
+     .every = [](const Output& o) { return o.trajectory->every; },
+     .files = "trajectory.csv"},
+    {.name = "collisions",
+     .asked = [](const Output& o) { return o.collisions; },
+     .add = [](Output& to, const Output&) { to.collisions = true; },
+     .settings = [](const Output&) { return Json(true); },
+     .files = "collisions.csv"},
+    {.name = "energy",
+     .asked = [](const Output& o) { return o.energy.has_value(); },
+     .add = [](Output& to, const Output& asked) { take(to.energy, asked.energy); },
+     .settings =
+         [](const Output& o) {
+           return Json{{"every", o.energy->every}};
+         },
+     .every = [](const Output& o) { return o.energy->every; },
+     .files = "energy.csv"},
+    {.name = "contacts",
+     .asked = [](const Output& o) { return o.contacts.has_value(); },
+     .add = [](Output& to, const Output& asked) { take(to.contacts, asked.contacts); },
+     .settings =
+         [](const Output& o) {
+           return Json{{"every", o.contacts->every}};
+         },
+     .every = [](const Output& o) { return o.contacts->every; },
+     .files = "contacts.csv"},
+    {.name = "frames",
+     .asked = [](const Output& o) { return o.frames.has_value(); },
+     .add =
+         [](Output& to, const Output& asked) {
+           to.frames = asked.frames.value_or(asked.video ? frames_like(*asked.video) : FramesOutput{});
+         },
+     .settings =
+         [](const Output& o) {
+           const FramesOutput& f = *o.frames;
+           return Json{{"fps", f.fps},
+                       {"size", size_json(f.size)},
+                       {"samples", f.samples},
+                       {"from", f.from},
+                       {"until", optional_json(f.until)}};
+         },
+     .series = frame_files},
+    {.name = "video",
+     .asked = [](const Output& o) { return o.video.has_value(); },
+     .add =
+         [](Output& to, const Output& asked) {
+           to.video = asked.video.value_or(asked.frames ? video_like(*asked.frames) : VideoOutput{});
+         },
+     .settings =
+         [](const Output& o) {
+           const VideoOutput& v = *o.video;
+           return Json{{"file", v.file}, {"fps", v.fps},   {"size", size_json(v.size)},      {"samples", v.samples},
+                       {"crf", v.crf},   {"from", v.from}, {"until", optional_json(v.until)}};
+         },
+     .named = [](const Output& o) { return o.video->file; }},
+    {.name = "sheet",
+     .asked = [](const Output& o) { return o.sheet.has_value(); },
+     .add = [](Output& to, const Output& asked) { take(to.sheet, asked.sheet); },
+     .settings =
+         [](const Output& o) {
+           return Json{{"columns", o.sheet->columns}, {"rows", o.sheet->rows}};
+         },
+     .files = "sheet.png"},
+};
+
+}  // namespace
+
+std::string FileSeries::name(std::int64_t number) const {
+  return fmt::format("{}{:05}{}", stem, number, ending);
+}
+
+bool FileSeries::has(std::string_view name) const {
+  constexpr std::size_t digits = 5;
+  if (!name.starts_with(stem) || !name.ends_with(ending) || name.size() < stem.size() + digits + ending.size())
+    return false;
+  const std::string_view number = name.substr(stem.size(), name.size() - stem.size() - ending.size());
+  return std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+std::span<const OutputKind> output_kinds() {
+  return all_kinds;
+}
+
+Output restricted(const Output& asked, const std::vector<std::string>& only) {
+  Output output;
+  for (const OutputKind& kind : all_kinds)
+    if (std::find(only.begin(), only.end(), kind.name) != only.end()) kind.add(output, asked);
+  return output;
+}
+
+bool holds_all(const Output& asked, const std::vector<std::string>& only) {
+  return std::all_of(only.begin(), only.end(), [&](const std::string& name) {
+    return std::any_of(std::begin(all_kinds), std::end(all_kinds),
+                       [&](const OutputKind& kind) { return kind.name == name && kind.asked(asked); });
+  });
+}
+
+Output with_all(const Output& asked) {
+  Output output;
+  for (const OutputKind& kind : all_kinds) kind.add(output, asked);
+  return output;
+}
+
+std::vector<std::string> output_files(const Output& output) {
+  std::vector<std::string> names;
+  for (const OutputKind& kind : all_kinds) {
+    if (!kind.asked(output)) continue;
+    for (const std::string_view name : parts_of(kind.files)) names.emplace_back(name);
+    if (kind.named) names.push_back(kind.named(output));
+  }
+  return names;
+}
+
+bool is_reserved(std::string_view name) {
+  for (const std::string_view always : {"scene.yaml", "summary.csv", "manifest.json"})
+    if (name == always) return true;
+  return std::any_of(std::begin(all_kinds), std::end(all_kinds), [&](const OutputKind& kind) {
+    const std::vector<std::string_view> files = parts_of(kind.files);
+    return std::find(files.begin(), files.end(), name) != files.end() ||
+           (!kind.series.folder.empty() && kind.series.folder == name);
+  });
+}
+
+}  // namespace carom

@@ -1,0 +1,29 @@
+#include "scene/path_field.h"
+
+#include <algorithm>
+
+namespace carom {
+
+const Field* field_at(std::string_view path) {
+  const Kind* kind = &kind_named("scene");
+  const Field* field = nullptr;
+  bool name_next = false;  // the next word is a name or a number, not a key
+  for (std::size_t i = 0; i <= path.size();) {
+    const std::size_t end = std::min(path.find('.', i), path.size());
+    const std::string_view word = path.substr(i, end - i);
+    i = end + 1;
+    if (name_next) {
+      name_next = false;
+      kind = word == kind->also && !kind->also.empty() ? nullptr : kind;
+    } else if (kind != nullptr) {
+      field = find_field(*kind, word);
+      if (field == nullptr) return nullptr;
+      name_next = field->type == Type::named || field->type == Type::list;
+      const bool is_part = name_next || field->type == Type::part || field->type == Type::part_or_flag;
+      kind = is_part ? &kind_named(field->of) : nullptr;
+    }
+  }
+  return field;
+}
+
+}  // namespace carom

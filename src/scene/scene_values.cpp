@@ -1,0 +1,98 @@
+#include "scene/scene_values.h"
+
+#include <array>
+#include <string_view>
+
+#include "scene/diagnostics.h"
+#include "scene/document.h"
+#include "scene/fields.h"
+#include "scene/load.h"
+#include "scene/values.h"
+
+namespace carom {
+namespace {
+
+std::string text_of(const Node& node) {
+  if (node.is(Node::Kind::scalar)) {
+    const auto number = node.quoted ? std::nullopt : parse_number(node.text);
+    return number ? shortest(*number) : node.text;
+  }
+  std::string text;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    if (i > 0) text += ", ";
+    if (node.is(Node::Kind::map)) text += node.keys[i].text + ": ";
+    text += text_of(node.items[i]);
+  }
+  if (node.is(Node::Kind::sequence)) return "[" + text + "]";
+  return node.is(Node::Kind::map) ? "{" + text + "}" : text;
+}
+
+class Flattener {
+ public:
+  void map(const std::string& path, const Node& node, const Kind& kind) {
+    if (!node.is(Node::Kind::map)) return leaf(path, node, {});
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+      const Field* field = find_field(kind, node.keys[i].text);
+      const std::string below = path.empty() ? node.keys[i].text : path + "." + node.keys[i].text;
+      if (field == nullptr)
+        leaf(below, node.items[i], {});
+      else
+        value(below, node.items[i], *field);
+    }
+  }
+
+  std::vector<SceneValue> found;
+
+ private:
+  void value(const std::string& path, const Node& node, const Field& field) {
+    switch (field.type) {
+      case Type::part:
+      case Type::part_or_flag:
+        return map(path, node, kind_named(field.of));
+      case Type::named:
+        if (!node.is(Node::Kind::map)) return leaf(path, node, {});
+        for (std::size_t i = 0; i < node.items.size(); ++i)
+          map(path + "." + node.keys[i].text, node.items[i], kind_named(field.of));
+        return;
+      case Type::list:
+        if (!node.is(Node::Kind::sequence)) return leaf(path, node, {});
+        for (std::size_t i = 0; i < node.items.size(); ++i)
+          map(path + "." + std::to_string(i), node.items[i], kind_named(field.of));
+        return;
+      case Type::vector:
+      case Type::direction:
+        return numbers(path, node, field, std::array<std::string_view, 3>{"x", "y", "z"});
+      case Type::extent:
+      case Type::pixels:
+        return numbers(path, node, field, std::array<std::string_view, 2>{"width", "height"});
+      default:
+        return leaf(path, node, field.unit);
+    }
+  }
+
+  template <std::size_t Size>
+  void numbers(const std::string& path, const Node& node, const Field& field,
+               const std::array<std::string_view, Size>& names) {
+    if (!node.is(Node::Kind::sequence) || node.items.size() != Size) return leaf(path, node, field.unit);
+    for (std::size_t i = 0; i < Size; ++i) leaf(path + "." + std::string(names[i]), node.items[i], field.unit);
+  }
+
+  void leaf(const std::string& path, const Node& node, std::string_view unit) {
+    found.push_back({path, text_of(node), std::string(unit), node.place.offset});
+  }
+};
+
+}  // namespace
+
+std::vector<SceneValue> scene_values(const std::string& name, const std::string& text) {
+  std::vector<Source> sources = {{name, text}};
+  Diagnostics diagnostics(sources);
+  std::optional<Node> root;
+  if (check_text(sources[0], 0, diagnostics)) root = parse_document(sources, 0, 0, diagnostics);
+  if (!root || !diagnostics.empty()) throw SceneError(diagnostics.text(false), diagnostics.count());
+  Flattener flattener;
+  flattener.map("", *root, kind_named("scene"));
+  return std::move(flattener.found);
+}
+
+}  // namespace carom

@@ -1,0 +1,125 @@
+#include "scene/sweep.h"
+
+#include <fmt/format.h>
+
+#include "scene/resolve.h"
+
+namespace carom {
+
+std::size_t Sweep::size() const {
+  std::size_t count = 0;
+  for (const SweepBlock& block : blocks) count += block.kept.size();
+  return count * std::max<std::uint64_t>(seeds, 1);
+}
+
+std::string Sweep::id(std::size_t number) const {
+  return fmt::format("r{:04}", number + 1);
+}
+
+SweepRun Sweep::run(std::size_t number) const {
+  SweepRun run;
+  run.id = id(number);
+  run.values.resize(paths.size());
+  for (const SweepValue& value : set_values) run.settings.push_back({value.text, value.where});
+  const std::size_t repeats = std::max<std::uint64_t>(seeds, 1);
+  std::size_t combination = number / repeats;
+  const SweepBlock* block = blocks.data();
+  for (; combination >= block->kept.size(); ++block) combination -= block->kept.size();
+  std::size_t rest = block->kept[combination];
+  std::vector<const SweepCase*> cases(block->axes.size());
+  for (std::size_t a = block->axes.size(); a-- > 0;) {
+    const std::vector<SweepCase>& all = block->axes[a].cases;
+    cases[a] = &all[rest % all.size()];
+    rest /= all.size();
+  }
+  for (const SweepCase* one : cases) {
+    for (const auto& [path, value] : one->values) {
+      run.values[path] = value.text;
+      run.settings.push_back({paths[path] + "=" + value.text, value.where});
+    }
+  }
+  if (seeds > 0) {
+    // (Without repeats there is no seed among the paths.)
+    const std::string seed = std::to_string(first_seed.value_or(0) + number % repeats);
+    run.values.back() = seed;
+    run.settings.push_back({"seed=" + seed, file});
+  }
+  return run;
+}
+
+namespace {
+
+using Kind = SweepAxis::Kind;
+
+/// "path: [value, value]" of each path of a grid's or a zip's axis.
+std::string columns(const SweepAxis& axis, const std::vector<std::string>& paths) {
+  std::string out;
+  for (std::size_t column = 0; column < axis.cases.front().values.size(); ++column) {
+    std::string values;
+    for (const SweepCase& one : axis.cases) values += (values.empty() ? "" : ", ") + one.values[column].second.text;
+    out += fmt::format("      {}: [{}]\n", paths[axis.cases.front().values[column].first], values);
+  }
+  return out;
+}
+
+std::string lines(const SweepAxis& axis, const std::vector<std::string>& paths) {
+  std::string out;
+  for (const SweepCase& one : axis.cases) {
+    std::string values;
+    for (const auto& [path, value] : one.values)
+      values += fmt::format("{}{}: {}", values.empty() ? "" : ", ", paths[path], value.text);
+    out += "      - {" + values + "}\n";
+  }
+  return out;
+}
+
+std::string block_text(const SweepBlock& block, const std::vector<std::string>& paths) {
+  std::string grid, zip, list;
+  for (const SweepAxis& axis : block.axes) {
+    if (axis.kind == Kind::grid) grid += columns(axis, paths);
+    if (axis.kind == Kind::zip) zip += columns(axis, paths);
+    if (axis.kind == Kind::list) list += lines(axis, paths);
+  }
+  std::string out;
+  const auto add = [&](std::string_view key, const std::string& text) {
+    if (!text.empty()) out += fmt::format("    {}:\n{}", key, text);
+  };
+  add("grid", grid);
+  add("zip", zip);
+  add("list", list);
+  if (!block.skip.empty()) out += fmt::format("    skip: {}\n", block.skip);
+  if (out.empty()) return "  - {}\n";
+  out[2] = '-';
+  return out;
+}
+
+}  // namespace
+
+std::string Sweep::resolved(std::string_view base_name) const {
+  std::string out = fmt::format("sweep: 1\ntitle: {}\nbase: {}\n", in_quotes(title), in_quotes(base_name));
+  if (!set_values.empty()) out += "set:\n";
+  for (const SweepValue& value : set_values) {
+    const std::size_t equals = value.text.find('=');
+    out += fmt::format("  {}: {}\n", value.text.substr(0, equals), value.text.substr(equals + 1));
+  }
+  out += "runs:\n";
+  for (const SweepBlock& block : blocks) out += block_text(block, paths);
+  if (seeds > 0) out += fmt::format("repeat: {{seeds: {}, first: {}}}\n", seeds, first_seed.value_or(0));
+  if (!only.empty()) {
+    std::string names;
+    for (const SweepValue& name : only) names += (names.empty() ? "" : ", ") + in_quotes(name.text);
+    out += fmt::format("only: [{}]\n", names);
+  }
+  if (measures.empty() && charts.empty()) return out;
+  out += "compare:\n";
+  if (!measures.empty()) out += "  measures:\n";
+  for (const SweepMeasure& measure : measures) out += fmt::format("    - {}\n", in_quotes(measure.name));
+  if (!charts.empty()) out += "  charts:\n";
+  for (const SweepChart& chart : charts) {
+    out += fmt::format("    - {{x: {}, y: {}", in_quotes(chart.x), in_quotes(chart.y));
+    out += chart.by.empty() ? "}\n" : fmt::format(", by: {}}}\n", in_quotes(chart.by));
+  }
+  return out;
+}
+
+}  // namespace carom

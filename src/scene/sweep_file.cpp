@@ -1,0 +1,368 @@
+// A sweep file's tree, checked against the table of fields -> Sweep.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "scene/check.h"
+#include "scene/decimal.h"
+#include "scene/document.h"
+#include "scene/resolve.h"
+#include "scene/sweep.h"
+#include "scene/values.h"
+#include "scene/view.h"
+
+namespace carom {
+namespace {
+
+using Axis = SweepAxis;
+
+/// Whether two values of a path are the same: numbers by value, all else by text.
+bool same_value(const std::string& a, const std::string& b) {
+  if (a == b) return true;
+  const std::optional<double> x = parse_number(a), y = parse_number(b);
+  return x && y && *x == *y;
+}
+
+class Reader {
+ public:
+  Reader(std::vector<Source>& sources, const Node& root, Diagnostics& diagnostics)
+      : sources_(sources), root_(root), diagnostics_(diagnostics) {}
+
+  Sweep run() {
+    const View whole(&root_, kind_named("sweep"), Place{});
+    sweep_.title = whole.text("title").value_or("");
+    sweep_.base = beneath_folder(whole.text("base").value_or(""));
+    if (const Node* set = usable(root_.find("set"))) {
+      for (std::size_t i = 0; i < set->keys.size(); ++i)
+        sweep_.set_values.push_back({set->keys[i].text + "=" + flow_text(set->items[i]), where(set->keys[i].place)});
+    }
+    blocks();
+    repeat();
+    if (const Node* only = usable(root_.find("only"))) {
+      for (const Node& item : only->items) sweep_.only.push_back({item.text, where(item.place)});
+    }
+    compare();
+    if (sweep_.size() > most_runs)
+      diagnostics_.add(root_.keys.front().place, fmt::format("{} runs", sweep_.size()),
+                       fmt::format("expected at most {}", most_runs));
+    return std::move(sweep_);
+  }
+
+ private:
+  static const Node* usable(const Node* node) { return node != nullptr && !node->bad ? node : nullptr; }
+
+  std::string beneath_folder(const std::string& path) const {
+    const std::size_t slash = sources_.front().name.rfind('/');
+    return beneath(slash == std::string::npos ? "" : sources_.front().name.substr(0, slash + 1), path);
+  }
+
+  /// "file:line:column"
+  std::string where(const Place& place) const {
+    const std::string& text = sources_[place.source].text;
+    const std::size_t offset = std::min<std::size_t>(place.offset, text.size());
+    const std::size_t begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
+    return fmt::format("{}:{}:{}", sources_.front().name, line, offset - begin + 1);
+  }
+
+  std::uint32_t path(const std::string& text) {
+    const auto found = std::find(sweep_.paths.begin(), sweep_.paths.end(), text);
+    if (found == sweep_.paths.end()) {
+      sweep_.paths.push_back(text);
+      return static_cast<std::uint32_t>(sweep_.paths.size() - 1);
+    }
+    return static_cast<std::uint32_t>(found - sweep_.paths.begin());
+  }
+
+  void blocks() {
+    const Node* runs = root_.find("runs");
+    if (runs == nullptr) {
+      block(root_);
+      return;
+    }
+    for (const std::string_view key : {"grid", "zip", "list", "skip"}) {
+      if (const Key* beside = root_.find_key(key))
+        diagnostics_.add(beside->place, fmt::format("`runs` and {} stand side by side", quoted(key)),
+                         "expected it in an entry of `runs`");
+    }
+    if (runs->items.empty() && !runs->bad)
+      diagnostics_.add(root_.find_key("runs")->place, "`runs` has no entries", "expected at least one");
+    for (const Node& item : runs->items) block(item);
+  }
+
+  /// What varies in one block.
+  void block(const Node& node) {
+    if (node.bad || !node.is(Node::Kind::map)) return;
+    SweepBlock block;
+    taken_.clear();
+    if (const Node* grid = usable(node.find("grid"))) {
+      for (std::size_t i = 0; i < grid->keys.size(); ++i) {
+        Axis axis{Axis::Kind::grid, {}};
+        for (SweepValue& value : values(grid->keys[i], grid->items[i]))
+          axis.cases.push_back({{{path(grid->keys[i].text), std::move(value)}}});
+        take(grid->keys[i]);
+        if (!axis.cases.empty()) block.axes.push_back(std::move(axis));
+      }
+    }
+    if (const Node* zip = usable(node.find("zip"))) block.axes.push_back(zipped(*zip));
+    if (const Node* list = usable(node.find("list"))) {
+      Axis axis{Axis::Kind::list, {}};
+      std::map<std::string, const Key*> keys;
+      for (const Node& item : list->items) {
+        axis.cases.push_back(one_case(item));
+        for (const Key& key : item.keys) keys.emplace(key.text, &key);
+      }
+      for (const auto& [text, key] : keys) take(*key);
+      block.axes.push_back(std::move(axis));
+    }
+    if (&node == &root_ && block.axes.empty() && root_.find("repeat") == nullptr && diagnostics_.empty())
+      diagnostics_.add(root_.keys.front().place, "the sweep varies nothing",
+                       "expected `grid`, `zip`, `list` or `runs`, or `repeat`");
+    keep(block, usable(node.find("skip")), node);
+    sweep_.blocks.push_back(std::move(block));
+  }
+
+  /// A path may vary once in a block.
+  void take(const Key& key) {
+    if (taken_.emplace(key.text, &key).second) return;
+    diagnostics_.add(key.place, fmt::format("{} varies twice", quoted(key.text)), "remove one of them");
+  }
+
+  SweepCase one_case(const Node& map) {
+    SweepCase one;
+    for (std::size_t i = 0; i < map.keys.size(); ++i)
+      one.values.emplace_back(path(map.keys[i].text), SweepValue{flow_text(map.items[i]), where(map.keys[i].place)});
+    return one;
+  }
+
+  Axis zipped(const Node& zip) {
+    Axis axis{Axis::Kind::zip, {}};
+    for (std::size_t i = 0; i < zip.keys.size(); ++i) {
+      const Key& key = zip.keys[i];
+      std::vector<SweepValue> column = values(key, zip.items[i]);
+      if (i == 0) axis.cases.resize(column.size());
+      if (column.size() != axis.cases.size()) {
+        diagnostics_.add(key.place,
+                         fmt::format("{} has {} values, {} has {}", quoted(key.text), column.size(),
+                                     quoted(zip.keys.front().text), axis.cases.size()),
+                         "expected as many of each path: they go in step");
+        column.resize(axis.cases.size());
+      }
+      for (std::size_t k = 0; k < column.size(); ++k) axis.cases[k].values.emplace_back(path(key.text), column[k]);
+      take(key);
+    }
+    return axis;
+  }
+
+  /// The values of a list or a range.
+  std::vector<SweepValue> values(const Key& key, const Node& node) {
+    std::vector<SweepValue> out;
+    if (node.bad) return out;
+    if (node.is(Node::Kind::sequence)) {
+      for (const Node& item : node.items) out.push_back({flow_text(item), where(item.place)});
+      return out;
+    }
+    for (const Node& item : node.items)
+      if (item.bad) return out;
+    if (node.find("from") == nullptr || node.find("to") == nullptr) return out;
+    for (std::string& text : range(key, node)) out.push_back({std::move(text), where(key.place)});
+    return out;
+  }
+
+  std::vector<std::string> range(const Key& key, const Node& node) {
+    const auto number = [&](const char* name) -> std::optional<Decimal> {
+      const Node& value = *node.find(name);
+      const std::optional<Decimal> decimal = parse_decimal(value.text);
+      if (!decimal)
+        diagnostics_.add(value.place, fmt::format("{} has more than 18 digits", quoted(value.text)),
+                         "give such values one by one");
+      return decimal;
+    };
+    const std::optional<Decimal> from = number("from"), to = number("to");
+    if (!from || !to) return {};
+    if (const Node* count = node.find("count")) {
+      const std::uint64_t n = parse_whole(count->text).value_or(1);
+      if (n == 1 && to_text(*from) != to_text(*to))
+        diagnostics_.add(count->place, "one value has no two ends",
+                         "expected `from` and `to` to be the same, or more values");
+      return spread(*from, *to, n);
+    }
+    const Node* step = node.find("step");
+    const std::optional<Decimal> width = step == nullptr ? std::nullopt : number("step");
+    if (!width) return {};
+    std::vector<std::string> out = steps(*from, *to, *width, most_runs);
+    if (out.empty())
+      diagnostics_.add(
+          step->place,
+          fmt::format("a step of {} does not lead from {} to {}", step->text, to_text(*from), to_text(*to)),
+          "expected a step that does");
+    if (out.size() > most_runs) {
+      diagnostics_.add(key.place, fmt::format("{} has more than {} values", quoted(key.text), most_runs),
+                       "expected a longer step");
+      out.clear();
+    }
+    return out;
+  }
+
+  /// Which combinations are left.
+  void keep(SweepBlock& block, const Node* skip, const Node& node) {
+    std::uint64_t count = 1;
+    for (const Axis& axis : block.axes) {
+      count *= axis.cases.size();
+      if (count > most_runs) {
+        diagnostics_.add(node.keys.front().place, fmt::format("more than {} runs", most_runs),
+                         fmt::format("expected at most {}", most_runs));
+        return;
+      }
+    }
+    if (skip != nullptr) block.skip = flow_text(*skip);
+    std::vector<std::size_t> skipped(skip == nullptr ? 0 : skip->items.size());
+    std::vector<const SweepValue*> values(sweep_.paths.size());
+    for (std::uint32_t k = 0; k < count; ++k) {
+      std::size_t rest = k;
+      for (std::size_t a = block.axes.size(); a-- > 0;) {
+        const auto& cases = block.axes[a].cases;
+        for (const auto& [number, value] : cases[rest % cases.size()].values) values[number] = &value;
+        rest /= cases.size();
+      }
+      bool left = true;
+      for (std::size_t s = 0; s < skipped.size(); ++s) {
+        if (!matches(skip->items[s], values)) continue;
+        ++skipped[s];
+        left = false;
+      }
+      if (left) block.kept.push_back(k);
+      std::fill(values.begin(), values.end(), nullptr);
+    }
+    for (std::size_t s = 0; s < skipped.size(); ++s) {
+      const Node& entry = skip->items[s];
+      if (skipped[s] > 0 || entry.bad || !diagnostics_.empty()) continue;
+      diagnostics_.add(entry.keys.front().place, "no run has these values",
+                       "expected paths and values that vary in this block");
+    }
+    if (block.kept.empty() && diagnostics_.empty())
+      diagnostics_.add(skip->items.front().keys.front().place, "all runs are left out", "expected some to be left");
+  }
+
+  bool matches(const Node& entry, const std::vector<const SweepValue*>& values) const {
+    if (!entry.is(Node::Kind::map)) return false;
+    for (std::size_t i = 0; i < entry.keys.size(); ++i) {
+      const auto found = std::find(sweep_.paths.begin(), sweep_.paths.end(), entry.keys[i].text);
+      const SweepValue* value =
+          found == sweep_.paths.end() ? nullptr : values[static_cast<std::size_t>(found - sweep_.paths.begin())];
+      if (value == nullptr) return false;
+      const Node& wanted = entry.items[i];
+      const bool same = same_value(flow_text(wanted), value->text);
+      const bool any = wanted.is(Node::Kind::sequence) &&
+                       std::any_of(wanted.items.begin(), wanted.items.end(),
+                                   [&](const Node& one) { return same_value(flow_text(one), value->text); });
+      if (!same && !any) return false;
+    }
+    return true;
+  }
+
+  void repeat() {
+    const Node* node = usable(root_.find("repeat"));
+    if (node == nullptr || !node->is(Node::Kind::map)) return;
+    const View view(node, kind_named("repeat"), Place{});
+    sweep_.seeds = view.whole("seeds").value_or(1);
+    sweep_.first_seed = view.whole("first");
+    if (std::find(sweep_.paths.begin(), sweep_.paths.end(), "seed") != sweep_.paths.end()) {
+      diagnostics_.add(root_.find_key("repeat")->place, "`seed` varies, and `repeat` varies it too",
+                       "remove one of them");
+      return;
+    }
+    sweep_.paths.emplace_back("seed");
+  }
+
+  void compare() {
+    const Node* node = usable(root_.find("compare"));
+    if (node == nullptr || !node->is(Node::Kind::map)) return;
+    if (const Node* measures = usable(node->find("measures"))) {
+      for (const Node& item : measures->items) sweep_.measures.push_back({item.text, where(item.place)});
+    }
+    const Node* charts = usable(node->find("charts"));
+    if (charts == nullptr) return;
+    for (const Node& item : charts->items) {
+      if (item.bad) continue;
+      const View view(&item, kind_named("chart"), item.place);
+      sweep_.charts.push_back(
+          {view.text("x").value_or(""), view.text("y").value_or(""), view.text("by").value_or(""), where(item.place)});
+    }
+  }
+
+  std::vector<Source>& sources_;
+  const Node& root_;
+  Diagnostics& diagnostics_;
+  Sweep sweep_;
+  std::map<std::string, const Key*> taken_;  // paths of this block
+};
+
+void stop_if_wrong(const Diagnostics& diagnostics, bool color) {
+  if (!diagnostics.empty()) throw SceneError(diagnostics.text(color), diagnostics.count());
+}
+
+Sweep read(std::vector<Source>& sources, Diagnostics& diagnostics, bool color) {
+  std::optional<Node> root;
+  if (check_text(sources[0], 0, diagnostics)) root = parse_document(sources, 0, 0, diagnostics);
+  if (!root) stop_if_wrong(diagnostics, color);
+  if (!root->is(Node::Kind::map)) {
+    diagnostics.add(root->place, root->is(Node::Kind::null) ? "this file holds no sweep" : "this is not a sweep",
+                    "expected a map of keys, such as `sweep: 1`");
+  } else if (root->find("sweep") == nullptr && root->find("scene") != nullptr) {
+    diagnostics.add(root->find_key("scene")->place, "this is a scene, not a sweep",
+                    "expected a sweep file, or what is to vary: --grid balls.red.mass=1:2:3");
+  } else {
+    check_sweep(*root, diagnostics);
+    Sweep sweep = Reader(sources, *root, diagnostics).run();
+    stop_if_wrong(diagnostics, color);
+    sweep.file = sources[0].name;
+    return sweep;
+  }
+  stop_if_wrong(diagnostics, color);
+  return {};
+}
+
+}  // namespace
+
+Sweep load_sweep(const std::string& path, bool color) {
+  std::vector<Source> sources(1);
+  Diagnostics diagnostics(sources);
+  if (!read_source(path, sources[0], diagnostics)) stop_if_wrong(diagnostics, color);
+  return read(sources, diagnostics, color);
+}
+
+Sweep grid_sweep(const std::string& base, const std::vector<std::string>& grids, bool color) {
+  std::vector<Source> sources(1);
+  sources[0] = {"--grid", fmt::format("sweep: 1\nbase: {}\ngrid:\n", in_quotes(base)), false};
+  for (const std::string& grid : grids) {
+    const std::size_t equals = grid.find('=');
+    const std::string path = grid.substr(0, equals),
+                      values = equals == std::string::npos ? "" : grid.substr(equals + 1);
+    const std::size_t first = values.find(':'),
+                      second = first == std::string::npos ? first : values.find(':', first + 1);
+    if (second != std::string::npos && parse_number(values.substr(0, first)))
+      sources[0].text += fmt::format("  {}: {{from: {}, to: {}, count: {}}}\n", path, values.substr(0, first),
+                                     values.substr(first + 1, second - first - 1), values.substr(second + 1));
+    else
+      sources[0].text += fmt::format("  {}: [{}]\n", path, values);
+  }
+  Diagnostics diagnostics(sources);
+  Sweep sweep = read(sources, diagnostics, color);
+  sweep.file = base;
+  sweep.base = base;
+  return sweep;
+}
+
+bool is_sweep_file(const std::string& path) {
+  std::vector<Source> sources(1);
+  Diagnostics diagnostics(sources);
+  std::optional<Node> root;
+  if (read_source(path, sources[0], diagnostics) && check_text(sources[0], 0, diagnostics))
+    root = parse_document(sources, 0, 0, diagnostics);
+  return root && root->is(Node::Kind::map) && root->find("sweep") != nullptr && root->find("scene") == nullptr;
+}
+
+}  // namespace carom

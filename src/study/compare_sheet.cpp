@@ -1,0 +1,217 @@
+#include "study/compare_sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace carom {
+namespace {
+
+constexpr double column_width = 13;  // characters: 96 pixels
+constexpr std::size_t columns_of_chart = 7, rows_of_chart = 20, charts_across = 2;
+constexpr std::uint32_t chart_width = 650, chart_height = 385;  // pixels
+constexpr std::size_t most_bars = 120;                          // error bars of a chart: each is a series of its own
+constexpr std::size_t most_marked = 200;                        // points of a line that are marked
+constexpr std::size_t most_runs_over_time = 12;
+
+// Told apart by people who see few colours too (Okabe and Ito 2008).
+constexpr std::array<lxw_color_t, 8> colors = {0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7,
+                                               0xE69F00, 0x56B4E9, 0x595959, 0x8C510A};
+
+struct Range {
+  const char* sheet;
+  std::size_t first_row, column, last_row;
+};
+
+lxw_chart_series* add_series(lxw_chart* chart, const Range& x, const Range& y, const std::string& name) {
+  lxw_chart_series* series = chart_add_series(chart, nullptr, nullptr);
+  const auto row = [](std::size_t n) { return static_cast<lxw_row_t>(n); };
+  const auto column = [](std::size_t n) { return static_cast<lxw_col_t>(n); };
+  chart_series_set_categories(series, x.sheet, row(x.first_row), column(x.column), row(x.last_row), column(x.column));
+  chart_series_set_values(series, y.sheet, row(y.first_row), column(y.column), row(y.last_row), column(y.column));
+  if (!name.empty()) chart_series_set_name(series, name.c_str());
+  return series;
+}
+
+void set_line(lxw_chart_series* series, lxw_color_t color, bool drawn) {
+  lxw_chart_line line{};
+  line.color = color;
+  line.width = 1.75F;
+  line.none = drawn ? LXW_FALSE : LXW_TRUE;
+  chart_series_set_line(series, &line);
+}
+
+void set_marker(lxw_chart_series* series, lxw_color_t color, bool drawn) {
+  chart_series_set_marker_type(series, drawn ? LXW_CHART_MARKER_CIRCLE : LXW_CHART_MARKER_NONE);
+  if (!drawn) return;
+  lxw_chart_fill fill{};
+  fill.color = color;
+  lxw_chart_line edge{};
+  edge.color = color;
+  chart_series_set_marker_size(series, 5);
+  chart_series_set_marker_fill(series, &fill);
+  chart_series_set_marker_line(series, &edge);
+}
+
+void set_texts(lxw_chart* chart, const std::string& title, const std::string& x, const std::string& y, bool legend) {
+  lxw_chart_font large{}, small{};
+  large.size = 12;
+  large.bold = LXW_TRUE;
+  small.size = 10;
+  small.bold = LXW_EXPLICIT_FALSE;
+  chart_title_set_name(chart, title.c_str());
+  chart_title_set_name_font(chart, &large);
+  chart_axis_set_name(chart->x_axis, x.c_str());
+  chart_axis_set_name_font(chart->x_axis, &small);
+  chart_axis_set_name(chart->y_axis, y.c_str());
+  chart_axis_set_name_font(chart->y_axis, &small);
+  // Beside the picture, not along an axis that may cross it.
+  chart_axis_set_label_position(chart->x_axis, LXW_CHART_AXIS_LABEL_POSITION_LOW);
+  chart_axis_set_label_position(chart->y_axis, LXW_CHART_AXIS_LABEL_POSITION_LOW);
+  lxw_chart_line grid{};
+  grid.color = 0xD9D9D9;
+  grid.width = 0.75F;
+  chart_axis_major_gridlines_set_line(chart->y_axis, &grid);
+  chart_legend_set_position(chart, legend ? LXW_CHART_LEGEND_BOTTOM : LXW_CHART_LEGEND_NONE);
+}
+
+/// A standard deviation up and down from one point: a series of its own, for a series' error bars have one length.
+void add_bar(lxw_chart* chart, const Range& x, const Range& y, std::size_t row, double length, lxw_color_t color) {
+  lxw_chart_series* point = add_series(chart, {x.sheet, row, x.column, row}, {y.sheet, row, y.column, row}, "");
+  set_line(point, color, false);
+  set_marker(point, color, false);
+  lxw_chart_line line{};
+  line.color = color;
+  line.width = 1.25F;
+  chart_series_set_error_bars(point->y_error_bars, LXW_CHART_ERROR_BAR_TYPE_FIXED, length);
+  chart_series_set_error_bars_line(point->y_error_bars, &line);
+}
+
+std::size_t bars_of(const ChartData& data) {
+  std::size_t bars = 0;
+  for (const ChartLine& line : data.lines)
+    bars += static_cast<std::size_t>(
+        std::count_if(line.spread.begin(), line.spread.end(), [](double sd) { return sd > 0; }));
+  return bars;
+}
+
+}  // namespace
+
+void CompareSheet::place(lxw_chart* chart, std::size_t number) {
+  lxw_chart_options options{};
+  options.x_scale = chart_width / 480.0;  // of the library's own size, 480 x 288 pixels
+  options.y_scale = chart_height / 288.0;
+  options.object_position = LXW_OBJECT_MOVE_DONT_SIZE;
+  worksheet_insert_chart_opt(sheet_.get(), static_cast<lxw_row_t>(charts_row_ + number / charts_across * rows_of_chart),
+                             static_cast<lxw_col_t>(number % charts_across * columns_of_chart), chart, &options);
+}
+
+void CompareSheet::draw(const ChartData& data, std::size_t number, std::size_t first_row, std::size_t first_column) {
+  const std::size_t last_row = first_row + data.x.size() - 1;
+  // Texts along x stand in their order, as columns; where means have a spread, as points.
+  const std::size_t bars = bars_of(data);
+  const bool barred = data.numeric && bars > 0 && bars <= most_bars;
+  lxw_chart* chart = book_.add_chart(data.numeric ? LXW_CHART_SCATTER : LXW_CHART_COLUMN);
+  const Range x{"Compare", first_row, first_column, last_row};
+  for (std::size_t k = 0; k < data.lines.size(); ++k) {
+    const lxw_color_t color = colors[k % colors.size()];
+    lxw_chart_series* series =
+        add_series(chart, x, {"Compare", first_row, first_column + 1 + k, last_row}, data.lines[k].name);
+    if (data.numeric) {
+      set_line(series, color, data.joined && data.x.size() > 1);
+      set_marker(series, color, data.x.size() <= most_marked || !data.joined);
+    } else {
+      lxw_chart_fill fill{};
+      fill.color = color;
+      chart_series_set_fill(series, &fill);
+    }
+  }
+  std::vector<std::int16_t> unnamed;
+  for (std::size_t k = 0; barred && k < data.lines.size(); ++k)
+    for (std::size_t row = 0; row < data.x.size(); ++row)
+      if (const double sd = data.lines[k].spread[row]; sd > 0) {
+        unnamed.push_back(static_cast<std::int16_t>(data.lines.size() + unnamed.size()));
+        add_bar(chart, x, {"Compare", first_row, first_column + 1 + k, last_row}, first_row + row, sd,
+                colors[k % colors.size()]);
+      }
+  unnamed.push_back(-1);
+  std::string title = data.title;
+  if (barred) title += ", mean ± standard deviation";
+  if (!data.note.empty()) title += fmt::format(" ({})", data.note);
+  set_texts(chart, title, data.x_label, data.y_label, data.lines.size() > 1);
+  if (unnamed.size() > 1) chart_legend_delete_series(chart, unnamed.data());
+  chart_show_blanks_as(chart, LXW_CHART_BLANKS_AS_CONNECTED);
+  place(chart, number);
+}
+
+void CompareSheet::draw_over_time(const std::vector<PlacedSeries>& series, std::size_t number) {
+  lxw_chart* chart = book_.add_chart(LXW_CHART_SCATTER_STRAIGHT);
+  const std::string& name = series.front().name;
+  std::size_t drawn = 0, all = 0;
+  for (const PlacedSeries& one : series) {
+    if (one.name != name || ++all > most_runs_over_time) continue;
+    lxw_chart_series* line =
+        add_series(chart, {"Series", 1, one.time_column, one.rows}, {"Series", 1, one.value_column, one.rows}, one.run);
+    set_line(line, colors[drawn % colors.size()], true);
+    set_marker(line, 0, false);
+    ++drawn;
+  }
+  std::string title = fmt::format("{} over time", label_of(name));
+  if (all > drawn) title += fmt::format(" ({} of {} runs)", drawn, all);
+  set_texts(chart, title, "time (s)", label_of(name), drawn > 1);
+  place(chart, number);
+}
+
+void CompareSheet::write_data(const std::vector<ChartData>& charts, std::size_t first_row) {
+  // Row by row across all charts, for the sheet may be streamed.
+  std::size_t rows = 0, columns = 0;
+  for (const ChartData& chart : charts) {
+    rows = std::max(rows, chart.x.size());
+    sheet_.text(first_row, columns, chart.title, Look::note);
+    columns += chart.lines.size() + 2;
+  }
+  std::size_t column = 0;
+  for (const ChartData& chart : charts) {
+    sheet_.text(first_row + 1, column, chart.x_label, Look::swept_header);
+    for (std::size_t k = 0; k < chart.lines.size(); ++k) {
+      const std::string& name = chart.lines[k].name;
+      sheet_.text(first_row + 1, column + 1 + k, name.empty() ? chart.y_label : name, Look::header);
+    }
+    column += chart.lines.size() + 2;
+  }
+  for (std::size_t row = 0; row < rows; ++row) {
+    column = 0;
+    for (const ChartData& chart : charts) {
+      if (row < chart.x.size()) {
+        sheet_.cell(first_row + 2 + row, column, chart.x[row], Look::swept);
+        for (std::size_t k = 0; k < chart.lines.size(); ++k)
+          sheet_.number(first_row + 2 + row, column + 1 + k, chart.lines[k].y[row]);
+      }
+      column += chart.lines.size() + 2;
+    }
+  }
+  worksheet_set_column(sheet_.get(), 0, static_cast<lxw_col_t>(std::max(columns, charts_across * columns_of_chart)),
+                       column_width, nullptr);
+}
+
+void CompareSheet::write(const std::string& title, const std::vector<std::string>& lines,
+                         const std::vector<ChartData>& charts, const std::vector<PlacedSeries>& series) {
+  sheet_.text(0, 0, title, Look::title);
+  for (std::size_t k = 0; k < lines.size(); ++k) sheet_.text(1 + k, 0, lines[k], Look::note);
+  charts_row_ = lines.size() + 2;
+  const std::size_t all = charts.size() + (series.empty() ? 0 : 1);
+  const std::size_t data_row = charts_row_ + (all + charts_across - 1) / charts_across * rows_of_chart + 1;
+  write_data(charts, data_row);
+  std::size_t column = 0;
+  for (std::size_t k = 0; k < charts.size(); ++k) {
+    if (!charts[k].x.empty()) draw(charts[k], k, data_row + 2, column);
+    column += charts[k].lines.size() + 2;
+  }
+  if (!series.empty()) draw_over_time(series, charts.size());
+  worksheet_gridlines(sheet_.get(), LXW_HIDE_ALL_GRIDLINES);
+  sheet_.print_wide();
+}
+
+}  // namespace carom

@@ -1,0 +1,52 @@
+#include "study/summary_columns.h"
+
+#include <algorithm>
+#include <array>
+
+namespace carom {
+namespace {
+
+template <auto Member>
+double number_of(const Summary& summary) {
+  return static_cast<double>(summary.*Member);
+}
+
+constexpr std::array<SummaryColumn, 21> columns = {{
+    {"run", "the run's name"},
+    {"title", "the scene's title"},
+    {"engine", "the simulator: exact, stepped or book"},
+    {"status", "done, or failed: then only the parameters are known"},
+    {"duration_s", "simulated time", number_of<&Summary::duration>},
+    {"bodies", "movable bodies", number_of<&Summary::bodies>},
+    {"collisions", "all collisions", number_of<&Summary::collisions>},
+    {"body_body", "collisions between two bodies", number_of<&Summary::body_body>},
+    {"body_fixed", "collisions with planes, walls and obstacles", number_of<&Summary::body_fixed>},
+    {"first_collision_s", "time of the first collision", number_of<&Summary::first_collision>},
+    {"last_collision_s", "time of the last collision", number_of<&Summary::last_collision>},
+    {"energy_start_J", "kinetic and potential energy at the start", number_of<&Summary::energy_start>},
+    {"energy_end_J", "kinetic and potential energy at the end", number_of<&Summary::energy_end>},
+    {"energy_lost_J", "energy that collisions took; below 0: made", number_of<&Summary::energy_lost>},
+    {"work_J", "work of forces without a potential", number_of<&Summary::work>},
+    {"energy_residual_J", "energy that neither work nor collisions account for: rounding, or a step's error",
+     number_of<&Summary::energy_residual>},
+    {"momentum_drift_kg_m_per_s", "change of the whole momentum, gravity's and surfaces' share included",
+     number_of<&Summary::momentum_drift>},
+    {"max_overlap_m", "deepest overlap seen", number_of<&Summary::max_overlap>},
+    {"max_speed_m_per_s", "greatest speed of a body", number_of<&Summary::max_speed>},
+    {"resting", "bodies in resting contact at the end", number_of<&Summary::resting>},
+    {"frames", "pictures drawn", number_of<&Summary::frames>},
+}};
+
+}  // namespace
+
+std::span<const SummaryColumn> summary_columns() {
+  return columns;
+}
+
+const SummaryColumn* find_summary_column(std::string_view name) {
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const SummaryColumn& column) { return column.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+}  // namespace carom

@@ -1,0 +1,261 @@
+#include "study/sweep_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "export/copied_run.h"
+#include "export/hash.h"
+#include "scene/motion_text.h"
+#include "study/engine.h"
+#include "study/run_scene.h"
+
+namespace carom {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+namespace {
+
+constexpr std::size_t looked_at_a_time = 64;
+constexpr std::size_t most_shows = 8;   // of one simulation: each may have a film on its way
+constexpr std::size_t wrong_shown = 3;  // scenarios
+constexpr double sync_every = 2;        // s
+
+std::array<char, 16> digest(std::string_view text) {
+  const std::string hex = sha256(text);
+  std::array<char, 16> out{};
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto nibble = [&](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
+    out[i] = static_cast<char>(16 * nibble(hex[2 * i]) + nibble(hex[2 * i + 1]));
+  }
+  return out;
+}
+
+}  // namespace
+
+SweepJob::SweepJob(Sweep sweep, std::string folder, SweepSettings settings)
+    : sweep_(std::move(sweep)),
+      folder_(std::move(folder)),
+      settings_(std::move(settings)),
+      base_(sweep_.base, settings_.load),
+      runs_(sweep_.size()) {
+  if (sweep_.seeds == 0 || sweep_.first_seed) return;
+  Sweep once = sweep_;
+  once.seeds = 0;
+  sweep_.first_seed = base_.scene(once.run(0).settings).seed;
+}
+
+std::string SweepJob::run_folder(std::size_t number) const {
+  return fmt::format("{}/runs/{}", folder_, sweep_.id(number));
+}
+
+Scene SweepJob::scene(std::size_t number) {
+  Scene scene = base_.scene(sweep_.run(number).settings);
+  scene.output = settings_.restrict(scene.output, sweep_);
+  return scene;
+}
+
+// ---- Planning: what each scenario is, and what stands in its folder.
+
+std::string SweepJob::look_at(std::size_t first, std::size_t last) {
+  std::string out;
+  for (std::size_t number = first; number < last; ++number) {
+    settings_.look();
+    PlannedRun run;
+    try {
+      const Scene its = scene(number);
+      run.scene = digest(its.resolved);
+      run.motion = digest(motion_text(its));
+      const std::string folder = run_folder(number);
+      run.content = inspect_folder(folder, its);
+      if (run.content == FolderContent::this_run) run.status = RunStatus::done;
+      out.append(reinterpret_cast<const char*>(&run), sizeof run);
+    } catch (const SceneError& error) {
+      throw SceneError(fmt::format("{}\n{}", sweep_.id(number), error.what()), error.count);
+    }
+  }
+  return out;
+}
+
+void SweepJob::plan(const std::function<void(const SweepProgress&)>& tell) {
+  std::size_t next = 0;
+  SweepProgress progress{0, 0, runs_.size()};
+  std::map<std::size_t, std::string> wrong;  // by the first run of what was looked at
+  Tasks tasks;
+  tasks.next = [&]() -> std::optional<std::size_t> {
+    if (next >= runs_.size() || wrong.size() >= wrong_shown) return std::nullopt;
+    const std::size_t task = next;
+    next += looked_at_a_time;
+    return task;
+  };
+  const auto end_of = [&](std::size_t first) { return std::min(first + looked_at_a_time, runs_.size()); };
+  tasks.work = [&](std::size_t first) { return look_at(first, end_of(first)); };
+  tasks.done = [&](const TaskOutcome& outcome) {
+    if (outcome.kind != TaskOutcome::Kind::done) {
+      wrong[outcome.task] = outcome.text;
+      return;
+    }
+    std::memcpy(static_cast<void*>(&runs_[outcome.task]), outcome.text.data(), outcome.text.size());
+    progress.done += end_of(outcome.task) - outcome.task;
+    tell(progress);
+  };
+  tasks.look = settings_.look;
+  work_off(tasks, std::min(settings_.jobs, (runs_.size() + looked_at_a_time - 1) / looked_at_a_time));
+  if (wrong.empty()) return;
+  throw SceneError(wrong.begin()->second, wrong.size());
+}
+
+// ---- Doing
+
+std::vector<SweepJob::Unit> SweepJob::units() const {
+  // Runs by motion, then scenario, then number.
+  std::vector<std::size_t> order(runs_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tie(runs_[a].motion, runs_[a].scene, a) < std::tie(runs_[b].motion, runs_[b].scene, b);
+  });
+  struct Motion {
+    std::size_t first_run = none;
+    std::vector<Unit> units;
+  };
+  std::vector<Motion> motions;
+  for (std::size_t i = 0; i < order.size();) {
+    Motion motion;
+    Unit shared;
+    const auto& moves = runs_[order[i]].motion;
+    while (i < order.size() && runs_[order[i]].motion == moves) {
+      const auto& scenario = runs_[order[i]].scene;
+      std::vector<std::size_t> to_do;
+      std::size_t like = none;
+      for (; i < order.size() && runs_[order[i]].motion == moves && runs_[order[i]].scene == scenario; ++i) {
+        motion.first_run = std::min(motion.first_run, order[i]);
+        if (runs_[order[i]].status == RunStatus::done)
+          like = order[i];
+        else
+          to_do.push_back(order[i]);
+      }
+      if (to_do.empty()) continue;
+      if (like != none) {
+        motion.units.push_back({{std::move(to_do)}, like});
+        continue;
+      }
+      shared.scenarios.push_back(std::move(to_do));
+      if (shared.scenarios.size() == most_shows) motion.units.push_back(std::exchange(shared, {}));
+    }
+    if (!shared.scenarios.empty()) motion.units.push_back(std::move(shared));
+    motions.push_back(std::move(motion));
+  }
+  // Which part a motion belongs to must not depend on what is done already.
+  std::sort(motions.begin(), motions.end(), [](const Motion& a, const Motion& b) { return a.first_run < b.first_run; });
+  std::vector<Unit> out;
+  for (std::size_t m = settings_.shard.index - 1; m < motions.size(); m += settings_.shard.count)
+    std::move(motions[m].units.begin(), motions[m].units.end(), std::back_inserter(out));
+  return out;
+}
+
+std::size_t SweepJob::left() const {
+  std::size_t count = 0;
+  for (const Unit& unit : units())
+    for (const auto& scenario : unit.scenarios) count += scenario.size();
+  return count;
+}
+
+/// What a process says of its unit: for each run that failed, why.
+std::string SweepJob::work(const Unit& unit) {
+  Json failures = Json::object();
+  const auto fail = [&](std::size_t number, const std::string& why) { failures[std::to_string(number)] = why; };
+  const auto copy_to_all = [&](std::size_t from, const std::vector<std::size_t>& runs) {
+    for (const std::size_t number : runs) {
+      if (number == from) continue;
+      try {
+        copy_run(run_folder(from), run_folder(number));
+      } catch (const std::exception& error) {
+        settings_.look();
+        fail(number, error.what());
+      }
+    }
+  };
+  for (const auto& scenario : unit.scenarios)
+    for (const std::size_t number : scenario) {
+      std::error_code ignored;
+      fs::remove(run_folder(number) + "/" + failure_file, ignored);
+    }
+  if (unit.like != none) {
+    copy_to_all(unit.like, unit.scenarios.front());
+    return failures.dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+  std::vector<Scene> scenes;
+  scenes.reserve(unit.scenarios.size());
+  std::vector<Show> shows;
+  for (const auto& scenario : unit.scenarios) {
+    scenes.push_back(scene(scenario.front()));
+    shows.push_back({&scenes.back(), run_folder(scenario.front()), 0});
+  }
+  const RunWatch watch{settings_.look, [](double, std::uint64_t, std::uint64_t) {}};
+  const RunSettings how{Durability::deferred, settings_.measure};
+  const std::vector<RunResult> results = run_shows(shows, choose_engine(scenes.front()), how, watch);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const std::vector<std::size_t>& runs = unit.scenarios[i];
+    if (!results[i].failure) {
+      copy_to_all(runs.front(), runs);
+      continue;
+    }
+    try {
+      std::rethrow_exception(results[i].failure);
+    } catch (const std::exception& error) {
+      for (const std::size_t number : runs) fail(number, error.what());
+    }
+  }
+  return failures.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+void SweepJob::run(const std::function<void(const SweepProgress&)>& tell,
+                   const std::function<void(std::size_t, const std::string&)>& failed) {
+  const std::vector<Unit> all = units();
+  SweepProgress progress{0, 0, left()};
+  std::size_t next = 0;
+  auto synced = std::chrono::steady_clock::now();
+  const auto fail = [&](std::size_t number, const std::string& why) {
+    runs_[number].status = RunStatus::failed;
+    store_failure(run_folder(number), why);
+    ++progress.failed;
+    failed(number, why);
+  };
+  Tasks tasks;
+  tasks.next = [&] { return next < all.size() ? std::optional(next++) : std::nullopt; };
+  tasks.work = [&](std::size_t task) { return work(all[task]); };
+  tasks.done = [&](const TaskOutcome& outcome) {
+    const bool whole = outcome.kind == TaskOutcome::Kind::done;
+    const Json failures = whole ? Json::parse(outcome.text) : Json::object();
+    for (const auto& scenario : all[outcome.task].scenarios) {
+      for (const std::size_t number : scenario) {
+        ++progress.done;
+        const auto found = failures.find(std::to_string(number));
+        if (!whole)
+          fail(number, outcome.text);
+        else if (found != failures.end())
+          fail(number, found->get<std::string>());
+        else
+          runs_[number].status = RunStatus::done;
+      }
+    }
+    tell(progress);
+    const auto now = std::chrono::steady_clock::now();
+    if (std::chrono::duration<double>(now - synced).count() < sync_every) return;
+    sync_file_system(folder_);
+    synced = std::chrono::steady_clock::now();
+  };
+  tasks.look = settings_.look;
+  work_off(tasks, std::min(settings_.jobs, std::max<std::size_t>(all.size(), 1)));
+}
+
+}  // namespace carom

@@ -1,0 +1,83 @@
+#pragma once
+// A sweep and where it goes: its scenarios checked, what of them is done already, what is left to do, and the doing.
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "export/exports.h"
+#include "scene/load.h"
+#include "scene/sweep.h"
+#include "study/shard.h"
+#include "study/workers.h"
+
+namespace carom {
+
+struct SweepSettings {
+  LoadOptions load;  // without settings of its own
+  std::size_t jobs = 1;
+  Shard shard;
+  bool force = false;                                           // overwrite other content, run again what is done
+  std::function<Output(const Output&, const Sweep&)> restrict;  // what of a scene's outputs is written
+  std::function<void()> look;                                   // often, in every process; may throw
+  std::function<std::vector<Measured>(const Scene&, const State&, const Summary&)> measure;
+};
+
+enum class RunStatus : std::uint8_t { missing, done, failed };
+
+/// A run that was looked at.
+struct PlannedRun {
+  std::array<char, 16> scene{}, motion{};  // digests: equal scenarios, scenarios that move alike
+  FolderContent content = FolderContent::nothing;
+  RunStatus status = RunStatus::missing;
+};
+
+struct SweepProgress {
+  std::size_t done = 0, failed = 0, of = 0;  // runs of this shard that were to be done
+};
+
+class SweepJob {
+ public:
+  /// Reads the base; the first seed of repeats is its seed, unless the sweep says another. Throws SceneError.
+  SweepJob(Sweep sweep, std::string folder, SweepSettings settings);
+
+  const Sweep& sweep() const { return sweep_; }
+  const std::string& base_text() const { return base_.text(); }
+  /// A run's scenario, with the outputs that are written. Throws SceneError.
+  Scene scene(std::size_t number);
+  const std::string& folder() const { return folder_; }
+  const std::vector<PlannedRun>& runs() const { return runs_; }
+  std::string run_folder(std::size_t number) const;
+
+  /// Loads every scenario and looks at its folder, several at a time. Throws SceneError with what is wrong with the
+  /// first few wrong ones.
+  void plan(const std::function<void(const SweepProgress&)>& tell);
+
+  /// Runs of this shard that are not done.
+  std::size_t left() const;
+
+  /// Does what is left: scenarios that move alike share one simulation, equal ones are run once and copied. A run that
+  /// fails leaves `error.txt` in its folder. `failed` is told of each. Nothing is synced to the disk yet.
+  void run(const std::function<void(const SweepProgress&)>& tell,
+           const std::function<void(std::size_t number, const std::string& why)>& failed);
+
+ private:
+  struct Unit {
+    std::vector<std::vector<std::size_t>> scenarios;  // each the runs of one scenario
+    std::size_t like = none;                          // a run that is done and of the (only) scenario
+  };
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  std::string look_at(std::size_t first, std::size_t last);
+  std::vector<Unit> units() const;
+  std::string work(const Unit& unit);
+
+  Sweep sweep_;
+  std::string folder_;
+  SweepSettings settings_;
+  SceneFile base_;
+  std::vector<PlannedRun> runs_;
+};
+
+}  // namespace carom

@@ -1,0 +1,210 @@
+#include "study/workbook.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+
+#include "export/manifest.h"
+#include "export/run_folder.h"
+#include "export/stored_table.h"
+
+namespace carom {
+namespace {
+
+constexpr std::size_t longest_text = 32'767;  // characters of a cell
+constexpr lxw_color_t tint = 0xFFF2CC, header_tint = 0xD9E1F2, swept_header_tint = 0xF4B183, grey = 0x595959;
+
+/// The first `most` characters; a cut is seen.
+std::string shortened(std::string_view text, std::size_t most) {
+  std::size_t characters = 0, end = 0, last = 0;
+  for (; end < text.size(); ++end) {
+    if ((static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) continue;
+    if (++characters == most) last = end;
+    if (characters > most) break;
+  }
+  return end == text.size() ? std::string(text) : std::string(text.substr(0, last)) + "…";
+}
+
+/// Characters, a code point counted as one.
+std::size_t length_of(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+lxw_format* make_format(lxw_workbook* book, Look look) {
+  lxw_format* format = workbook_add_format(book);
+  switch (look) {
+    case Look::whole:
+      format_set_num_format(format, "#,##0");
+      break;
+    case Look::rounding:
+      format_set_num_format(format, "0.00E+00");
+      break;
+    case Look::swept:
+      format_set_bg_color(format, tint);
+      break;
+    case Look::header:
+    case Look::swept_header:
+      format_set_bold(format);
+      format_set_bg_color(format, look == Look::header ? header_tint : swept_header_tint);
+      format_set_bottom(format, LXW_BORDER_THIN);
+      format_set_align(format, LXW_ALIGN_VERTICAL_CENTER);
+      break;
+    case Look::title:
+      format_set_bold(format);
+      format_set_font_size(format, 14);
+      break;
+    case Look::note:
+      format_set_font_color(format, grey);
+      break;
+    case Look::wrapped:
+      format_set_text_wrap(format);
+      format_set_align(format, LXW_ALIGN_VERTICAL_TOP);
+      break;
+    case Look::plain:
+    case Look::count_:
+      break;
+  }
+  return format;
+}
+
+std::string path_of(int descriptor) {
+  return fmt::format("/proc/self/fd/{}", descriptor);
+}
+
+}  // namespace
+
+Cell cell_of(std::string_view text) {
+  Cell cell{std::string(text)};
+  // A double has 53 bits: longer whole numbers, seeds for one, stay text.
+  const bool whole = text.find_first_not_of("-0123456789") == std::string_view::npos;
+  constexpr std::size_t exact = 16;  // digits and sign
+  if (const auto number = number_in(text); number && !(whole && text.size() > exact)) cell.number = *number;
+  return cell;
+}
+
+std::string without_guard(std::string_view text) {
+  const bool guarded = text.size() > 1 && text[0] == '\'' && std::string_view("=+-@\t\r").find(text[1]) != text.npos;
+  return std::string(text.substr(guarded ? 1 : 0));
+}
+
+void Sheet::widen(std::size_t column, std::size_t characters, Look look) {
+  if (look == Look::title || look == Look::note) return;
+  if (widths_.size() <= column) widths_.resize(column + 1);
+  widths_[column] = std::max(widths_[column], characters);
+}
+
+void Sheet::text(std::size_t row, std::size_t column, std::string_view text, Look look) {
+  if (text.empty() && look == Look::plain) return;
+  const std::string shown = shortened(text, longest_text);
+  widen(column, length_of(shown), look);
+  worksheet_write_string(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), shown.c_str(),
+                         look == Look::plain ? nullptr : format(look));
+}
+
+void Sheet::number(std::size_t row, std::size_t column, double value, Look look) {
+  lxw_format* const how = look == Look::plain ? nullptr : format(look);
+  if (!std::isfinite(value)) {
+    if (how != nullptr) worksheet_write_blank(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), how);
+    return;
+  }
+  widen(column, 11, look);  // digits that a spreadsheet shows of itself
+  worksheet_write_number(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), value == 0 ? 0.0 : value,
+                         how);
+}
+
+void Sheet::cell(std::size_t row, std::size_t column, const Cell& cell, Look look) {
+  if (cell.is_number())
+    number(row, column, cell.number, look);
+  else
+    text(row, column, without_guard(cell.text), look);
+}
+
+void Sheet::formula(std::size_t row, std::size_t column, const std::string& formula, double value, Look look) {
+  widen(column, 11, look);
+  worksheet_write_formula_num(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), formula.c_str(),
+                              look == Look::plain ? nullptr : format(look), value);
+}
+
+void Sheet::fit(std::size_t column, double least, double most, double more) {
+  const double wanted = column < widths_.size() ? static_cast<double>(widths_[column]) + 1 + more : least;
+  const auto number = static_cast<lxw_col_t>(column);
+  worksheet_set_column(sheet_, number, number, std::clamp(wanted, least, most), nullptr);
+}
+
+void Sheet::fit_all(double least, double most, double more) {
+  for (std::size_t column = 0; column < widths_.size(); ++column) fit(column, least, most, more);
+}
+
+void Sheet::freeze(std::size_t rows, std::size_t columns) {
+  worksheet_freeze_panes(sheet_, static_cast<lxw_row_t>(rows), static_cast<lxw_col_t>(columns));
+}
+
+void Sheet::print_wide() {
+  worksheet_set_landscape(sheet_);
+  worksheet_set_paper(sheet_, 9);  // A4
+  worksheet_fit_to_pages(sheet_, 1, 0);
+}
+
+Workbook::Workbook(const FilePlace& place, std::string name, const std::string& title)
+    : place_(place), name_(std::move(name)) {
+  const std::string part = part_name(name_ + ".sheets");
+  unlinkat(place_.folder, part.c_str(), 0);
+  scratch_ = Descriptor(openat(place_.folder, part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+  if (!scratch_) fail("write", place_, name_);
+  unlinkat(place_.folder, part.c_str(), 0);
+
+  const std::string folder = path_of(place_.folder), file = path_of(scratch_.get());
+  lxw_workbook_options options{};
+  options.tmpdir = const_cast<char*>(folder.c_str());
+  options.use_zip64 = LXW_FALSE;
+  book_ = workbook_new_opt(file.c_str(), &options);
+  if (book_ == nullptr) fail("write", place_, name_, "libxlsxwriter has no memory");
+
+  const std::string subject = valid_utf8(title);
+  lxw_doc_properties properties{};
+  properties.title = const_cast<char*>(subject.c_str());
+  properties.comments = const_cast<char*>("carom " CAROM_VERSION);
+  properties.created = 946'684'800;  // 2000-01-01: no clock, so that the same runs give the same bytes
+  workbook_set_properties(book_, &properties);
+  for (int look = 0; look < static_cast<int>(Look::count_); ++look)
+    formats_.push_back(make_format(book_, static_cast<Look>(look)));
+}
+
+Workbook::~Workbook() {
+  if (book_ != nullptr) lxw_workbook_free(book_);
+}
+
+Sheet& Workbook::add(const char* name, bool streamed) {
+  book_->options.constant_memory = streamed ? LXW_TRUE : LXW_FALSE;
+  lxw_worksheet* sheet = workbook_add_worksheet(book_, name);
+  if (sheet == nullptr) fail("write", place_, name_, fmt::format("no sheet {} can be made", name));
+  if (sheets_.empty()) worksheet_activate(sheet);
+  return sheets_.emplace_back(sheet, formats_);
+}
+
+lxw_chart* Workbook::add_chart(lxw_chart_type type) {
+  return workbook_add_chart(book_, static_cast<std::uint8_t>(type));
+}
+
+void Workbook::write(OutputFile& file) {
+  const lxw_error error = workbook_close(book_);
+  book_ = nullptr;  // closing frees it, well or not
+  if (error != LXW_NO_ERROR) fail("write", place_, name_, lxw_strerror(error));
+  std::vector<char> piece(std::size_t{256} * 1024);
+  off_t at = 0;
+  for (;;) {
+    const ssize_t n = pread(scratch_.get(), piece.data(), piece.size(), at);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail("read", place_, name_);
+    if (n == 0) break;
+    file.write({piece.data(), static_cast<std::size_t>(n)});
+    at += n;
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,230 @@
+#include "study/workers.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <system_error>
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+constexpr int look_every = 50;  // ms
+
+/// What goes before an outcome's text.
+struct Head {
+  std::uint64_t size;
+  TaskOutcome::Kind kind;
+};
+
+bool send_all(int socket, const void* bytes, std::size_t size) {
+  const char* from = static_cast<const char*>(bytes);
+  while (size > 0) {
+    const ssize_t n = send(socket, from, size, MSG_NOSIGNAL);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    from += n;
+    size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+bool receive_all(int socket, void* bytes, std::size_t size) {
+  char* to = static_cast<char*>(bytes);
+  while (size > 0) {
+    const ssize_t n = recv(socket, to, size, 0);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    to += n;
+    size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+/// A worker's life, until there is no more work or nobody to give it.
+[[noreturn]] void serve(int socket, const Tasks& tasks) {
+  std::uint64_t task = 0;
+  while (receive_all(socket, &task, sizeof task)) {
+    std::string text;
+    TaskOutcome::Kind kind = TaskOutcome::Kind::done;
+    try {
+      text = tasks.work(task);
+    } catch (const std::bad_alloc&) {
+      kind = TaskOutcome::Kind::failed;
+      text = "not enough memory";
+    } catch (const std::exception& error) {
+      kind = TaskOutcome::Kind::failed;
+      text = error.what();
+    } catch (...) {
+      _exit(1);  // it was interrupted, as its parent was, who says so
+    }
+    const Head head{text.size(), kind};
+    if (!send_all(socket, &head, sizeof head) || !send_all(socket, text.data(), text.size())) break;
+  }
+  _exit(0);
+}
+
+class Pool {
+ public:
+  Pool(const Tasks& tasks, std::size_t jobs) : tasks_(tasks), workers_(jobs) {}
+
+  /// Ends what still runs: by SIGTERM, so that it can put its files in order.
+  ~Pool() {
+    for (const Worker& worker : workers_) {
+      if (worker.process <= 0) continue;
+      kill(worker.process, SIGTERM);
+      close(worker.socket);
+    }
+    for (const Worker& worker : workers_)
+      if (worker.process > 0) wait_for(worker.process);
+  }
+  Pool(const Pool&) = delete;
+  Pool& operator=(const Pool&) = delete;
+
+  void go() {
+    for (Worker& worker : workers_)
+      if (!give(worker)) break;
+    std::vector<pollfd> sockets;
+    while (true) {
+      sockets.clear();
+      for (const Worker& worker : workers_)
+        if (worker.busy) sockets.push_back({worker.socket, POLLIN, 0});
+      if (sockets.empty()) break;
+      const int ready = poll(sockets.data(), sockets.size(), look_every);
+      tasks_.look();
+      if (ready <= 0) continue;
+      for (const pollfd& socket : sockets) {
+        if (socket.revents == 0) continue;
+        Worker& worker =
+            *std::find_if(workers_.begin(), workers_.end(), [&](const Worker& w) { return w.socket == socket.fd; });
+        take(worker);
+        give(worker);
+      }
+    }
+    // Each hears that there is no more work.
+    for (Worker& worker : workers_) {
+      if (worker.process <= 0) continue;
+      close(worker.socket);
+      wait_for(worker.process);
+      worker = {};
+    }
+  }
+
+ private:
+  struct Worker {
+    pid_t process = 0;
+    int socket = -1;
+    bool busy = false;
+    std::size_t task = 0;
+  };
+
+  static int wait_for(pid_t process) {
+    int status = 0;
+    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+  }
+
+  /// Whether there was a task to give.
+  bool give(Worker& worker) {
+    const std::optional<std::size_t> task = tasks_.next();
+    if (!task) return false;
+    worker.task = *task;
+    worker.busy = true;
+    const std::uint64_t number = *task;
+    // A worker that has ended between two tasks is replaced.
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      if (worker.process <= 0) start(worker);
+      if (send_all(worker.socket, &number, sizeof number)) return true;
+      end(worker);
+    }
+    return true;  // take() will find that it is gone
+  }
+
+  void start(Worker& worker) {
+    int pair[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0)
+      throw std::system_error(errno, std::generic_category(), "cannot talk to another process");
+    std::fflush(nullptr);
+    const pid_t parent = getpid();
+    const pid_t process = fork();
+    if (process < 0) {
+      const int error = errno;
+      close(pair[0]);
+      close(pair[1]);
+      throw std::system_error(error, std::generic_category(), "cannot start another process");
+    }
+    if (process == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody is left to resume what it does
+      if (getppid() != parent) _exit(1);
+      close(pair[0]);
+      for (const Worker& other : workers_)
+        if (other.socket >= 0) close(other.socket);
+      serve(pair[1], tasks_);
+    }
+    close(pair[1]);
+    worker.process = process;
+    worker.socket = pair[0];
+  }
+
+  static int end(Worker& worker) {
+    close(worker.socket);
+    const int status = wait_for(worker.process);
+    worker.process = 0;
+    worker.socket = -1;
+    return status;
+  }
+
+  void take(Worker& worker) {
+    worker.busy = false;
+    TaskOutcome outcome;
+    outcome.task = worker.task;
+    Head head{};
+    if (receive_all(worker.socket, &head, sizeof head)) {
+      outcome.kind = head.kind;
+      outcome.text.resize(head.size);
+      if (receive_all(worker.socket, outcome.text.data(), head.size)) {
+        tasks_.done(outcome);
+        return;
+      }
+    }
+    const int status = end(worker);
+    tasks_.look();  // an interrupt ends workers too
+    outcome.kind = TaskOutcome::Kind::lost;
+    outcome.text =
+        WIFSIGNALED(status)
+            ? fmt::format("its process was ended by signal {} ({}){}", WTERMSIG(status), strsignal(WTERMSIG(status)),
+                          WTERMSIG(status) == SIGKILL ? ", by a user or for want of memory" : "")
+            : fmt::format("its process ended with code {}", WEXITSTATUS(status));
+    tasks_.done(outcome);
+  }
+
+  const Tasks& tasks_;
+  std::vector<Worker> workers_;
+};
+
+}  // namespace
+
+std::size_t processors() {
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) != 0) return 1;
+  return static_cast<std::size_t>(std::max(CPU_COUNT(&set), 1));
+}
+
+void work_off(const Tasks& tasks, std::size_t jobs) {
+  Pool(tasks, jobs).go();
+}
+
+}  // namespace carom
