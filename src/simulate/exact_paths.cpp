@@ -39,7 +39,7 @@ void ExactSimulator::record_paths() {
     }
     if (!part_of_.empty()) {
       if (part_of_[i] != i) piece.part_of = part_of_[i];
-      piece.joint = part_of_[i] == i && !parts_[i].empty();
+      piece.joint = world_.mass[i] != given_->mass[i] || world_.radius[i] != given_->radius[i];
       piece.mass = world_.mass[i];
       piece.radius = world_.radius[i];
       piece.half = world_.volume_of(i).half;
