@@ -37,9 +37,9 @@ bool same_bits(const Vec3& a, const Vec3& b) {
 }
 
 /// Bytes in place.
-class Writer {
+class InPlace {
  public:
-  explicit Writer(char* to) : to_(to) {}
+  explicit InPlace(char* to) : to_(to) {}
   template <typename T>
   void put(const T& value) {
     std::memcpy(to_, &value, sizeof value);
@@ -64,7 +64,7 @@ FlightsFile::FlightsFile(const FilePlace& place, const Scene& scene, std::uint64
     : most_(most), bytes_(header_size + tail_size), acceleration_(scene.world.body_count(), scene.world.gravity) {
   file_.emplace(place, flights_name);
   file_->write(magic);
-  Writer writer(file_->room(header_size));
+  InPlace writer(file_->room(header_size));
   writer.put(version);
   writer.put(byte_order);
   writer.put(std::uint64_t{scene.world.body_count()});
@@ -72,7 +72,7 @@ FlightsFile::FlightsFile(const FilePlace& place, const Scene& scene, std::uint64
   file_->written(writer.end());
 }
 
-void FlightsFile::add(std::span<const PathPiece> pieces) {
+void FlightsFile::record(std::span<const PathPiece> pieces) {
   for (const PathPiece& piece : pieces) {
     if (!file_) return;
     std::uint32_t has = 0;
@@ -82,7 +82,7 @@ void FlightsFile::add(std::span<const PathPiece> pieces) {
     if (piece.part_of != no_entity) has |= has_whole;
     if (piece.joint) has |= has_joint;
     char* const begin = file_->room(largest_entry);
-    Writer writer(begin);
+    InPlace writer(begin);
     writer.put(piece.body);
     writer.put(has);
     writer.put(piece.start);
@@ -109,7 +109,7 @@ void FlightsFile::add(std::span<const PathPiece> pieces) {
 
 void FlightsFile::end(const Tally& tally) {
   if (!file_) return;
-  Writer writer(file_->room(tail_size));
+  InPlace writer(file_->room(tail_size));
   writer.put(last_entry);
   writer.put(std::uint32_t{0});
   for (const std::uint64_t count :
@@ -119,6 +119,15 @@ void FlightsFile::end(const Tally& tally) {
        {tally.first_collision, tally.last_collision, tally.energy_lost, tally.work, tally.max_overlap, tally.max_speed})
     writer.put(value);
   file_->written(writer.end());
+}
+
+std::vector<LeftOut> FlightsFile::left_out() const {
+  if (file_) return {};
+  return {{flights_name, fmt::format("larger than {:.3g} GB", 1e-9 * static_cast<double>(most_))}};
+}
+
+std::vector<OutputFile*> FlightsFile::files() {
+  return file_ ? std::vector{&*file_} : std::vector<OutputFile*>();
 }
 
 FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& scene)

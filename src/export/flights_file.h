@@ -21,26 +21,24 @@
 #include <string>
 #include <vector>
 
-#include "export/output_file.h"
-#include "physics/path_piece.h"
-#include "physics/tally.h"
-#include "scene/scene.h"
+#include "export/writer.h"
 
 namespace carom {
 
 inline constexpr const char* flights_name = "flights.bin";
 
 /// Bytes; of a run with more no flights are kept.
-inline constexpr std::uint64_t largest_flights = std::uint64_t{1} << 30;
+inline constexpr std::uint64_t largest_flights = 1'000'000'000;
 
-class FlightsFile {
+class FlightsFile final : public Writer {
  public:
   /// Throws ExportError, as all of this class does.
   FlightsFile(const FilePlace& place, const Scene& scene, std::uint64_t most = largest_flights);
-  void add(std::span<const PathPiece> pieces);
-  /// `tally`: of the run's end.
-  void end(const Tally& tally);
-  OutputFile* file() { return file_ ? &*file_ : nullptr; }  // null: it became too large, and is gone
+  void record(std::span<const PathPiece> pieces) override;
+  void end(const Tally& tally) override;
+  std::vector<LeftOut> left_out() const override;
+  std::vector<OutputFile*> files() override;
+
  private:
   std::optional<OutputFile> file_;
   std::uint64_t most_, bytes_ = 0, entries_ = 0;

@@ -1,6 +1,7 @@
 #include "export/series_folders.h"
 
 #include "export/open_folder.h"
+#include "export/writer.h"
 
 namespace carom {
 
@@ -10,6 +11,18 @@ const OutputKind* series_of(std::string_view name) {
   for (const OutputKind& kind : output_kinds())
     if (kind.series.folder == name.substr(0, slash) && kind.series.has(name.substr(slash + 1))) return &kind;
   return nullptr;
+}
+
+const OutputKind* output_of(std::string_view name) {
+  if (const OutputKind* kind = series_of(name)) return kind;
+  for (const OutputKind& kind : output_kinds())
+    if (kind.has_file(name)) return &kind;
+  return nullptr;
+}
+
+bool is_picture(std::string_view name) {
+  const OutputKind* kind = output_of(name);
+  return kind != nullptr ? writer_named(kind->name) == nullptr : name.ends_with(".mp4");
 }
 
 FileSpot SeriesFolders::spot(std::string_view name) {

@@ -144,6 +144,16 @@ class Requests {
       out.sheet = SheetOutput{static_cast<int>(part.whole("columns").value_or(4)),
                               static_cast<int>(part.whole("rows").value_or(3))};
     }
+    flights(view);
+  }
+
+  void flights(const View& view) {
+    const std::optional<bool> said = view.flag("flights");
+    const bool parabolas = goes_along_parabolas(scene_.world, scene_.simulate);
+    scene_.output.flights = parabolas && said.value_or(scene_.output.pictures());
+    if (parabolas || !said.value_or(false)) return;
+    diagnostics_.add(view.place("flights"), "`flights` are parabolas from impact to impact, which this scene has not",
+                     "expected `flights: false`, or `engine: exact` under forces that are the same everywhere");
   }
 
   void video(const View& part) {

@@ -207,6 +207,7 @@ constexpr Field output_fields[] = {
     {.key = "frames", .type = Type::part_or_flag, .of = "frames", .doc = "frames/frame_00000.png and on."},
     {.key = "video", .type = Type::part_or_flag, .of = "video", .doc = "A film, H.264."},
     {.key = "sheet", .type = Type::part_or_flag, .of = "sheet", .doc = "sheet.png: pictures from start to end side by side."},
+    {.key = "flights", .type = Type::flag, .doc = "flights.bin: the paths, from which carom render draws other pictures; where the engine goes along parabolas. Default: true with pictures."},
 };
 
 constexpr std::string_view thirtieth = "0.03333333333333333";  // 1/30, to the last bit

@@ -109,6 +109,11 @@ constexpr OutputKind all_kinds[] = {
            return Json{{"columns", o.sheet->columns}, {"rows", o.sheet->rows}};
          },
      .files = "sheet.png"},
+    {.name = "flights",
+     .asked = [](const Output& o) { return o.flights; },
+     .add = [](Output& to, const Output&) { to.flights = true; },
+     .settings = [](const Output&) { return Json(true); },
+     .files = "flights.bin"},
 };
 
 }  // namespace
@@ -123,6 +128,11 @@ bool FileSeries::has(std::string_view name) const {
     return false;
   const std::string_view number = name.substr(stem.size(), name.size() - stem.size() - ending.size());
   return std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+bool OutputKind::has_file(std::string_view file) const {
+  const std::vector<std::string_view> all = parts_of(files);
+  return std::find(all.begin(), all.end(), file) != all.end();
 }
 
 std::span<const OutputKind> output_kinds() {
@@ -163,9 +173,7 @@ bool is_reserved(std::string_view name) {
   for (const std::string_view always : {"scene.yaml", "summary.csv", "manifest.json"})
     if (name == always) return true;
   return std::any_of(std::begin(all_kinds), std::end(all_kinds), [&](const OutputKind& kind) {
-    const std::vector<std::string_view> files = parts_of(kind.files);
-    return std::find(files.begin(), files.end(), name) != files.end() ||
-           (!kind.series.folder.empty() && kind.series.folder == name);
+    return kind.has_file(name) || (!kind.series.folder.empty() && kind.series.folder == name);
   });
 }
 

@@ -54,6 +54,7 @@ struct Output {
   std::optional<FramesOutput> frames;
   std::optional<VideoOutput> video;
   std::optional<SheetOutput> sheet;
+  bool flights = false;  // of an engine that goes along parabolas alone
   bool pictures() const { return frames || video || sheet; }
 };
 
@@ -81,6 +82,8 @@ struct OutputKind {
   std::string (*named)(const Output& output) = nullptr;  // a file's name that the scene gives
   std::string_view files = {};                           // the other files' names, separated by |
   FileSeries series = {};
+
+  bool has_file(std::string_view name) const;  // among `files`
 };
 
 /// Every output, in the order of the scene's keys, of --only and of the manifest.

@@ -166,6 +166,11 @@ class Resolver {
         entry("collisions", scene_.output.collisions ? "true" : "false");
         continue;
       }
+      if (field.key == "flights") {
+        if (scene_.output.pictures() || scene_.output.flights)
+          entry("flights", scene_.output.flights ? "true" : "false");
+        continue;
+      }
       const bool is_wanted =
           wanted(view, field.key) || (unsaid && (field.key == "trajectory" || field.key == "energy"));
       if (!is_wanted) continue;

@@ -1,6 +1,7 @@
 #include "study/replay.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -9,6 +10,8 @@
 namespace carom {
 
 namespace {
+
+constexpr std::size_t path_buffer = 4096;
 
 Instant instant(const DoubleDouble& time) {
   return {time.hi, time.lo};
@@ -19,16 +22,27 @@ Instant instant(const DoubleDouble& time) {
 Replay::Replay(const World& world, NextPiece next, const Tally& tally)
     : world_(world), next_(std::move(next)), tally_(tally), now_(world.body_count()) {
   more_ = next_(coming_);
-  advance_to(0);
+  std::vector<PathPiece> first;  // at time 0, all together
+  do {
+    advance_to(0);
+    first.insert(first.end(), passed_.begin(), passed_.end());
+  } while (more_ && coming_.from <= 0);
+  passed_ = std::move(first);
 }
 
 void Replay::advance_to(double time) {
-  time_ = std::max(time, time_);
   fresh_ = false;
-  while (more_ && coming_.from <= time_) {
+  passed_.clear();
+  while (more_ && coming_.from <= time) {
+    if (passed_.size() >= path_buffer) {  // stops short of what is to come, in the middle of an instant perhaps
+      time_ = std::max(time_, std::nextafter(coming_.from, 0));
+      return;
+    }
     take(coming_);
+    passed_.push_back(coming_);
     more_ = next_(coming_);
   }
+  time_ = std::max(time, time_);
 }
 
 void Replay::take(const PathPiece& piece) {

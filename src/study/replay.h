@@ -21,6 +21,7 @@ class Replay final : public Simulator {
   double time() const override { return time_; }
   const State& state() override;
   std::span<const Collision> collisions() const override { return {}; }
+  std::span<const PathPiece> paths() const override { return passed_; }
   const Tally& tally() const override { return tally_; }  // of the whole run
 
  private:
@@ -29,8 +30,9 @@ class Replay final : public Simulator {
   const World& world_;
   NextPiece next_;
   Tally tally_;
-  std::vector<PathPiece> now_;  // by body
-  PathPiece coming_{};
+  std::vector<PathPiece> now_;     // by body
+  std::vector<PathPiece> passed_;  // since the last advance_to
+  PathPiece coming_;
   bool more_ = false;
   double time_ = 0;  // s
   State state_;
