@@ -139,11 +139,11 @@ const Option table[] = {
      [](Options& o, const Words& w) {
        for (const std::string& grid : w)
          if (const std::size_t equals = grid.find('='); equals == std::string::npos || equals == 0)
-           throw UsageError(fmt::format("--grid takes path=from:to:count or path=value,value, not {}", carom::quoted(grid)));
+           throw UsageError(
+               fmt::format("--grid takes path=from:to:count or path=value,value, not {}", carom::quoted(grid)));
        o.grid = w;
      }},
-    {"--shard", "", "I/N",
-     "part I of N, the first is 1; gather joins them (in a\njob array of Slurm: the task's part)",
+    {"--shard", "", "I/N", "part I of N, the first is 1; gather joins them (in a\njob array of Slurm: the task's part)",
      [](Options& o, const Words& w) { o.shard = read_shard(single(w, "--shard")); }},
     {"--plan", "", "", "show the runs, their values and what is done already",
      [](Options& o, const Words&) { o.plan = true; }},

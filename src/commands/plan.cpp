@@ -49,7 +49,8 @@ void fail(PlannedScene& planned, std::size_t errors, const std::string& text) {
 
 void check(PlannedScene& planned, const Options& options, Purpose purpose) {
   const auto start = std::chrono::steady_clock::now();
-  planned.scene = std::make_unique<Scene>(load_scene(planned.file, load_options(options, options.only || purpose == Purpose::bench)));
+  planned.scene = std::make_unique<Scene>(
+      load_scene(planned.file, load_options(options, options.only || purpose == Purpose::bench)));
   const Output asked = planned.scene->output;
   if (options.only) planned.scene->output = restricted(asked, *options.only);
   planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

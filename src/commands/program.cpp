@@ -7,9 +7,12 @@
 
 #include "commands/bench.h"
 #include "commands/check.h"
+#include "commands/gather.h"
 #include "commands/interrupt.h"
+#include "commands/render.h"
 #include "commands/report.h"
 #include "commands/run.h"
+#include "commands/sweep.h"
 #include "commands/text.h"
 #include "scene/diagnostics.h"
 
@@ -23,8 +26,9 @@ struct Command {
 };
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {
-      {run_text(), run_command}, {check_text(), check_command}, {bench_text(), bench_command}};
+  static const std::vector<Command> all = {{run_text(), run_command},       {check_text(), check_command},
+                                           {sweep_text(), sweep_command},   {gather_text(), gather_command},
+                                           {render_text(), render_command}, {bench_text(), bench_command}};
   return all;
 }
 

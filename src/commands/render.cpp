@@ -93,7 +93,8 @@ class Planner {
   }
 
  private:
-  void refuse_other_motion(SceneFile& file, const FormerRun& former, const Scene& scene, const std::string& path) const {
+  void refuse_other_motion(SceneFile& file, const FormerRun& former, const Scene& scene,
+                           const std::string& path) const {
     const std::string motion = motion_text(former.scene);
     if (motion_text(scene) == motion) return;
     std::vector<Setting> settings;
@@ -145,8 +146,9 @@ const CommandText& render_text() {
       "130 or 143 interrupted.",
       {{"--output", "the folder of the pictures; with several runs, the folder\nthat holds theirs (the run's own)"},
        {"--set"},
-       {"--only", "draw these pictures alone, of frames, video, sheet; one\nthat the scene does not ask for is drawn "
-                  "with default\nsettings"},
+       {"--only",
+        "draw these pictures alone, of frames, video, sheet; one\nthat the scene does not ask for is drawn "
+        "with default\nsettings"},
        {"--force"},
        {"--progress"}},
       "DIR",

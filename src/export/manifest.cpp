@@ -96,11 +96,11 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name) {
     manifest.collisions = counts->value("collisions", std::uint64_t{0});
   manifest.scene_file = text_member(*scene, "file");
   if (const auto left_out = json.find("left_out"); left_out != json.end() && left_out->is_object())
-    for (const auto& [name, why] : left_out->items())
-      manifest.left_out.push_back({name, why.is_string() ? why.get<std::string>() : ""});
+    for (const auto& [file, why] : left_out->items())
+      manifest.left_out.push_back({file, why.is_string() ? why.get<std::string>() : ""});
   if (const auto measures = json.find("measures"); measures != json.end() && measures->is_object())
-    for (const auto& [name, value] : measures->items())
-      manifest.measures.push_back({name, value.is_number() ? value.get<double>() : std::nan("")});
+    for (const auto& [measure, value] : measures->items())
+      manifest.measures.push_back({measure, value.is_number() ? value.get<double>() : std::nan("")});
   for (const Json& entry : *files) {
     auto record = file_record(entry);
     if (!record) return std::nullopt;

@@ -21,7 +21,7 @@ struct Manifest {
   std::string outputs;       // outputs_text()
   std::string meshes;        // meshes_text()
   std::vector<FileRecord> files;
-  std::string scene_file;           // its name, without a folder
+  std::string scene_file{};         // its name, without a folder
   std::vector<LeftOut> left_out{};  // files of the outputs that there are none of
   std::vector<Measured> measures{};
   std::uint64_t collisions = 0;

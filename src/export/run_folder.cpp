@@ -67,9 +67,9 @@ bool has_more(int folder, const Manifest& manifest, const Scene& scene, const st
 }
 
 /// When anything about a file was changed last: content, name, owner; no program can set it back.
-std::optional<timespec> changed(int folder, const std::string& name) {
+std::optional<timespec> changed(const FileSpot& spot) {
   struct stat info {};
-  if (fstatat(folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) return std::nullopt;
+  if (fstatat(spot.folder, spot.name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) return std::nullopt;
   return info.st_ctim;
 }
 
@@ -80,12 +80,12 @@ bool is_before(const timespec& a, const timespec& b) {
 }  // namespace
 
 bool is_whole_since(const std::string& path, const std::string& mark) {
-  const timespec marked = changed(AT_FDCWD, mark).value_or(timespec{});
+  const timespec marked = changed({AT_FDCWD, mark}).value_or(timespec{});
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
   const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : std::nullopt;
   if (!manifest || manifest->version != CAROM_VERSION) return false;
   const auto unchanged = [&](const FileSpot& spot, const FileRecord& file) {
-    const std::optional<timespec> when = changed(spot.folder, spot.name);
+    const std::optional<timespec> when = changed(spot);
     return when && has_size(spot, file) && (is_before(*when, marked) || has_hash(spot, file));
   };
   return all_files(folder.get(), *manifest, unchanged);

@@ -60,6 +60,7 @@ class Reader {
 
   /// "file:line:column"
   std::string where(const Place& place) const {
+    if (sources_.front().option) return sources_.front().name;
     const std::string& text = sources_[place.source].text;
     const std::size_t offset = std::min<std::size_t>(place.offset, text.size());
     const std::size_t begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;
@@ -336,7 +337,7 @@ Sweep load_sweep(const std::string& path, bool color) {
 
 Sweep grid_sweep(const std::string& base, const std::vector<std::string>& grids, bool color) {
   std::vector<Source> sources(1);
-  sources[0] = {"--grid", fmt::format("sweep: 1\nbase: {}\ngrid:\n", in_quotes(base)), false};
+  sources[0] = {"--grid", fmt::format("sweep: 1\nbase: {}\ngrid:\n", in_quotes(base)), true};
   for (const std::string& grid : grids) {
     const std::size_t equals = grid.find('=');
     const std::string path = grid.substr(0, equals),

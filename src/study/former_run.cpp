@@ -83,8 +83,8 @@ bool FormerRun::has_flights() const {
 std::unique_ptr<Simulator> FormerRun::motion(const Scene& of) const {
   const Descriptor opened = open_folder(AT_FDCWD, folder, true);
   const auto reader = std::make_shared<FlightsReader>(opened.get(), folder, of);
-  return std::make_unique<Replay>(of.world, [reader](PathPiece& piece) { return reader->next(piece); },
-                                  reader->tally());
+  return std::make_unique<Replay>(
+      of.world, [reader](PathPiece& piece) { return reader->next(piece); }, reader->tally());
 }
 
 }  // namespace carom

@@ -21,8 +21,8 @@ struct FormerRun {
   std::unique_ptr<Simulator> motion(const Scene& scene) const;
 };
 
-/// The run in `folder`, where it is whole but for its pictures, and this version's; its scene is read by `file`, that of
-/// its scene.yaml. Throws ExportError, whose text says what to do, and SceneError.
+/// The run in `folder`, where it is whole but for its pictures, and this version's; its scene is read by `file`, that
+/// of its scene.yaml. Throws ExportError, whose text says what to do, and SceneError.
 FormerRun read_former_run(const std::string& folder, SceneFile& file);
 
 /// The path of a run's scene.yaml. Throws ExportError where the folder cannot be that of a whole run.

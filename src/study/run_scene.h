@@ -32,7 +32,7 @@ struct RunSettings {
   /// What else the manifest says of a run's end; may be unset.
   std::function<std::vector<Measured>(const Scene&, const State& end, const Summary&)> measure;
   /// What goes along the motion in place of the scene's engine; may be unset.
-  std::function<std::unique_ptr<Simulator>(const Scene&)> simulator;
+  std::function<std::unique_ptr<Simulator>(const Scene&)> simulator{};
 };
 
 struct RunResult {

@@ -80,7 +80,7 @@ std::string SweepJob::look_at(std::size_t first, std::size_t last) {
       if (run.content == FolderContent::this_run) run.status = RunStatus::done;
       out.append(reinterpret_cast<const char*>(&run), sizeof run);
     } catch (const SceneError& error) {
-      throw SceneError(fmt::format("{}\n{}", sweep_.id(number), error.what()), error.count);
+      throw SceneError(fmt::format("{}:\n{}", sweep_.id(number), error.what()), error.count);
     }
   }
   return out;

@@ -1,0 +1,174 @@
+#include "commands/gather.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "commands/interrupt.h"
+#include "commands/progress.h"
+#include "commands/report.h"
+#include "commands/sweep_report.h"
+#include "commands/text.h"
+#include "export/copied_run.h"
+#include "export/open_folder.h"
+#include "export/stored_file.h"
+#include "study/sweep_folder.h"
+
+namespace carom {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::uint64_t largest_text = 1 << 30;  // bytes
+constexpr std::size_t names_shown = 10;
+
+class GatherSession {
+ public:
+  explicit GatherSession(const Options& options) : options_(options), folder_(options.operands.front()) {}
+
+  int go() {
+    const std::string source = has_sweep(folder_) ? folder_ : options_.operands.back();
+    if (!has_sweep(source)) {
+      complain(options_, fmt::format("{} holds no sweep: there is no {} in it", printable(source), stored_sweep));
+      return 2;
+    }
+    try {
+      Sweep sweep = load_sweep(source + "/" + stored_sweep);
+      const std::string base = text_of(source, stored_base);
+      for (std::size_t i = 1; i < options_.operands.size(); ++i) refuse_other(options_.operands[i], sweep, base);
+      return gather(sweep, base);
+    } catch (const SceneError& error) {
+      write_err(error.what());
+      complain(options_, "this is not what a sweep wrote; nothing was gathered");
+      return 2;
+    }
+  }
+
+ private:
+  static bool has_sweep(const std::string& folder) {
+    std::error_code ignored;
+    return fs::exists(folder + "/" + stored_sweep, ignored);
+  }
+
+  static std::string text_of(const std::string& folder, const char* name) {
+    const Descriptor place = open_folder(AT_FDCWD, folder, true);
+    return place ? read_text(place.get(), name, largest_text).value_or("") : "";
+  }
+
+  void refuse_other(const std::string& folder, const Sweep& sweep, const std::string& base) const {
+    if (text_of(folder, stored_sweep) == sweep.resolved(stored_base) && text_of(folder, stored_base) == base) return;
+    throw UsageError(fmt::format("{} holds no part of the sweep in {}: gather parts of one sweep", printable(folder),
+                                 printable(folder_)));
+  }
+
+  int gather(const Sweep& sweep, const std::string& base) {
+    SweepFolder folder(folder_, SweepFolder::Use::alone, sweep, base, stop_if_interrupted);
+    Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO),
+                      printable(fs::path(folder_).filename().string()), 1, 0);
+    std::vector<RunStatus> statuses;
+    std::vector<std::string> missing, failed;
+    for (std::size_t number = 0; number < sweep.size(); ++number) {
+      stop_if_interrupted();
+      statuses.push_back(bring(sweep.id(number)));
+      if (statuses.back() == RunStatus::missing) missing.push_back(sweep.id(number));
+      if (statuses.back() == RunStatus::failed) failed.push_back(sweep.id(number));
+      progress.update(0.5 * static_cast<double>(number) / static_cast<double>(sweep.size()), "runs looked at");
+    }
+    if (!missing.empty()) {
+      progress.clear();
+      complain(options_, fmt::format("{}: {} of {} runs are missing: {}\n  run the parts that have them again",
+                                     printable(folder_), missing.size(), sweep.size(), listed(missing, names_shown)));
+      show("incomplete", sweep, missing, failed);
+      return 1;
+    }
+    ComparisonWatch watch;
+    watch.look = stop_if_interrupted;
+    watch.done = [&](std::size_t done) {
+      progress.update(0.5 + 0.5 * static_cast<double>(done) / static_cast<double>(sweep.size()), "runs compared");
+    };
+    folder.finish(sweep, statuses, watch);
+    progress.clear();
+    if (!failed.empty())
+      complain(options_,
+               fmt::format("{} failed: {}", counted(failed.size(), "run", "runs"), listed(failed, names_shown)));
+    show("done", sweep, missing, failed);
+    return failed.empty() ? 0 : 3;
+  }
+
+  /// A run's status here; from another folder's part, if that has it.
+  RunStatus bring(const std::string& id) const {
+    const auto path = [&](const std::string& folder) { return fmt::format("{}/runs/{}", folder, id); };
+    if (is_whole_since(path(folder_), "")) return RunStatus::done;
+    for (std::size_t i = 1; i < options_.operands.size(); ++i) {
+      const std::string from = path(options_.operands[i]);
+      if (!is_whole_since(from, "")) continue;
+      std::error_code ignored;
+      fs::remove(path(folder_) + "/" + failure_file, ignored);
+      copy_run(from, path(folder_));
+      return RunStatus::done;
+    }
+    if (!stored_failure(path(folder_)).empty()) return RunStatus::failed;
+    for (std::size_t i = 1; i < options_.operands.size(); ++i) {
+      const std::string why = stored_failure(path(options_.operands[i]));
+      if (why.empty()) continue;
+      store_failure(path(folder_), why);
+      return RunStatus::failed;
+    }
+    return RunStatus::missing;
+  }
+
+  void show(std::string_view status, const Sweep& sweep, const std::vector<std::string>& missing,
+            const std::vector<std::string>& failed) const {
+    if (options_.json) {
+      const Json json = {{"folder", folder_},
+                         {"status", std::string(status)},
+                         {"runs", sweep.size()},
+                         {"missing", missing},
+                         {"failed", failed}};
+      write_out(document("gather", Json::array({json})));
+    }
+    if (options_.json || options_.quiet || status != "done") return;
+    Block block(Palette(wants_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+    block.heading(fs::path(folder_).filename().string(), sweep.title);
+    block.line("runs", failed.empty()
+                           ? fmt::format("{}", counted(sweep.size(), "run", "runs"))
+                           : fmt::format("{}, {} failed", counted(sweep.size(), "run", "runs"), failed.size()));
+    block.line("folder", printable(folder_));
+    write_out(block.text());
+  }
+
+  const Options& options_;
+  std::string folder_;
+};
+
+}  // namespace
+
+const CommandText& gather_text() {
+  static const CommandText text = {
+      "gather",
+      "joins the parts of a sweep that was made with --shard",
+      "  carom gather output/falls                             parts that were written into one folder\n"
+      "  carom gather output/falls part1 part2                 parts from elsewhere, copied into it\n",
+      "What it writes has the bytes of the same sweep made in one part: summary.csv, comparison.xlsx and\n"
+      "manifest.json. Runs that are missing are named; then nothing is written.\n\n"
+      "Exit codes: 0 done, 1 runs are missing, 2 the command line is wrong or there is no sweep, 3 some\n"
+      "runs failed, 130 or 143 interrupted.",
+      {{"--progress"}},
+      "DIR",
+      "the sweep's folder, then those of parts elsewhere",
+      1,
+      std::numeric_limits<std::size_t>::max(),
+      "name the sweep's folder: carom {} output/falls"};
+  return text;
+}
+
+int gather_command(const Options& options) {
+  return GatherSession(options).go();
+}
+
+}  // namespace carom

@@ -1,0 +1,10 @@
+#pragma once
+// carom gather: the parts of a sweep become the sweep.
+#include "commands/command_line.h"
+
+namespace carom {
+
+const CommandText& gather_text();
+int gather_command(const Options& options);
+
+}  // namespace carom

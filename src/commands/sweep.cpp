@@ -1,0 +1,190 @@
+#include "commands/sweep.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+
+#include "commands/interrupt.h"
+#include "commands/progress.h"
+#include "commands/report.h"
+#include "commands/sweep_report.h"
+#include "commands/sweep_setup.h"
+#include "commands/text.h"
+#include "export/copied_run.h"
+#include "study/sweep_folder.h"
+
+namespace carom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class SweepSession {
+ public:
+  explicit SweepSession(const Options& options)
+      : options_(options), folder_(sweep_folder_of(options)), shard_(shard_of(options)) {}
+
+  int go() {
+    try {
+      return sweep();
+    } catch (const SceneError& error) {
+      write_err(error.what());
+      complain(options_, fmt::format("{}: nothing was run", counted(error.count, "error", "errors")));
+      return 2;
+    } catch (const Interrupted& interrupted) {
+      progress_.reset();
+      complain(options_, fmt::format("{}: interrupted; the same command runs what is missing",
+                                     printable(options_.operands.front())));
+      return interrupted.exit_code();
+    }
+  }
+
+ private:
+  int sweep() {
+    SweepSettings settings = sweep_settings(options_);
+    std::vector<Measure> measures;
+    settings.measure = [&measures](const Scene& scene, const State& end, const Summary& summary) {
+      std::vector<Measured> out;
+      for (const Measure& measure : measures)
+        if (measure.column == nullptr) out.push_back({measure.name, value_of(measure, scene, end, summary)});
+      return out;
+    };
+    SweepJob job(read_sweep(options_), folder_, settings);
+    check_comparison(job.sweep(), job.scene(0));
+    measures = measures_of(comparison_plan(job.sweep()));
+
+    const SweepContent content = inspect_sweep_folder(folder_, job.sweep(), job.base_text());
+    if (content == SweepContent::other && !options_.force) {
+      complain(options_,
+               fmt::format("{}: the folder {} holds something else, or the sweep or its base has changed since\n"
+                           "  write elsewhere with -o, or overwrite it with --force",
+                           printable(options_.operands.front()), printable(folder_)));
+      return 2;
+    }
+    if (content == SweepContent::this_sweep && !options_.force && !options_.plan && stored_failures(folder_).empty()) {
+      show(SweepOutcome{"up to date", 0, job.sweep().size(), {}, 0}, job);
+      return 0;
+    }
+    show_progress("scenarios", job.sweep().size());
+    job.plan([&](const SweepProgress& p) { tell(p); });
+    progress_.reset();
+    if (options_.plan) {
+      show_plan(options_, job);
+      return 0;
+    }
+    return run(job, content);
+  }
+
+  int run(SweepJob& job, SweepContent content) {
+    const auto start = std::chrono::steady_clock::now();
+    const bool is_part = shard_.count > 1;
+    SweepFolder folder(folder_, is_part ? SweepFolder::Use::part : SweepFolder::Use::alone, job.sweep(),
+                       job.base_text(), stop_if_interrupted);
+    if (content == SweepContent::other) remove_other_runs(job);
+    SweepOutcome outcome;
+    outcome.to_do = job.left();
+    // Pictures are the same whatever the number of threads; more of them than processors only wait for one another.
+    const std::size_t threads = std::max<std::size_t>(1, processors() / options_.jobs.value_or(processors()));
+    setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
+    show_progress("runs", outcome.to_do);
+    job.run([&](const SweepProgress& p) { tell(p); },
+            [&](std::size_t number, const std::string& why) { outcome.failures.emplace_back(number, why); });
+    if (!is_part) {
+      std::vector<RunStatus> statuses;
+      for (const PlannedRun& one : job.runs()) statuses.push_back(one.status);
+      show_progress("runs compared", statuses.size());
+      ComparisonWatch watch;
+      watch.look = stop_if_interrupted;
+      watch.done = [&](std::size_t done) { tell({done, 0, job.runs().size()}); };
+      folder.finish(job.sweep(), statuses, watch);
+    } else {
+      sync_file_system(folder_);
+    }
+    progress_.reset();
+    outcome.status = is_part ? fmt::format("part {} of {} done", shard_.index, shard_.count) : "done";
+    outcome.runs = job.sweep().size();
+    outcome.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    show(outcome, job);
+    return outcome.failures.empty() ? 0 : 3;
+  }
+
+  /// Of what stood in the folder before: the runs that this sweep does not have.
+  void remove_other_runs(const SweepJob& job) const {
+    std::error_code ignored;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_ + "/runs", ignored)) {
+      const std::string name = entry.path().filename().string();
+      bool ours = false;
+      if (name.size() > 1 && name[0] == 'r') {
+        const std::size_t number = std::strtoull(name.c_str() + 1, nullptr, 10);
+        ours = number >= 1 && number <= job.sweep().size() && job.sweep().id(number - 1) == name;
+      }
+      if (!ours) remove_run(entry.path().string());
+    }
+  }
+
+  void show(const SweepOutcome& outcome, const SweepJob& job) const { show_outcome(options_, outcome, job); }
+
+  void show_progress(std::string what, std::size_t count) {
+    what_ = std::move(what);
+    progress_.emplace(progress_choice(options_), wants_color(options_.color, STDERR_FILENO),
+                      printable(fs::path(options_.operands.front()).stem().string()), static_cast<double>(count), 0);
+  }
+
+  void tell(const SweepProgress& p) {
+    if (!progress_) return;
+    std::string text = fmt::format("{} of {} {}", grouped(p.done), grouped(p.of), what_);
+    if (p.failed > 0) text += fmt::format(", {} failed", grouped(p.failed));
+    progress_->update(static_cast<double>(p.done) / static_cast<double>(std::max<std::size_t>(p.of, 1)), text);
+  }
+
+  const Options& options_;
+  std::string folder_;
+  Shard shard_;
+  std::string what_;
+  std::optional<Progress> progress_;
+};
+
+}  // namespace
+
+const CommandText& sweep_text() {
+  static const CommandText text = {
+      "sweep",
+      "runs a scene with many combinations of values, and compares the runs",
+      "  carom sweep scenes/sweeps/bowling_restitution.yaml\n"
+      "  carom sweep sweep.yaml --plan                         the runs, their values, what is done\n"
+      "  carom sweep sweep.yaml -j 4                           four runs at a time\n"
+      "  carom sweep scene.yaml --grid restitution.default=0.5:1:6 --grid balls.red.mass=5,10\n"
+      "  carom sweep sweep.yaml --shard 2/8                    the second of eight parts\n",
+      "Without -o a sweep goes to output/<sweep file's stem>/: runs/r0001/..., summary.csv with a row a\n"
+      "run, comparison.xlsx and manifest.json; with --grid to output/<scene file's stem>.sweep/. All\n"
+      "scenarios are checked before the first is run. Scenarios that move alike share one simulation. A\n"
+      "run that fails leaves error.txt in its folder and does not stop the others; the same command runs\n"
+      "what is missing or failed.\n\n"
+      "Exit codes: 0 done or up to date, 2 the command line, the sweep or its scene is wrong, 3 some\n"
+      "runs failed, 130 or 143 interrupted.",
+      {{"--output", "the sweep's folder (output/<sweep file's stem>)"},
+       {"--grid"},
+       {"--plan"},
+       {"--jobs", "N runs at a time (as many as there are processors);\nchanges no result"},
+       {"--shard"},
+       {"--set", "change a value of every run, simulate.duration=2 say;\nmay be repeated"},
+       {"--only"},
+       {"--seed", "the seed of every run; with repeats, the first one"},
+       {"--force"},
+       {"--progress"}},
+      "SWEEP",
+      "a sweep file (YAML), or a scene with --grid",
+      1,
+      1,
+      "name a sweep file, or a scene and what varies: carom {} scene.yaml --grid balls.red.mass=1:2:3"};
+  return text;
+}
+
+int sweep_command(const Options& options) {
+  return SweepSession(options).go();
+}
+
+}  // namespace carom

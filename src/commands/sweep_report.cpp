@@ -1,0 +1,110 @@
+#include "commands/sweep_report.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "commands/report.h"
+#include "commands/text.h"
+#include "export/copied_run.h"
+
+namespace carom {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::size_t failures_shown = 10;
+
+std::string state_of(const SweepJob& job, std::size_t number) {
+  if (job.runs()[number].status == RunStatus::done) return "done";
+  return stored_failure(job.run_folder(number)).empty() ? "new" : "failed";
+}
+
+std::string name_of(const Options& options) {
+  return std::filesystem::path(options.operands.front()).stem().string();
+}
+
+Json begin_json(const Options& options, const SweepJob& job, std::string_view status) {
+  return {{"sweep", options.operands.front()}, {"status", std::string(status)}, {"folder", job.folder()}};
+}
+
+}  // namespace
+
+void show_outcome(const Options& options, const SweepOutcome& outcome, const SweepJob& job) {
+  flush_out();
+  for (std::size_t i = 0; i < std::min(outcome.failures.size(), failures_shown) && !options.json; ++i) {
+    const auto& [number, why] = outcome.failures[i];
+    complain(options, fmt::format("{}: the run failed: {}", job.sweep().id(number), why));
+  }
+  if (outcome.failures.size() > failures_shown && !options.json)
+    complain(options, fmt::format("and {} more runs failed", outcome.failures.size() - failures_shown));
+  if (options.json) {
+    Json json = begin_json(options, job, outcome.status);
+    json["runs"] = outcome.runs;
+    json["made"] = outcome.to_do - outcome.failures.size();
+    Json failures = Json::array();
+    for (const auto& [number, why] : outcome.failures)
+      failures.push_back({{"run", job.sweep().id(number)}, {"error", why}});
+    json["failed"] = std::move(failures);
+    json["wall_s"] = outcome.wall_s;
+    write_out(document("sweep", Json::array({json})));
+    return;
+  }
+  if (options.quiet) return;
+  Block block(Palette(wants_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+  block.heading(name_of(options), job.sweep().title);
+  if (outcome.status == "up to date") {
+    block.line("up to date", fmt::format("{}, {}", counted(outcome.runs, "run", "runs"), printable(job.folder())));
+  } else {
+    block.line("runs", fmt::format("{}; {}", counted(outcome.runs, "run", "runs"), outcome.status));
+    block.line("made", fmt::format("{}{} in {}", counted(outcome.to_do - outcome.failures.size(), "run", "runs"),
+                                   outcome.failures.empty() ? "" : fmt::format(", {} failed", outcome.failures.size()),
+                                   wait_text(outcome.wall_s)));
+    block.line("folder", printable(job.folder()));
+    if (outcome.status.starts_with("part"))
+      block.line("then", fmt::format("carom gather {}, once all parts are done", printable(job.folder())));
+  }
+  write_out(block.text());
+  flush_out();
+}
+
+void show_plan(const Options& options, const SweepJob& job) {
+  const Sweep& sweep = job.sweep();
+  if (options.json) {
+    Json json = begin_json(options, job, "planned");
+    json["paths"] = sweep.paths;
+    Json runs = Json::array();
+    for (std::size_t number = 0; number < sweep.size(); ++number) {
+      const SweepRun run = sweep.run(number);
+      Json values = Json::object();
+      for (std::size_t p = 0; p < sweep.paths.size(); ++p)
+        values[sweep.paths[p]] = run.values[p] ? Json(*run.values[p]) : Json();
+      runs.push_back({{"run", run.id}, {"state", state_of(job, number)}, {"values", std::move(values)}});
+    }
+    json["runs"] = std::move(runs);
+    write_out(document("sweep", Json::array({json})));
+    return;
+  }
+  std::vector<std::vector<std::string>> rows;
+  rows.push_back({"run", "state"});
+  rows.front().insert(rows.front().end(), sweep.paths.begin(), sweep.paths.end());
+  std::size_t left = 0;
+  for (std::size_t number = 0; number < sweep.size(); ++number) {
+    const SweepRun run = sweep.run(number);
+    rows.push_back({run.id, state_of(job, number)});
+    for (const auto& value : run.values) rows.back().push_back(value.value_or("-"));
+    left += job.runs()[number].status == RunStatus::done ? 0 : 1;
+  }
+  Block block(Palette(wants_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+  block.heading(name_of(options), sweep.title);
+  block.table(rows);
+  block.line("to do", fmt::format("{} of {}", grouped(left), counted(sweep.size(), "run", "runs")));
+  block.line("folder", printable(job.folder()));
+  write_out(block.text());
+}
+
+}  // namespace carom

@@ -1,0 +1,148 @@
+#include "commands/sweep_setup.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "commands/interrupt.h"
+#include "commands/options.h"
+#include "commands/text.h"
+#include "render/mesh.h"
+#include "scene/resolve.h"
+#include "study/comparison.h"
+#include "study/sweep_folder.h"
+
+namespace carom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool varies(const Sweep& sweep, std::string_view path) {
+  return std::find(sweep.paths.begin(), sweep.paths.end(), path) != sweep.paths.end();
+}
+
+void set_for_all(Sweep& sweep, const std::string& text, std::string_view option) {
+  const std::size_t equals = text.find('=');
+  const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
+  if (varies(sweep, path))
+    throw UsageError(fmt::format("{} sets {}, which varies in this sweep", option, carom::quoted(path)));
+  // In a file an unquoted # begins a comment; here it can only be a colour.
+  sweep.set_values.push_back(
+      {path + "=" + (value.starts_with('#') ? in_quotes(value) : value), fmt::format("--set {}", text)});
+}
+
+[[noreturn]] void refuse(const std::string& where, const std::string& message) {
+  throw SceneError(fmt::format("{}: error: {}\n", where, message), 1);
+}
+
+void check_only(const Sweep& sweep) {
+  const auto& known = output_names();
+  for (const SweepValue& name : sweep.only) {
+    if (std::find(known.begin(), known.end(), name.text) != known.end()) continue;
+    refuse(name.where, fmt::format("there is no output {}; it is one of {}{}", carom::quoted(name.text),
+                                   fmt::join(known, ", "), did_you_mean(name.text, known)));
+  }
+}
+
+/// A variable of Slurm's that is a number.
+std::optional<std::size_t> slurm(const char* name) {
+  const char* text = std::getenv(name);
+  if (text == nullptr) return std::nullopt;
+  std::size_t value = 0;
+  const char* end = text + std::string_view(text).size();
+  const auto [stop, error] = std::from_chars(text, end, value);
+  if (error != std::errc() || stop != end)
+    throw UsageError(fmt::format("{} is {}, which is no number: say --shard I/N", name, carom::quoted(text)));
+  return value;
+}
+
+}  // namespace
+
+Sweep read_sweep(const Options& options) {
+  const std::string& file = options.operands.front();
+  const bool color = !options.json && wants_color(options.color, STDERR_FILENO);
+  if (!options.grid.empty() && is_sweep_file(file))
+    throw UsageError(fmt::format("--grid varies a scene; {} is a sweep: add to its `grid`", printable(file)));
+  Sweep sweep = options.grid.empty() ? load_sweep(file, color) : grid_sweep(file, options.grid, color);
+  for (const std::string& set : options.set) set_for_all(sweep, set, "--set");
+  if (options.seed && sweep.seeds > 0)
+    sweep.first_seed = options.seed;
+  else if (options.seed)
+    set_for_all(sweep, fmt::format("seed={}", *options.seed), "--seed");
+  if (options.only) {
+    sweep.only.clear();
+    for (const std::string& name : *options.only) sweep.only.push_back({name, "--only"});
+  }
+  check_only(sweep);
+  return sweep;
+}
+
+std::string sweep_folder_of(const Options& options) {
+  if (options.output) return *options.output;
+  const std::string stem = fs::path(options.operands.front()).stem().string();
+  return (fs::path("output") / (options.grid.empty() ? stem : stem + ".sweep")).string();
+}
+
+SweepSettings sweep_settings(const Options& options) {
+  SweepSettings settings;
+  settings.load.budget.enforced = !options.force;
+  settings.load.color = !options.json && wants_color(options.color, STDERR_FILENO);
+  // Every scenario has the base's meshes: each is read once.
+  auto known = std::make_shared<std::map<std::string, std::vector<Vec3>>>();
+  settings.load.mesh_points = [known](const std::string& path) {
+    const auto found = known->find(path);
+    return found != known->end() ? found->second : known->emplace(path, read_mesh_points(path)).first->second;
+  };
+  settings.jobs = options.jobs.value_or(processors());
+  settings.shard = shard_of(options);
+  settings.force = options.force;
+  settings.restrict = [](const Output& asked, const Sweep& sweep) {
+    if (sweep.only.empty()) return asked;
+    std::vector<std::string> only;
+    for (const SweepValue& name : sweep.only) only.push_back(name.text);
+    return restricted(asked, only);
+  };
+  settings.look = stop_if_interrupted;
+  return settings;
+}
+
+void check_comparison(const Sweep& sweep, const Scene& scene) {
+  for (const SweepMeasure& measure : sweep.measures) {
+    try {
+      parse_measure(measure.name, scene);
+    } catch (const MeasureError& error) {
+      refuse(measure.where, error.what());
+    }
+  }
+  for (const SweepChart& chart : sweep.charts) {
+    ComparisonPlan plan = comparison_plan(sweep);
+    plan.charts = {{chart.x, chart.y, chart.by}};
+    try {
+      check_charts(plan);
+      for (const Measure& measure : measures_of(plan)) parse_measure(measure.name, scene);
+    } catch (const MeasureError& error) {
+      refuse(chart.where, error.what());
+    }
+  }
+}
+
+Shard shard_of(const Options& options) {
+  if (options.shard) return *options.shard;
+  const auto task = slurm("SLURM_ARRAY_TASK_ID"), count = slurm("SLURM_ARRAY_TASK_COUNT");
+  if (!task || !count) return {};
+  const std::size_t step = std::max<std::size_t>(slurm("SLURM_ARRAY_TASK_STEP").value_or(1), 1);
+  const std::size_t least = slurm("SLURM_ARRAY_TASK_MIN").value_or(1);
+  const Shard shard{*task < least ? 0 : (*task - least) / step + 1, *count};
+  if (shard.index < 1 || shard.index > shard.count || (*task - least) % step != 0)
+    throw UsageError("SLURM_ARRAY_TASK_ID is not within its array, or the array has gaps: say --shard I/N");
+  return shard;
+}
+
+}  // namespace carom
