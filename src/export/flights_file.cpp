@@ -61,7 +61,9 @@ class InPlace {
 }  // namespace
 
 FlightsFile::FlightsFile(const FilePlace& place, const Scene& scene, std::uint64_t most)
-    : most_(most), bytes_(header_size + tail_size), acceleration_(scene.world.body_count(), scene.world.gravity) {
+    : most_(most),
+      bytes_(header_size + tail_size),
+      acceleration_(scene.world.body_count(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN())) {
   file_.emplace(place, flights_name);
   file_->write(magic);
   InPlace writer(file_->room(header_size));
@@ -134,7 +136,7 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
     : path_(path),
       file_(open_stored(folder, flights_name)),
       buffer_(std::size_t{256} * 1024),
-      acceleration_(scene.world.body_count(), scene.world.gravity) {
+      acceleration_(scene.world.body_count(), Vec3::Zero()) {
   struct stat info {};
   if (!file_ || fstat(file_.get(), &info) != 0) refuse("it cannot be opened, or is no file");
   const auto size = static_cast<std::uint64_t>(info.st_size);

@@ -6,7 +6,7 @@
 // then entries, by the time from which on they hold. Each is u32 body (by the order of the scene file), u32 what it
 // has, and of these what it has, in this order:
 //   always   start: f64 hi, f64 lo (s, their sum); x, y, z (m) and vx, vy, vz (m/s) at start
-//   1        ax, ay, az (m/s^2); without it, what the body's last entry had, at first gravity
+//   1        ax, ay, az (m/s^2); without it, what the body's last entry had
 //   2        from: f64 (s), the first double at which it holds; without it: hi, or if lo > 0 the next double
 //   4        until: f64 hi, f64 lo (s); hx, hy, hz (m/s^2)
 //   8        the body has become part of another: u64 which; that one's entries are its own from now on
