@@ -22,6 +22,11 @@ struct UsageError : std::runtime_error {
 
 enum class ProgressChoice { automatic, bar, lines, none };
 
+/// A chart that was asked for: x:y, or x:y:by.
+struct ChartWords {
+  std::string x, y, by;
+};
+
 /// What one command was asked to do. A command that lacks an option leaves its default.
 struct Options {
   std::vector<std::string> operands;             // scene files or what else the command takes, in order
@@ -39,6 +44,13 @@ struct Options {
   std::vector<std::string> grid;  // path=from:to:count, path=value,value
   std::optional<Shard> shard;
   bool plan = false;  // show, do not do
+  bool slurm = false;
+  std::optional<std::size_t> parts;  // of a sweep
+  std::vector<std::string> batch;    // further options of the batch system
+  // Of compare:
+  std::vector<std::string> measures;
+  std::vector<ChartWords> charts;
+  bool video = false;
 };
 
 /// An option that a command has, by its name in the table of options (options.h).

@@ -85,6 +85,34 @@ void read_only(Options& options, const Words& words) {
   options.only = std::move(only);
 }
 
+/// What stands between commas, of all words; nothing empty.
+std::vector<std::string> split_lists(const Words& words, std::string_view option) {
+  std::vector<std::string> parts;
+  for (const std::string& list : words) {
+    for (std::size_t begin = 0; begin <= list.size();) {
+      const std::size_t end = std::min(list.find(',', begin), list.size());
+      parts.push_back(list.substr(begin, end - begin));
+      if (parts.back().empty()) throw UsageError(fmt::format("{} is given an empty name", option));
+      begin = end + 1;
+    }
+  }
+  return parts;
+}
+
+void read_charts(Options& options, const Words& words) {
+  for (const std::string& text : split_lists(words, "--charts")) {
+    const std::size_t first = text.find(':'), second = text.find(':', first + 1);
+    ChartWords chart{text.substr(0, first), {}, {}};
+    if (first != std::string::npos) chart.y = text.substr(first + 1, second - first - 1);
+    if (first != std::string::npos && second != std::string::npos) chart.by = text.substr(second + 1);
+    const bool lacks_by = second != std::string::npos && first != std::string::npos && chart.by.empty();
+    if (chart.x.empty() || chart.y.empty() || lacks_by || chart.by.find(':') != std::string::npos)
+      throw UsageError(fmt::format("--charts takes x:y or x:y:by, restitution.default:energy_lost_J say, not {}",
+                                   carom::quoted(text)));
+    options.charts.push_back(std::move(chart));
+  }
+}
+
 void read_steps(Options& options, const Words& words) {
   constexpr double most_halvings = 30;
   const std::string& steps = single(words, "--steps");
@@ -145,6 +173,17 @@ const Option table[] = {
      }},
     {"--shard", "", "I/N", "part I of N, the first is 1; gather joins them (in a\njob array of Slurm: the task's part)",
      [](Options& o, const Words& w) { o.shard = read_shard(single(w, "--shard")); }},
+    {"--slurm", "", "", "for Slurm", [](Options& o, const Words&) { o.slurm = true; }},
+    {"--parts", "", "N", "tasks of the array (one for 50 runs, at most 16)",
+     [](Options& o, const Words& w) { o.parts = whole(w, "--parts", 1, 1'000'000); }},
+    {"--batch", "", "OPTION", "a further option of sbatch, --batch=--time=1:00:00 say;\nmay be repeated",
+     [](Options& o, const Words& w) {
+       for (const std::string& option : w)
+         if (!option.starts_with("-") || option.find('\n') != std::string::npos)
+           throw UsageError(fmt::format("--batch takes an option of sbatch, --batch=--time=1:00:00 say, not {}",
+                                        carom::quoted(option)));
+       o.batch = w;
+     }},
     {"--plan", "", "", "show the runs, their values and what is done already",
      [](Options& o, const Words&) { o.plan = true; }},
     {"--seed", "", "N", "the scene's seed",
@@ -160,6 +199,11 @@ const Option table[] = {
        o.bench.reference = chosen<int>(w, "--reference", reference_names) == 0 ? Engine::exact : Engine::stepped;
      },
      reference_names},
+    {"--measures", "", "LIST",
+     "what runs are compared by: columns of summary.csv, or\nballs.red.speed_m_per_s and its like at the run's end",
+     [](Options& o, const Words& w) { o.measures = split_lists(w, "--measures"); }},
+    {"--charts", "", "LIST", "x:y or x:y:by, x and by of what was varied, y a measure\n(by what varies)", read_charts},
+    {"--video", "", "", "a film", [](Options& o, const Words&) { o.video = true; }},
     {"--jobs", "-j", "N", "at most N scenes at a time; changes no result",
      [](Options& o, const Words& w) { o.jobs = whole(w, "--jobs", 1, 4096); }},
     {"--force", "", "", "overwrite other content of the folder, run again what\nis up to date, lift the budget",

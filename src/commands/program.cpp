@@ -7,11 +7,14 @@
 
 #include "commands/bench.h"
 #include "commands/check.h"
+#include "commands/compare.h"
+#include "commands/diff.h"
 #include "commands/gather.h"
 #include "commands/interrupt.h"
 #include "commands/render.h"
 #include "commands/report.h"
 #include "commands/run.h"
+#include "commands/submit.h"
 #include "commands/sweep.h"
 #include "commands/text.h"
 #include "scene/diagnostics.h"
@@ -26,9 +29,11 @@ struct Command {
 };
 
 const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {{run_text(), run_command},       {check_text(), check_command},
-                                           {sweep_text(), sweep_command},   {gather_text(), gather_command},
-                                           {render_text(), render_command}, {bench_text(), bench_command}};
+  static const std::vector<Command> all = {
+      {run_text(), run_command},       {check_text(), check_command},   {sweep_text(), sweep_command},
+      {gather_text(), gather_command}, {submit_text(), submit_command}, {compare_text(), compare_command},
+      {diff_text(), diff_command},     {render_text(), render_command}, {bench_text(), bench_command},
+  };
   return all;
 }
 

@@ -166,7 +166,11 @@ Json facts_json(const RunResult& result) {
 }
 
 std::string document(std::string_view command, Json scenes) {
-  Json whole = {{"carom", CAROM_VERSION}, {"command", std::string(command)}, {"scenes", std::move(scenes)}};
+  Json whole = {{"carom", CAROM_VERSION}, {"command", std::string(command)}};
+  if (scenes.is_object())
+    whole.update(scenes);
+  else
+    whole["scenes"] = std::move(scenes);
   // A file's name may hold any bytes; those that are no UTF-8 are replaced.
   return whole.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

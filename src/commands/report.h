@@ -38,7 +38,8 @@ nlohmann::ordered_json summary_json(const Summary& summary);
 nlohmann::ordered_json contact_json(const Summary& summary);
 nlohmann::ordered_json facts_json(const RunResult& result);
 
-/// {"carom": version, "command": ..., "scenes": [...]}, the whole of what --json prints.
+/// {"carom": version, "command": ..., "scenes": [...]}, the whole of what --json prints. An object's members stand as
+/// they are instead of scenes.
 std::string document(std::string_view command, nlohmann::ordered_json scenes);
 
 /// One error or remark to stderr, after the program's name.

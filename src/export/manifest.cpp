@@ -46,6 +46,22 @@ std::optional<FileRecord> file_record(const Json& json) {
   return record;
 }
 
+std::string whole_text(const Json& of_scene, const std::string& outputs, const Json& meshes, const std::string& facts,
+                       const std::vector<FileRecord>& files) {
+  Json json;
+  json["tool"] = tool;
+  json["version"] = CAROM_VERSION;
+  json.update(of_scene);
+  json["outputs"] = Json::parse(outputs);
+  json.update(meshes);
+  json.update(Json::parse(facts));
+  Json list = Json::array();
+  for (const FileRecord& file : files)
+    list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
+  json["files"] = std::move(list);
+  return to_text(json, 2) + "\n";
+}
+
 }  // namespace
 
 std::string outputs_text(const Output& output) {
@@ -54,20 +70,17 @@ std::string outputs_text(const Output& output) {
 
 std::string manifest_text(const Scene& scene, const std::string& outputs, const std::string& facts,
                           const std::vector<FileRecord>& files) {
-  Json json;
-  json["tool"] = tool;
-  json["version"] = CAROM_VERSION;
-  json["scene"] = {{"file", std::filesystem::path(scene.file).filename().string()},
-                   {"title", scene.title},
-                   {"sha256", sha256(scene.resolved)}};
-  json["outputs"] = Json::parse(outputs);
-  if (!scene.meshes.empty()) json["meshes"] = Json::parse(meshes_text(scene));
-  json.update(Json::parse(facts));
-  Json list = Json::array();
-  for (const FileRecord& file : files)
-    list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
-  json["files"] = std::move(list);
-  return to_text(json, 2) + "\n";
+  Json of_scene;
+  of_scene["scene"] = {{"file", std::filesystem::path(scene.file).filename().string()},
+                       {"title", scene.title},
+                       {"sha256", sha256(scene.resolved)}};
+  Json meshes = Json::object();
+  if (!scene.meshes.empty()) meshes["meshes"] = Json::parse(meshes_text(scene));
+  return whole_text(of_scene, outputs, meshes, facts, files);
+}
+
+std::string manifest_text(const std::string& outputs, const std::string& facts, const std::vector<FileRecord>& files) {
+  return whole_text(Json::object(), outputs, Json::object(), facts, files);
 }
 
 std::string manifest_text(const Scene& scene, const Summary& summary, const RunFacts& facts,
@@ -88,9 +101,9 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name) {
   if (!text) return std::nullopt;
   const Json json = Json::parse(*text, nullptr, false);
   if (!json.is_object() || text_member(json, "tool") != tool) return std::nullopt;
-  const auto scene = json.find("scene"), outputs = json.find("outputs"), files = json.find("files");
-  if (scene == json.end() || outputs == json.end() || files == json.end() || !files->is_array()) return std::nullopt;
-  Manifest manifest{text_member(json, "version"), text_member(*scene, "sha256"), to_text(*outputs, -1), "[]", {}};
+  const auto outputs = json.find("outputs"), files = json.find("files");
+  if (outputs == json.end() || files == json.end() || !files->is_array()) return std::nullopt;
+  Manifest manifest{text_member(json, "version"), text_member(json.value("scene", Json()), "sha256"), to_text(*outputs, -1), "[]", {}};
   if (const auto meshes = json.find("meshes"); meshes != json.end()) manifest.meshes = to_text(*meshes, -1);
   if (const auto counts = json.find("counts"); counts != json.end() && counts->is_object())
     manifest.collisions = counts->value("collisions", std::uint64_t{0});

@@ -17,7 +17,7 @@ inline constexpr const char* manifest_name = "manifest.json";
 /// What must be known of a run to tell whether another one is the same.
 struct Manifest {
   std::string version;       // the tool's
-  std::string scene_sha256;  // of scene.yaml
+  std::string scene_sha256;  // of scene.yaml; empty: no scene's
   std::string outputs;       // outputs_text()
   std::string meshes;        // meshes_text()
   std::vector<FileRecord> files;
@@ -34,6 +34,9 @@ std::string outputs_text(const Output& output);
 /// The text of a manifest of any kind. `outputs` and `facts`: objects, as JSON; the facts' members stand as they are.
 std::string manifest_text(const Scene& scene, const std::string& outputs, const std::string& facts,
                           const std::vector<FileRecord>& files);
+
+/// Of what is no scene's; its `outputs` tell what was asked for.
+std::string manifest_text(const std::string& outputs, const std::string& facts, const std::vector<FileRecord>& files);
 
 /// The whole text of a run's manifest.
 std::string manifest_text(const Scene& scene, const Summary& summary, const RunFacts& facts,

@@ -187,6 +187,8 @@ std::string label_of(std::string_view column) {
   std::replace(dot == std::string::npos ? label.begin() : label.begin() + static_cast<std::ptrdiff_t>(dot), label.end(),
                '_', ' ');
   if (dot != std::string::npos) label[dot] = ' ';
+  for (const std::string_view kind : {"kinetic", "potential", "total"})
+    if (label.ends_with(kind)) label += " energy";
   return text == nullptr ? label : fmt::format("{} ({})", label, text->unit);
 }
 

@@ -80,7 +80,7 @@ void thin(SeriesGroup& group, std::size_t most) {
 }  // namespace
 
 SeriesGatherer::SeriesGatherer(std::size_t runs, const std::vector<Measure>& measures) {
-  // A trajectory does not tell a mass, so that a kinetic energy stands for its speed.
+  // A trajectory does not tell a mass, and so no kinetic energy.
   for (const Measure& measure : measures)
     if (measure.column == nullptr && measure.quantity != Quantity::kinetic) bodies_.push_back(measure);
   const std::size_t columns = 2 + bodies_.size();
@@ -89,7 +89,9 @@ SeriesGatherer::SeriesGatherer(std::size_t runs, const std::vector<Measure>& mea
 
 void SeriesGatherer::add(const RunRecord& run) {
   if (!run.done) return;
-  const bool energy = has_file(run, "energy.csv"), bodies = !bodies_.empty() && has_file(run, "trajectory.csv");
+  const bool energy = has_file(run, "energy.csv"), trajectory = has_file(run, "trajectory.csv");
+  if (!energy && trajectory && bodies_.empty()) follow_first(run);
+  const bool bodies = trajectory && !bodies_.empty();
   if (!energy && !bodies) return;
   const std::size_t columns = (energy ? 2 : 0) + (bodies ? bodies_.size() : 0) + 2;
   const bool room = cells_ < most_cells && columns_ + columns <= most_columns;
@@ -99,6 +101,16 @@ void SeriesGatherer::add(const RunRecord& run) {
   }
   if (energy) take(run.run.id, read_energy(run));
   if (bodies) take(run.run.id, read_bodies(run, bodies_));
+}
+
+/// Nobody said what to follow, and there is nothing else: the first few bodies' speeds.
+void SeriesGatherer::follow_first(const RunRecord& run) {
+  constexpr std::size_t few = 3;
+  for (const EndMotion& motion : end_of_trajectory(run)) {
+    if (bodies_.size() == few) break;
+    bodies_.push_back(
+        {fmt::format("{}.{}", motion.body, name_of(Quantity::speed)), nullptr, {}, motion.body, Quantity::speed});
+  }
 }
 
 void SeriesGatherer::take(const std::string& run, SeriesGroup part) {
@@ -131,8 +143,7 @@ std::vector<PlacedSeries> write_series(Sheet& sheet, const SeriesGatherer& serie
     }
   }
   if (placed.empty()) {
-    sheet.text(0, 0, "No run has energy.csv, and no measure of a body is to be followed in a trajectory.csv.",
-               Look::note);
+    sheet.text(0, 0, "No run has energy.csv or trajectory.csv.", Look::note);
     return placed;
   }
   for (std::size_t row = 0; row < rows; ++row) {

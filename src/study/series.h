@@ -25,7 +25,7 @@ struct SeriesGroup {
 class SeriesGatherer {
  public:
   static constexpr std::size_t most_points = 2000;  // of a run
-  static constexpr std::size_t most_cells = 400'000;
+  static constexpr std::size_t most_cells = 250'000;
 
   /// Of `runs` runs; the bodies of `measures` are followed over time.
   SeriesGatherer(std::size_t runs, const std::vector<Measure>& measures);
@@ -37,6 +37,7 @@ class SeriesGatherer {
   std::size_t left_out() const { return left_out_; }  // runs for which there was no room, or whose files are too long
 
  private:
+  void follow_first(const RunRecord& run);
   void take(const std::string& run, SeriesGroup part);
 
   std::vector<Measure> bodies_;

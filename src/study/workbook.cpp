@@ -52,6 +52,7 @@ lxw_format* make_format(lxw_workbook* book, Look look) {
       format_set_bold(format);
       format_set_bg_color(format, look == Look::header ? header_tint : swept_header_tint);
       format_set_bottom(format, LXW_BORDER_THIN);
+      format_set_text_wrap(format);
       format_set_align(format, LXW_ALIGN_VERTICAL_CENTER);
       break;
     case Look::title:

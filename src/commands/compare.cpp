@@ -1,0 +1,218 @@
+#include "commands/compare.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "commands/interrupt.h"
+#include "commands/progress.h"
+#include "commands/report.h"
+#include "commands/text.h"
+#include "scene/diagnostics.h"
+#include "study/compared_run.h"
+#include "study/comparison_film.h"
+#include "study/comparison_folder.h"
+#include "study/run_list.h"
+
+namespace carom {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The runs as they were named, shortened: what the workbook is called.
+std::string title_of(const std::vector<std::string>& folders) {
+  std::vector<std::string> names;
+  for (const std::string& folder : folders) {
+    const fs::path path = fs::path(folder).lexically_normal();
+    names.push_back((path.has_filename() ? path : path.parent_path()).filename().string());
+  }
+  constexpr std::size_t most = 4;
+  return "Comparison of " + listed(names, most);
+}
+
+class CompareSession {
+ public:
+  explicit CompareSession(const Options& options)
+      : options_(options), folder_(options.output.value_or("output/comparison")) {}
+
+  int go() {
+    document_["folder"] = folder_;
+    try {
+      return compare();
+    } catch (const Interrupted& stop) {
+      complain(options_, "interrupted; nothing was written");
+      return end("interrupted", stop.exit_code());
+    } catch (const UsageError&) {
+      throw;
+    } catch (const MeasureError& error) {
+      return fail("wrong", error.what(), 2);
+    } catch (const std::bad_alloc&) {
+      return fail("failed", "not enough memory", 1);
+    } catch (const std::exception& error) {
+      stop_if_interrupted();  // ffmpeg hears a Ctrl-C too: what looks like its error is the interrupt
+      return fail("failed", error.what(), 1);
+    }
+  }
+
+ private:
+  int compare() {
+    for (const std::string& folder : options_.operands) refuse_own_folder(folder);
+    std::vector<ListedRun> runs;
+    try {
+      runs = list_runs(options_.operands);
+    } catch (const ExportError& error) {
+      return fail("wrong", error.what(), 2);
+    }
+    const SceneDifferences differences(std::move(runs));
+    std::vector<FilmTile> tiles;
+    try {
+      if (options_.video) tiles = film_tiles(differences);
+    } catch (const ExportError& error) {
+      return fail("wrong", error.what(), 2);
+    }
+    ComparisonPlan plan{
+        title_of(options_.operands), differences.parameters(), options_.measures, {}, differences.seed()};
+    for (const ChartWords& chart : options_.charts) plan.charts.push_back({chart.x, chart.y, chart.by});
+    check(plan, differences.runs());
+    const std::string request = request_text(plan, digest_of(differences.runs()), options_.video);
+    const FolderContent content = inspect_comparison_folder(folder_, request);
+    if (content == FolderContent::this_run && !options_.force) return up_to_date();
+    if (content == FolderContent::other_run && !options_.force)
+      return fail("wrong",
+                  fmt::format("the folder {} holds something else\n  write elsewhere with -o, or overwrite it with "
+                              "--force",
+                              printable(folder_)),
+                  2);
+    write(plan, differences, std::move(tiles), request);
+    return done(plan, differences);
+  }
+
+  /// The comparison's folder is no run, and no run is overwritten by what compares it.
+  void refuse_own_folder(const std::string& folder) const {
+    std::error_code ignored;
+    if (fs::weakly_canonical(folder, ignored) == fs::weakly_canonical(folder_, ignored))
+      throw UsageError(
+          fmt::format("{} is both compared and written to: name another folder with -o", printable(folder)));
+  }
+
+  /// Measures and charts must be those of the first run that is whole.
+  static void check(const ComparisonPlan& plan, const std::vector<ListedRun>& runs) {
+    check_charts(plan);
+    const auto whole = std::find_if(runs.begin(), runs.end(), [](const ListedRun& run) { return run.done; });
+    const std::vector<Measure> measures = measures_of(plan);
+    const bool of_bodies = std::any_of(measures.begin(), measures.end(), [](const Measure& m) { return !m.column; });
+    if (!of_bodies || whole == runs.end()) return;
+    const Scene scene = load_run_scene(whole->folder);
+    for (const Measure& measure : measures) parse_measure(measure.name, scene);
+  }
+
+  void write(const ComparisonPlan& plan, const SceneDifferences& differences, std::vector<FilmTile> tiles,
+             const std::string& request) {
+    const std::size_t count = differences.runs().size();
+    Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO), "compare", 1, 0);
+    const ComparisonWatch watch{stop_if_interrupted, [&](std::size_t read) {
+                                  progress.update(static_cast<double>(read) / static_cast<double>(count),
+                                                  counted(read, "run", "runs"));
+                                }};
+    std::unique_ptr<SideBySide> film;
+    ComparisonFolder folder(folder_);
+    if (options_.video) film = std::make_unique<SideBySide>(folder.place(), comparison_film_name, std::move(tiles));
+    const auto files = write_comparison(
+        folder.place(), plan, count, [&](std::size_t number) { return differences.run(number); }, watch);
+    if (film) {
+      progress.update(1, "film");
+      film->complete(stop_if_interrupted);
+    }
+    stop_if_interrupted();
+    progress.clear();
+    folder.publish(files, film.get(), request);
+  }
+
+  int up_to_date() {
+    if (!options_.json && !options_.quiet) write_out(fmt::format("{}: up to date\n", printable(folder_)));
+    return end("up to date", 0);
+  }
+
+  int done(const ComparisonPlan& plan, const SceneDifferences& differences) {
+    const std::vector<ListedRun>& runs = differences.runs();
+    const auto failed = static_cast<std::size_t>(
+        std::count_if(runs.begin(), runs.end(), [](const ListedRun& run) { return !run.done; }));
+    std::vector<std::string> varied, measures;
+    for (const Parameter& parameter : plan.parameters) varied.push_back(parameter.path);
+    for (const Measure& measure : measures_of(plan)) measures.push_back(measure.name);
+    document_["runs"] = runs.size();
+    document_["failed"] = failed;
+    document_["parameters"] = varied;
+    document_["measures"] = measures;
+    document_["files"] = files_in(folder_);
+    if (!options_.json && !options_.quiet) {
+      constexpr std::size_t most = 12;
+      Block block(Palette(wants_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+      block.heading(plan.title, "");
+      block.line("runs",
+                 failed == 0 ? grouped(runs.size()) : fmt::format("{}, {} failed", grouped(runs.size()), failed));
+      block.line("varied", varied.empty() ? "nothing" : listed(varied, most));
+      block.line("measures", listed(measures, most));
+      block.line("wrote", fmt::format("{}: {}", printable(folder_), listed(files_in(folder_), most)));
+      write_out(block.text());
+    }
+    return end("done", 0);
+  }
+
+  int fail(const char* status, const std::string& text, int code) {
+    complain(options_, text);
+    document_["error"] = text;
+    return end(status, code);
+  }
+
+  int end(const char* status, int code) {
+    document_["status"] = status;
+    if (options_.json) write_out(document("compare", document_));
+    return code;
+  }
+
+  const Options& options_;
+  std::string folder_;
+  Json document_ = Json::object();
+};
+
+}  // namespace
+
+const CommandText& compare_text() {
+  static const CommandText text = {
+      "compare",
+      "sets any runs side by side: a table, a workbook with charts, a film",
+      "  carom compare output/half output/full            writes output/comparison/\n"
+      "  carom compare output/falls --measures collisions,balls.red.speed_m_per_s\n"
+      "  carom compare output/a output/b --video -o side  their films side by side too\n",
+      "A folder is a run's, or a sweep's, and then all its runs are meant. What their scenes differ in are the\n"
+      "parameters. The folder gets summary.csv (a row a run), comparison.xlsx, with repeats (scenes that differ in\n"
+      "nothing but the seed) repeats.csv, and manifest.json.\n\n"
+      "Exit codes: 0 done or up to date, 1 the comparison failed, 2 the command line is wrong, 130 or 143\n"
+      "interrupted.",
+      {{"--output", "the comparison's folder (output/comparison)"},
+       {"--measures"},
+       {"--charts"},
+       {"--video", "the runs' films side by side, in step, as\ncomparison.mp4; of 16 runs at most"},
+       {"--force", "overwrite other content of the folder, compare again\nwhat is up to date"},
+       {"--progress"}},
+      "DIR",
+      "folders of runs, or of sweeps",
+      1,
+      std::numeric_limits<std::size_t>::max(),
+      "name the folders of runs: carom {} output/half output/full"};
+  return text;
+}
+
+int compare_command(const Options& options) {
+  return CompareSession(options).go();
+}
+
+}  // namespace carom

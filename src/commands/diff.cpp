@@ -1,0 +1,168 @@
+#include "commands/diff.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <new>
+#include <nlohmann/json.hpp>
+
+#include "commands/report.h"
+#include "commands/text.h"
+#include "export/run_folder.h"
+#include "scene/load.h"
+#include "study/run_difference.h"
+
+namespace carom {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::size_t most_shown = 20;  // values, bodies
+
+std::string exact(double value) {
+  return fmt::format("{}", value == 0 ? 0.0 : value);  // the shortest digits: two runs may differ in the last
+}
+
+std::string collision_text(const std::optional<CollisionFacts>& collision) {
+  if (!collision) return "nothing more happens";
+  const std::string who = collision->b.empty() ? collision->a : fmt::format("{} and {}", collision->a, collision->b);
+  return fmt::format("{} at {} s ({})", who, exact(collision->time), collision->kind);
+}
+
+std::string count_text(const CollisionDifference& difference) {
+  if (!difference.part)
+    return difference.same == 0 ? "none in both" : fmt::format("{}, the same in both", grouped(difference.same));
+  const std::string all = fmt::format("{} and {}", grouped(difference.count_a), grouped(difference.count_b));
+  return difference.same == 0 ? all : fmt::format("{}, of which the same: the first {}", all, grouped(difference.same));
+}
+
+std::string end_text(const RunDifference& difference) {
+  if (!difference.end)
+    return fmt::format("not known: {} has no trajectory.csv; run its scene again with the output `trajectory`",
+                       printable(difference.no_end));
+  const EndDifference& end = *difference.end;
+  std::string text = end.bodies == 0     ? std::string("no body is in both")
+                     : end.greatest == 0 ? std::string("all bodies at the same places")
+                                         : fmt::format("at most {} m apart: {}", exact(end.greatest), end.body);
+  if (end.time_a != end.time_b)
+    text += fmt::format("; the ends are at {} s and {} s", exact(end.time_a), exact(end.time_b));
+  for (const auto& [names, id] : {std::pair(&end.only_a, &difference.a.id), std::pair(&end.only_b, &difference.b.id)})
+    if (!names->empty()) text += fmt::format("; only in {}: {}", printable(*id), listed(*names, most_shown));
+  return text;
+}
+
+void describe(Block& block, const RunDifference& difference) {
+  const std::string a = printable(difference.a.id), b = printable(difference.b.id);
+  block.heading(fmt::format("{} and {}", a, b), "");
+  if (difference.equal()) block.line("equal", "scenes, collisions and where the bodies end");
+  block.line("scenes", difference.values.empty()
+                           ? "the same values"
+                           : fmt::format("{} not the same", difference.values.size() == 1
+                                                                ? std::string("1 value is")
+                                                                : grouped(difference.values.size()) + " values are"));
+  std::vector<std::vector<std::string>> rows = {{"", a, b}};
+  for (const ValueDifference& value : difference.values) {
+    if (rows.size() > most_shown) break;
+    const std::string name = value.unit.empty() ? value.path : fmt::format("{} ({})", value.path, value.unit);
+    rows.push_back(
+        {"  " + name, value.a.empty() ? "-" : printable(value.a), value.b.empty() ? "-" : printable(value.b)});
+  }
+  if (rows.size() > 1) block.table(rows);
+  if (difference.values.size() >= rows.size())
+    block.line("", fmt::format("and {} more: --json has all", difference.values.size() - rows.size() + 1));
+  const CollisionDifference& collisions = difference.collisions;
+  block.line("collisions", count_text(collisions));
+  if (collisions.outcome)
+    block.line("outcome", fmt::format("of collision {}, {}, is not the same: they leave at {} m/s in {}, {} m/s in {}",
+                                      grouped(*collisions.outcome + 1), collision_text(collisions.outcome_a),
+                                      exact(collisions.outcome_a.separation_speed), a,
+                                      exact(collisions.outcome_b.separation_speed), b));
+  if (collisions.part)
+    block.line("part", fmt::format("in collision {}: {}: {}; {}: {}", grouped(collisions.same + 1), a,
+                                   collision_text(collisions.next_a), b, collision_text(collisions.next_b)));
+  block.line("end", end_text(difference));
+}
+
+Json collision_json(const std::optional<CollisionFacts>& collision) {
+  if (!collision) return nullptr;
+  return {{"time_s", collision->time},
+          {"kind", collision->kind},
+          {"a", collision->a},
+          {"b", collision->b},
+          {"separation_speed_m_per_s", collision->separation_speed}};
+}
+
+Json difference_json(const RunDifference& difference) {
+  Json json = {{"a", difference.a.folder}, {"b", difference.b.folder}, {"equal", difference.equal()}};
+  json["values"] = Json::array();
+  for (const ValueDifference& value : difference.values)
+    json["values"].push_back({{"path", value.path}, {"unit", value.unit}, {"a", value.a}, {"b", value.b}});
+  const CollisionDifference& c = difference.collisions;
+  json["collisions"] = {{"a", c.count_a}, {"b", c.count_b}, {"same", c.same}, {"part", nullptr}, {"outcome", nullptr}};
+  if (c.part)
+    json["collisions"]["part"] = {
+        {"number", c.same + 1}, {"a", collision_json(c.next_a)}, {"b", collision_json(c.next_b)}};
+  if (c.outcome)
+    json["collisions"]["outcome"] = {
+        {"number", *c.outcome + 1}, {"a", collision_json(c.outcome_a)}, {"b", collision_json(c.outcome_b)}};
+  json["end"] = nullptr;
+  if (const auto& end = difference.end) {
+    json["end"] = {{"time_a_s", end->time_a}, {"time_b_s", end->time_b}, {"bodies", end->bodies}};
+    json["end"]["greatest_distance_m"] = end->bodies > 0 ? Json(end->greatest) : Json();
+    json["end"]["body"] = end->bodies > 0 ? Json(end->body) : Json();
+    json["end"]["only_a"] = end->only_a;
+    json["end"]["only_b"] = end->only_b;
+  }
+  return json;
+}
+
+int fail(const Options& options, const std::string& text, int code) {
+  complain(options, text);
+  if (options.json) write_out(document("diff", {{"status", code == 2 ? "wrong" : "failed"}, {"error", text}}));
+  return code;
+}
+
+}  // namespace
+
+const CommandText& diff_text() {
+  static const CommandText text = {
+      "diff",
+      "tells where two runs part, and how far apart they end",
+      "  carom diff output/half output/full\n"
+      "  carom diff output/falls/runs/r0001 output/falls/runs/r0002 --json\n",
+      "Scenes are held against each other value by value, collisions by kind, bodies and time. Both runs need\n"
+      "collisions.csv, and trajectory.csv for their ends. Nothing is written.\n\n"
+      "Exit codes: 0 done, whether equal or not, 2 the command line or a folder is wrong.",
+      {},
+      "DIR",
+      "two runs' folders",
+      2,
+      2,
+      "name two runs' folders: carom {} output/half output/full"};
+  return text;
+}
+
+int diff_command(const Options& options) {
+  try {
+    const RunDifference difference = difference_of(options.operands[0], options.operands[1]);
+    if (options.json) {
+      Json json = {{"status", "done"}};
+      json.update(difference_json(difference));
+      write_out(document("diff", json));
+    } else if (!options.quiet) {
+      Block block(Palette(wants_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+      describe(block, difference);
+      write_out(block.text());
+    }
+    return 0;
+  } catch (const ExportError& error) {
+    return fail(options, error.what(), 2);
+  } catch (const SceneError& error) {
+    return fail(options, error.what(), 2);
+  } catch (const std::bad_alloc&) {
+    return fail(options, "not enough memory", 1);
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,137 @@
+// One task of the array does many runs: what a task costs the scheduler is more than most runs take.
+#include "commands/submit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "commands/sweep_setup.h"
+#include "commands/text.h"
+
+namespace carom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t runs_a_part = 50, most_parts = 16;  // unless --parts says otherwise
+
+/// A word as a shell takes it.
+std::string shell_word(const std::string& word) {
+  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-./=,:@%+").find(c) != std::string_view::npos;
+  });
+  if (plain) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::string words_of(const std::vector<std::string>& words) {
+  std::string out;
+  for (const std::string& word : words) out += (out.empty() ? "" : " ") + shell_word(word);
+  return out;
+}
+
+std::string program() {
+  std::error_code error;
+  const fs::path path = fs::read_symlink("/proc/self/exe", error);
+  return error ? "carom" : path.string();
+}
+
+}  // namespace
+
+const CommandText& submit_text() {
+  static const CommandText text = {
+      "submit",
+      "prints a script that makes a sweep as a job array of Slurm",
+      "  carom submit sweep.yaml --slurm > job.sh\n"
+      "  sh job.sh                                             submits the parts, and what gathers them\n"
+      "  sbatch job.sh                                         submits the parts alone\n"
+      "  carom submit sweep.yaml --slurm --parts 8 -j 4 --batch=--time=1:00:00\n",
+      "Each task of the array does one part of the sweep, many runs; a task that is requeued goes on with\n"
+      "what is missing. The sweep's folder must be on a file system that all tasks see. All scenarios are\n"
+      "checked here, before anything waits in a queue.\n\n"
+      "Exit codes: 0 done, 2 the command line, the sweep or its scene is wrong.",
+      {{"--slurm"},
+       {"--parts"},
+       {"--batch"},
+       {"--output", "the sweep's folder (output/<sweep file's stem>)"},
+       {"--grid"},
+       {"--jobs", "processors of a task, and runs at a time in it (1)"},
+       {"--set", "change a value of every run, simulate.duration=2 say;\nmay be repeated"},
+       {"--only"},
+       {"--seed", "the seed of every run; with repeats, the first one"},
+       {"--force", "lift the budget"}},
+      "SWEEP",
+      "a sweep file (YAML), or a scene with --grid",
+      1,
+      1,
+      "name a sweep file: carom {} sweep.yaml --slurm"};
+  return text;
+}
+
+int submit_command(const Options& options) {
+  if (!options.slurm) throw UsageError("name the batch system: --slurm");
+  Options local = options;
+  local.shard = Shard{};
+  SweepSettings settings = sweep_settings(local);
+  settings.jobs = processors();
+  SweepJob job(read_sweep(options), sweep_folder_of(options), settings);
+  try {
+    check_comparison(job.sweep(), job.scene(0));
+    job.plan([](const SweepProgress&) {});
+  } catch (const SceneError& error) {
+    write_err(error.what());
+    return 2;
+  }
+  const std::size_t runs = job.sweep().size();
+  const std::size_t parts =
+      std::min(options.parts.value_or(std::min((runs + runs_a_part - 1) / runs_a_part, most_parts)), runs);
+  const std::string folder = sweep_folder_of(options);
+  const std::string stem = fs::path(options.operands.front()).stem().string();
+  std::vector<std::string> words = {program(), "sweep", options.operands.front(), "-o", folder, "--progress", "lines"};
+  const auto add = [&](const std::string& name, const std::string& value) {
+    words.push_back(name);
+    words.push_back(value);
+  };
+  for (const std::string& grid : options.grid) add("--grid", grid);
+  for (const std::string& set : options.set) add("--set", set);
+  if (options.only) add("--only", fmt::format("{}", fmt::join(*options.only, ",")));
+  if (options.seed) add("--seed", std::to_string(*options.seed));
+  std::string batch;
+  for (const std::string& line : options.batch) batch += fmt::format("#SBATCH {}\n", line);
+  const std::string name = "carom-" + (stem.empty() ? "sweep" : stem);
+  // Asked for its end, a task has half a minute to put its files in order. --open-mode: a requeued task's log goes on.
+  write_out(fmt::format(
+      R"(#!/bin/sh
+#SBATCH --job-name={0}
+#SBATCH --array=1-{1}
+#SBATCH --ntasks=1
+#SBATCH --cpus-per-task={2}
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --signal=B:TERM@30
+#SBATCH --output={0}-%A_%a.log
+{3}
+# {4} in {1} parts, as a job array of Slurm. `sh` of this file submits the parts and, after them, what gathers
+# them; `sbatch` of it the parts alone.
+set -eu
+if [ -z "${{SLURM_ARRAY_TASK_ID:-}}" ]; then
+  parts=$(sbatch --parsable "$0")
+  gather=$(sbatch --parsable --dependency=afterany:"$parts" --job-name={0}-gather --output={0}-gather-%j.log \
+    --wrap {5})
+  echo "parts: job $parts; gather: job $gather"
+  exit
+fi
+exec {6} --jobs {2} --shard "$SLURM_ARRAY_TASK_ID/{1}"
+)",
+      shell_word(name), parts, options.jobs.value_or(1), batch, counted(runs, "run", "runs"),
+      shell_word(words_of({program(), "gather", folder})), words_of(words)));
+  return 0;
+}
+
+}  // namespace carom

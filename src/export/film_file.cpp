@@ -1,0 +1,172 @@
+#include "export/film_file.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+
+#include "export/folder_names.h"
+#include "export/open_folder.h"
+#include "export/run_folder.h"
+#include "export/stored_file.h"
+
+namespace carom {
+namespace {
+
+/// The film's name in ffmpeg's own folder. (The name it will have is the scene's and never stands on a command line.)
+constexpr const char* film_name = "film.mp4";
+
+/// The last lines of what a program complained of, on one line.
+std::string complaint(const std::string& text) {
+  const std::size_t most = 600;
+  std::string tail = text.size() > most ? "..." + text.substr(text.size() - most) : text;
+  while (!tail.empty() && tail.back() == '\n') tail.pop_back();
+  for (char& c : tail) c = c == '\n' ? ';' : static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  return tail.empty() ? "it said nothing" : tail;
+}
+
+/// What ffprobe says of a film's only stream, its values separated by commas.
+std::string probed(const FilmTools& tools, int folder, const std::string& name, bool counted,
+                   const std::string& entries, std::string& error) {
+  std::vector<std::string> arguments = {tools.ffprobe, "-v", "error", "-select_streams", "v:0"};
+  if (counted) arguments.emplace_back("-count_packets");
+  arguments.insert(arguments.end(), {"-show_entries", "stream=" + entries, "-of", "csv=p=0", "file:" + name});
+  Child probe(arguments, folder, false);
+  const auto code = probe.wait(std::chrono::minutes(10));
+  if (!code || *code != 0) error = "ffprobe cannot read it: " + complaint(probe.errors());
+  return probe.output();
+}
+
+/// Reads a whole number from the front of `text` and takes it and the separator behind it off.
+std::uint64_t take_number(std::string_view& text) {
+  std::uint64_t value = 0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value).ptr;
+  text.remove_prefix(std::min(text.size(), static_cast<std::size_t>(end - text.data()) + 1));
+  return value;
+}
+
+}  // namespace
+
+FilmTools find_film_tools() {
+  const auto ffmpeg = find_program("ffmpeg"), ffprobe = find_program("ffprobe");
+  if (!ffmpeg || !ffprobe) {
+    throw ExportError(
+        std::string("the scene asks for a video, but ") + (ffmpeg ? "ffprobe" : "ffmpeg") +
+        " is not on this machine's PATH: install it (on Debian: apt install ffmpeg), or leave the video out");
+  }
+  return {*ffmpeg, *ffprobe};
+}
+
+FilmFile::FilmFile(const FilePlace& place, const std::string& name, FilmTools tools, const FilmPatience& patience)
+    : place_(place), tools_(std::move(tools)), patience_(patience) {
+  record_.name = name;
+  if (!is_plain_name(name)) fail_with("a film's name may hold no slash, no control character and no dot at its start");
+}
+
+FilmFile::~FilmFile() {
+  ffmpeg_.reset();
+  if (!published_ && workshop_) remove_entry(place_.folder, part_name(record_.name));
+}
+
+void FilmFile::fail_with(const std::string& reason) const {
+  fail("make the film", place_, record_.name, reason);
+}
+
+FilePlace FilmFile::workshop() {
+  const std::string part = part_name(record_.name);
+  if (!workshop_) {
+    // ffmpeg opens its file by name, more than once, and outlives a run that is killed. In a folder of its own it meets
+    // no link, and once the next run has removed that folder it can touch nothing any more.
+    remove_entry(place_.folder, part);
+    if (mkdirat(place_.folder, part.c_str(), 0777) != 0) fail("write", place_, record_.name);
+    workshop_ = open_folder(place_.folder, part, false);
+    if (!workshop_) fail("write", place_, record_.name);
+  }
+  return {workshop_.get(), place_.path + "/" + part};
+}
+
+void FilmFile::start(const std::vector<std::string>& input, const std::vector<std::string>& filter, int crf, bool fed) {
+  std::vector<std::string> arguments = {tools_.ffmpeg, "-nostdin", "-hide_banner", "-loglevel", "error", "-y"};
+  arguments.insert(arguments.end(), input.begin(), input.end());
+  arguments.emplace_back("-an");
+  arguments.insert(arguments.end(), filter.begin(), filter.end());
+  // As many threads everywhere and no version numbers, for the same bytes everywhere.
+  const std::string quality = std::to_string(crf), out = std::string("file:") + film_name;
+  for (const std::string_view argument :
+       {"-c:v",         "libx264",   "-preset",          "medium",     "-crf",       quality.c_str(),
+        "-pix_fmt",     "yuv420p",   "-threads",         "4",          "-fps_mode",  "passthrough",
+        "-colorspace",  "bt709",     "-color_primaries", "bt709",      "-color_trc", "bt709",
+        "-color_range", "tv",        "-movflags",        "+faststart", "-fflags",    "+bitexact",
+        "-flags:v",     "+bitexact", "-map_metadata",    "-1",         "-f",         "mp4",
+        out.c_str()})
+    arguments.emplace_back(argument);
+  const FilePlace place = workshop();
+  ffmpeg_ = std::make_unique<Child>(arguments, place.folder, fed);
+}
+
+void FilmFile::send(const void* bytes, std::size_t size) {
+  switch (ffmpeg_->send(bytes, size, patience_.each)) {
+    case Child::Sent::all:
+      return;
+    case Child::Sent::closed:
+      ffmpeg_->wait(std::chrono::seconds(5));
+      fail_with("ffmpeg ended too early: " + complaint(ffmpeg_->errors()));
+    case Child::Sent::stuck:
+      ffmpeg_->kill();
+      fail_with("ffmpeg took no picture for " + std::to_string(patience_.each.count() / 1000) + " s and was stopped");
+  }
+}
+
+void FilmFile::complete(std::uint64_t frames, const std::function<void()>& look) {
+  if (!ffmpeg_) fail_with("no picture falls into it");
+  ffmpeg_->end_input();
+  std::optional<int> code;
+  const auto limit = std::chrono::steady_clock::now() + patience_.end;
+  constexpr auto glance = std::chrono::milliseconds(100);
+  while (look && !(code = ffmpeg_->wait(glance)) && std::chrono::steady_clock::now() < limit) look();
+  if (!look) code = ffmpeg_->wait(patience_.end);
+  if (!code) {
+    ffmpeg_->kill();
+    fail_with("ffmpeg did not end within " + std::to_string(patience_.end.count() / 1000) + " s and was stopped");
+  }
+  if (*code != 0) fail_with("ffmpeg failed with code " + std::to_string(*code) + ": " + complaint(ffmpeg_->errors()));
+
+  std::string error;
+  const std::string counted = probed(tools_, workshop_.get(), film_name, true, "nb_read_packets", error);
+  if (!error.empty()) fail_with(error);
+  std::string_view text = counted;
+  if (const std::uint64_t found = take_number(text); found != frames)
+    fail_with("ffmpeg wrote " + std::to_string(found) + " of " + std::to_string(frames) + " frames");
+
+  const auto stored = read_record(workshop_.get(), film_name);
+  if (!stored) fail("read", place_, record_.name);
+  record_.bytes = stored->bytes;
+  record_.sha256 = stored->sha256;
+}
+
+void FilmFile::publish() {
+  if (renameat(workshop_.get(), film_name, place_.folder, record_.name.c_str()) != 0)
+    fail("write", place_, record_.name);
+  published_ = true;
+  remove_entry(place_.folder, part_name(record_.name));
+}
+
+FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const std::string& name) {
+  std::string error;
+  const std::string said = probed(tools, place.folder, name, false, "width,height,r_frame_rate,nb_frames", error);
+  if (!error.empty()) fail("read the film", place, name, error);
+  std::string_view text = said;
+  FilmFacts facts;
+  facts.width = static_cast<int>(take_number(text));
+  facts.height = static_cast<int>(take_number(text));
+  facts.rate = take_number(text);
+  facts.per = take_number(text);
+  facts.frames = take_number(text);
+  if (facts.width == 0 || facts.height == 0 || facts.rate == 0 || facts.per == 0 || facts.frames == 0)
+    fail("read the film", place, name, "ffprobe finds no pictures in it");
+  return facts;
+}
+
+}  // namespace carom

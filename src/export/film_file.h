@@ -1,0 +1,73 @@
+#pragma once
+// A film while ffmpeg writes it, in a folder of its own beside the film's place, until it is whole.
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "export/child.h"
+#include "export/output_file.h"
+
+namespace carom {
+
+/// The programs that make a film and look into it.
+struct FilmTools {
+  std::string ffmpeg, ffprobe;  // absolute paths
+};
+
+/// Finds them on PATH. Throws ExportError, which names the remedy.
+FilmTools find_film_tools();
+
+/// How long ffmpeg may take nothing, and how long it may take to end once it has everything.
+struct FilmPatience {
+  std::chrono::milliseconds each = std::chrono::minutes(2);
+  std::chrono::milliseconds end = std::chrono::minutes(10);
+};
+
+class FilmFile {
+ public:
+  /// Throws ExportError, as all of this class does.
+  FilmFile(const FilePlace& place, const std::string& name, FilmTools tools, const FilmPatience& patience);
+  /// Without publish(): ffmpeg is stopped and nothing of the film stays.
+  ~FilmFile();
+  FilmFile(const FilmFile&) = delete;
+  FilmFile& operator=(const FilmFile&) = delete;
+
+  /// ffmpeg's own folder; made by the first call.
+  FilePlace workshop();
+  /// Starts ffmpeg there: `input` says what comes, `filter` (an option and its value) what is done to it. The rest,
+  /// H.264 in yuv420p and BT.709, index in front, the same pictures the same bytes, is every film's.
+  void start(const std::vector<std::string>& input, const std::vector<std::string>& filter, int crf, bool fed);
+  bool started() const { return ffmpeg_ != nullptr; }
+  void send(const void* bytes, std::size_t size);
+
+  /// Waits for ffmpeg's end, calling `look` (which may throw) now and then, and counts the frames in the film: ffmpeg
+  /// may end content with half of them.
+  void complete(std::uint64_t frames, const std::function<void()>& look = {});
+  void publish();
+  const FileRecord& record() const { return record_; }  // after complete()
+
+  [[noreturn]] void fail_with(const std::string& reason) const;
+
+ private:
+  FilePlace place_;
+  FilmTools tools_;
+  FilmPatience patience_;
+  Descriptor workshop_;
+  std::unique_ptr<Child> ffmpeg_;
+  FileRecord record_;
+  bool published_ = false;
+};
+
+/// What there is to know of a stored film.
+struct FilmFacts {
+  int width = 0, height = 0;        // pixels
+  std::uint64_t rate = 0, per = 1;  // frames a second: rate / per
+  std::uint64_t frames = 0;
+};
+/// Asks ffprobe. Throws ExportError.
+FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const std::string& name);
+
+}  // namespace carom

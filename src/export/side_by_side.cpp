@@ -1,0 +1,144 @@
+#include "export/side_by_side.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "export/open_folder.h"
+#include "export/run_folder.h"
+
+namespace carom {
+namespace {
+
+constexpr const char* font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+constexpr int widest = 3840, highest = 2160;  // pixels, of the whole
+constexpr int crf = 18;
+
+/// A tile's place and size, in pixels; both sides are even, for colour has half the resolution.
+struct Grid {
+  int columns, rows, width, height;
+};
+
+int even(double pixels) {
+  return std::max(2, 2 * static_cast<int>(pixels / 2));
+}
+
+Grid grid_of(const std::vector<FilmFacts>& films) {
+  int columns = 1;
+  while (static_cast<std::size_t>(columns * columns) < films.size()) ++columns;
+  const int rows = (static_cast<int>(films.size()) + columns - 1) / columns;
+  int width = 0, height = 0;
+  for (const FilmFacts& film : films) {
+    width = std::max(width, film.width);
+    height = std::max(height, film.height);
+  }
+  const double scale =
+      std::min({1.0, widest / static_cast<double>(width * columns), highest / static_cast<double>(height * rows)});
+  return {columns, rows, even(width * scale), even(height * scale)};
+}
+
+/// Whether `a` has more frames a second than `b`.
+bool is_faster(const FilmFacts& a, const FilmFacts& b) {
+  return a.rate * b.per > b.rate * a.per;
+}
+
+double rate_of(const FilmFacts& film) {
+  return static_cast<double>(film.rate) / static_cast<double>(film.per);
+}
+
+/// Frames of the whole film's rate before a tile's first one, and how many it then has.
+struct Span {
+  std::uint64_t before, frames;
+};
+
+Span span_of(const FilmTile& tile, const FilmFacts& film, const FilmFacts& fastest, double start) {
+  const double rate = rate_of(fastest);
+  const double frames = static_cast<double>(film.frames) * rate / rate_of(film);
+  return {static_cast<std::uint64_t>(std::llround((tile.from - start) * rate)),
+          static_cast<std::uint64_t>(std::max<long long>(1, std::llround(frames)))};
+}
+
+/// As large as the longest line allows: a letter of this font is 0.6 of its size wide, roughly.
+int font_size(const std::vector<FilmTile>& tiles, const Grid& grid) {
+  std::size_t longest = 1;
+  for (const FilmTile& tile : tiles)
+    for (const std::string& line : tile.labels) longest = std::max(longest, line.size());
+  const double by_width = (grid.width - 16) / (0.62 * static_cast<double>(longest));
+  return std::max(8, static_cast<int>(std::min(by_width, grid.height / 22.0)));
+}
+
+void write_label(const FilePlace& place, const std::string& name, const FilmTile& tile) {
+  OutputFile file(place, name);
+  for (std::size_t k = 0; k < tile.labels.size(); ++k) file.write((k > 0 ? "\n" : "") + tile.labels[k]);
+  file.publish();
+}
+
+}  // namespace
+
+SideBySide::SideBySide(const FilePlace& place, const std::string& name, std::vector<FilmTile> tiles)
+    : tools_(find_film_tools()), file_(place, name, tools_, {}), tiles_(std::move(tiles)) {
+  if (tiles_.size() < 2 || tiles_.size() > most_tiles)
+    file_.fail_with(fmt::format("it shows 2 to {} runs, not {}: name fewer", most_tiles, tiles_.size()));
+  if (access(font, R_OK) != 0)
+    file_.fail_with(
+        fmt::format("the font of its labels, {}, is not there: install it (on Debian: apt install "
+                    "fonts-dejavu-core)",
+                    font));
+  for (const FilmTile& tile : tiles_) {
+    const Descriptor folder = open_folder(AT_FDCWD, tile.folder, true);
+    if (!folder) fail("open", {-1, tile.folder}, "");
+    facts_.push_back(film_facts(tools_, {folder.get(), tile.folder}, tile.file));
+  }
+}
+
+void SideBySide::complete(const std::function<void()>& look) {
+  const Grid grid = grid_of(facts_);
+  const FilmFacts& fastest =
+      *std::max_element(facts_.begin(), facts_.end(), [](const auto& a, const auto& b) { return is_faster(b, a); });
+  double start = tiles_.front().from;
+  for (const FilmTile& tile : tiles_) start = std::min(start, tile.from);
+  const int size = font_size(tiles_, grid);
+
+  std::vector<std::string> input;
+  std::string graph, stacked, layout;
+  std::uint64_t frames = 0;
+  std::vector<Span> spans;
+  for (std::size_t k = 0; k < tiles_.size(); ++k) {
+    spans.push_back(span_of(tiles_[k], facts_[k], fastest, start));
+    frames = std::max(frames, spans.back().before + spans.back().frames);
+  }
+  for (std::size_t k = 0; k < tiles_.size(); ++k) {
+    const FilmFacts& film = facts_[k];
+    const std::string label = fmt::format("label_{}.txt", k);
+    write_label(file_.workshop(), label, tiles_[k]);
+    input.insert(
+        input.end(),
+        {"-i", "file:" + std::filesystem::absolute(std::filesystem::path(tiles_[k].folder) / tiles_[k].file).string()});
+    graph += fmt::format("[{}:v]", k);
+    if (is_faster(fastest, film)) graph += fmt::format("fps={}/{},", fastest.rate, fastest.per);
+    if (film.width != grid.width || film.height != grid.height)
+      graph += fmt::format(
+          "scale={0}:{1}:force_original_aspect_ratio=decrease:force_divisible_by=2:flags=bicubic+accurate_rnd+"
+          "full_chroma_int+bitexact,pad={0}:{1}:(ow-iw)/2:(oh-ih)/2,setsar=1,",
+          grid.width, grid.height);
+    // Cut to the same number of frames each: the first one held before, the last one after.
+    graph += fmt::format("tpad=start={}:start_mode=clone:stop=-1:stop_mode=clone,trim=end_frame={}", spans[k].before,
+                         frames);
+    graph += fmt::format(
+        ",drawtext=fontfile={}:textfile={}:expansion=none:fontsize={}:fontcolor=white:line_spacing={}:x={}:y={}:box=1:"
+        "boxcolor=black@0.6:boxborderw={}[t{}];",
+        font, label, size, size / 4, size / 2 + 2, size / 2 + 2, size / 3, k);
+    stacked += fmt::format("[t{}]", k);
+    const int row = static_cast<int>(k) / grid.columns, column = static_cast<int>(k) % grid.columns;
+    layout += fmt::format("{}{}_{}", k > 0 ? "|" : "", column * grid.width, row * grid.height);
+  }
+  graph += fmt::format("{}xstack=inputs={}:layout={}:fill=black", stacked, tiles_.size(), layout);
+  file_.start(input, {"-filter_complex", graph}, crf, false);
+  file_.complete(frames, look);
+}
+
+}  // namespace carom

@@ -1,0 +1,60 @@
+#include "study/comparison_film.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "export/manifest.h"
+#include "export/open_folder.h"
+#include "export/run_folder.h"
+#include "study/outcomes.h"
+
+namespace carom {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t most_labels = 4;  // values under a run's id
+
+FilmTile tile_of(const ListedRun& run) {
+  FilmTile tile{run.folder, {}, 0, {run.id}};
+  const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
+  const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : std::nullopt;
+  const Json outputs = manifest ? Json::parse(manifest->outputs, nullptr, false) : Json();
+  if (!outputs.is_object() || !outputs.contains("video"))
+    throw ExportError(
+        fmt::format("{} has no film: run its scene again with the output `video` (--only video)", run.folder));
+  const Json& video = outputs["video"];
+  tile.file = video.value("file", "animation.mp4");
+  tile.from = video.value("from", 0.0);
+  return tile;
+}
+
+}  // namespace
+
+std::vector<FilmTile> film_tiles(const SceneDifferences& runs) {
+  const std::size_t count = runs.runs().size();
+  if (count > most_tiles)
+    throw ExportError(fmt::format("a film shows at most {} runs side by side, not {}: name fewer, or leave --video out",
+                                  most_tiles, count));
+  ComparisonPlan plan{"", runs.parameters(), {}, {}, {}};
+  Outcomes outcomes(plan, 0, count);
+  for (std::size_t i = 0; i < count; ++i) outcomes.add(i, runs.run(i), true, {});
+  outcomes.finish();
+  const std::vector<std::size_t> varied = outcomes.independent();
+  std::vector<FilmTile> tiles;
+  for (std::size_t i = 0; i < count; ++i) {
+    tiles.push_back(tile_of(runs.runs()[i]));
+    const ComparedRun run = runs.run(i);
+    for (std::size_t k = 0; k < std::min(varied.size(), most_labels); ++k) {
+      const Parameter& parameter = plan.parameters[varied[k]];
+      tiles.back().labels.push_back(fmt::format("{} = {}{}{}", parameter.path, run.values[varied[k]],
+                                                parameter.unit.empty() ? "" : " ", parameter.unit));
+    }
+  }
+  return tiles;
+}
+
+}  // namespace carom

@@ -1,0 +1,14 @@
+#pragma once
+// The films of compared runs, side by side.
+#include <vector>
+
+#include "export/side_by_side.h"
+#include "study/run_list.h"
+
+namespace carom {
+
+/// The film of each run, labelled with the run's id and what was varied. Throws ExportError, which says what a run
+/// lacks and the remedy.
+std::vector<FilmTile> film_tiles(const SceneDifferences& runs);
+
+}  // namespace carom

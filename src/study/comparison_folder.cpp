@@ -1,0 +1,89 @@
+#include "study/comparison_folder.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <nlohmann/json.hpp>
+
+#include "export/folder_names.h"
+#include "export/manifest.h"
+#include "export/stored_file.h"
+
+namespace carom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* request_key = "comparison";
+
+bool is_comparison_file(const std::string& name) {
+  const std::array<std::string_view, 4> names = {summary_name, repeats_name, workbook_name, comparison_film_name};
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_comparison(const Manifest& manifest) {
+  const Json outputs = Json::parse(manifest.outputs, nullptr, false);
+  return outputs.is_object() && outputs.contains(request_key);
+}
+
+}  // namespace
+
+std::string request_text(const ComparisonPlan& plan, const std::string& runs, bool video) {
+  Json charts = Json::array();
+  for (const Chart& chart : plan.charts) charts.push_back({{"x", chart.x}, {"y", chart.y}, {"by", chart.by}});
+  const Json request = {{request_key,
+                         {{"title", valid_utf8(plan.title)},
+                          {"runs_sha256", runs},
+                          {"measures", plan.measures},
+                          {"charts", std::move(charts)},
+                          {"video", video}}}};
+  return request.dump();
+}
+
+FolderContent inspect_comparison_folder(const std::string& path, const std::string& request) {
+  const Descriptor folder = open_folder(AT_FDCWD, path.empty() ? "." : path, true);
+  if (!folder && errno == ENOENT) return FolderContent::nothing;
+  if (!folder && errno == ENOTDIR) return FolderContent::other_run;
+  if (!folder) fail("open", {-1, path}, "");
+  const std::vector<std::string> names = folder_names(folder.get());
+  if (names.empty()) return FolderContent::nothing;
+  if (!std::binary_search(names.begin(), names.end(), manifest_name)) {
+    // A comparison that was killed while it was written, or while its files got their names.
+    const bool ours = std::all_of(names.begin(), names.end(),
+                                  [](const auto& name) { return is_part_name(name) || is_comparison_file(name); });
+    return ours ? FolderContent::incomplete : FolderContent::other_run;
+  }
+  const auto manifest = read_manifest(folder.get(), manifest_name);
+  if (!manifest || !is_comparison(*manifest)) return FolderContent::other_run;
+  const bool whole = std::all_of(manifest->files.begin(), manifest->files.end(), [&](const FileRecord& file) {
+    const auto stored = read_record(folder.get(), file.name);
+    return stored && stored->bytes == file.bytes && stored->sha256 == file.sha256;
+  });
+  return whole && manifest->version == CAROM_VERSION && manifest->outputs == request ? FolderContent::this_run
+                                                                                     : FolderContent::incomplete;
+}
+
+void ComparisonFolder::publish(const std::vector<std::unique_ptr<OutputFile>>& files, SideBySide* film,
+                               const std::string& request) {
+  const int folder = folder_.place().folder;
+  std::vector<OutputFile*> all;
+  std::vector<FileRecord> records;
+  for (const auto& file : files) {
+    all.push_back(file.get());
+    records.push_back(file->record());
+  }
+  if (film != nullptr) records.push_back(film->record());
+  OutputFile manifest(folder_.place(), manifest_name);
+  manifest.write(manifest_text(request, "{}", records));
+  manifest.complete();
+  // From here on the folder is no whole comparison until it is this one.
+  if (unlinkat(folder, manifest_name, 0) != 0 && errno != ENOENT) fail("replace", folder_.place(), manifest_name);
+  for (const char* name : {repeats_name, comparison_film_name}) unlinkat(folder, name, 0);  // of a former one
+  folder_.publish(all, manifest, [&] {
+    if (film != nullptr) film->publish();
+  });
+}
+
+}  // namespace carom

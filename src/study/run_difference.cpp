@@ -1,0 +1,154 @@
+#include "study/run_difference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "export/run_folder.h"
+#include "export/stored_file.h"
+#include "study/compared_run.h"
+
+namespace carom {
+namespace {
+
+/// Rows of collisions.csv, one after the other.
+class Collisions {
+ public:
+  explicit Collisions(const RunRecord& run) : table_(open_table(run, "collisions.csv")) {
+    for (const char* name : {"time_s", "kind", "a", "b", "separation_speed_m_per_s"})
+      columns_.push_back(table_.find(name).value_or(table_.columns().size()));
+  }
+
+  bool next() {
+    cells_ = table_.next();
+    count_ += cells_ != nullptr ? 1 : 0;
+    return cells_ != nullptr;
+  }
+
+  std::uint64_t count() const { return count_; }  // so far
+  bool ended() const { return cells_ == nullptr; }
+
+  CollisionFacts facts() const {
+    return {number_in(cell(0)).value_or(0), std::string(cell(1)), std::string(cell(2)), std::string(cell(3)),
+            number_in(cell(4)).value_or(0)};
+  }
+  bool is_same(const Collisions& other) const {
+    return cell(0) == other.cell(0) && cell(1) == other.cell(1) && cell(2) == other.cell(2) && cell(3) == other.cell(3);
+  }
+  bool ends_the_same(const Collisions& other) const { return *cells_ == *other.cells_; }
+
+ private:
+  std::string_view cell(std::size_t k) const {
+    return columns_[k] < cells_->size() ? (*cells_)[columns_[k]] : std::string_view();
+  }
+
+  StoredTable table_;
+  std::vector<std::size_t> columns_;
+  const std::vector<std::string_view>* cells_ = nullptr;
+  std::uint64_t count_ = 0;
+};
+
+void need_collisions(const RunRecord& run) {
+  if (!has_file(run, "collisions.csv"))
+    throw ExportError(
+        fmt::format("{} has no collisions.csv: run its scene again with the output `collisions` (--only "
+                    "collisions,trajectory)",
+                    run.run.folder));
+}
+
+CollisionDifference collision_difference(const RunRecord& run_a, const RunRecord& run_b) {
+  need_collisions(run_a);
+  need_collisions(run_b);
+  CollisionDifference difference;
+  Collisions a(run_a), b(run_b);
+  while (true) {
+    a.next();
+    b.next();
+    if (a.ended() || b.ended() || !a.is_same(b)) break;
+    if (!difference.outcome && !a.ends_the_same(b)) {
+      difference.outcome = difference.same;
+      difference.outcome_a = a.facts();
+      difference.outcome_b = b.facts();
+    }
+    ++difference.same;
+  }
+  difference.part = !a.ended() || !b.ended();
+  if (!a.ended()) difference.next_a = a.facts();
+  if (!b.ended()) difference.next_b = b.facts();
+  while (!a.ended()) a.next();
+  while (!b.ended()) b.next();
+  difference.count_a = a.count();
+  difference.count_b = b.count();
+  return difference;
+}
+
+double last_time(const RunRecord& run) {
+  double time = 0;
+  const Descriptor file = open_stored(run.folder.get(), "trajectory.csv");
+  lines_from_end(file.get(), [&](std::string_view line) {
+    time = number_in(line.substr(0, line.find(','))).value_or(0);
+    return false;
+  });
+  return time;
+}
+
+EndDifference end_difference(const RunRecord& run_a, const RunRecord& run_b) {
+  EndDifference difference;
+  difference.time_a = last_time(run_a);
+  difference.time_b = last_time(run_b);
+  const std::vector<EndMotion> a = end_of_trajectory(run_a), b = end_of_trajectory(run_b);
+  std::map<std::string_view, const EndMotion*> of_b;
+  for (const EndMotion& motion : b) of_b.emplace(motion.body, &motion);
+  for (const EndMotion& motion : a) {
+    const auto found = of_b.find(motion.body);
+    if (found == of_b.end()) {
+      difference.only_a.push_back(motion.body);
+      continue;
+    }
+    const double distance = (motion.position - found->second->position).norm();
+    if (difference.bodies++ == 0 || distance > difference.greatest) {
+      difference.greatest = distance;
+      difference.body = motion.body;
+    }
+    of_b.erase(found);
+  }
+  for (const EndMotion& motion : b)
+    if (of_b.contains(motion.body)) difference.only_b.push_back(motion.body);
+  return difference;
+}
+
+RunRecord whole_run(const ListedRun& run) {
+  if (!run.done)
+    throw ExportError(fmt::format("{} failed (see its error.txt): there is nothing to compare", run.folder));
+  return read_run({run.id, run.folder, {}}, {});
+}
+
+}  // namespace
+
+bool RunDifference::equal() const {
+  return values.empty() && !collisions.part && !collisions.outcome && end && end->greatest == 0 &&
+         end->only_a.empty() && end->only_b.empty() && end->time_a == end->time_b;
+}
+
+RunDifference difference_of(const std::string& a, const std::string& b) {
+  const std::vector<ListedRun> runs = list_runs({a, b});
+  if (runs.size() != 2)
+    throw ExportError(fmt::format("{} and {} are not two runs: name run folders, such as {}", a, b,
+                                  runs.empty() ? "output/half" : runs.front().folder));
+  RunDifference difference{runs[0], runs[1], {}, {}, {}, {}};
+  const RunRecord record_a = whole_run(runs[0]), record_b = whole_run(runs[1]);
+  const SceneDifferences scenes(runs);
+  const ComparedRun of_a = scenes.run(0), of_b = scenes.run(1);
+  for (std::size_t k = 0; k < scenes.parameters().size(); ++k)
+    difference.values.push_back(
+        {scenes.parameters()[k].path, scenes.parameters()[k].unit, of_a.values[k], of_b.values[k]});
+  difference.collisions = collision_difference(record_a, record_b);
+  for (const RunRecord* run : {&record_a, &record_b})
+    if (difference.no_end.empty() && !has_file(*run, "trajectory.csv")) difference.no_end = run->run.folder;
+  if (difference.no_end.empty()) difference.end = end_difference(record_a, record_b);
+  return difference;
+}
+
+}  // namespace carom

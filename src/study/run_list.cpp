@@ -1,0 +1,197 @@
+#include "study/run_list.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "export/folder_names.h"
+#include "export/manifest.h"
+#include "export/open_folder.h"
+#include "export/run_folder.h"
+#include "export/stored_file.h"
+#include "scene/load.h"
+#include "scene/scene_values.h"
+#include "scene/source.h"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t longest_manifest = 256 << 20;  // bytes
+constexpr std::size_t most_told = 10;                  // folders that are wrong
+
+/// The names of a path from its end: "r0001", "runs", "sweep".
+std::vector<std::string> names_of(const std::string& path) {
+  std::error_code ignored;
+  fs::path whole = fs::absolute(path, ignored).lexically_normal();
+  std::vector<std::string> names;
+  for (const fs::path& name : whole)
+    if (!name.empty() && name != "/") names.push_back(name.string());
+  std::reverse(names.begin(), names.end());
+  return names;
+}
+
+/// What is wrong with a run's folder; empty: it is a whole or a failed run.
+std::string look_at(ListedRun& run) {
+  const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
+  if (!folder) return "there is no such folder";
+  const auto manifest = read_manifest(folder.get(), manifest_name);
+  const bool has_summary = manifest && std::any_of(manifest->files.begin(), manifest->files.end(),
+                                                   [](const FileRecord& file) { return file.name == summary_name; });
+  if (!has_summary) {
+    if (stored_size(folder.get(), "error.txt")) return "";
+    return "it holds no whole run: run its scene again";
+  }
+  for (const FileRecord& file : manifest->files) {
+    if (!is_plain_name(file.name)) continue;  // one of a series
+    if (stored_size(folder.get(), file.name) != file.bytes)
+      return fmt::format("{} is not as the run wrote it: run its scene again", file.name);
+  }
+  run.done = true;
+  return "";
+}
+
+std::vector<std::string> runs_of_sweep(const std::string& folder) {
+  std::vector<std::string> found;
+  const std::string runs = (fs::path(folder) / "runs").string();
+  if (const Descriptor opened = open_folder(AT_FDCWD, runs, true))
+    for (const std::string& name : folder_names(opened.get()))
+      if (is_plain_name(name) && open_folder(opened.get(), name, true))
+        found.push_back((fs::path(runs) / name).string());
+  return found;
+}
+
+/// Ids of the last names of the paths; of those that share one, with names before it, `runs` left out.
+void name_all(std::vector<ListedRun>& runs) {
+  std::vector<std::vector<std::string>> names;  // of each folder once
+  std::map<std::vector<std::string>, std::vector<std::size_t>> folders;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    std::vector<std::string> all = names_of(runs[i].folder);
+    if (all.size() > 1) all.erase(std::remove(all.begin() + 1, all.end(), "runs"), all.end());
+    const auto [found, fresh] = folders.try_emplace(all);
+    found->second.push_back(i);
+    if (fresh) names.push_back(std::move(all));
+  }
+  std::vector<std::string> ids;
+  for (const auto& all : names) ids.push_back(all.empty() ? "run" : all[0]);
+  std::vector<std::size_t> used(names.size(), 1);
+  for (bool longer = true; longer;) {
+    longer = false;
+    std::map<std::string, std::vector<std::size_t>> same;
+    for (std::size_t k = 0; k < ids.size(); ++k) same[ids[k]].push_back(k);
+    for (const auto& [id, numbers] : same) {
+      for (const std::size_t k : numbers) {
+        if (numbers.size() < 2 || used[k] >= names[k].size()) continue;
+        ids[k] = names[k][used[k]++] + "/" + ids[k];
+        longer = true;
+      }
+    }
+  }
+  std::map<std::string, int> taken;  // a folder that is named twice
+  for (std::size_t k = 0; k < names.size(); ++k)
+    for (const std::size_t i : folders[names[k]]) {
+      const int before = taken[ids[k]]++;
+      runs[i].id = before == 0 ? ids[k] : fmt::format("{} ({})", ids[k], before + 1);
+    }
+}
+
+bool is_parameter(const std::string& path) {
+  return path != "scene" && path != "title" && !path.starts_with("output.");
+}
+
+std::vector<SceneValue> values_of(const ListedRun& run) {
+  const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
+  const auto text = folder ? read_text(folder.get(), "scene.yaml", max_source_bytes) : std::nullopt;
+  if (!text && run.done) throw ExportError(fmt::format("{} has no scene.yaml: run its scene again", run.folder));
+  if (!text) return {};
+  return scene_values(run.folder + "/scene.yaml", *text);
+}
+
+}  // namespace
+
+std::vector<ListedRun> list_runs(const std::vector<std::string>& folders) {
+  std::vector<ListedRun> runs;
+  for (const std::string& folder : folders) {
+    const std::vector<std::string> below = runs_of_sweep(folder);
+    for (const std::string& run : below) runs.push_back({"", run, false});
+    if (below.empty()) runs.push_back({"", folder, false});
+  }
+  std::vector<std::string> wrong;
+  for (ListedRun& run : runs)
+    if (const std::string why = look_at(run); !why.empty()) wrong.push_back(fmt::format("{}: {}", run.folder, why));
+  if (wrong.size() > most_told) {
+    const std::size_t more = wrong.size() - most_told;
+    wrong.resize(most_told);
+    wrong.push_back(fmt::format("and {} more", more));
+  }
+  if (!wrong.empty()) throw ExportError(fmt::format("{}", fmt::join(wrong, "\n  ")));
+  name_all(runs);
+  return runs;
+}
+
+std::string digest_of(const std::vector<ListedRun>& runs) {
+  Sha256 hash;
+  for (const ListedRun& run : runs) {
+    const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
+    const auto text =
+        folder ? read_text(folder.get(), run.done ? manifest_name : "error.txt", longest_manifest) : std::nullopt;
+    hash.add(fmt::format("{}\n{}\n", run.id, sha256(text.value_or(""))));
+  }
+  return hash.hex();
+}
+
+SceneDifferences::SceneDifferences(std::vector<ListedRun> runs) : runs_(std::move(runs)) {
+  std::vector<SceneValue> all;               // of all scenes, each path once, in the order of the first that has it
+  std::map<std::string, std::size_t> known;  // its paths
+  std::vector<std::size_t> seen;             // by path: how many scenes have it
+  std::set<std::size_t> varying;
+  std::size_t scenes = 0;
+  for (const ListedRun& run : runs_) {
+    const std::vector<SceneValue> values = values_of(run);
+    if (values.empty()) continue;
+    ++scenes;
+    for (const SceneValue& value : values) {
+      if (!is_parameter(value.path)) continue;
+      const auto [found, fresh] = known.emplace(value.path, all.size());
+      if (fresh) {
+        all.push_back(value);
+        seen.push_back(0);
+      }
+      ++seen[found->second];
+      if (all[found->second].text != value.text) varying.insert(found->second);
+    }
+  }
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (seen[k] == scenes && !varying.contains(k)) continue;
+    numbers_.emplace(all[k].path, parameters_.size());
+    parameters_.push_back({all[k].path, all[k].unit});
+  }
+  // Repeats: fewer scenarios than runs, once the seed does not count.
+  const auto seed = numbers_.find("seed");
+  if (seed == numbers_.end()) return;
+  std::set<std::string> scenarios;
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    Sha256 hash;
+    const ComparedRun compared = run(i);
+    for (std::size_t p = 0; p < compared.values.size(); ++p)
+      if (p != seed->second) hash.add(compared.values[p] + "\n");
+    scenarios.insert(hash.hex());
+  }
+  if (scenarios.size() < runs_.size()) seed_ = seed->second;
+}
+
+ComparedRun SceneDifferences::run(std::size_t number) const {
+  ComparedRun run{runs_[number].id, runs_[number].folder, std::vector<std::string>(parameters_.size())};
+  if (parameters_.empty()) return run;
+  for (SceneValue& value : values_of(runs_[number]))
+    if (const auto found = numbers_.find(value.path); found != numbers_.end())
+      run.values[found->second] = std::move(value.text);
+  return run;
+}
+
+}  // namespace carom

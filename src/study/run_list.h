@@ -1,0 +1,43 @@
+#pragma once
+// Folders that were named -> the runs in them, and in which values their scenes differ.
+#include <map>
+#include <string>
+#include <vector>
+
+#include "study/comparison.h"
+
+namespace carom {
+
+/// A run's folder, and what it is called beside the others.
+struct ListedRun {
+  std::string id, folder;
+  bool done = false;  // false: it failed, by its error.txt
+};
+
+/// The runs of folders: each is a run's, or a sweep's, and then its runs/* are meant. Ids are the folders' names, with
+/// more of the path where two are the same. Throws ExportError, which tells of every folder that is neither.
+std::vector<ListedRun> list_runs(const std::vector<std::string>& folders);
+
+/// SHA-256 of all that says which runs these are: ids and manifests.
+std::string digest_of(const std::vector<ListedRun>& runs);
+
+/// What scenes differ in, found with one of them in memory. Title, outputs and file names are no parameters.
+class SceneDifferences {
+ public:
+  explicit SceneDifferences(std::vector<ListedRun> runs);
+
+  const std::vector<Parameter>& parameters() const { return parameters_; }
+  /// The seed's number among the parameters, if runs differ in nothing else: repeats.
+  std::optional<std::size_t> seed() const { return seed_; }
+  const std::vector<ListedRun>& runs() const { return runs_; }
+  /// Run `number` with its values; those that its scene does not have are empty.
+  ComparedRun run(std::size_t number) const;
+
+ private:
+  std::vector<ListedRun> runs_;
+  std::vector<Parameter> parameters_;
+  std::map<std::string, std::size_t> numbers_;  // of parameters, by path
+  std::optional<std::size_t> seed_;
+};
+
+}  // namespace carom
