@@ -53,6 +53,7 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
       load_scene(planned.file, load_options(options, options.only || purpose == Purpose::bench)));
   const Output asked = planned.scene->output;
   if (options.only) planned.scene->output = restricted(asked, *options.only);
+  check_flights(*planned.scene);
   planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   planned.engine = choose_engine(*planned.scene);
   planned.forecast = forecast(*planned.scene);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "physics/force.h"
+#include "scene/unsupported.h"
 #include "simulate/book.h"
 #include "simulate/exact.h"
 #include "simulate/step_choice.h"
@@ -153,6 +154,11 @@ std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collis
     simulate.engine = force_without_closed_form(scene.world) == nullptr ? Engine::exact : Engine::stepped;
   if (step) simulate.step = step;
   return make_simulator(scene.world, scene.initial, simulate, record_collisions, record_paths);
+}
+
+void check_flights(const Scene& scene) {
+  if (!scene.output.flights || goes_along_parabolas(scene.world, scene.simulate)) return;
+  throw SimulationError("flights are parabolas from impact to impact, which this scene has not: leave them out");
 }
 
 std::unique_ptr<Simulator> make_oracle(const Scene& scene) {

@@ -19,12 +19,12 @@ namespace carom {
 
 namespace {
 
-[[noreturn]] void refuse(const std::string& folder, const std::string& reason, const std::string& remedy) {
-  throw ExportError(fmt::format("cannot render {} again: {}\n  {}", folder, reason, remedy));
+[[noreturn]] void refuse(const std::string& reason, const std::string& remedy) {
+  throw ExportError(fmt::format("{}\n  {}", reason, remedy));
 }
 
 [[noreturn]] void refuse_damaged(const std::string& folder, const std::string& reason) {
-  refuse(folder, reason, fmt::format("carom run {}/scene.yaml -o {} --force makes the run anew", folder, folder));
+  refuse(reason, fmt::format("carom run {}/scene.yaml -o {} --force makes the run anew", folder, folder));
 }
 
 /// Its manifest's names of outputs.
@@ -41,14 +41,14 @@ std::vector<std::string> output_names_of(const Manifest& manifest) {
 std::string former_scene_file(const std::string& folder) {
   namespace fs = std::filesystem;
   std::error_code ignored;
-  if (!fs::exists(folder, ignored)) refuse(folder, "there is no such folder", "name the folder of a run");
+  if (!fs::exists(folder, ignored)) refuse("there is no such folder", "name the folder of a run");
   if (!fs::is_directory(folder, ignored))
-    refuse(folder, "it is no folder", "name the folder of a run, which has a manifest.json");
+    refuse("it is no folder", "name the folder of a run, which has a manifest.json");
   if (fs::is_directory(fs::path(folder) / "runs", ignored) && !fs::exists(fs::path(folder) / "scene.yaml", ignored))
-    refuse(folder, "it holds many runs", fmt::format("name one of them or more: {}/runs/r0001", folder));
+    refuse("it holds many runs", fmt::format("name one of them or more: {}/runs/r0001", folder));
   const std::string file = (fs::path(folder) / "scene.yaml").string();
   if (!fs::exists(fs::path(folder) / manifest_name, ignored))
-    refuse(folder, "it holds no whole run: there is no manifest.json",
+    refuse("it holds no whole run: there is no manifest.json",
            fs::exists(file, ignored) ? fmt::format("carom run {} -o {} finishes it", file, folder)
                                      : "name the folder of a run");
   return file;
@@ -68,7 +68,7 @@ FormerRun read_former_run(const std::string& folder, SceneFile& file) {
     refuse_damaged(folder, "its scene.yaml is not the one that was run");
   run.scene.output = restricted(run.scene.output, output_names_of(*manifest));
   if (outputs_text(run.scene.output) != manifest->outputs)
-    refuse(folder, "it holds no run", "name a folder that carom run has written");
+    refuse("it holds no run", "name a folder that carom run has written");
   if (const std::string wrong = wrong_file(opened.get(), *manifest); !wrong.empty())
     refuse_damaged(folder, fmt::format("{} is missing or has changed", wrong));
   run.scene.file = manifest->scene_file;

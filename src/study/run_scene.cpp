@@ -141,7 +141,10 @@ class Run {
       : shows_(shows), settings_(settings), watch_(watch), engine_(engine), results_(shows.size()) {
     for (std::size_t i = 0; i < shows.size(); ++i) {
       stages_.emplace_back();
-      guarded(i, [&] { stages_[i] = std::make_unique<Stage>(shows[i], settings); });
+      guarded(i, [&] {
+        check_flights(*shows[i].scene);
+        stages_[i] = std::make_unique<Stage>(shows[i], settings);
+      });
     }
     const Stopwatch stopwatch(simulate_s_);
     if (!settings.simulator) settle_step(scene(), engine_, watch_.look);

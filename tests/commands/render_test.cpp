@@ -144,11 +144,11 @@ TEST(Render, RefusesWhatIsNoWholeRun) {
     EXPECT_EQ(render.code, 2);
     return render.err.substr(0, render.err.find('\n'));
   };
-  EXPECT_EQ(refusal("nowhere"), "nowhere: cannot render nowhere again: there is no such folder");
-  EXPECT_EQ(refusal("balls.yaml"), "balls.yaml: cannot render balls.yaml again: it is no folder");
-  EXPECT_EQ(refusal("."), ".: cannot render . again: it holds no whole run: there is no manifest.json");
+  EXPECT_EQ(refusal("nowhere"), "nowhere: there is no such folder");
+  EXPECT_EQ(refusal("balls.yaml"), "balls.yaml: it is no folder");
+  EXPECT_EQ(refusal("."), ".: it holds no whole run: there is no manifest.json");
   const std::string flights = here.read("run/flights.bin"), manifest = here.read("run/manifest.json");
-  const std::string changed = "run: cannot render run again: flights.bin is missing or has changed";
+  const std::string changed = "run: flights.bin is missing or has changed";
   here.write("run/flights.bin", flights.substr(0, flights.size() - 1));
   EXPECT_EQ(refusal("run"), changed);
   std::string damaged = flights;
@@ -157,11 +157,11 @@ TEST(Render, RefusesWhatIsNoWholeRun) {
   EXPECT_EQ(refusal("run"), changed);
   here.write("run/flights.bin", flights);
   here.write("run/manifest.json", manifest.substr(0, 99));
-  EXPECT_EQ(refusal("run"), "run: cannot render run again: its manifest.json is none that carom wrote, or damaged");
+  EXPECT_EQ(refusal("run"), "run: its manifest.json is none that carom wrote, or damaged");
   here.write("run/manifest.json", manifest);
   const std::string scene = here.read("run/scene.yaml");
   here.write("run/scene.yaml", scene + "# changed\nbackground: black\n");
-  EXPECT_EQ(refusal("run"), "run: cannot render run again: its scene.yaml is not the one that was run");
+  EXPECT_EQ(refusal("run"), "run: its scene.yaml is not the one that was run");
   here.write("run/scene.yaml", scene);
   here.shell("rm -r run/frames");  // pictures may be gone
   EXPECT_EQ(here.carom({"render", "run"}).code, 0);
@@ -195,6 +195,12 @@ TEST(Render, RefusesFlightsOfWhatIsNoParabola) {
   const Finished run = here.carom({"run", "balls.yaml", "--set", "simulate.engine=stepped"});
   EXPECT_EQ(run.code, 2);
   EXPECT_NE(run.err.find("`flights` are parabolas from impact to impact"), std::string::npos) << run.err;
+  here.write("balls.yaml", two_balls());
+  const Finished only = here.carom({"run", "balls.yaml", "--set", "simulate.engine=book", "--only", "flights"});
+  EXPECT_EQ(only.code, 2);
+  EXPECT_EQ(only.err,
+            "balls.yaml: flights are parabolas from impact to impact, which this scene has not: leave them out\n"
+            "carom: 1 error; nothing was run\n");
 }
 
 TEST(Render, OfSeveralRunsPutsEachIntoAFolderOfItsOwn) {
