@@ -103,11 +103,15 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name) {
   if (!json.is_object() || text_member(json, "tool") != tool) return std::nullopt;
   const auto outputs = json.find("outputs"), files = json.find("files");
   if (outputs == json.end() || files == json.end() || !files->is_array()) return std::nullopt;
-  Manifest manifest{text_member(json, "version"), text_member(json.value("scene", Json()), "sha256"), to_text(*outputs, -1), "[]", {}};
+  Manifest manifest{text_member(json, "version"),
+                    text_member(json.value("scene", Json()), "sha256"),
+                    to_text(*outputs, -1),
+                    "[]",
+                    {}};
   if (const auto meshes = json.find("meshes"); meshes != json.end()) manifest.meshes = to_text(*meshes, -1);
   if (const auto counts = json.find("counts"); counts != json.end() && counts->is_object())
     manifest.collisions = counts->value("collisions", std::uint64_t{0});
-  manifest.scene_file = text_member(*scene, "file");
+  manifest.scene_file = text_member(json.value("scene", Json()), "file");
   if (const auto left_out = json.find("left_out"); left_out != json.end() && left_out->is_object())
     for (const auto& [file, why] : left_out->items())
       manifest.left_out.push_back({file, why.is_string() ? why.get<std::string>() : ""});
