@@ -17,6 +17,7 @@
 #include "study/comparison_film.h"
 #include "study/comparison_folder.h"
 #include "study/run_list.h"
+#include "study/sweep_folder.h"
 
 namespace carom {
 
@@ -70,15 +71,22 @@ class CompareSession {
     } catch (const ExportError& error) {
       return fail("wrong", error.what(), 2);
     }
-    const SceneDifferences differences(std::move(runs));
+    // Of one sweep its own file says what was varied, and what to compare.
+    const auto sweep = options_.operands.size() == 1 ? sweep_of(options_.operands[0], runs) : std::nullopt;
+    const SceneDifferences differences =
+        sweep ? SceneDifferences(std::move(runs), *sweep) : SceneDifferences(std::move(runs));
     std::vector<FilmTile> tiles;
     try {
       if (options_.video) tiles = film_tiles(differences);
     } catch (const ExportError& error) {
       return fail("wrong", error.what(), 2);
     }
-    ComparisonPlan plan{
-        title_of(options_.operands), differences.parameters(), options_.measures, {}, differences.seed()};
+    ComparisonPlan plan = sweep ? comparison_plan(*sweep) : ComparisonPlan();
+    if (plan.title.empty()) plan.title = title_of(options_.operands);
+    plan.parameters = differences.parameters();
+    plan.seed = differences.seed();
+    if (!options_.measures.empty()) plan.measures = options_.measures;
+    if (!options_.charts.empty()) plan.charts.clear();
     for (const ChartWords& chart : options_.charts) plan.charts.push_back({chart.x, chart.y, chart.by});
     check(plan, differences.runs());
     const std::string request = request_text(plan, digest_of(differences.runs()), options_.video);

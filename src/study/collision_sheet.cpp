@@ -36,7 +36,7 @@ void CollisionSheet::finish() {
   sheet_.freeze(1, 1);
   worksheet_autofilter(sheet_.get(), 0, 0, static_cast<lxw_row_t>(std::max<std::size_t>(rows_, 1)),
                        static_cast<lxw_col_t>(collision_columns().size()));
-  sheet_.print_wide();
+  sheet_.print_table();
 }
 
 }  // namespace carom

@@ -172,6 +172,8 @@ void CompareSheet::write_data(const std::vector<ChartData>& charts, std::size_t 
     sheet_.text(first_row, columns, chart.title, Look::note);
     columns += chart.lines.size() + 2;
   }
+  constexpr double head_height = 45;  // points: three lines
+  worksheet_set_row(sheet_.get(), static_cast<lxw_row_t>(first_row + 1), head_height, nullptr);
   std::size_t column = 0;
   for (const ChartData& chart : charts) {
     sheet_.text(first_row + 1, column, chart.x_label, Look::swept_header);

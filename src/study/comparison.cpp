@@ -3,6 +3,7 @@
 #include "study/comparison.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -10,6 +11,7 @@
 #include "export/csv.h"
 #include "export/manifest.h"
 #include "export/run_folder.h"
+#include "scene/diagnostics.h"
 #include "study/charts.h"
 #include "study/collision_sheet.h"
 #include "study/common_values.h"
@@ -183,7 +185,7 @@ class Comparison {
     }
     sheet_.fit_all(9, 60, 3);  // room for the filters' buttons
     sheet_.freeze(1, 1);
-    sheet_.print_wide();
+    sheet_.print_table();
   }
 
   void write_pivot_sheet() {
@@ -273,10 +275,25 @@ std::vector<Measure> measures_of(const ComparisonPlan& plan) {
 }
 
 void check_charts(const ComparisonPlan& plan) {
+  std::vector<std::string_view> paths;
+  for (const Parameter& parameter : plan.parameters) paths.push_back(parameter.path);
+  const auto refuse = [&](const std::string& name, const char* what) {
+    const std::string near = nearest(name, paths);
+    std::string remedy;
+    if (!near.empty()) remedy = fmt::format("; did you mean {}?", quoted(near));
+    if (near.empty() && !paths.empty()) remedy = fmt::format("; what varies is {}", fmt::join(paths, ", "));
+    throw MeasureError(fmt::format("a chart's {} {}{}", quoted(name), what, remedy));
+  };
+  for (const Chart& chart : plan.charts) {
+    if (!chart.by.empty() && !find_parameter(plan, chart.by)) refuse(chart.by, "does not vary");
+    if (find_parameter(plan, chart.x)) continue;
+    try {
+      parse_measure(chart.x);
+    } catch (const MeasureError&) {
+      refuse(chart.x, "does not vary and is no measure");
+    }
+  }
   measures_of(plan);
-  for (const Chart& chart : plan.charts)
-    if (!chart.by.empty() && !find_parameter(plan, chart.by))
-      throw MeasureError(fmt::format("no parameter `{}` varies, which a chart's lines shall stand for", chart.by));
 }
 
 std::vector<std::unique_ptr<OutputFile>> write_comparison(const FilePlace& place, const ComparisonPlan& plan,

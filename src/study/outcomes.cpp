@@ -160,7 +160,7 @@ void write_repeats(Sheet& sheet, const ComparisonPlan& plan, const std::vector<M
   sheet.freeze(1, parameters);
   worksheet_autofilter(sheet.get(), 0, 0, static_cast<lxw_row_t>(std::max<std::size_t>(row - 1, 1)),
                        static_cast<lxw_col_t>(header.size() - 1));
-  sheet.print_wide();
+  sheet.print_table();
 }
 
 }  // namespace carom

@@ -16,6 +16,7 @@
 #include "scene/load.h"
 #include "scene/scene_values.h"
 #include "scene/source.h"
+#include "study/sweep_folder.h"
 
 namespace carom {
 namespace {
@@ -104,6 +105,18 @@ bool is_parameter(const std::string& path) {
   return path != "scene" && path != "title" && !path.starts_with("output.");
 }
 
+/// Which runs of a sweep these are, by their ids; empty if one is none of its.
+std::vector<std::size_t> numbers_in(const Sweep& sweep, const std::vector<ListedRun>& runs) {
+  std::vector<std::size_t> numbers;
+  std::size_t number = 0;  // the runs are in their order
+  for (const ListedRun& run : runs) {
+    while (number < sweep.size() && sweep.id(number) != run.id) ++number;
+    if (number == sweep.size()) return {};
+    numbers.push_back(number++);
+  }
+  return numbers;
+}
+
 std::vector<SceneValue> values_of(const ListedRun& run) {
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
   const auto text = folder ? read_text(folder.get(), "scene.yaml", max_source_bytes) : std::nullopt;
@@ -185,13 +198,34 @@ SceneDifferences::SceneDifferences(std::vector<ListedRun> runs) : runs_(std::mov
   if (scenarios.size() < runs_.size()) seed_ = seed->second;
 }
 
+SceneDifferences::SceneDifferences(std::vector<ListedRun> runs, Sweep sweep) : runs_(std::move(runs)) {
+  const ComparisonPlan plan = comparison_plan(sweep);
+  parameters_ = plan.parameters;
+  seed_ = plan.seed;
+  in_sweep_ = numbers_in(sweep, runs_);
+  sweep_ = std::move(sweep);
+}
+
 ComparedRun SceneDifferences::run(std::size_t number) const {
   ComparedRun run{runs_[number].id, runs_[number].folder, std::vector<std::string>(parameters_.size())};
+  if (sweep_) {
+    const SweepRun of_sweep = sweep_->run(in_sweep_[number]);
+    for (std::size_t p = 0; p < run.values.size(); ++p) run.values[p] = of_sweep.values[p].value_or("");
+    return run;
+  }
   if (parameters_.empty()) return run;
   for (SceneValue& value : values_of(runs_[number]))
     if (const auto found = numbers_.find(value.path); found != numbers_.end())
       run.values[found->second] = std::move(value.text);
   return run;
+}
+
+std::optional<Sweep> sweep_of(const std::string& folder, const std::vector<ListedRun>& runs) {
+  const std::string file = (fs::path(folder) / stored_sweep).string();
+  if (!is_sweep_file(file)) return std::nullopt;
+  Sweep sweep = load_sweep(file);
+  if (runs.empty() || numbers_in(sweep, runs).empty()) return std::nullopt;
+  return sweep;
 }
 
 }  // namespace carom

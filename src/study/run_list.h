@@ -1,9 +1,11 @@
 #pragma once
 // Folders that were named -> the runs in them, and in which values their scenes differ.
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "scene/sweep.h"
 #include "study/comparison.h"
 
 namespace carom {
@@ -21,10 +23,13 @@ std::vector<ListedRun> list_runs(const std::vector<std::string>& folders);
 /// SHA-256 of all that says which runs these are: ids and manifests.
 std::string digest_of(const std::vector<ListedRun>& runs);
 
-/// What scenes differ in, found with one of them in memory. Title, outputs and file names are no parameters.
+/// Runs and what was varied in them.
 class SceneDifferences {
  public:
+  /// What their scenes differ in, found with one of them in memory. Title and outputs are no parameters.
   explicit SceneDifferences(std::vector<ListedRun> runs);
+  /// What the sweep varied whose runs these are, as its file says.
+  SceneDifferences(std::vector<ListedRun> runs, Sweep sweep);
 
   const std::vector<Parameter>& parameters() const { return parameters_; }
   /// The seed's number among the parameters, if runs differ in nothing else: repeats.
@@ -38,6 +43,11 @@ class SceneDifferences {
   std::vector<Parameter> parameters_;
   std::map<std::string, std::size_t> numbers_;  // of parameters, by path
   std::optional<std::size_t> seed_;
+  std::optional<Sweep> sweep_;
+  std::vector<std::size_t> in_sweep_;  // by run: its number in the sweep
 };
+
+/// The sweep whose folder this is and whose runs, all of them, these are; none if it is no sweep's.
+std::optional<Sweep> sweep_of(const std::string& folder, const std::vector<ListedRun>& runs);
 
 }  // namespace carom

@@ -159,6 +159,7 @@ std::vector<PlacedSeries> write_series(Sheet& sheet, const SeriesGatherer& serie
   }
   sheet.fit_all(10, 40);
   sheet.freeze(1, 1);
+  sheet.print_table();
   return placed;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 
 #include "export/manifest.h"
 #include "export/run_folder.h"
@@ -151,6 +152,14 @@ void Sheet::print_wide() {
   worksheet_fit_to_pages(sheet_, 1, 0);
 }
 
+void Sheet::print_table() {
+  worksheet_set_landscape(sheet_);
+  worksheet_set_paper(sheet_, 9);  // A4
+  worksheet_set_print_scale(sheet_, 75);
+  worksheet_repeat_rows(sheet_, 0, 0);
+  worksheet_repeat_columns(sheet_, 0, 0);
+}
+
 Workbook::Workbook(const FilePlace& place, std::string name, const std::string& title)
     : place_(place), name_(std::move(name)) {
   const std::string part = part_name(name_ + ".sheets");
@@ -193,6 +202,10 @@ lxw_chart* Workbook::add_chart(lxw_chart_type type) {
 }
 
 void Workbook::write(OutputFile& file) {
+  // The library does not look whether rows reached the disk.
+  for (const Sheet& sheet : sheets_)
+    if (std::FILE* rows = sheet.get()->optimize_tmpfile; rows != nullptr)
+      if (std::fflush(rows) != 0 || std::ferror(rows) != 0) fail("write", place_, name_);
   const lxw_error error = workbook_close(book_);
   book_ = nullptr;  // closing frees it, well or not
   if (error != LXW_NO_ERROR) fail("write", place_, name_, lxw_strerror(error));

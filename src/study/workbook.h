@@ -61,6 +61,8 @@ class Sheet {
   void freeze(std::size_t rows, std::size_t columns);
   /// One page wide on paper, across.
   void print_wide();
+  /// As many pages as it takes, each with the first row and column.
+  void print_table();
 
   lxw_worksheet* get() const { return sheet_; }
   lxw_format* format(Look look) const { return formats_[static_cast<std::size_t>(look)]; }

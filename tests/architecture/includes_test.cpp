@@ -38,8 +38,8 @@ const std::map<std::string, std::vector<std::string>> library_words = {
     {"the pipes of ffmpeg and gnuplot", {}},  // not a header: see OnlyExportStartsOtherPrograms
 };
 /// What any folder may include: text and JSON, and the system's own headers.
-const std::vector<std::string> free_libraries = {"fmt/",    "nlohmann/", "sys/",     "dirent.h", "dlfcn.h",
-                                                 "fcntl.h", "poll.h",    "signal.h", "spawn.h",  "unistd.h"};
+const std::vector<std::string> free_libraries = {"fmt/",   "nlohmann/", "sys/",     "dirent.h", "dlfcn.h", "fcntl.h",
+                                                 "poll.h", "sched.h",   "signal.h", "spawn.h",  "unistd.h"};
 
 std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> parts(1);

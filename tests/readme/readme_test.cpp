@@ -151,10 +151,10 @@ TEST(ReadmeCommands, EveryOneOfTheProgramSucceeds) {
                                                                                           << clone.err();
     ++run;
   }
-  EXPECT_EQ(run, 8);
+  EXPECT_EQ(run, 10);
   for (const char* file : {"two_bowling_balls/animation.mp4", "two_bowling_balls/frames/frame_00084.png",
                            "half/collisions.csv", "pi_by_collisions/energy.csv", "raindrops.bench/bench.svg",
-                           "gas_2/energy.csv", "rest/bouncing_ball/trajectory.csv"}) {
+                           "gas_2/energy.csv", "comparison/comparison.xlsx", "rest/bouncing_ball/trajectory.csv"}) {
     EXPECT_TRUE(fs::exists(clone / (std::string("output/") + file))) << file;
   }
 }

@@ -1,0 +1,242 @@
+// carom compare and carom diff, by the real program.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+
+#include "commands/program.h"
+
+namespace carom::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string tables = "output: {trajectory: {every: 0.1}, collisions: true, energy: {every: 0.1}}\n";
+
+/// Runs a, b and c that differ in the red ball's restitution.
+void make_runs(const Workplace& here, const std::string& more = tables) {
+  here.write("balls.yaml", two_balls(more));
+  for (const auto& [name, e] : {std::pair("a", "0.5"), std::pair("b", "0.75"), std::pair("c", "1")})
+    ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", std::string("runs/") + name, "--set",
+                          std::string("balls.red.restitution=") + e, "-q"})
+                  .code,
+              0);
+}
+
+TEST(CompareCommand, FindsWhatVariedAndWritesTableWorkbookAndManifest) {
+  const Workplace here;
+  make_runs(here);
+  const Finished run = here.carom({"compare", "runs/a", "runs/b", "runs/c", "--measures", "balls.red.speed_m_per_s"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(run.out,
+            "Comparison of a, b and c\n"
+            "  runs        3\n"
+            "  varied      balls.red.restitution\n"
+            "  measures    balls.red.speed_m_per_s\n"
+            "  wrote       output/comparison: comparison.xlsx, manifest.json and summary.csv\n");
+  const auto files = here.files("output/comparison");
+  ASSERT_EQ(files.size(), 3u);
+  const std::string& table = files.at("summary.csv");
+  EXPECT_NE(table.find(",resting,frames,balls.red.restitution,balls.red.speed_m_per_s\na,Two balls,exact,done,1,"),
+            std::string::npos)
+      << table;
+  EXPECT_NE(table.find("\nc,"), std::string::npos);
+  EXPECT_TRUE(files.at("comparison.xlsx").starts_with("PK"));
+  const Json manifest = Json::parse(files.at("manifest.json"));
+  EXPECT_EQ(manifest["files"].size(), 2u);
+}
+
+TEST(CompareCommand, IsUpToDateUntilARunOrTheRequestChanges) {
+  const Workplace here;
+  make_runs(here);
+  const std::vector<std::string> words = {"compare", "runs/a", "runs/b"};
+  ASSERT_EQ(here.carom(words).code, 0);
+  const auto before = here.files("output");
+  EXPECT_EQ(here.carom(words).out, "output/comparison: up to date\n");
+  EXPECT_EQ(here.carom({"compare", "runs/a", "runs/b", "--force"}).code, 0);
+  EXPECT_EQ(here.files("output"), before) << "the same bytes";
+  ASSERT_EQ(here.carom({"compare", "runs/a", "runs/b", "--measures", "collisions"}).code, 0);
+  EXPECT_NE(here.files("output"), before);
+  ASSERT_EQ(here.carom(words).code, 0);
+  here.write("output/comparison/summary.csv", "cut");
+  EXPECT_NE(here.carom(words).out.find("wrote"), std::string::npos);
+  EXPECT_EQ(here.files("output"), before);
+}
+
+TEST(CompareCommand, OverwritesNothingElse) {
+  const Workplace here;
+  make_runs(here);
+  const auto before = here.files("runs");
+  const Finished refused = here.carom({"compare", "runs/a", "runs/b", "-o", "runs/c"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("the folder runs/c holds something else\n  write elsewhere with -o"), std::string::npos);
+  EXPECT_EQ(here.carom({"compare", "runs/a", "runs/b", "-o", "runs/../runs/b", "--force"}).code, 2);
+  here.write("mine/notes.txt", "mine");
+  EXPECT_EQ(here.carom({"compare", "runs/a", "runs/b", "-o", "mine"}).code, 2);
+  EXPECT_EQ(here.files("runs"), before);
+  EXPECT_EQ(here.carom({"compare", "runs/a", "runs/b"}).code, 0);
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", "output/comparison"}).code, 2);
+}
+
+TEST(CompareCommand, TakesASweepsRunsAndNamesRunsApart) {
+  const Workplace here;
+  make_runs(here);
+  ASSERT_EQ(here.shell("mkdir -p one two && cp -r runs one/runs && cp -r runs two/runs").code, 0);
+  ASSERT_EQ(here.carom({"compare", "one", "two", "runs/a", "--json"}).code, 0);
+  const std::string table = here.read("output/comparison/summary.csv");
+  for (const char* id : {"\none/a,", "\none/b,", "\ntwo/c,"}) EXPECT_NE(table.find(id), std::string::npos) << table;
+}
+
+TEST(CompareCommand, OfASweepGivesTheSweepsTable) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(tables));
+  here.write("sweep.yaml",
+             "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.restitution: [0.5, 1], balls.blue.position.z: [0, 0.1]}\n"
+             "repeat: {seeds: 2}\ncompare: {measures: [energy_lost_J, balls.red.speed_m_per_s]}\n");
+  const Finished sweep = here.carom({"sweep", "sweep.yaml", "-o", "swept"});
+  ASSERT_EQ(sweep.code, 0) << sweep.err;
+  const Finished run = here.carom({"compare", "swept"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  for (const char* file : {"summary.csv", "repeats.csv"})
+    EXPECT_EQ(here.read(std::string("output/comparison/") + file), here.read(std::string("swept/") + file)) << file;
+}
+
+TEST(CompareCommand, TakesRunsThatDifferInTheSeedAsRepeats) {
+  const Workplace here;
+  here.write("gas.yaml",
+             "scene: 1\ngravity: [0, 0, 0]\nroom: {min: [-1, -1, -1], max: [1, 1, 1]}\n"
+             "groups: {gas: {count: 4, ball: {mass: 1, radius: 0.1}, in: {min: [-1, -1, -1], max: [1, 1, 1]}, speed: "
+             "1}}\nsimulate: {duration: 0.5}\noutput: {collisions: true}\n");
+  for (const char* seed : {"1", "2", "3"})
+    ASSERT_EQ(here.carom({"run", "gas.yaml", "--seed", seed, "-o", std::string("gas/") + seed, "-q"}).code, 0);
+  ASSERT_EQ(here.carom({"compare", "gas/1", "gas/2", "gas/3"}).code, 0);
+  EXPECT_TRUE(here.read("output/comparison/repeats.csv").starts_with("n,energy_lost_J.mean,energy_lost_J.sd,"));
+  ASSERT_EQ(here.carom({"compare", "gas/1"}).code, 0);
+  EXPECT_FALSE(here.has("output/comparison/repeats.csv")) << "of the former comparison";
+}
+
+TEST(CompareCommand, SaysWhatIsWrongWithFoldersAndWords) {
+  const Workplace here;
+  make_runs(here);
+  here.write("no/run.txt", "");
+  const auto error = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> line = {"compare", "runs/a"};
+    line.insert(line.end(), words.begin(), words.end());
+    const Finished run = here.carom(line);
+    EXPECT_EQ(run.code, 2) << run.err;
+    EXPECT_EQ(run.out, "");
+    EXPECT_FALSE(here.has("output"));
+    return run.err;
+  };
+  EXPECT_EQ(error({"no", "nowhere"}),
+            "carom: no: it holds no whole run: run its scene again\n"
+            "  nowhere: there is no such folder\n");
+  EXPECT_EQ(error({"runs/b", "--measures", "energy_lost"}),
+            "carom: no measure `energy_lost`; did you mean `energy_lost_J`?\n");
+  EXPECT_EQ(error({"--measures", "balls.rde.x_m"}),
+            "carom: `balls.rde.x_m`: balls has no `rde`; did you mean `red`?\n");
+  EXPECT_NE(
+      error({"runs/b", "--charts", "balls.red.restitutio:collisions"}).find("did you mean `balls.red.restitution`"),
+      std::string::npos);
+  EXPECT_NE(error({"--charts", "collisions"}).find("--charts takes x:y or x:y:by"), std::string::npos);
+  EXPECT_EQ(error({"runs/b", "--video"}),
+            "carom: runs/a has no film: run its scene again with the output `video` (--only video)\n");
+  EXPECT_EQ(here.carom({"compare"}).code, 2);
+  here.write("runs/b/collisions.csv", "cut");
+  EXPECT_EQ(error({"runs/b"}), "carom: runs/b: collisions.csv is not as the run wrote it: run its scene again\n");
+}
+
+TEST(CompareCommand, JsonTellsTheSame) {
+  const Workplace here;
+  make_runs(here);
+  const Json done = Json::parse(here.carom({"compare", "runs/a", "runs/b", "--json"}).out);
+  EXPECT_EQ(done["command"], "compare");
+  EXPECT_EQ(done["status"], "done");
+  EXPECT_EQ(done["runs"], 2);
+  EXPECT_EQ(done["parameters"], Json({"balls.red.restitution"}));
+  EXPECT_EQ(done["files"], Json({"comparison.xlsx", "manifest.json", "summary.csv"}));
+  EXPECT_EQ(Json::parse(here.carom({"compare", "runs/a", "runs/b", "--json"}).out)["status"], "up to date");
+}
+
+TEST(CompareCommand, FilmShowsRunsSideBySideAndInStep) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("camera: {eye: [0, 3, -5], target: [0, 0, 0]}\n"
+                                     "output: {video: {fps: 10, size: [64, 48]}}\n"));
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "runs/first"}).code, 0);
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "runs/longer", "--set", "simulate.duration=1.5"}).code, 0);
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "runs/other", "--set", "output.video.fps=20", "--set",
+                        "output.video.size=[32, 48]", "--set", "output.video.from=0.5"})
+                .code,
+            0);
+  const std::vector<std::string> words = {"compare", "runs/first", "runs/longer", "runs/other", "--video"};
+  const Finished run = here.carom(words);
+  ASSERT_EQ(run.code, 0) << run.err;
+  const Finished probe = here.shell(
+      "ffprobe -v error -count_packets -show_entries stream=width,height,r_frame_rate,nb_read_packets -of csv=p=0 "
+      "output/comparison/comparison.mp4");
+  EXPECT_EQ(probe.out, "128,96,20/1,32\n")
+      << "1.5 s and the frame of 0, twice as often; three tiles of 64 x 48 in a square";
+  const std::string film = here.read("output/comparison/comparison.mp4");
+  ASSERT_EQ(here.carom({"compare", "runs/first", "runs/longer", "runs/other", "--video", "--force"}).code, 0);
+  EXPECT_EQ(here.read("output/comparison/comparison.mp4"), film);
+  ASSERT_EQ(here.carom({"compare", "runs/first", "runs/longer"}).code, 0);
+  EXPECT_FALSE(here.has("output/comparison/comparison.mp4"));
+}
+
+TEST(CompareCommand, FilmOfTooManyRunsIsRefused) {
+  const Workplace here;
+  make_runs(here);
+  std::vector<std::string> words = {"compare", "--video"};
+  for (int i = 0; i < 17; ++i) words.push_back("runs/a");
+  const Finished run = here.carom(words);
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.err.find("a film shows at most 16 runs side by side, not 17"), std::string::npos) << run.err;
+}
+
+TEST(DiffCommand, TellsWhereRunsPartAndHowFarApartTheyEnd) {
+  const Workplace here;
+  make_runs(here);
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "runs/aside", "--set", "balls.red.position.x=-1.5"}).code, 0);
+  const Finished outcome = here.carom({"diff", "runs/a", "runs/b"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out,
+            "a and b\n"
+            "  scenes      1 value is not the same\n"
+            "                           a     b\n"
+            "    balls.red.restitution  0.5  0.75\n"
+            "  collisions  1, the same in both\n"
+            "  outcome     of collision 1, red and blue at 0.44499999999999995 s (body-body), is not the same: they\n"
+            "              leave at 2.8 m/s in a, 3.3 m/s in b\n"
+            "  end         at most 0.13875000000000004 m apart: red\n");
+  const Json part = Json::parse(here.carom({"diff", "runs/b", "runs/aside", "--json"}).out);
+  EXPECT_EQ(part["equal"], false);
+  EXPECT_EQ(part["collisions"]["part"]["number"], 1);
+  EXPECT_EQ(part["collisions"]["part"]["a"]["time_s"], 0.44499999999999995);
+  EXPECT_NEAR(part["collisions"]["part"]["b"]["time_s"].get<double>(), (2.5 - 0.22) / 4, 1e-15);
+  EXPECT_EQ(part["values"].size(), 2u);
+  const Finished same = here.carom({"diff", "runs/a", "runs/a"});
+  EXPECT_EQ(same.code, 0);
+  EXPECT_NE(same.out.find("\n  equal       scenes, collisions and where the bodies end\n"), std::string::npos);
+}
+
+TEST(DiffCommand, SaysWhatIsMissing) {
+  const Workplace here;
+  make_runs(here, "output: {energy: {every: 0.1}}\n");
+  const Finished run = here.carom({"diff", "runs/a", "runs/b"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(run.err,
+            "carom: runs/a has no collisions.csv: run its scene again with the output `collisions` (--only "
+            "collisions,trajectory)\n");
+  EXPECT_EQ(here.carom({"diff", "runs/a"}).code, 2);
+  EXPECT_EQ(here.carom({"diff", "runs/a", "runs/b", "runs/c"}).code, 2);
+  EXPECT_EQ(here.carom({"diff", "runs/a", "nowhere"}).code, 2);
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "x", "--only", "collisions"}).code, 0);
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "y", "--only", "collisions,trajectory"}).code, 0);
+  const Finished no_end = here.carom({"diff", "x", "y"});
+  EXPECT_EQ(no_end.code, 0);
+  EXPECT_NE(no_end.out.find("  end         not known: x has no trajectory.csv;"), std::string::npos) << no_end.out;
+}
+
+}  // namespace
+}  // namespace carom::testing

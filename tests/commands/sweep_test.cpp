@@ -1,0 +1,364 @@
+// carom sweep, gather and submit, by the real program.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "commands/program.h"
+
+namespace carom::testing {
+namespace {
+
+using Json = nlohmann::json;
+using Files = std::map<std::string, std::string>;
+
+const std::string grid =
+    "sweep: 1\ntitle: Offsets\nbase: balls.yaml\n"
+    "grid:\n  balls.red.position.z: {from: 0, to: 0.05, count: 3}\n  balls.red.mass: [5, 10]\n"
+    "compare: {measures: [energy_lost_J, balls.red.speed_m_per_s]}\n";
+
+/// A folder with balls.yaml and, of this text, offsets.yaml.
+void prepare(const Workplace& here, const std::string& sweep = grid) {
+  here.write("balls.yaml", two_balls());
+  here.write("offsets.yaml", sweep);
+}
+
+/// What must be the same however a sweep was made: all but the runs' manifests, which have times.
+bool lasts(const std::string& name) {
+  return !(name.find("runs/") != std::string::npos && name.ends_with("manifest.json"));
+}
+
+/// The names of files that two folders do not have alike, of those that must be the same.
+std::vector<std::string> differing(const Workplace& here, const std::string& a, const std::string& b) {
+  std::vector<std::string> out;
+  const auto hold = [&](const std::string& one, const std::string& other) {
+    for (const auto& [name, bytes] : here.files(one)) {
+      const std::size_t begin = name.find(one);
+      const std::string within = begin == std::string::npos ? name : name.substr(begin + one.size() + 1);
+      if (lasts(within) && here.read(other + "/" + within) != bytes) out.push_back(within);
+    }
+  };
+  hold(a, b);
+  hold(b, a);
+  return out;
+}
+
+using Names = std::vector<std::string>;
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t end = std::min(text.find('\n', i), text.size());
+    lines.push_back(text.substr(i, end - i));
+    i = end + 1;
+  }
+  return lines;
+}
+
+TEST(Sweep, WritesARunAFolderAndWhatComparesThem) {
+  const Workplace here;
+  prepare(here);
+  const Finished sweep = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
+  EXPECT_EQ(sweep.code, 0) << sweep.err;
+  EXPECT_EQ(sweep.err, "");
+  EXPECT_TRUE(sweep.out.starts_with("offsets: Offsets\n  runs        6 runs; done\n")) << sweep.out;
+  for (const std::string name : {"summary.csv", "comparison.xlsx", "manifest.json", "runs/r0001/trajectory.csv",
+                                 "runs/r0006/manifest.json", "runs/r0006/scene.yaml"})
+    EXPECT_TRUE(here.has("output/offsets/" + name)) << name;
+  const std::vector<std::string> rows = lines_of(here.read("output/offsets/summary.csv"));
+  ASSERT_EQ(rows.size(), 7u);
+  EXPECT_TRUE(rows[0].ends_with(",frames,balls.red.position.z,balls.red.mass,balls.red.speed_m_per_s")) << rows[0];
+  EXPECT_TRUE(rows[4].starts_with("r0004,")) << rows[4];
+  EXPECT_NE(rows[4].find(",0.025,10,"), std::string::npos) << rows[4];
+}
+
+TEST(Sweep, RunHasTheBytesOfTheSameSceneRunAlone) {
+  const Workplace here;
+  prepare(here);
+  here.carom({"sweep", "offsets.yaml", "-q"});
+  here.carom({"run", "balls.yaml", "--set", "balls.red.position.z=0.025", "--set", "balls.red.mass=10", "-o", "alone"});
+  EXPECT_EQ(here.files("output/offsets/runs/r0004").size(), 6u);
+  for (const auto& [name, bytes] : here.files("alone")) {
+    if (name.ends_with("manifest.json")) continue;
+    EXPECT_EQ(here.read("output/offsets/runs/r0004/" + name.substr(name.rfind('/') + 1)), bytes) << name;
+  }
+}
+
+TEST(Sweep, SecondCallIsUpToDateAndTouchesNothing) {
+  const Workplace here;
+  prepare(here);
+  here.carom({"sweep", "offsets.yaml", "-q"});
+  const Files before = here.files("output");
+  const Finished again = here.carom({"sweep", "offsets.yaml"});
+  EXPECT_EQ(again.code, 0);
+  EXPECT_EQ(again.err, "");
+  EXPECT_EQ(again.out, "offsets: Offsets\n  up to date  6 runs, output/offsets\n");
+  EXPECT_EQ(here.files("output"), before);
+}
+
+TEST(Sweep, RunsOnlyWhatIsMissingOrWasTouched) {
+  const Workplace here;
+  prepare(here);
+  here.carom({"sweep", "offsets.yaml", "-q"});
+  const Files before = here.files("output");
+  here.shell("rm output/offsets/runs/r0002/trajectory.csv; echo >> output/offsets/runs/r0005/energy.csv");
+  const std::string kept = here.read("output/offsets/runs/r0001/manifest.json");
+  const Json again =
+      Json::parse(here.carom({"sweep", "offsets.yaml", "--json", "--progress", "none"}).out)["scenes"][0];
+  EXPECT_EQ(again["made"], 2);
+  EXPECT_EQ(here.read("output/offsets/runs/r0001/manifest.json"), kept);
+  for (const auto& [name, bytes] : before)
+    EXPECT_TRUE(name.ends_with("manifest.json") || here.files("output").at(name) == bytes) << name;
+}
+
+TEST(Sweep, PlanShowsRunsAndWritesNothing) {
+  const Workplace here;
+  prepare(here);
+  const Finished plan = here.carom({"sweep", "offsets.yaml", "--plan", "--progress", "none"});
+  EXPECT_EQ(plan.code, 0);
+  EXPECT_NE(plan.out.find("\n  r0004    new                 0.025              10\n"), std::string::npos) << plan.out;
+  EXPECT_NE(plan.out.find("to do       6 of 6 runs\n"), std::string::npos) << plan.out;
+  EXPECT_FALSE(here.has("output"));
+  here.carom({"sweep", "offsets.yaml", "-q"});
+  const Json json = Json::parse(here.carom({"sweep", "offsets.yaml", "--plan", "--json"}).out)["scenes"][0];
+  EXPECT_EQ(json["runs"][3], Json::parse(R"({"run": "r0004", "state": "done",
+                                            "values": {"balls.red.position.z": "0.025", "balls.red.mass": "10"}})"));
+}
+
+TEST(Sweep, OneFailingRunStopsNoOther) {
+  const Workplace here;
+  prepare(here,
+          "sweep: 1\nbase: balls.yaml\nset: {room: {min: [-1.15, -1, -1], max: [1.15, 1, 1]}}\n"
+          "grid: {simulate.max_collisions: [100, 1, 200]}\n");
+  const Finished sweep = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
+  EXPECT_EQ(sweep.code, 3);
+  EXPECT_TRUE(sweep.err.starts_with("carom: r0002: the run failed: more than simulate.max_collisions = 1"))
+      << sweep.err;
+  EXPECT_TRUE(here.has("output/offsets/runs/r0002/error.txt"));
+  EXPECT_TRUE(here.has("output/offsets/runs/r0003/trajectory.csv"));
+  const std::vector<std::string> rows = lines_of(here.read("output/offsets/summary.csv"));
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_TRUE(rows[2].starts_with("r0002,,,failed,")) << rows[2];
+  // It is tried again; the others are not.
+  const Json again =
+      Json::parse(here.carom({"sweep", "offsets.yaml", "--json", "--progress", "none"}).out)["scenes"][0];
+  EXPECT_EQ(again["made"], 0);
+  EXPECT_EQ(again["failed"].size(), 1u);
+}
+
+TEST(Sweep, AllScenariosAreCheckedBeforeTheFirstIsRun) {
+  const Workplace here;
+  prepare(here,
+          "sweep: 1\nbase: balls.yaml\nlist:\n  - {balls.red.mass: 2}\n  - {balls.red.mas: 2}\n"
+          "  - {balls.red.position.x: 0.95}\n");
+  const Finished sweep = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
+  EXPECT_EQ(sweep.code, 2);
+  EXPECT_NE(sweep.err.find("offsets.yaml:5:6: error: unknown key `mas` in `ball`"), std::string::npos) << sweep.err;
+  EXPECT_FALSE(here.has("output"));
+  const Finished measures = here.carom({"sweep", "offsets.yaml", "--grid", "balls.red.mass=1,2"});
+  EXPECT_EQ(measures.code, 2);
+}
+
+TEST(Sweep, WrongMeasureIsFoundBeforeAnythingIsRun) {
+  const Workplace here;
+  prepare(here,
+          "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.mass: [1, 2]}\n"
+          "compare: {measures: [balls.rde.speed_m_per_s]}\n");
+  const Finished sweep = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
+  EXPECT_EQ(sweep.code, 2);
+  EXPECT_TRUE(sweep.err.starts_with("offsets.yaml:4:22: error: ")) << sweep.err;
+  EXPECT_NE(sweep.err.find("red"), std::string::npos) << sweep.err;
+  EXPECT_FALSE(here.has("output"));
+}
+
+TEST(Sweep, NumberOfJobsChangesNoByte) {
+  const Workplace here;
+  prepare(here);
+  here.carom({"sweep", "offsets.yaml", "-j", "1", "-o", "one", "-q"});
+  here.carom({"sweep", "offsets.yaml", "-j", "3", "-o", "three", "-q"});
+  EXPECT_EQ(differing(here, "one", "three"), Names{});
+}
+
+TEST(Sweep, EqualScenariosAreCopiesAndCamerasShareASimulation) {
+  const Workplace here;
+  prepare(here,
+          "sweep: 1\nbase: balls.yaml\nlist:\n"
+          "  - {camera.fov: 30}\n  - {camera.fov: 60}\n  - {camera.fov: 30}\n");
+  here.write("balls.yaml", two_balls("camera: {eye: [0, 1, -4], target: [0, 0, 0]}\n"
+                                     "output: {collisions: true, frames: {fps: 4, size: [64, 36], samples: 1}}\n"));
+  EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
+  const auto run = [&](const std::string& id) { return here.files("output/offsets/runs/" + id); };
+  // A copy has even the times of what it is a copy of.
+  EXPECT_EQ(here.read("output/offsets/runs/r0001/manifest.json"), here.read("output/offsets/runs/r0003/manifest.json"));
+  EXPECT_EQ(run("r0001").size(), run("r0003").size());
+  EXPECT_NE(here.read("output/offsets/runs/r0001/frames/frame_00001.png"),
+            here.read("output/offsets/runs/r0002/frames/frame_00001.png"));
+  const Json one = Json::parse(here.read("output/offsets/runs/r0001/manifest.json"));
+  const Json two = Json::parse(here.read("output/offsets/runs/r0002/manifest.json"));
+  EXPECT_EQ(one["wall_times_s"]["simulate"], two["wall_times_s"]["simulate"]);  // one and the same
+  here.carom({"run", "balls.yaml", "--set", "camera.fov=60", "-o", "alone", "-q"});
+  EXPECT_EQ(here.read("alone/frames/frame_00003.png"), here.read("output/offsets/runs/r0002/frames/frame_00003.png"));
+}
+
+TEST(Sweep, FolderOfAnotherSweepIsNotOverwrittenWithoutForce) {
+  const Workplace here;
+  prepare(here);
+  here.carom({"sweep", "offsets.yaml", "-q"});
+  const Files before = here.files("output");
+  here.write("offsets.yaml", "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.mass: [1, 2]}\n");
+  const Finished refused = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("--force"), std::string::npos) << refused.err;
+  EXPECT_EQ(here.files("output"), before);
+  EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "--force", "-q"}).code, 0);
+  EXPECT_FALSE(here.has("output/offsets/runs/r0003"));
+  EXPECT_EQ(lines_of(here.read("output/offsets/summary.csv")).size(), 3u);
+}
+
+TEST(Sweep, VariesASceneFromTheCommandLine) {
+  const Workplace here;
+  prepare(here);
+  const Finished sweep = here.carom({"sweep", "balls.yaml", "--grid", "balls.red.mass=1:2:3", "--grid",
+                                     "balls.red.position.z=0,0.01", "--set", "simulate.duration=1", "-q"});
+  EXPECT_EQ(sweep.code, 0) << sweep.err;
+  EXPECT_TRUE(here.has("output/balls.sweep/runs/r0006/summary.csv"));
+}
+
+TEST(Sweep, InterruptedIsResumedByTheSameCommand) {
+  const Workplace here;
+  prepare(here, "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.position.z: {from: 0, to: 0.2, count: 401}}\n");
+  const Finished stopped = here.interrupted({"sweep", "offsets.yaml", "--progress", "none"},
+                                            "output/offsets/runs/r0005/manifest.json", SIGTERM);
+  EXPECT_EQ(stopped.code, 143);
+  EXPECT_NE(stopped.err.find("the same command runs what is missing"), std::string::npos) << stopped.err;
+  EXPECT_FALSE(here.has("output/offsets/summary.csv"));
+  for (const auto& [name, bytes] : here.files("output")) EXPECT_FALSE(name.ends_with(".part")) << name;
+  EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
+  here.carom({"sweep", "offsets.yaml", "-o", "whole", "-q"});
+  EXPECT_EQ(differing(here, "output/offsets", "whole"), Names{});
+}
+
+TEST(Gather, PartsHaveTheBytesOfTheWhole) {
+  const Workplace here;
+  prepare(here, grid + "repeat: {seeds: 2}\n");
+  here.carom({"sweep", "offsets.yaml", "-o", "whole", "-q"});
+  for (const std::string part : {"1/3", "2/3", "3/3"})
+    EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "--shard", part, "-o", "parts", "-q"}).code, 0);
+  EXPECT_FALSE(here.has("parts/summary.csv"));
+  const Finished gather = here.carom({"gather", "parts", "--progress", "none"});
+  EXPECT_EQ(gather.code, 0) << gather.err;
+  EXPECT_EQ(differing(here, "whole", "parts"), Names{});
+}
+
+TEST(Gather, KilledPartIsMissedAndRepeated) {
+  const Workplace here;
+  prepare(here, "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.position.z: {from: 0, to: 0.2, count: 301}}\n");
+  here.carom({"sweep", "offsets.yaml", "-o", "whole", "-q"});
+  const std::vector<std::string> first = {"sweep", "offsets.yaml", "--shard", "1/2", "-o", "parts", "-q"};
+  EXPECT_EQ(here.interrupted(first, "parts/runs/r0003/manifest.json", SIGKILL).code, 1000 + SIGKILL);
+  EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "--shard", "2/2", "-o", "parts", "-q"}).code, 0);
+  const Finished early = here.carom({"gather", "parts", "--progress", "none"});
+  EXPECT_EQ(early.code, 1);
+  EXPECT_NE(early.err.find(" of 301 runs are missing: "), std::string::npos) << early.err;
+  EXPECT_FALSE(here.has("parts/summary.csv"));
+  EXPECT_EQ(here.carom(first).code, 0);
+  EXPECT_EQ(here.carom({"gather", "parts", "-q"}).code, 0);
+  EXPECT_EQ(differing(here, "whole", "parts"), Names{});
+}
+
+TEST(Gather, BringsPartsFromOtherFolders) {
+  const Workplace here;
+  prepare(here);
+  here.carom({"sweep", "offsets.yaml", "-o", "whole", "-q"});
+  here.carom({"sweep", "offsets.yaml", "--shard", "1/2", "-o", "a", "-q"});
+  here.carom({"sweep", "offsets.yaml", "--shard", "2/2", "-o", "b", "-q"});
+  EXPECT_EQ(here.carom({"gather", "all", "a", "b", "-q"}).code, 0);
+  EXPECT_EQ(differing(here, "whole", "all"), Names{});
+  here.carom({"sweep", "balls.yaml", "--grid", "balls.red.mass=1,2", "-o", "other", "-q"});
+  EXPECT_EQ(here.carom({"gather", "all", "other"}).code, 2);
+  EXPECT_EQ(here.carom({"gather", "nothing"}).code, 2);
+}
+
+TEST(Gather, TaskOfAJobArrayDoesItsPart) {
+  const Workplace here;
+  prepare(here);
+  const Finished task = here.shell(
+      "SLURM_ARRAY_TASK_ID=7 SLURM_ARRAY_TASK_MIN=4 SLURM_ARRAY_TASK_STEP=3 SLURM_ARRAY_TASK_COUNT=2 "
+      "\"$CAROM\" sweep offsets.yaml --progress none");
+  EXPECT_EQ(task.code, 0) << task.err;
+  EXPECT_NE(task.out.find("part 2 of 2 done"), std::string::npos) << task.out;
+}
+
+TEST(Submit, ScriptRunsItsPartsAndGathers) {
+  const Workplace here;
+  prepare(here);
+  const Finished script = here.carom({"submit", "offsets.yaml", "--slurm", "--parts", "2", "-o", "a b"});
+  EXPECT_EQ(script.code, 0) << script.err;
+  here.write("job.sh", script.out);
+  // An sbatch that does at once what it is given.
+  here.write("bin/sbatch",
+             "#!/bin/sh\ncase \"$*\" in\n*--wrap*) for w; do :; done; eval \"$w\" >&2 ;;\n"
+             "*) for i in 1 2; do SLURM_ARRAY_TASK_ID=$i sh job.sh >&2; done ;;\nesac\necho 7\n");
+  const Finished submitted = here.shell("chmod +x bin/sbatch; PATH=$PWD/bin:$PATH sh job.sh");
+  EXPECT_EQ(submitted.code, 0) << submitted.err;
+  EXPECT_EQ(submitted.out, "parts: job 7; gather: job 7\n");
+  EXPECT_EQ(lines_of(here.read("a b/summary.csv")).size(), 7u) << submitted.err;
+}
+
+/// The cells of summary.csv, a map from column to text a run.
+std::vector<std::map<std::string, std::string>> rows_of(const std::string& text) {
+  std::vector<std::map<std::string, std::string>> rows;
+  const auto cells = [](const std::string& line) {
+    std::vector<std::string> out(1);
+    for (const char c : line) c == ',' ? out.emplace_back() : out.back() += c;
+    return out;
+  };
+  const std::vector<std::string> lines = lines_of(text);
+  const std::vector<std::string> names = cells(lines.at(0));
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string> values = cells(lines[i]);
+    rows.emplace_back();
+    for (std::size_t k = 0; k < names.size(); ++k) rows.back()[names[k]] = values.at(k);
+  }
+  return rows;
+}
+
+TEST(SweepScenes, BowlingLosesWhatTheClosedFormSays) {
+  const Workplace here;
+  const Finished sweep = here.carom({"sweep", SCENES_DIR "/sweeps/bowling.yaml", "--only", "energy", "-o", "out", "-q"});
+  EXPECT_EQ(sweep.code, 0) << sweep.err;
+  const auto rows = rows_of(here.read("out/summary.csv"));
+  ASSERT_EQ(rows.size(), 18u);
+  for (const auto& row : rows) {
+    const double e = std::stod(row.at("defaults.ball.restitution")), z = std::stod(row.at("balls.red.position.z"));
+    EXPECT_NEAR(std::stod(row.at("energy_lost_J")), 20 * (1 - e * e) * (1 - z * z / (8 * 0.11 * 0.11)), 1e-13);
+  }
+}
+
+TEST(SweepScenes, WhatLiesOnTheBasketballIsShotUpAsTheClosedFormSays) {
+  const Workplace here;
+  EXPECT_EQ(here.carom({"sweep", SCENES_DIR "/sweeps/ball_on_ball.yaml", "-o", "out", "-q"}).code, 0);
+  const auto rows = rows_of(here.read("out/summary.csv"));
+  ASSERT_EQ(rows.size(), 6u);
+  for (const auto& row : rows) {
+    const double m = std::stod(row.at("balls.tennis_ball.mass")), M = 0.62;
+    EXPECT_NEAR(std::stod(row.at("max_speed_m_per_s")), (3 * M - m) / (M + m) * 2.800949838893942, 1e-13);
+  }
+}
+
+TEST(SweepScenes, GasPressureTellsChanceFromSize) {
+  const Workplace here;
+  EXPECT_EQ(here.carom({"sweep", SCENES_DIR "/sweeps/gas_pressure.yaml", "-o", "out", "-q"}).code, 0);
+  const auto rows = rows_of(here.read("out/repeats.csv"));
+  ASSERT_EQ(rows.size(), 3u);
+  for (const auto& row : rows) {
+    const double sd = std::stod(row.at("body_body.sd")), n = std::stod(row.at("body_body.mean"));
+    EXPECT_GT(sd, std::sqrt(n) / 3) << n;
+    EXPECT_LT(sd, std::sqrt(n) * 3) << n;
+  }
+}
+
+}  // namespace
+}  // namespace carom::testing

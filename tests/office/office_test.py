@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+"""Comparisons in LibreOffice: the workbook as it shows it, summary.csv as it reads it.
+
+office_test.py CAROM: makes runs in a temporary folder. Every number of the CSV must be a number in LibreOffice, every chart's
+titles must be on paper.
+"""
+import csv
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import openpyxl
+
+SCENE = """scene: 1
+title: "=1+1"
+gravity: [0, 0, 0]
+balls:
+  red: {mass: 10, radius: 0.11, position: [-1, 0, 0], velocity: [2, 0, 0]}
+  blue: {mass: 10, radius: 0.11, position: [1, 0, 0], velocity: [-2, 0, 0]}
+simulate: {duration: 1}
+output: {trajectory: {every: 0.1}, collisions: true, energy: {every: 0.1}}
+"""
+
+
+def number(text):
+    try:
+        value = float(text)
+    except (TypeError, ValueError):
+        return None
+    return value if math.isfinite(value) else None
+
+
+def convert(folder, kind, file):
+    """What LibreOffice makes of a file, in a folder of its own, with a profile of its own."""
+    out = folder / "converted"
+    subprocess.run(["soffice", "--headless", f"-env:UserInstallation=file://{folder}/profile", "--convert-to", kind, "--outdir",
+                    str(out), str(file)], check=True, capture_output=True, timeout=300)
+    return out
+
+
+def main():
+    carom = sys.argv[1]
+    with tempfile.TemporaryDirectory(prefix="carom-office-") as name:
+        folder = pathlib.Path(name)
+        (folder / "scene.yaml").write_text(SCENE)
+        runs = []
+        for e in ("0.5", "0.75", "1"):
+            for z in ("-0.025", "0.025"):
+                runs.append(f"r{len(runs) + 1}")
+                subprocess.run([carom, "run", "scene.yaml", "-q", "-o", f"runs/{runs[-1]}", "--set", f"restitution.default={e}",
+                                "--set", f"balls.red.position.z={z}"], cwd=folder, check=True)
+        subprocess.run([carom, "compare", *[f"runs/{run}" for run in runs], "-o", "out", "-q"], cwd=folder, check=True)
+
+        # The table: read as CSV, stored as .xlsx, read by openpyxl.
+        rows = list(csv.reader((folder / "out/summary.csv").open(newline="")))
+        out = convert(folder, "xlsx", folder / "out/summary.csv")
+        sheet = openpyxl.load_workbook(out / "summary.xlsx").active
+        numbers = 0
+        for i, row in enumerate(rows):
+            for k, text in enumerate(row):
+                cell = sheet.cell(i + 1, k + 1)
+                assert cell.data_type != "f", f"{cell.coordinate} is a formula"
+                value = number(text) if i > 0 else None
+                if value is None:
+                    continue
+                assert cell.data_type == "n" and math.isclose(cell.value, value, rel_tol=1e-14), (cell.coordinate, text, cell.value)
+                numbers += 1
+        assert numbers > 100, numbers
+
+        # The workbook: computed anew, each sheet as CSV; the summary is the table, formulas have values.
+        every_sheet = "csv:Text - txt - csv (StarCalc):44,34,76,1,,0,false,true,false,false,false,-1"
+        out = convert(folder, every_sheet, folder / "out/comparison.xlsx")
+        sheets = {file.name: list(csv.reader(file.open(newline=""))) for file in out.glob("comparison-*.csv")}
+        assert len(sheets) == 7, sorted(sheets)
+        for file, lines in sheets.items():
+            assert lines, file
+            for line in lines:
+                for text in line:
+                    assert not text.startswith(("#", "Err:")), (file, line)
+        summary = sheets["comparison-Summary.csv"]
+        assert len(summary) == len(rows)
+        for told, shown in zip(rows[1:], summary[1:]):
+            for column, text, cell in zip(rows[0], told, shown):
+                value = number(text)
+                if value is not None and column not in ("energy_residual_J", "momentum_drift_kg_m_per_s", "max_overlap_m"):
+                    assert math.isclose(number(cell), value, rel_tol=1e-9, abs_tol=1e-12), (column, text, cell)
+        pivot = sheets["comparison-Pivot.csv"]
+        assert math.isclose(number(pivot[5][1]), number(rows[1][rows[0].index("energy_lost_J")]), rel_tol=1e-9), pivot[5]
+
+        # On paper: the first page has the charts with their titles and axes.
+        out = convert(folder, "pdf", folder / "out/comparison.xlsx")
+        page = subprocess.run(["pdftotext", "-l", "1", str(out / "comparison.pdf"), "-"], check=True, capture_output=True,
+                              text=True).stdout
+        for text in ("energy lost (J) by restitution.default", "kinetic energy (J) over time", "time (s)",
+                     "balls.red.position.z = -0.025"):
+            assert text in page, text
+    print(f"{numbers} numbers, {len(sheets)} sheets")
+
+
+main()

@@ -1,0 +1,77 @@
+// Evenly spread numbers as decimals.
+#include "scene/decimal.h"
+
+#include <gtest/gtest.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace carom {
+namespace {
+
+using Texts = std::vector<std::string>;
+
+Decimal decimal(const std::string& text) {
+  return parse_decimal(text).value();
+}
+
+Texts spread_of(const std::string& from, const std::string& to, std::uint64_t count) {
+  return spread(decimal(from), decimal(to), count);
+}
+
+Texts steps_of(const std::string& from, const std::string& to, const std::string& step) {
+  return steps(decimal(from), decimal(to), decimal(step), 1000);
+}
+
+TEST(Decimal, ReadsWhatYamlWritesAndGivesTheShortestText) {
+  EXPECT_EQ(to_text(decimal("0.70")), "0.7");
+  EXPECT_EQ(to_text(decimal("-12")), "-12");
+  EXPECT_EQ(to_text(decimal("1.50e2")), "150");
+  EXPECT_EQ(to_text(decimal("2.5e-3")), "0.0025");
+  EXPECT_EQ(to_text(decimal("+.5")), "0.5");
+  EXPECT_EQ(to_text(decimal("-0.0")), "0");
+  EXPECT_EQ(to_text(decimal("0e99999999999")), "0");
+}
+
+TEST(Decimal, HasAtMostEighteenDigits) {
+  EXPECT_TRUE(parse_decimal("123456789.123456789"));
+  EXPECT_FALSE(parse_decimal("123456789.1234567891"));
+  EXPECT_FALSE(parse_decimal("1e18"));
+  EXPECT_FALSE(parse_decimal("1e-19"));
+  EXPECT_FALSE(parse_decimal("red"));
+}
+
+TEST(Spread, HasNoRoundingOfSums) {
+  EXPECT_EQ(spread_of("0.5", "1.0", 6), (Texts{"0.5", "0.6", "0.7", "0.8", "0.9", "1"}));
+  EXPECT_EQ(spread_of("-0.025", "0.075", 3), (Texts{"-0.025", "0.025", "0.075"}));
+  EXPECT_EQ(spread_of("1", "-1", 5), (Texts{"1", "0.5", "0", "-0.5", "-1"}));
+  EXPECT_EQ(spread_of("0", "1e-3", 5), (Texts{"0", "0.00025", "0.0005", "0.00075", "0.001"}));
+  EXPECT_EQ(spread_of("2", "2", 1), (Texts{"2"}));
+}
+
+TEST(Spread, EveryHundredthIsTheDecimalThatIsWritten) {
+  const Texts all = spread_of("0", "10", 1001);
+  for (int i = 0; i <= 1000; ++i) {
+    double value = 0;
+    std::from_chars(all[static_cast<std::size_t>(i)].data(),
+                    all[static_cast<std::size_t>(i)].data() + all[static_cast<std::size_t>(i)].size(), value);
+    EXPECT_EQ(value, i / 100.0) << all[static_cast<std::size_t>(i)];
+    EXPECT_LE(all[static_cast<std::size_t>(i)].size(), 4u);
+  }
+}
+
+TEST(Spread, WithoutAFiniteExpansionIsTheNearestDouble) {
+  EXPECT_EQ(spread_of("0", "1", 4), (Texts{"0", "0.3333333333333333", "0.6666666666666666", "1"}));
+}
+
+TEST(Steps, GoAsFarAsTheEndAndNotBeyond) {
+  EXPECT_EQ(steps_of("0", "1", "0.3"), (Texts{"0", "0.3", "0.6", "0.9"}));
+  EXPECT_EQ(steps_of("0.1", "0.3", "0.1"), (Texts{"0.1", "0.2", "0.3"}));
+  EXPECT_EQ(steps_of("1", "0", "-0.5"), (Texts{"1", "0.5", "0"}));
+  EXPECT_EQ(steps_of("1", "1", "0.5"), (Texts{"1"}));
+  EXPECT_TRUE(steps_of("0", "1", "-0.3").empty());
+  EXPECT_TRUE(steps_of("0", "1", "0").empty());
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,100 @@
+#pragma once
+// Folders of runs, made by running scenes; and a workbook as an independent reader sees it.
+#include <fcntl.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "export/open_folder.h"
+#include "scene/load.h"
+#include "study/comparison.h"
+#include "study/run_scene.h"
+
+namespace carom::testing {
+
+/// A temporary folder that removes itself.
+class Place {
+ public:
+  Place() {
+    std::string name = (std::filesystem::temp_directory_path() / "carom-study-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~Place() { std::filesystem::remove_all(path_); }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+  std::string read(const std::string& name) const {
+    std::ifstream in(path_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
+    std::ofstream(path_ / name, std::ios::binary) << text;
+  }
+
+  /// Runs a scene with settings into a folder.
+  RunResult run(const std::string& yaml, const std::string& folder, const std::vector<std::string>& set = {}) const {
+    write(folder + ".yaml", yaml);
+    LoadOptions options;
+    options.set = set;
+    const Scene scene = load_scene(*this / (folder + ".yaml"), options);
+    return run_scene({&scene, *this / folder, 0}, choose_engine(scene), {}, {[] {}, [](double, auto, auto) {}});
+  }
+
+  /// Compares runs into the folder `out`.
+  void compare(const ComparisonPlan& plan, const std::vector<ComparedRun>& runs, const std::string& out) const {
+    std::filesystem::create_directories(path_ / out);
+    const Descriptor folder = open_folder(AT_FDCWD, *this / out, true);
+    const auto files = write_comparison({folder.get(), *this / out}, plan, runs.size(),
+                                        [&](std::size_t number) { return runs[number]; });
+    for (const auto& file : files) file->publish();
+  }
+
+  /// The workbook of the folder `out`, by openpyxl.
+  nlohmann::json workbook(const std::string& out) const {
+    const std::string command = "/usr/bin/python3 '" SOURCE_DIR "/tests/study/workbook_as_json.py' '" +
+                                (*this / (out + "/comparison.xlsx")) + "' > '" + (*this / "book.json") + "'";
+    if (std::system(command.c_str()) != 0) throw std::runtime_error("openpyxl cannot read the workbook");
+    return nlohmann::json::parse(read("book.json"));
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Rows of a CSV text without quotes.
+inline std::vector<std::vector<std::string>> rows_of(const std::string& text) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    rows.emplace_back();
+    for (std::size_t begin = 0; begin <= line.size();) {
+      const std::size_t end = std::min(line.find(',', begin), line.size());
+      rows.back().push_back(line.substr(begin, end - begin));
+      begin = end + 1;
+    }
+  }
+  return rows;
+}
+
+/// Two balls that meet at 0.445 s, all tables.
+inline const std::string two_balls =
+    "scene: 1\n"
+    "title: Two balls\n"
+    "gravity: [0, 0, 0]\n"
+    "restitution: {default: 0.5}\n"
+    "balls:\n"
+    "  red: {mass: 10, radius: 0.11, position: [-1, 0, 0], velocity: [2, 0, 0]}\n"
+    "  blue: {mass: 10, radius: 0.11, position: [1, 0, 0], velocity: [-2, 0, 0]}\n"
+    "simulate: {duration: 1}\n"
+    "output: {trajectory: {every: 0.1}, collisions: true, energy: {every: 0.1}}\n";
+
+}  // namespace carom::testing
