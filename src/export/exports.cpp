@@ -126,8 +126,8 @@ void Exports::record(std::span<const Collision> collisions) {
   for (const Impl::OpenWriter& open : impl_->writers) open.writer->record(collisions);
 }
 
-void Exports::record(std::span<const PathPiece> pieces) {
-  for (const Impl::OpenWriter& open : impl_->writers) open.writer->record(pieces);
+void Exports::record_paths(std::span<const PathPiece> pieces) {
+  for (const Impl::OpenWriter& open : impl_->writers) open.writer->record_paths(pieces);
 }
 
 void Exports::sample(const State& state, std::span<const ContactForce> contacts) {

@@ -83,7 +83,7 @@ class Exports {
   bool wants_state() const;     // at the timeline's present instant: anything due at all
   bool wants_contacts() const;  // at the timeline's present instant: the forces of contact too
   void record(std::span<const Collision> collisions);
-  void record(std::span<const PathPiece> pieces);
+  void record_paths(std::span<const PathPiece> pieces);
   /// Writes the rows that are due now. `contacts`: by a, then b; looked at only if wants_contacts().
   void sample(const State& state, std::span<const ContactForce> contacts = {});
   const std::vector<PictureStream>& pictures() const;

@@ -74,7 +74,7 @@ FlightsFile::FlightsFile(const FilePlace& place, const Scene& scene, std::uint64
   file_->written(writer.end());
 }
 
-void FlightsFile::record(std::span<const PathPiece> pieces) {
+void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
   for (const PathPiece& piece : pieces) {
     if (!file_) return;
     std::uint32_t has = 0;

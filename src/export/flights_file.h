@@ -34,7 +34,7 @@ class FlightsFile final : public Writer {
  public:
   /// Throws ExportError, as all of this class does.
   FlightsFile(const FilePlace& place, const Scene& scene, std::uint64_t most = largest_flights);
-  void record(std::span<const PathPiece> pieces) override;
+  void record_paths(std::span<const PathPiece> pieces) override;
   void end(const Tally& tally) override;
   std::vector<LeftOut> left_out() const override;
   std::vector<OutputFile*> files() override;

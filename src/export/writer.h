@@ -23,7 +23,7 @@ class Writer {
   /// Collisions, in the order in which they happened.
   virtual void record(std::span<const Collision>) {}
   /// Pieces of paths, in their order.
-  virtual void record(std::span<const PathPiece>) {}
+  virtual void record_paths(std::span<const PathPiece>) {}
   /// Whether add() looks at the forces of contact.
   virtual bool wants_contacts() const { return false; }
   /// The state at an instant at which this output is due (s). `contacts`: by a, then b.

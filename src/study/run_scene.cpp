@@ -154,7 +154,7 @@ class Run {
         std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.flights; });
     simulator_ =
         settings.simulator ? settings.simulator(scene()) : make_simulator(scene(), collisions, engine_.step, paths);
-    record(simulator_->paths());
+    record({}, simulator_->paths());
     energy_start_ = energy(scene(), simulator_->state());
   }
 
@@ -212,8 +212,7 @@ class Run {
       }
       const std::span<const Collision> collisions = simulator_->collisions();
       const std::span<const PathPiece> paths = simulator_->paths();
-      record(collisions);
-      record(paths);
+      record(collisions, paths);
       if (collisions.empty() && paths.empty() && !(simulator_->time() > before) &&
           simulator_->tally().collisions() == collisions_before)
         throw SimulationError("the simulator does not go on");
@@ -222,14 +221,14 @@ class Run {
     }
   }
 
-  template <typename Happened>
-  void record(std::span<const Happened> happened) {
-    if (happened.empty()) return;
+  void record(std::span<const Collision> collisions, std::span<const PathPiece> paths) {
+    if (collisions.empty() && paths.empty()) return;
     for (std::size_t i = 0; i < stages_.size(); ++i) {
       if (!stages_[i]) continue;
       guarded(i, [&] {
         const Stopwatch watch(stages_[i]->facts.export_s);
-        stages_[i]->exports.record(happened);
+        stages_[i]->exports.record(collisions);
+        stages_[i]->exports.record_paths(paths);
       });
     }
   }

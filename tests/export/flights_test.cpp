@@ -54,7 +54,7 @@ Descriptor open(const TempFolder& folder) {
 std::vector<LeftOut> store(const TempFolder& folder, const Scene& scene, std::uint64_t most = largest_flights) {
   const Descriptor opened = open(folder);
   FlightsFile file({opened.get(), folder.path()}, scene, most);
-  for (const PathPiece& piece : pieces()) file.record({&piece, 1});
+  for (const PathPiece& piece : pieces()) file.record_paths({&piece, 1});
   file.end(some_tally());
   for (OutputFile* output : file.files()) output->publish();
   return file.left_out();
