@@ -6,6 +6,7 @@
 #include <map>
 
 #include "scene/colors.h"
+#include "scene/unsupported.h"
 #include "scene/values.h"
 
 namespace carom {
@@ -167,7 +168,7 @@ class Resolver {
         continue;
       }
       if (field.key == "flights") {
-        if (scene_.output.pictures() || scene_.output.flights)
+        if (goes_along_parabolas(scene_.world, scene_.simulate) && (scene_.output.pictures() || scene_.output.flights))
           entry("flights", scene_.output.flights ? "true" : "false");
         continue;
       }
