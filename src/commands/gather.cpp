@@ -130,7 +130,7 @@ class GatherSession {
                          {"runs", sweep.size()},
                          {"missing", missing},
                          {"failed", failed}};
-      write_out(document("gather", Json::array({json})));
+      write_out(document("gather", json));
     }
     if (options_.json || options_.quiet || status != "done") return;
     Block block(Palette(wants_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));

@@ -51,7 +51,7 @@ void show_outcome(const Options& options, const SweepOutcome& outcome, const Swe
       failures.push_back({{"run", job.sweep().id(number)}, {"error", why}});
     json["failed"] = std::move(failures);
     json["wall_s"] = outcome.wall_s;
-    write_out(document("sweep", Json::array({json})));
+    write_out(document("sweep", json));
     return;
   }
   if (options.quiet) return;
@@ -86,7 +86,7 @@ void show_plan(const Options& options, const SweepJob& job) {
       runs.push_back({{"run", run.id}, {"state", state_of(job, number)}, {"values", std::move(values)}});
     }
     json["runs"] = std::move(runs);
-    write_out(document("sweep", Json::array({json})));
+    write_out(document("sweep", json));
     return;
   }
   std::vector<std::vector<std::string>> rows;

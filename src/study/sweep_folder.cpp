@@ -5,6 +5,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
@@ -33,22 +34,32 @@ std::optional<Json> read_sweep_manifest(int folder) {
   const auto text = read_text(folder, manifest_name, largest);
   if (!text) return std::nullopt;
   Json json = Json::parse(*text, nullptr, false);
-  if (!json.is_object() || json.value("tool", "") != "carom" || !json.contains("sweep") || !json.contains("runs") ||
-      !json["runs"].is_array() || !json.contains("files") || !json["files"].is_array())
+  if (!json.is_object() || json.value("tool", "") != "carom" || !json.contains("sweep") || !json.contains("failed") ||
+      !json["failed"].is_array() || !json.contains("files") || !json["files"].is_array())
     return std::nullopt;
   return json;
 }
 
-bool is_whole(int folder, const std::string& path, const Json& manifest) {
+std::vector<std::string> failures_of(const Json& manifest) {
+  std::vector<std::string> out;
+  for (const Json& id : manifest["failed"])
+    if (id.is_string()) out.push_back(id.get<std::string>());
+  return out;
+}
+
+bool is_whole(int folder, const std::string& path, const Sweep& sweep, const Json& manifest) {
   if (manifest.value("version", "") != CAROM_VERSION) return false;
   for (const Json& file : manifest["files"]) {
     const auto record = read_record(folder, file.value("name", ""));
     if (!record || record->sha256 != file.value("sha256", "")) return false;
   }
   const std::string mark = path + "/" + manifest_name;
-  for (const Json& run : manifest["runs"])
-    if (run.value("status", "") == "done" && !is_whole_since(path + "/runs/" + run.value("run", ""), mark))
+  const std::vector<std::string> failed = failures_of(manifest);
+  for (std::size_t number = 0; number < sweep.size(); ++number) {
+    const std::string id = sweep.id(number);
+    if (std::find(failed.begin(), failed.end(), id) == failed.end() && !is_whole_since(path + "/runs/" + id, mark))
       return false;
+  }
   return true;
 }
 
@@ -65,18 +76,14 @@ SweepContent inspect_sweep_folder(const std::string& path, const Sweep& sweep, c
       read_text(folder.get(), stored_base, largest) != base_text)
     return SweepContent::other;
   const std::optional<Json> manifest = read_sweep_manifest(folder.get());
-  const bool whole = manifest && is_whole(folder.get(), path, *manifest);
+  const bool whole = manifest && is_whole(folder.get(), path, sweep, *manifest);
   return whole ? SweepContent::this_sweep : SweepContent::incomplete;
 }
 
 std::vector<std::string> stored_failures(const std::string& path) {
-  std::vector<std::string> failures;
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
   const std::optional<Json> manifest = folder ? read_sweep_manifest(folder.get()) : std::nullopt;
-  if (!manifest) return failures;
-  for (const Json& run : (*manifest)["runs"])
-    if (run.value("status", "") == "failed") failures.push_back(run.value("run", ""));
-  return failures;
+  return manifest ? failures_of(*manifest) : std::vector<std::string>();
 }
 
 SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, const std::string& base_text,
@@ -164,15 +171,11 @@ void SweepFolder::finish(const Sweep& sweep, const std::vector<RunStatus>& statu
   json["tool"] = "carom";
   json["version"] = CAROM_VERSION;
   json["sweep"] = {{"title", sweep.title}};
-  std::size_t failed = 0;
-  Json runs = Json::array();
-  for (std::size_t number = 0; number < statuses.size(); ++number) {
-    const bool done = statuses[number] == RunStatus::done;
-    failed += done ? 0 : 1;
-    runs.push_back({{"run", sweep.id(number)}, {"status", done ? "done" : "failed"}});
-  }
-  json["counts"] = {{"runs", statuses.size()}, {"done", statuses.size() - failed}, {"failed", failed}};
-  json["runs"] = std::move(runs);
+  Json failed = Json::array();
+  for (std::size_t number = 0; number < statuses.size(); ++number)
+    if (statuses[number] != RunStatus::done) failed.push_back(sweep.id(number));
+  json["counts"] = {{"runs", statuses.size()}, {"done", statuses.size() - failed.size()}, {"failed", failed.size()}};
+  json["failed"] = std::move(failed);
   std::vector<FileRecord> records = begun_;
   for (const auto& file : files) records.push_back(file->record());
   json["files"] = Json::array();

@@ -105,8 +105,7 @@ TEST(Sweep, RunsOnlyWhatIsMissingOrWasTouched) {
   const Files before = here.files("output");
   here.shell("rm output/offsets/runs/r0002/trajectory.csv; echo >> output/offsets/runs/r0005/energy.csv");
   const std::string kept = here.read("output/offsets/runs/r0001/manifest.json");
-  const Json again =
-      Json::parse(here.carom({"sweep", "offsets.yaml", "--json", "--progress", "none"}).out)["scenes"][0];
+  const Json again = Json::parse(here.carom({"sweep", "offsets.yaml", "--json", "--progress", "none"}).out);
   EXPECT_EQ(again["made"], 2);
   EXPECT_EQ(here.read("output/offsets/runs/r0001/manifest.json"), kept);
   for (const auto& [name, bytes] : before)
@@ -122,7 +121,7 @@ TEST(Sweep, PlanShowsRunsAndWritesNothing) {
   EXPECT_NE(plan.out.find("to do       6 of 6 runs\n"), std::string::npos) << plan.out;
   EXPECT_FALSE(here.has("output"));
   here.carom({"sweep", "offsets.yaml", "-q"});
-  const Json json = Json::parse(here.carom({"sweep", "offsets.yaml", "--plan", "--json"}).out)["scenes"][0];
+  const Json json = Json::parse(here.carom({"sweep", "offsets.yaml", "--plan", "--json"}).out);
   EXPECT_EQ(json["runs"][3], Json::parse(R"({"run": "r0004", "state": "done",
                                             "values": {"balls.red.position.z": "0.025", "balls.red.mass": "10"}})"));
 }
@@ -142,8 +141,7 @@ TEST(Sweep, OneFailingRunStopsNoOther) {
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_TRUE(rows[2].starts_with("r0002,,,failed,")) << rows[2];
   // It is tried again; the others are not.
-  const Json again =
-      Json::parse(here.carom({"sweep", "offsets.yaml", "--json", "--progress", "none"}).out)["scenes"][0];
+  const Json again = Json::parse(here.carom({"sweep", "offsets.yaml", "--json", "--progress", "none"}).out);
   EXPECT_EQ(again["made"], 0);
   EXPECT_EQ(again["failed"].size(), 1u);
 }
@@ -327,7 +325,8 @@ std::vector<std::map<std::string, std::string>> rows_of(const std::string& text)
 
 TEST(SweepScenes, BowlingLosesWhatTheClosedFormSays) {
   const Workplace here;
-  const Finished sweep = here.carom({"sweep", SCENES_DIR "/sweeps/bowling.yaml", "--only", "energy", "-o", "out", "-q"});
+  const Finished sweep =
+      here.carom({"sweep", SCENES_DIR "/sweeps/bowling.yaml", "--only", "energy", "-o", "out", "-q"});
   EXPECT_EQ(sweep.code, 0) << sweep.err;
   const auto rows = rows_of(here.read("out/summary.csv"));
   ASSERT_EQ(rows.size(), 18u);
