@@ -82,7 +82,7 @@ class CompareSession {
       return fail("wrong", error.what(), 2);
     }
     ComparisonPlan plan = sweep ? comparison_plan(*sweep) : ComparisonPlan();
-    if (plan.title.empty()) plan.title = title_of(options_.operands);
+    if (!sweep) plan.title = title_of(options_.operands);
     plan.parameters = differences.parameters();
     plan.seed = differences.seed();
     if (!options_.measures.empty()) plan.measures = options_.measures;
@@ -163,7 +163,7 @@ class CompareSession {
     if (!options_.json && !options_.quiet) {
       constexpr std::size_t most = 12;
       Block block(Palette(wants_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
-      block.heading(plan.title, "");
+      block.heading(plan.title.empty() ? title_of(options_.operands) : plan.title, "");
       block.line("runs",
                  failed == 0 ? grouped(runs.size()) : fmt::format("{}, {} failed", grouped(runs.size()), failed));
       block.line("varied", varied.empty() ? "nothing" : listed(varied, most));

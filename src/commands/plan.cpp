@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <new>
 #include <utility>
@@ -58,7 +57,7 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
   planned.engine = choose_engine(*planned.scene);
   planned.forecast = forecast(*planned.scene);
   // With --only it is not the file's outputs that count, but those that are left or added.
-  if (options.only && !options.force) hold_to_budget(planned.forecast, "--only asks for");
+  if (options.only && !options.force) hold_to_budget(*planned.scene, planned.forecast, "--only asks for");
   std::error_code ignored;
   if (fs::exists(planned.folder, ignored) && !fs::is_directory(planned.folder, ignored)) {
     throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
@@ -84,21 +83,21 @@ LoadOptions load_options(const Options& options, bool lifted) {
   load.set = options.set;
   load.seed = options.seed;
   load.budget.enforced = !options.force;
-  if (lifted) load.budget.frames = load.budget.rows = std::numeric_limits<std::uint64_t>::max();
+  if (lifted) load.budget = load.budget.without_outputs();
   load.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
   load.color = !options.json && wants_color(options.color, STDERR_FILENO);
   return load;
 }
 
-void hold_to_budget(const Forecast& forecast, std::string_view asker) {
+void hold_to_budget(const Scene& scene, const Forecast& forecast, std::string_view asker) {
   const Budget budget;
   if (forecast.frames > budget.frames) {
     throw ExportError(fmt::format("{} {}, more than the {} that a run may draw without --force", asker,
                                   counted(forecast.frames, "picture", "pictures"), grouped(budget.frames)));
   }
-  if (forecast.rows > budget.rows) {
-    throw ExportError(fmt::format("{} {}, more than the {} that a run may write without --force", asker,
-                                  counted(forecast.rows, "trajectory row", "trajectory rows"), grouped(budget.rows)));
+  for (const Excess& excess : excesses(scene.output, scene.simulate.duration, scene.world.body_count(), budget)) {
+    throw ExportError(fmt::format("{} {:.15g} {}, more than the {} that a run may write without --force", asker,
+                                  excess.figure, excess.what, grouped(excess.limit)));
   }
 }
 

@@ -42,7 +42,7 @@ std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes,
 LoadOptions load_options(const Options& options, bool lifted);
 
 /// Throws ExportError if a run would draw or write too much. `asker`: "--only asks for".
-void hold_to_budget(const Forecast& forecast, std::string_view asker);
+void hold_to_budget(const Scene& scene, const Forecast& forecast, std::string_view asker);
 
 /// Makes an error of each folder that holds something else, unless --force.
 void refuse_other_content(std::vector<PlannedScene>& scenes, const Options& options);

@@ -20,24 +20,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view pictures[] = {"frames", "video", "sheet"};
-
-bool is_drawn(std::string_view output) {
-  return std::find(std::begin(pictures), std::end(pictures), output) != std::end(pictures);
-}
-
-/// The outputs of these that are drawn, or those that are not; flights are neither.
-std::vector<std::string> names_of(const Output& output, bool drawn) {
+/// The outputs of these that tell how things look, or those that do not; flights are neither.
+std::vector<std::string> names_of(const Output& output, bool looks) {
   std::vector<std::string> names;
   for (const OutputKind& kind : output_kinds())
-    if (kind.asked(output) && is_drawn(kind.name) == drawn && kind.name != "flights") names.emplace_back(kind.name);
+    if (kind.asked(output) && kind.looks == looks && kind.name != "flights") names.emplace_back(kind.name);
   return names;
 }
 
 void refuse_tables(const Options& options) {
+  const std::vector<std::string> drawn = names_of(with_all({}), true);
   for (const std::string& name : options.only.value_or(std::vector<std::string>{}))
-    if (!is_drawn(name))
-      throw UsageError(fmt::format("render draws {}: carom run writes {}", fmt::join(pictures, ", "), name));
+    if (std::find(drawn.begin(), drawn.end(), name) == drawn.end())
+      throw UsageError(fmt::format("render makes {}: carom run writes {}", fmt::join(drawn, ", "), name));
 }
 
 std::string name_of_folder(const std::string& folder) {
@@ -81,8 +76,7 @@ class Planner {
     planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     planned.engine = choose_engine(*planned.scene);
     planned.forecast = forecast(*planned.scene);
-    planned.forecast.rows = 0;  // none is written
-    if (!options_.force) hold_to_budget(planned.forecast, "this would draw");
+    if (!options_.force) hold_to_budget(*planned.scene, planned.forecast, "this would make");
     std::error_code ignored;
     if (fs::exists(planned.folder, ignored) && !fs::is_directory(planned.folder, ignored))
       throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
@@ -112,7 +106,7 @@ class Planner {
     Output& output = planned.scene->output;
     const Output asked = output;
     output = restricted(asked, options_.only.value_or(names_of(asked, true)));
-    if (!output.pictures())
+    if (names_of(output, true).empty())
       throw ExportError("its scene asks for no pictures\n  --only frames, video or sheet asks for them");
     output.flights = asked.flights;
     if (planned.folder != planned.file) return;
@@ -148,7 +142,7 @@ const CommandText& render_text() {
       {{"--output", "the folder of the pictures; with several runs, the folder\nthat holds theirs (the run's own)"},
        {"--set"},
        {"--only",
-        "draw these pictures alone, of frames, video, sheet; one\nthat the scene does not ask for is drawn "
+        "draw these alone, of frames, video, sheet, vtk, xyz, gltf;\none that the scene does not ask for is made "
         "with default\nsettings"},
        {"--force"},
        {"--progress"}},

@@ -10,6 +10,7 @@
 #include "export/open_folder.h"
 #include "export/picture_streams.h"
 #include "export/png.h"
+#include "export/series.h"
 #include "export/series_folders.h"
 #include "export/sheet.h"
 #include "export/tables.h"
@@ -27,6 +28,10 @@ void check_film_name(const Scene& scene) {
   if (!is_plain_name(name)) throw ExportError("cannot make the film " + name + ": that is no plain file name");
 }
 
+void append(std::vector<FileRecord>& to, const std::vector<FileRecord>& records) {
+  to.insert(to.end(), records.begin(), records.end());
+}
+
 }  // namespace
 
 struct Exports::Impl {
@@ -36,8 +41,12 @@ struct Exports::Impl {
   };
 
   // What can be refused is refused here, before the folder is touched.
-  Impl(const Scene& the_scene, const std::string& path, Durability durability, const Manifest* renewed)
-      : scene(the_scene), timeline(the_scene.simulate.duration), plan(plan_pictures(the_scene)) {
+  Impl(const Scene& the_scene, const std::string& path, Durability durability, ModelMakers the_makers,
+       const Manifest* renewed)
+      : scene(the_scene),
+        makers(std::move(the_makers)),
+        timeline(the_scene.simulate.duration),
+        plan(plan_pictures(the_scene)) {
     const Output& output = scene.output;
     check_film_name(scene);
     const std::vector<MeshCopy> meshes = read_meshes(scene);
@@ -51,9 +60,9 @@ struct Exports::Impl {
       const WriterKind* writer = writer_named(kind.name);
       if (writer == nullptr || !kind.asked(output) || keeps(kind)) continue;
       const int ticks = kind.every ? timeline.add(Ticks::every(kind.every(output), scene.simulate.duration)) : -1;
-      writers.push_back({writer->open(*folder, scene), ticks});
+      writers.push_back({writer->open(*folder, scene, makers), ticks});
     }
-    if (output.frames) frames_place = folder->series(frame_files);
+    if (output.frames) frames.emplace(*folder, frame_files);
     if (output.video) film.emplace(folder->place(), *output.video, std::move(*tools));
     if (output.sheet) sheet.emplace(*output.sheet, sheet_model(output).size);
     for (std::size_t i = 0; i < plan.streams.size(); ++i) plan.streams[i].timeline_stream = timeline.add(plan.ticks[i]);
@@ -73,35 +82,31 @@ struct Exports::Impl {
   }
 
   void write_frame(std::int64_t number, const Image& image, bool again) {
-    OutputFile file(frames_place, frame_files.name(number));
     if (!again || frame.empty()) frame = encode_png(image, PngEffort::fast);
-    file.write(frame);
-    file.publish();
-    folder->keep();
-    frame_records.push_back(file.record());
-    frame_records.back().name.insert(0, std::string(frame_files.folder) + "/");
+    frames->put(number, frame);
   }
 
   bool due(int stream) const { return stream >= 0 && timeline.due(stream); }
 
   const Scene& scene;
+  const ModelMakers makers;
   Timeline timeline;
   PictureStreams plan;
   std::uint64_t pictures = 0;
   std::vector<FileRecord> kept;           // of the run that stood there
   std::vector<FileRecord> first_records;  // of what stands there from the beginning
-  std::vector<FileRecord> frame_records;
   // What writes into the folder is gone before the folder is put in order.
   std::optional<OpenFolder> folder;
-  FilePlace frames_place;
+  std::optional<Series> frames;
   std::string frame;  // the last one, as PNG
   std::vector<OpenWriter> writers;
   std::optional<Film> film;
   std::optional<Sheet> sheet;
 };
 
-Exports::Exports(const Scene& scene, const std::string& folder, Durability durability, const Manifest* renewed)
-    : impl_(std::make_unique<Impl>(scene, folder, durability, renewed)) {}
+Exports::Exports(const Scene& scene, const std::string& folder, Durability durability, ModelMakers makers,
+                 const Manifest* renewed)
+    : impl_(std::make_unique<Impl>(scene, folder, durability, std::move(makers), renewed)) {}
 
 Exports::~Exports() = default;
 
@@ -189,7 +194,8 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
     impl_->film->complete();
     records.push_back(impl_->film->record());
   }
-  records.insert(records.end(), impl_->frame_records.begin(), impl_->frame_records.end());
+  if (impl_->frames) append(records, impl_->frames->records());
+  for (const Impl::OpenWriter& open : impl_->writers) append(records, open.writer->published());
   OutputFile manifest(place, manifest_name);
   manifest.write(manifest_text(impl_->scene, summary, facts, records));
   manifest.complete();

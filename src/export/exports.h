@@ -15,6 +15,7 @@
 #include "physics/state.h"
 #include "physics/tally.h"
 #include "render/image.h"
+#include "render/model.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -56,9 +57,11 @@ struct RunFacts {
   std::vector<LeftOut> left_out{};
 };
 
-/// How many trajectory rows, pictures and, roughly, bytes a run of this scene will write.
+/// How many trajectory rows, pictures and, roughly, bytes a run of this scene will write, and how long that and drawing
+/// may take.
 struct Forecast {
   std::uint64_t rows = 0, frames = 0, bytes = 0;
+  double seconds = 0;
 };
 Forecast forecast(const Scene& scene);
 
@@ -68,12 +71,12 @@ class Exports {
  public:
   /// Opens only what scene.output asks for, in `folder`, which is made if need be and locked against other runs.
   /// Removes what a former run left there (by its manifest). What can be known to fail is refused before anything is
-  /// touched: ffmpeg missing, a video without pictures, a sheet too large. `scene` must outlive this. Throws
-  /// ExportError.
-  /// `renewed`: what the folder holds now, a whole run of the same motion: all its files but pictures, summary.csv and
-  /// scene.yaml are kept as they are, and until finish() all of them.
+  /// touched: ffmpeg missing, a video without pictures, a sheet too large. `scene` must outlive this. `makers`: what
+  /// vtk and gltf want of render/. Throws ExportError.
+  /// `renewed`: what the folder holds now, a whole run of the same motion: all its files but what is drawn, summary.csv
+  /// and scene.yaml are kept as they are, and until finish() all of them.
   Exports(const Scene& scene, const std::string& folder, Durability durability = Durability::synced,
-          const Manifest* renewed = nullptr);
+          ModelMakers makers = {}, const Manifest* renewed = nullptr);
   /// Without finish(): what was not whole is removed; frames that are whole stay.
   ~Exports();
   Exports(const Exports&) = delete;

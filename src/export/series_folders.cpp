@@ -1,7 +1,6 @@
 #include "export/series_folders.h"
 
 #include "export/open_folder.h"
-#include "export/writer.h"
 
 namespace carom {
 
@@ -22,7 +21,7 @@ const OutputKind* output_of(std::string_view name) {
 
 bool is_picture(std::string_view name) {
   const OutputKind* kind = output_of(name);
-  return kind != nullptr ? writer_named(kind->name) == nullptr : name.ends_with(".mp4");
+  return kind != nullptr ? kind->looks : name.ends_with(".mp4");
 }
 
 FileSpot SeriesFolders::spot(std::string_view name) {

@@ -16,7 +16,7 @@ const OutputKind* series_of(std::string_view name);
 /// The output that has a file of this name; null: none has, or the scene gives the name (a film's).
 const OutputKind* output_of(std::string_view name);
 
-/// Whether a file of this name is drawn: one of frames/, a sheet, a film.
+/// Whether a file of this name tells how things look: one of frames/, a film, what another program draws.
 bool is_picture(std::string_view name);
 
 /// Where a file of a run stands.

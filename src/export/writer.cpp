@@ -1,7 +1,10 @@
 #include "export/writer.h"
 
 #include "export/flights_file.h"
+#include "export/gltf.h"
 #include "export/tables.h"
+#include "export/vtk.h"
+#include "export/xyz.h"
 
 namespace carom {
 namespace {
@@ -11,7 +14,7 @@ constexpr double motion_bytes = 114, time_bytes = 6, name_bytes = 8, energy_byte
                  contact_bytes = 40, path_bytes = 100;
 
 template <typename Table>
-std::unique_ptr<Writer> open(OpenFolder& folder, const Scene& scene) {
+std::unique_ptr<Writer> open(OpenFolder& folder, const Scene& scene, const ModelMakers&) {
   return std::make_unique<Table>(folder.place(), scene);
 }
 
@@ -30,6 +33,21 @@ constexpr WriterKind all_kinds[] = {
     // Which bodies rest when nobody knows; half of them always.
     {"contacts", open<ContactTable>,
      [](const Scene& scene, double instants) { return contact_bytes * instants * scene.world.body_count() / 2; }},
+    {"vtk",
+     [](OpenFolder& folder, const Scene& scene, const ModelMakers& makers) -> std::unique_ptr<Writer> {
+       return std::make_unique<VtkWriter>(folder, scene, makers);
+     },
+     VtkWriter::bytes},
+    {"xyz",
+     [](OpenFolder& folder, const Scene& scene, const ModelMakers&) -> std::unique_ptr<Writer> {
+       return std::make_unique<XyzWriter>(folder, scene);
+     },
+     XyzWriter::bytes},
+    {"gltf",
+     [](OpenFolder& folder, const Scene& scene, const ModelMakers& makers) -> std::unique_ptr<Writer> {
+       return std::make_unique<GltfWriter>(folder, scene, makers);
+     },
+     GltfWriter::bytes},
     // How many pieces there will be nobody knows; three a body.
     {"flights", open<FlightsFile>,
      [](const Scene& scene, double) { return 3 * path_bytes * scene.world.body_count(); }},

@@ -48,7 +48,9 @@ constexpr OutputKind all_kinds[] = {
            return Json{{"every", o.trajectory->every}, {"layout", o.trajectory->wide ? "wide" : "long"}};
          },
      .every = [](const Output& o) { return o.trajectory->every; },
-     .files = "trajectory.csv"},
+     .files = "trajectory.csv",
+     .rows = "rows of trajectory.csv",
+     .spacing = "every"},
     {.name = "collisions",
      .asked = [](const Output& o) { return o.collisions; },
      .add = [](Output& to, const Output&) { to.collisions = true; },
@@ -87,7 +89,8 @@ constexpr OutputKind all_kinds[] = {
                        {"from", f.from},
                        {"until", optional_json(f.until)}};
          },
-     .series = frame_files},
+     .series = frame_files,
+     .looks = true},
     {.name = "video",
      .asked = [](const Output& o) { return o.video.has_value(); },
      .add =
@@ -100,7 +103,8 @@ constexpr OutputKind all_kinds[] = {
            return Json{{"file", v.file}, {"fps", v.fps},   {"size", size_json(v.size)},      {"samples", v.samples},
                        {"crf", v.crf},   {"from", v.from}, {"until", optional_json(v.until)}};
          },
-     .named = [](const Output& o) { return o.video->file; }},
+     .named = [](const Output& o) { return o.video->file; },
+     .looks = true},
     {.name = "sheet",
      .asked = [](const Output& o) { return o.sheet.has_value(); },
      .add = [](Output& to, const Output& asked) { take(to.sheet, asked.sheet); },
@@ -108,7 +112,46 @@ constexpr OutputKind all_kinds[] = {
          [](const Output& o) {
            return Json{{"columns", o.sheet->columns}, {"rows", o.sheet->rows}};
          },
-     .files = "sheet.png"},
+     .files = "sheet.png",
+     .looks = true},
+    {.name = "vtk",
+     .asked = [](const Output& o) { return o.vtk.has_value(); },
+     .add = [](Output& to, const Output& asked) { take(to.vtk, asked.vtk); },
+     .settings =
+         [](const Output& o) {
+           return Json{{"every", o.vtk->every}};
+         },
+     .every = [](const Output& o) { return o.vtk->every; },
+     .files = "trajectory.pvd|surfaces.vtp",
+     .series = vtk_files,
+     .rows = "points of vtk/",
+     .spacing = "every",
+     .looks = true},
+    {.name = "xyz",
+     .asked = [](const Output& o) { return o.xyz.has_value(); },
+     .add = [](Output& to, const Output& asked) { take(to.xyz, asked.xyz); },
+     .settings =
+         [](const Output& o) {
+           return Json{{"every", o.xyz->every}};
+         },
+     .every = [](const Output& o) { return o.xyz->every; },
+     .files = "trajectory.xyz",
+     .rows = "rows of trajectory.xyz",
+     .spacing = "every",
+     .looks = true},
+    {.name = "gltf",
+     .asked = [](const Output& o) { return o.gltf.has_value(); },
+     .add = [](Output& to, const Output& asked) { take(to.gltf, asked.gltf); },
+     .settings =
+         [](const Output& o) {
+           return Json{{"fps", o.gltf->fps}};
+         },
+     .every = [](const Output& o) { return 1 / o.gltf->fps; },
+     .files = "animation.glb",
+     .rows = "keys of animation.glb",
+     .spacing = "fps",
+     .in_memory = true,
+     .looks = true},
     {.name = "flights",
      .asked = [](const Output& o) { return o.flights; },
      .add = [](Output& to, const Output&) { to.flights = true; },

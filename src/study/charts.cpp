@@ -59,6 +59,10 @@ std::string label_of(const Parameter& parameter) {
   return parameter.unit.empty() ? parameter.path : fmt::format("{} ({})", parameter.path, parameter.unit);
 }
 
+std::string name_of_value(const Parameter& parameter, const std::string& value) {
+  return fmt::format("{} = {}{}{}", parameter.path, value, parameter.unit.empty() ? "" : " ", parameter.unit);
+}
+
 std::vector<Chart> chosen_charts(const ComparisonPlan& plan, const std::vector<Measure>& measures,
                                  const Outcomes& outcomes) {
   if (!plan.charts.empty()) return plan.charts;
@@ -96,7 +100,7 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const std::
   data.lines.resize(std::min(all, most_lines));
   if (all > most_lines) data.note = fmt::format("{} of {} values of {}", most_lines, all, chart.by);
   for (std::size_t line = 0; lines != nullptr && line < data.lines.size(); ++line)
-    data.lines[line].name = fmt::format("{} = {}", chart.by, lines->values[line].text);
+    data.lines[line].name = name_of_value(plan.parameters[*by], lines->values[line].text);
 
   // A row for each x; several where a line has several points there.
   const std::size_t every = 1 + (std::max<std::size_t>(outcomes.points().size(), 1) - 1) / most_charted;

@@ -8,7 +8,7 @@
 namespace carom {
 
 struct ChartLine {
-  std::string name;            // "balls.red.position.z = 0.025"; empty: the only line
+  std::string name;            // "balls.red.position.z = 0.025 m"; empty: the only line
   std::vector<double> y;       // by row of ChartData::x; not a number: the line has no such point
   std::vector<double> spread;  // the same, standard deviations; empty: no repeats
 };
@@ -31,6 +31,9 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const std::
 
 /// "balls.red.position.z (m)".
 std::string label_of(const Parameter& parameter);
+
+/// "balls.red.position.z = 0.025 m".
+std::string name_of_value(const Parameter& parameter, const std::string& value);
 
 /// A parameter's number in the plan; none if it is not there.
 std::optional<std::size_t> find_parameter(const ComparisonPlan& plan, std::string_view path);

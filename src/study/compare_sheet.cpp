@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace carom {
 namespace {
@@ -19,6 +21,10 @@ constexpr std::size_t most_runs_over_time = 12;
 // Told apart by people who see few colours too (Okabe and Ito 2008).
 constexpr std::array<lxw_color_t, 8> colors = {0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7,
                                                0xE69F00, 0x56B4E9, 0x595959, 0x8C510A};
+
+lxw_color_t color_of(std::size_t number) {
+  return colors[number % colors.size()];
+}
 
 struct Range {
   const char* sheet;
@@ -35,21 +41,23 @@ lxw_chart_series* add_series(lxw_chart* chart, const Range& x, const Range& y, c
   return series;
 }
 
-void set_line(lxw_chart_series* series, lxw_color_t color, bool drawn) {
+void set_line(lxw_chart_series* series, std::size_t number, bool drawn) {
   lxw_chart_line line{};
-  line.color = color;
+  line.color = color_of(number);
+  line.dash_type =
+      static_cast<std::uint8_t>(number < colors.size() ? LXW_CHART_LINE_DASH_SOLID : LXW_CHART_LINE_DASH_DASH);
   line.width = 1.75F;
   line.none = drawn ? LXW_FALSE : LXW_TRUE;
   chart_series_set_line(series, &line);
 }
 
-void set_marker(lxw_chart_series* series, lxw_color_t color, bool drawn) {
+void set_marker(lxw_chart_series* series, std::size_t number, bool drawn) {
   chart_series_set_marker_type(series, drawn ? LXW_CHART_MARKER_CIRCLE : LXW_CHART_MARKER_NONE);
   if (!drawn) return;
   lxw_chart_fill fill{};
-  fill.color = color;
+  fill.color = color_of(number);
   lxw_chart_line edge{};
-  edge.color = color;
+  edge.color = fill.color;
   chart_series_set_marker_size(series, 5);
   chart_series_set_marker_fill(series, &fill);
   chart_series_set_marker_line(series, &edge);
@@ -78,15 +86,45 @@ void set_texts(lxw_chart* chart, const std::string& title, const std::string& x,
 }
 
 /// A standard deviation up and down from one point: a series of its own, for a series' error bars have one length.
-void add_bar(lxw_chart* chart, const Range& x, const Range& y, std::size_t row, double length, lxw_color_t color) {
+void add_bar(lxw_chart* chart, const Range& x, const Range& y, std::size_t row, double length, std::size_t number) {
   lxw_chart_series* point = add_series(chart, {x.sheet, row, x.column, row}, {y.sheet, row, y.column, row}, "");
-  set_line(point, color, false);
-  set_marker(point, color, false);
+  set_line(point, number, false);
+  set_marker(point, number, false);
   lxw_chart_line line{};
-  line.color = color;
+  line.color = color_of(number);
   line.width = 1.25F;
   chart_series_set_error_bars(point->y_error_bars, LXW_CHART_ERROR_BAR_TYPE_FIXED, length);
   chart_series_set_error_bars_line(point->y_error_bars, &line);
+}
+
+/// Where an axis ends so that it holds `low` to `high`: a spreadsheet does not count error bars, and begins columns
+/// anywhere. Zero is on it if that costs less than half of it.
+void set_ends(lxw_chart_axis* axis, double low, double high) {
+  if (!(high > low)) return;
+  if (low > 0 && low < 0.5 * high) low = 0;
+  if (high < 0 && high > 0.5 * low) high = 0;
+  // A step of 1, 2 or 5 times a power of ten, four to ten of them.
+  double step = 1;
+  while (step * 10 < high - low) step *= 10;
+  while (step > high - low) step /= 10;
+  for (const double part : {0.5, 0.4, 0.5})
+    if ((high - low) / step < 4) step *= part;
+  chart_axis_set_min(axis, step * std::floor(low / step));
+  chart_axis_set_max(axis, step * std::ceil(high / step));
+  chart_axis_set_major_unit(axis, step);
+}
+
+/// Least and greatest of what is drawn, error bars included.
+std::pair<double, double> ends_of(const ChartData& data) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const ChartLine& line : data.lines)
+    for (std::size_t row = 0; row < line.y.size(); ++row) {
+      if (!std::isfinite(line.y[row])) continue;
+      const double sd = line.spread.empty() || !(line.spread[row] > 0) ? 0 : line.spread[row];
+      low = std::min(low, line.y[row] - sd);
+      high = std::max(high, line.y[row] + sd);
+    }
+  return {low, high};
 }
 
 std::size_t bars_of(const ChartData& data) {
@@ -116,15 +154,14 @@ void CompareSheet::draw(const ChartData& data, std::size_t number, std::size_t f
   lxw_chart* chart = book_.add_chart(data.numeric ? LXW_CHART_SCATTER : LXW_CHART_COLUMN);
   const Range x{"Compare", first_row, first_column, last_row};
   for (std::size_t k = 0; k < data.lines.size(); ++k) {
-    const lxw_color_t color = colors[k % colors.size()];
     lxw_chart_series* series =
         add_series(chart, x, {"Compare", first_row, first_column + 1 + k, last_row}, data.lines[k].name);
     if (data.numeric) {
-      set_line(series, color, data.joined && data.x.size() > 1);
-      set_marker(series, color, data.x.size() <= most_marked || !data.joined);
+      set_line(series, k, data.joined && data.x.size() > 1);
+      set_marker(series, k, data.x.size() <= most_marked || !data.joined);
     } else {
       lxw_chart_fill fill{};
-      fill.color = color;
+      fill.color = color_of(k);
       chart_series_set_fill(series, &fill);
     }
   }
@@ -133,8 +170,7 @@ void CompareSheet::draw(const ChartData& data, std::size_t number, std::size_t f
     for (std::size_t row = 0; row < data.x.size(); ++row)
       if (const double sd = data.lines[k].spread[row]; sd > 0) {
         unnamed.push_back(static_cast<std::int16_t>(data.lines.size() + unnamed.size()));
-        add_bar(chart, x, {"Compare", first_row, first_column + 1 + k, last_row}, first_row + row, sd,
-                colors[k % colors.size()]);
+        add_bar(chart, x, {"Compare", first_row, first_column + 1 + k, last_row}, first_row + row, sd, k);
       }
   unnamed.push_back(-1);
   std::string title = data.title;
@@ -143,6 +179,9 @@ void CompareSheet::draw(const ChartData& data, std::size_t number, std::size_t f
   set_texts(chart, title, data.x_label, data.y_label, data.lines.size() > 1);
   if (unnamed.size() > 1) chart_legend_delete_series(chart, unnamed.data());
   chart_show_blanks_as(chart, LXW_CHART_BLANKS_AS_CONNECTED);
+  const auto [low, high] = ends_of(data);
+  if (barred) set_ends(chart->y_axis, low, high);
+  if (!data.numeric && low >= 0) chart_axis_set_min(chart->y_axis, 0);
   place(chart, number);
 }
 
@@ -154,7 +193,7 @@ void CompareSheet::draw_over_time(const std::vector<PlacedSeries>& series, std::
     if (one.name != name || ++all > most_runs_over_time) continue;
     lxw_chart_series* line =
         add_series(chart, {"Series", 1, one.time_column, one.rows}, {"Series", 1, one.value_column, one.rows}, one.run);
-    set_line(line, colors[drawn % colors.size()], true);
+    set_line(line, drawn, true);
     set_marker(line, 0, false);
     ++drawn;
   }

@@ -64,23 +64,28 @@ std::vector<Column> make_columns(const ComparisonPlan& plan, const std::vector<M
   return columns;
 }
 
+ComparisonPlan titled(ComparisonPlan plan, std::size_t count) {
+  if (plan.title.empty()) plan.title = fmt::format("Comparison of {} runs", count);
+  return plan;
+}
+
 class Comparison {
  public:
   Comparison(const FilePlace& place, const ComparisonPlan& plan, std::size_t count)
       : place_(place),
-        plan_(plan),
+        plan_(titled(plan, count)),
         count_(count),
         measures_(measures_of(plan)),
         columns_(make_columns(plan, measures_)),
         in_table_(count <= most_in_table),
-        book_(place, workbook_name, plan.title),
+        book_(place, workbook_name, plan_.title),
         charts_(book_, !in_table_),
         sheet_(book_.add("Summary", !in_table_)),
         repeats_(plan.seed ? &book_.add("Repeats", true) : nullptr),
         pivot_(plan.parameters.size() - (plan.seed ? 1 : 0) > 1 ? &book_.add("Pivot") : nullptr),
         series_sheet_(book_.add("Series", true)),
         collisions_(book_.add("Collisions", true)),
-        parameters_(book_.add("Parameters"), plan),
+        parameters_(book_.add("Parameters"), plan_),
         about_(book_.add("About")),
         table_(std::make_unique<OutputFile>(place, summary_name)),
         outcomes_(plan, measures_.size(), count),
@@ -235,7 +240,7 @@ class Comparison {
   }
 
   FilePlace place_;
-  const ComparisonPlan& plan_;
+  ComparisonPlan plan_;
   std::size_t count_, failed_ = 0;
   std::vector<Measure> measures_;
   std::vector<Column> columns_;

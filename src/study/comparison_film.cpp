@@ -9,6 +9,7 @@
 #include "export/manifest.h"
 #include "export/open_folder.h"
 #include "export/run_folder.h"
+#include "study/charts.h"
 #include "study/outcomes.h"
 
 namespace carom {
@@ -48,11 +49,8 @@ std::vector<FilmTile> film_tiles(const SceneDifferences& runs) {
   for (std::size_t i = 0; i < count; ++i) {
     tiles.push_back(tile_of(runs.runs()[i]));
     const ComparedRun run = runs.run(i);
-    for (std::size_t k = 0; k < std::min(varied.size(), most_labels); ++k) {
-      const Parameter& parameter = plan.parameters[varied[k]];
-      tiles.back().labels.push_back(fmt::format("{} = {}{}{}", parameter.path, run.values[varied[k]],
-                                                parameter.unit.empty() ? "" : " ", parameter.unit));
-    }
+    for (std::size_t k = 0; k < std::min(varied.size(), most_labels); ++k)
+      tiles.back().labels.push_back(name_of_value(plan.parameters[varied[k]], run.values[varied[k]]));
   }
   return tiles;
 }

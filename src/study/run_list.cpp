@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <tuple>
 
 #include "export/folder_names.h"
 #include "export/manifest.h"
@@ -57,13 +58,24 @@ std::string look_at(ListedRun& run) {
   return "";
 }
 
+/// r0002 before r0010, r9999 before r10000: by what stands before the last digits, then by their number.
+bool is_earlier(const std::string& a, const std::string& b) {
+  const auto split = [](const std::string& name) {
+    const std::size_t digits = name.find_last_not_of("0123456789") + 1;  // npos + 1: 0
+    const std::size_t first = std::min(name.find_first_not_of('0', digits), name.size());
+    return std::tuple(name.substr(0, digits), name.size() - first, name.substr(first), name);
+  };
+  return split(a) < split(b);
+}
+
 std::vector<std::string> runs_of_sweep(const std::string& folder) {
   std::vector<std::string> found;
   const std::string runs = (fs::path(folder) / "runs").string();
-  if (const Descriptor opened = open_folder(AT_FDCWD, runs, true))
-    for (const std::string& name : folder_names(opened.get()))
-      if (is_plain_name(name) && open_folder(opened.get(), name, true))
-        found.push_back((fs::path(runs) / name).string());
+  const Descriptor opened = open_folder(AT_FDCWD, runs, true);
+  std::vector<std::string> names = opened ? folder_names(opened.get()) : std::vector<std::string>();
+  std::sort(names.begin(), names.end(), is_earlier);
+  for (const std::string& name : names)
+    if (is_plain_name(name) && open_folder(opened.get(), name, true)) found.push_back((fs::path(runs) / name).string());
   return found;
 }
 

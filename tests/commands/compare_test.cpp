@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "commands/program.h"
 
@@ -98,8 +99,21 @@ TEST(CompareCommand, OfASweepGivesTheSweepsTable) {
   ASSERT_EQ(sweep.code, 0) << sweep.err;
   const Finished run = here.carom({"compare", "swept"});
   ASSERT_EQ(run.code, 0) << run.err;
-  for (const char* file : {"summary.csv", "repeats.csv"})
+  for (const char* file : {"summary.csv", "repeats.csv", "comparison.xlsx"})
     EXPECT_EQ(here.read(std::string("output/comparison/") + file), here.read(std::string("swept/") + file)) << file;
+}
+
+TEST(CompareCommand, TakesASweepsRunsInTheOrderOfTheirNumbers) {
+  const Workplace here;
+  make_runs(here);
+  ASSERT_EQ(
+      here.shell("mkdir -p one/runs && for n in r9999 r10000 r0010 r002 last; do cp -r runs/a one/runs/$n; done").code,
+      0);
+  ASSERT_EQ(here.carom({"compare", "one"}).code, 0);
+  std::istringstream rows(here.read("output/comparison/summary.csv"));
+  std::string ids;
+  for (std::string row; std::getline(rows, row);) ids += row.substr(0, row.find(',') + 1);
+  EXPECT_EQ(ids, "run,last,r002,r0010,r9999,r10000,");
 }
 
 TEST(CompareCommand, TakesRunsThatDifferInTheSeedAsRepeats) {
@@ -203,11 +217,11 @@ TEST(DiffCommand, TellsWhereRunsPartAndHowFarApartTheyEnd) {
   EXPECT_EQ(outcome.out,
             "a and b\n"
             "  scenes      1 value is not the same\n"
-            "                           a     b\n"
+            "                             a     b\n"
             "    balls.red.restitution  0.5  0.75\n"
             "  collisions  1, the same in both\n"
-            "  outcome     of collision 1, red and blue at 0.44499999999999995 s (body-body), is not the same: they\n"
-            "              leave at 2.8 m/s in a, 3.3 m/s in b\n"
+            "  outcome     of collision 1, red and blue at 0.44499999999999995 s (body-body), is not the same:\n"
+            "              they leave at 2.8 m/s in a, 3.3 m/s in b\n"
             "  end         at most 0.13875000000000004 m apart: red\n");
   const Json part = Json::parse(here.carom({"diff", "runs/b", "runs/aside", "--json"}).out);
   EXPECT_EQ(part["equal"], false);

@@ -151,10 +151,11 @@ TEST(ReadmeCommands, EveryOneOfTheProgramSucceeds) {
                                                                                           << clone.err();
     ++run;
   }
-  EXPECT_EQ(run, 10);
-  for (const char* file : {"two_bowling_balls/animation.mp4", "two_bowling_balls/frames/frame_00084.png",
-                           "half/collisions.csv", "pi_by_collisions/energy.csv", "raindrops.bench/bench.svg",
-                           "gas_2/energy.csv", "comparison/comparison.xlsx", "rest/bouncing_ball/trajectory.csv"}) {
+  EXPECT_EQ(run, 18);
+  for (const char* file :
+       {"two_bowling_balls/animation.mp4", "two_bowling_balls/frames/frame_00084.png", "half/collisions.csv",
+        "pi_by_collisions/energy.csv", "raindrops.bench/bench.svg", "gas_2/energy.csv", "comparison/comparison.xlsx",
+        "rest/bouncing_ball/trajectory.csv", "first.yaml", "scene.schema.json"}) {
     EXPECT_TRUE(fs::exists(clone / (std::string("output/") + file))) << file;
   }
 }
@@ -174,7 +175,7 @@ TEST(ReadmeFirstScene, IsTheFileWithoutItsComment) {
   for (std::string line; std::getline(in, line);) {
     if (!line.starts_with('#')) body += line + "\n";
   }
-  ASSERT_EQ(blocks("yaml").size(), 1u);
+  ASSERT_EQ(blocks("yaml").size(), 2u);
   EXPECT_EQ(blocks("yaml")[0], body);
 }
 

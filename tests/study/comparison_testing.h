@@ -58,10 +58,11 @@ class Place {
     for (const auto& file : files) file->publish();
   }
 
-  /// The workbook of the folder `out`, by openpyxl.
-  nlohmann::json workbook(const std::string& out) const {
+  /// The workbook of the folder `out`, by openpyxl; brief: without its cells.
+  nlohmann::json workbook(const std::string& out, bool brief = false) const {
     const std::string command = "/usr/bin/python3 '" SOURCE_DIR "/tests/study/workbook_as_json.py' '" +
-                                (*this / (out + "/comparison.xlsx")) + "' > '" + (*this / "book.json") + "'";
+                                (*this / (out + "/comparison.xlsx")) + (brief ? "' brief" : "'") + " > '" +
+                                (*this / "book.json") + "'";
     if (std::system(command.c_str()) != 0) throw std::runtime_error("openpyxl cannot read the workbook");
     return nlohmann::json::parse(read("book.json"));
   }

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Prints an .xlsx file as JSON, read by openpyxl: an independent reader."""
+"""Prints an .xlsx file as JSON, read by openpyxl, an independent reader. A second argument, brief: without its cells."""
 import json
 import sys
 
@@ -28,18 +28,22 @@ def chart_of(chart):
                 "name": series.tx.v if series.tx else None,
                 "x": (series.xVal or series.cat).numRef.f if (series.xVal or series.cat).numRef else None,
                 "y": (series.yVal or series.val).numRef.f,
-                "bar": series.errBars.val.numLit.pt[0].v if series.errBars and series.errBars.val and series.errBars.val.numLit else
-                       (series.errBars.val if series.errBars else None),
+                "bar": series.errBars.val if series.errBars else None,  # its length
             }
             for series in chart.series
         ],
     }
 
 
+brief = sys.argv[2:] == ["brief"]
 book = openpyxl.load_workbook(sys.argv[1])
-values = openpyxl.load_workbook(sys.argv[1], data_only=True)
+values = book if brief else openpyxl.load_workbook(sys.argv[1], data_only=True)
 sheets = {}
 for sheet in book:
+    if brief:
+        sheets[sheet.title] = {"filter": sheet.auto_filter.ref, "tables": dict(sheet.tables.items()),
+                               "height": sheet.max_row, "charts": len(sheet._charts)}
+        continue
     sheets[sheet.title] = {
         "rows": [[cell.value for cell in row] for row in sheet.iter_rows()],
         "values": [[cell.value for cell in row] for row in values[sheet.title].iter_rows()],
@@ -48,7 +52,7 @@ for sheet in book:
         "widths": {name: column.width for name, column in sheet.column_dimensions.items()},
         "frozen": sheet.freeze_panes,
         "filter": sheet.auto_filter.ref,
-        "tables": {name: table.ref for name, table in sheet.tables.items()},
+        "tables": dict(sheet.tables.items()),
         "charts": [chart_of(chart) for chart in sheet._charts],
     }
 json.dump({"active": book.active.title, "created": str(book.properties.created), "sheets": sheets,
