@@ -148,6 +148,16 @@ TEST_F(ComparisonOfSix, PivotIsTheFirstMeasureByTwoParameters) {
   }
 }
 
+TEST_F(ComparisonOfSix, ThereIsNoPivotUnlessTwoVaryByThemselves) {
+  ComparisonPlan twice = plan;
+  twice.measures = {"collisions"};
+  std::vector<ComparedRun> some;
+  for (const char* value : {"1", "2", "3"}) some.push_back({value, runs[0].folder, {value, std::string(value) + ".5"}});
+  place->compare(twice, some, "together");
+  EXPECT_EQ(place->workbook("together", true)["order"],
+            Json({"Compare", "Summary", "Series", "Collisions", "Parameters", "About"}));
+}
+
 TEST_F(ComparisonOfSix, SeriesCollisionsAndParametersAreTheRuns) {
   const Json& series = sheet("Series")["rows"];
   EXPECT_EQ(series.size(), 12u);  // eleven instants
