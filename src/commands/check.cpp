@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "commands/foresight.h"
 #include "commands/plan.h"
 #include "commands/preview.h"
 #include "commands/report.h"
@@ -17,7 +18,8 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t names_shown = 10;
+constexpr std::size_t names_shown = 10, crossings_shown = 10, crossings_listed = 1000;
+constexpr double trial_budget = 0.1;  // s of wall time
 
 // "red, blue and gas (1,000)".
 std::string bodies_text(const Scene& scene) {
@@ -48,10 +50,10 @@ std::string engine_text(const PlannedScene& planned) {
   return text + fmt::format(", {} of motion", quantity(simulate.duration, "s"));
 }
 
-std::string first_collision_text(const PlannedScene& planned, const FirstCollision& first) {
-  if (!first.trouble.empty()) return "not known: " + first.trouble;
-  if (!first.collision) return fmt::format("none within {}", quantity(planned.scene->simulate.duration, "s"));
-  const Collision& c = *first.collision;
+std::string first_collision_text(const PlannedScene& planned, const Foresight& foresight) {
+  if (!foresight.trouble.empty()) return "not known: " + foresight.trouble;
+  if (!foresight.first) return fmt::format("none within {}", quantity(planned.scene->simulate.duration, "s"));
+  const Collision& c = *foresight.first;
   const Roster& roster = planned.scene->roster;
   const double nothing = 1e-9 * planned.scene->world.radius[c.a];  // a rounding error is no place
   const auto shown = [&](double x) { return std::abs(x) < nothing ? 0.0 : x; };
@@ -78,6 +80,27 @@ std::string out_of_view_text(const PlannedScene& planned, const CameraPreview& v
   const std::size_t more = view.out_of_view.size() - names.size();
   return more == 0 ? listed(names) + " at time 0"
                    : fmt::format("{} and {} more at time 0", fmt::join(names, ", "), grouped(more));
+}
+
+// "red and blue enter at 0.3 s; red leaves at 1.2 s"
+std::string crossings_text(const PlannedScene& planned, const Foresight& foresight) {
+  const std::vector<Crossing>& all = foresight.crossings;
+  std::vector<std::string> texts;
+  std::size_t i = 0;
+  while (i < all.size() && texts.size() < crossings_shown) {
+    const Crossing& first = all[i];
+    std::vector<std::string> names;
+    for (; i < all.size() && all[i].time == first.time && all[i].enters == first.enters; ++i)
+      names.push_back(planned.scene->roster.name(all[i].body));
+    const bool one = names.size() == 1;
+    texts.push_back(fmt::format("{} {} at {}", listed(names, names_shown),
+                                first.enters ? (one ? "enters" : "enter") : (one ? "leaves" : "leave"),
+                                quantity(first.time, "s")));
+  }
+  if (i < all.size()) texts.push_back(fmt::format("{} more", grouped(all.size() - i)));
+  std::string text = texts.empty() ? "no body enters or leaves the picture" : fmt::format("{}", fmt::join(texts, "; "));
+  if (foresight.cut) text += fmt::format(" (looked at up to {})", quantity(foresight.watched_until, "s"));
+  return text;
 }
 
 std::string content_text(const PlannedScene& planned) {
@@ -113,14 +136,33 @@ std::string content_name(FolderContent content) {
 }
 
 struct Findings {
-  FirstCollision first;
+  Foresight foresight;
   std::optional<CameraPreview> camera;  // none where no picture is wanted and no camera set
 };
 
-Findings examine(const Scene& scene) {
-  Findings findings{predict_first_collision(scene), std::nullopt};
-  if (scene.camera || scene.output.pictures()) findings.camera = preview_camera(scene);
+Findings examine(const PlannedScene& planned) {
+  const Scene& scene = *planned.scene;
+  const bool watch = scene.camera || scene.output.pictures();
+  Findings findings{foresee(scene, planned.engine, watch, trial_budget), std::nullopt};
+  if (watch) findings.camera = preview_camera(scene);
   return findings;
+}
+
+// Wall time of a run (s): what was tried, and what its outputs take as a rule.
+std::optional<double> seconds_to_come(const PlannedScene& planned, const Findings& findings) {
+  if (!findings.foresight.simulate_s) return std::nullopt;
+  return planned.load_s + *findings.foresight.simulate_s + planned.forecast.seconds;
+}
+
+std::string to_come_text(const PlannedScene& planned, const Findings& findings) {
+  const std::optional<double> seconds = seconds_to_come(planned, findings);
+  return fmt::format("{}, {}, about {} and {}", counted(planned.forecast.frames, "picture", "pictures"),
+                     counted(planned.forecast.rows, "trajectory row", "trajectory rows"),
+                     bytes_text(planned.forecast.bytes),
+                     !seconds         ? "a time that only a run can tell"
+                     : *seconds < 0.5 ? "less than a second"
+                     : *seconds < 9.5 ? fmt::format("roughly {:.0f} s", *seconds)
+                                      : "roughly " + wait_text(std::round(*seconds)));
 }
 
 std::string as_text(const PlannedScene& planned, const Findings& findings, const Palette& palette, std::size_t width) {
@@ -131,17 +173,17 @@ std::string as_text(const PlannedScene& planned, const Findings& findings, const
   if (const std::string volumes = volumes_text(*planned.scene); !volumes.empty()) block.line("volumes", volumes);
   if (!planned.scene->world.forces.empty()) block.line("forces", forces_text(planned.scene->world));
   block.line("engine", engine_text(planned));
-  block.line("first hit", first_collision_text(planned, findings.first));
+  block.line("first hit", first_collision_text(planned, findings.foresight));
+  if (!findings.foresight.failure.empty()) block.line("trouble", "a run stops: " + findings.foresight.failure);
   if (findings.camera) {
     block.line("camera", fmt::format("{}; fields of view {:.4g} x {:.4g} degrees", plus_x_text(findings.camera->plus_x),
                                      findings.camera->fov_x, findings.camera->fov_y));
     block.line("unseen", out_of_view_text(planned, *findings.camera));
+    block.line("in and out", crossings_text(planned, findings.foresight));
   } else {
     block.line("camera", "none, no pictures are wanted");
   }
-  block.line("to come", fmt::format("{}, {}, about {}", counted(planned.forecast.frames, "picture", "pictures"),
-                                    counted(planned.forecast.rows, "trajectory row", "trajectory rows"),
-                                    bytes_text(planned.forecast.bytes)));
+  block.line("to come", to_come_text(planned, findings));
   block.line("folder", fmt::format("{}: {}", printable(planned.folder), content_text(planned)));
   return block.text();
 }
@@ -159,7 +201,13 @@ Json collision_json(const Scene& scene, const Collision& c) {
           {"approach_speed_m_per_s", c.approach_speed}};
 }
 
-Json camera_json(const Scene& scene, const CameraPreview& camera) {
+Json camera_json(const Scene& scene, const CameraPreview& camera, const Foresight& foresight) {
+  Json crossings = Json::array();
+  for (const Crossing& crossing : foresight.crossings) {
+    if (crossings.size() == crossings_listed) break;
+    crossings.push_back(
+        {{"time_s", crossing.time}, {"body", scene.roster.name(crossing.body)}, {"enters", crossing.enters}});
+  }
   Json names = Json::array();
   for (const Entity body : camera.out_of_view) {
     if (names.size() == names_shown) break;
@@ -169,7 +217,12 @@ Json camera_json(const Scene& scene, const CameraPreview& camera) {
           {"fov_x_degrees", camera.fov_x},
           {"fov_y_degrees", camera.fov_y},
           {"out_of_view", camera.out_of_view.size()},
-          {"out_of_view_names", names}};
+          {"out_of_view_names", names},
+          {"watched_from_s", foresight.watched_from},
+          {"watched_until_s", foresight.watched_until},
+          {"watched_every_s", foresight.every},
+          {"crossings", foresight.crossings.size()},
+          {"crossings_listed", crossings}};
 }
 
 Json as_json(const PlannedScene& planned, const Findings& findings) {
@@ -187,12 +240,15 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
                 {"duration_s", scene.simulate.duration}};
   entry["volumes"] = volumes_json(scene);
   entry["first_collision"] =
-      findings.first.collision ? collision_json(scene, *findings.first.collision) : Json(nullptr);
-  if (!findings.first.trouble.empty()) entry["first_collision_trouble"] = findings.first.trouble;
-  entry["camera"] = findings.camera ? camera_json(scene, *findings.camera) : Json(nullptr);
+      findings.foresight.first ? collision_json(scene, *findings.foresight.first) : Json(nullptr);
+  if (!findings.foresight.trouble.empty()) entry["first_collision_trouble"] = findings.foresight.trouble;
+  if (!findings.foresight.failure.empty()) entry["failure"] = findings.foresight.failure;
+  entry["camera"] = findings.camera ? camera_json(scene, *findings.camera, findings.foresight) : Json(nullptr);
   entry["pictures"] = planned.forecast.frames;
   entry["trajectory_rows"] = planned.forecast.rows;
   entry["bytes"] = planned.forecast.bytes;
+  const std::optional<double> seconds = seconds_to_come(planned, findings);
+  entry["seconds"] = seconds ? Json(*seconds) : Json(nullptr);
   entry["folder"] = planned.folder;
   entry["content"] = content_name(planned.content);
   return entry;
@@ -225,7 +281,7 @@ int check_command(const Options& options) {
       continue;
     }
     if (options.quiet) continue;
-    const Findings findings = examine(*planned.scene);
+    const Findings findings = examine(planned);
     if (options.json) {
       entries.push_back(as_json(planned, findings));
     } else {

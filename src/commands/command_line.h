@@ -44,6 +44,7 @@ struct Options {
   std::vector<std::string> grid;  // path=from:to:count, path=value,value
   std::optional<Shard> shard;
   bool plan = false;  // show, do not do
+  bool page = false;  // of explain: the whole format
   bool slurm = false;
   std::optional<std::size_t> parts;  // of a sweep
   std::vector<std::string> batch;    // further options of the batch system

@@ -202,6 +202,7 @@ const Option table[] = {
      [](Options& o, const Words& w) { o.jobs = whole(w, "--jobs", 1, 4096); }},
     {"--force", "", "", "overwrite other content of the folder, run again what\nis up to date, lift the budget",
      [](Options& o, const Words&) { o.force = true; }},
+    {"--page", "", "", "the whole format as a page of Markdown", [](Options& o, const Words&) { o.page = true; }},
     {"--progress", "", "HOW", "auto, bar, lines or none (auto: a bar on a terminal,\nlines elsewhere)",
      [](Options& o, const Words& w) { o.progress = chosen<ProgressChoice>(w, "--progress", progress_names); },
      progress_names},

@@ -5,7 +5,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <new>
 
@@ -51,23 +50,22 @@ LoadOptions load_options(const Options& options, Purpose purpose) {
   load.set = options.set;
   load.seed = options.seed;
   load.budget.enforced = !options.force;
-  if (options.only || purpose == Purpose::bench)
-    load.budget.frames = load.budget.rows = std::numeric_limits<std::uint64_t>::max();  // see below
+  if (options.only || purpose == Purpose::bench) load.budget = load.budget.without_outputs();  // see below
   load.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
   load.color = !options.json && wants_color(options.color, STDERR_FILENO);
   return load;
 }
 
 // With --only it is not the file's outputs that count, but those that are left or added.
-void hold_to_budget(const Forecast& forecast) {
+void hold_to_budget(const Scene& scene, const Forecast& forecast) {
   const Budget budget;
   if (forecast.frames > budget.frames) {
     throw ExportError(fmt::format("--only asks for {}, more than the {} that a run may draw without --force",
                                   counted(forecast.frames, "picture", "pictures"), grouped(budget.frames)));
   }
-  if (forecast.rows > budget.rows) {
-    throw ExportError(fmt::format("--only asks for {}, more than the {} that a run may write without --force",
-                                  counted(forecast.rows, "trajectory row", "trajectory rows"), grouped(budget.rows)));
+  for (const Excess& excess : excesses(scene.output, scene.simulate.duration, scene.world.body_count(), budget)) {
+    throw ExportError(fmt::format("--only asks for {:.15g} {}, more than the {} that a run may write without --force",
+                                  excess.figure, excess.what, grouped(excess.limit)));
   }
 }
 
@@ -79,7 +77,7 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
   planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   planned.engine = choose_engine(*planned.scene);
   planned.forecast = forecast(*planned.scene);
-  if (options.only && !options.force) hold_to_budget(planned.forecast);
+  if (options.only && !options.force) hold_to_budget(*planned.scene, planned.forecast);
   std::error_code ignored;
   if (fs::exists(planned.folder, ignored) && !fs::is_directory(planned.folder, ignored)) {
     throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));

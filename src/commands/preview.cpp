@@ -3,19 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "commands/interrupt.h"
 #include "render/camera.h"
-#include "study/engine.h"
 
 namespace carom {
 
 namespace {
-
-Size picture_size(const Output& output) {
-  if (output.frames) return output.frames->size;
-  if (output.video) return output.video->size;
-  return {};
-}
 
 // The picture's axis that +x lies along most; ahead and back only where it has no length in the picture at all.
 std::string direction_of_plus_x(const View& view) {
@@ -27,27 +19,10 @@ std::string direction_of_plus_x(const View& view) {
 
 }  // namespace
 
-FirstCollision predict_first_collision(const Scene& scene) {
-  FirstCollision result;
-  try {
-    const std::unique_ptr<Simulator> oracle = make_oracle(scene);
-    // Each step doubles the time reached, so that little is simulated beyond the first collision.
-    for (int halvings = 20; halvings >= 0; --halvings) {
-      const double time = std::ldexp(scene.simulate.duration, -halvings);
-      while (oracle->time() < time) {
-        stop_if_interrupted();
-        oracle->advance_to(time);
-        for (const Collision& collision : oracle->collisions()) {
-          if (collision.kind == CollisionKind::rest) continue;
-          result.collision = collision;
-          return result;
-        }
-      }
-    }
-  } catch (const SimulationError& error) {
-    result.trouble = error.what();
-  }
-  return result;
+Size picture_size(const Output& output) {
+  if (output.frames) return output.frames->size;
+  if (output.video) return output.video->size;
+  return {};
 }
 
 CameraPreview preview_camera(const Scene& scene) {

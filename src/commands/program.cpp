@@ -9,10 +9,13 @@
 #include "commands/check.h"
 #include "commands/compare.h"
 #include "commands/diff.h"
+#include "commands/explain.h"
 #include "commands/gather.h"
 #include "commands/interrupt.h"
+#include "commands/new.h"
 #include "commands/report.h"
 #include "commands/run.h"
+#include "commands/schema.h"
 #include "commands/submit.h"
 #include "commands/sweep.h"
 #include "commands/text.h"
@@ -29,9 +32,10 @@ struct Command {
 
 const std::vector<Command>& commands() {
   static const std::vector<Command> all = {
-      {run_text(), run_command},       {check_text(), check_command},   {sweep_text(), sweep_command},
-      {gather_text(), gather_command}, {submit_text(), submit_command}, {compare_text(), compare_command},
-      {diff_text(), diff_command},     {bench_text(), bench_command},
+      {run_text(), run_command},       {check_text(), check_command},     {sweep_text(), sweep_command},
+      {gather_text(), gather_command}, {submit_text(), submit_command},   {compare_text(), compare_command},
+      {diff_text(), diff_command},     {bench_text(), bench_command},     {new_text(), new_command},
+      {schema_text(), schema_command}, {explain_text(), explain_command},
   };
   return all;
 }
@@ -47,6 +51,7 @@ std::string program_help() {
   std::string text =
       "carom turns scenes of balls, walls and planes into exact motion, data and pictures.\n\n"
       "Examples:\n"
+      "  carom new first                               writes first.yaml, a scene to start from\n"
       "  carom check scenes/two_bowling_balls.yaml     what would happen, and all that is wrong\n"
       "  carom run scenes/two_bowling_balls.yaml       writes output/two_bowling_balls/\n"
       "  carom run scenes/*.yaml --only collisions     many scenes, only their collisions\n\n"

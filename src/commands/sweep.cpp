@@ -71,6 +71,8 @@ class SweepSession {
     show_progress("scenarios", job.sweep().size());
     job.plan([&](const SweepProgress& p) { tell(p); });
     progress_.reset();
+    for (const std::string& path : job.idle_paths())
+      complain(options_, fmt::format("{} makes no difference to the motion: what it sets is not used", path));
     if (options_.plan) {
       show_plan(options_, job);
       return 0;

@@ -10,6 +10,7 @@
 #include "export/open_folder.h"
 #include "export/picture_streams.h"
 #include "export/png.h"
+#include "export/series.h"
 #include "export/sheet.h"
 #include "export/tables.h"
 #include "export/writer.h"
@@ -26,6 +27,10 @@ void check_film_name(const Scene& scene) {
   if (!is_plain_name(name)) throw ExportError("cannot make the film " + name + ": that is no plain file name");
 }
 
+void append(std::vector<FileRecord>& to, const std::vector<FileRecord>& records) {
+  to.insert(to.end(), records.begin(), records.end());
+}
+
 }  // namespace
 
 struct Exports::Impl {
@@ -35,8 +40,11 @@ struct Exports::Impl {
   };
 
   // What can be refused is refused here, before the folder is touched.
-  Impl(const Scene& the_scene, const std::string& path, Durability durability)
-      : scene(the_scene), timeline(the_scene.simulate.duration), plan(plan_pictures(the_scene)) {
+  Impl(const Scene& the_scene, const std::string& path, Durability durability, ModelMakers the_makers)
+      : scene(the_scene),
+        makers(std::move(the_makers)),
+        timeline(the_scene.simulate.duration),
+        plan(plan_pictures(the_scene)) {
     const Output& output = scene.output;
     check_film_name(scene);
     const std::vector<MeshCopy> meshes = read_meshes(scene);
@@ -49,43 +57,38 @@ struct Exports::Impl {
       const WriterKind* writer = writer_named(kind.name);
       if (writer == nullptr || !kind.asked(output)) continue;
       const int ticks = kind.every ? timeline.add(Ticks::every(kind.every(output), scene.simulate.duration)) : -1;
-      writers.push_back({writer->open(*folder, scene), ticks});
+      writers.push_back({writer->open(*folder, scene, makers), ticks});
     }
-    if (output.frames) frames_place = folder->series(frame_files);
+    if (output.frames) frames.emplace(*folder, frame_files);
     if (output.video) film.emplace(folder->place(), *output.video, std::move(*tools));
     if (output.sheet) sheet.emplace(*output.sheet, sheet_model(output).size);
     for (std::size_t i = 0; i < plan.streams.size(); ++i) plan.streams[i].timeline_stream = timeline.add(plan.ticks[i]);
   }
 
   void write_frame(std::int64_t number, const Image& image, bool again) {
-    OutputFile file(frames_place, frame_files.name(number));
     if (!again || frame.empty()) frame = encode_png(image, PngEffort::fast);
-    file.write(frame);
-    file.publish();
-    folder->keep();
-    frame_records.push_back(file.record());
-    frame_records.back().name.insert(0, std::string(frame_files.folder) + "/");
+    frames->put(number, frame);
   }
 
   bool due(int stream) const { return stream >= 0 && timeline.due(stream); }
 
   const Scene& scene;
+  const ModelMakers makers;
   Timeline timeline;
   PictureStreams plan;
   std::uint64_t pictures = 0;
   std::vector<FileRecord> first_records;  // of what stands there from the beginning
-  std::vector<FileRecord> frame_records;
   // What writes into the folder is gone before the folder is put in order.
   std::optional<OpenFolder> folder;
-  FilePlace frames_place;
+  std::optional<Series> frames;
   std::string frame;  // the last one, as PNG
   std::vector<OpenWriter> writers;
   std::optional<Film> film;
   std::optional<Sheet> sheet;
 };
 
-Exports::Exports(const Scene& scene, const std::string& folder, Durability durability)
-    : impl_(std::make_unique<Impl>(scene, folder, durability)) {}
+Exports::Exports(const Scene& scene, const std::string& folder, Durability durability, ModelMakers makers)
+    : impl_(std::make_unique<Impl>(scene, folder, durability, std::move(makers))) {}
 
 Exports::~Exports() = default;
 
@@ -159,7 +162,8 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
     impl_->film->complete();
     records.push_back(impl_->film->record());
   }
-  records.insert(records.end(), impl_->frame_records.begin(), impl_->frame_records.end());
+  if (impl_->frames) append(records, impl_->frames->records());
+  for (const Impl::OpenWriter& open : impl_->writers) append(records, open.writer->published());
   OutputFile manifest(place, manifest_name);
   manifest.write(manifest_text(impl_->scene, summary, facts, records));
   manifest.complete();

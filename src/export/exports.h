@@ -13,6 +13,7 @@
 #include "physics/state.h"
 #include "physics/tally.h"
 #include "render/image.h"
+#include "render/model.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -53,9 +54,11 @@ struct RunFacts {
   std::vector<Measured> measures{};
 };
 
-/// How many trajectory rows, pictures and, roughly, bytes a run of this scene will write.
+/// How many trajectory rows, pictures and, roughly, bytes a run of this scene will write, and how long that and drawing
+/// may take.
 struct Forecast {
   std::uint64_t rows = 0, frames = 0, bytes = 0;
+  double seconds = 0;
 };
 Forecast forecast(const Scene& scene);
 
@@ -63,9 +66,10 @@ class Exports {
  public:
   /// Opens only what scene.output asks for, in `folder`, which is made if need be and locked against other runs.
   /// Removes what a former run left there (by its manifest). What can be known to fail is refused before anything is
-  /// touched: ffmpeg missing, a video without pictures, a sheet too large. `scene` must outlive this. Throws
-  /// ExportError.
-  Exports(const Scene& scene, const std::string& folder, Durability durability = Durability::synced);
+  /// touched: ffmpeg missing, a video without pictures, a sheet too large. `scene` must outlive this. `makers`: what
+  /// vtk and gltf want of render/. Throws ExportError.
+  Exports(const Scene& scene, const std::string& folder, Durability durability = Durability::synced,
+          ModelMakers makers = {});
   /// Without finish(): what was not whole is removed; frames that are whole stay.
   ~Exports();
   Exports(const Exports&) = delete;

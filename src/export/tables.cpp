@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "export/bodies.h"
 #include "export/exports.h"
 #include "export/manifest.h"
 #include "physics/energy.h"
@@ -24,9 +25,6 @@ constexpr std::size_t block_rows = 4096;
 /// A block's digits are worth a thread from the second block on.
 constexpr std::uint64_t blocks_alone = 1;
 
-/// The most characters of a member's name behind its group's: a dot and the member's number.
-constexpr std::size_t member_size = 1 + number_size;
-
 char* put_motion(char* to, const Vec3& position, const Vec3& velocity) {
   for (int axis = 0; axis < 3; ++axis) {
     *to++ = ',';
@@ -37,18 +35,6 @@ char* put_motion(char* to, const Vec3& position, const Vec3& velocity) {
     to = put_number(to, velocity[axis]);
   }
   return to;
-}
-
-bool is_part_of_another(const State& state, Entity body) {
-  return !state.part_of.empty() && state.part_of[body] != body;
-}
-
-/// Names are [A-Za-z_][A-Za-z0-9_-]*, so that they are cells as they stand.
-char* put_member(char* to, const BodyRange& range, Entity body) {
-  to = put_text(to, range.name);
-  if (!range.group) return to;
-  *to++ = '.';
-  return put_number(to, std::uint64_t{body - range.first});
 }
 
 /// The cell of a body or a fixed thing, after its comma; of no_entity, an empty one.

@@ -1,6 +1,9 @@
 #include "export/writer.h"
 
+#include "export/gltf.h"
 #include "export/tables.h"
+#include "export/vtk.h"
+#include "export/xyz.h"
 
 namespace carom {
 namespace {
@@ -10,7 +13,7 @@ constexpr double motion_bytes = 114, time_bytes = 6, name_bytes = 8, energy_byte
                  contact_bytes = 40;
 
 template <typename Table>
-std::unique_ptr<Writer> open(OpenFolder& folder, const Scene& scene) {
+std::unique_ptr<Writer> open(OpenFolder& folder, const Scene& scene, const ModelMakers&) {
   return std::make_unique<Table>(folder.place(), scene);
 }
 
@@ -29,6 +32,21 @@ constexpr WriterKind all_kinds[] = {
     // Which bodies rest when nobody knows; half of them always.
     {"contacts", open<ContactTable>,
      [](const Scene& scene, double instants) { return contact_bytes * instants * scene.world.body_count() / 2; }},
+    {"vtk",
+     [](OpenFolder& folder, const Scene& scene, const ModelMakers& makers) -> std::unique_ptr<Writer> {
+       return std::make_unique<VtkWriter>(folder, scene, makers);
+     },
+     VtkWriter::bytes},
+    {"xyz",
+     [](OpenFolder& folder, const Scene& scene, const ModelMakers&) -> std::unique_ptr<Writer> {
+       return std::make_unique<XyzWriter>(folder, scene);
+     },
+     XyzWriter::bytes},
+    {"gltf",
+     [](OpenFolder& folder, const Scene& scene, const ModelMakers& makers) -> std::unique_ptr<Writer> {
+       return std::make_unique<GltfWriter>(folder, scene, makers);
+     },
+     GltfWriter::bytes},
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "physics/collision.h"
 #include "physics/contact_force.h"
 #include "physics/state.h"
+#include "render/model.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -26,12 +27,14 @@ class Writer {
   virtual void add(double, const State&, std::span<const ContactForce>) {}
   /// Its files with all their bytes, not complete yet; after the last add().
   virtual std::vector<OutputFile*> files() = 0;
+  /// Its files that have their names already.
+  virtual std::vector<FileRecord> published() const { return {}; }
 };
 
 struct WriterKind {
   std::string_view name;  // its OutputKind's
   /// Opens its files; what can be refused without is refused before. Throws ExportError.
-  std::unique_ptr<Writer> (*open)(OpenFolder& folder, const Scene& scene);
+  std::unique_ptr<Writer> (*open)(OpenFolder& folder, const Scene& scene, const ModelMakers& makers);
   /// Roughly, of all its files, at so many instants.
   double (*bytes)(const Scene& scene, double instants);
 };

@@ -80,12 +80,6 @@ Box box_of(const Scene& scene) {
   return all;
 }
 
-Size picture_size(const Scene& scene) {
-  if (scene.output.frames) return scene.output.frames->size;
-  if (scene.output.video) return scene.output.video->size;
-  return {};
-}
-
 double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a;
   const double length2 = ab.squaredNorm();
@@ -107,6 +101,12 @@ double distance_to_quad(const Vec3& p, std::span<const Vec3, 4> q) {
 }
 
 }  // namespace
+
+Size picture_size(const Output& output) {
+  if (output.frames) return output.frames->size;
+  if (output.video) return output.video->size;
+  return {};
+}
 
 View view_of(const Camera& camera, Size size) {
   View view;
@@ -157,7 +157,7 @@ Camera camera_of(const Scene& scene) {
   camera.target = (box.min + box.max) / 2;
   const Vec3 back = Vec3(0, std::sin(18 * degree), std::cos(18 * degree));  // from the front, looking slightly down
   camera.eye = camera.target + back;
-  const View view = view_of(camera, picture_size(scene));
+  const View view = view_of(camera, picture_size(scene.output));
   const double margin = 1.12;
   const double tx = std::tan(view.fov_x * degree / 2) / margin, ty = std::tan(view.fov_y * degree / 2) / margin;
 

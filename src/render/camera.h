@@ -8,6 +8,9 @@ namespace carom {
 /// The scene's camera, or where it names none, one that sees all bodies at time 0 (and the fixed things near them).
 Camera camera_of(const Scene& scene);
 
+/// Of the frames, else of the film, else what is usual.
+Size picture_size(const Output& output);
+
 /// The camera's right-handed frame and its angles.
 struct View {
   Vec3 right, up, forward;  // unit; right = forward x up

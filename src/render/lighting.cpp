@@ -122,6 +122,14 @@ std::array<float, 3> linear(const Color& srgb) {
   return {static_cast<float>(decode(srgb.r)), static_cast<float>(decode(srgb.g)), static_cast<float>(decode(srgb.b))};
 }
 
+KeyLight default_light(const View& view) {
+  Vec3 ahead = Vec3(view.forward.x(), 0, view.forward.z());
+  if (!(ahead.norm() > 1e-3)) ahead = Vec3(view.up.x(), 0, view.up.z());
+  ahead.normalize();
+  const Vec3 right = Vec3(-ahead.z(), 0, ahead.x());
+  return {(-0.55 * right + 1.0 * Vec3(0, 1, 0) - 0.45 * ahead).normalized(), {0.82F, 0.80F, 0.76F}};
+}
+
 Lighting::Lighting(const Scene& scene, const Eye& eye)
     : axes_{eye.direction(Vec3(1, 0, 0)), eye.direction(Vec3(0, 1, 0)), eye.direction(Vec3(0, 0, 1))} {
   if (scene.lights.size() > most_lights)
@@ -133,14 +141,8 @@ Lighting::Lighting(const Scene& scene, const Eye& eye)
     lights_.push_back(source);
   }
   if (scene.lights.empty()) {
-    // From above, left of and behind the camera, in the world's own upright frame, so that a steep camera keeps the sun
-    // high.
-    Vec3 ahead = Vec3(eye.view.forward.x(), 0, eye.view.forward.z());
-    if (!(ahead.norm() > 1e-3)) ahead = Vec3(eye.view.up.x(), 0, eye.view.up.z());
-    ahead.normalize();
-    const Vec3 right = Vec3(-ahead.z(), 0, ahead.x());
-    const Vec3 towards = (-0.55 * right + 1.0 * Vec3(0, 1, 0) - 0.45 * ahead).normalized();
-    lights_.push_back({false, eye.direction(towards), {0.82F, 0.80F, 0.76F}});
+    const KeyLight light = default_light(eye.view);
+    lights_.push_back({false, eye.direction(light.towards), light.radiance});
   }
   if (lights_[0].near) lamp_radius_ = softness * (eye.point(eye.camera.target) - lights_[0].vector).norm();
   ambient_ = scene.ambient ? linear(*scene.ambient) : std::array<float, 3>{0.26F, 0.28F, 0.31F};

@@ -14,6 +14,14 @@ namespace carom {
 /// An authored colour in linear light (IEC 61966-2-1).
 std::array<float, 3> linear(const Color& srgb);
 
+struct KeyLight {
+  Vec3 towards;                   // unit, in the world's frame
+  std::array<float, 3> radiance;  // linear
+};
+/// The light of a scene that names none: from above, left of and behind the camera, in the world's own upright frame,
+/// so that a steep camera keeps the sun high.
+KeyLight default_light(const View& view);
+
 class Lighting {
  public:
   /// Throws RenderError if there are more lights than can be drawn.

@@ -20,18 +20,12 @@ std::vector<std::string_view> keys_of(const Kind& kind) {
   for (const Field& field : kind.fields) {
     keys.push_back(field.key);
   }
-  if (!kind.also.empty()) keys.push_back(kind.also);
+  if (kind.also != nullptr) keys.push_back(kind.also->key);
   return keys;
 }
 
 bool is_before(const Place& a, const Place& b) {
   return std::tie(a.source, a.offset) < std::tie(b.source, b.offset);
-}
-
-/// The key of `defaults` that a map of this kind falls back on; empty: none.
-std::string_view defaults_key(const Kind& kind) {
-  const std::string_view key = kind.name == "member" ? "ball" : kind.name;
-  return find_field(kind_named("defaults"), key) == nullptr ? std::string_view() : key;
 }
 
 class Checker : ValueChecker {
@@ -48,20 +42,56 @@ class Checker : ValueChecker {
     for (std::size_t i = 0; i < node.keys.size(); ++i) entry(node.keys[i], node.items[i], node, kind, what, partial);
     if (partial) return;
     const Node* defaults = defaults_for(root_, kind);
+    needed(node, defaults, kind, what, where);
+    needed_beside(View(&node, kind, where, defaults), node, what);
+    one_of_any(node, kind, what, where);
+    // A part that is not here but in the defaults has to be whole, too.
+    for (const Field& field : kind.fields) {
+      if (field.type != Type::part || node.find_key(field.key) != nullptr || defaults == nullptr) continue;
+      const Node* part = defaults->find(field.key);
+      if (part == nullptr || !part->is(Node::Kind::map) || kind_named(field.of).defaults.empty()) continue;
+      Node whole = *part;
+      needed(whole, defaults_for(root_, kind_named(field.of)), kind_named(field.of), quoted(field.key), where);
+    }
+  }
+
+ private:
+  void needed(Node& node, const Node* defaults, const Kind& kind, const std::string& what, Place where) {
     for (const Field& field : kind.fields) {
       if (!field.needed || has_any(node, defaults, field)) continue;
       node.bad = true;
       if (!is_misspelt_in(node, kind, field)) missing(node, defaults, kind, field, what, where);
     }
-    const View view(&node, kind, where, defaults);
-    if (view.given("fit") == nullptr || view.given("mesh") != nullptr) return;
-    const Key* fit = node.find_key("fit");
-    node.bad = true;
-    diagnostics_.add(fit == nullptr ? where : fit->place, fmt::format("{} has a `fit` but no `mesh`", what),
-                     "expected `mesh`: " + expected(*find_field(kind, "mesh")));
   }
 
- private:
+  /// Field::with.
+  void needed_beside(const View& view, Node& node, const std::string& what) {
+    for (const Field& field : view.kind().fields) {
+      if (field.with.empty() || view.given(field.key) == nullptr || view.given(field.with) != nullptr) continue;
+      const Key* key = node.find_key(field.key);
+      node.bad = true;
+      diagnostics_.add(
+          key == nullptr ? view.where() : key->place,
+          fmt::format("{} has a {} but no {}", what, quoted(field.key), quoted(field.with)),
+          fmt::format("expected {}: {}", quoted(field.with), expected(*find_field(view.kind(), field.with))));
+    }
+  }
+
+  /// Kind::any_of.
+  void one_of_any(Node& node, const Kind& kind, const std::string& what, Place where) {
+    const std::vector<std::string_view> keys = parts_of(kind.any_of);
+    if (keys.empty() || std::any_of(keys.begin(), keys.end(), [&](auto key) { return node.find_key(key) != nullptr; }))
+      return;
+    std::string message = what + " has", remedy = "expected ";
+    for (const std::string_view key : keys) {
+      const bool first = key == keys.front();
+      message += fmt::format("{} no {}", first ? "" : " and", quoted(key));
+      remedy += fmt::format("{}{} ({})", first ? "" : ", ", quoted(key), find_field(kind, key)->unit);
+    }
+    node.bad = true;
+    diagnostics_.add(where, std::move(message), remedy + " or both");
+  }
+
   /// Whether an unknown key of the map was probably meant to be this field: one error is enough for both.
   static bool is_misspelt_in(const Node& node, const Kind& kind, const Field& field) {
     for (std::size_t i = 0; i < std::min(node.keys.size(), most_suggestions); ++i) {
@@ -254,7 +284,7 @@ class Checker : ValueChecker {
   void part(Node& value, const Field& field, const Key& key, bool partial) {
     const Kind& kind = kind_named(field.of);
     // `defaults: {ball: ...}` is partial; so is what stands in it, if it has defaults of its own.
-    map(value, kind, quoted(key.text), key.place, kind.name == "defaults" || (partial && !defaults_key(kind).empty()));
+    map(value, kind, quoted(key.text), key.place, kind.name == "defaults" || (partial && !kind.defaults.empty()));
   }
 
   bool has_entries(Node& value, const std::string& name, const std::string& wanted) {
@@ -299,7 +329,7 @@ class Checker : ValueChecker {
     const Kind& kind = kind_named(field.of);
     for (std::size_t i = 0; i < value.keys.size(); ++i) {
       const Key& key = value.keys[i];
-      if (!kind.also.empty() && key.text == kind.also) {
+      if (kind.also != nullptr && key.text == kind.also->key) {
         color(value.items[i], quoted(key.text));
         continue;
       }
@@ -328,10 +358,9 @@ void check_sweep(Node& root, Diagnostics& diagnostics) {
 }
 
 const Node* defaults_for(const Node& root, const Kind& kind) {
-  const std::string_view key = defaults_key(kind);
-  if (key.empty()) return nullptr;
+  if (kind.defaults.empty()) return nullptr;
   const Node* defaults = root.find("defaults");
-  const Node* node = defaults == nullptr ? nullptr : defaults->find(key);
+  const Node* node = defaults == nullptr ? nullptr : defaults->find(kind.defaults);
   return node != nullptr && node->is(Node::Kind::map) ? node : nullptr;
 }
 

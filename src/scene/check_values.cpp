@@ -91,7 +91,11 @@ void ValueChecker::choice(Node& value, const Field& field, const std::string& na
   }
   const std::vector<std::string_view> all = choices(field);
   for (const std::string_view one : all) {
-    if (value.text == one) return;
+    if (value.text != one) continue;
+    if (!value.quoted || !parse_number(value.text)) return;
+    Complaint complaint = explain_number(value, field);
+    refuse(value, std::move(complaint.message), std::move(complaint.remedy));
+    return;
   }
   const std::string near = nearest(value.text, all);
   refuse(value, fmt::format("{} is {}", name, quoted(value.text)),

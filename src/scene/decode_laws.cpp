@@ -102,12 +102,9 @@ std::optional<ForceLaw> decode_acceleration(const View& force, Diagnostics&) {
   return value && !value->isZero(0) ? std::optional<ForceLaw>(UniformAcceleration{*value}) : std::nullopt;
 }
 
-std::optional<ForceLaw> decode_drag(const View& force, Diagnostics& diagnostics) {
+std::optional<ForceLaw> decode_drag(const View& force, Diagnostics&) {
   const View view = force.part("drag", "drag");
   if (view.own() == nullptr) return std::nullopt;
-  if (view.given("linear") == nullptr && view.given("quadratic") == nullptr)
-    diagnostics.add(force.place("drag"), "`drag` has no `linear` and no `quadratic`",
-                    "expected `linear` (kg/s), `quadratic` (kg/m) or both");
   const Drag drag{view.number("linear").value_or(0), view.number("quadratic").value_or(0),
                   view.vector("wind").value_or(Vec3(Vec3::Zero()))};
   return drag.linear != 0 || drag.quadratic != 0 ? std::optional<ForceLaw>(drag) : std::nullopt;

@@ -57,9 +57,6 @@ class Requests {
     s.step = view.number("step");
     if (s.engine == Engine::book && view.given("step") == nullptr) s.step = 1.0 / 60;
     s.tolerance = view.number("tolerance");
-    if (s.tolerance && view.given("step") != nullptr)
-      diagnostics_.add(view.place("tolerance"), "`simulate` has both `step` and `tolerance`",
-                       "expected one of them: the step itself, or the error that it is chosen for");
     s.rest_speed = view.number("rest_speed");
     s.max_collisions = view.whole("max_collisions");
     s.as_printed = view.flag("as_printed").value_or(false);
@@ -144,6 +141,9 @@ class Requests {
       out.sheet = SheetOutput{static_cast<int>(part.whole("columns").value_or(4)),
                               static_cast<int>(part.whole("rows").value_or(3))};
     }
+    if (wanted(view, "vtk")) out.vtk = VtkOutput{view.part("vtk", "vtk").number("every").value_or(1)};
+    if (wanted(view, "xyz")) out.xyz = XyzOutput{view.part("xyz", "xyz").number("every").value_or(1)};
+    if (wanted(view, "gltf")) out.gltf = GltfOutput{view.part("gltf", "gltf").number("fps").value_or(1)};
   }
 
   void video(const View& part) {
@@ -205,17 +205,16 @@ class Requests {
       diagnostics_.add(place, fmt::format("the run would write {:.15g} {}; the limit is {}", figure, what, limit),
                        fmt::format("expected {}, or --force if that is meant", change));
     };
-    if (out.trajectory && inventory_.fits) {
-      const double rows = (std::ceil(scene_.simulate.duration / out.trajectory->every) + 1) *
-                          static_cast<double>(inventory_.body_count);
-      if (rows > static_cast<double>(budget_.rows)) {
-        const View part = view.part("trajectory", "trajectory");
-        const View simulate = scene_part(root_, "simulate");
-        refuse(view.own() == nullptr ? simulate.place("duration") : part.place("every"), rows, "rows of trajectory.csv",
-               budget_.rows,
-               view.own() == nullptr ? "`output: {trajectory: {every: ...}}` with a longer time between rows"
-                                     : "a longer `every`, a shorter duration or fewer bodies");
-      }
+    const double bodies = inventory_.fits ? inventory_.body_count : 0;
+    for (const Excess& excess : excesses(out, scene_.simulate.duration, bodies, budget_)) {
+      const OutputKind& kind = *excess.kind;
+      const bool unsaid = view.own() == nullptr;
+      refuse(unsaid ? scene_part(root_, "simulate").place("duration")
+                    : view.part(kind.name, kind.name).place(kind.spacing),
+             excess.figure, excess.what, excess.limit,
+             unsaid ? "`output: {trajectory: {every: ...}}` with a longer time between rows"
+                    : fmt::format("a {} `{}`, a shorter duration or fewer bodies",
+                                  kind.spacing == "every" ? "longer" : "lower", kind.spacing));
     }
     // Frames and a video of the same pictures share them.
     double total = 0, most = -1;
@@ -265,9 +264,10 @@ bool wanted(const View& output, std::string_view part) {
 }
 
 View video_view(const View& output) {
-  const Node* frames = output.given("frames");
+  const Kind& video = kind_named("video");
+  const Node* frames = output.given(video.beneath);
   const Key* key = output.own() == nullptr ? nullptr : output.own()->find_key("video");
-  return View(output.given("video"), kind_named("video"), key == nullptr ? output.where() : key->place,
+  return View(output.given("video"), video, key == nullptr ? output.where() : key->place,
               frames != nullptr && frames->is(Node::Kind::map) ? frames : nullptr);
 }
 

@@ -39,6 +39,7 @@ struct Range {
   double max = std::numeric_limits<double>::infinity();
   bool above_min = false;  // min itself is not allowed
   bool below_max = false;  // max itself is not allowed
+  bool even = false;       // whole numbers only
 };
 
 struct Field {
@@ -51,6 +52,11 @@ struct Field {
   std::string_view one_of = {};   // keys of the kind that exclude one another, this one among them, separated by |
   bool needed = false;            // this or another of `one_of`
   std::string_view doc = {};
+  std::string_view example = {};  // a value as YAML
+  std::string_view title = {};    // empty: the key says it
+  std::string_view with = {};     // a key of the kind that has to stand beside this one
+  std::string_view engines = {};  // those that know another value than `initial`, separated by |; empty: all
+  std::string_view pattern = {};  // of a text or of names, a regular expression for the schema
 };
 
 struct Kind {
@@ -58,13 +64,18 @@ struct Kind {
   std::string_view article;  // for messages: "a", "an", or "" before a name that is the key itself
   std::string_view doc;
   std::span<const Field> fields;
-  std::string_view also = {};  // a named map of this kind may hold this key of another type too (lights: ambient)
+  const Field* also = nullptr;     // a colour that may stand beside the names of such maps (lights: ambient)
+  std::string_view defaults = {};  // the key of `defaults` with what a map of this kind does not say itself
+  std::string_view any_of = {};    // keys of which at least one is there, separated by |
+  std::string_view beneath = {};   // the kind beside it whose values hold where a map of this kind has none
 };
 
 /// Every kind of a scene file, "scene" first.
 std::span<const Kind> kinds();
 /// Every kind of a sweep file, "sweep" first.
 std::span<const Kind> sweep_kinds();
+/// The kinds of each sort of file; a file is a map of the first of them.
+std::vector<std::span<const Kind>> families();
 const Kind& kind_named(std::string_view name);  // there must be one
 const Field* find_field(const Kind& kind, std::string_view key);
 
@@ -75,6 +86,9 @@ bool contains(const Range& range, double value);
 /// What a value of this field looks like: "a number above 0 in kg", "[x, y, z] in m", "average, minimum or maximum".
 std::string expected(const Field& field);
 
+/// What the field is in sentences: its doc, what a value looks like, its default, what it excludes.
+std::string described(const Field& field);
+
 /// "a|b|c", one by one.
 std::vector<std::string_view> parts_of(std::string_view text);
 
@@ -83,6 +97,12 @@ std::vector<std::string_view> rivals(const Field& field);
 
 /// The choices, one by one.
 std::vector<std::string_view> choices(const Field& field);
+
+/// "Rest speed": the title, or what the key says.
+std::string title_of(const Field& field);
+
+/// The kind of the map that the value is, or of those in it; null: there are none.
+const Kind* held_kind(const Field& field);
 
 /// "a", "a or b", "a, b or c"
 std::string listed(const std::vector<std::string_view>& words);

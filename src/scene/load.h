@@ -8,17 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "scene/budget.h"
 #include "scene/scene.h"
 
 namespace carom {
-
-/// How much a scene may ask for before anything is allocated for it.
-struct Budget {
-  std::uint64_t bodies = 2'000'000;
-  std::uint64_t frames = 100'000;    // pictures of all kinds together
-  std::uint64_t rows = 200'000'000;  // of trajectory.csv
-  bool enforced = true;              // --force: false
-};
 
 struct LoadOptions {
   std::vector<std::string> set;       // "path=value", in order

@@ -48,7 +48,9 @@ constexpr OutputKind all_kinds[] = {
            return Json{{"every", o.trajectory->every}, {"layout", o.trajectory->wide ? "wide" : "long"}};
          },
      .every = [](const Output& o) { return o.trajectory->every; },
-     .files = "trajectory.csv"},
+     .files = "trajectory.csv",
+     .rows = "rows of trajectory.csv",
+     .spacing = "every"},
     {.name = "collisions",
      .asked = [](const Output& o) { return o.collisions; },
      .add = [](Output& to, const Output&) { to.collisions = true; },
@@ -109,6 +111,41 @@ constexpr OutputKind all_kinds[] = {
            return Json{{"columns", o.sheet->columns}, {"rows", o.sheet->rows}};
          },
      .files = "sheet.png"},
+    {.name = "vtk",
+     .asked = [](const Output& o) { return o.vtk.has_value(); },
+     .add = [](Output& to, const Output& asked) { take(to.vtk, asked.vtk); },
+     .settings =
+         [](const Output& o) {
+           return Json{{"every", o.vtk->every}};
+         },
+     .every = [](const Output& o) { return o.vtk->every; },
+     .files = "trajectory.pvd|surfaces.vtp",
+     .series = vtk_files,
+     .rows = "points of vtk/",
+     .spacing = "every"},
+    {.name = "xyz",
+     .asked = [](const Output& o) { return o.xyz.has_value(); },
+     .add = [](Output& to, const Output& asked) { take(to.xyz, asked.xyz); },
+     .settings =
+         [](const Output& o) {
+           return Json{{"every", o.xyz->every}};
+         },
+     .every = [](const Output& o) { return o.xyz->every; },
+     .files = "trajectory.xyz",
+     .rows = "rows of trajectory.xyz",
+     .spacing = "every"},
+    {.name = "gltf",
+     .asked = [](const Output& o) { return o.gltf.has_value(); },
+     .add = [](Output& to, const Output& asked) { take(to.gltf, asked.gltf); },
+     .settings =
+         [](const Output& o) {
+           return Json{{"fps", o.gltf->fps}};
+         },
+     .every = [](const Output& o) { return 1 / o.gltf->fps; },
+     .files = "animation.glb",
+     .rows = "keys of animation.glb",
+     .spacing = "fps",
+     .in_memory = true},
 };
 
 }  // namespace

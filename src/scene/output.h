@@ -43,6 +43,15 @@ struct VideoOutput {
 struct SheetOutput {
   int columns = 4, rows = 3;
 };
+struct VtkOutput {
+  double every = 1.0 / 30;  // s
+};
+struct XyzOutput {
+  double every = 1.0 / 30;  // s
+};
+struct GltfOutput {
+  double fps = 30;
+};
 
 /// What the run shall write; absent means not wanted and nothing is made for it. summary, manifest and scene.yaml
 /// always are.
@@ -54,6 +63,9 @@ struct Output {
   std::optional<FramesOutput> frames;
   std::optional<VideoOutput> video;
   std::optional<SheetOutput> sheet;
+  std::optional<VtkOutput> vtk;
+  std::optional<XyzOutput> xyz;
+  std::optional<GltfOutput> gltf;
   bool pictures() const { return frames || video || sheet; }
 };
 
@@ -69,6 +81,7 @@ struct FileSeries {
 };
 
 inline constexpr FileSeries frame_files{"frames", "frame_", ".png", "picture", "pictures"};
+inline constexpr FileSeries vtk_files{"vtk", "bodies_", ".vtp", "instant", "instants"};
 
 struct OutputKind {
   std::string_view name;  // the key in `output`; what --only calls it
@@ -81,6 +94,9 @@ struct OutputKind {
   std::string (*named)(const Output& output) = nullptr;  // a file's name that the scene gives
   std::string_view files = {};                           // the other files' names, separated by |
   FileSeries series = {};
+  std::string_view rows = {};     // what it has of every body at every instant, in which file; empty: nothing
+  std::string_view spacing = {};  // the key that says how often
+  bool in_memory = false;         // all of that, until the run's end
 };
 
 /// Every output, in the order of the scene's keys, of --only and of the manifest.

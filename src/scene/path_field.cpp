@@ -14,7 +14,7 @@ const Field* field_at(std::string_view path) {
     i = end + 1;
     if (name_next) {
       name_next = false;
-      kind = word == kind->also && !kind->also.empty() ? nullptr : kind;
+      kind = kind->also != nullptr && word == kind->also->key ? nullptr : kind;
     } else if (kind != nullptr) {
       field = find_field(*kind, word);
       if (field == nullptr) return nullptr;

@@ -148,7 +148,7 @@ class Walk {
                                  : fmt::format("did you mean {}?", quoted(near)));
     }
     node_ = child;
-    if (!kind.also.empty() && step.text == kind.also) {
+    if (kind.also != nullptr && step.text == kind.also->key) {
       done_ = true;
     } else {
       kind_ = &kind;

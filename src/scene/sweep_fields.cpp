@@ -7,21 +7,21 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // clang-format off
-constexpr Field grid{.key = "grid", .type = Type::axes, .doc = "Every combination of the values; the last path varies fastest."};
-constexpr Field zip{.key = "zip", .type = Type::axes, .doc = "Values in step: as many of each path."};
-constexpr Field list{.key = "list", .type = Type::cases, .doc = "Combinations as given."};
-constexpr Field skip{.key = "skip", .type = Type::cases, .doc = "Runs that are left out: those that have all values of an entry. A list of numbers or words stands for any of them."};
+constexpr Field grid{.key = "grid", .type = Type::axes, .doc = "Every combination of the values; the last path varies fastest.", .example = "{balls.red.mass: {from: 1, to: 2, count: 3}, balls.red.position.z: [-0.025, 0, 0.025]}"};
+constexpr Field zip{.key = "zip", .type = Type::axes, .doc = "Values in step: as many of each path.", .example = "{balls.red.mass: [1, 2], balls.blue.mass: [2, 1]}"};
+constexpr Field list{.key = "list", .type = Type::cases, .doc = "Combinations as given.", .example = "[{balls.red.mass: 1}, {balls.red.mass: 2, simulate.duration: 5}]"};
+constexpr Field skip{.key = "skip", .type = Type::cases, .doc = "Runs that are left out: those that have all values of an entry. A list of numbers or words stands for any of them.", .example = "[{balls.red.mass: [1, 2], balls.blue.mass: 2}]"};
 
 constexpr Field sweep_fields[] = {
-    {.key = "sweep", .type = Type::whole, .range = {1, 1}, .needed = true, .doc = "Kind of file and version of the format."},
-    {.key = "title", .type = Type::text, .initial = "\"\"", .doc = "What the sweep is, in one line."},
-    {.key = "base", .type = Type::text, .needed = true, .doc = "The scene file that is varied, from the folder of the sweep file."},
-    {.key = "set", .type = Type::settings, .doc = "What differs from the base in every run."},
+    {.key = "sweep", .type = Type::whole, .range = {1, 1}, .needed = true, .doc = "Kind of file and version of the format.", .example = "1"},
+    {.key = "title", .type = Type::text, .initial = "\"\"", .doc = "What the sweep is, in one line.", .example = "Masses"},
+    {.key = "base", .type = Type::text, .needed = true, .doc = "The scene file that is varied, from the folder of the sweep file.", .example = "two_bowling_balls.yaml"},
+    {.key = "set", .type = Type::settings, .doc = "What differs from the base in every run.", .example = "{simulate.duration: 5}"},
     grid, zip, list, skip,
-    {.key = "runs", .type = Type::list, .of = "block", .doc = "Several such blocks, one after the other, instead of grid, zip, list and skip."},
-    {.key = "repeat", .type = Type::part, .of = "repeat", .doc = "Each combination several times, with other seeds."},
-    {.key = "only", .type = Type::names, .doc = "The outputs that are written, of those of --only. Default: what the base asks for."},
-    {.key = "compare", .type = Type::part, .of = "compare", .doc = "What the comparison shows."},
+    {.key = "runs", .type = Type::list, .of = "block", .doc = "Several such blocks, one after the other, instead of grid, zip, list and skip.", .example = "[{grid: {balls.red.mass: [1, 2]}}, {list: [{balls.red.mass: 9}]}]"},
+    {.key = "repeat", .type = Type::part, .of = "repeat", .doc = "Each combination several times, with other seeds.", .example = "{seeds: 10}"},
+    {.key = "only", .type = Type::names, .doc = "The outputs that are written, of those of --only. Default: what the base asks for.", .example = "[collisions, energy]"},
+    {.key = "compare", .type = Type::part, .of = "compare", .doc = "What the comparison shows.", .example = "{measures: [energy_lost_J]}"},
 };
 
 constexpr Field block_fields[] = {
@@ -29,26 +29,26 @@ constexpr Field block_fields[] = {
 };
 
 constexpr Field range_fields[] = {
-    {.key = "from", .type = Type::number, .needed = true, .doc = "The first value."},
-    {.key = "to", .type = Type::number, .needed = true, .doc = "The last value; with step none lies beyond."},
-    {.key = "count", .type = Type::whole, .range = {1, 1e6}, .one_of = "count|step", .needed = true, .doc = "How many values, ends included, evenly spread."},
-    {.key = "step", .type = Type::number, .one_of = "count|step", .doc = "From one value to the next."},
+    {.key = "from", .type = Type::number, .needed = true, .doc = "The first value.", .example = "0.5"},
+    {.key = "to", .type = Type::number, .needed = true, .doc = "The last value; with step none lies beyond.", .example = "1"},
+    {.key = "count", .type = Type::whole, .range = {1, 1e6}, .one_of = "count|step", .needed = true, .doc = "How many values, ends included, evenly spread.", .example = "6"},
+    {.key = "step", .type = Type::number, .one_of = "count|step", .doc = "From one value to the next.", .example = "0.1"},
 };
 
 constexpr Field repeat_fields[] = {
-    {.key = "seeds", .type = Type::whole, .range = {1, 1e6}, .needed = true, .doc = "How many seeds, one after the other."},
-    {.key = "first", .type = Type::whole, .range = {0, infinity}, .doc = "The first one. Default: the scene's seed."},
+    {.key = "seeds", .type = Type::whole, .range = {1, 1e6}, .needed = true, .doc = "How many seeds, one after the other.", .example = "10"},
+    {.key = "first", .type = Type::whole, .range = {0, infinity}, .doc = "The first one. Default: the scene's seed.", .example = "1"},
 };
 
 constexpr Field compare_fields[] = {
-    {.key = "measures", .type = Type::names, .doc = "Columns of summary.csv, and quantities of bodies at the end, such as balls.red.speed_m_per_s."},
-    {.key = "charts", .type = Type::list, .of = "chart", .doc = "Charts of the workbook. Default: each measure over the first path."},
+    {.key = "measures", .type = Type::names, .doc = "Columns of summary.csv, and quantities of bodies at the end, such as balls.red.speed_m_per_s.", .example = "[energy_lost_J, balls.red.speed_m_per_s]"},
+    {.key = "charts", .type = Type::list, .of = "chart", .doc = "Charts of the workbook. Default: each measure over the first path.", .example = "[{x: balls.red.mass, y: energy_lost_J}]"},
 };
 
 constexpr Field chart_fields[] = {
-    {.key = "x", .type = Type::text, .needed = true, .doc = "A swept path, or a measure."},
-    {.key = "y", .type = Type::text, .needed = true, .doc = "A measure."},
-    {.key = "by", .type = Type::text, .doc = "A swept path: a line for each of its values."},
+    {.key = "x", .type = Type::text, .needed = true, .doc = "A swept path, or a measure.", .example = "balls.red.mass"},
+    {.key = "y", .type = Type::text, .needed = true, .doc = "A measure.", .example = "energy_lost_J"},
+    {.key = "by", .type = Type::text, .doc = "A swept path: a line for each of its values.", .example = "balls.blue.mass"},
 };
 // clang-format on
 

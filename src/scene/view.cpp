@@ -14,13 +14,15 @@ std::map<std::string_view, Node> parse_initials() {
   std::map<std::string_view, Node> nodes;
   std::vector<Source> sources(1);
   Diagnostics diagnostics(sources);
-  for (const Kind& kind : kinds()) {
-    for (const Field& field : kind.fields) {
-      if (field.initial.empty() || nodes.contains(field.initial)) continue;
-      sources[0].text = field.initial;
-      if (std::optional<Node> node = parse_document(sources, 0, 0, diagnostics))
-        nodes.emplace(field.initial, std::move(*node));
-    }
+  const auto parse = [&](const Field& field) {
+    if (field.initial.empty() || nodes.contains(field.initial)) return;
+    sources[0].text = field.initial;
+    if (std::optional<Node> node = parse_document(sources, 0, 0, diagnostics))
+      nodes.emplace(field.initial, std::move(*node));
+  };
+  for (const std::span<const Kind> family : families()) {
+    for (const Kind& kind : family)
+      for (const Field& field : kind.fields) parse(field);
   }
   return nodes;
 }

@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "physics/energy.h"
+#include "render/glb.h"
 #include "render/renderer.h"
+#include "render/still_things.h"
 
 namespace carom {
 
@@ -42,7 +44,9 @@ double energy(const Scene& scene, const State& state) {
 class Stage {
  public:
   Stage(const Show& show, const RunSettings& settings)
-      : scene(*show.scene), exports(scene, show.folder, settings.durability), renderers_(exports.pictures().size()) {
+      : scene(*show.scene),
+        exports(scene, show.folder, settings.durability, {still_things, glb}),
+        renderers_(exports.pictures().size()) {
     facts.load_s = show.load_s;
     more = exports.timeline().advance();
   }

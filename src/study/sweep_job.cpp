@@ -114,6 +114,33 @@ void SweepJob::plan(const std::function<void(const SweepProgress&)>& tell) {
   throw SceneError(wrong.begin()->second, wrong.size());
 }
 
+std::vector<std::string> SweepJob::idle_paths() const {
+  constexpr std::size_t most = 20'000;  // runs that are looked at
+  constexpr std::array<std::string_view, 5> looks = {"camera", "lights", "background", "output", "title"};
+  std::vector<std::string> idle;
+  for (std::size_t p = 0; p < sweep_.paths.size(); ++p) {
+    const std::string& path = sweep_.paths[p];
+    const std::string_view head = std::string_view(path).substr(0, path.find('.'));
+    const std::string_view tail = std::string_view(path).substr(path.rfind('.') + 1);
+    if (std::find(looks.begin(), looks.end(), head) != looks.end() || tail == "color" || tail == "visible") continue;
+    std::map<std::string, std::size_t> first;  // by the other values
+    std::size_t pairs = 0, alike = 0;
+    for (std::size_t number = 0; number < std::min(runs_.size(), most); ++number) {
+      std::string others;
+      const SweepRun run = sweep_.run(number);
+      for (std::size_t q = 0; q < run.values.size(); ++q)
+        if (q != p) others += run.values[q].value_or("-") + '\n';
+      const auto [found, is_new] = first.emplace(std::move(others), number);
+      if (is_new || run.values[p] == sweep_.run(found->second).values[p]) continue;
+      ++pairs;
+      if (runs_[number].motion == runs_[found->second].motion) ++alike;
+      if (alike < pairs) break;
+    }
+    if (pairs > 0 && alike == pairs) idle.push_back(path);
+  }
+  return idle;
+}
+
 // ---- Doing
 
 std::vector<SweepJob::Unit> SweepJob::units() const {

@@ -54,6 +54,10 @@ class SweepJob {
   /// first few wrong ones.
   void plan(const std::function<void(const SweepProgress&)>& tell);
 
+  /// The paths whose value makes no difference to the motion, though it is not of how the motion is looked at: runs
+  /// that differ in nothing else move alike. After plan().
+  std::vector<std::string> idle_paths() const;
+
   /// Runs of this shard that are not done.
   std::size_t left() const;
 

@@ -1,6 +1,7 @@
 // carom check, by the real program.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "commands/program.h"
@@ -27,6 +28,7 @@ TEST(Check, TellsWhatARunWouldDo) {
             "  first hit   red and blue at 0.445 s, at (0, 0, 0) m, closing at 4 m/s\n"
             "  camera      +x points to the left of the picture; fields of view 45 x 45 degrees\n"
             "  unseen      no body at time 0\n"
+            "  in and out  no body enters or leaves the picture\n"
             "  to come     5 pictures, 22 trajectory rows");
   EXPECT_TRUE(check.out.ends_with("\n  folder      output/balls: new\n")) << check.out;
   EXPECT_FALSE(here.has("output"));
@@ -52,6 +54,94 @@ TEST(Check, GivesBothFieldsOfView) {
   // Where no picture's size is given it is 1280 x 720: 2 atan(16/9 tan(22.5 degrees)).
   EXPECT_NEAR(view.at("fov_x_degrees").get<double>(), 72.73435141004906, 1e-12);
   EXPECT_NEAR(view.at("fov_y_degrees").get<double>(), 45, 1e-13);
+}
+
+// From 10 m away, with a square picture of 90 degrees, a ball is seen while |x| < 10 + sqrt(2) r.
+const std::string passing_ball =
+    "scene: 1\ngravity: [0, 0, 0]\n"
+    "balls:\n"
+    "  passing: {mass: 1, radius: 0.1, position: [-12, 0, 0], velocity: [10, 0, 0]}\n"
+    "  still: {mass: 1, radius: 0.1, position: [0, 5, 0]}\n"
+    "simulate: {duration: 3}\n"
+    "camera: {eye: [0, 0, 10], target: [0, 0, 0], fov: 90}\n";
+
+TEST(Check, TellsWhenABodyEntersThePictureAndLeavesIt) {
+  const Workplace here;
+  here.write("passing.yaml", passing_ball + "output: {frames: {fps: 100, size: [64, 64]}}\n");
+  const Json scene = Json::parse(here.carom({"check", "passing.yaml", "--json"}).out).at("scenes").at(0);
+  const Json seen = scene.at("camera");
+  EXPECT_EQ(seen.at("out_of_view_names"), Json({"passing"}));
+  // In at (12 - 10.1414...) / 10 = 0.18585... s, out at 2.21414... s: seen at the next picture.
+  EXPECT_EQ(seen.at("crossings_listed"), Json({{{"time_s", 0.19}, {"body", "passing"}, {"enters", true}},
+                                               {{"time_s", 2.22}, {"body", "passing"}, {"enters", false}}}));
+  EXPECT_EQ(seen.at("watched_until_s"), 3);
+  const std::string out = here.carom({"check", "passing.yaml"}).out;
+  EXPECT_NE(out.find("  in and out  passing enters at 0.19 s; passing leaves at 2.22 s\n"), std::string::npos) << out;
+}
+
+TEST(Check, LooksAtThePicturesThatAreTaken) {
+  const Workplace here;
+  here.write("passing.yaml", passing_ball + "output: {frames: {fps: 10, size: [64, 64], from: 1}}\n");
+  const auto crossings = [&](const std::string& until) {
+    const Finished check = here.carom({"check", "passing.yaml", "--json", "--set", "output.frames.until=" + until});
+    return Json::parse(check.out).at("scenes").at(0).at("camera").at("crossings_listed");
+  };
+  EXPECT_EQ(crossings("2"), Json::array());
+  EXPECT_EQ(crossings("3"), Json({{{"time_s", 2.3}, {"body", "passing"}, {"enters", false}}}));
+}
+
+TEST(Check, TellsBytesAndSecondsToCome) {
+  const Workplace here;
+  here.write("passing.yaml", passing_ball + "output: {frames: {fps: 10, size: [640, 360]}}\n");
+  const auto seconds = [&](const std::string& set) {
+    const Finished check = here.carom({"check", "passing.yaml", "--json", "--set", set});
+    return Json::parse(check.out).at("scenes").at(0).at("seconds").get<double>();
+  };
+  const double few = seconds("output.frames.fps=10"), many = seconds("output.frames.fps=1000");
+  EXPECT_GT(few, 0);
+  EXPECT_GT(many, 20 * few);  // 3001 pictures beside 31
+  const std::string out = here.carom({"check", "passing.yaml", "--set", "output.frames.fps=1000"}).out;
+  EXPECT_NE(out.find(" and roughly "), std::string::npos) << out;
+}
+
+// A hundred thousand collisions are not simulated for a look at the camera.
+TEST(Check, EndsItsTrialSoon) {
+  const Workplace here;
+  here.write("gas.yaml",
+             "scene: 1\ngravity: [0, 0, 0]\nroom: {min: [0, 0, 0], max: [2, 2, 2]}\n"
+             "groups: {gas: {count: 3000, ball: {mass: 1, radius: 0.05}, in: {min: [0, 0, 0], max: [2, 2, 2]}, "
+             "arrange: lattice, speed: 5}}\n"
+             "simulate: {duration: 1000}\ncamera: {eye: [9, 1, 1], target: [1, 1, 1]}\noutput: {frames: {fps: 5}}\n");
+  const auto start = std::chrono::steady_clock::now();
+  const Json scene = Json::parse(here.carom({"check", "gas.yaml", "--json"}).out).at("scenes").at(0);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5);  // measured: 0.3 s
+  EXPECT_LT(scene.at("camera").at("watched_until_s"), 1000);
+  EXPECT_NE(scene.at("first_collision"), nullptr);
+  EXPECT_GT(scene.at("seconds"), 100);
+}
+
+TEST(Check, TellsWhatStopsARunLater) {
+  const Workplace here;
+  here.write("bouncing.yaml",
+             "scene: 1\nballs: {red: {mass: 1, radius: 0.1, position: [0, 1, 0], restitution: 0.9}}\n"
+             "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n"
+             "simulate: {duration: 9, max_collisions: 3}\n");
+  const Finished check = here.carom({"check", "bouncing.yaml"}), run = here.carom({"run", "bouncing.yaml"});
+  EXPECT_EQ(check.code, 0);
+  EXPECT_EQ(run.code, 1);
+  const std::size_t at = check.out.find("  trouble     a run stops: ") + 27;
+  const std::string why = check.out.substr(at, 20);
+  EXPECT_NE(run.err.find(why), std::string::npos) << check.out << run.err;
+}
+
+TEST(Check, NamesWhatOverlapsAndHowDeep) {
+  const Workplace here;
+  here.write("deep.yaml",
+             "scene: 1\nballs:\n  red: {mass: 1, radius: 1, position: [0, 0, 0]}\n"
+             "  blue: {mass: 1, radius: 1, position: [1.5, 0, 0]}\nsimulate: {duration: 1}\n");
+  const Finished check = here.carom({"check", "deep.yaml"});
+  EXPECT_EQ(check.code, 2);
+  EXPECT_NE(check.err.find("`blue` overlaps `red` by 0.5 m at the start"), std::string::npos) << check.err;
 }
 
 TEST(Check, NamesAtMostTenBodiesOutOfView) {
@@ -180,11 +270,12 @@ TEST(Check, TellsOfVolumesObstaclesAndForces) {
              "simulate: {duration: 0}\n");
   const Finished check = here.carom({"check", "things.yaml"});
   EXPECT_EQ(check.err, "");
-  EXPECT_NE(check.out.find("  bodies      3 bodies: red, crate and can\n"
-                           "  fixed       0 planes, 0 walls, 1 obstacle\n"
-                           "  volumes     crate a box of 1 x 2 x 3 m; can a cylinder of radius 0.25 m and height 2 m; post a\n"
-                           "              sphere of radius 0.5 m\n"
-                           "  forces      1 force beside gravity\n"),
+  EXPECT_NE(check.out.find(
+                "  bodies      3 bodies: red, crate and can\n"
+                "  fixed       0 planes, 0 walls, 1 obstacle\n"
+                "  volumes     crate a box of 1 x 2 x 3 m; can a cylinder of radius 0.25 m and height 2 m; post a\n"
+                "              sphere of radius 0.5 m\n"
+                "  forces      1 force beside gravity\n"),
             std::string::npos)
       << check.out;
   const std::string json = here.carom({"check", "things.yaml", "--json"}).out;

@@ -29,9 +29,9 @@ TEST(CommandLine, MisspeltCommandGetsItsNearName) {
 }
 
 TEST(CommandLine, CommandThatIsNearNothingGetsTheList) {
-  EXPECT_EQ(complaint({"simulate"}),
-            "carom: no command `simulate`; it has run, check and bench\n"
-            "  carom --help shows how it is used\n");
+  const std::string list = complaint({"simulate"});
+  EXPECT_TRUE(list.starts_with("carom: no command `simulate`; it has run, check, ")) << list;
+  EXPECT_TRUE(list.ends_with(" and explain\n  carom --help shows how it is used\n")) << list;
 }
 
 TEST(CommandLine, SceneWithoutCommandIsToldTheCommand) {

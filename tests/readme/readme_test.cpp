@@ -151,10 +151,11 @@ TEST(ReadmeCommands, EveryOneOfTheProgramSucceeds) {
                                                                                           << clone.err();
     ++run;
   }
-  EXPECT_EQ(run, 16);
-  for (const char* file : {"two_bowling_balls/animation.mp4", "two_bowling_balls/frames/frame_00084.png",
-                           "half/collisions.csv", "pi_by_collisions/energy.csv", "raindrops.bench/bench.svg",
-                           "gas_2/energy.csv", "comparison/comparison.xlsx", "rest/bouncing_ball/trajectory.csv"}) {
+  EXPECT_EQ(run, 18);
+  for (const char* file :
+       {"two_bowling_balls/animation.mp4", "two_bowling_balls/frames/frame_00084.png", "half/collisions.csv",
+        "pi_by_collisions/energy.csv", "raindrops.bench/bench.svg", "gas_2/energy.csv", "comparison/comparison.xlsx",
+        "rest/bouncing_ball/trajectory.csv", "first.yaml", "scene.schema.json"}) {
     EXPECT_TRUE(fs::exists(clone / (std::string("output/") + file))) << file;
   }
 }

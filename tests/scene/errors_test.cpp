@@ -174,10 +174,10 @@ TEST(SceneErrors, EveryWayToMissANumberHasItsHint) {
 
 TEST(SceneErrors, AStepIsGivenOrChosen) {
   EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1, engine: stepped, step: 1, tolerance: 2}\n"),
-            "scene.yaml:2:62: error: `simulate` has both `step` and `tolerance`\n"
+            "scene.yaml:2:51: error: `simulate` has both `step` and `tolerance`\n"
             "   2 | simulate: {duration: 1, engine: stepped, step: 1, tolerance: 2}\n"
-            "     |                                                              ^\n"
-            "     = expected one of them: the step itself, or the error that it is chosen for\n");
+            "     |                                                   ^~~~~~~~~\n"
+            "     = remove one of them\n");
 }
 
 TEST(SceneErrors, CaretStandsRightAfterCharactersOfSeveralBytesAndCells) {

@@ -119,9 +119,9 @@ TEST(Forces, ThatDoNothingAreLeftOut) {
 
 TEST(ForceErrors, OfWhatTheyAreMadeOf) {
   EXPECT_EQ(errors_of(things + "forces:\n  - {drag: {wind: [1, 0, 0]}}\n"),
-            "scene.yaml:8:12: error: `drag` has no `linear` and no `quadratic`\n"
+            "scene.yaml:8:6: error: `drag` has no `linear` and no `quadratic`\n"
             "   8 |   - {drag: {wind: [1, 0, 0]}}\n"
-            "     |            ^\n"
+            "     |      ^~~~\n"
             "     = expected `linear` (kg/s), `quadratic` (kg/m) or both\n");
   EXPECT_EQ(errors_of(things + "forces:\n  - {spring: {anchor: [1, 0, 0], stiffness: -1}}\n"),
             "scene.yaml:8:45: error: `stiffness` is -1\n"

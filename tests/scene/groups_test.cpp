@@ -196,5 +196,16 @@ TEST(Random, BelowIsEven) {
   for (const int count : counts) EXPECT_NEAR(count, 10'000, 4 * 93);
 }
 
+TEST(Groups, ABallThatComesFromTheDefaultsIsWholeToo) {
+  const std::string groups = "groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}}}\n";
+  EXPECT_EQ(errors_of(start + "defaults: {group: {ball: {mass: 1}}}\n" + groups),
+            "scene.yaml:4:10: error: `ball` has no `radius`\n"
+            "   4 | " +
+                groups +
+                "     |          ^~~\n"
+                "     = expected `radius`: a number above 0 in m\n");
+  EXPECT_EQ(errors_of(start + "defaults: {group: {ball: {mass: 1}}, ball: {radius: 1}}\n" + groups), "");
+}
+
 }  // namespace
 }  // namespace carom

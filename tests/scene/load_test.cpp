@@ -297,7 +297,9 @@ TEST(LoadScene, BudgetIsCheckedBeforeAnythingIsMade) {
 }
 
 TEST(LoadScene, PicturesHaveLimits) {
-  EXPECT_NE(errors_of(start + "output: {video: {size: [17, 20]}}\n").find("expected an even width and height"),
+  EXPECT_NE(errors_of(start + "output: {video: {size: [17, 20]}}\n").find("an even whole number from 16 to 16384"),
+            std::string::npos);
+  EXPECT_NE(errors_of(start + "output: {frames: {size: [17, 20]}, video: true}\n").find("an even width and height"),
             std::string::npos);
   EXPECT_NE(errors_of(start + "output: {frames: {size: [8, 20000]}}\n").find("from 16 to 16384"), std::string::npos);
   EXPECT_NE(errors_of(start + "output: {frames: {samples: 3}}\n").find("expected 1, 2, 4 or 8"), std::string::npos);

@@ -1,0 +1,216 @@
+#include "commands/explain.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands/report.h"
+#include "commands/text.h"
+#include "scene/diagnostics.h"
+#include "scene/field_places.h"
+#include "scene/format_page.h"
+#include "scene/value_json.h"
+
+namespace carom {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+std::vector<std::string> strings(const std::vector<std::string_view>& views) {
+  return {views.begin(), views.end()};
+}
+
+// "one of a or b", "a number above 0 in kg".
+std::string value_text(const Field& field) {
+  return (field.type == Type::choice ? "one of " : "") + expected(field);
+}
+
+bool has_defaults(const FieldPlaces& row) {
+  return std::any_of(row.kinds.begin(), row.kinds.end(), [](const Kind* kind) { return !kind->defaults.empty(); });
+}
+
+// The keys of which one is needed; empty: none is.
+std::vector<std::string> needed_keys(const FieldPlaces& row) {
+  const Field& field = *row.field;
+  if (field.needed && field.one_of.empty()) return {std::string(field.key)};
+  for (const Field& other : row.kinds.front()->fields) {
+    if (other.needed && !field.one_of.empty() && other.one_of == field.one_of) return strings(parts_of(field.one_of));
+  }
+  return {};
+}
+
+std::string needed_text(const FieldPlaces& row) {
+  const std::vector<std::string> keys = needed_keys(row);
+  if (keys.empty()) return "no";
+  std::string text = "yes";
+  if (keys.size() > 1) {
+    text = fmt::format("one of {}", listed(keys, keys.size()));
+  }
+  return has_defaults(row) ? text + ", here or in `defaults`" : text;
+}
+
+/// Lines of keys or kinds and what they are.
+std::string key_list(const std::vector<std::pair<std::string_view, std::string_view>>& rows, std::size_t width) {
+  constexpr std::size_t column = 20;
+  std::string text;
+  for (const auto& [name, doc] : rows)
+    text += fmt::format("    {:{}}{}\n", name, column - 4, wrapped(doc, column, width));
+  return text;
+}
+
+std::string keys_text(const Kind& kind, std::size_t width) {
+  std::vector<std::pair<std::string_view, std::string_view>> rows;
+  for (const Field& field : kind.fields) rows.emplace_back(field.key, field.doc);
+  if (kind.also != nullptr) rows.emplace_back(kind.also->key, kind.also->doc);
+  return key_list(rows, width);
+}
+
+std::string row_text(const FieldPlaces& row, const Palette& palette, std::size_t width) {
+  const Field& field = *row.field;
+  Block block(palette, width);
+  block.heading(field.key, title_of(field) + (field.unit.empty() ? "" : fmt::format(" ({})", field.unit)));
+  block.line("meaning", field.doc);
+  block.line("value", value_text(field));
+  if (!field.initial.empty()) block.line("default", field.initial);
+  if (!field.example.empty()) block.line("example", fmt::format("{}: {}", field.key, field.example));
+  block.line("needed", needed_text(row));
+  if (const auto others = rivals(field); !others.empty())
+    block.line("excludes", listed(strings(others), others.size()));
+  if (!field.with.empty()) block.line("beside", fmt::format("{}, without which it means nothing", field.with));
+  if (!field.engines.empty()) block.line("engines", fmt::format("{} only", listed(parts_of(field.engines))));
+  block.line("stands at", listed(row.paths, row.paths.size()));
+  const Kind* held = held_kind(field);
+  if (held == nullptr) return block.text();
+  const bool one = field.type == Type::part || field.type == Type::part_or_flag;
+  block.line("keys", one ? "those below" : fmt::format("of each {}, those below", held->name));
+  return block.text() + keys_text(*held, width);
+}
+
+std::string kind_text(const Kind& kind, const Palette& palette, std::size_t width) {
+  Block block(palette, width);
+  block.heading(kind.name, kind.doc);
+  return block.text() + keys_text(kind, width);
+}
+
+Json range_json(const Range& range) {
+  Json out = Json::object();
+  if (std::isfinite(range.min)) out[range.above_min ? "above" : "from"] = number_json(range.min);
+  if (std::isfinite(range.max)) out[range.below_max ? "below" : "to"] = number_json(range.max);
+  return out;
+}
+
+Json text_or_null(std::string_view text) {
+  return text.empty() ? Json(nullptr) : Json(text);
+}
+
+Json keys_json(const Kind& kind) {
+  Json keys = Json::array();
+  for (const Field& field : kind.fields) keys.push_back(field.key);
+  if (kind.also != nullptr) keys.push_back(kind.also->key);
+  return keys;
+}
+
+Json row_json(const FieldPlaces& row) {
+  const Field& field = *row.field;
+  return {{"key", field.key},
+          {"title", title_of(field)},
+          {"meaning", field.doc},
+          {"value", value_text(field)},
+          {"unit", text_or_null(field.unit)},
+          {"range", range_json(field.range)},
+          {"choices", field.type == Type::choice ? Json(choices(field)) : Json(nullptr)},
+          {"default", field.initial.empty() ? Json(nullptr) : json_of_yaml(field.initial)},
+          {"example", field.example.empty() ? Json(nullptr) : json_of_yaml(field.example)},
+          {"needed", !needed_keys(row).empty()},
+          {"one_of", needed_keys(row).size() > 1 ? Json(needed_keys(row)) : Json::array()},
+          {"excludes", rivals(field)},
+          {"beside", text_or_null(field.with)},
+          {"engines", parts_of(field.engines)},
+          {"paths", row.paths},
+          {"keys", held_kind(field) == nullptr ? Json::array() : keys_json(*held_kind(field))}};
+}
+
+Json kind_json(const Kind& kind) {
+  return {{"kind", kind.name}, {"meaning", kind.doc}, {"keys", keys_json(kind)}};
+}
+
+/// All kinds of maps, a file's own first.
+std::string overview(std::size_t width) {
+  std::string text;
+  for (const auto family : families()) {
+    std::vector<std::pair<std::string_view, std::string_view>> rows;
+    for (const Kind& kind : family) rows.emplace_back(kind.name, kind.doc);
+    text += fmt::format("Kinds of maps in a {} file:\n", family.front().name) + key_list(rows, width) + "\n";
+  }
+  return text + "`carom explain KEY` explains a key (rest_speed, balls.red.mass) or a kind (ball).\n";
+}
+
+[[noreturn]] void refuse(const std::string& key) {
+  const std::string near = suggest_place(key);
+  const std::size_t line = near.find('\n');
+  throw UsageError(fmt::format("the format has no {}{}", carom::quoted(key),
+                               near.empty() ? "; `carom explain` lists its kinds" : "; " + near.substr(0, line)));
+}
+
+}  // namespace
+
+const CommandText& explain_text() {
+  static const CommandText text = {
+      "explain",
+      "prints what a key of the format means",
+      "  carom explain simulate.rest_speed\n"
+      "  carom explain restitution                             every place that has such a key\n"
+      "  carom explain balls.red.mass                          a path as --set has it\n"
+      "  carom explain                                         the kinds of maps in a scene\n"
+      "  carom explain --page > format.md                      all keys on a page\n",
+      "Exit codes: 0 done, 2 there is no such key.",
+      {{"--page"}},
+      "KEY",
+      "a key, a path or a kind of map",
+      0};
+  return text;
+}
+
+int explain_command(const Options& options) {
+  if (options.page) {
+    if (!options.operands.empty()) throw UsageError("--page is of the whole format: it takes no key");
+    write_out(format_page());
+    return 0;
+  }
+  const Palette palette(wants_color(options.color, STDOUT_FILENO));
+  const std::size_t width = terminal_width(STDOUT_FILENO);
+  std::vector<std::string> texts;
+  Json fields = Json::array(), all = Json::array();
+  for (const std::string& key : options.operands) {
+    const std::vector<FieldPlaces> rows = find_places(key);
+    const Kind* kind = find_kind(key);
+    if (rows.empty() && kind == nullptr) refuse(key);
+    for (const FieldPlaces& row : rows) {
+      texts.push_back(row_text(row, palette, width));
+      fields.push_back(row_json(row));
+    }
+    // A key that is called like its kind has told its keys.
+    const bool told =
+        std::any_of(rows.begin(), rows.end(), [&](const FieldPlaces& row) { return held_kind(*row.field) == kind; });
+    if (kind == nullptr || told) continue;
+    texts.push_back(kind_text(*kind, palette, width));
+    all.push_back(kind_json(*kind));
+  }
+  if (options.operands.empty()) {
+    texts.push_back(overview(width));
+    for (const auto family : families()) {
+      for (const Kind& kind : family) all.push_back(kind_json(kind));
+    }
+  }
+  if (options.json) {
+    write_out(document("explain", {{"fields", fields}, {"kinds", all}}));
+  } else if (!options.quiet) {
+    write_out(fmt::format("{}", fmt::join(texts, "\n")));
+  }
+  return 0;
+}
+
+}  // namespace carom

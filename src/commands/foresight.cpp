@@ -1,0 +1,157 @@
+#include "commands/foresight.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "commands/interrupt.h"
+#include "commands/preview.h"
+#include "export/timeline.h"
+#include "physics/force.h"
+#include "render/camera.h"
+
+namespace carom {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The instants of the pictures, or where there are more than are looked at, as many evenly spread over their time.
+Ticks instants_of(const Scene& scene, Foresight& result) {
+  constexpr std::int64_t most = 2000;
+  const Output& output = scene.output;
+  double fps = 30, from = 0, until = scene.simulate.duration;
+  if (output.frames || output.video) {
+    fps = output.frames ? output.frames->fps : output.video->fps;
+    from = output.frames ? output.frames->from : output.video->from;
+    until = (output.frames ? output.frames->until : output.video->until).value_or(until);
+  }
+  if ((until - from) * fps > most) fps = most / (until - from);
+  const Ticks ticks = Ticks::rate(fps, from, until);
+  if (ticks.count() < 1) return ticks;
+  result.every = 1 / fps;
+  result.watched_from = result.watched_until = ticks.at(ticks.first());
+  return ticks;
+}
+
+/// Runs the oracle from instant to instant.
+class Trial {
+ public:
+  Trial(const Scene& scene, bool watch, double budget)
+      : scene_(scene), budget_(budget), camera_(camera_of(scene)), view_(view_of(camera_, picture_size(scene.output))) {
+    if (!watch) return;
+    ticks_ = instants_of(scene, result_);
+    next_ = ticks_.first();
+    last_ = ticks_.last();
+  }
+
+  Foresight go() {
+    try {
+      const auto start = Clock::now();
+      oracle_ = make_oracle(scene_);
+      made_s_ = since(start);
+      look_if_due();
+      while (oracle_->time() < scene_.simulate.duration && wants_more()) advance();
+    } catch (const SimulationError& error) {
+      (result_.first ? result_.failure : result_.trouble) = error.what();
+      result_.cut = result_.cut || next_ <= last_;
+    }
+    return std::move(result_);
+  }
+
+  /// Wall time of the whole simulation, if this was a part of it; none: nothing was simulated.
+  std::optional<double> whole() const {
+    const double duration = scene_.simulate.duration;
+    if (!oracle_ || !(oracle_->time() > 0 || duration == 0)) return std::nullopt;
+    return made_s_ + (duration == 0 ? 0 : advance_s_ * (duration / oracle_->time()));
+  }
+
+ private:
+  bool wants_more() {
+    if (since(start_) < budget_) return true;
+    if (next_ <= last_) result_.cut = true;
+    next_ = last_ + 1;  // crossings are not worth more
+    return !result_.first;
+  }
+
+  /// To the next instant, and before the first collision no further than to twice the time reached, so that little is
+  /// simulated beyond it.
+  void advance() {
+    const double duration = scene_.simulate.duration, time = oracle_->time();
+    double target = std::min(duration, result_.first ? time + duration / 100 : std::max(2 * time, duration * 0x1p-20));
+    if (next_ <= last_) target = std::min(target, ticks_.at(next_));
+    while (oracle_->time() < target) {
+      stop_if_interrupted();
+      const auto start = Clock::now();
+      oracle_->advance_to(target);
+      advance_s_ += since(start);
+      for (const Collision& collision : oracle_->collisions()) {
+        if (!result_.first && collision.kind != CollisionKind::rest) result_.first = collision;
+      }
+      if (!wants_more()) return;
+    }
+    look_if_due();
+  }
+
+  void look_if_due() {
+    if (next_ > last_ || oracle_->time() < ticks_.at(next_)) return;
+    const State& state = oracle_->state();
+    const bool begins = seen_.empty();
+    seen_.resize(state.position.size());
+    for (Entity body = 0; body < seen_.size(); ++body) {
+      const bool sees = sees_sphere(camera_, view_, state.position[body], scene_.world.radius[body]);
+      if (!begins && sees != seen_[body]) result_.crossings.push_back({body, ticks_.at(next_), sees});
+      seen_[body] = sees;
+    }
+    result_.watched_until = ticks_.at(next_++);
+  }
+
+  const Scene& scene_;
+  double budget_;
+  Clock::time_point start_ = Clock::now();
+  Camera camera_;
+  View view_;
+  Ticks ticks_ = Ticks::even(0, 0);
+  std::int64_t next_ = 0, last_ = -1;  // ticks that are still to be looked at
+  std::vector<bool> seen_;             // by body, at the tick before; empty: none was
+  std::unique_ptr<Simulator> oracle_;
+  double made_s_ = 0, advance_s_ = 0;  // wall times
+  Foresight result_;
+};
+
+/// Wall time of a simulation by the scene's own engine, from as much of it as the budget (s) allows.
+std::optional<double> own_engine_s(const Scene& scene, const EngineChoice& engine, double budget) {
+  const double duration = scene.simulate.duration;
+  const auto start = Clock::now();
+  try {
+    const auto simulator = make_simulator(scene, false, engine.step);
+    const double made = since(start);
+    while (simulator->time() < duration && since(start) < budget) {
+      stop_if_interrupted();
+      simulator->advance_to(std::min(duration, simulator->time() + duration / 1000));
+    }
+    if (!(simulator->time() > 0)) return std::nullopt;
+    return made + (since(start) - made) * (duration / simulator->time());
+  } catch (const SimulationError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+Foresight foresee(const Scene& scene, const EngineChoice& engine, bool watch, double budget) {
+  Trial trial(scene, watch, budget);
+  Foresight result = trial.go();
+  const std::string oracle = force_without_closed_form(scene.world) == nullptr ? "exact" : "stepped";
+  if (engine.name != oracle) result.failure.clear();             // of another simulator
+  const bool settled = engine.name != "stepped" || engine.step;  // a tolerance is to be met by runs that nobody counted
+  if (!settled) return result;
+  result.simulate_s = engine.name == oracle ? trial.whole() : own_engine_s(scene, engine, budget);
+  return result;
+}
+
+}  // namespace carom

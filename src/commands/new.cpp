@@ -1,0 +1,113 @@
+#include "commands/new.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+
+#include "commands/report.h"
+#include "commands/terminal.h"
+#include "commands/text.h"
+#include "export/open_folder.h"
+#include "export/stored_file.h"
+#include "scene/diagnostics.h"
+#include "scene/schema.h"
+
+namespace carom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view schema_name = "scene.schema.json";
+
+fs::path scene_path(const std::string& name) {
+  fs::path path(name);
+  const std::string ending = path.extension().string();
+  if (ending != ".yaml" && ending != ".yml") path += ".yaml";
+  const std::string file = path.filename().string();
+  // Longer names would leave no room for those of a run's folder and files.
+  if (path.stem().empty() || name.ends_with('/') || !is_plain_name(file) || file.front() == '-' || file.size() > 150) {
+    throw UsageError(
+        fmt::format("{} is no name for a scene; name a file such as demos/first.yaml, without control characters, "
+                    "backslashes or a dot or dash at its start",
+                    carom::quoted(name)));
+  }
+  return path;
+}
+
+/// Makes the folder if need be and opens it.
+Descriptor opened(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  Descriptor open = open_folder(AT_FDCWD, folder, true);
+  if (!open) fail("open", {-1, folder}, "");
+  return open;
+}
+
+/// Throws UsageError where something has the name, a folder, or unless --force anything.
+void refuse_existing(const FilePlace& place, const std::string& name, bool force) {
+  struct stat info {};
+  if (fstatat(place.folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) return;
+  const std::string path = printable((fs::path(place.path) / name).lexically_normal().string());
+  if (S_ISDIR(info.st_mode)) throw UsageError(fmt::format("{} is a folder: choose another name", path));
+  if (!force)
+    throw UsageError(fmt::format("{} is there already: choose another name, or overwrite it with --force", path));
+}
+
+/// A schema that another version wrote is replaced; anything else of that name is the author's.
+bool is_schema(const FilePlace& place) {
+  constexpr std::uint64_t most = 10'000'000;
+  const std::string whole = json_schema("scene"), start = whole.substr(0, whole.find("\"description\""));
+  const auto text = read_text(place.folder, std::string(schema_name), most);
+  return text && text->starts_with(start);
+}
+
+}  // namespace
+
+const CommandText& new_text() {
+  static const CommandText text = {
+      "new",
+      "writes a scene to start from, with comments",
+      "  carom new first                                       writes first.yaml and scene.schema.json\n"
+      "  carom new demos/second.yaml                           the same in demos/, which is made if need be\n",
+      "The scene runs as it is. By the schema beside it an editor with a YAML language server completes and\n"
+      "checks keys. Exit codes: 0 done, 1 a file could not be written, 2 the command line is wrong or the\n"
+      "file is there already.",
+      {{"--force", "overwrite what is there"}},
+      "NAME",
+      "of the scene file, .yaml or not, in a folder or not",
+      1,
+      1,
+      "name the scene: carom {} first"};
+  return text;
+}
+
+int new_command(const Options& options) {
+  const fs::path path = scene_path(options.operands.front());
+  const std::string file = path.filename().string(), parent = path.parent_path().string();
+  const std::string folder = parent.empty() ? "." : parent;
+  const Descriptor open = opened(folder);
+  const FilePlace place{open.get(), folder};
+  refuse_existing(place, file, options.force);
+  refuse_existing(place, std::string(schema_name), options.force || is_schema(place));
+
+  OutputFile schema(place, std::string(schema_name)), scene(place, file);
+  schema.write(json_schema("scene"));
+  scene.write(starting_scene());
+  schema.complete();
+  scene.complete();
+  schema.publish();
+  scene.publish();
+
+  const std::string beside = (path.parent_path() / schema_name).string();
+  if (options.json) {
+    write_out(document("new", {{"scene", path.string()}, {"schema", beside}}));
+  } else if (!options.quiet) {
+    write_out(fmt::format("wrote {} and {}\n", printable(path.string()), printable(beside)));
+  }
+  return 0;
+}
+
+}  // namespace carom

@@ -1,0 +1,40 @@
+#include "export/gltf.h"
+
+#include "export/bodies.h"
+
+namespace carom {
+
+void GltfWriter::add(double time, const State& state, std::span<const ContactForce>) {
+  const World& world = scene_.world;
+  const std::size_t key = motion_.times.size();
+  motion_.times.push_back(time);
+  for (Entity body = 0; body < world.body_count(); ++body) {
+    const Vec3& p = state.position[body];
+    motion_.position.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
+    motion_.extent.include(p, volume_now(world, state, body).half);
+  }
+  if (state.part_of.empty()) return;
+  if (volumes_.empty())
+    for (Entity body = 0; body < world.body_count(); ++body) volumes_.emplace_back(world.volume_of(body));
+  for (Entity body = 0; body < world.body_count(); ++body) {
+    std::optional<Volume> now;
+    if (!is_part_of_another(state, body)) now = volume_now(world, state, body);
+    std::optional<Volume>& before = volumes_[body];
+    if (now.has_value() == before.has_value() && (!now || now->half == before->half)) continue;
+    motion_.changes.push_back({key, body, now});
+    before = now;
+  }
+}
+
+std::vector<OutputFile*> GltfWriter::files() {
+  file_.write(makers_.glb(scene_, motion_));
+  return {&file_};
+}
+
+double GltfWriter::bytes(const Scene& scene, double instants) {
+  constexpr double key_bytes = 16, body_bytes = 900, mesh_bytes = 40000;  // typical; a mesh a colour
+  return scene.world.body_count() * (key_bytes * instants + body_bytes) +
+         mesh_bytes * static_cast<double>(scene.roster.bodies.size() + 1);
+}
+
+}  // namespace carom

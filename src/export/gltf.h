@@ -1,0 +1,25 @@
+#pragma once
+// animation.glb: the motion's keys are gathered here; src/render/ makes a file of them at the end.
+#include <vector>
+
+#include "export/writer.h"
+
+namespace carom {
+
+class GltfWriter : public Writer {
+ public:
+  GltfWriter(OpenFolder& folder, const Scene& scene, const ModelMakers& makers)
+      : scene_(scene), makers_(makers), file_(folder.place(), "animation.glb") {}
+  void add(double time, const State& state, std::span<const ContactForce> contacts) override;
+  std::vector<OutputFile*> files() override;
+  static double bytes(const Scene& scene, double instants);
+
+ private:
+  const Scene& scene_;
+  const ModelMakers& makers_;
+  OutputFile file_;
+  KeyedMotion motion_;
+  std::vector<std::optional<Volume>> volumes_;  // at the last key, once one has changed
+};
+
+}  // namespace carom

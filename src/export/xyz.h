@@ -1,0 +1,26 @@
+#pragma once
+// trajectory.xyz: extended XYZ, one frame after another, for OVITO and ASE. In columns that both know, and numbers that
+// read back to the same doubles.
+#include <string>
+#include <vector>
+
+#include "export/writer.h"
+
+namespace carom {
+
+class XyzWriter : public Writer {
+ public:
+  XyzWriter(OpenFolder& folder, const Scene& scene);
+  void add(double time, const State& state, std::span<const ContactForce> contacts) override;
+  std::vector<OutputFile*> files() override { return {&file_}; }
+  static double bytes(const Scene& scene, double instants);
+
+ private:
+  const Scene& scene_;
+  bool solids_;
+  std::string cell_;                 // of the comment line: the room, the columns
+  std::vector<std::string> colors_;  // by range of bodies, after a space
+  OutputFile file_;
+};
+
+}  // namespace carom

@@ -1,0 +1,279 @@
+#include "render/glb.h"
+
+#include <assimp/material.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <assimp/Exporter.hpp>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "render/camera.h"
+#include "render/glb_nodes.h"
+#include "render/lighting.h"
+#include "render/renderer.h"
+#include "render/shapes.h"
+#include "render/still_things.h"
+
+namespace carom {
+namespace {
+
+/// Hands a vector's pointers over to an array that assimp deletes.
+template <typename Item, typename Count>
+void hand_over(std::vector<Item*>& items, Item**& to, Count& count) {
+  to = new Item*[items.size()];
+  std::copy(items.begin(), items.end(), to);
+  count = static_cast<Count>(items.size());
+  items.clear();
+}
+
+aiVector3D vector_of(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+aiMesh* mesh_of(const Mesh& mesh, std::size_t material, const std::string& name) {
+  auto out = std::make_unique<aiMesh>();
+  out->mName = name;
+  out->mMaterialIndex = static_cast<unsigned>(material);
+  out->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
+  out->mNumVertices = static_cast<unsigned>(mesh.vertices.size());
+  out->mVertices = new aiVector3D[mesh.vertices.size()];
+  std::transform(mesh.vertices.begin(), mesh.vertices.end(), out->mVertices, vector_of);
+  out->mNormals = new aiVector3D[mesh.normals.size()];
+  std::transform(mesh.normals.begin(), mesh.normals.end(), out->mNormals,
+                 [](const Vec3& n) { return vector_of(n.isZero(0) ? Vec3(0, 1, 0) : n); });
+  out->mNumFaces = static_cast<unsigned>(mesh.triangles.size() / 3);
+  out->mFaces = new aiFace[out->mNumFaces];
+  for (std::size_t i = 0; i < out->mNumFaces; ++i) {
+    out->mFaces[i].mNumIndices = 3;
+    out->mFaces[i].mIndices = new unsigned[3];
+    std::copy_n(&mesh.triangles[3 * i], 3, out->mFaces[i].mIndices);
+  }
+  return out.release();
+}
+
+// A matt surface that faces a light of intensity 1 gives back its own colour: pi W/m^2, and 683 lm a W.
+constexpr double usual = std::numbers::pi * 683;  // lux
+
+using Srgb = std::array<double, 3>;
+
+Srgb srgb_of(const Color& color) {
+  return {color.r, color.g, color.b};
+}
+
+aiMaterial* material_of(const Color& color, bool two_sided, const std::string& name) {
+  auto out = std::make_unique<aiMaterial>();
+  const auto c = linear(color);
+  const aiString named(name);
+  const aiColor4D base(c[0], c[1], c[2], 1);
+  const float metallic = 0, roughness = 0.6F;
+  const int sides = two_sided ? 1 : 0;
+  out->AddProperty(&named, AI_MATKEY_NAME);
+  out->AddProperty(&base, 1, AI_MATKEY_BASE_COLOR);
+  out->AddProperty(&metallic, 1, AI_MATKEY_METALLIC_FACTOR);
+  out->AddProperty(&roughness, 1, AI_MATKEY_ROUGHNESS_FACTOR);
+  out->AddProperty(&sides, 1, AI_MATKEY_TWOSIDED);
+  return out.release();
+}
+
+class Builder {
+ public:
+  Builder(const Scene& scene, const KeyedMotion& motion)
+      : scene_(scene), motion_(motion), out_(std::make_unique<aiScene>()) {}
+  ~Builder() {
+    for (aiMesh* mesh : meshes_) delete mesh;
+    for (aiMaterial* material : materials_) delete material;
+  }
+  Builder(const Builder&) = delete;
+  Builder& operator=(const Builder&) = delete;
+
+  std::string build() {
+    for (const BodyRange& range : scene_.roster.bodies)
+      for (Entity body = range.first; body < range.first + range.count; ++body) add_body(range, body);
+    for (const StillThing& thing : still_things(scene_, motion_.extent)) add_still(thing);
+    if (meshes_.empty()) throw RenderError("the scene has nothing that animation.glb could show");
+    add_camera_and_lights();
+    animate();
+    return exported();
+  }
+
+ private:
+  std::size_t material(const Color& color, bool two_sided) {
+    const auto [found, is_new] = material_numbers_.try_emplace({srgb_of(color), two_sided}, materials_.size());
+    if (is_new) materials_.push_back(material_of(color, two_sided, name_of(color) + (two_sided ? ", two-sided" : "")));
+    return found->second;
+  }
+
+  static std::string name_of(const Color& color) {
+    const auto byte = [](double part) { return static_cast<int>(std::lround(255 * part)); };
+    return fmt::format("#{:02x}{:02x}{:02x}", byte(color.r), byte(color.g), byte(color.b));
+  }
+
+  /// A volume of half size 1, in a colour.
+  std::size_t volume_mesh(Shape shape, const Color& color) {
+    const auto [found, is_new] = volume_meshes_.try_emplace({shape, srgb_of(color)}, meshes_.size());
+    if (is_new) {
+      const Mesh mesh = shape == Shape::sphere     ? round_ball()
+                        : shape == Shape::cylinder ? round_cylinder()
+                                                   : unit_box();
+      constexpr const char* names[] = {"ball", "cylinder", "box"};
+      meshes_.push_back(mesh_of(mesh, material(color, false),
+                                fmt::format("{} {}", names[static_cast<std::size_t>(shape)], name_of(color))));
+    }
+    return found->second;
+  }
+
+  std::size_t file_mesh(const MeshUse& use, const Color& color) {
+    const std::array<double, 4> how = {use.center.x(), use.center.y(), use.center.z(), use.scale};
+    const auto [found, is_new] = file_meshes_.try_emplace({use.file, how, srgb_of(color)}, meshes_.size());
+    if (is_new) meshes_.push_back(mesh_of(drawn_mesh(use), material(color, false), "mesh " + name_of(color)));
+    return found->second;
+  }
+
+  /// Of the camera or a light, which may be called as a thing is.
+  std::string free_name(const std::string& name) const {
+    std::string free = name;
+    const auto taken = [&](const GlbNode& node) { return node.name == free; };
+    for (int i = 2; std::any_of(nodes_.begin(), nodes_.end(), taken); ++i) free = fmt::format("{} {}", name, i);
+    return free;
+  }
+
+  void add_body(const BodyRange& range, Entity body) {
+    const Volume volume = scene_.world.volume_of(body);
+    GlbNode node{scene_.roster.name(body), scene_.initial.position[body]};
+    node.mesh = range.mesh ? file_mesh(*range.mesh, range.color) : volume_mesh(volume.shape, range.color);
+    if (!range.mesh) node.scale = volume.half;
+    nodes_.push_back(std::move(node));
+  }
+
+  /// Its corners stand about its middle, so that they fit into floats.
+  void add_still(const StillThing& thing) {
+    Extent extent;
+    for (const Vec3& vertex : thing.mesh.vertices) extent.include(vertex);
+    GlbNode node{thing.name, 0.5 * (extent.low + extent.high)};
+    node.mesh = meshes_.size();
+    meshes_.push_back(mesh_of(placed(thing.mesh, Vec3::Ones(), -node.translation),
+                              material(thing.color, thing.two_sided), thing.name));
+    nodes_.push_back(std::move(node));
+  }
+
+  void add_camera_and_lights() {
+    const Camera camera = camera_of(scene_);
+    const Size size = picture_size(scene_.output);
+    const View view = view_of(camera, size);
+    GlbNode eye{free_name("camera"), camera.eye, rotation_to(view.right, view.up, -view.forward)};
+    eye.camera = GlbCamera{static_cast<double>(size.width) / size.height, view.fov_y * std::numbers::pi / 180,
+                           camera.near, camera.far};
+    nodes_.push_back(std::move(eye));
+    for (const Light& light : scene_.lights) {
+      if (light.direction) {
+        add_sun(light.name, -light.direction->normalized(), linear(light.color), light.intensity);
+      } else {
+        // It weakens with distance here: it is as bright as it should be where the camera looks.
+        const double distance2 = (camera.target - *light.position).squaredNorm();
+        GlbNode node{free_name(light.name), *light.position};
+        node.light = GlbLight{light.name, false, linear(light.color), usual * light.intensity * distance2};
+        nodes_.push_back(std::move(node));
+      }
+    }
+    if (scene_.lights.empty()) {
+      const KeyLight light = default_light(view);
+      add_sun("sun", light.towards, light.radiance, 1);
+    }
+  }
+
+  void add_sun(const std::string& name, const Vec3& towards, const std::array<float, 3>& color, double intensity) {
+    const Vec3 right = (std::abs(towards.y()) < 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0)).cross(towards).normalized();
+    GlbNode node{free_name(name)};
+    node.rotation = rotation_to(right, towards.cross(right), towards);
+    node.light = GlbLight{name, true, color, usual * intensity};
+    nodes_.push_back(std::move(node));
+  }
+
+  void animate() {
+    const Entity bodies = scene_.world.body_count();
+    if (motion_.times.empty() || bodies == 0) return;
+    auto animation = std::make_unique<aiAnimation>();
+    animation->mName = "motion";
+    animation->mTicksPerSecond = 1;
+    animation->mDuration = motion_.times.back();
+    std::vector<std::vector<aiVectorKey>> scales(bodies);
+    for (const KeyedMotion::Change& change : motion_.changes) add_scale(scales[change.body], change);
+    std::vector<aiNodeAnim*> channels;
+    for (Entity body = 0; body < bodies; ++body) {
+      auto* channel = new aiNodeAnim;
+      channels.push_back(channel);
+      channel->mNodeName = exported_name(body);
+      channel->mNumPositionKeys = static_cast<unsigned>(motion_.times.size());
+      channel->mPositionKeys = new aiVectorKey[motion_.times.size()];
+      for (std::size_t key = 0; key < motion_.times.size(); ++key) {
+        const std::array<float, 3>& p = motion_.position[key * bodies + body];
+        channel->mPositionKeys[key] = {motion_.times[key], {p[0], p[1], p[2]}};
+      }
+      channel->mNumScalingKeys = static_cast<unsigned>(scales[body].size());
+      if (scales[body].empty()) continue;
+      channel->mScalingKeys = new aiVectorKey[scales[body].size()];
+      std::copy(scales[body].begin(), scales[body].end(), channel->mScalingKeys);
+    }
+    hand_over(channels, animation->mChannels, animation->mNumChannels);
+    std::vector<aiAnimation*> animations = {animation.release()};
+    hand_over(animations, out_->mAnimations, out_->mNumAnimations);
+  }
+
+  /// A mesh grows as its volume does.
+  void add_scale(std::vector<aiVectorKey>& keys, const KeyedMotion::Change& change) const {
+    const Vec3& at_first = nodes_[change.body].scale;
+    if (keys.empty()) keys.push_back({motion_.times.front(), vector_of(at_first)});
+    const Vec3 grown = change.volume ? Vec3(change.volume->half.cwiseQuotient(scene_.world.volume_of(change.body).half))
+                                     : Vec3(Vec3::Zero());
+    const aiVectorKey key{motion_.times[change.key], vector_of(at_first.cwiseProduct(grown))};
+    if (change.key == 0)
+      keys.back() = key;
+    else
+      keys.push_back(key);
+  }
+
+  std::string exported() {
+    out_->mRootNode = new aiNode("scene");
+    std::vector<aiNode*> children;
+    for (std::size_t i = 0; i < nodes_.size(); ++i) {
+      auto* child = new aiNode(exported_name(i));
+      children.push_back(child);
+      child->mParent = out_->mRootNode;
+      if (!nodes_[i].mesh) continue;
+      child->mNumMeshes = 1;
+      child->mMeshes = new unsigned[1]{static_cast<unsigned>(*nodes_[i].mesh)};
+    }
+    hand_over(children, out_->mRootNode->mChildren, out_->mRootNode->mNumChildren);
+    hand_over(meshes_, out_->mMeshes, out_->mNumMeshes);
+    hand_over(materials_, out_->mMaterials, out_->mNumMaterials);
+    Assimp::Exporter exporter;
+    const aiExportDataBlob* blob = exporter.ExportToBlob(out_.get(), "glb2");
+    if (blob == nullptr) throw RenderError(fmt::format("cannot make animation.glb: {}", exporter.GetErrorString()));
+    return mended_glb({static_cast<const char*>(blob->data), blob->size}, scene_.title, nodes_);
+  }
+
+  const Scene& scene_;
+  const KeyedMotion& motion_;
+  std::unique_ptr<aiScene> out_;
+  std::vector<GlbNode> nodes_;  // the bodies first
+  std::vector<aiMesh*> meshes_;
+  std::vector<aiMaterial*> materials_;
+  std::map<std::pair<Srgb, bool>, std::size_t> material_numbers_;
+  std::map<std::pair<Shape, Srgb>, std::size_t> volume_meshes_;
+  std::map<std::tuple<std::string, std::array<double, 4>, Srgb>, std::size_t> file_meshes_;
+};
+
+}  // namespace
+
+std::string glb(const Scene& scene, const KeyedMotion& motion) {
+  return Builder(scene, motion).build();
+}
+
+}  // namespace carom

@@ -1,0 +1,45 @@
+#pragma once
+// The parts of a glTF file that assimp 5.2's exporter loses or spoils, and a file with them put right: it writes no
+// cameras and no lights, forgets a node at (1, 1, 1), calls every material a volume and every motion between keys even.
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "physics/vec3.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+struct GlbCamera {
+  double aspect, fov_y, near, far;  // width by height; radians; m
+};
+
+struct GlbLight {
+  std::string name;
+  bool directional;             // along the node's -z; else from its place to all sides
+  std::array<float, 3> linear;  // colour
+  double intensity;             // lux, or candela
+};
+
+struct GlbNode {
+  std::string name;
+  Vec3 translation = Vec3::Zero();                // m
+  std::array<double, 4> rotation = {0, 0, 0, 1};  // quaternion: x, y, z, w
+  Vec3 scale = Vec3::Ones();
+  std::optional<std::size_t> mesh = std::nullopt;  // of assimp's scene
+  std::optional<GlbCamera> camera = std::nullopt;
+  std::optional<GlbLight> light = std::nullopt;
+};
+
+/// The rotation whose axes x, y, z are these, orthogonal unit vectors.
+std::array<double, 4> rotation_to(const Vec3& x, const Vec3& y, const Vec3& z);
+
+/// How assimp's scene calls node i: no name of a scene file, so that none is changed.
+std::string exported_name(std::size_t node);
+
+/// assimp's file with its nodes as they are meant. Scales change in steps. Throws RenderError.
+std::string mended_glb(std::string_view file, const std::string& title, const std::vector<GlbNode>& nodes);
+
+}  // namespace carom

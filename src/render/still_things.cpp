@@ -1,0 +1,203 @@
+#include "render/still_things.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "render/renderer.h"
+#include "render/shapes.h"
+#include "render/surfaces.h"
+
+namespace carom {
+namespace {
+
+/// A convex polygon with what is behind a plane cut off (Sutherland and Hodgman 1974).
+std::vector<Vec3> cut(const std::vector<Vec3>& polygon, const Vec3& point, const Vec3& normal) {
+  std::vector<Vec3> left;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double above_a = normal.dot(a - point), above_b = normal.dot(b - point);
+    if (above_a >= 0) left.push_back(a);
+    if ((above_a < 0) != (above_b < 0)) left.push_back(a + above_a / (above_a - above_b) * (b - a));
+  }
+  return left;
+}
+
+/// A flat convex polygon, counterclockwise about `normal`.
+Mesh flat(const std::vector<Vec3>& corners, const Vec3& normal) {
+  Mesh mesh{corners, std::vector<Vec3>(corners.size(), normal), {}};
+  for (std::uint32_t k = 2; k < corners.size(); ++k) mesh.triangles.insert(mesh.triangles.end(), {0, k - 1, k});
+  return mesh;
+}
+
+std::vector<Vec3> rectangle(const Vec3& center, const Vec3& right, const Vec3& up) {
+  return {center - right - up, center + right - up, center + right + up, center - right + up};
+}
+
+class Collector {
+ public:
+  Collector(const Scene& scene, const Extent& seen) : scene_(scene), world_(scene.world) { find_cube(seen); }
+
+  std::vector<StillThing> collect() {
+    for (std::size_t i = 0; i < world_.planes.size(); ++i)
+      if (name(i).visible) add_plane(i);
+    for (std::size_t i = 0; i < world_.walls.size(); ++i) {
+      const Wall& wall = world_.walls[i];
+      add(world_.planes.size() + i,
+          flat(rectangle(wall.center, wall.half_width * wall.right, wall.half_height * wall.up), wall.normal), true);
+    }
+    for (std::size_t i = 0; i < world_.obstacles.size(); ++i)
+      add(world_.planes.size() + world_.walls.size() + i,
+          obstacle_mesh(world_.obstacles[i], name_of_obstacle(scene_, i)), false);
+    return std::move(things_);
+  }
+
+ private:
+  const FixedName& name(std::size_t fixed) const {
+    static const FixedName unnamed{"", {0.8, 0.8, 0.8}, true};
+    return fixed < scene_.roster.fixed.size() ? scene_.roster.fixed[fixed] : unnamed;
+  }
+
+  /// Around all that has bounds, and the places of the visible planes opposite its middle.
+  void find_cube(const Extent& seen) {
+    Extent all = seen;
+    for (std::size_t i = 0; i < world_.walls.size(); ++i) {
+      const Wall& wall = world_.walls[i];
+      const Vec3 half = wall.half_width * wall.right.cwiseAbs() + wall.half_height * wall.up.cwiseAbs();
+      if (name(world_.planes.size() + i).visible) all.include(wall.center, half);
+    }
+    for (std::size_t i = 0; i < world_.obstacles.size(); ++i)
+      if (name_of_obstacle(scene_, i).visible) all.include(world_.obstacles[i].center, world_.obstacles[i].volume.half);
+    if ((all.low.array() > all.high.array()).any()) {
+      for (const Plane& plane : world_.planes) all.include(plane.point);
+      all.include(Vec3::Zero());
+    }
+    const Vec3 middle = 0.5 * (all.low + all.high);
+    for (std::size_t i = 0; i < world_.planes.size(); ++i) {
+      const Plane& plane = world_.planes[i];
+      if (name(i).visible) all.include(middle - plane.normal.dot(middle - plane.point) * plane.normal);
+    }
+    center_ = 0.5 * (all.low + all.high);
+    half_ = std::max(1.5 * (0.5 * (all.high - all.low)).maxCoeff(), 1e-9);
+  }
+
+  void add_plane(std::size_t i) {
+    const Plane& plane = world_.planes[i];
+    // Along a world axis where there is one in the plane.
+    const Vec3 along = std::abs(plane.normal.y()) < 0.999 ? Vec3(0, 1, 0) : Vec3(0, 0, -1);
+    const Vec3 right = along.cross(plane.normal).normalized(), up = plane.normal.cross(right);
+    const Vec3 foot = center_ - plane.normal.dot(center_ - plane.point) * plane.normal;
+    std::vector<Vec3> corners = rectangle(foot, 2 * half_ * right, 2 * half_ * up);
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double side : {-1.0, 1.0})
+        corners = cut(corners, center_ + side * half_ * Vec3::Unit(axis), -side * Vec3::Unit(axis));
+    for (std::size_t k = 0; k < world_.planes.size(); ++k)
+      if (k != i && name(k).visible) corners = cut(corners, world_.planes[k].point, world_.planes[k].normal);
+    if (corners.size() >= 3) add(i, flat(corners, plane.normal), false);
+  }
+
+  Mesh obstacle_mesh(const Obstacle& obstacle, const FixedName& name) {
+    if (!name.visible) return {};
+    const Volume& volume = obstacle.volume;
+    if (name.mesh) return placed(drawn_mesh(*name.mesh), Vec3::Ones(), obstacle.center);
+    const auto known = shapes_.find(volume.shape);
+    const Mesh& mesh =
+        known != shapes_.end() ? known->second : shapes_.emplace(volume.shape, shape(volume.shape)).first->second;
+    return placed(mesh, volume.half, obstacle.center);
+  }
+
+  static Mesh shape(Shape shape) {
+    return shape == Shape::sphere ? round_ball() : shape == Shape::cylinder ? round_cylinder() : unit_box();
+  }
+
+  void add(std::size_t fixed, Mesh mesh, bool two_sided) {
+    if (name(fixed).visible) things_.push_back({name(fixed).name, name(fixed).color, std::move(mesh), two_sided});
+  }
+
+  const Scene& scene_;
+  const World& world_;
+  Vec3 center_;      // m, of the cube
+  double half_ = 0;  // m, of its edge
+  std::map<Shape, Mesh> shapes_;
+  std::vector<StillThing> things_;
+};
+
+}  // namespace
+
+std::vector<StillThing> still_things(const Scene& scene, const Extent& seen) {
+  return Collector(scene, seen).collect();
+}
+
+Mesh round_ball() {
+  // An octahedron, each of whose triangles is cut into four, again and again.
+  constexpr int times = 4;
+  Mesh mesh;
+  mesh.vertices = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  mesh.triangles = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
+  for (int i = 0; i < times; ++i) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+      const auto [found, is_new] = middles.try_emplace(std::minmax(a, b), mesh.vertices.size());
+      if (is_new) mesh.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]).normalized());
+      return found->second;
+    };
+    std::vector<std::uint32_t> finer;
+    for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+      const std::uint32_t a = mesh.triangles[t], b = mesh.triangles[t + 1], c = mesh.triangles[t + 2];
+      const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      finer.insert(finer.end(), {a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca});
+    }
+    mesh.triangles = std::move(finer);
+  }
+  mesh.normals = mesh.vertices;
+  return mesh;
+}
+
+Mesh round_cylinder() {
+  // A square's corners, and between each two the point of the circle halfway, again and again.
+  std::vector<Vec3> circle = {{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}};
+  while (circle.size() < 64) {
+    std::vector<Vec3> finer;
+    for (std::size_t k = 0; k < circle.size(); ++k) {
+      finer.push_back(circle[k]);
+      finer.push_back((circle[k] + circle[(k + 1) % circle.size()]).normalized());
+    }
+    circle = std::move(finer);
+  }
+  const Vec3 up(0, 1, 0);
+  const auto sides = static_cast<std::uint32_t>(circle.size());
+  Mesh mesh;
+  for (std::uint32_t k = 0; k < sides; ++k) {
+    for (const double y : {-1.0, 1.0}) {  // of the flank
+      mesh.vertices.push_back(circle[k] + y * up);
+      mesh.normals.push_back(circle[k]);
+    }
+    for (const double y : {-1.0, 1.0}) {  // of the ends
+      mesh.vertices.push_back(circle[k] + y * up);
+      mesh.normals.push_back(y * up);
+    }
+    const std::uint32_t a = 4 * k, b = 4 * ((k + 1) % sides);
+    mesh.triangles.insert(mesh.triangles.end(), {a, a + 1, b + 1, a, b + 1, b});
+    if (k > 0 && k + 1 < sides) mesh.triangles.insert(mesh.triangles.end(), {2, a + 2, b + 2, 3, b + 3, a + 3});
+  }
+  return mesh;
+}
+
+Mesh placed(const Mesh& mesh, const Vec3& scale, const Vec3& middle) {
+  Mesh out = mesh;
+  for (Vec3& vertex : out.vertices) vertex = middle + scale.cwiseProduct(vertex);
+  for (Vec3& normal : out.normals)
+    if (!normal.isZero(0)) normal = normal.cwiseQuotient(scale).normalized();
+  return out;
+}
+
+Mesh drawn_mesh(const MeshUse& use) {
+  try {
+    return placed(read_mesh(use.file), Vec3::Constant(use.scale), -use.scale * use.center);
+  } catch (const std::runtime_error& error) {
+    throw RenderError(error.what());
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,31 @@
+#include "scene/budget.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace carom {
+
+Budget Budget::without_outputs() const {
+  Budget budget = *this;
+  budget.frames = budget.rows = budget.keys = budget.files = std::numeric_limits<std::uint64_t>::max();
+  return budget;
+}
+
+std::vector<Excess> excesses(const Output& output, double duration, double bodies, const Budget& budget) {
+  std::vector<Excess> found;
+  for (const OutputKind& kind : output_kinds()) {
+    if (kind.rows.empty() || !kind.asked(output)) continue;
+    const double instants = std::ceil(duration / kind.every(output)) + 1, rows = instants * bodies;
+    const std::uint64_t most_rows = kind.in_memory ? budget.keys : budget.rows;
+    if (rows > static_cast<double>(most_rows)) {
+      found.push_back({&kind, rows, std::string(kind.rows), most_rows});
+    } else if (!kind.series.folder.empty() && instants > static_cast<double>(budget.files)) {
+      found.push_back({&kind, instants, fmt::format("files in {}/", kind.series.folder), budget.files});
+    }
+  }
+  return found;
+}
+
+}  // namespace carom

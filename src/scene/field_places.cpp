@@ -1,0 +1,177 @@
+#include "scene/field_places.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/check.h"
+#include "scene/diagnostics.h"
+#include "scene/values.h"
+
+namespace carom {
+namespace {
+
+constexpr std::string_view any_name = "NAME", any_entry = "N";
+
+struct Spot {
+  const Kind* kind;
+  const Field* field;
+  std::vector<std::string_view> steps;
+};
+
+/// Every place of every key of a map of `kind`, which stands at `steps`, in the order of the table.
+void collect(const Kind& kind, const std::vector<std::string_view>& steps, std::vector<Spot>& found) {
+  for (const Field& field : kind.fields) {
+    std::vector<std::string_view> here = steps;
+    here.push_back(field.key);
+    found.push_back({&kind, &field, here});
+    const Kind* held = held_kind(field);
+    if (held == nullptr) continue;
+    if (field.type == Type::named && held->also != nullptr) {
+      found.push_back({held, held->also, here});
+      found.back().steps.push_back(held->also->key);
+    }
+    if (field.type == Type::named || field.type == Type::axes) here.push_back(any_name);
+    if (field.type == Type::list) here.push_back(any_entry);
+    collect(*held, here, found);
+  }
+}
+
+const std::vector<Spot>& all_spots() {
+  static const std::vector<Spot> all = [] {
+    std::vector<Spot> found;
+    for (const std::span<const Kind> family : families()) collect(family.front(), {}, found);
+    return found;
+  }();
+  return all;
+}
+
+std::vector<std::string_view> steps_of(std::string_view path) {
+  std::vector<std::string_view> steps;
+  for (std::size_t i = 0; i <= path.size();) {
+    const std::size_t end = std::min(path.find('.', i), path.size());
+    steps.push_back(path.substr(i, end - i));
+    i = end + 1;
+  }
+  return steps;
+}
+
+using Steps = std::span<const std::string_view>;
+
+/// Whether `said` is the path `steps`; names and numbers may be left out.
+bool is_path(Steps said, Steps steps) {
+  if (steps.empty()) return said.empty();
+  const bool any = steps.front() == any_name || steps.front() == any_entry;
+  if (any && is_path(said, steps.subspan(1))) return true;
+  if (said.empty()) return false;
+  const bool fits = said.front() == steps.front() || (steps.front() == any_name && is_name(said.front())) ||
+                    (steps.front() == any_entry && parse_whole(said.front()));
+  return fits && is_path(said.subspan(1), steps.subspan(1));
+}
+
+/// Whether `said` is the end of the path.
+bool is_end(Steps said, Steps steps) {
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    if (steps[i] != any_name && steps[i] != any_entry && is_path(said, steps.subspan(i))) return true;
+  }
+  return false;
+}
+
+bool is_of_kind(Steps said, const Spot& spot) {
+  return said.size() == 2 && said[0] == spot.kind->name && said[1] == spot.field->key;
+}
+
+/// Whether two rows say the same.
+bool are_equal(const Field& a, const Field& b) {
+  return a.key == b.key && a.type == b.type && a.unit == b.unit && a.range.min == b.range.min &&
+         a.range.max == b.range.max && a.range.above_min == b.range.above_min &&
+         a.range.below_max == b.range.below_max && a.range.even == b.range.even && a.initial == b.initial &&
+         a.of == b.of && a.one_of == b.one_of && a.needed == b.needed && a.doc == b.doc && a.example == b.example;
+}
+
+std::string path_text(const std::vector<std::string_view>& steps) {
+  return fmt::format("{}", fmt::join(steps, "."));
+}
+
+template <typename Fits>
+std::vector<FieldPlaces> select(const Fits& fits) {
+  std::vector<FieldPlaces> found;
+  for (const Spot& spot : all_spots()) {
+    if (!fits(spot)) continue;
+    auto row = std::find_if(found.begin(), found.end(),
+                            [&](const FieldPlaces& other) { return are_equal(*other.field, *spot.field); });
+    if (row == found.end()) row = found.insert(found.end(), {spot.field, {}, {}});
+    if (std::find(row->kinds.begin(), row->kinds.end(), spot.kind) == row->kinds.end()) row->kinds.push_back(spot.kind);
+    row->paths.push_back(path_text(spot.steps));
+  }
+  return found;
+}
+
+std::vector<FieldPlaces> find_steps(Steps said) {
+  const bool bare = said.size() == 1;  // every place is meant
+  std::vector<FieldPlaces> found;
+  if (!bare) found = select([&](const Spot& spot) { return is_path(said, spot.steps); });
+  if (found.empty())
+    found = select([&](const Spot& spot) {
+      return (bare && is_path(said, spot.steps)) || is_end(said, spot.steps) || is_of_kind(said, spot);
+    });
+  return found;
+}
+
+/// A step beneath a value that is a list of numbers.
+bool is_component(std::string_view step, Type type) {
+  if (type == Type::vector || type == Type::direction) return step == "x" || step == "y" || step == "z";
+  return (type == Type::extent || type == Type::pixels) && (step == "width" || step == "height");
+}
+
+}  // namespace
+
+std::vector<FieldPlaces> find_places(std::string_view key) {
+  const std::vector<std::string_view> said = steps_of(key);
+  std::vector<FieldPlaces> found = find_steps(said);
+  if (!found.empty() || said.size() < 2) return found;
+  // balls.red.position.x
+  found = find_steps(Steps(said).first(said.size() - 1));
+  std::erase_if(found, [&](const FieldPlaces& row) { return !is_component(said.back(), row.field->type); });
+  return found;
+}
+
+std::vector<std::string> paths_of(const Kind& kind) {
+  std::vector<std::string> paths;
+  for (const Spot& spot : all_spots()) {
+    if (held_kind(*spot.field) != &kind) continue;
+    std::string path = path_text(spot.steps);
+    if (spot.field->type == Type::named || spot.field->type == Type::axes) path += fmt::format(".{}", any_name);
+    if (spot.field->type == Type::list) path += fmt::format(".{}", any_entry);
+    paths.push_back(std::move(path));
+  }
+  return paths;
+}
+
+const Kind* find_kind(std::string_view name) {
+  for (const std::span<const Kind> family : families()) {
+    for (const Kind& kind : family)
+      if (kind.name == name) return &kind;
+  }
+  return nullptr;
+}
+
+std::string suggest_place(std::string_view key) {
+  const std::vector<std::string_view> said = steps_of(key);
+  // The longest start that means something says where the wrong step would have to be known.
+  for (std::size_t count = said.size() - 1; count > 0; --count) {
+    const std::vector<FieldPlaces> found = find_steps(Steps(said).first(count));
+    const Kind* held = found.empty() ? nullptr : held_kind(*found.front().field);
+    if (held == nullptr) continue;
+    return fmt::format("in {}: {}", quoted(held->name), suggest_key(said[count], *held));
+  }
+  std::vector<std::string_view> known;
+  for (const Spot& spot : all_spots()) known.push_back(spot.field->key);
+  for (const std::span<const Kind> family : families()) {
+    for (const Kind& kind : family) known.push_back(kind.name);
+  }
+  const std::string near = nearest(said.front(), known);
+  return near.empty() ? "" : fmt::format("did you mean {}?", quoted(near));
+}
+
+}  // namespace carom

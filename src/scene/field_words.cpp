@@ -1,0 +1,157 @@
+// What the rows of the table mean in words.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/fields.h"
+
+namespace carom {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string capital(std::string text) {
+  if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
+  return text;
+}
+
+}  // namespace
+
+bool contains(const Range& range, double value) {
+  return (range.above_min ? value > range.min : value >= range.min) &&
+         (range.below_max ? value < range.max : value <= range.max) && (!range.even || std::fmod(value, 2) == 0);
+}
+
+std::string describe(const Range& range) {
+  if (range.min == range.max) return fmt::format("{}", range.min);
+  const bool low = range.min > -infinity, high = range.max < infinity;
+  if (low && high) {
+    return range.above_min || range.below_max ? fmt::format("between {} and {}", range.min, range.max)
+                                              : fmt::format("from {} to {}", range.min, range.max);
+  }
+  if (low) return range.above_min ? fmt::format("above {}", range.min) : fmt::format("of at least {}", range.min);
+  if (high) return fmt::format("of at most {}", range.max);
+  return {};
+}
+
+std::vector<std::string_view> parts_of(std::string_view text) {
+  std::vector<std::string_view> out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t end = std::min(text.find('|', i), text.size());
+    out.push_back(text.substr(i, end - i));
+    i = end + 1;
+  }
+  return out;
+}
+
+std::vector<std::string_view> rivals(const Field& field) {
+  std::vector<std::string_view> out = parts_of(field.one_of);
+  std::erase(out, field.key);
+  return out;
+}
+
+std::vector<std::string_view> choices(const Field& field) {
+  return parts_of(field.of);
+}
+
+std::string title_of(const Field& field) {
+  std::string title(field.title.empty() ? field.key : field.title);
+  for (char& c : title) c = c == '_' ? ' ' : c;
+  return capital(std::move(title));
+}
+
+std::string described(const Field& field) {
+  std::string text(field.doc);
+  if (field.type == Type::choice) {
+    text += fmt::format(" One of {}.", expected(field));
+  } else if (field.range.min == field.range.max) {
+    text += fmt::format(" Always {}.", field.range.min);
+  } else if (held_kind(field) == nullptr) {
+    text += fmt::format(" {}.", capital(expected(field)));
+  }
+  if (!field.initial.empty()) text += fmt::format(" Default: {}.", field.initial);
+  std::vector<std::string> others;
+  for (const std::string_view rival : rivals(field)) others.push_back(fmt::format("`{}`", rival));
+  if (!others.empty()) text += fmt::format(" Not beside {}.", listed({others.begin(), others.end()}));
+  if (!field.with.empty()) text += fmt::format(" Only beside `{}`.", field.with);
+  if (!field.engines.empty()) text += fmt::format(" Only with engine {}.", listed(parts_of(field.engines)));
+  return text;
+}
+
+const Kind* held_kind(const Field& field) {
+  switch (field.type) {
+    case Type::part:
+    case Type::part_or_flag:
+    case Type::named:
+    case Type::list:
+      return &kind_named(field.of);
+    case Type::axes:
+      return &kind_named("range");
+    default:
+      return nullptr;
+  }
+}
+
+std::string listed(const std::vector<std::string_view>& words) {
+  std::string out;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (i > 0) out += i + 1 == words.size() ? " or " : ", ";
+    out += words[i];
+  }
+  return out;
+}
+
+std::string expected(const Field& field) {
+  const std::string range = describe(field.range);
+  const std::string limits = range.empty() ? "" : " " + range;
+  const std::string unit = field.unit.empty() ? "" : fmt::format(" in {}", field.unit);
+  switch (field.type) {
+    case Type::number:
+      return fmt::format("a number{}{}", limits, unit);
+    case Type::whole:
+      return field.range.min == field.range.max
+                 ? range
+                 : fmt::format("{} whole number{}", field.range.even ? "an even" : "a", limits);
+    case Type::flag:
+      return "true or false";
+    case Type::text:
+      return "a text";
+    case Type::choice:
+      return listed(choices(field));
+    case Type::vector:
+      return fmt::format("[x, y, z], three numbers{}{}", limits, unit);
+    case Type::direction:
+      return "[x, y, z], three numbers, not all zero";
+    case Type::extent:
+      return fmt::format("[width, height], two numbers{}{}", limits, unit);
+    case Type::pixels:
+      return fmt::format("[width, height], two {}whole numbers{}{}", field.range.even ? "even " : "", limits, unit);
+    case Type::color:
+      return "a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
+    case Type::file:
+      return "the path of a file, from the folder of the scene";
+    case Type::two_names:
+      return "[name, name]";
+    case Type::names:
+      return "a list of names, such as [red, gas.3]";
+    case Type::part:
+      return "a map of keys";
+    case Type::part_or_flag:
+      return "true, false or a map of keys";
+    case Type::named:
+      return "a map from names to what they are";
+    case Type::list:
+      return "a list";
+    case Type::settings:
+      return "a map from paths to values, such as {balls.red.mass: 2}";
+    case Type::axes:
+      return "a map from paths to lists or ranges, such as {balls.red.mass: [1, 2]} or {balls.red.mass: {from: 1, to: "
+             "2, count: 3}}";
+    case Type::cases:
+      return "a list of maps from paths to values, such as [{balls.red.mass: 2}]";
+  }
+  return {};
+}
+
+}  // namespace carom

@@ -1,0 +1,108 @@
+#include "scene/format_page.h"
+
+#include <fmt/format.h>
+
+#include "scene/field_places.h"
+
+namespace carom {
+namespace {
+
+constexpr std::string_view introduction =
+    R"(# The format of scene and sweep files
+
+Made from the table that the loader reads files by; `carom explain KEY` prints the same for a key, `carom schema` the
+table as a JSON Schema. A scene whose first line is `# yaml-language-server: $schema=scene.schema.json` is completed and
+checked by editors with a YAML language server, if that file stands beside it; `carom new NAME` writes both.
+
+SI units: m, kg, s, N, J; angles in degrees. Right-handed axes, y is up.
+
+A file is one YAML document, a map of keys. Numbers are decimal: `2`, `-0.5`, `.5`, `1e-3`; a leading zero (`010`), a unit,
+quotes, `_` between digits, `.inf` and `.nan` are errors. Readers of YAML 1.1 take `1e-3` for text, where they want
+`1.0e-3`, and an unquoted key `on` for `true`: write `1.0e-3` and `"on"` for them. A flag is `true` or `false`. Names
+match `[A-Za-z_][A-Za-z0-9_-]*` and are unique in a scene. A key that is not known or there twice, an alias, an anchor, a
+tag, `<<`, a tab and a second document are errors.
+
+In paths NAME stands for a name, N for the number of a list's entry, from 0. A key in bold is needed, though `defaults`
+may say it; of keys that exclude one another one is.
+
+)";
+
+std::string quoted_list(const std::vector<std::string_view>& keys) {
+  std::vector<std::string> marked;
+  for (const std::string_view key : keys) marked.push_back(fmt::format("`{}`", key));
+  return listed({marked.begin(), marked.end()});
+}
+
+bool is_needed(const Kind& kind, const Field& field) {
+  if (field.needed) return true;
+  for (const Field& other : kind.fields) {
+    if (other.needed && !field.one_of.empty() && other.one_of == field.one_of) return true;
+  }
+  return false;
+}
+
+std::string value_text(const Field& field) {
+  if (field.type == Type::choice) return quoted_list(choices(field));
+  const Kind* held = held_kind(field);
+  if (held == nullptr) return expected(field);
+  const std::string link = fmt::format("[{}](#{})", held->name, held->name);
+  switch (field.type) {
+    case Type::part:
+      return "a map: " + link;
+    case Type::part_or_flag:
+      return "`true`, `false` or a map: " + link;
+    case Type::named:
+      return "by name: " + link;
+    case Type::list:
+      return "a list: " + link;
+    default:
+      return expected(field) + ": " + link;
+  }
+}
+
+std::string meaning(const Field& field) {
+  std::string text(field.doc);
+  if (!rivals(field).empty()) text += fmt::format(" Not beside {}.", quoted_list(rivals(field)));
+  if (!field.with.empty()) text += fmt::format(" Only beside `{}`.", field.with);
+  if (!field.engines.empty()) text += fmt::format(" Only with engine {}.", listed(parts_of(field.engines)));
+  return text;
+}
+
+std::string code(std::string_view text) {
+  return text.empty() ? "" : fmt::format("`{}`", text);
+}
+
+std::string section(const Kind& kind, bool is_file) {
+  std::string text = fmt::format("## {}\n\n{}\n\n", kind.name, kind.doc);
+  if (!is_file) {
+    std::string paths;
+    for (const std::string& path : paths_of(kind)) paths += fmt::format("{}`{}`", paths.empty() ? "" : ", ", path);
+    text += fmt::format("At {}.", paths);
+    if (!kind.defaults.empty())
+      text += fmt::format(" What it does not say itself it takes from `defaults.{}`.", kind.defaults);
+    if (!kind.any_of.empty()) text += fmt::format(" One of {} is needed.", quoted_list(parts_of(kind.any_of)));
+    text += "\n\n";
+  }
+  text += "| key | value | default | example | meaning |\n| --- | --- | --- | --- | --- |\n";
+  const auto row = [&](const Field& field, std::string_view more) {
+    const std::string_view bold = is_needed(kind, field) ? "**" : "";
+    text += fmt::format("| {}`{}`{} | {} | {} | {} | {}{} |\n", bold, field.key, bold, value_text(field),
+                        code(field.initial), code(field.example), meaning(field), more);
+  };
+  for (const Field& field : kind.fields) row(field, "");
+  if (kind.also != nullptr) row(*kind.also, " Stands beside the names.");
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string format_page() {
+  std::string page(introduction);
+  for (const std::span<const Kind> family : families()) {
+    for (const Kind& kind : family) page += section(kind, &kind == &family.front());
+  }
+  page.pop_back();
+  return page;
+}
+
+}  // namespace carom

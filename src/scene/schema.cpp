@@ -1,0 +1,347 @@
+// Keys that a map may leave to `defaults` make the one rule that is not local: such a map needs a key only where the
+// defaults lack it. A kind's definition therefore leaves these keys free, and the root has a condition for each.
+#include "scene/schema.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "scene/colors.h"
+#include "scene/fields.h"
+#include "scene/value_json.h"
+
+namespace carom {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::string_view name_pattern = "^[A-Za-z_][A-Za-z0-9_-]*$";
+constexpr int longest_name = 200, longest_text = 10'000;
+constexpr std::string_view control_characters = R"([\u0000-\u001f\u007f-\u009f\u2028\u2029\ufeff])";
+
+Json reference(std::string_view definition) {
+  return {{"$ref", fmt::format("#/definitions/{}", definition)}};
+}
+
+Json required(const std::vector<std::string_view>& keys) {
+  return {{"required", keys}};
+}
+
+/// One of the keys at least.
+Json one_required(const std::vector<std::string_view>& keys) {
+  if (keys.size() == 1) return required(keys);
+  Json any = Json::array();
+  for (const std::string_view key : keys) any.push_back(required({key}));
+  return {{"anyOf", any}};
+}
+
+/// A map's value below `key` is as `schema` says.
+Json at(std::string_view key, Json schema) {
+  return {{"properties", {{std::string(key), std::move(schema)}}}};
+}
+
+/// Finite numbers. That nothing is beyond the largest double stands under `not`: to a validator .nan is within any
+/// bounds, and so beyond that one.
+Json number_schema(const Range& range) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  Json schema = {{"type", "number"}};
+  schema[range.above_min ? "exclusiveMinimum" : "minimum"] = number_json(std::max(range.min, -largest));
+  if (range.max <= largest) schema[range.below_max ? "exclusiveMaximum" : "maximum"] = number_json(range.max);
+  schema["not"] = {{"exclusiveMinimum", largest}};
+  return schema;
+}
+
+Json whole_schema(const Range& range) {
+  constexpr std::uint64_t largest = std::numeric_limits<std::uint64_t>::max();
+  if (range.min == range.max) return {{"type", "integer"}, {"const", number_json(range.min)}};
+  Json schema = {{"type", "integer"}, {"minimum", number_json(std::max(range.min, 0.0))}};
+  schema["maximum"] = range.max < static_cast<double>(largest) ? number_json(range.max) : Json(largest);
+  if (range.even) schema["multipleOf"] = 2;
+  return schema;
+}
+
+Json array_schema(Json each, int count) {
+  return {{"type", "array"}, {"items", std::move(each)}, {"minItems", count}, {"maxItems", count}};
+}
+
+/// Any scalar is a text, whatever a YAML reader makes of it.
+Json text_schema(const Field& field) {
+  if (!field.pattern.empty()) return {{"type", "string"}, {"pattern", field.pattern}};
+  Json schema = {{"type", {"string", "number", "boolean"}}, {"maxLength", longest_text}};
+  if (field.type == Type::file) schema["minLength"] = 1;
+  schema["not"] = {{"type", "string"}, {"pattern", control_characters}};
+  return schema;
+}
+
+/// A pattern for the words in any case: [rR][eE][dD]|...
+std::string in_any_case(const std::vector<std::string_view>& words) {
+  std::string pattern = "^(";
+  for (const std::string_view word : words) {
+    if (word != words.front()) pattern += '|';
+    for (const char c : word) pattern += fmt::format("[{}{}]", c, static_cast<char>(c - 32));
+  }
+  return pattern + ")$";
+}
+
+Json color_schema() {
+  const Json names = {{"enum", color_names()}};
+  const Json hex = {{"type", "string"}, {"format", "color-hex"}, {"pattern", "^#([0-9A-Fa-f]{3}|[0-9A-Fa-f]{6})$"}};
+  const Json any_case = {{"type", "string"}, {"pattern", in_any_case(color_names())}};
+  return {{"anyOf", Json::array({names, hex, array_schema(number_schema({0, 1}), 3), any_case})}};
+}
+
+Json field_schema(const Field& field);
+
+Json named_schema(const Kind& kind) {
+  Json schema = {{"type", "object"}};
+  schema["propertyNames"] = {{"type", "string"}, {"pattern", name_pattern}, {"maxLength", longest_name}};
+  if (kind.also != nullptr) schema["properties"] = {{std::string(kind.also->key), field_schema(*kind.also)}};
+  schema["additionalProperties"] = reference(kind.name);
+  return schema;
+}
+
+/// A map from paths to values: what these can be the scene's table says.
+Json settings_schema() {
+  return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", {{"not", {{"type", "null"}}}}}};
+}
+
+Json axis_schema(const Kind& range) {
+  const Json values = {{"type", "array"}, {"items", {{"not", {{"type", "null"}}}}}, {"minItems", 1}};
+  return {{"anyOf", Json::array({values, reference(range.name)})}};
+}
+
+Json value_schema(const Field& field) {
+  switch (field.type) {
+    case Type::number:
+      return number_schema(field.range);
+    case Type::whole:
+      return whole_schema(field.range);
+    case Type::flag:
+      return {{"type", "boolean"}};
+    case Type::text:
+    case Type::file:
+      return text_schema(field);
+    case Type::choice: {
+      Json all = Json::array();
+      for (const std::string_view choice : choices(field)) all.push_back(json_of_yaml(choice));
+      return {{"enum", all}};
+    }
+    case Type::vector:
+      return array_schema(number_schema(field.range), 3);
+    case Type::direction: {
+      Json schema = array_schema(number_schema(field.range), 3);
+      schema["not"] = {{"items", {{"const", 0}}}};
+      return schema;
+    }
+    case Type::extent:
+      return array_schema(number_schema(field.range), 2);
+    case Type::pixels:
+      return array_schema(whole_schema(field.range), 2);
+    case Type::color:
+      return {{"allOf", Json::array({reference("color")})}};
+    case Type::two_names:
+      return array_schema(text_schema(field), 2);
+    case Type::names:
+      return {{"type", "array"}, {"items", text_schema(field)}, {"minItems", 1}};
+    case Type::part:
+      return {{"allOf", Json::array({reference(field.of)})}};
+    case Type::part_or_flag:
+      return {{"anyOf", Json::array({{{"type", "boolean"}}, reference(field.of)})}};
+    case Type::named:
+      return named_schema(kind_named(field.of));
+    case Type::list:
+      return {{"type", "array"}, {"items", reference(field.of)}};
+    case Type::settings:
+      return settings_schema();
+    case Type::axes:
+      return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", axis_schema(*held_kind(field))}};
+    case Type::cases:
+      return {{"type", "array"}, {"items", settings_schema()}, {"minItems", 1}};
+  }
+  return {};
+}
+
+Json field_schema(const Field& field) {
+  Json schema;
+  const std::string unit = field.unit.empty() ? "" : fmt::format(" ({})", field.unit);
+  schema["title"] = title_of(field) + unit;
+  schema["description"] = described(field);
+  schema.update(value_schema(field));
+  if (!field.initial.empty()) schema["default"] = json_of_yaml(field.initial);
+  if (!field.example.empty()) schema["examples"] = Json::array({json_of_yaml(field.example)});
+  return schema;
+}
+
+/// The keys of which one is needed, for each field that is.
+std::vector<std::vector<std::string_view>> needs_of(const Kind& kind) {
+  std::vector<std::vector<std::string_view>> needs;
+  for (const Field& field : kind.fields) {
+    if (!field.needed) continue;
+    needs.push_back(field.one_of.empty() ? std::vector{field.key} : parts_of(field.one_of));
+  }
+  return needs;
+}
+
+/// Field::one_of: a key excludes those of its rivals that come later.
+Json exclusions(const Kind& kind) {
+  Json all = Json::object();
+  for (const Field& field : kind.fields) {
+    Json later = Json::object();
+    bool passed = false;
+    for (const std::string_view key : parts_of(field.one_of)) {
+      if (passed) later[std::string(key)] = false;
+      passed = passed || key == field.key;
+    }
+    if (!later.empty()) all[std::string(field.key)] = {{"properties", later}};
+  }
+  return all;
+}
+
+/// Field::engines.
+Json engine_rule(const Field& field) {
+  Json when = required({field.key});
+  if (!field.initial.empty()) when.update(at(field.key, {{"not", {{"const", json_of_yaml(field.initial)}}}}));
+  const std::vector<std::string_view> engines = parts_of(field.engines);
+  const Field& engine = *find_field(kind_named("simulate"), "engine");
+  Json then = at(engine.key, {{"enum", engines}});
+  if (std::find(engines.begin(), engines.end(), engine.initial) == engines.end()) then.update(required({engine.key}));
+  return {{"if", when}, {"then", then}};
+}
+
+/// Kind::beneath: a value that does not suit the map that would take it needs one of its own there.
+void add_beneath_rules(const Field& field, Json& rules) {
+  const Kind* kind = held_kind(field);
+  if (kind == nullptr || kind->beneath.empty()) return;
+  for (const Field& own : kind->fields) {
+    const Field* below = find_field(kind_named(kind->beneath), own.key);
+    if (below == nullptr || below->range.even == own.range.even) continue;
+    Json unsuited = required({own.key}), when = required({kind->beneath});
+    unsuited["type"] = "object";
+    unsuited.update(at(own.key, {{"not", value_schema(own)}}));
+    when.update(at(kind->beneath, unsuited));
+    const Json absent = {{"const", false}};
+    Json said = required({own.key});
+    said["type"] = "object";
+    rules.push_back({{"if", when}, {"then", at(field.key, {{"anyOf", Json::array({absent, said})}})}});
+  }
+}
+
+/// A map of this kind. What `defaults` may say is needed by rules of the root.
+Json kind_schema(const Kind& kind) {
+  Json schema = {{"description", kind.doc}, {"type", "object"}};
+  Json properties = Json::object(), rules = Json::array();
+  std::vector<std::string_view> keys;
+  for (const Field& field : kind.fields) {
+    properties[std::string(field.key)] = field_schema(field);
+    if (!field.engines.empty()) rules.push_back(engine_rule(field));
+    add_beneath_rules(field, rules);
+  }
+  if (kind.defaults.empty()) {
+    for (const auto& need : needs_of(kind)) {
+      if (need.size() == 1) {
+        keys.push_back(need.front());
+      } else {
+        rules.push_back(one_required(need));
+      }
+    }
+  }
+  if (!kind.any_of.empty()) rules.push_back(one_required(parts_of(kind.any_of)));
+  schema["properties"] = properties;
+  if (!keys.empty()) schema["required"] = keys;
+  schema["additionalProperties"] = false;
+  if (const Json excluded = exclusions(kind); !excluded.empty()) schema["dependencies"] = excluded;
+  if (!rules.empty()) schema["allOf"] = rules;
+  return schema;
+}
+
+/// Whether `defaults` has one of these keys for maps of this kind.
+Json has_default(const Kind& kind, const std::vector<std::string_view>& keys) {
+  Json part = required({kind.defaults});
+  part.update(at(kind.defaults, one_required(keys)));
+  Json whole = required({"defaults"});
+  whole.update(at("defaults", std::move(part)));
+  return whole;
+}
+
+/// What maps of a kind need that has defaults. `each` wraps a schema of one of them into one of the root.
+void add_rules(const Kind& kind, const std::function<Json(Json)>& each, Json& rules) {
+  for (const auto& need : needs_of(kind))
+    rules.push_back({{"if", has_default(kind, need)}, {"else", each(one_required(need))}});
+  for (const Field& field : kind.fields) {
+    if (field.with.empty()) continue;
+    // Where it stands, and where the defaults' holds since no rival hides it.
+    const Json beside = {{"dependencies", {{std::string(field.key), Json::array({field.with})}}}};
+    rules.push_back({{"if", has_default(kind, {field.with})}, {"else", each(beside)}});
+    std::vector<std::string_view> hiding = rivals(field);
+    hiding.push_back(field.with);
+    rules.push_back(
+        {{"if", {{"allOf", Json::array({has_default(kind, {field.key}), {{"not", has_default(kind, {field.with})}}})}}},
+         {"then", each(one_required(hiding))}});
+  }
+}
+
+/// A part with defaults of its own: it stands in the map of `owner` or comes whole from the owner's defaults.
+void add_part_rules(const Kind& owner, const Field& field, const std::function<Json(Json)>& each, Json& rules) {
+  const Kind& kind = kind_named(field.of);
+  add_rules(
+      kind, [&](Json schema) { return each(at(field.key, std::move(schema))); }, rules);
+  for (const auto& need : needs_of(kind)) {
+    Json part = required({owner.defaults}), owned = required({field.key});
+    owned.update(at(field.key, one_required(need)));
+    part.update(at(owner.defaults, owned));
+    Json whole = required({"defaults"});
+    whole.update(at("defaults", part));
+    rules.push_back(
+        {{"if", {{"anyOf", Json::array({has_default(kind, need), whole})}}}, {"else", each(required({field.key}))}});
+  }
+}
+
+Json root_rules(const Kind& root) {
+  Json rules = Json::array();
+  if (find_field(root, "defaults") == nullptr) return rules;
+  for (const Field& field : root.fields) {
+    if (field.type != Type::named || kind_named(field.of).defaults.empty()) continue;
+    const Kind& kind = kind_named(field.of);
+    const auto each = [&](Json schema) { return at(field.key, {{"additionalProperties", std::move(schema)}}); };
+    add_rules(kind, each, rules);
+    for (const Field& part : kind.fields) {
+      if (part.type == Type::part && !kind_named(part.of).defaults.empty()) add_part_rules(kind, part, each, rules);
+    }
+  }
+  return rules;
+}
+
+/// The kinds that a map of `kind` can hold, each once, in order.
+void collect(const Kind& kind, std::vector<const Kind*>& found) {
+  for (const Field& field : kind.fields) {
+    const Kind* held = held_kind(field);
+    if (held == nullptr || std::find(found.begin(), found.end(), held) != found.end()) continue;
+    found.push_back(held);
+    collect(*held, found);
+  }
+}
+
+}  // namespace
+
+std::string json_schema(std::string_view root_name) {
+  const Kind& root = kind_named(root_name);
+  Json schema = {{"$schema", "http://json-schema.org/draft-07/schema#"},
+                 {"title", fmt::format("carom: {}", root.name)}};
+  schema.update(kind_schema(root));
+  if (Json rules = root_rules(root); !rules.empty()) {
+    if (!schema.contains("allOf")) schema["allOf"] = Json::array();
+    for (Json& rule : rules) schema["allOf"].push_back(std::move(rule));
+  }
+  std::vector<const Kind*> held;
+  collect(root, held);
+  Json definitions = {{"color", color_schema()}};
+  for (const Kind* kind : held) definitions[std::string(kind->name)] = kind_schema(*kind);
+  schema["definitions"] = std::move(definitions);
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace carom

@@ -1,0 +1,228 @@
+// carom new, explain and schema, by the real program.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "commands/new.h"
+#include "commands/program.h"
+
+namespace carom::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(New, WritesASceneThatRunsAsItIsAndTheSchemaBesideIt) {
+  const Workplace here;
+  const Finished made = here.carom({"new", "first"});
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_EQ(made.out, "wrote first.yaml and scene.schema.json\n");
+  EXPECT_EQ(here.files().size(), 2u);
+  EXPECT_EQ(here.read("scene.schema.json"), here.carom({"schema"}).out);
+  EXPECT_TRUE(here.read("first.yaml").starts_with("# yaml-language-server: $schema=scene.schema.json\n"));
+  const Finished check = here.carom({"check", "first.yaml", "--json"});
+  EXPECT_EQ(check.code, 0) << check.err;
+  const Json scene = Json::parse(check.out)["scenes"][0];
+  EXPECT_EQ(scene["camera"]["out_of_view"], 0);
+  EXPECT_GT(scene["pictures"], 0);
+  const Finished run = here.carom({"run", "first.yaml"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(here.has("output/first/frames/frame_00000.png"));
+}
+
+TEST(New, SceneDoesWhatItsCommentSays) {
+  const Workplace here;
+  here.carom({"new", "first"});
+  const Json run = Json::parse(here.carom({"run", "first.yaml", "--only", "collisions", "--json"}).out)["scenes"][0];
+  const std::string scene(starting_scene()), phrase = "sqrt(2 * 1 / 9.80665) = ";
+  const double said = std::stod(scene.substr(scene.find(phrase) + phrase.size()));
+  EXPECT_NEAR(run["summary"]["first_collision_s"].get<double>(), said, 5e-5);
+  const std::string table = here.read("output/first/collisions.csv");
+  EXPECT_NE(table.find(",body-fixed,red,floor,"), std::string::npos) << table;
+  EXPECT_NE(table.find(",body-body,red,blue,"), std::string::npos) << table;
+}
+
+TEST(New, EveryLineThatIsCommentedOutMayBeTakenIn) {
+  const Workplace here;
+  const std::string scene(starting_scene());
+  std::string all;
+  bool inside = false;  // from the scene's first key on
+  for (std::size_t i = 0; i < scene.size();) {
+    const std::size_t end = scene.find('\n', i);
+    std::string line = scene.substr(i, end - i);
+    i = end + 1;
+    inside = inside || line.starts_with("scene: 1");
+    const std::size_t mark = line.find_first_not_of(' ');
+    const bool key = mark != std::string::npos && line[mark] == '#' && line.find(": ") != std::string::npos;
+    const bool opens = line.starts_with("# groups:") || line.starts_with("# walls:");
+    if (inside && (opens || (key && !line.ends_with(".") && !line.ends_with(":")))) line.erase(mark, 2);
+    all += line + "\n";
+  }
+  EXPECT_NE(all.find("\ngroups:\n  marbles:"), std::string::npos);
+  EXPECT_NE(all.find("\n  video:"), std::string::npos);
+  here.write("all.yaml", all);
+  const Finished check = here.carom({"check", "all.yaml", "--set", "gravity=[0,-1,0]"});
+  EXPECT_EQ(check.code, 0) << check.err << all;
+  EXPECT_NE(check.out.find("22 bodies"), std::string::npos) << check.out;
+  EXPECT_NE(check.out.find("1 plane, 1 wall"), std::string::npos) << check.out;
+}
+
+TEST(New, NamesMayHaveAFolderAndAnEnding) {
+  const Workplace here;
+  EXPECT_EQ(here.carom({"new", "demos/more/one.yaml"}).code, 0);
+  EXPECT_TRUE(here.has("demos/more/one.yaml"));
+  EXPECT_TRUE(here.has("demos/more/scene.schema.json"));
+  EXPECT_EQ(here.carom({"new", "two.yml", "-q"}).out, "");
+  EXPECT_TRUE(here.has("two.yml"));
+  EXPECT_EQ(here.carom({"new", "with space 1.5"}).code, 0);
+  EXPECT_TRUE(here.has("with space 1.5.yaml"));
+  const Json document = Json::parse(here.carom({"new", "demos/three", "--json"}).out);
+  EXPECT_EQ(document["scene"], "demos/three.yaml");
+  EXPECT_EQ(document["schema"], "demos/scene.schema.json");
+}
+
+TEST(New, OverwritesNothingWithoutForce) {
+  const Workplace here;
+  here.write("first.yaml", "mine\n");
+  const Finished refused = here.carom({"new", "first"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.err,
+            "carom new: first.yaml is there already: choose another name, or overwrite it with --force\n"
+            "  carom new --help shows how it is used\n");
+  EXPECT_EQ(here.read("first.yaml"), "mine\n");
+  EXPECT_FALSE(here.has("scene.schema.json"));
+  EXPECT_EQ(here.carom({"new", "first", "--force"}).code, 0);
+  EXPECT_EQ(here.read("first.yaml"), starting_scene());
+}
+
+TEST(New, ReplacesNoFolder) {
+  const Workplace here;
+  here.write("first.yaml/file", "");
+  const Finished refused = here.carom({"new", "first", "--force"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_NE(refused.err.find("first.yaml is a folder"), std::string::npos) << refused.err;
+  EXPECT_EQ(here.files().size(), 1u);
+}
+
+TEST(New, ReplacesAnOldSchemaButNothingElseOfItsName) {
+  const Workplace here;
+  const std::string schema = here.carom({"schema"}).out;
+  here.write("scene.schema.json", schema.substr(0, schema.size() / 2));
+  EXPECT_EQ(here.carom({"new", "first"}).code, 0);
+  EXPECT_EQ(here.read("scene.schema.json"), schema);
+  here.write("scene.schema.json", "{}");
+  EXPECT_EQ(here.carom({"new", "second"}).code, 2);
+  EXPECT_FALSE(here.has("second.yaml"));
+  EXPECT_EQ(here.read("scene.schema.json"), "{}");
+}
+
+TEST(New, RefusesWhatIsNoName) {
+  const Workplace here;
+  for (const std::string name : {"", ".", "..", "demos/", ".hidden", "demos/.yaml", "a\nb", "back\\slash", "/"}) {
+    const Finished made = here.carom({"new", name});
+    EXPECT_EQ(made.code, 2) << name;
+    EXPECT_NE(made.err.find("is no name for a scene"), std::string::npos) << name << ": " << made.err;
+  }
+  EXPECT_EQ(here.carom({"new", "--", "-dash"}).code, 2);
+  EXPECT_EQ(here.carom({"new", std::string(151, 'a')}).code, 2);
+  EXPECT_EQ(here.carom({"new"}).code, 2);
+  EXPECT_EQ(here.carom({"new", "a", "b"}).code, 2);
+  here.write("file", "");
+  const Finished under = here.carom({"new", "file/first"});
+  EXPECT_EQ(under.code, 1);
+  EXPECT_NE(under.err.find("cannot open file"), std::string::npos) << under.err;
+  EXPECT_EQ(here.files().size(), 1u);
+}
+
+TEST(Explain, TellsAllOfAKeyByItsPath) {
+  const Workplace here;
+  const Finished told = here.carom({"explain", "balls.red.mass"});
+  EXPECT_EQ(told.code, 0);
+  EXPECT_EQ(told.out,
+            "mass: Mass (kg)\n"
+            "  meaning     Mass.\n"
+            "  value       a number above 0 in kg\n"
+            "  example     mass: 10\n"
+            "  needed      one of mass and density, here or in `defaults`\n"
+            "  excludes    density\n"
+            "  stands at   balls.NAME.mass\n");
+  EXPECT_EQ(here.carom({"explain", "balls.mass"}).out, told.out);
+  EXPECT_EQ(here.carom({"explain", "balls.NAME.mass"}).out, told.out);
+}
+
+TEST(Explain, TellsEveryPlaceOfABareKey) {
+  const Workplace here;
+  const Json fields = Json::parse(here.carom({"explain", "restitution", "--json"}).out)["fields"];
+  std::set<std::string> paths;
+  for (const Json& field : fields) {
+    for (const Json& path : field["paths"]) paths.insert(path);
+  }
+  for (const char* path : {"restitution", "balls.NAME.restitution", "defaults.ball.restitution",
+                           "groups.NAME.ball.restitution", "planes.NAME.restitution", "room.restitution"})
+    EXPECT_TRUE(paths.contains(path)) << path;
+  // One entry for all that say the same.
+  EXPECT_EQ(fields.size(), 3u);
+}
+
+TEST(Explain, ReadsPathsAsSetDoes) {
+  const Workplace here;
+  for (const char* path : {"simulate.rest_speed", "restitution.combine", "output.frames.size.width", "gravity.y",
+                           "forces.0.drag.linear", "balls.red.position.x", "defaults.ball.mass", "lights", "ball.mass",
+                           "ball", "camera", "frames.fps", "defaults.group.ball.radius"})
+    EXPECT_EQ(here.carom({"explain", path}).code, 0) << path;
+  for (const char* path : {"balls.red.mass.x", "gravity.w", "simulate.mass", "nonsense", "", ".", "balls.red.", "w"})
+    EXPECT_EQ(here.carom({"explain", path}).code, 2) << path;
+}
+
+TEST(Explain, HasNearNames) {
+  const Workplace here;
+  EXPECT_EQ(here.carom({"explain", "rest_sped"}).err,
+            "carom explain: the format has no `rest_sped`; did you mean `rest_speed`?\n"
+            "  carom explain --help shows how it is used\n");
+  EXPECT_EQ(here.carom({"explain", "simulate.rest_sped"}).err,
+            "carom explain: the format has no `simulate.rest_sped`; in `simulate`: did you mean `rest_speed`?\n"
+            "  carom explain --help shows how it is used\n");
+}
+
+TEST(Explain, GivesAProgramUnitRangeDefaultAndExample) {
+  const Workplace here;
+  const Json document = Json::parse(here.carom({"explain", "camera.fov", "--json"}).out);
+  EXPECT_EQ(document["command"], "explain");
+  const Json fov = document["fields"][0];
+  EXPECT_EQ(fov["unit"], "degrees");
+  EXPECT_EQ(fov["range"], Json({{"above", 0}, {"below", 180}}));
+  EXPECT_EQ(fov["default"], 45);
+  EXPECT_EQ(fov["example"], 30);
+  EXPECT_EQ(fov["needed"], false);
+  const Json engine = Json::parse(here.carom({"explain", "engine", "--json"}).out)["fields"][0];
+  EXPECT_EQ(engine["choices"], Json({"auto", "exact", "stepped", "book"}));
+}
+
+TEST(Explain, AloneListsTheKinds) {
+  const Workplace here;
+  const std::string out = here.carom({"explain"}).out;
+  EXPECT_NE(out.find("\n    ball            A sphere that moves without turning.\n"), std::string::npos) << out;
+  EXPECT_EQ(here.carom({"explain", "-q"}).out, "");
+}
+
+TEST(Explain, PrintsThePageOfAllKeys) {
+  const Workplace here;
+  const std::string page = here.carom({"explain", "--page"}).out;
+  EXPECT_TRUE(page.starts_with("# The format of scene and sweep files\n")) << page;
+  EXPECT_NE(page.find("| `rest_speed` | a number of at least 0 in m/s |  | `0.01` |"), std::string::npos) << page;
+  EXPECT_EQ(here.carom({"explain", "--page", "balls"}).code, 2);
+}
+
+TEST(SchemaCommand, KnowsTheKindsOfFiles) {
+  const Workplace here;
+  const Json scene = Json::parse(here.carom({"schema"}).out);
+  EXPECT_EQ(scene["$schema"], "http://json-schema.org/draft-07/schema#");
+  EXPECT_EQ(here.carom({"schema", "scene"}).out, here.carom({"schema"}).out);
+  EXPECT_TRUE(Json::parse(here.carom({"schema", "sweep"}).out)["properties"].contains("sweep"));
+  const Finished wrong = here.carom({"schema", "scne"});
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.err.find("there is no kind of file `scne`; did you mean `scene`?"), std::string::npos) << wrong.err;
+}
+
+}  // namespace
+}  // namespace carom::testing

@@ -1,0 +1,157 @@
+// What stands still as triangles, and the parts of a glTF file that assimp has no words for.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "render/glb.h"
+#include "render/glb_nodes.h"
+#include "render/still_things.h"
+
+namespace carom {
+namespace {
+
+using Json = nlohmann::json;
+
+Extent extent_of(const Mesh& mesh) {
+  Extent extent;
+  for (const Vec3& vertex : mesh.vertices) extent.include(vertex);
+  return extent;
+}
+
+Scene room() {
+  Scene scene;
+  const Vec3 low(-1, 0, -2), high(3, 5, 2);
+  for (int axis = 0; axis < 3; ++axis) {
+    scene.world.planes.push_back({low, Vec3::Unit(axis), {}});
+    scene.world.planes.push_back({high, -Vec3::Unit(axis), {}});
+  }
+  for (const char* name : {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"})
+    scene.roster.fixed.push_back({std::string("room.") + name, {}, true});
+  return scene;
+}
+
+Scene ball_at(const Vec3& position) {
+  Scene scene;
+  scene.world.mass = {1};
+  scene.world.radius = {0.5};
+  scene.world.restitution = {1};
+  scene.initial.position = {position};
+  scene.initial.velocity = {Vec3::Zero()};
+  scene.roster.bodies = {{"ball", 0, 1, false, {0.5, 0.5, 0.5}}};
+  return scene;
+}
+
+Json json_of(const std::string& file) {
+  std::uint32_t size = 0;
+  std::memcpy(&size, file.data() + 12, sizeof size);
+  return Json::parse(file.substr(20, size));
+}
+
+TEST(StillThings, SidesOfARoomEndWhereTheyMeet) {
+  Extent seen;
+  seen.include(Vec3(1, 1, 1));
+  const std::vector<StillThing> things = still_things(room(), seen);
+  ASSERT_EQ(things.size(), 6U);
+  for (const StillThing& thing : things) EXPECT_EQ(thing.mesh.vertices.size(), 4U) << thing.name;
+  const Extent floor = extent_of(things[2].mesh);
+  EXPECT_TRUE(floor.low.isApprox(Vec3(-1, 0, -2), 1e-14)) << floor.low.transpose();
+  EXPECT_TRUE((floor.high - Vec3(3, 0, 2)).norm() < 1e-14) << floor.high.transpose();
+}
+
+TEST(StillThings, APlaneReachesBeyondTheMotionAndNotForEver) {
+  Scene scene;
+  scene.world.planes = {{Vec3(7, -1, 0), Vec3(0, 1, 0), {}}};
+  scene.roster.fixed = {{"floor", {}, true}};
+  Extent seen;
+  seen.include(Vec3(-2, 0, -1)), seen.include(Vec3(2, 3, 1));
+  const std::vector<StillThing> things = still_things(scene, seen);
+  ASSERT_EQ(things.size(), 1U);
+  const Extent floor = extent_of(things[0].mesh);
+  EXPECT_TRUE((floor.low.array() <= Vec3(-2, -1, -1).array()).all());
+  EXPECT_TRUE((floor.high.array() >= Vec3(2, -1, 1).array()).all());
+  EXPECT_LT((floor.high - floor.low).norm(), 20);
+  EXPECT_EQ(floor.low.y(), -1);
+}
+
+TEST(StillThings, TrianglesLookToTheFreeSide) {
+  for (const StillThing& thing : still_things(room(), {})) {
+    const Mesh& mesh = thing.mesh;
+    for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+      const Vec3 &a = mesh.vertices[mesh.triangles[t]], &b = mesh.vertices[mesh.triangles[t + 1]],
+                 &c = mesh.vertices[mesh.triangles[t + 2]];
+      EXPECT_GT((b - a).cross(c - a).dot(mesh.normals[mesh.triangles[t]]), 0) << thing.name;
+    }
+  }
+}
+
+TEST(StillThings, WhatIsNotVisibleIsNotThere) {
+  Scene scene = room();
+  for (FixedName& name : scene.roster.fixed) name.visible = false;
+  EXPECT_TRUE(still_things(scene, {}).empty());
+}
+
+TEST(StillThings, RoundVolumesHaveTheirCornersOnThem) {
+  const Mesh ball = round_ball(), cylinder = round_cylinder();
+  EXPECT_EQ(ball.triangles.size(), 3U * 2048);
+  for (const Vec3& vertex : ball.vertices) EXPECT_NEAR(vertex.norm(), 1, 1e-15);
+  for (const Vec3& vertex : cylinder.vertices) {
+    EXPECT_NEAR(Vec3(vertex.x(), 0, vertex.z()).norm(), 1, 1e-15);
+    EXPECT_EQ(std::abs(vertex.y()), 1);
+  }
+  for (const Mesh& mesh : {ball, cylinder})  // outside is where the normals point
+    for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+      const Vec3 &a = mesh.vertices[mesh.triangles[t]], &b = mesh.vertices[mesh.triangles[t + 1]],
+                 &c = mesh.vertices[mesh.triangles[t + 2]];
+      EXPECT_GT((b - a).cross(c - a).dot(mesh.normals[mesh.triangles[t]]), 0);
+    }
+}
+
+TEST(Glb, KeepsWhatAssimpLoses) {
+  Scene scene = ball_at(Vec3(1, 1, 1));
+  scene.title = "At one";
+  scene.lights = {{"lamp", {}, Vec3(0, 3, 0), {}, 1}};
+  scene.camera = Camera{.eye = Vec3(0, 1, 5), .target = Vec3(0, 1, 0)};
+  KeyedMotion motion;
+  motion.times = {0, 0.5, 1};
+  motion.position = {{1, 1, 1}, {1, 2, 1}, {1, 3, 1}};
+  motion.changes = {{1, 0, Volume::sphere(1)}, {2, 0, std::nullopt}};
+  const Json gltf = json_of(glb(scene, motion));
+  EXPECT_EQ(gltf["scenes"][0]["name"], "At one");
+  EXPECT_EQ(gltf["nodes"][1]["name"], "ball");
+  EXPECT_EQ(gltf["nodes"][1]["translation"], Json({1, 1, 1}));
+  EXPECT_EQ(gltf["nodes"][1]["scale"], Json({0.5, 0.5, 0.5}));
+  EXPECT_EQ(gltf["nodes"][2]["camera"], 0);
+  EXPECT_NEAR(gltf["cameras"][0]["perspective"]["yfov"].get<double>(), 0.785398163, 1e-7);
+  EXPECT_EQ(gltf["nodes"][3]["extensions"]["KHR_lights_punctual"]["light"], 0);
+  EXPECT_EQ(gltf["extensions"]["KHR_lights_punctual"]["lights"][0]["type"], "point");
+  EXPECT_FALSE(gltf["materials"][0].contains("extensions"));
+  // 0.5 in sRGB is 0.214 of the light.
+  EXPECT_NEAR(gltf["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][0].get<double>(), 0.21404, 1e-5);
+  const Json& animation = gltf["animations"][0];
+  ASSERT_EQ(animation["channels"].size(), 2U);
+  EXPECT_EQ(animation["samplers"][0]["interpolation"], "LINEAR");
+  EXPECT_EQ(animation["channels"][1]["target"]["path"], "scale");
+  EXPECT_EQ(animation["samplers"][1]["interpolation"], "STEP");
+}
+
+TEST(Glb, RotationsTurnTheAxesWhereTheyShould) {
+  const Vec3 x = Vec3(1, 2, -0.5).normalized(), z = x.cross(Vec3(0.3, 1, 4)).normalized(), y = z.cross(x);
+  for (const auto& [a, b, c] :
+       {std::array<Vec3, 3>{x, y, z}, {y, z, x}, {z, x, y}, {-x, -y, z}, {x, -y, -z}, {-x, y, -z}}) {
+    const auto q = rotation_to(a, b, c);
+    const Eigen::Quaterniond turn(q[3], q[0], q[1], q[2]);
+    EXPECT_NEAR(turn.norm(), 1, 1e-15);
+    EXPECT_LT((turn * Vec3::UnitX() - a).norm() + (turn * Vec3::UnitZ() - c).norm(), 1e-14);
+  }
+}
+
+TEST(Glb, ASceneOfNothingIsAnError) {
+  EXPECT_THROW(glb(Scene{}, {}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace carom

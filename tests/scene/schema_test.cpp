@@ -1,0 +1,306 @@
+// The schema against the loader: both made from one table, held together by a validator of somebody else's.
+#include "scene/schema.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "scene/fields.h"
+#include "scene/format_page.h"
+#include "scene/scenes_in_text.h"
+#include "scene/variations.h"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with a schema, in which documents are held against it.
+class Validator {
+ public:
+  explicit Validator(std::string_view root) : folder_(test_folder() + "/" + std::string(root)) {
+    fs::create_directories(folder_);
+    std::ofstream(folder_ + "/schema.json") << json_schema(root);
+  }
+  ~Validator() { fs::remove_all(folder_); }
+  Validator(const Validator&) = delete;
+  Validator& operator=(const Validator&) = delete;
+
+  const std::string& folder() const { return folder_; }
+  void add_json(const std::string& text) { lines_ += fmt::format("{{\"json\": {}}}\n", text); }
+  void add_yaml(const std::string& text) { lines_ += nlohmann::json{{"yaml", text}}.dump() + "\n"; }
+  void add_yaml11(const std::string& text) { lines_ += nlohmann::json{{"yaml 1.1", text}}.dump() + "\n"; }
+
+  /// "right" or "wrong ..." for each document.
+  std::vector<std::string> run() const {
+    std::ofstream(folder_ + "/documents") << lines_;
+    const std::string command = fmt::format("cd '{}' && /usr/bin/python3 {} schema.json documents > verdicts 2> errors",
+                                            folder_, SOURCE_DIR "/tests/scene/validate.py");
+    EXPECT_EQ(std::system(command.c_str()), 0) << text_of("errors");
+    std::istringstream in(text_of("verdicts"));
+    std::vector<std::string> verdicts;
+    for (std::string line; std::getline(in, line);) verdicts.push_back(line);
+    return verdicts;
+  }
+
+ private:
+  std::string text_of(const char* name) const {
+    std::ifstream in(folder_ + "/" + name);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  std::string folder_, lines_;
+};
+
+/// The errors of a scene, empty if there are none.
+std::string loaded(const std::string& path, const std::string& text) {
+  std::ofstream(path, std::ios::binary) << text;
+  LoadOptions options;
+  options.mesh_points = [](const std::string&) {
+    return std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  };
+  try {
+    load_scene(path, options);
+    return "";
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+}
+
+/// What takes more than keys, types and ranges: errors of the loader that a schema cannot have.
+struct Beyond {
+  std::string error;  // a part of its text
+  std::string why;
+};
+
+const std::vector<Beyond>& beyond_schemas() {
+  static const std::vector<Beyond> all = {
+      {"nothing is named", "which names there are"},
+      {"never move, so they never meet", "what a name stands for"},
+      {"does not meet itself", "two names against one another"},
+      {"never moves: no force acts on it", "what a name stands for"},
+      {"is taken", "names of two kinds of things against one another"},
+      {"there is no file", "what files there are"},
+      {"at the start", "where things are"},
+      {"not fit into the box", "how many balls a box holds"},
+      {"has no inside", "two vectors against one another"},
+      {"is not above its min", "two vectors against one another"},
+      {"the camera's target is where its eye is", "two vectors against one another"},
+      {"the camera looks along its up direction", "vectors against one another"},
+      {"up is parallel to the normal", "two vectors against one another"},
+      {"is not beyond near", "two numbers against one another"},
+      {"but the scene ends at", "two numbers against one another"},
+      {"but `from` is", "two numbers against one another"},
+      {"make a mass of", "the product of two numbers"},
+      {"the limit is", "how much a run may write, which --force lifts"},
+      {"paths have no closed form", "what an engine can do depends on forces, volumes and obstacles together"},
+      {"`engine: book` has no", "what an engine can do depends on forces, volumes and obstacles together"},
+      {"is for parabolas", "what an engine can do depends on forces, volumes and obstacles together"},
+  };
+  return all;
+}
+
+/// The one of beyond_schemas() that explains each error; empty: another error is among them.
+std::set<std::size_t> explained(const std::string& errors) {
+  std::set<std::size_t> found;
+  std::istringstream in(errors);
+  for (std::string line; std::getline(in, line);) {
+    if (line.find(": error: ") == std::string::npos) continue;
+    std::size_t i = 0;
+    while (i < beyond_schemas().size() && line.find(beyond_schemas()[i].error) == std::string::npos) ++i;
+    if (i == beyond_schemas().size()) return {};
+    found.insert(i);
+  }
+  return found;
+}
+
+TEST(Schema, RefusesWhatTheLoaderRefusesAndNothingElse) {
+  Validator validator("scene");
+  const std::string file = validator.folder() + "/scene.yaml";
+  std::ofstream(validator.folder() + "/box.stl") << "a mesh";
+  std::set<std::string> visited, all;
+  std::vector<Variation> variations;
+  for (const std::string& scene : right_scenes()) {
+    EXPECT_EQ(loaded(file, scene), "");
+    for (Variation& variation : vary(scene, visited)) variations.push_back(std::move(variation));
+  }
+  for (const Kind& kind : kinds()) {
+    for (const Field& field : kind.fields) all.insert(fmt::format("{}.{}", kind.name, field.key));
+  }
+  EXPECT_EQ(visited, all) << "right_scenes() lacks a key of the table";
+
+  for (const Variation& variation : variations) validator.add_json(variation.text);
+  std::future<std::vector<std::string>> validating = std::async(std::launch::async, [&] { return validator.run(); });
+  std::vector<std::string> all_errors;
+  for (const Variation& variation : variations) all_errors.push_back(loaded(file, variation.text));
+  const std::vector<std::string> verdicts = validating.get();
+  ASSERT_EQ(verdicts.size(), variations.size());
+  std::set<std::size_t> used;
+  std::size_t right = 0, differing = 0;
+  for (std::size_t i = 0; i < variations.size(); ++i) {
+    const std::string& errors = all_errors[i];
+    right += errors.empty();
+    if (errors.empty() == (verdicts[i] == "right")) continue;
+    const std::set<std::size_t> why = explained(errors);
+    used.insert(why.begin(), why.end());
+    if (!why.empty() && verdicts[i] == "right") continue;
+    if (++differing <= 40) ADD_FAILURE() << variations[i].what << "\nschema: " << verdicts[i] << "\nloader: " << errors;
+  }
+  EXPECT_EQ(differing, 0u) << "of " << variations.size();
+  EXPECT_GT(right, 500u) << "of " << variations.size();
+  for (std::size_t i = 0; i < beyond_schemas().size(); ++i)
+    EXPECT_TRUE(used.contains(i)) << "no variation has: " << beyond_schemas()[i].error;
+  RecordProperty("variations", static_cast<int>(variations.size()));
+}
+
+/// A number of a scene as text: what the loader and an editor's reader make of it.
+struct Written {
+  std::string text;
+  bool loads, fits;
+  std::string why = {};  // where they differ
+};
+
+TEST(Schema, AgreesWithTheLoaderOnHowNumbersAndFlagsAreWritten) {
+  const std::vector<Written> numbers = {
+      {"1", true, true},
+      {"+1.5e0", true, true},
+      {".5", true, true},
+      {"5.", true, true},
+      {"1e3", true, true},
+      {"1.e+3", true, true},
+      {"-0", true, true},
+      {"'1'", false, false},
+      {"1_000", false, false},
+      {"1 s", false, false},
+      {"1,5", false, false},
+      {"1:30", false, false},
+      {"~", false, false},
+      {"", false, false},
+      {"true", false, false},
+      {".inf", false, false},
+      {"-.inf", false, false},
+      {"1e999", false, false},
+      {"NaN", false, false},
+      {"0b1", false, false},
+      {".nan", false, false},
+      {"010", false, true, "YAML 1.2 reads 10, YAML 1.1 reads 8: the loader wants it said"},
+      {"0x10", false, true, "YAML reads 16: numbers of a scene are decimal"},
+      {"0o17", false, true, "YAML reads 15: numbers of a scene are decimal"},
+      {"1e-999", false, true, "YAML reads 0"},
+  };
+  const std::vector<Written> flags = {
+      {"true", true, true},
+      {"false", true, true},
+      {"yes", false, false},
+      {"on", false, false},
+      {"1", false, false},
+      {"'true'", false, false},
+      {"~", false, false},
+      {"True", false, true, "YAML reads true: the loader has one way to write it"},
+      {"FALSE", false, true, "YAML reads false: the loader has one way to write it"},
+  };
+  Validator validator("scene");
+  std::vector<std::pair<std::string, Written>> all;
+  for (const Written& number : numbers)
+    all.emplace_back("scene: 1\nsimulate: {duration: 1, rest_speed: " + number.text + "}\n", number);
+  for (const Written& flag : flags)
+    all.emplace_back("scene: 1\nsimulate: {duration: 1}\noutput: {collisions: " + flag.text + "}\n", flag);
+  // A quoted number is no choice; a name may be anything that a reader of YAML takes for text.
+  all.emplace_back("scene: 1\nsimulate: {duration: 1}\noutput: {frames: {samples: 4}}\n",
+                   Written{"samples", true, true});
+  all.emplace_back("scene: 1\nsimulate: {duration: 1}\noutput: {frames: {samples: '4'}}\n",
+                   Written{"'4'", false, false});
+  all.emplace_back("scene: 1\nsimulate: {duration: 1}\noutput: {frames: {samples: 4.0}}\n",
+                   Written{"4.0", false, true, "JSON knows one 4"});
+  all.emplace_back("scene: 1\nsimulate: {duration: 1}\nseed: 1e17\n",
+                   Written{"1e17", false, true, "JSON knows one 1e17"});
+  all.emplace_back("scene: 1\nsimulate: {duration: 1}\nseed: 1e3\n", Written{"1e3", true, true});
+  all.emplace_back("scene: 1\nsimulate: {duration: 1}\nplanes:\n  on: {point: [0, 0, 0], normal: [0, 1, 0]}\n",
+                   Written{"on", true, true});
+  const std::string file = validator.folder() + "/scene.yaml";
+  for (const auto& [text, written] : all) validator.add_yaml(text);
+  const std::vector<std::string> verdicts = validator.run();
+  ASSERT_EQ(verdicts.size(), all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Written& written = all[i].second;
+    EXPECT_EQ(loaded(file, all[i].first).empty(), written.loads) << written.text << "\n" << loaded(file, all[i].first);
+    EXPECT_EQ(verdicts[i] == "right", written.fits) << written.text << ": " << verdicts[i];
+    EXPECT_EQ(written.loads != written.fits, !written.why.empty()) << written.text;
+  }
+}
+
+std::vector<fs::path> scene_files() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(SCENES_DIR)) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  }
+  return files;
+}
+
+std::string text_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(Schema, HasEverySceneRightByReadersOfYaml12And11) {
+  Validator validator("scene"), sweeps("sweep");
+  std::vector<fs::path> of_scenes, of_sweeps;
+  for (const fs::path& path : scene_files()) {
+    const std::string text = text_of(path);
+    const bool sweep = text.find("\nsweep: 1") != std::string::npos;
+    (sweep ? of_sweeps : of_scenes).push_back(path);
+    (sweep ? sweeps : validator).add_yaml(text);
+    (sweep ? sweeps : validator).add_yaml11(text);
+  }
+  ASSERT_GT(of_scenes.size(), 20u);
+  for (const auto& [files, verdicts] : {std::pair(of_scenes, validator.run()), std::pair(of_sweeps, sweeps.run())}) {
+    ASSERT_EQ(verdicts.size(), 2 * files.size());
+    for (std::size_t i = 0; i < verdicts.size(); ++i) EXPECT_EQ(verdicts[i], "right") << files[i / 2];
+  }
+}
+
+TEST(Schema, StandsBesideTheScenesAsTheTableHasIt) {
+  for (const std::string kind : {"scene", "sweep"}) {
+    EXPECT_TRUE(text_of(SCENES_DIR "/" + kind + ".schema.json") == json_schema(kind))
+        << fmt::format("carom schema {} > scenes/{}.schema.json", kind, kind);
+  }
+  for (const fs::path& path : scene_files()) {
+    const std::string text = text_of(path), head = "# yaml-language-server: $schema=";
+    ASSERT_TRUE(text.starts_with(head)) << path;
+    const std::string schema = text.substr(head.size(), text.find('\n') - head.size());
+    EXPECT_TRUE(fs::exists(path.parent_path() / schema)) << path << " names " << schema;
+  }
+}
+
+TEST(FormatPage, StandsBesideTheScenesAsTheTableHasIt) {
+  EXPECT_TRUE(text_of(SCENES_DIR "/format.md") == format_page()) << "carom explain --page > scenes/format.md";
+}
+
+TEST(Schema, SaysOfEveryFieldWhatItIs) {
+  for (const auto family : families()) {
+    const auto whole = nlohmann::json::parse(json_schema(family.front().name));
+    for (const Kind& kind : family) {
+      const auto& map = &kind == &family.front() ? whole : whole["definitions"][std::string(kind.name)];
+      for (const Field& field : kind.fields) {
+        const auto& schema = map["properties"][std::string(field.key)];
+        EXPECT_FALSE(schema.value("title", "").empty()) << kind.name << "." << field.key;
+        EXPECT_TRUE(schema.value("description", "").starts_with(field.doc)) << kind.name << "." << field.key;
+        EXPECT_EQ(schema.contains("default"), !field.initial.empty()) << kind.name << "." << field.key;
+        EXPECT_EQ(schema["examples"].size(), 1u) << kind.name << "." << field.key;
+        if (!field.unit.empty()) {
+          EXPECT_TRUE(schema["title"].get<std::string>().ends_with(fmt::format("({})", field.unit)));
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,200 @@
+#include "scene/variations.h"
+
+#include <fmt/format.h>
+
+#include "scene/fields.h"
+#include "scene/value_json.h"
+
+namespace carom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Values of every type, and those at the edges of ranges; `few`: one of each type.
+std::vector<Json> values_for(const Field& field, bool few) {
+  static const Json one_each = json_of_yaml("[~, true, -1, text, [], {}]");
+  static const Json many = json_of_yaml(R"([
+      ~, true, 0, -0.0, 1, -1, 0.5, 16, 1e300, 18446744073709551615, '', text, '4', Red, '#12g', '#aBc', -a.mp4, "a\nb",
+      [], [1], [16, 17], [1, 2, 3], [0, -0.0, 0], [0.1, 0.2, 0.3], [1, 2, x], [1, 2, ~], [1, 2, 3, 4], [-99, 2, 3],
+      [0, 3, -5], [red, floor], [red, red], [fence, floor], [fence], [{}], {}, {zzz: 1}, {mass: 1}, {red: ~}])");
+  std::vector<Json> values(few ? one_each.begin() : many.begin(), few ? one_each.end() : many.end());
+  for (const std::string_view choice : field.type == Type::choice ? choices(field) : std::vector<std::string_view>())
+    values.push_back(json_of_yaml(choice));
+  if (few) return values;
+  values.push_back(json_of_yaml(field.example));
+  if (!field.initial.empty()) values.push_back(json_of_yaml(field.initial));
+  for (const double edge : {field.range.min, field.range.max}) {
+    if (!std::isfinite(edge)) continue;
+    for (const double value : {edge, std::nextafter(edge, -1e9), edge + 1}) values.push_back(number_json(value));
+  }
+  return values;
+}
+
+class Varying {
+ public:
+  Varying(const std::string& scene, std::set<std::string>& visited) : root_(json_of_yaml(scene)), visited_(visited) {}
+
+  std::vector<Variation> run() {
+    map(root_, kind_named("scene"), "");
+    return std::move(found_);
+  }
+
+ private:
+  void note(const std::string& what) { found_.push_back({what, root_.dump()}); }
+
+  /// Every change of `value`, undone in the end.
+  void replace(Json& value, const Field& field, const std::string& path, bool few) {
+    const Json kept = value;
+    for (const Json& other : values_for(field, few)) {
+      value = other;
+      note(path + " is " + other.dump());
+    }
+    value = kept;
+  }
+
+  void map(Json& node, const Kind& kind, const std::string& path) {
+    const Json kept = node;
+    for (const Field& field : kind.fields) {
+      const std::string key(field.key), here = path + key;
+      if (kept.contains(key)) {
+        const bool is_first = visited_.insert(fmt::format("{}.{}", kind.name, key)).second;
+        replace(node[key], field, here, !is_first);
+        inside(node[key], field, here);
+        node.erase(key);
+        note("no " + here);
+        node = kept;
+      } else {
+        for (const Json& value : {json_of_yaml(field.example), Json(nullptr)}) {
+          node[key] = value;
+          note(here + " too, " + value.dump());
+        }
+        node = kept;
+      }
+    }
+    for (const std::string key : {"zzz", "Mass", "ambient", "mass ", ""}) {
+      if (kept.contains(key)) continue;
+      node[key] = 1;
+      note(path + key + " unknown");
+      node = kept;
+    }
+  }
+
+  void inside(Json& value, const Field& field, const std::string& path) {
+    const Kind* kind = held_kind(field);
+    if (kind == nullptr) return;
+    const Json kept = value;
+    if (field.type == Type::named) {
+      for (const auto& [name, entry] : kept.items()) {
+        if (kind->also == nullptr || name != kind->also->key) map(value[name], *kind, path + "." + name + ".");
+        for (const std::string wrong : {"7up", "a b", "a.b", "-a", "", "ambient", "really_right-2", "red"}) {
+          if (kept.contains(wrong)) continue;
+          value.erase(name);
+          value[wrong] = entry;
+          note(path + ": " + name + " is called '" + wrong + "'");
+          value = kept;
+        }
+        value[name] = nullptr;
+        note(path + "." + name + " is null");
+        value = kept;
+      }
+    } else if (field.type == Type::list) {
+      for (std::size_t i = 0; i < kept.size(); ++i) map(value[i], *kind, fmt::format("{}.{}.", path, i));
+    } else if (value.is_object()) {
+      map(value, *kind, path + ".");
+    }
+  }
+
+  Json root_;
+  std::set<std::string>& visited_;
+  std::vector<Variation> found_;
+};
+
+}  // namespace
+
+std::vector<std::string> right_scenes() {
+  return {R"(
+scene: 1
+title: Balls
+seed: 3
+gravity: [0, -1, 0]
+restitution: {default: 0.9, combine: minimum, pairs: [{between: [red, blue], value: 0.5}]}
+planes: {floor: {point: [0, -9, 0], normal: [0, 1, 0]}}
+walls: {fence: {center: [20, 1, 0], normal: [0.1, 0.2, 0.3], up: [0, 1, 0], size: [1, 1]}}
+balls:
+  red: {mass: 1, radius: 0.1, position: [0, 1, 0], velocity: [1, 0, 0], restitution: 0.5, impulse: [0, 1, 0],
+        color: crimson, mesh: box.stl}
+  blue: {density: 700, radius: 0.1, position: [1, 1, 0]}
+simulate: {duration: 1, engine: exact, rest_speed: 0.1, max_collisions: 9, contact: merge}
+background: '#fff'
+)",
+          R"(
+scene: 1
+defaults: {ball: {mass: 1, radius: 0.1, mesh: box.stl}, body: {density: 2}, obstacle: {color: red}}
+balls: {red: {position: [0, 1, 0]}}
+bodies:
+  can: {cylinder: {radius: 0.1, height: 1}, position: [0, 3, 0], velocity: [0, 1, 0], restitution: 1}
+  box: {mass: 1, box: [1, 1, 1], position: [3, 3, 0], impulse: [0, 1, 0], color: tan}
+  bag: {fit: sphere, mesh: box.stl, position: [6, 3, 0]}
+  ball: {radius: 0.5, position: [-3, 3, 0]}
+obstacles:
+  post: {cylinder: {radius: 0.1, height: 1}, position: [0, -3, 0]}
+  edge: {box: [1, 1, 1], position: [3, -3, 0], visible: false, restitution: 0.5}
+  rock: {fit: box, mesh: box.stl, position: [6, -3, 0], color: tan}
+  globe: {radius: 0.5, position: [-3, -3, 0]}
+simulate: {duration: 1}
+)",
+          R"(
+scene: 1
+defaults:
+  body: {fit: box, mesh: box.stl, mass: 1}
+  plane: {normal: [0, 1, 0]}
+  wall: {size: [1, 2], up: [0, 1, 0]}
+  obstacle: {radius: 0.1, position: [0, -5, 0]}
+  group: {ball: {mass: 1, radius: 0.1}, count: 2}
+bodies: {bag: {position: [0, 9, 0]}}
+groups:
+  gas: {in: {min: [0, 1, 0], max: [2, 2, 2]}, arrange: lattice, speed: 1, count: 3}
+  air: {in: {min: [0, 3, 0], max: [2, 4, 2]}, velocity: [1, 0, 0],
+        ball: {density: 2, radius: 0.1, velocity: [0, 1, 0], restitution: 1, impulse: [0, 0, 1], color: red, mesh: box.stl}}
+planes: {floor: {point: [0, 0, 0], restitution: 1, color: tan, visible: true}}
+walls: {fence: {center: [20, 1, 0], normal: [-1, 0, 0], restitution: 1, color: tan, visible: true}}
+obstacles: {post: {color: tan}}
+room: {min: [-9, -9, -9], max: [30, 30, 30], restitution: 1, color: tan, visible: false}
+simulate: {duration: 1}
+)",
+          R"(
+scene: 1
+balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
+forces:
+  - {uniform: [1, 0, 0], on: [red], from: 0.5, until: 0.75}
+  - {acceleration: [1, 0, 0]}
+  - {drag: {linear: 1, quadratic: 2, wind: [1, 0, 0]}}
+  - {spring: {anchor: [0, 2, 0], stiffness: 1, rest_length: 1, damping: 1}}
+  - {attractor: {center: [0, 2, 0], strength: 1, softening: 1}}
+planes: {fence: {point: [0, -9, 0], normal: [0, 1, 0]}}
+simulate: {duration: 1, engine: stepped, step: 0.1, integrator: verlet}
+)",
+          R"(
+scene: 1
+simulate: {duration: 1, tolerance: 0.1}
+defaults: {plane: {color: tan}, wall: {color: tan}, group: {speed: 1}}
+planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}
+walls: {fence: {center: [20, 1, 0], normal: [-1, 0, 0], size: [1, 1]}}
+camera: {eye: [0, 3, -5], target: [0, 0, 0], up: [0, 1, 0.1], fov: 40, fov_axis: horizontal, near: 1, far: 100}
+lights: {sun: {direction: [1, -2, 1], color: white, intensity: 0.5}, lamp: {position: [0, 5, 0]}, ambient: dimgray}
+output:
+  trajectory: {every: 0.1, layout: wide}
+  collisions: true
+  energy: {every: 0.1}
+  contacts: {every: 0.1}
+  frames: {fps: 2, size: [16, 17], samples: 1, from: 0.5, until: 0.75}
+  video: {file: b.mp4, fps: 4, size: [16, 16], crf: 20, samples: 2, from: 0.25, until: 1}
+  sheet: {columns: 2, rows: 2}
+)", "{scene: 1, simulate: {duration: 1, engine: book, as_printed: true}}"};
+}
+
+std::vector<Variation> vary(const std::string& scene, std::set<std::string>& visited) {
+  return Varying(scene, visited).run();
+}
+
+}  // namespace carom

@@ -1,0 +1,24 @@
+#pragma once
+// Scenes that are right, and ways to make them wrong: every key of the table of fields taken away, added, and given
+// every kind of value.
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace carom {
+
+struct Variation {
+  std::string what;  // "balls.red.mass is null"
+  std::string text;  // JSON, which is YAML
+};
+
+/// Right scenes that together have every key of the table. They want the file box.stl beside them.
+std::vector<std::string> right_scenes();
+
+/// What becomes of a scene by one change: every key that it has or could have, by every change. `visited` gets
+/// "kind.key" of those that it has.
+std::vector<Variation> vary(const std::string& scene, std::set<std::string>& visited);
+
+}  // namespace carom
