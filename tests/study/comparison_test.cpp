@@ -181,6 +181,19 @@ TEST_F(ComparisonOfSix, SeriesCollisionsAndParametersAreTheRuns) {
   EXPECT_TRUE(found);
 }
 
+TEST_F(ComparisonOfSix, WhatDiffersBehindACommaIsNotCommon) {
+  place->run(two_balls, "one", {"title=\"Two balls, once\"", "balls.red.color=[0.1, 0.2, 0.3]"});
+  place->run(two_balls, "other", {"title=\"Two balls, twice\"", "balls.red.color=[0.1, 0.2, 0.4]"});
+  place->compare({"", {}, {}, {}, {}}, {{"a", *place / "one", {}}, {"b", *place / "other", {}}}, "comma");
+  std::string common;
+  const Json rows = place->workbook("comma")["sheets"]["Parameters"]["rows"];
+  for (const Json& row : rows)
+    if (row[2].is_string()) common += row[2].get<std::string>() + "\n";
+  EXPECT_EQ(common.find("title\n"), std::string::npos) << common;
+  EXPECT_EQ(common.find("balls.red.color\n"), std::string::npos) << common;
+  EXPECT_NE(common.find("balls.red.mass\n"), std::string::npos) << common;
+}
+
 TEST_F(ComparisonOfSix, AboutTellsOfEveryColumn) {
   std::string all;
   for (const Json& row : sheet("About")["rows"])
