@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <new>
+#include <utility>
 
 #include "commands/interrupt.h"
 #include "commands/text.h"
@@ -45,39 +46,18 @@ void fail(PlannedScene& planned, std::size_t errors, const std::string& text) {
   if (planned.error.empty() || planned.error.back() != '\n') planned.error += '\n';
 }
 
-LoadOptions load_options(const Options& options, Purpose purpose) {
-  LoadOptions load;
-  load.set = options.set;
-  load.seed = options.seed;
-  load.budget.enforced = !options.force;
-  if (options.only || purpose == Purpose::bench) load.budget = load.budget.without_outputs();  // see below
-  load.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
-  load.color = !options.json && wants_color(options.color, STDERR_FILENO);
-  return load;
-}
-
-// With --only it is not the file's outputs that count, but those that are left or added.
-void hold_to_budget(const Scene& scene, const Forecast& forecast) {
-  const Budget budget;
-  if (forecast.frames > budget.frames) {
-    throw ExportError(fmt::format("--only asks for {}, more than the {} that a run may draw without --force",
-                                  counted(forecast.frames, "picture", "pictures"), grouped(budget.frames)));
-  }
-  for (const Excess& excess : excesses(scene.output, scene.simulate.duration, scene.world.body_count(), budget)) {
-    throw ExportError(fmt::format("--only asks for {:.15g} {}, more than the {} that a run may write without --force",
-                                  excess.figure, excess.what, grouped(excess.limit)));
-  }
-}
-
 void check(PlannedScene& planned, const Options& options, Purpose purpose) {
   const auto start = std::chrono::steady_clock::now();
-  planned.scene = std::make_unique<Scene>(load_scene(planned.file, load_options(options, purpose)));
+  planned.scene = std::make_unique<Scene>(
+      load_scene(planned.file, load_options(options, options.only || purpose == Purpose::bench)));
   const Output asked = planned.scene->output;
   if (options.only) planned.scene->output = restricted(asked, *options.only);
+  check_flights(*planned.scene);
   planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   planned.engine = choose_engine(*planned.scene);
   planned.forecast = forecast(*planned.scene);
-  if (options.only && !options.force) hold_to_budget(*planned.scene, planned.forecast);
+  // With --only it is not the file's outputs that count, but those that are left or added.
+  if (options.only && !options.force) hold_to_budget(*planned.scene, planned.forecast, "--only asks for");
   std::error_code ignored;
   if (fs::exists(planned.folder, ignored) && !fs::is_directory(planned.folder, ignored)) {
     throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
@@ -98,6 +78,29 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
 
 }  // namespace
 
+LoadOptions load_options(const Options& options, bool lifted) {
+  LoadOptions load;
+  load.set = options.set;
+  load.seed = options.seed;
+  load.budget.enforced = !options.force;
+  if (lifted) load.budget = load.budget.without_outputs();
+  load.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
+  load.color = !options.json && wants_color(options.color, STDERR_FILENO);
+  return load;
+}
+
+void hold_to_budget(const Scene& scene, const Forecast& forecast, std::string_view asker) {
+  const Budget budget;
+  if (forecast.frames > budget.frames) {
+    throw ExportError(fmt::format("{} {}, more than the {} that a run may draw without --force", asker,
+                                  counted(forecast.frames, "picture", "pictures"), grouped(budget.frames)));
+  }
+  for (const Excess& excess : excesses(scene.output, scene.simulate.duration, scene.world.body_count(), budget)) {
+    throw ExportError(fmt::format("{} {:.15g} {}, more than the {} that a run may write without --force", asker,
+                                  excess.figure, excess.what, grouped(excess.limit)));
+  }
+}
+
 std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose) {
   std::vector<PlannedScene> scenes(options.operands.size());
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -105,11 +108,16 @@ std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose) {
     scenes[i].name = fs::path(options.operands[i]).stem().string();
     scenes[i].folder = folder_of(options, scenes[i].name, purpose);
   }
+  return plan_scenes(std::move(scenes), [&](PlannedScene& planned) { check(planned, options, purpose); });
+}
+
+std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes,
+                                      const std::function<void(PlannedScene&)>& check_one) {
   refuse_shared_folders(scenes);
   for (PlannedScene& planned : scenes) {
     stop_if_interrupted();
     try {
-      check(planned, options, purpose);
+      check_one(planned);
     } catch (const SceneError& error) {
       fail(planned, error.count, error.what());
     } catch (const std::bad_alloc&) {

@@ -119,6 +119,8 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   block.line("rest", rest_text(summary));
   block.line("energy", energy_text(summary));
   block.line("overlap", summary.max_overlap > 0 ? quantity(summary.max_overlap, "m at most") : "none");
+  for (const LeftOut& file : result.facts.left_out)
+    block.line("left out", fmt::format("{}: {}", printable(file.name), file.why));
   block.line("wrote", fmt::format("{}: {}", printable(planned.folder), file_list(planned.folder)));
   block.line(
       "time",

@@ -21,11 +21,12 @@ namespace {
 /// All scenes of one command line, and what was said of them.
 class Session {
  public:
-  explicit Session(const Options& options)
+  Session(const Options& options, std::string_view command, std::vector<PlannedScene> scenes)
       : options_(options),
+        command_(command),
         palette_(wants_color(options.color, STDOUT_FILENO)),
         width_(terminal_width(STDOUT_FILENO)),
-        scenes_(plan_scenes(options)) {}
+        scenes_(std::move(scenes)) {}
 
   int go() {
     refuse_other_content(scenes_, options_);
@@ -40,7 +41,7 @@ class Session {
       interrupted = run_one(planned);
       planned.scene.reset();  // the next one may need the memory
     }
-    if (options_.json) write_out(document("run", document_));
+    if (options_.json) write_out(document(command_, document_));
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (scenes_.size() > 1 && !options_.json && !options_.quiet) write_out(total(wall));
     if (interrupted != 0) return interrupted;
@@ -56,7 +57,7 @@ class Session {
       document_.push_back(entry);
     }
     complain(options_, errors + "; nothing was run");
-    if (options_.json) write_out(document("run", document_));
+    if (options_.json) write_out(document(command_, document_));
     return 2;
   }
 
@@ -72,8 +73,7 @@ class Session {
       const RunWatch watch{stop_if_interrupted, [&](double time, std::uint64_t collisions, std::uint64_t pictures) {
                              progress.update(time, collisions, pictures);
                            }};
-      const RunResult result =
-          run_scene({planned.scene.get(), planned.folder, planned.load_s}, planned.engine, {}, watch);
+      const RunResult result = run_scene(show_of(planned), planned.engine, settings_of(planned), watch);
       progress.clear();
       done(planned, result);
       return 0;
@@ -85,6 +85,29 @@ class Session {
       fail(planned, progress, error.what());
     }
     return 0;
+  }
+
+  static Show show_of(const PlannedScene& planned) {
+    Show show{planned.scene.get(), planned.folder, planned.load_s};
+    if (planned.former && planned.former->folder == planned.folder) show.renewed = &planned.former->manifest;
+    return show;
+  }
+
+  RunSettings settings_of(const PlannedScene& planned) const {
+    RunSettings settings;
+    if (!planned.former) return settings;
+    const FormerRun& former = *planned.former;
+    if (former.has_flights())
+      settings.simulator = [&former](const Scene& scene) { return former.motion(scene); };
+    else if (!options_.quiet)
+      write_err(fmt::format("{}: no flights are stored there: simulating again\n", printable(former.folder)));
+    settings.measure = [&former](const Scene&, const State&, const Summary& summary) {
+      if (summary.collisions != former.manifest.collisions)
+        throw ExportError(fmt::format("the motion is another one: {} collisions, not {}", summary.collisions,
+                                      former.manifest.collisions));
+      return former.manifest.measures;
+    };
+    return settings;
   }
 
   void done(const PlannedScene& planned, const RunResult& result) {
@@ -157,6 +180,7 @@ class Session {
   }
 
   const Options& options_;
+  const std::string_view command_;
   Palette palette_;
   std::size_t width_;
   std::vector<PlannedScene> scenes_;
@@ -184,7 +208,11 @@ const CommandText& run_text() {
 }
 
 int run_command(const Options& options) {
-  return Session(options).go();
+  return run_planned(options, "run", plan_scenes(options));
+}
+
+int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes) {
+  return Session(options, command, std::move(scenes)).go();
 }
 
 }  // namespace carom

@@ -11,6 +11,7 @@
 #include "export/picture_streams.h"
 #include "export/png.h"
 #include "export/series.h"
+#include "export/series_folders.h"
 #include "export/sheet.h"
 #include "export/tables.h"
 #include "export/writer.h"
@@ -40,7 +41,8 @@ struct Exports::Impl {
   };
 
   // What can be refused is refused here, before the folder is touched.
-  Impl(const Scene& the_scene, const std::string& path, Durability durability, ModelMakers the_makers)
+  Impl(const Scene& the_scene, const std::string& path, Durability durability, ModelMakers the_makers,
+       const Manifest* renewed)
       : scene(the_scene),
         makers(std::move(the_makers)),
         timeline(the_scene.simulate.duration),
@@ -52,10 +54,11 @@ struct Exports::Impl {
     if (output.video) tools = find_film_tools();
 
     folder.emplace(path, durability);
-    first_records = folder->begin(scene, meshes);
+    if (renewed != nullptr) kept = kept_files(*renewed);
+    first_records = renewed != nullptr ? folder->renew(scene, meshes, kept) : folder->begin(scene, meshes);
     for (const OutputKind& kind : output_kinds()) {
       const WriterKind* writer = writer_named(kind.name);
-      if (writer == nullptr || !kind.asked(output)) continue;
+      if (writer == nullptr || !kind.asked(output) || keeps(kind)) continue;
       const int ticks = kind.every ? timeline.add(Ticks::every(kind.every(output), scene.simulate.duration)) : -1;
       writers.push_back({writer->open(*folder, scene, makers), ticks});
     }
@@ -63,6 +66,19 @@ struct Exports::Impl {
     if (output.video) film.emplace(folder->place(), *output.video, std::move(*tools));
     if (output.sheet) sheet.emplace(*output.sheet, sheet_model(output).size);
     for (std::size_t i = 0; i < plan.streams.size(); ++i) plan.streams[i].timeline_stream = timeline.add(plan.ticks[i]);
+  }
+
+  /// The files of a run that are not drawn, and still asked for.
+  std::vector<FileRecord> kept_files(const Manifest& run) const {
+    std::vector<FileRecord> files;
+    for (const FileRecord& file : run.files) {
+      const OutputKind* kind = output_of(file.name);
+      if (kind != nullptr && !is_picture(file.name) && kind->asked(scene.output)) files.push_back(file);
+    }
+    return files;
+  }
+  bool keeps(const OutputKind& kind) const {
+    return std::any_of(kept.begin(), kept.end(), [&](const FileRecord& file) { return output_of(file.name) == &kind; });
   }
 
   void write_frame(std::int64_t number, const Image& image, bool again) {
@@ -77,6 +93,7 @@ struct Exports::Impl {
   Timeline timeline;
   PictureStreams plan;
   std::uint64_t pictures = 0;
+  std::vector<FileRecord> kept;           // of the run that stood there
   std::vector<FileRecord> first_records;  // of what stands there from the beginning
   // What writes into the folder is gone before the folder is put in order.
   std::optional<OpenFolder> folder;
@@ -87,8 +104,9 @@ struct Exports::Impl {
   std::optional<Sheet> sheet;
 };
 
-Exports::Exports(const Scene& scene, const std::string& folder, Durability durability, ModelMakers makers)
-    : impl_(std::make_unique<Impl>(scene, folder, durability, std::move(makers))) {}
+Exports::Exports(const Scene& scene, const std::string& folder, Durability durability, ModelMakers makers,
+                 const Manifest* renewed)
+    : impl_(std::make_unique<Impl>(scene, folder, durability, std::move(makers), renewed)) {}
 
 Exports::~Exports() = default;
 
@@ -111,6 +129,10 @@ bool Exports::wants_contacts() const {
 
 void Exports::record(std::span<const Collision> collisions) {
   for (const Impl::OpenWriter& open : impl_->writers) open.writer->record(collisions);
+}
+
+void Exports::record_paths(std::span<const PathPiece> pieces) {
+  for (const Impl::OpenWriter& open : impl_->writers) open.writer->record_paths(pieces);
 }
 
 void Exports::sample(const State& state, std::span<const ContactForce> contacts) {
@@ -137,9 +159,18 @@ std::uint64_t Exports::frames() const {
   return impl_->pictures;
 }
 
+std::vector<LeftOut> Exports::end(const Tally& tally) {
+  std::vector<LeftOut> left_out;
+  for (const Impl::OpenWriter& open : impl_->writers) {
+    open.writer->end(tally);
+    for (LeftOut& file : open.writer->left_out()) left_out.push_back(std::move(file));
+  }
+  return left_out;
+}
+
 void Exports::finish(const Summary& summary, const RunFacts& facts) {
   const FilePlace& place = impl_->folder->place();
-  std::vector<FileRecord> records = impl_->first_records;
+  std::vector<FileRecord> records = impl_->first_records;  // in the order of the files of a run that keeps none
   std::vector<OutputFile*> files;
 
   // All bytes of all files, the manifest's included, still under the names of parts.
@@ -157,6 +188,7 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
   for (OutputFile* file : files) {
     file->complete();
     records.push_back(file->record());
+    if (file == &summary_file) records.insert(records.end(), impl_->kept.begin(), impl_->kept.end());
   }
   if (impl_->film) {
     impl_->film->complete();

@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "export/output_file.h"
 #include "export/run_folder.h"
 #include "export/timeline.h"
 #include "physics/collision.h"
 #include "physics/contact_force.h"
+#include "physics/path_piece.h"
 #include "physics/state.h"
 #include "physics/tally.h"
 #include "render/image.h"
@@ -52,6 +54,7 @@ struct RunFacts {
   double load_s = 0, simulate_s = 0, render_s = 0, export_s = 0;  // wall times, of the thread that runs the scene
   std::uint64_t peak_memory = 0;                                  // bytes
   std::vector<Measured> measures{};
+  std::vector<LeftOut> left_out{};
 };
 
 /// How many trajectory rows, pictures and, roughly, bytes a run of this scene will write, and how long that and drawing
@@ -62,14 +65,18 @@ struct Forecast {
 };
 Forecast forecast(const Scene& scene);
 
+struct Manifest;
+
 class Exports {
  public:
   /// Opens only what scene.output asks for, in `folder`, which is made if need be and locked against other runs.
   /// Removes what a former run left there (by its manifest). What can be known to fail is refused before anything is
   /// touched: ffmpeg missing, a video without pictures, a sheet too large. `scene` must outlive this. `makers`: what
   /// vtk and gltf want of render/. Throws ExportError.
+  /// `renewed`: what the folder holds now, a whole run of the same motion: all its files but what is drawn, summary.csv
+  /// and scene.yaml are kept as they are, and until finish() all of them.
   Exports(const Scene& scene, const std::string& folder, Durability durability = Durability::synced,
-          ModelMakers makers = {});
+          ModelMakers makers = {}, const Manifest* renewed = nullptr);
   /// Without finish(): what was not whole is removed; frames that are whole stay.
   ~Exports();
   Exports(const Exports&) = delete;
@@ -79,6 +86,7 @@ class Exports {
   bool wants_state() const;     // at the timeline's present instant: anything due at all
   bool wants_contacts() const;  // at the timeline's present instant: the forces of contact too
   void record(std::span<const Collision> collisions);
+  void record_paths(std::span<const PathPiece> pieces);
   /// Writes the rows that are due now. `contacts`: by a, then b; looked at only if wants_contacts().
   void sample(const State& state, std::span<const ContactForce> contacts = {});
   const std::vector<PictureStream>& pictures() const;
@@ -86,6 +94,8 @@ class Exports {
   void picture(std::size_t stream, const Image& image, bool again = false);
   std::uint64_t frames() const;  // pictures taken so far for frames and video; the sheet's do not count
 
+  /// The run is at its end. Gives what it has given up; nothing is recorded or sampled any more.
+  std::vector<LeftOut> end(const Tally& tally);
   /// Completes every file, then gives them their names, summary.csv's too and last manifest.json's. (scene.yaml stands
   /// there from the beginning, so that the folder of an interrupted run is known to be this scene's.) Throws
   /// ExportError.

@@ -92,6 +92,7 @@ std::string manifest_text(const Scene& scene, const Summary& summary, const RunF
   json["peak_memory_bytes"] = facts.peak_memory;
   for (const Measured& measure : facts.measures)
     json["measures"][measure.name] = std::isfinite(measure.value) ? Json(measure.value) : Json();
+  for (const LeftOut& file : facts.left_out) json["left_out"][file.name] = file.why;
   return manifest_text(scene, outputs_text(scene.output), to_text(json, -1), files);
 }
 
@@ -102,8 +103,21 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name) {
   if (!json.is_object() || text_member(json, "tool") != tool) return std::nullopt;
   const auto outputs = json.find("outputs"), files = json.find("files");
   if (outputs == json.end() || files == json.end() || !files->is_array()) return std::nullopt;
-  Manifest manifest{text_member(json, "version"), text_member(json.value("scene", Json()), "sha256"), to_text(*outputs, -1), "[]", {}};
+  Manifest manifest{text_member(json, "version"),
+                    text_member(json.value("scene", Json()), "sha256"),
+                    to_text(*outputs, -1),
+                    "[]",
+                    {}};
   if (const auto meshes = json.find("meshes"); meshes != json.end()) manifest.meshes = to_text(*meshes, -1);
+  if (const auto counts = json.find("counts"); counts != json.end() && counts->is_object())
+    manifest.collisions = counts->value("collisions", std::uint64_t{0});
+  manifest.scene_file = text_member(json.value("scene", Json()), "file");
+  if (const auto left_out = json.find("left_out"); left_out != json.end() && left_out->is_object())
+    for (const auto& [file, why] : left_out->items())
+      manifest.left_out.push_back({file, why.is_string() ? why.get<std::string>() : ""});
+  if (const auto measures = json.find("measures"); measures != json.end() && measures->is_object())
+    for (const auto& [measure, value] : measures->items())
+      manifest.measures.push_back({measure, value.is_number() ? value.get<double>() : std::nan("")});
   for (const Json& entry : *files) {
     auto record = file_record(entry);
     if (!record) return std::nullopt;

@@ -6,13 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "export/exports.h"
 #include "export/output_file.h"
 #include "scene/scene.h"
 
 namespace carom {
-
-struct RunFacts;
-struct Summary;
 
 inline constexpr const char* manifest_name = "manifest.json";
 
@@ -23,6 +21,10 @@ struct Manifest {
   std::string outputs;       // outputs_text()
   std::string meshes;        // meshes_text()
   std::vector<FileRecord> files;
+  std::string scene_file{};         // its name, without a folder
+  std::vector<LeftOut> left_out{};  // files of the outputs that there are none of
+  std::vector<Measured> measures{};
+  std::uint64_t collisions = 0;
 };
 
 /// The outputs that were chosen, as JSON: the scene's text alone does not tell, for the command line may have left some

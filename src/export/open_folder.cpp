@@ -110,6 +110,11 @@ OpenFolder::OpenFolder(const std::string& path, Durability durability) : durabil
 }
 
 OpenFolder::~OpenFolder() {
+  if (renews_) {
+    first_files_.clear();
+    remove_parts(place_.folder);
+    return;
+  }
   if (keep_) return;
   if (!begun_.empty()) {
     for (const std::string& series : series_folder_names())
@@ -148,8 +153,54 @@ std::vector<FileRecord> OpenFolder::begin(const Scene& scene, const std::vector<
   return begun_;
 }
 
+std::vector<FileRecord> OpenFolder::renew(const Scene& scene, const std::vector<MeshCopy>& meshes,
+                                          const std::vector<FileRecord>& kept) {
+  renews_ = true;
+  remove_leavings(place_.folder);
+  for (const FileRecord& file : kept) kept_.push_back(file.name);
+  std::vector<FileRecord> records;
+  const auto put = [&](const std::string& name, const std::string& bytes) {
+    OutputFile& file = *first_files_.emplace_back(std::make_unique<OutputFile>(place_, name));
+    file.write(bytes);
+    file.complete();
+    records.push_back(file.record());
+  };
+  put("scene.yaml", scene.resolved);
+  for (const MeshCopy& mesh : meshes) put(mesh.name, mesh.bytes);
+  return records;
+}
+
+/// The folder stops being a whole run, then its files go, but for those that are kept; scene.yaml is replaced before
+/// that, so that the folder is known to be an unfinished run of the new scene.
+void OpenFolder::remove_former() {
+  const int folder = place_.folder;
+  std::vector<std::string> names;
+  add_files(names, read_manifest(folder, manifest_name));
+  if (renameat(folder, manifest_name, folder, former_manifest) != 0) fail("replace", place_, manifest_name);
+  first_files_.front()->publish();
+  std::erase_if(names,
+                [&](const std::string& name) { return std::find(kept_.begin(), kept_.end(), name) != kept_.end(); });
+  remove_files(folder, names);
+  for (const auto& file : first_files_)
+    if (file != first_files_.front()) file->publish();
+}
+
+/// Gives the files of series their places.
+void OpenFolder::move_series() {
+  for (const std::string& series : series_folder_names()) {
+    const Descriptor from = open_folder(place_.folder, part_name(series), false);
+    if (!from) continue;
+    const FilePlace place{-1, place_.path + "/" + series};
+    if (mkdirat(place_.folder, series.c_str(), 0777) != 0 && errno != EEXIST) fail("make", place, "");
+    const Descriptor to = open_folder(place_.folder, series, false);
+    if (!to) fail("open", place, "");
+    for (const std::string& name : folder_names(from.get()))
+      if (renameat(from.get(), name.c_str(), to.get(), name.c_str()) != 0) fail("write", place, name);
+  }
+}
+
 FilePlace OpenFolder::series(const FileSeries& series) {
-  const std::string name(series.folder);
+  const std::string name = renews_ ? part_name(series.folder) : std::string(series.folder);
   const FilePlace place{-1, place_.path + "/" + name};
   if (mkdirat(place_.folder, name.c_str(), 0777) != 0 && errno != EEXIST) fail("make", place, "");
   Descriptor folder = open_folder(place_.folder, name, false);
@@ -163,11 +214,17 @@ void OpenFolder::publish(const std::vector<OutputFile*>& files, OutputFile& mani
                          const std::function<void()>& others) {
   sync_all();
   keep();
+  if (renews_) {
+    remove_former();
+    move_series();
+  }
   for (OutputFile* file : files) file->publish();
   if (others) others();
   sync_names();
   manifest.publish();
   sync_names();
+  if (renews_) remove_leavings(place_.folder);
+  if (renews_) unlinkat(place_.folder, former_manifest, 0);
 }
 
 void OpenFolder::sync_all() {

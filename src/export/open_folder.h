@@ -1,6 +1,7 @@
 #pragma once
 // The run's folder while a run writes it: locked, freed of a former run, put in order when a run fails.
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,12 @@ class OpenFolder {
   /// folder that inspect_folder judges rightly. Then the copies of its meshes. Gives the records of all these.
   std::vector<FileRecord> begin(const Scene& scene, const std::vector<MeshCopy>& meshes = {});
 
+  /// Instead of begin(), where a whole run of the same motion stands: leaves all as it is until publish(), which puts
+  /// this scene's scene.yaml and what is written until then in the place of the files of that run, but for those named
+  /// in `kept`. Gives the records of scene.yaml and of the copies of meshes.
+  std::vector<FileRecord> renew(const Scene& scene, const std::vector<MeshCopy>& meshes,
+                                const std::vector<FileRecord>& kept);
+
   /// Makes, if need be, and opens the folder of a series.
   FilePlace series(const FileSeries& series);
 
@@ -44,6 +51,8 @@ class OpenFolder {
   void publish(const std::vector<OutputFile*>& files, OutputFile& manifest, const std::function<void()>& others = {});
 
  private:
+  void remove_former();
+  void move_series();
   void sync_all();    // all that was written to its file system, to the disk
   void sync_names();  // what was renamed in it
 
@@ -53,6 +62,10 @@ class OpenFolder {
   FilePlace place_;
   bool made_ = false, keep_ = false;
   std::vector<FileRecord> begun_;  // what stands there from the beginning
+  // Of renew(): until publish() series are written in folders of their own.
+  bool renews_ = false;
+  std::vector<std::unique_ptr<OutputFile>> first_files_;
+  std::vector<std::string> kept_;
 };
 
 }  // namespace carom

@@ -40,6 +40,11 @@ struct FileRecord {
   std::string sha256;
 };
 
+/// What it says of a file that was asked for and that the run gave up.
+struct LeftOut {
+  std::string name, why;
+};
+
 /// Whether `name` can only mean an entry of the folder it is looked up in, and no hidden one.
 bool is_plain_name(std::string_view name);
 

@@ -40,8 +40,9 @@ bool has_hash(const FileSpot& spot, const FileRecord& file) {
 
 bool names_all(const Manifest& manifest, const std::vector<std::string>& names) {
   return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
-    return std::any_of(manifest.files.begin(), manifest.files.end(),
-                       [&](const FileRecord& f) { return f.name == name; });
+    const auto has_name = [&](const auto& file) { return file.name == name; };
+    return std::any_of(manifest.files.begin(), manifest.files.end(), has_name) ||
+           std::any_of(manifest.left_out.begin(), manifest.left_out.end(), has_name);
   });
 }
 
@@ -88,6 +89,16 @@ bool is_whole_since(const std::string& path, const std::string& mark) {
     return when && has_size(spot, file) && (is_before(*when, marked) || has_hash(spot, file));
   };
   return all_files(folder.get(), *manifest, unchanged);
+}
+
+std::string wrong_file(int folder, const Manifest& manifest) {
+  SeriesFolders folders(folder);
+  for (const FileRecord& file : manifest.files) {
+    if (is_picture(file.name)) continue;
+    const FileSpot spot = folders.spot(file.name);
+    if (spot.folder < 0 || !has_size(spot, file) || !has_hash(spot, file)) return file.name;
+  }
+  return {};
 }
 
 void sync_file_system(const std::string& path) {

@@ -33,6 +33,11 @@ enum class FolderContent {
 /// within the same clock tick counts as changed.
 bool is_whole_since(const std::string& folder, const std::string& mark);
 
+struct Manifest;
+
+/// The first of the manifest's files, pictures aside, that is not there in its size and with its hash; empty: none.
+std::string wrong_file(int folder, const Manifest& manifest);
+
 /// What stands in `folder`, read from its manifest.json. Changes nothing.
 FolderContent inspect_folder(const std::string& folder, const Scene& scene);
 /// The same for what is no run: `outputs` as in its manifest, `files` that it must have.

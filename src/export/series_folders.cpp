@@ -12,6 +12,18 @@ const OutputKind* series_of(std::string_view name) {
   return nullptr;
 }
 
+const OutputKind* output_of(std::string_view name) {
+  if (const OutputKind* kind = series_of(name)) return kind;
+  for (const OutputKind& kind : output_kinds())
+    if (kind.has_file(name)) return &kind;
+  return nullptr;
+}
+
+bool is_picture(std::string_view name) {
+  const OutputKind* kind = output_of(name);
+  return kind != nullptr ? kind->looks : name.ends_with(".mp4");
+}
+
 FileSpot SeriesFolders::spot(std::string_view name) {
   const std::size_t slash = name.find('/');
   if (slash == std::string_view::npos) return {folder_, std::string(name)};

@@ -13,6 +13,12 @@ namespace carom {
 /// The output whose series has a file of this name beneath a run's folder, "frames/frame_00012.png"; null: none has.
 const OutputKind* series_of(std::string_view name);
 
+/// The output that has a file of this name; null: none has, or the scene gives the name (a film's).
+const OutputKind* output_of(std::string_view name);
+
+/// Whether a file of this name tells how things look: one of frames/, a film, what another program draws.
+bool is_picture(std::string_view name);
+
 /// Where a file of a run stands.
 struct FileSpot {
   int folder = -1;   // -1: there is no such folder

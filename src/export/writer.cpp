@@ -1,5 +1,6 @@
 #include "export/writer.h"
 
+#include "export/flights_file.h"
 #include "export/gltf.h"
 #include "export/tables.h"
 #include "export/vtk.h"
@@ -10,7 +11,7 @@ namespace {
 
 // Typical sizes, bytes: a motion's six numbers, a time, a name, a row of energy.csv.
 constexpr double motion_bytes = 114, time_bytes = 6, name_bytes = 8, energy_bytes = 110, collision_bytes = 260,
-                 contact_bytes = 40;
+                 contact_bytes = 40, path_bytes = 100;
 
 template <typename Table>
 std::unique_ptr<Writer> open(OpenFolder& folder, const Scene& scene, const ModelMakers&) {
@@ -47,6 +48,9 @@ constexpr WriterKind all_kinds[] = {
        return std::make_unique<GltfWriter>(folder, scene, makers);
      },
      GltfWriter::bytes},
+    // How many pieces there will be nobody knows; three a body.
+    {"flights", open<FlightsFile>,
+     [](const Scene& scene, double) { return 3 * path_bytes * scene.world.body_count(); }},
 };
 
 }  // namespace

@@ -10,7 +10,9 @@
 #include "export/output_file.h"
 #include "physics/collision.h"
 #include "physics/contact_force.h"
+#include "physics/path_piece.h"
 #include "physics/state.h"
+#include "physics/tally.h"
 #include "render/model.h"
 #include "scene/scene.h"
 
@@ -21,11 +23,17 @@ class Writer {
   virtual ~Writer() = default;
   /// Collisions, in the order in which they happened.
   virtual void record(std::span<const Collision>) {}
+  /// Pieces of paths, in their order.
+  virtual void record_paths(std::span<const PathPiece>) {}
   /// Whether add() looks at the forces of contact.
   virtual bool wants_contacts() const { return false; }
   /// The state at an instant at which this output is due (s). `contacts`: by a, then b.
   virtual void add(double, const State&, std::span<const ContactForce>) {}
-  /// Its files with all their bytes, not complete yet; after the last add().
+  /// The run is at its end.
+  virtual void end(const Tally&) {}
+  /// Those of its files that it has given up.
+  virtual std::vector<LeftOut> left_out() const { return {}; }
+  /// Its files with all their bytes, not complete yet; after end().
   virtual std::vector<OutputFile*> files() = 0;
   /// Its files that have their names already.
   virtual std::vector<FileRecord> published() const { return {}; }

@@ -18,6 +18,10 @@ struct State {
   std::vector<double> radius{};   // m, by body, of the smallest sphere about the volume
   std::vector<Volume> volume{};   // by body
   std::vector<Entity> part_of{};  // the body that it is part of; itself: none
+
+  /// Where part_of names the body that each has merged with, which may have become part of another since, and the rest
+  /// is as it was before: brings it all to what is said above.
+  void join_parts();
 };
 
 }  // namespace carom

@@ -144,6 +144,16 @@ class Requests {
     if (wanted(view, "vtk")) out.vtk = VtkOutput{view.part("vtk", "vtk").number("every").value_or(1)};
     if (wanted(view, "xyz")) out.xyz = XyzOutput{view.part("xyz", "xyz").number("every").value_or(1)};
     if (wanted(view, "gltf")) out.gltf = GltfOutput{view.part("gltf", "gltf").number("fps").value_or(1)};
+    flights(view);
+  }
+
+  void flights(const View& view) {
+    const std::optional<bool> said = view.flag("flights");
+    const bool parabolas = goes_along_parabolas(scene_.world, scene_.simulate);
+    scene_.output.flights = parabolas && said.value_or(scene_.output.pictures());
+    if (parabolas || !said.value_or(false)) return;
+    diagnostics_.add(view.place("flights"), "`flights` are parabolas from impact to impact, which this scene has not",
+                     "expected `flights: false`, or `engine: exact` under forces that are the same everywhere");
   }
 
   void video(const View& part) {

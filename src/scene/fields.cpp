@@ -213,6 +213,7 @@ constexpr Field output_fields[] = {
     {.key = "vtk", .type = Type::part_or_flag, .of = "vtk", .doc = "For ParaView: trajectory.pvd, vtk/bodies_00000.vtp and on, surfaces.vtp.", .example = "{every: 0.1}"},
     {.key = "xyz", .type = Type::part_or_flag, .of = "xyz", .doc = "For OVITO: trajectory.xyz, extended XYZ.", .example = "{every: 0.1}"},
     {.key = "gltf", .type = Type::part_or_flag, .of = "gltf", .doc = "For Blender: animation.glb, the scene and its motion.", .example = "{fps: 24}"},
+    {.key = "flights", .type = Type::flag, .doc = "flights.bin: the paths, from which carom render draws other pictures; where the engine goes along parabolas. Default: true with pictures.", .example = "true"},
 };
 
 constexpr std::string_view thirtieth = "0.03333333333333333";  // 1/30, to the last bit

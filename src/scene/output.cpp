@@ -89,7 +89,8 @@ constexpr OutputKind all_kinds[] = {
                        {"from", f.from},
                        {"until", optional_json(f.until)}};
          },
-     .series = frame_files},
+     .series = frame_files,
+     .looks = true},
     {.name = "video",
      .asked = [](const Output& o) { return o.video.has_value(); },
      .add =
@@ -102,7 +103,8 @@ constexpr OutputKind all_kinds[] = {
            return Json{{"file", v.file}, {"fps", v.fps},   {"size", size_json(v.size)},      {"samples", v.samples},
                        {"crf", v.crf},   {"from", v.from}, {"until", optional_json(v.until)}};
          },
-     .named = [](const Output& o) { return o.video->file; }},
+     .named = [](const Output& o) { return o.video->file; },
+     .looks = true},
     {.name = "sheet",
      .asked = [](const Output& o) { return o.sheet.has_value(); },
      .add = [](Output& to, const Output& asked) { take(to.sheet, asked.sheet); },
@@ -110,7 +112,8 @@ constexpr OutputKind all_kinds[] = {
          [](const Output& o) {
            return Json{{"columns", o.sheet->columns}, {"rows", o.sheet->rows}};
          },
-     .files = "sheet.png"},
+     .files = "sheet.png",
+     .looks = true},
     {.name = "vtk",
      .asked = [](const Output& o) { return o.vtk.has_value(); },
      .add = [](Output& to, const Output& asked) { take(to.vtk, asked.vtk); },
@@ -122,7 +125,8 @@ constexpr OutputKind all_kinds[] = {
      .files = "trajectory.pvd|surfaces.vtp",
      .series = vtk_files,
      .rows = "points of vtk/",
-     .spacing = "every"},
+     .spacing = "every",
+     .looks = true},
     {.name = "xyz",
      .asked = [](const Output& o) { return o.xyz.has_value(); },
      .add = [](Output& to, const Output& asked) { take(to.xyz, asked.xyz); },
@@ -133,7 +137,8 @@ constexpr OutputKind all_kinds[] = {
      .every = [](const Output& o) { return o.xyz->every; },
      .files = "trajectory.xyz",
      .rows = "rows of trajectory.xyz",
-     .spacing = "every"},
+     .spacing = "every",
+     .looks = true},
     {.name = "gltf",
      .asked = [](const Output& o) { return o.gltf.has_value(); },
      .add = [](Output& to, const Output& asked) { take(to.gltf, asked.gltf); },
@@ -145,7 +150,13 @@ constexpr OutputKind all_kinds[] = {
      .files = "animation.glb",
      .rows = "keys of animation.glb",
      .spacing = "fps",
-     .in_memory = true},
+     .in_memory = true,
+     .looks = true},
+    {.name = "flights",
+     .asked = [](const Output& o) { return o.flights; },
+     .add = [](Output& to, const Output&) { to.flights = true; },
+     .settings = [](const Output&) { return Json(true); },
+     .files = "flights.bin"},
 };
 
 }  // namespace
@@ -160,6 +171,11 @@ bool FileSeries::has(std::string_view name) const {
     return false;
   const std::string_view number = name.substr(stem.size(), name.size() - stem.size() - ending.size());
   return std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+bool OutputKind::has_file(std::string_view file) const {
+  const std::vector<std::string_view> all = parts_of(files);
+  return std::find(all.begin(), all.end(), file) != all.end();
 }
 
 std::span<const OutputKind> output_kinds() {
@@ -200,9 +216,7 @@ bool is_reserved(std::string_view name) {
   for (const std::string_view always : {"scene.yaml", "summary.csv", "manifest.json"})
     if (name == always) return true;
   return std::any_of(std::begin(all_kinds), std::end(all_kinds), [&](const OutputKind& kind) {
-    const std::vector<std::string_view> files = parts_of(kind.files);
-    return std::find(files.begin(), files.end(), name) != files.end() ||
-           (!kind.series.folder.empty() && kind.series.folder == name);
+    return kind.has_file(name) || (!kind.series.folder.empty() && kind.series.folder == name);
   });
 }
 

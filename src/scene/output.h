@@ -66,6 +66,7 @@ struct Output {
   std::optional<VtkOutput> vtk;
   std::optional<XyzOutput> xyz;
   std::optional<GltfOutput> gltf;
+  bool flights = false;  // of an engine that goes along parabolas alone
   bool pictures() const { return frames || video || sheet; }
 };
 
@@ -97,6 +98,10 @@ struct OutputKind {
   std::string_view rows = {};     // what it has of every body at every instant, in which file; empty: nothing
   std::string_view spacing = {};  // the key that says how often
   bool in_memory = false;         // all of that, until the run's end
+
+  bool looks = false;  // it tells how things look, not only how they move: carom render makes it anew
+
+  bool has_file(std::string_view name) const;  // among `files`
 };
 
 /// Every output, in the order of the scene's keys, of --only and of the manifest.

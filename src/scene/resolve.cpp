@@ -6,6 +6,7 @@
 #include <map>
 
 #include "scene/colors.h"
+#include "scene/unsupported.h"
 #include "scene/values.h"
 
 namespace carom {
@@ -164,6 +165,11 @@ class Resolver {
     for (const Field& field : view.kind().fields) {
       if (field.key == "collisions") {
         entry("collisions", scene_.output.collisions ? "true" : "false");
+        continue;
+      }
+      if (field.key == "flights") {
+        if (goes_along_parabolas(scene_.world, scene_.simulate) && (scene_.output.pictures() || scene_.output.flights))
+          entry("flights", scene_.output.flights ? "true" : "false");
         continue;
       }
       const bool is_wanted =

@@ -6,6 +6,10 @@
 
 namespace carom {
 
+bool goes_along_parabolas(const World& world, const Simulate& simulate) {
+  return (simulate.engine == Engine::exact || simulate.engine == Engine::automatic) && varying_force(world) == nullptr;
+}
+
 std::vector<Unsupported> unsupported(const World& world, const Simulate& simulate) {
   std::vector<Unsupported> lacks;
   const Force* varying = varying_force(world);
@@ -14,8 +18,7 @@ std::vector<Unsupported> unsupported(const World& world, const Simulate& simulat
                      fmt::format("under {}`{}` paths have no closed form, which `engine: exact` follows",
                                  std::holds_alternative<Drag>(open->law) ? "quadratic " : "", name_of(open->law)),
                      "expected `engine: stepped`, or `auto`"});
-  const bool parabolas = simulate.engine != Engine::stepped && varying == nullptr;
-  if (!parabolas && simulate.engine != Engine::book && simulate.merge)
+  if (simulate.merge && simulate.engine != Engine::book && !goes_along_parabolas(world, simulate))
     lacks.push_back({"contact",
                      simulate.engine == Engine::stepped
                          ? "`engine: stepped` has no `contact: merge`"

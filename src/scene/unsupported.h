@@ -13,6 +13,10 @@ struct Unsupported {
   std::string instead;  // "expected `engine: exact`"
 };
 
+/// Whether this engine goes along parabolas from impact to impact in this world: `contact: merge` and `output.flights`
+/// need that.
+bool goes_along_parabolas(const World& world, const Simulate& simulate);
+
 /// What the engine that `simulate` names cannot do of what the world and `simulate` ask for; empty: it runs.
 std::vector<Unsupported> unsupported(const World& world, const Simulate& simulate);
 

@@ -79,6 +79,10 @@ void ExactSimulator::start(const State& initial) {
   }
   predict_all();
   if (!crowd_.empty()) step_crowd();
+  if (options_.record_paths) {
+    for (Entity i = 0; i < n; ++i) note_path(i);
+    record_paths();
+  }
 }
 
 /// Of events at the same time, but for what the clock's second double tells: their total order, time, kind, the lower
@@ -97,6 +101,8 @@ bool ExactSimulator::before(Entity i, Entity j) const {
 
 void ExactSimulator::advance_to(double time) {
   collisions_.clear();
+  paths_.clear();
+  full_ = false;
   state_fresh_ = false;
   const Instant until{std::min(time, options_.duration), 0};
   std::uint32_t events = 0;
@@ -122,11 +128,12 @@ void ExactSimulator::advance_to(double time) {
       return;
     }
     // A full buffer: stop short of the instant reached, for more may happen in it.
-    if (collisions_.size() >= collision_buffer - 8) {
+    if (full_) {
       time_ = std::max(time_, std::nextafter(now_.hi, 0));
       return;
     }
   }
+  if (options_.record_paths) record_paths();
   time_ = std::max(time, time_);
 }
 
@@ -168,6 +175,7 @@ void ExactSimulator::process(Entity i) {
 
 /// Begins a new flight of body i, here and now.
 void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin origin) {
+  path_changes(i);
   const double speed = v.norm();
   if (!(speed < never))
     throw SimulationError(
@@ -232,6 +240,7 @@ void ExactSimulator::switch_forces(Entity i) {
   const double t = now_ - flight_[i].start;
   const Vec3 x = flight_[i].position(t);
   Vec3 v = flight_[i].velocity(t);
+  path_changes(i);
   book_flight(i, x);
   flight_.set(i, {now_, x, v, flight_.acceleration(i)});
   const Pull pull = pull_on(i);
@@ -251,7 +260,9 @@ void ExactSimulator::switch_forces(Entity i) {
 
 void ExactSimulator::record(const Collision& collision) {
   tally_.count(collision.kind, collision.time);
-  if (options_.record_collisions) collisions_.push_back(collision);
+  if (!options_.record_collisions) return;
+  collisions_.push_back(collision);
+  full_ = full_ || collisions_.size() >= collision_buffer - 8;
 }
 
 /// Kinetic energy (J) that a collision or a contact took.
@@ -295,7 +306,7 @@ void ExactSimulator::check_limits(Kind kind) {
 Vec3 ExactSimulator::velocity_now(Entity i, const Instant& at) const {
   const Vec3 v = flight_[i].velocity(at - flight_[i].start);
   if (body_[i].place != Place::crowd || following_) return v;
-  return v - (pulled_[i] - at) * hastened_[i];
+  return without_haste(v, at, pulled_[i], hastened_[i]);
 }
 
 Effort ExactSimulator::effort() const {
@@ -330,15 +341,7 @@ const State& ExactSimulator::state() {
     state_.radius = world_.radius;
     state_.volume = world_.volume;
     state_.part_of = part_of_;
-    for (Entity i = 0; i < world_.body_count(); ++i) {
-      if (part_of_[i] == i) continue;
-      Entity whole = part_of_[i];
-      while (part_of_[whole] != whole) whole = part_of_[whole];
-      state_.part_of[i] = whole;
-      state_.mass[i] = 0;
-      state_.position[i] = state_.position[whole];
-      state_.velocity[i] = state_.velocity[whole];
-    }
+    state_.join_parts();
   }
   state_fresh_ = true;
   return state_;

@@ -14,6 +14,7 @@ struct ExactOptions {
   std::uint64_t max_collisions = 0;  // stop with an error after so many; 0: no limit
   bool merge = false;                // bodies that meet become one
   bool record_collisions = true;     // false: no buffer is made and collisions() stays empty
+  bool record_paths = false;         // false: nor is one for paths()
 };
 
 /// `world` must outlive the simulator. `initial` is at time 0, before the world's impulses; the

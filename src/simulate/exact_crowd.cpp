@@ -22,6 +22,7 @@ void ExactSimulator::carry(Entity i, bool carried) {
 void ExactSimulator::join(Entity i) {
   if (body_[i].place == Place::asleep) wake(i);
   if (body_[i].place == Place::crowd) return;
+  path_changes(i);
   body_[i].place = Place::crowd;
   pulled_.write(i) = now_;
   hastened_.write(i).setZero();
@@ -178,6 +179,7 @@ void ExactSimulator::jostle(Entity i) {
 
 void ExactSimulator::step_crowd() {
   std::sort(crowd_.begin(), crowd_.end());
+  for (Entity i : crowd_) path_changes(i);
   if (follow_crowd()) return;
   for (Entity i : crowd_) followed_.write(i).clear();
   following_ = false;

@@ -24,6 +24,8 @@ void ExactSimulator::merge(Entity a, Entity b, const Touch& there) {
   const auto x = [&](Entity i) { return flight_[i].position(now_ - flight_[i].start); };
   const auto v = [&](Entity i) { return flight_[i].velocity(now_ - flight_[i].start); };
   const Vec3 xa = x(a), xb = x(b), va = v(a), vb = v(b);
+  path_changes(a);
+  path_changes(b);
   book_flight(a, xa);
   book_flight(b, xb);
   const Vec3 w = vb - va;

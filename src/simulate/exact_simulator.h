@@ -2,7 +2,7 @@
 // The exact simulator's own parts. Its source files share this class: exact.cpp (the loop), exact_predict.cpp (what
 // comes next for a body), exact_resolve.cpp (impacts), exact_rest.cpp (rest on flat surfaces), exact_crowd.cpp (bodies
 // in contact with one another), exact_follow.cpp and exact_stride.cpp (how few and how many of them move),
-// exact_merge.cpp, exact_ahead.cpp (what memory is asked for ahead of its time).
+// exact_merge.cpp, exact_ahead.cpp (what memory is asked for ahead of its time), exact_paths.cpp (paths as recorded).
 //
 // Each body keeps its Flight and is not moved when somebody else collides. Each body keeps one Event, the first of its
 // own; the first of all of these is the next thing to happen. A predicted collision is a function of the two flights
@@ -32,6 +32,7 @@ class ExactSimulator final : public Simulator {
   double time() const override { return time_; }
   const State& state() override;
   std::span<const Collision> collisions() const override { return collisions_; }
+  std::span<const PathPiece> paths() const override { return paths_; }
   const Tally& tally() const override { return tally_; }
   Effort effort() const override;
   std::span<const ContactForce> contacts() override;
@@ -228,6 +229,15 @@ class ExactSimulator final : public Simulator {
   bool followed(Entity i, Entity e) const;
   void report_followed();
 
+  // exact_paths.cpp
+  /// Before body i gets another path at this instant, or anything that its path is made of changes.
+  void path_changes(Entity i) {
+    if (options_.record_paths) [[unlikely]]
+      note_path(i);
+  }
+  void note_path(Entity i);
+  void record_paths();
+
   const World* given_;                  // before any merging
   std::unique_ptr<World> joint_world_;  // where bodies merge: with the joint bodies' masses and volumes
   const World& world_;
@@ -277,6 +287,10 @@ class ExactSimulator final : public Simulator {
   State state_;
   bool state_fresh_ = false, ended_ = false;
   std::vector<Collision> collisions_;
+  std::vector<PathPiece> paths_;
+  std::vector<Entity> changed_;  // whose paths are to be recorded as they are when all that happens
+  Instant changed_at_;           // at this instant has happened
+  bool full_ = false;            // there is no room for what one more event may bring
   Tally tally_;
   Effort effort_;
   std::vector<Entity> part_of_;             // empty: nothing has merged

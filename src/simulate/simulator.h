@@ -7,6 +7,7 @@
 
 #include "physics/collision.h"
 #include "physics/contact_force.h"
+#include "physics/path_piece.h"
 #include "physics/state.h"
 #include "physics/tally.h"
 #include "physics/world.h"
@@ -38,9 +39,11 @@ class Simulator {
   virtual double time() const = 0;   // s
   virtual const State& state() = 0;  // at time(); valid until the next advance_to
   virtual std::span<const Collision> collisions()
-      const = 0;                                // since the last advance_to, in order; empty if not recorded
-  virtual const Tally& tally() const = 0;       // up to time()
-  virtual Effort effort() const { return {}; }  // up to now; zero where it is not counted
+      const = 0;  // since the last advance_to, in order; empty if not recorded
+  /// Since the last advance_to, those of its bodies' paths at time 0 before the first; in order; empty if not recorded.
+  virtual std::span<const PathPiece> paths() const { return {}; }
+  virtual const Tally& tally() const = 0;                          // up to time()
+  virtual Effort effort() const { return {}; }                     // up to now; zero where it is not counted
   virtual std::span<const ContactForce> contacts() { return {}; }  // at time(), by a, then b; until the next advance_to
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "physics/force.h"
+#include "scene/unsupported.h"
 #include "simulate/book.h"
 #include "simulate/exact.h"
 #include "simulate/step_choice.h"
@@ -24,7 +25,7 @@ SteppedOptions stepped_options(const Simulate& simulate, bool record_collisions)
 
 /// Along parabolas from event to event; flights that are exponentials the stepped simulator has in closed form.
 std::unique_ptr<Simulator> make_exact(const World& world, const State& initial, const Simulate& simulate,
-                                      bool record_collisions) {
+                                      bool record_collisions, bool record_paths) {
   if (varying_force(world) != nullptr) {
     SteppedOptions options = stepped_options(simulate, record_collisions);
     options.integrator = Integrator::rk4;
@@ -38,6 +39,7 @@ std::unique_ptr<Simulator> make_exact(const World& world, const State& initial, 
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
   options.merge = simulate.merge;
   options.record_collisions = record_collisions;
+  options.record_paths = record_paths;
   return make_exact_simulator(world, initial, options);
 }
 
@@ -139,19 +141,24 @@ void settle_step(const Scene& scene, EngineChoice& engine, const std::function<v
 }
 
 std::unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
-                                          bool record_collisions) {
-  const auto make = simulate.engine == Engine::exact     ? make_exact
-                    : simulate.engine == Engine::stepped ? make_stepped
-                                                         : make_book;
+                                          bool record_collisions, bool record_paths) {
+  if (simulate.engine == Engine::exact) return make_exact(world, initial, simulate, record_collisions, record_paths);
+  const auto make = simulate.engine == Engine::stepped ? make_stepped : make_book;
   return make(world, initial, simulate, record_collisions);
 }
 
-std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions, std::optional<double> step) {
+std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions, std::optional<double> step,
+                                          bool record_paths) {
   Simulate simulate = scene.simulate;
   if (simulate.engine == Engine::automatic)
     simulate.engine = force_without_closed_form(scene.world) == nullptr ? Engine::exact : Engine::stepped;
   if (step) simulate.step = step;
-  return make_simulator(scene.world, scene.initial, simulate, record_collisions);
+  return make_simulator(scene.world, scene.initial, simulate, record_collisions, record_paths);
+}
+
+void check_flights(const Scene& scene) {
+  if (!scene.output.flights || goes_along_parabolas(scene.world, scene.simulate)) return;
+  throw SimulationError("flights are parabolas from impact to impact, which this scene has not: leave them out");
 }
 
 std::unique_ptr<Simulator> make_oracle(const Scene& scene) {

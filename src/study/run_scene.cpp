@@ -45,7 +45,7 @@ class Stage {
  public:
   Stage(const Show& show, const RunSettings& settings)
       : scene(*show.scene),
-        exports(scene, show.folder, settings.durability, {still_things, glb}),
+        exports(scene, show.folder, settings.durability, {still_things, glb}, show.renewed),
         renderers_(exports.pictures().size()) {
     facts.load_s = show.load_s;
     more = exports.timeline().advance();
@@ -143,13 +143,20 @@ class Run {
       : shows_(shows), settings_(settings), watch_(watch), engine_(engine), results_(shows.size()) {
     for (std::size_t i = 0; i < shows.size(); ++i) {
       stages_.emplace_back();
-      guarded(i, [&] { stages_[i] = std::make_unique<Stage>(shows[i], settings); });
+      guarded(i, [&] {
+        check_flights(*shows[i].scene);
+        stages_[i] = std::make_unique<Stage>(shows[i], settings);
+      });
     }
     const Stopwatch stopwatch(simulate_s_);
-    settle_step(scene(), engine_, watch_.look);
-    const bool record =
+    if (!settings.simulator) settle_step(scene(), engine_, watch_.look);
+    const bool collisions =
         std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.collisions; });
-    simulator_ = make_simulator(scene(), record, engine_.step);
+    const bool paths =
+        std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.flights; });
+    simulator_ =
+        settings.simulator ? settings.simulator(scene()) : make_simulator(scene(), collisions, engine_.step, paths);
+    record({}, simulator_->paths());
     energy_start_ = energy(scene(), simulator_->state());
   }
 
@@ -206,22 +213,24 @@ class Run {
         simulator_->advance_to(next > before ? next : time);
       }
       const std::span<const Collision> collisions = simulator_->collisions();
-      if (!collisions.empty()) {
-        record(collisions);
-      } else if (!(simulator_->time() > before) && simulator_->tally().collisions() == collisions_before) {
+      const std::span<const PathPiece> paths = simulator_->paths();
+      record(collisions, paths);
+      if (collisions.empty() && paths.empty() && !(simulator_->time() > before) &&
+          simulator_->tally().collisions() == collisions_before)
         throw SimulationError("the simulator does not go on");
-      }
       watch_.look();
       tell();
     }
   }
 
-  void record(std::span<const Collision> collisions) {
+  void record(std::span<const Collision> collisions, std::span<const PathPiece> paths) {
+    if (collisions.empty() && paths.empty()) return;
     for (std::size_t i = 0; i < stages_.size(); ++i) {
       if (!stages_[i]) continue;
       guarded(i, [&] {
         const Stopwatch watch(stages_[i]->facts.export_s);
         stages_[i]->exports.record(collisions);
+        stages_[i]->exports.record_paths(paths);
       });
     }
   }
@@ -243,6 +252,7 @@ class Run {
     result.facts = stage.facts;
     result.facts.simulate_s = simulate_s_;
     result.facts.peak_memory = peak_memory();
+    result.facts.left_out = stage.exports.end(simulator_->tally());
     if (settings_.measure) result.facts.measures = settings_.measure(stage.scene, end, result.summary);
     stage.exports.finish(result.summary, result.facts);
   }

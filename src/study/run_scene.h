@@ -2,6 +2,7 @@
 // Checked scenes -> their folders: joins simulator, timelines, renderers and exports.
 #include <exception>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,13 +23,16 @@ struct RunWatch {
 struct Show {
   const Scene* scene = nullptr;
   std::string folder;
-  double load_s = 0;  // what reading the scene took, for the manifest
+  double load_s = 0;                  // what reading the scene took, for the manifest
+  const Manifest* renewed = nullptr;  // of the run in the folder, whose pictures this replaces (exports.h)
 };
 
 struct RunSettings {
   Durability durability = Durability::synced;
   /// What else the manifest says of a run's end; may be unset.
   std::function<std::vector<Measured>(const Scene&, const State& end, const Summary&)> measure;
+  /// What goes along the motion in place of the scene's engine; may be unset.
+  std::function<std::unique_ptr<Simulator>(const Scene&)> simulator{};
 };
 
 struct RunResult {

@@ -1,0 +1,176 @@
+#include "commands/render.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "commands/plan.h"
+#include "commands/run.h"
+#include "commands/text.h"
+#include "export/manifest.h"
+#include "scene/motion_text.h"
+#include "scene/output.h"
+
+namespace carom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The outputs of these that tell how things look, or those that do not; flights are neither.
+std::vector<std::string> names_of(const Output& output, bool looks) {
+  std::vector<std::string> names;
+  for (const OutputKind& kind : output_kinds())
+    if (kind.asked(output) && kind.looks == looks && kind.name != "flights") names.emplace_back(kind.name);
+  return names;
+}
+
+void refuse_tables(const Options& options) {
+  const std::vector<std::string> drawn = names_of(with_all({}), true);
+  for (const std::string& name : options.only.value_or(std::vector<std::string>{}))
+    if (std::find(drawn.begin(), drawn.end(), name) == drawn.end())
+      throw UsageError(fmt::format("render makes {}: carom run writes {}", fmt::join(drawn, ", "), name));
+}
+
+std::string name_of_folder(const std::string& folder) {
+  const fs::path path = fs::absolute(folder).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+bool is_same_folder(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return fs::equivalent(a, b, ignored);
+}
+
+/// As typed in a shell.
+std::string settings_text(const std::vector<std::string>& settings) {
+  std::string text;
+  for (const std::string& setting : settings) {
+    const bool plain = setting.find_first_of(" '\"$`\\*?[](){}<>|&;#!~\t") == std::string::npos;
+    text += plain ? " --set " + setting : fmt::format(" --set '{}'", setting);
+  }
+  return text;
+}
+
+class Planner {
+ public:
+  explicit Planner(const Options& options) : options_(options) {}
+
+  void check(PlannedScene& planned) const {
+    const auto start = std::chrono::steady_clock::now();
+    const std::string path = former_scene_file(planned.file);
+    LoadOptions load = load_options(options_, true);
+    load.set.clear();
+    SceneFile file(path, load);
+    auto former = std::make_shared<FormerRun>(read_former_run(planned.file, file));
+    if (is_same_folder(planned.folder, planned.file)) planned.folder = planned.file;
+    std::vector<Setting> settings;
+    for (const std::string& set : options_.set) settings.push_back({set, ""});
+    planned.scene = std::make_unique<Scene>(file.scene(settings));
+    refuse_other_motion(file, *former, *planned.scene, path);
+    choose_outputs(planned, *former);
+    planned.scene->file = former->scene.file;
+    planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    planned.engine = choose_engine(*planned.scene);
+    planned.forecast = forecast(*planned.scene);
+    if (!options_.force) hold_to_budget(*planned.scene, planned.forecast, "this would make");
+    std::error_code ignored;
+    if (fs::exists(planned.folder, ignored) && !fs::is_directory(planned.folder, ignored))
+      throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
+    planned.content = inspect_folder(planned.folder, *planned.scene);
+    const bool renews = planned.folder == planned.file;
+    if (renews && planned.content != FolderContent::this_run) planned.content = FolderContent::incomplete;
+    former->scene = {};  // two of them are one too many
+    planned.former = std::move(former);
+  }
+
+ private:
+  void refuse_other_motion(SceneFile& file, const FormerRun& former, const Scene& scene,
+                           const std::string& path) const {
+    const std::string motion = motion_text(former.scene);
+    if (motion_text(scene) == motion) return;
+    std::vector<Setting> settings;
+    for (const std::string& set : options_.set) {
+      settings.push_back({set, ""});
+      if (motion_text(file.scene(settings)) == motion) continue;
+      throw ExportError(fmt::format(
+          "--set {} changes the motion, which has to be simulated anew\n  carom run {}{} -o OTHER does that",
+          printable(set), printable(path), printable(settings_text(options_.set))));
+    }
+  }
+
+  void choose_outputs(PlannedScene& planned, const FormerRun& former) const {
+    Output& output = planned.scene->output;
+    const Output asked = output;
+    output = restricted(asked, options_.only.value_or(names_of(asked, true)));
+    if (names_of(output, true).empty())
+      throw ExportError("its scene asks for no pictures\n  --only frames, video or sheet asks for them");
+    output.flights = asked.flights;
+    if (planned.folder != planned.file) return;
+    const std::vector<std::string> tables = names_of(former.scene.output, false);
+    Output kept = restricted(asked, tables);
+    if (outputs_text(kept) != outputs_text(restricted(former.scene.output, tables)))
+      throw ExportError(fmt::format("--set changes one of {}, which render leaves as they are\n  carom run writes them",
+                                    fmt::join(tables, ", ")));
+    for (const OutputKind& kind : output_kinds())
+      if (kind.asked(output)) kind.add(kept, output);
+    output = kept;
+  }
+
+  const Options& options_;
+};
+
+}  // namespace
+
+const CommandText& render_text() {
+  static const CommandText text = {
+      "render",
+      "draws other pictures of a run, without simulating again",
+      "  carom render output/ten_pins --set camera.eye.y=9       the run's pictures, from higher up\n"
+      "  carom render output/ten_pins --set output.video.fps=240 -o output/slow\n"
+      "  carom render output/ten_pins --only sheet --set \"output.sheet={columns: 8, rows: 8}\"\n",
+      "A run keeps the paths of its bodies in flights.bin, so that any instant is exact. With -o the\n"
+      "pictures go to another folder, as carom run --only frames,video,sheet would write it. Without,\n"
+      "they take the place of the run's own, and its other files stay. --set may change the camera,\n"
+      "lights, colours, background and what is drawn when; what changes the motion is refused.\n"
+      "A run without flights (engines stepped and book, or output.flights: false) is simulated again.\n\n"
+      "Exit codes: 0 done or up to date, 1 failed, 2 the command line, a folder or a change is wrong,\n"
+      "130 or 143 interrupted.",
+      {{"--output", "the folder of the pictures; with several runs, the folder\nthat holds theirs (the run's own)"},
+       {"--set"},
+       {"--only",
+        "draw these alone, of frames, video, sheet, vtk, xyz, gltf;\none that the scene does not ask for is made "
+        "with default\nsettings"},
+       {"--force"},
+       {"--progress"}},
+      "DIR",
+      "folders of runs"};
+  static const CommandText whole = [] {
+    CommandText it = text;
+    it.missing = "name the folder of a run: carom {} output/two_bowling_balls";
+    return it;
+  }();
+  return whole;
+}
+
+int render_command(const Options& options) {
+  refuse_tables(options);
+  std::vector<PlannedScene> runs;
+  for (const std::string& folder : options.operands) {
+    PlannedScene& run = runs.emplace_back();
+    run.file = folder;
+    while (run.file.size() > 1 && run.file.ends_with('/')) run.file.pop_back();
+    run.name = name_of_folder(folder);
+    run.folder = !options.output                ? run.file
+                 : options.operands.size() == 1 ? *options.output
+                                                : (fs::path(*options.output) / run.name).string();
+  }
+  const Planner planner(options);
+  return run_planned(options, "render",
+                     plan_scenes(std::move(runs), [&](PlannedScene& planned) { planner.check(planned); }));
+}
+
+}  // namespace carom

@@ -1,0 +1,246 @@
+#include "export/flights_file.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "export/run_folder.h"
+#include "export/stored_file.h"
+
+namespace carom {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+constexpr std::string_view magic = "caromfly";
+constexpr std::uint32_t version = 1, byte_order = 0x01020304, last_entry = 0xffffffff;
+enum Has : std::uint32_t { has_acceleration = 1, has_from = 2, has_haste = 4, has_whole = 8, has_joint = 16 };
+
+constexpr std::size_t header_size = 32, tail_size = 8 + 12 * 8;
+constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5) * 8;
+
+/// What from is where an entry does not say it.
+double first_double(const DoubleDouble& start) {
+  return start.lo > 0 ? std::nextafter(start.hi, std::numeric_limits<double>::infinity()) : start.hi;
+}
+
+/// Unlike ==, which takes -0 for 0.
+bool same_bits(const Vec3& a, const Vec3& b) {
+  return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
+}
+
+/// Bytes in place.
+class InPlace {
+ public:
+  explicit InPlace(char* to) : to_(to) {}
+  template <typename T>
+  void put(const T& value) {
+    std::memcpy(to_, &value, sizeof value);
+    to_ += sizeof value;
+  }
+  void put(const Vec3& v) {
+    for (int k = 0; k < 3; ++k) put(v[k]);
+  }
+  void put(const DoubleDouble& time) {
+    put(time.hi);
+    put(time.lo);
+  }
+  const char* end() const { return to_; }
+
+ private:
+  char* to_;
+};
+
+}  // namespace
+
+FlightsFile::FlightsFile(const FilePlace& place, const Scene& scene, std::uint64_t most)
+    : most_(most),
+      bytes_(header_size + tail_size),
+      acceleration_(scene.world.body_count(), Vec3::Constant(std::numeric_limits<double>::quiet_NaN())) {
+  file_.emplace(place, flights_name);
+  file_->write(magic);
+  InPlace writer(file_->room(header_size));
+  writer.put(version);
+  writer.put(byte_order);
+  writer.put(std::uint64_t{scene.world.body_count()});
+  writer.put(scene.simulate.duration);
+  file_->written(writer.end());
+}
+
+void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
+  for (const PathPiece& piece : pieces) {
+    if (!file_) return;
+    std::uint32_t has = 0;
+    if (!same_bits(piece.a, acceleration_[piece.body])) has |= has_acceleration;
+    if (piece.from != first_double(piece.start)) has |= has_from;
+    if (piece.hastened) has |= has_haste;
+    if (piece.part_of != no_entity) has |= has_whole;
+    if (piece.joint) has |= has_joint;
+    char* const begin = file_->room(largest_entry);
+    InPlace writer(begin);
+    writer.put(piece.body);
+    writer.put(has);
+    writer.put(piece.start);
+    writer.put(piece.x);
+    writer.put(piece.v);
+    if (has & has_acceleration) writer.put(acceleration_[piece.body] = piece.a);
+    if (has & has_from) writer.put(piece.from);
+    if (has & has_haste) {
+      writer.put(piece.until);
+      writer.put(piece.haste);
+    }
+    if (has & has_whole) writer.put(std::uint64_t{piece.part_of});
+    if (has & has_joint) {
+      writer.put(piece.mass);
+      writer.put(piece.radius);
+      writer.put(piece.half);
+    }
+    file_->written(writer.end());
+    ++entries_;
+    bytes_ += static_cast<std::uint64_t>(writer.end() - begin);
+    if (bytes_ > most_) file_.reset();
+  }
+}
+
+void FlightsFile::end(const Tally& tally) {
+  if (!file_) return;
+  InPlace writer(file_->room(tail_size));
+  writer.put(last_entry);
+  writer.put(std::uint32_t{0});
+  for (const std::uint64_t count :
+       {entries_, tally.body_body, tally.body_fixed, tally.merges, tally.collapses, tally.resting})
+    writer.put(count);
+  for (const double value :
+       {tally.first_collision, tally.last_collision, tally.energy_lost, tally.work, tally.max_overlap, tally.max_speed})
+    writer.put(value);
+  file_->written(writer.end());
+}
+
+std::vector<LeftOut> FlightsFile::left_out() const {
+  if (file_) return {};
+  return {{flights_name, fmt::format("larger than {:.3g} GB", 1e-9 * static_cast<double>(most_))}};
+}
+
+std::vector<OutputFile*> FlightsFile::files() {
+  return file_ ? std::vector{&*file_} : std::vector<OutputFile*>();
+}
+
+FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& scene)
+    : path_(path),
+      file_(open_stored(folder, flights_name)),
+      buffer_(std::size_t{256} * 1024),
+      acceleration_(scene.world.body_count(), Vec3::Zero()) {
+  struct stat info {};
+  if (!file_ || fstat(file_.get(), &info) != 0) refuse("it cannot be opened, or is no file");
+  const auto size = static_cast<std::uint64_t>(info.st_size);
+  if (size < header_size + tail_size) refuse("it is cut off");
+
+  char tail[tail_size];
+  if (pread(file_.get(), tail, tail_size, static_cast<off_t>(size - tail_size)) != static_cast<ssize_t>(tail_size))
+    refuse("it cannot be read");
+  std::memcpy(buffer_.data(), tail, tail_size);
+  end_ = tail_size;
+  if (take<std::uint32_t>() != last_entry || take<std::uint32_t>() != 0) refuse("it is cut off");
+  entries_ = take<std::uint64_t>();
+  for (std::uint64_t* count :
+       {&tally_.body_body, &tally_.body_fixed, &tally_.merges, &tally_.collapses, &tally_.resting})
+    *count = take<std::uint64_t>();
+  for (double* value : {&tally_.first_collision, &tally_.last_collision, &tally_.energy_lost, &tally_.work,
+                        &tally_.max_overlap, &tally_.max_speed})
+    *value = take<double>();
+
+  at_ = end_ = 0;
+  left_ = size - tail_size;
+  fill(header_size);
+  if (std::string_view(buffer_.data(), magic.size()) != magic) refuse("it is no record of flights");
+  at_ += magic.size();
+  if (take<std::uint32_t>() != version) refuse("another version of carom wrote it");
+  if (take<std::uint32_t>() != byte_order) refuse("it is damaged");
+  if (take<std::uint64_t>() != scene.world.body_count() || take<double>() != scene.simulate.duration)
+    refuse("it is another scene's");
+}
+
+bool FlightsReader::next(PathPiece& piece) {
+  if (entries_ == 0) {
+    if (left_ > 0 || at_ != end_) refuse("it is damaged");
+    return false;
+  }
+  --entries_;
+  fill(largest_entry);
+  piece = {};
+  piece.body = take<std::uint32_t>();
+  const auto has = take<std::uint32_t>();
+  if (piece.body >= acceleration_.size() || has >= 2 * has_joint) refuse("it is damaged");
+  const auto take_time = [&] {
+    const double hi = take<double>();
+    return DoubleDouble{hi, take<double>()};
+  };
+  piece.start = take_time();
+  piece.x = take_vector();
+  piece.v = take_vector();
+  if (has & has_acceleration) acceleration_[piece.body] = take_vector();
+  piece.a = acceleration_[piece.body];
+  piece.from = has & has_from ? take<double>() : first_double(piece.start);
+  if (has & has_haste) {
+    piece.hastened = true;
+    piece.until = take_time();
+    piece.haste = take_vector();
+  }
+  if (has & has_whole) {
+    const auto whole = take<std::uint64_t>();
+    if (whole >= acceleration_.size() || whole == piece.body) refuse("it is damaged");
+    piece.part_of = static_cast<Entity>(whole);
+  }
+  if (has & has_joint) {
+    piece.joint = true;
+    piece.mass = take<double>();
+    piece.radius = take<double>();
+    piece.half = take_vector();
+  }
+  if (!(piece.from >= last_) || !piece.x.allFinite() || !piece.v.allFinite()) refuse("it is damaged");
+  last_ = piece.from;
+  return true;
+}
+
+/// Has `size` bytes in the buffer, or all that are left.
+void FlightsReader::fill(std::size_t size) {
+  if (end_ - at_ >= size) return;
+  std::memmove(buffer_.data(), buffer_.data() + at_, end_ - at_);
+  end_ -= at_;
+  at_ = 0;
+  while (end_ < size && left_ > 0) {
+    const ssize_t n = read(file_.get(), buffer_.data() + end_, std::min<std::uint64_t>(buffer_.size() - end_, left_));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) refuse("it cannot be read");
+    end_ += static_cast<std::size_t>(n);
+    left_ -= static_cast<std::uint64_t>(n);
+  }
+}
+
+template <typename T>
+T FlightsReader::take() {
+  if (end_ - at_ < sizeof(T)) refuse("it is cut off");
+  T value;
+  std::memcpy(&value, buffer_.data() + at_, sizeof value);
+  at_ += sizeof value;
+  return value;
+}
+
+Vec3 FlightsReader::take_vector() {
+  Vec3 v;
+  for (int k = 0; k < 3; ++k) v[k] = take<double>();
+  return v;
+}
+
+void FlightsReader::refuse(const std::string& reason) const {
+  fail("use", {-1, path_}, flights_name, reason);
+}
+
+}  // namespace carom

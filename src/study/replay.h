@@ -1,0 +1,46 @@
+#pragma once
+// A run again from its recorded paths: the same states, bit for bit, without simulating.
+#include <functional>
+#include <vector>
+
+#include "physics/path_piece.h"
+#include "simulate/simulator.h"
+
+namespace carom {
+
+/// Gives the next piece of a record, in its order; false: there is none. May throw.
+using NextPiece = std::function<bool(PathPiece&)>;
+
+/// A Simulator that goes along recorded paths. It has no collisions and no forces of contact.
+class Replay final : public Simulator {
+ public:
+  /// `world`, which must outlive this, and `next` are those of one run; `tally` is that of its end.
+  Replay(const World& world, NextPiece next, const Tally& tally);
+
+  void advance_to(double time) override;  // not back
+  double time() const override { return time_; }
+  const State& state() override;
+  std::span<const Collision> collisions() const override { return {}; }
+  std::span<const PathPiece> paths() const override { return passed_; }
+  const Tally& tally() const override { return tally_; }  // of the whole run
+
+ private:
+  void take(const PathPiece& piece);
+
+  const World& world_;
+  NextPiece next_;
+  Tally tally_;
+  std::vector<PathPiece> now_;     // by body
+  std::vector<PathPiece> passed_;  // since the last advance_to
+  PathPiece coming_;
+  bool more_ = false;
+  double time_ = 0;  // s
+  State state_;
+  bool fresh_ = false;
+  // Where bodies have merged; else empty.
+  std::vector<double> mass_, radius_;
+  std::vector<Volume> volume_;
+  std::vector<Entity> part_of_;
+};
+
+}  // namespace carom

@@ -1,0 +1,270 @@
+// carom render, by the real program: other pictures of a run, without simulating again.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "commands/program.h"
+
+namespace carom::testing {
+namespace {
+
+using Files = std::map<std::string, std::string>;
+using Words = std::vector<std::string>;
+
+const std::string frames = "output: {collisions: true, frames: {fps: 4, size: [64, 36], samples: 1}}\n";
+const std::string camera = "camera: {eye: [0, 0.5, -3], target: [0, 0, 0]}\n";
+
+Files without_manifest(Files files) {
+  files.erase("manifest.json");
+  return files;
+}
+
+/// carom run of a scene of scenes/, small and few pictures, into the folder `to`.
+void run_scene_of_ours(const Workplace& here, const std::string& scene, const std::string& to, const Words& more = {}) {
+  Words words = {"run",     SCENES_DIR "/" + scene + ".yaml",
+                 "-o",      to,
+                 "--only",  "frames,flights,energy",
+                 "--set",   "output.frames={fps: 5, size: [48, 32], samples: 1}",
+                 "--quiet", "--progress",
+                 "none"};
+  words.insert(words.end(), more.begin(), more.end());
+  const Finished run = here.carom(words);
+  ASSERT_EQ(run.code, 0) << run.err;
+}
+
+// With rest, merging, rolling, edges of walls, meshes, forces in windows of time, crowds that are followed and crowds
+// in strides.
+class Rendered : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Rendered, WithAnotherRateIsWhatARunWithThatRateWrites) {
+  const Workplace here;
+  run_scene_of_ours(here, GetParam(), "run");
+  const Finished render =
+      here.carom({"render", "run", "--set", "output.frames.fps=7", "--only", "frames", "-o", "render", "--quiet"});
+  ASSERT_EQ(render.code, 0) << render.err;
+  EXPECT_EQ(render.err, "");
+  const Words run = {"run", "run/scene.yaml", "--set", "output.frames.fps=7", "--only", "frames,flights", "-o"};
+  Words to = run;
+  to.push_back("fresh");
+  ASSERT_EQ(here.carom(to).code, 0);
+  EXPECT_EQ(without_manifest(here.files("render")), without_manifest(here.files("fresh")));
+  to.back() = "render";
+  EXPECT_NE(here.carom(to).out.find("up to date"), std::string::npos);
+}
+
+TEST_P(Rendered, WithoutAChangeHasTheBytesOfTheRun) {
+  const Workplace here;
+  run_scene_of_ours(here, GetParam(), "run");
+  ASSERT_EQ(here.carom({"render", "run", "--only", "frames", "-o", "render"}).code, 0);
+  Files run = here.files("run");
+  run.erase("energy.csv");
+  EXPECT_EQ(without_manifest(here.files("render")), without_manifest(run));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Rendered,
+                         ::testing::Values("bouncing_ball", "clay", "rolling_off", "wall_fly_over", "ten_pins", "gust",
+                                           "pyramid", "two_bowling_balls_e11", "gas_in_a_room"),
+                         [](const auto& scene) { return std::string(scene.param); });
+
+TEST(Render, InPlaceReplacesThePicturesAndKeepsTheTables) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(camera + frames));
+  here.carom({"run", "balls.yaml", "-o", "run"});
+  const Words set = {"--set", "camera.eye.y=2", "--set", "output.frames.fps=3", "--set", "title=From above"};
+  Words render = {"render", "run"};
+  render.insert(render.end(), set.begin(), set.end());
+  const Finished done = here.carom(render);
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_NE(done.out.find("run: From above\n"), std::string::npos);
+  Words fresh = {"run", "balls.yaml", "-o", "fresh"};
+  fresh.insert(fresh.end(), set.begin(), set.end());
+  here.carom(fresh);
+  EXPECT_EQ(without_manifest(here.files("run")), without_manifest(here.files("fresh")));
+  EXPECT_FALSE(here.has("run/frames/frame_00004.png"));
+  EXPECT_NE(here.carom({"run", "run/scene.yaml", "-o", "run"}).out.find("up to date"), std::string::npos);
+  EXPECT_NE(here.carom({"render", "run"}).out.find("up to date"), std::string::npos);
+  // All but what is measured.
+  const auto facts = [&](const std::string& folder) {
+    auto json = nlohmann::json::parse(here.read(folder + "/manifest.json"));
+    json.erase("wall_times_s");
+    json.erase("peak_memory_bytes");
+    return json.dump();
+  };
+  EXPECT_EQ(facts("run"), facts("fresh"));
+}
+
+TEST(Render, DrawsWhatTheRunDidNotAskFor) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("output: {energy: {every: 0.5}, flights: true}\n" + camera));
+  here.carom({"run", "balls.yaml", "-o", "run"});
+  const Finished none = here.carom({"render", "run"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_EQ(none.err,
+            "run: its scene asks for no pictures\n  --only frames, video or sheet asks for them\n"
+            "carom: 1 error; nothing was run\n");
+  EXPECT_EQ(here.carom({"render", "run", "--only", "sheet"}).code, 0);
+  EXPECT_TRUE(here.has("run/sheet.png") && here.has("run/energy.csv") && here.has("run/flights.bin"));
+}
+
+TEST(Render, RefusesAnotherMotionAndSaysHowToSimulateIt) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(camera + frames));
+  here.carom({"run", "balls.yaml", "-o", "run"});
+  const Files before = here.files("run");
+  const Finished render =
+      here.carom({"render", "run", "--set", "camera.eye.y=2", "--set", "balls.red.velocity=[3, 0, 0]"});
+  EXPECT_EQ(render.code, 2);
+  EXPECT_EQ(render.err,
+            "run: --set balls.red.velocity=[3, 0, 0] changes the motion, which has to be simulated anew\n"
+            "  carom run run/scene.yaml --set camera.eye.y=2 --set 'balls.red.velocity=[3, 0, 0]' -o OTHER does that\n"
+            "carom: 1 error; nothing was run\n");
+  EXPECT_EQ(here.files("run"), before);
+}
+
+TEST(Render, RefusesOtherTables) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(camera + "output: {energy: {every: 0.5}, frames: {size: [64, 36]}}\n"));
+  here.carom({"run", "balls.yaml", "-o", "run"});
+  EXPECT_EQ(here.carom({"render", "run", "--only", "energy"}).code, 2);
+  const Finished render = here.carom({"render", "run", "--set", "output.energy.every=0.1"});
+  EXPECT_EQ(render.code, 2);
+  EXPECT_EQ(render.err,
+            "run: --set changes one of energy, which render leaves as they are\n  carom run writes them\n"
+            "carom: 1 error; nothing was run\n");
+}
+
+TEST(Render, RefusesWhatIsNoWholeRun) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(camera + frames));
+  here.carom({"run", "balls.yaml", "-o", "run"});
+  const auto refusal = [&](const std::string& folder) {
+    const Finished render = here.carom({"render", folder, "--set", "camera.eye.y=2"});
+    EXPECT_EQ(render.code, 2);
+    return render.err.substr(0, render.err.find('\n'));
+  };
+  EXPECT_EQ(refusal("nowhere"), "nowhere: there is no such folder");
+  EXPECT_EQ(refusal("balls.yaml"), "balls.yaml: it is no folder");
+  EXPECT_EQ(refusal("."), ".: it holds no whole run: there is no manifest.json");
+  const std::string flights = here.read("run/flights.bin"), manifest = here.read("run/manifest.json");
+  const std::string changed = "run: flights.bin is missing or has changed";
+  here.write("run/flights.bin", flights.substr(0, flights.size() - 1));
+  EXPECT_EQ(refusal("run"), changed);
+  std::string damaged = flights;
+  damaged[100] = static_cast<char>(damaged[100] ^ 1);
+  here.write("run/flights.bin", damaged);
+  EXPECT_EQ(refusal("run"), changed);
+  here.write("run/flights.bin", flights);
+  here.write("run/manifest.json", manifest.substr(0, 99));
+  EXPECT_EQ(refusal("run"), "run: its manifest.json is none that carom wrote, or damaged");
+  here.write("run/manifest.json", manifest);
+  const std::string scene = here.read("run/scene.yaml");
+  here.write("run/scene.yaml", scene + "# changed\nbackground: black\n");
+  EXPECT_EQ(refusal("run"), "run: its scene.yaml is not the one that was run");
+  here.write("run/scene.yaml", scene);
+  here.shell("rm -r run/frames");  // pictures may be gone
+  EXPECT_EQ(here.carom({"render", "run"}).code, 0);
+  EXPECT_TRUE(here.has("run/frames/frame_00004.png"));
+}
+
+TEST(Render, SimulatesAgainWhereNoFlightsAreStored) {
+  const Workplace here;
+  for (const std::string engine : {"exact", "stepped", "book"}) {
+    here.write("balls.yaml", two_balls(camera + frames));
+    ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", engine, "--set", "simulate.engine=" + engine, "--set",
+                          "output.flights=false"})
+                  .code,
+              0);
+    EXPECT_FALSE(here.has(engine + "/flights.bin"));
+    const Finished render = here.carom({"render", engine, "--set", "output.frames.fps=3", "-o", "again " + engine});
+    EXPECT_EQ(render.code, 0) << render.err;
+    EXPECT_EQ(render.err, engine + ": no flights are stored there: simulating again\n");
+    ASSERT_EQ(here.carom({"run", engine + "/scene.yaml", "-o", "fresh " + engine, "--only", "frames", "--set",
+                          "output.frames.fps=3"})
+                  .code,
+              0);
+    EXPECT_EQ(without_manifest(here.files("again " + engine)), without_manifest(here.files("fresh " + engine)));
+  }
+}
+
+TEST(Render, RefusesFlightsOfWhatIsNoParabola) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("output: {flights: true}\n"));
+  EXPECT_EQ(here.carom({"run", "balls.yaml"}).code, 0);
+  const Finished run = here.carom({"run", "balls.yaml", "--set", "simulate.engine=stepped"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.err.find("`flights` are parabolas from impact to impact"), std::string::npos) << run.err;
+  here.write("balls.yaml", two_balls());
+  const Finished only = here.carom({"run", "balls.yaml", "--set", "simulate.engine=book", "--only", "flights"});
+  EXPECT_EQ(only.code, 2);
+  EXPECT_EQ(only.err,
+            "balls.yaml: flights are parabolas from impact to impact, which this scene has not: leave them out\n"
+            "carom: 1 error; nothing was run\n");
+}
+
+TEST(Render, OfSeveralRunsPutsEachIntoAFolderOfItsOwn) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(camera + frames));
+  here.carom({"run", "balls.yaml", "-o", "a/one"});
+  here.carom({"run", "balls.yaml", "-o", "a/two", "--set", "balls.red.mass=3"});
+  EXPECT_EQ(here.carom({"render", "a/one/", "a/two", "--only", "sheet", "-o", "b"}).code, 0);
+  EXPECT_TRUE(here.has("b/one/sheet.png") && here.has("b/two/sheet.png"));
+  EXPECT_FALSE(here.has("b/one/frames"));
+  const Finished same = here.carom({"render", "a/one", "./a/one", "--set", "camera.eye.y=1"});
+  EXPECT_EQ(same.code, 2);
+}
+
+TEST(Render, ThatIsInterruptedLeavesTheRunWhole) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(camera + frames));
+  here.carom({"run", "balls.yaml", "-o", "run"});
+  const Files before = here.files("run");
+  for (const int signal : {SIGTERM, SIGKILL}) {
+    const Finished render = here.interrupted({"render", "run", "--set", "output.frames.fps=90000", "--quiet"},
+                                             "run/.frames.part/frame_00003.png", signal);
+    EXPECT_EQ(render.code, signal == SIGTERM ? 143 : 1000 + SIGKILL) << render.err;
+    Files after = here.files("run");
+    std::erase_if(after, [](const auto& file) { return file.first.find(".part") != std::string::npos; });
+    EXPECT_EQ(after, before);
+    EXPECT_NE(here.carom({"run", "run/scene.yaml", "-o", "run"}).out.find("up to date"), std::string::npos);
+  }
+  EXPECT_EQ(here.carom({"render", "run", "--set", "output.frames.fps=3"}).code, 0);
+  EXPECT_FALSE(here.has("run/.frames.part"));
+}
+
+// The record as another program reads it: 40 lines of Python.
+TEST(Flights, AreReadByAnotherProgramToTheLastBit) {
+  if (std::system("python3 -c 'import math; math.nextafter' 2>/dev/null") != 0) GTEST_SKIP() << "no python3";
+  const Workplace here;
+  for (const std::string scene : {"two_bowling_balls", "clay", "rolling_off", "gust"}) {
+    const Finished run = here.carom({"run", SCENES_DIR "/" + scene + ".yaml", "-o", scene, "--only",
+                                     "trajectory,flights", "--set", "output.trajectory.every=0.37"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    std::istringstream table(here.read(scene + "/trajectory.csv"));
+    std::map<std::string, std::size_t> number;  // of each body, all of which are there at time 0
+    std::vector<double> said;                   // six numbers a body
+    std::string line, time;
+    std::getline(table, line);
+    while (std::getline(table, line)) {
+      std::vector<std::string> cells;
+      std::istringstream split(line);
+      for (std::string cell; std::getline(split, cell, ',');) cells.push_back(cell);
+      if (cells[0] != time) {
+        time = cells[0];
+        std::istringstream out(
+            here.shell("python3 " SOURCE_DIR "/tests/export/read_flights.py " + scene + "/flights.bin " + time).out);
+        said.clear();
+        for (std::string word; out >> word;) said.push_back(std::stod(word));
+      }
+      const std::size_t body = number.emplace(cells[1], number.size()).first->second;
+      ASSERT_LE(6 * body + 6, said.size()) << scene << ", " << line;
+      for (std::size_t k = 0; k < 6; ++k)
+        EXPECT_EQ(said[6 * body + k], std::stod(cells[2 + k])) << scene << ", " << line;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace carom::testing

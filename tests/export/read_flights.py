@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+"""Prints where every body of a run is, and how fast, at a time: read_flights.py flights.bin TIME
+
+Lines of x y z vx vy vz, as float.hex() has them; of bodies that have merged, the joint one's."""
+import math
+import struct
+import sys
+
+data, time, at = open(sys.argv[1], "rb").read(), float(sys.argv[2]), 32
+magic, version, order, bodies, duration = struct.unpack_from("<8sIIQd", data)
+assert (magic, version, order) == (b"caromfly", 1, 0x01020304)
+path, whole, a = [None] * bodies, list(range(bodies)), [None] * bodies
+while (entry := struct.unpack_from("<II", data, at))[0] != 0xFFFFFFFF:
+    (body, has), at = entry, at + 8
+
+    def take(count, kind="d"):
+        global at
+        at += 8 * count
+        return struct.unpack_from(f"<{count}{kind}", data, at - 8 * count)
+
+    (hi, lo), x, v = take(2), take(3), take(3)
+    a[body] = take(3) if has & 1 else a[body]
+    since = take(1)[0] if has & 2 else math.nextafter(hi, math.inf) if lo > 0 else hi
+    until, haste = (take(2), take(3)) if has & 4 else ((0, 0), None)
+    if since > time:
+        break
+    whole[body] = take(1, "Q")[0] if has & 8 else whole[body]
+    joint = take(5) if has & 16 else None  # mass, radius, half extents
+    path[body] = hi, lo, x, v, a[body], until, haste
+for body in range(bodies):
+    while whole[body] != body:
+        body = whole[body]
+    hi, lo, x, v, acceleration, until, haste = path[body]
+    s = (time - hi) + (0 - lo)
+    x = [p + s * (u + (0.5 * s) * g) for p, u, g in zip(x, v, acceleration)]
+    v = [u + s * g for u, g in zip(v, acceleration)]
+    if haste:
+        v = [u - ((until[0] - time) + until[1]) * h for u, h in zip(v, haste)]
+    print(*(number.hex() for number in x + v))

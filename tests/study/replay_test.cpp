@@ -1,0 +1,137 @@
+// A run again from its record of paths: the same states at any instant, bit for bit.
+#include "study/replay.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <random>
+
+#include "render/mesh.h"
+#include "scene/load.h"
+#include "scene/unsupported.h"
+#include "simulate/exact.h"
+#include "stress/scene.h"
+#include "study/engine.h"
+#include "study/state_hash.h"
+
+namespace carom {
+namespace {
+
+std::vector<std::string> scene_files() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(SCENES_DIR))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path().stem().string());
+  files.push_back("benchmark/gas_1000");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Scene load(const std::string& name) {
+  LoadOptions options;
+  options.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
+  return load_scene(SCENES_DIR "/" + name + ".yaml", options);
+}
+
+void carry_to(Simulator& simulator, double time) {
+  while (simulator.time() < time) simulator.advance_to(time);
+}
+
+/// All pieces of a run, and its tally at the end.
+struct Record {
+  std::vector<PathPiece> pieces;
+  Tally tally;
+};
+
+Record record(std::unique_ptr<Simulator> simulator, double duration) {
+  Record all;
+  const auto take = [&] { all.pieces.insert(all.pieces.end(), simulator->paths().begin(), simulator->paths().end()); };
+  take();
+  while (simulator->time() < duration) {
+    simulator->advance_to(duration);
+    take();
+  }
+  simulator->state();
+  all.tally = simulator->tally();
+  return all;
+}
+
+NextPiece from(const std::vector<PathPiece>& pieces) {
+  return [&pieces, next = std::size_t{0}](PathPiece& piece) mutable {
+    if (next == pieces.size()) return false;
+    piece = pieces[next++];
+    return true;
+  };
+}
+
+bool same_bits(const State& a, const State& b) {
+  const auto same = [](const Volume& v, const Volume& w) { return v.shape == w.shape && v.half == w.half; };
+  return hash_of(a) == hash_of(b) && a.time == b.time && a.mass == b.mass && a.radius == b.radius &&
+         a.part_of == b.part_of && a.volume.size() == b.volume.size() &&
+         std::equal(a.volume.begin(), a.volume.end(), b.volume.begin(), same);
+}
+
+/// At any instants, and where something happens, just before and just after: `simulator`, which records nothing, has
+/// the states of the record.
+void expect_same_states(const World& world, double duration, const Record& run, Simulator& simulator, int instants) {
+  std::mt19937_64 random(1);
+  std::vector<double> times = {0, duration};
+  for (int k = 0; k < instants && !run.pieces.empty(); ++k) {
+    times.push_back(duration * static_cast<double>(random() >> 11) * 0x1p-53);
+    const double t = run.pieces[random() % run.pieces.size()].from;
+    for (const double at : {std::nextafter(t, 0), t, std::nextafter(t, 2 * duration)})
+      if (at <= duration) times.push_back(at);
+  }
+  std::sort(times.begin(), times.end());
+  Replay replay(world, from(run.pieces), run.tally);
+  for (const double t : times) {
+    carry_to(simulator, t);
+    carry_to(replay, t);
+    ASSERT_TRUE(same_bits(replay.state(), simulator.state())) << t;
+  }
+  EXPECT_EQ(hash_of(replay.state(), replay.tally()), hash_of(simulator.state(), simulator.tally()));
+}
+
+class EverySceneAgain : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EverySceneAgain, HasTheSimulatorsStateAtAnyInstant) {
+  const Scene scene = load(GetParam());
+  const Record run = record(make_simulator(scene, false, {}, true), scene.simulate.duration);
+  if (!goes_along_parabolas(scene.world, scene.simulate)) {
+    EXPECT_TRUE(run.pieces.empty());
+    return;
+  }
+  expect_same_states(scene.world, scene.simulate.duration, run, *make_simulator(scene, false), 500);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneAgain, ::testing::ValuesIn(scene_files()), [](const auto& parameter) {
+  std::string name = parameter.param;
+  std::replace(name.begin(), name.end(), '/', '_');
+  return name;
+});
+
+// Crowds, merges, forces in windows, cylinders and boxes: what the scenes of scenes/ do not do together.
+class RandomSceneAgain : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(RandomSceneAgain, HasTheSimulatorsStateAtAnyInstant) {
+  const std::size_t families = stress::family_names().size();
+  for (std::uint64_t k = 0; k < 12; ++k) {
+    stress::RandomScene scene = stress::make_scene(GetParam() + families * k);
+    const auto simulator = make_exact_simulator(scene.world, scene.initial, scene.options);
+    scene.options.record_paths = true;
+    Record run;
+    try {
+      run = record(make_exact_simulator(scene.world, scene.initial, scene.options), scene.options.duration);
+    } catch (const SimulationError&) {
+      continue;  // a run without end has no record
+    }
+    SCOPED_TRACE("seed " + std::to_string(scene.seed));
+    expect_same_states(scene.world, scene.options.duration, run, *simulator, 20);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, RandomSceneAgain, ::testing::Range(std::size_t{0}, stress::family_names().size()),
+                         [](const auto& family) { return std::string(stress::family_names()[family.param]); });
+
+}  // namespace
+}  // namespace carom
