@@ -86,14 +86,15 @@ TEST(CommandLine, ValuesAreCheckedBeforeAnySceneIsRead) {
   EXPECT_EQ(complaint({"run", "a.yaml", "--seed", "18446744073709551616"}),
             "carom run: --seed is a whole number from 0 to 18446744073709551615, not `18446744073709551616`" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--seed", "1", "--seed", "2"}), "carom run: --seed is given 2 times" + end);
-  EXPECT_EQ(
-      complaint({"run", "a.yaml", "--only", "frmes"}),
-      "carom run: --only takes trajectory, collisions, energy, contacts, frames, video, sheet, flights, not `frmes`; "
-      "did you mean `frames`?" +
-          end);
-  EXPECT_EQ(
-      complaint({"run", "a.yaml", "--only", "energy,"}),
-      "carom run: --only takes trajectory, collisions, energy, contacts, frames, video, sheet, flights, not ``" + end);
+  EXPECT_EQ(complaint({"run", "a.yaml", "--only", "frmes"}),
+            "carom run: --only takes trajectory, collisions, energy, contacts, frames, video, sheet, vtk, xyz, gltf, "
+            "flights, not `frmes`; "
+            "did you mean `frames`?" +
+                end);
+  EXPECT_EQ(complaint({"run", "a.yaml", "--only", "energy,"}),
+            "carom run: --only takes trajectory, collisions, energy, contacts, frames, video, sheet, vtk, xyz, gltf, "
+            "flights, not ``" +
+                end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--color", "sometimes"}),
             "carom run: --color is auto, always, never, not `sometimes`" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--progress", "bars"}),
