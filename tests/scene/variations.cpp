@@ -190,6 +190,9 @@ output:
   frames: {fps: 2, size: [16, 17], samples: 1, from: 0.5, until: 0.75}
   video: {file: b.mp4, fps: 4, size: [16, 16], crf: 20, samples: 2, from: 0.25, until: 1}
   sheet: {columns: 2, rows: 2}
+  vtk: {every: 0.1}
+  xyz: {every: 0.1}
+  gltf: {fps: 2}
 )", "{scene: 1, simulate: {duration: 1, engine: book, as_printed: true}}"};
 }
 
