@@ -394,7 +394,8 @@ TEST(Run, PicturesAreNumberedAndCounted) {
   ASSERT_EQ(run.code, 0) << run.err;
   const Json scene = Json::parse(run.out).at("scenes").at(0);
   EXPECT_EQ(scene.at("summary").at("frames"), 5);  // 0, 1/4 ... 1 s
-  EXPECT_EQ(scene.at("files").at(0), "frames/frame_00000.png");
+  EXPECT_EQ(scene.at("files").at(0), "flights.bin");
+  EXPECT_EQ(scene.at("files").at(1), "frames/frame_00000.png");
   EXPECT_TRUE(here.has("output/seen/frames/frame_00004.png"));
   EXPECT_FALSE(here.has("output/seen/trajectory.csv"));
 }

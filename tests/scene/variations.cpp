@@ -193,6 +193,7 @@ output:
   vtk: {every: 0.1}
   xyz: {every: 0.1}
   gltf: {fps: 2}
+  flights: true
 )", "{scene: 1, simulate: {duration: 1, engine: book, as_printed: true}}"};
 }
 
