@@ -73,8 +73,7 @@ class CompareSession {
     }
     // Of one sweep its own file says what was varied, and what to compare.
     const auto sweep = options_.operands.size() == 1 ? sweep_of(options_.operands[0], runs) : std::nullopt;
-    const SceneDifferences differences =
-        sweep ? SceneDifferences(std::move(runs), *sweep) : SceneDifferences(std::move(runs));
+    const RunSet differences = sweep ? RunSet(std::move(runs), *sweep) : RunSet(std::move(runs));
     std::vector<FilmTile> tiles;
     try {
       if (options_.video) tiles = film_tiles(differences);
@@ -121,7 +120,7 @@ class CompareSession {
     for (const Measure& measure : measures) parse_measure(measure.name, scene);
   }
 
-  void write(const ComparisonPlan& plan, const SceneDifferences& differences, std::vector<FilmTile> tiles,
+  void write(const ComparisonPlan& plan, const RunSet& differences, std::vector<FilmTile> tiles,
              const std::string& request) {
     const std::size_t count = differences.runs().size();
     Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO), "compare", 1, 0);
@@ -148,7 +147,7 @@ class CompareSession {
     return end("up to date", 0);
   }
 
-  int done(const ComparisonPlan& plan, const SceneDifferences& differences) {
+  int done(const ComparisonPlan& plan, const RunSet& differences) {
     const std::vector<ListedRun>& runs = differences.runs();
     const auto failed = static_cast<std::size_t>(
         std::count_if(runs.begin(), runs.end(), [](const ListedRun& run) { return !run.done; }));

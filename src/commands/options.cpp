@@ -67,40 +67,34 @@ void read_set(Options& options, const Words& words) {
   }
 }
 
-void read_only(Options& options, const Words& words) {
-  std::vector<std::string> only;
-  for (const std::string& list : words) {
-    for (std::size_t begin = 0; begin <= list.size();) {
-      const std::size_t end = std::min(list.find(',', begin), list.size());
-      const std::string name = list.substr(begin, end - begin);
-      begin = end + 1;
-      const auto& known = output_names();
-      if (std::find(known.begin(), known.end(), name) == known.end()) {
-        throw UsageError(fmt::format("--only takes {}, not {}{}", fmt::join(known, ", "), carom::quoted(name),
-                                     did_you_mean(name, known)));
-      }
-      if (std::find(only.begin(), only.end(), name) == only.end()) only.push_back(name);
-    }
-  }
-  options.only = std::move(only);
-}
-
-/// What stands between commas, of all words; nothing empty.
-std::vector<std::string> split_lists(const Words& words, std::string_view option) {
+/// What stands between commas, of all words.
+std::vector<std::string> split_lists(const Words& words) {
   std::vector<std::string> parts;
   for (const std::string& list : words) {
     for (std::size_t begin = 0; begin <= list.size();) {
       const std::size_t end = std::min(list.find(',', begin), list.size());
       parts.push_back(list.substr(begin, end - begin));
-      if (parts.back().empty()) throw UsageError(fmt::format("{} is given an empty name", option));
       begin = end + 1;
     }
   }
   return parts;
 }
 
+void read_only(Options& options, const Words& words) {
+  std::vector<std::string> only;
+  for (const std::string& name : split_lists(words)) {
+    const auto& known = output_names();
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw UsageError(fmt::format("--only takes {}, not {}{}", fmt::join(known, ", "), carom::quoted(name),
+                                   did_you_mean(name, known)));
+    }
+    if (std::find(only.begin(), only.end(), name) == only.end()) only.push_back(name);
+  }
+  options.only = std::move(only);
+}
+
 void read_charts(Options& options, const Words& words) {
-  for (const std::string& text : split_lists(words, "--charts")) {
+  for (const std::string& text : split_lists(words)) {
     const std::size_t first = text.find(':'), second = text.find(':', first + 1);
     ChartWords chart{text.substr(0, first), {}, {}};
     if (first != std::string::npos) chart.y = text.substr(first + 1, second - first - 1);
@@ -201,7 +195,7 @@ const Option table[] = {
      reference_names},
     {"--measures", "", "LIST",
      "what runs are compared by: columns of summary.csv, or\nballs.red.speed_m_per_s and its like at the run's end",
-     [](Options& o, const Words& w) { o.measures = split_lists(w, "--measures"); }},
+     [](Options& o, const Words& w) { o.measures = split_lists(w); }},
     {"--charts", "", "LIST", "x:y or x:y:by, x and by of what was varied, y a measure\n(by what varies)", read_charts},
     {"--video", "", "", "a film", [](Options& o, const Words&) { o.video = true; }},
     {"--jobs", "-j", "N", "at most N scenes at a time; changes no result",

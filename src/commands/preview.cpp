@@ -19,12 +19,6 @@ std::string direction_of_plus_x(const View& view) {
 
 }  // namespace
 
-Size picture_size(const Output& output) {
-  if (output.frames) return output.frames->size;
-  if (output.video) return output.video->size;
-  return {};
-}
-
 CameraPreview preview_camera(const Scene& scene) {
   const Camera camera = camera_of(scene);
   const View view = view_of(camera, picture_size(scene.output));

@@ -13,9 +13,6 @@ struct CameraPreview {
   std::vector<Entity> out_of_view;  // bodies no part of which is in the picture at time 0
 };
 
-/// That of its pictures, or where it wants none, of usual ones.
-Size picture_size(const Output& output);
-
 /// Of the scene's camera, or of the one that a picture without camera would be taken with.
 CameraPreview preview_camera(const Scene& scene);
 

@@ -59,8 +59,13 @@ void CommonValues::compare(std::string_view other) {
 std::vector<SceneValue> CommonValues::values() const {
   std::vector<SceneValue> common;
   if (text_.empty()) return common;
-  for (SceneValue& value : scene_values(folder_ + "/scene.yaml", text_))
-    if (value.offset < same_.size() && same_[value.offset]) common.push_back(std::move(value));
+  for (SceneValue& value : scene_values(folder_ + "/scene.yaml", text_)) {
+    // A text or a list may have commas of its own, and parts that differ behind them.
+    const std::size_t length = value.text.find(',') == std::string::npos ? 1 : value.text.size();
+    const auto from = same_.begin() + static_cast<std::ptrdiff_t>(std::min(value.offset, same_.size()));
+    const auto until = from + std::min(static_cast<std::ptrdiff_t>(length), same_.end() - from);
+    if (std::find(from, until, false) == until) common.push_back(std::move(value));
+  }
   return common;
 }
 

@@ -148,9 +148,9 @@ void CompareSheet::place(lxw_chart* chart, std::size_t number) {
 
 void CompareSheet::draw(const ChartData& data, std::size_t number, std::size_t first_row, std::size_t first_column) {
   const std::size_t last_row = first_row + data.x.size() - 1;
-  // Texts along x stand in their order, as columns; where means have a spread, as points.
   const std::size_t bars = bars_of(data);
   const bool barred = data.numeric && bars > 0 && bars <= most_bars;
+  // Texts along x stand in their order, under columns.
   lxw_chart* chart = book_.add_chart(data.numeric ? LXW_CHART_SCATTER : LXW_CHART_COLUMN);
   const Range x{"Compare", first_row, first_column, last_row};
   for (std::size_t k = 0; k < data.lines.size(); ++k) {

@@ -71,7 +71,7 @@ ComparisonPlan titled(ComparisonPlan plan, std::size_t count) {
 
 class Comparison {
  public:
-  Comparison(const FilePlace& place, const ComparisonPlan& plan, std::size_t count)
+  Comparison(const FilePlace& place, const ComparisonPlan& plan, std::size_t count, bool two_vary)
       : place_(place),
         plan_(titled(plan, count)),
         count_(count),
@@ -82,7 +82,7 @@ class Comparison {
         charts_(book_, !in_table_),
         sheet_(book_.add("Summary", !in_table_)),
         repeats_(plan.seed ? &book_.add("Repeats", true) : nullptr),
-        pivot_(plan.parameters.size() - (plan.seed ? 1 : 0) > 1 ? &book_.add("Pivot") : nullptr),
+        pivot_(two_vary ? &book_.add("Pivot") : nullptr),
         series_sheet_(book_.add("Series", true)),
         collisions_(book_.add("Collisions", true)),
         parameters_(book_.add("Parameters"), plan_),
@@ -196,10 +196,7 @@ class Comparison {
   void write_pivot_sheet() {
     if (pivot_ == nullptr) return;
     const auto parameters = pivot_parameters(plan_, outcomes_);
-    if (!parameters) {
-      pivot_->text(0, 0, "Fewer than two parameters vary by themselves.", Look::note);
-      return;
-    }
+    if (!parameters) return;
     std::vector<std::size_t> of_parameter(plan_.parameters.size()), of_measure(measures_.size());
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       if (columns_[k].parameter) of_parameter[*columns_[k].parameter] = k;
@@ -260,6 +257,19 @@ class Comparison {
   CommonValues common_;
 };
 
+/// Whether two parameters vary by themselves: sheets are made in their order, before the runs are read.
+bool do_two_vary(const ComparisonPlan& plan, std::size_t count, const std::function<ComparedRun(std::size_t)>& run,
+                 const ComparisonWatch& watch) {
+  if (plan.parameters.size() < 2) return false;
+  Outcomes outcomes(plan, 0, count);
+  for (std::size_t i = 0; i < count; ++i) {
+    watch.look();
+    outcomes.add(i, run(i), false, {});
+  }
+  outcomes.finish();
+  return pivot_parameters(plan, outcomes).has_value();
+}
+
 }  // namespace
 
 std::vector<Measure> measures_of(const ComparisonPlan& plan) {
@@ -306,7 +316,7 @@ std::vector<std::unique_ptr<OutputFile>> write_comparison(const FilePlace& place
                                                           const std::function<ComparedRun(std::size_t)>& run,
                                                           const ComparisonWatch& watch) {
   check_charts(plan);
-  Comparison comparison(place, plan, count);
+  Comparison comparison(place, plan, count, do_two_vary(plan, count, run, watch));
   for (std::size_t i = 0; i < count; ++i) {
     watch.look();
     comparison.add(i, run(i));

@@ -57,7 +57,7 @@ inline constexpr const char* repeats_name = "repeats.csv";
 inline constexpr const char* workbook_name = "comparison.xlsx";
 
 /// Writes summary.csv, comparison.xlsx and, of repeats, repeats.csv into `place`, complete but without their names yet.
-/// `run` gives run 0 to count - 1, once each and in order. A folder without a whole run but with error.txt is a failed
+/// `run` gives run 0 to count - 1, whenever it is asked. A folder without a whole run but with error.txt is a failed
 /// run. Throws ExportError, which says what a folder lacks, and MeasureError.
 std::vector<std::unique_ptr<OutputFile>> write_comparison(const FilePlace& place, const ComparisonPlan& plan,
                                                           std::size_t count,

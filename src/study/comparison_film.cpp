@@ -35,7 +35,7 @@ FilmTile tile_of(const ListedRun& run) {
 
 }  // namespace
 
-std::vector<FilmTile> film_tiles(const SceneDifferences& runs) {
+std::vector<FilmTile> film_tiles(const RunSet& runs) {
   const std::size_t count = runs.runs().size();
   if (count > most_tiles)
     throw ExportError(fmt::format("a film shows at most {} runs side by side, not {}: name fewer, or leave --video out",

@@ -9,6 +9,6 @@ namespace carom {
 
 /// The film of each run, labelled with the run's id and what was varied. Throws ExportError, which says what a run
 /// lacks and the remedy.
-std::vector<FilmTile> film_tiles(const SceneDifferences& runs);
+std::vector<FilmTile> film_tiles(const RunSet& runs);
 
 }  // namespace carom

@@ -139,7 +139,7 @@ RunDifference difference_of(const std::string& a, const std::string& b) {
                                   runs.empty() ? "output/half" : runs.front().folder));
   RunDifference difference{runs[0], runs[1], {}, {}, {}, {}};
   const RunRecord record_a = whole_run(runs[0]), record_b = whole_run(runs[1]);
-  const SceneDifferences scenes(runs);
+  const RunSet scenes(runs);
   const ComparedRun of_a = scenes.run(0), of_b = scenes.run(1);
   for (std::size_t k = 0; k < scenes.parameters().size(); ++k)
     difference.values.push_back(

@@ -170,7 +170,7 @@ std::string digest_of(const std::vector<ListedRun>& runs) {
   return hash.hex();
 }
 
-SceneDifferences::SceneDifferences(std::vector<ListedRun> runs) : runs_(std::move(runs)) {
+RunSet::RunSet(std::vector<ListedRun> runs) : runs_(std::move(runs)) {
   std::vector<SceneValue> all;               // of all scenes, each path once, in the order of the first that has it
   std::map<std::string, std::size_t> known;  // its paths
   std::vector<std::size_t> seen;             // by path: how many scenes have it
@@ -210,7 +210,7 @@ SceneDifferences::SceneDifferences(std::vector<ListedRun> runs) : runs_(std::mov
   if (scenarios.size() < runs_.size()) seed_ = seed->second;
 }
 
-SceneDifferences::SceneDifferences(std::vector<ListedRun> runs, Sweep sweep) : runs_(std::move(runs)) {
+RunSet::RunSet(std::vector<ListedRun> runs, Sweep sweep) : runs_(std::move(runs)) {
   const ComparisonPlan plan = comparison_plan(sweep);
   parameters_ = plan.parameters;
   seed_ = plan.seed;
@@ -218,7 +218,7 @@ SceneDifferences::SceneDifferences(std::vector<ListedRun> runs, Sweep sweep) : r
   sweep_ = std::move(sweep);
 }
 
-ComparedRun SceneDifferences::run(std::size_t number) const {
+ComparedRun RunSet::run(std::size_t number) const {
   ComparedRun run{runs_[number].id, runs_[number].folder, std::vector<std::string>(parameters_.size())};
   if (sweep_) {
     const SweepRun of_sweep = sweep_->run(in_sweep_[number]);

@@ -24,12 +24,12 @@ std::vector<ListedRun> list_runs(const std::vector<std::string>& folders);
 std::string digest_of(const std::vector<ListedRun>& runs);
 
 /// Runs and what was varied in them.
-class SceneDifferences {
+class RunSet {
  public:
   /// What their scenes differ in, found with one of them in memory. Title and outputs are no parameters.
-  explicit SceneDifferences(std::vector<ListedRun> runs);
+  explicit RunSet(std::vector<ListedRun> runs);
   /// What the sweep varied whose runs these are, as its file says.
-  SceneDifferences(std::vector<ListedRun> runs, Sweep sweep);
+  RunSet(std::vector<ListedRun> runs, Sweep sweep);
 
   const std::vector<Parameter>& parameters() const { return parameters_; }
   /// The seed's number among the parameters, if runs differ in nothing else: repeats.

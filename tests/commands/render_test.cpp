@@ -69,11 +69,13 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Rendered,
                                            "pyramid", "two_bowling_balls_e11", "gas_in_a_room"),
                          [](const auto& scene) { return std::string(scene.param); });
 
-TEST(Render, InPlaceReplacesThePicturesAndKeepsTheTables) {
+TEST(Render, InPlaceReplacesWhatShowsLooksAndKeepsTheTables) {
   const Workplace here;
-  here.write("balls.yaml", two_balls(camera + frames));
+  here.write("balls.yaml", two_balls(camera + "output: {collisions: true, energy: {every: 0.5}, vtk: true, gltf: true, "
+                                              "frames: {fps: 4, size: [64, 36], samples: 1}}\n"));
   here.carom({"run", "balls.yaml", "-o", "run"});
-  const Words set = {"--set", "camera.eye.y=2", "--set", "output.frames.fps=3", "--set", "title=From above"};
+  const Words set = {"--set", "camera.eye.y=2",   "--set", "output.frames.fps=3",
+                     "--set", "title=From above", "--set", "balls.red.color=gold"};
   Words render = {"render", "run"};
   render.insert(render.end(), set.begin(), set.end());
   const Finished done = here.carom(render);

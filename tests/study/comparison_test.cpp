@@ -148,6 +148,16 @@ TEST_F(ComparisonOfSix, PivotIsTheFirstMeasureByTwoParameters) {
   }
 }
 
+TEST_F(ComparisonOfSix, ThereIsNoPivotUnlessTwoVaryByThemselves) {
+  ComparisonPlan twice = plan;
+  twice.measures = {"collisions"};
+  std::vector<ComparedRun> some;
+  for (const char* value : {"1", "2", "3"}) some.push_back({value, runs[0].folder, {value, std::string(value) + ".5"}});
+  place->compare(twice, some, "together");
+  EXPECT_EQ(place->workbook("together", true)["order"],
+            Json({"Compare", "Summary", "Series", "Collisions", "Parameters", "About"}));
+}
+
 TEST_F(ComparisonOfSix, SeriesCollisionsAndParametersAreTheRuns) {
   const Json& series = sheet("Series")["rows"];
   EXPECT_EQ(series.size(), 12u);  // eleven instants
@@ -169,6 +179,19 @@ TEST_F(ComparisonOfSix, SeriesCollisionsAndParametersAreTheRuns) {
     found = found || (row[4] == "balls.blue.mass" && row[5] == "kg" && row[6] == 10);
   }
   EXPECT_TRUE(found);
+}
+
+TEST_F(ComparisonOfSix, WhatDiffersBehindACommaIsNotCommon) {
+  place->run(two_balls, "one", {"title=\"Two balls, once\"", "balls.red.color=[0.1, 0.2, 0.3]"});
+  place->run(two_balls, "other", {"title=\"Two balls, twice\"", "balls.red.color=[0.1, 0.2, 0.4]"});
+  place->compare({"", {}, {}, {}, {}}, {{"a", *place / "one", {}}, {"b", *place / "other", {}}}, "comma");
+  std::string common;
+  const Json rows = place->workbook("comma")["sheets"]["Parameters"]["rows"];
+  for (const Json& row : rows)
+    if (row[2].is_string()) common += row[2].get<std::string>() + "\n";
+  EXPECT_EQ(common.find("title\n"), std::string::npos) << common;
+  EXPECT_EQ(common.find("balls.red.color\n"), std::string::npos) << common;
+  EXPECT_NE(common.find("balls.red.mass\n"), std::string::npos) << common;
 }
 
 TEST_F(ComparisonOfSix, AboutTellsOfEveryColumn) {
