@@ -176,7 +176,7 @@ simulate: {duration: 1, engine: stepped, step: 0.1, integrator: verlet}
 )",
           R"(
 scene: 1
-simulate: {duration: 1, tolerance: 0.1}
+simulate: {duration: 1, tolerance: 0.1, engine: auto}
 defaults: {plane: {color: tan}, wall: {color: tan}, group: {speed: 1}}
 planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}
 walls: {fence: {center: [20, 1, 0], normal: [-1, 0, 0], size: [1, 1]}}
