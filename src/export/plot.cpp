@@ -140,12 +140,14 @@ std::string drawn(const std::string& gnuplot, const std::string& script) {
   const bool sent = child.send(script.data(), script.size(), patience) == Child::Sent::all;
   child.end_input();
   const auto code = child.wait(patience);
-  if (!sent || code != 0)
+  if (code != 0)
     throw ExportError("cannot draw the plot: gnuplot " +
                       (code ? fmt::format("failed with code {}: {}", *code, child.errors())
                             : std::string("did not end within a minute and was stopped")));
   std::string picture = child.output();
+  // (A program that reads nothing may have ended before it was sent anything, or after.)
   if (picture.empty()) throw ExportError("cannot draw the plot: gnuplot wrote nothing: " + child.errors());
+  if (!sent) throw ExportError("cannot draw the plot: gnuplot did not read all of it: " + child.errors());
   if (picture.size() > most_bytes) throw ExportError("cannot draw the plot: it takes more than a megabyte");
   return picture;
 }
