@@ -215,6 +215,10 @@ const Option table[] = {
 
 }  // namespace
 
+std::span<const Option> all_options() {
+  return table;
+}
+
 const Option& option_named(std::string_view name) {
   for (const Option& option : table) {
     if (option.name == name) return option;

@@ -20,6 +20,9 @@ struct Option {
   std::span<const std::string_view> choices = {};  // all that a value may be
 };
 
+/// All rows.
+std::span<const Option> all_options();
+
 /// The row of this name; there must be one.
 const Option& option_named(std::string_view name);
 

@@ -5,41 +5,16 @@
 #include <algorithm>
 #include <new>
 
-#include "commands/bench.h"
-#include "commands/check.h"
-#include "commands/compare.h"
-#include "commands/diff.h"
-#include "commands/explain.h"
-#include "commands/gather.h"
+#include "commands/commands.h"
 #include "commands/interrupt.h"
-#include "commands/new.h"
-#include "commands/render.h"
+#include "commands/manual.h"
 #include "commands/report.h"
-#include "commands/run.h"
-#include "commands/schema.h"
-#include "commands/submit.h"
-#include "commands/sweep.h"
 #include "commands/text.h"
 #include "scene/diagnostics.h"
 
 namespace carom {
 
 namespace {
-
-struct Command {
-  const CommandText& text;
-  int (*run)(const Options&);
-};
-
-const std::vector<Command>& commands() {
-  static const std::vector<Command> all = {
-      {run_text(), run_command},       {check_text(), check_command},   {sweep_text(), sweep_command},
-      {gather_text(), gather_command}, {submit_text(), submit_command}, {compare_text(), compare_command},
-      {diff_text(), diff_command},     {render_text(), render_command}, {bench_text(), bench_command},
-      {new_text(), new_command},       {schema_text(), schema_command}, {explain_text(), explain_command},
-  };
-  return all;
-}
 
 // "run, check and bench"
 std::string command_names() {
@@ -63,7 +38,9 @@ std::string program_help() {
   text +=
       "\nOptions:\n"
       "  -h,--help               this text; after a command, its own\n"
-      "  --version               the version\n";
+      "  --version               the version\n"
+      "  --man                   the manual page, as man reads it: carom --man | man -l -\n"
+      "  --bash-completion       what bash completes by: source <(carom --bash-completion)\n";
   return text;
 }
 
@@ -106,6 +83,10 @@ int dispatch(const std::vector<std::string>& words) {
     std::vector<std::string> rest(words.begin() + 1, words.end());
     if (first == "--version") {
       write_out("carom " CAROM_VERSION "\n");
+      return 0;
+    }
+    if (first == "--man" || first == "--bash-completion") {
+      write_out(first == "--man" ? manual_page() : bash_completion());
       return 0;
     }
     if (first == "help" && !rest.empty()) {  // carom help run

@@ -18,12 +18,13 @@ const CommandText& schema_text() {
       "schema",
       "prints the JSON Schema of scene files, for editors and other programs",
       "  carom schema > scene.schema.json                      beside a scene whose first line is\n"
-      "                                                        # yaml-language-server: $schema=scene.schema.json\n",
+      "                                                        # yaml-language-server: $schema=scene.schema.json\n"
+      "  carom schema sweep > sweep.schema.json                the same of sweep files\n",
       "Draft-07, made from the table that scenes are read by. Exit codes: 0 done, 2 the command line is\n"
       "wrong.",
       {},
       "KIND",
-      "of files: scene (the default)",
+      "of files: scene (the default) or sweep",
       0,
       1};
   return text;

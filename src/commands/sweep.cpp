@@ -155,7 +155,7 @@ const CommandText& sweep_text() {
   static const CommandText text = {
       "sweep",
       "runs a scene with many combinations of values, and compares the runs",
-      "  carom sweep scenes/sweeps/bowling_restitution.yaml\n"
+      "  carom sweep scenes/sweeps/bowling.yaml\n"
       "  carom sweep sweep.yaml --plan                         the runs, their values, what is done\n"
       "  carom sweep sweep.yaml -j 4                           four runs at a time\n"
       "  carom sweep scene.yaml --grid restitution.default=0.5:1:6 --grid balls.red.mass=5,10\n"

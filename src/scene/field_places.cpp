@@ -93,6 +93,16 @@ std::string path_text(const std::vector<std::string_view>& steps) {
   return fmt::format("{}", fmt::join(steps, "."));
 }
 
+/// Each once.
+std::vector<std::string> texts_of(const std::vector<Spot>& spots) {
+  std::vector<std::string> texts;
+  for (const Spot& spot : spots) {
+    std::string text = path_text(spot.steps);
+    if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(std::move(text));
+  }
+  return texts;
+}
+
 template <typename Fits>
 std::vector<FieldPlaces> select(const Fits& fits) {
   std::vector<FieldPlaces> found;
@@ -134,6 +144,25 @@ std::vector<FieldPlaces> find_places(std::string_view key) {
   found = find_steps(Steps(said).first(said.size() - 1));
   std::erase_if(found, [&](const FieldPlaces& row) { return !is_component(said.back(), row.field->type); });
   return found;
+}
+
+std::vector<std::string> plain_paths() {
+  std::vector<Spot> spots;
+  collect(families().front().front(), {}, spots);
+  for (Spot& spot : spots)
+    std::erase_if(spot.steps, [](std::string_view step) { return step == any_name || step == any_entry; });
+  return texts_of(spots);
+}
+
+std::vector<std::string> settable_paths() {
+  std::vector<Spot> spots;
+  collect(families().front().front(), {}, spots);
+  std::erase_if(spots, [](const Spot& spot) {
+    return held_kind(*spot.field) != nullptr || std::any_of(spot.steps.begin(), spot.steps.end(), [](auto step) {
+             return step == any_name || step == any_entry;
+           });
+  });
+  return texts_of(spots);
 }
 
 std::vector<std::string> paths_of(const Kind& kind) {

@@ -21,6 +21,11 @@ struct FieldPlaces {
 /// Empty: none.
 std::vector<FieldPlaces> find_places(std::string_view key);
 
+/// Every path of a scene, each once, names and numbers of entries left out: "simulate.duration", "balls.mass".
+std::vector<std::string> plain_paths();
+/// Those of them in which nothing had to be left out: `--set` takes them as they are.
+std::vector<std::string> settable_paths();
+
 /// Where a file can have a map of this kind: "balls.NAME", "defaults.ball".
 std::vector<std::string> paths_of(const Kind& kind);
 

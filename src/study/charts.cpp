@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 
 namespace carom {
 namespace {
 
-constexpr std::size_t most_default_charts = 6, most_default_lines = 10, most_lines = 24, most_charted = 10'000;
+constexpr std::size_t most_default_charts = 6, most_default_lines = 10, most_lines = 24;
+constexpr std::size_t most_charted = 2000;  // points of a chart: it has fewer pixels
 
 std::optional<std::size_t> find_measure(const std::vector<Measure>& measures, std::string_view name) {
   for (std::size_t k = 0; k < measures.size(); ++k)
@@ -22,7 +24,7 @@ std::optional<std::size_t> find_measure(const std::vector<Measure>& measures, st
 struct XAxis {
   std::string label;
   bool numeric = true, chosen = true;  // chosen: by a parameter, not measured
-  std::vector<Cell> of_point;
+  std::function<Cell(std::size_t)> of_point;
 };
 
 XAxis x_axis(const Chart& chart, const ComparisonPlan& plan, const std::vector<Measure>& measures,
@@ -34,15 +36,15 @@ XAxis x_axis(const Chart& chart, const ComparisonPlan& plan, const std::vector<M
     const Varied& varied = outcomes.varied()[*parameter];
     axis.label = label_of(plan.parameters[*parameter]);
     axis.numeric = varied.numeric;
-    for (const std::uint32_t value : varied.of_point) axis.of_point.push_back(varied.values[value]);
+    axis.of_point = [&varied](std::size_t i) { return varied.values[varied.of_point[i]]; };
   } else if (measure) {
     axis.label = label_of(chart.x);
     axis.chosen = false;
-    for (const Outcome& point : outcomes.points()) axis.of_point.push_back({{}, point.measures[*measure].mean()});
+    axis.of_point = [&outcomes, m = *measure](std::size_t i) { return Cell{{}, outcomes.spread(i, m).mean()}; };
   } else {
     axis.label = "run";
     axis.numeric = false;
-    for (const Outcome& point : outcomes.points()) axis.of_point.push_back({point.id});
+    axis.of_point = [&outcomes](std::size_t i) { return Cell{std::string(outcomes.id(i))}; };
   }
   return axis;
 }
@@ -103,16 +105,23 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const std::
     data.lines[line].name = name_of_value(plan.parameters[*by], lines->values[line].text);
 
   // A row for each x; several where a line has several points there.
-  const std::size_t every = 1 + (std::max<std::size_t>(outcomes.points().size(), 1) - 1) / most_charted;
-  if (every * outcomes.every() > 1) data.note = fmt::format("one of {} runs", every * outcomes.every());
+  const auto line_of = [&](std::size_t i) -> std::size_t { return lines == nullptr ? 0 : lines->of_point[i]; };
+  std::vector<std::size_t> points_of_line(data.lines.size());
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < outcomes.points(); ++i) shown += line_of(i) < data.lines.size() ? 1 : 0;
+  const std::size_t every = 1 + (std::max<std::size_t>(shown, 1) - 1) / most_charted;
+  if (every * outcomes.every() > 1)
+    data.note += fmt::format("{}one of {} runs", data.note.empty() ? "" : ", ", every * outcomes.every());
   using Row = std::pair<std::pair<double, std::size_t>, std::size_t>;  // x, or the order of its text; how often before
   std::map<Row, std::vector<std::pair<std::size_t, std::size_t>>> rows;  // line and point
   std::map<std::string, std::size_t> texts;
   std::map<std::pair<std::size_t, std::pair<double, std::size_t>>, std::size_t> seen;
-  for (std::size_t i = 0; i < outcomes.points().size(); i += every) {
-    const std::size_t line = lines == nullptr ? 0 : lines->of_point[i];
-    const Cell& x = axis.of_point[i];
-    if (line >= data.lines.size() || (axis.numeric && !x.is_number())) continue;
+  for (std::size_t i = 0; i < outcomes.points(); ++i) {
+    const std::size_t line = line_of(i);
+    // Each line is thinned by itself, so that none is left out.
+    if (line >= data.lines.size() || points_of_line[line]++ % every != 0) continue;
+    const Cell x = axis.of_point(i);
+    if (axis.numeric && !x.is_number()) continue;
     const std::pair<double, std::size_t> key =
         axis.numeric ? std::pair(x.number, std::size_t{0}) : std::pair(0.0, texts.emplace(x.text, i).first->second);
     rows[{key, seen[{line, key}]++}].emplace_back(line, i);
@@ -124,11 +133,11 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const std::
   data.joined = axis.chosen;
   for (const auto& [key, points] : rows) {
     for (const auto& [line, point] : points) {
-      const Spread& spread = outcomes.points()[point].measures[y];
+      const Spread spread = outcomes.spread(point, y);
       data.lines[line].y[data.x.size()] = spread.mean();
       if (plan.seed) data.lines[line].spread[data.x.size()] = spread.sd();
     }
-    data.x.push_back(axis.of_point[points.front().second]);
+    data.x.push_back(axis.of_point(points.front().second));
     data.joined = data.joined && key.second == 0;
   }
   return data;

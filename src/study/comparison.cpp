@@ -82,7 +82,7 @@ class Comparison {
         charts_(book_, !in_table_),
         sheet_(book_.add("Summary", !in_table_)),
         repeats_(plan.seed ? &book_.add("Repeats", true) : nullptr),
-        pivot_(two_vary ? &book_.add("Pivot") : nullptr),
+        pivot_(two_vary ? &book_.add("Pivot", true) : nullptr),
         series_sheet_(book_.add("Series", true)),
         collisions_(book_.add("Collisions", true)),
         parameters_(book_.add("Parameters"), plan_),

@@ -53,7 +53,14 @@ Outcomes::Outcomes(const ComparisonPlan& plan, std::size_t measures, std::size_t
       stride_(plan.seed ? 1 : 1 + (std::max<std::size_t>(runs, 1) - 1) / most_points),
       varied_(plan.parameters.size()),
       numbers_(plan.parameters.size()) {
-  for (std::size_t p = 0; p < varied_.size(); ++p) varied_[p].parameter = p;
+  const std::size_t points = seed_ ? 0 : (runs + stride_ - 1) / stride_;
+  for (std::size_t p = 0; p < varied_.size(); ++p) {
+    varied_[p].parameter = p;
+    varied_[p].of_point.reserve(points);
+  }
+  runs_.reserve(points);
+  id_ends_.reserve(points);
+  values_.reserve(points * measures_);
 }
 
 void Outcomes::add(std::size_t number, const ComparedRun& run, bool done, const std::vector<double>& measures) {
@@ -69,16 +76,39 @@ void Outcomes::add(std::size_t number, const ComparedRun& run, bool done, const 
     }
     key.push_back(found->second);
   }
-  std::size_t point = points_.size();
+  std::size_t point = points();
   if (seed_) point = scenarios_.emplace(key, point).first->second;
-  if (point == points_.size()) {
-    points_.push_back({run.id, 0, std::vector<Spread>(measures_)});
+  if (point == points()) {
+    runs_.push_back(0);
+    ids_ += run.id;
+    id_ends_.push_back(ids_.size());
+    if (seed_)
+      spreads_.resize(spreads_.size() + measures_);
+    else
+      values_.resize(values_.size() + measures_, std::numeric_limits<double>::quiet_NaN());
     for (std::size_t p = 0, k = 0; p < varied_.size(); ++p)
       if (p != seed_) varied_[p].of_point.push_back(key[k++]);
   }
   if (!done) return;
-  ++points_[point].runs;
-  for (std::size_t k = 0; k < measures_; ++k) points_[point].measures[k].add(measures[k]);
+  ++runs_[point];
+  for (std::size_t k = 0; k < measures_; ++k) {
+    if (seed_)
+      spreads_[point * measures_ + k].add(measures[k]);
+    else
+      values_[point * measures_ + k] = measures[k];
+  }
+}
+
+std::string_view Outcomes::id(std::size_t point) const {
+  const std::size_t begin = point == 0 ? 0 : id_ends_[point - 1];
+  return std::string_view(ids_).substr(begin, id_ends_[point] - begin);
+}
+
+Spread Outcomes::spread(std::size_t point, std::size_t measure) const {
+  if (seed_) return spreads_[point * measures_ + measure];
+  Spread spread;
+  spread.add(values_[point * measures_ + measure]);
+  return spread;
 }
 
 void Outcomes::finish() {
@@ -127,16 +157,15 @@ void write_repeats(OutputFile& file, const ComparisonPlan& plan, const std::vect
   CsvRow row(file);
   for (const std::string& name : repeats_header(plan, measures)) row.text(name);
   row.end();
-  for (std::size_t i = 0; i < outcomes.points().size(); ++i) {
-    const Outcome& point = outcomes.points()[i];
+  for (std::size_t i = 0; i < outcomes.points(); ++i) {
     for (const Varied& varied : outcomes.varied()) {
       if (varied.parameter == plan.seed) continue;
       const Cell& cell = varied.values[varied.of_point[i]];
       cell.is_number() ? row.number(cell.number) : row.text(cell.text);
     }
-    row.count(point.runs);
-    for (const Spread& spread : point.measures)
-      for (const SpreadColumn& column : spread_columns) row.number(column.value(spread));
+    row.count(outcomes.runs(i));
+    for (std::size_t k = 0; k < measures.size(); ++k)
+      for (const SpreadColumn& column : spread_columns) row.number(column.value(outcomes.spread(i, k)));
     row.end();
   }
 }
@@ -148,13 +177,13 @@ void write_repeats(Sheet& sheet, const ComparisonPlan& plan, const std::vector<M
   for (std::size_t column = 0; column < header.size(); ++column)
     sheet.text(0, column, header[column], column < parameters ? Look::swept_header : Look::header);
   std::size_t row = 1;
-  for (std::size_t i = 0; i < outcomes.points().size() && row < most_rows; ++i, ++row) {
+  for (std::size_t i = 0; i < outcomes.points() && row < most_rows; ++i, ++row) {
     std::size_t column = 0;
     for (const Varied& varied : outcomes.varied())
       if (varied.parameter != plan.seed) sheet.cell(row, column++, varied.values[varied.of_point[i]], Look::swept);
-    sheet.number(row, column++, static_cast<double>(outcomes.points()[i].runs), Look::whole);
-    for (const Spread& spread : outcomes.points()[i].measures)
-      for (const SpreadColumn& of : spread_columns) sheet.number(row, column++, of.value(spread));
+    sheet.number(row, column++, static_cast<double>(outcomes.runs(i)), Look::whole);
+    for (std::size_t k = 0; k < measures.size(); ++k)
+      for (const SpreadColumn& of : spread_columns) sheet.number(row, column++, of.value(outcomes.spread(i, k)));
   }
   sheet.fit_all(10, 60, 2);
   sheet.freeze(1, parameters);

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "study/comparison.h"
@@ -36,12 +37,7 @@ struct Varied {
   bool numeric = true;
 };
 
-struct Outcome {
-  std::string id;                // of the run, or of the first one
-  std::size_t runs = 0;          // whole ones
-  std::vector<Spread> measures;  // by the measures' numbers
-};
-
+/// Of a run without repeats a few numbers are kept: 8 bytes a measure, 4 a parameter and its id.
 class Outcomes {
  public:
   /// So many points at most are kept; of more runs without repeats, evenly chosen ones.
@@ -52,7 +48,12 @@ class Outcomes {
   /// After the last add().
   void finish();
 
-  const std::vector<Outcome>& points() const { return points_; }
+  std::size_t points() const { return runs_.size(); }
+  /// Of a point's run, or of its first one.
+  std::string_view id(std::size_t point) const;
+  /// How many of its runs are whole.
+  std::size_t runs(std::size_t point) const { return runs_[point]; }
+  Spread spread(std::size_t point, std::size_t measure) const;
   /// By the plan's parameters; the seed of repeats has no values.
   const std::vector<Varied>& varied() const { return varied_; }
   std::size_t every() const { return stride_; }  // 1: each run counts
@@ -68,7 +69,11 @@ class Outcomes {
   std::vector<Varied> varied_;
   std::vector<std::map<std::string, std::uint32_t>> numbers_;  // of values, by parameter
   std::map<std::vector<std::uint32_t>, std::size_t> scenarios_;
-  std::vector<Outcome> points_;
+  std::vector<std::uint32_t> runs_;  // by point, as all below
+  std::string ids_;                  // one after the other
+  std::vector<std::size_t> id_ends_;
+  std::vector<double> values_;   // of measures; of repeats: none
+  std::vector<Spread> spreads_;  // of repeats
 };
 
 /// repeats.csv: a row a scenario: its parameters, n, and the mean, sd, min and max of each measure.

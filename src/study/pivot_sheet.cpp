@@ -83,9 +83,9 @@ void write_pivot(Sheet& sheet, const ComparisonPlan& plan, const std::vector<Mea
   std::size_t row = 3;
   for (std::size_t block = 0; block < blocks; ++block) {
     std::vector<Mean> means(height * width);
-    for (std::size_t i = 0; i < outcomes.points().size(); ++i) {
+    for (std::size_t i = 0; i < outcomes.points(); ++i) {
       if (down.of_point[i] >= height || across.of_point[i] >= width) continue;
-      const Spread& spread = outcomes.points()[i].measures[block];
+      const Spread spread = outcomes.spread(i, block);
       if (spread.count() == 0) continue;
       Mean& mean = means[down.of_point[i] * width + across.of_point[i]];
       mean.sum += spread.mean() * static_cast<double>(spread.count());

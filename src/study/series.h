@@ -25,7 +25,7 @@ struct SeriesGroup {
 class SeriesGatherer {
  public:
   static constexpr std::size_t most_points = 2000;  // of a run
-  static constexpr std::size_t most_cells = 250'000;
+  static constexpr std::size_t most_cells = 250'000, most_columns = 4000;
 
   /// Of `runs` runs; the bodies of `measures` are followed over time.
   SeriesGatherer(std::size_t runs, const std::vector<Measure>& measures);

@@ -1,0 +1,221 @@
+#include "commands/manual.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <span>
+#include <vector>
+
+#include "commands/commands.h"
+#include "commands/options.h"
+#include "scene/field_places.h"
+#include "scene/fields.h"
+
+namespace carom {
+
+namespace {
+
+/// Text of ours for roff: what it would read as a request or an escape is neither.
+std::string roff(std::string_view text) {
+  std::string out;
+  bool begins = true;
+  for (const char c : text) {
+    if (begins && (c == '.' || c == '\'')) out += "\\&";
+    if (c == '\\')
+      out += "\\e";
+    else if (c == '-')
+      out += "\\-";
+    else
+      out += c;
+    begins = c == '\n';
+  }
+  return out;
+}
+
+/// Lines that stand as they are.
+std::string example(std::string_view text) {
+  std::string lines(text);
+  while (lines.ends_with('\n')) lines.pop_back();
+  return fmt::format(".PP\n.nf\n{}\n.fi\n", roff(lines));
+}
+
+/// Paragraphs, their lines filled anew.
+std::string paragraphs(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t end = std::min(text.find("\n\n", i), text.size());
+    out += ".PP\n" + roff(text.substr(i, end - i)) + "\n";
+    i = end + 2;
+  }
+  while (out.ends_with("\n\n")) out.pop_back();
+  return out;
+}
+
+std::string option_item(const OptionUse& use) {
+  const Option& option = option_named(use.name);
+  std::string names = fmt::format("\\fB{}\\fR", roff(option.name));
+  if (!option.letter.empty()) names = fmt::format("\\fB{}\\fR, {}", roff(option.letter), names);
+  if (!option.value.empty()) names += fmt::format(" \\fI{}\\fR", roff(option.value));
+  return fmt::format(".TP\n{}\n{}\n", names, roff(use.help));
+}
+
+bool is_common(std::string_view name) {
+  return name == "--color" || name == "--json" || name == "--quiet";
+}
+
+std::string operands(const CommandText& command) {
+  if (command.most == 0) return "";
+  const std::string word = fmt::format("\\fI{}\\fR{}", roff(command.operand), command.most > 1 ? "..." : "");
+  return command.least == 0 ? fmt::format(" [{}]", word) : " " + word;
+}
+
+std::string command_section(const CommandText& command) {
+  std::string out = fmt::format(".SS carom {}\n.B carom {}\\fR{} [\\fIOPTIONS\\fR]\n.PP\n{}{}.\n", roff(command.name),
+                                roff(command.name), operands(command),
+                                static_cast<char>(std::toupper(static_cast<unsigned char>(command.line[0]))),
+                                roff(command.line.substr(1)));
+  out += example(command.examples);
+  if (!command.notes.empty()) out += paragraphs(command.notes);
+  for (const OptionUse& use : options_of(command))
+    if (!is_common(use.name)) out += option_item(use);
+  return out;
+}
+
+/// A shell's word list of these.
+template <typename Words>
+std::string list(const Words& words) {
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
+/// What is offered for an operand or a value that is called so; empty: nothing, it is the user's own.
+std::string offer_for(std::string_view name) {
+  const auto words = [](std::string_view all) { return fmt::format("_carom_words '{}'", all); };
+  if (name == "DIR") return "_carom_files -d";
+  if (name == "SCENE" || name == "SWEEP") return "_carom_files -f -X '!*.@(yaml|yml)'";
+  if (name == "KEY") return words(list(plain_paths()));
+  if (name == "PATH=VALUE" || name == "PATH=FROM:TO:COUNT")
+    return fmt::format("_carom_paths '{}'", list(settable_paths()));
+  if (name == "KIND") {
+    std::vector<std::string_view> kinds;
+    for (const std::span<const Kind> family : families()) kinds.push_back(family.front().name);
+    return words(list(kinds));
+  }
+  return "";
+}
+
+std::string offer_for(const Option& option) {
+  if (option.name == "--only") return fmt::format("_carom_list '{}'", list(output_names()));
+  if (!option.choices.empty()) return fmt::format("_carom_words '{}'", list(option.choices));
+  return offer_for(option.value);
+}
+
+}  // namespace
+
+std::string manual_page() {
+  std::string out = fmt::format(
+      ".TH CAROM 1 \"\" \"carom {}\" \"User Commands\"\n"
+      ".SH NAME\ncarom \\- exact motion of colliding balls, walls and planes, as data and pictures\n"
+      ".SH SYNOPSIS\n.B carom\n\\fICOMMAND\\fR [\\fIOPERAND\\fR...] [\\fIOPTIONS\\fR]\n.br\n.B carom\n\\-\\-help | "
+      "\\-\\-version | help \\fICOMMAND\\fR\n"
+      ".SH DESCRIPTION\nScenes of balls, walls and planes, written in YAML, become motion, computed from collision to "
+      "collision in closed form or in time steps, and that becomes CSV tables, pictures and films.\n"
+      "Results go to standard output, progress and errors to standard error.\n"
+      ".SH COMMANDS\n",
+      CAROM_VERSION);
+  for (const Command& command : commands()) out += command_section(command.text);
+  out += ".SH OPTIONS OF EVERY COMMAND\n";
+  for (const std::string_view name : {"--color", "--json", "--quiet"})
+    out += option_item({name, option_named(name).help});
+  out += ".TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\nwhat the command is for, examples first\n";
+  out +=
+      ".SH EXIT STATUS\n"
+      ".TP\n0\ndone; also: up to date, nothing to do\n"
+      ".TP\n1\nthe run failed\n"
+      ".TP\n2\nthe command line or a scene is wrong; nothing was run\n"
+      ".TP\n3\na sweep is done and some of its runs failed\n"
+      ".TP\n130, 143\ninterrupted; what is finished stays, and the same command goes on\n"
+      ".SH ENVIRONMENT\n"
+      ".TP\nNO_COLOR\nset and not empty: no colour, unless \\-\\-color always\n"
+      ".TP\nSLURM_ARRAY_TASK_ID, SLURM_ARRAY_TASK_COUNT\nset by a job array of Slurm: the part of a sweep that is "
+      "done\n"
+      ".SH FILES\n"
+      ".TP\noutput/<scene file's stem>/\nwhat a run writes, unless \\-o says otherwise\n";
+  return out;
+}
+
+std::string bash_completion() {
+  std::vector<std::string> names;
+  std::string of_command, of_value;
+  for (const Command& command : commands()) {
+    const CommandText& text = command.text;
+    names.push_back(text.name);
+    std::vector<std::string_view> options;
+    for (const OptionUse& use : options_of(text)) {
+      const Option& option = option_named(use.name);
+      options.push_back(option.name);
+      if (!option.letter.empty()) options.push_back(option.letter);
+    }
+    const std::string offer = text.most > 0 ? offer_for(text.operand) : "";
+    of_command += fmt::format("    {}) options='{} --help -h' operand=\"{}\" ;;\n", text.name, list(options), offer);
+  }
+  for (const Option& option : all_options()) {
+    if (option.value.empty()) continue;
+    const std::string both =
+        option.letter.empty() ? std::string(option.name) : fmt::format("{} | {}", option.letter, option.name);
+    const std::string offer = offer_for(option);
+    of_value += fmt::format("    {}) {}return ;;\n", both, offer.empty() ? "" : offer + "; ");
+  }
+  return fmt::format(R"(# bash completion for carom
+_carom_words() {{ mapfile -t COMPREPLY < <(compgen -W "$1" -- "$word"); }}
+# A list's next word, after its last comma.
+_carom_list() {{
+  local head=
+  case $word in *,*) head=${{word%,*}}, ;; esac
+  mapfile -t COMPREPLY < <(compgen -W "$1" -P "$head" -- "${{word#"$head"}}")
+  compopt -o nospace
+}}
+# Paths of a scene, each followed by its value.
+_carom_paths() {{
+  mapfile -t COMPREPLY < <(compgen -W "$1" -S = -- "$word")
+  compopt -o nospace
+}}
+# Files of a kind, and folders on the way to them.
+_carom_files() {{
+  local IFS=$'\n' extglob
+  extglob=$(shopt -p extglob)
+  shopt -s extglob
+  mapfile -t COMPREPLY < <(compgen "$@" -- "$word" && [ "$1" = -d ] || compgen -d -- "$word")
+  eval "$extglob"
+  compopt -o filenames
+}}
+_carom() {{
+  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} command=${{COMP_WORDS[1]}} options operand
+  COMPREPLY=()
+  if [ "$COMP_CWORD" -eq 1 ]; then
+    _carom_words '{0} help --help --version --man --bash-completion'
+    return
+  fi
+  # "--color=never" comes as three words.
+  if [ "$word" = = ]; then
+    word=
+  elif [ "$before" = = ]; then
+    before=${{COMP_WORDS[COMP_CWORD - 2]}}
+  fi
+  case $before in
+{2}  esac
+  case $command in
+    help) operand="_carom_words '{0}'" ;;
+{1}  esac
+  case $word in
+    -*) _carom_words "$options" ;;
+    *) eval "$operand" ;;
+  esac
+}}
+complete -F _carom carom
+)",
+                     list(names), of_command, of_value);
+}
+
+}  // namespace carom

@@ -1,0 +1,13 @@
+#pragma once
+// The program's own words for `man` and for bash, made from the tables of commands and options.
+#include <string>
+
+namespace carom {
+
+/// carom.1, in roff with the macros of man(7).
+std::string manual_page();
+
+/// What bash sources to complete commands, options, their values and files.
+std::string bash_completion();
+
+}  // namespace carom
