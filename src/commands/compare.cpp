@@ -124,10 +124,7 @@ class CompareSession {
              const std::string& request) {
     const std::size_t count = differences.runs().size();
     Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO), "compare", 1, 0);
-    const ComparisonWatch watch{stop_if_interrupted, [&](std::size_t read) {
-                                  progress.update(static_cast<double>(read) / static_cast<double>(count),
-                                                  counted(read, "run", "runs"));
-                                }};
+    const ComparisonWatch watch{stop_if_interrupted, [&](std::size_t read) { progress.update(read, count, "runs"); }};
     std::unique_ptr<SideBySide> film;
     ComparisonFolder folder(folder_);
     if (options_.video) film = std::make_unique<SideBySide>(folder.place(), comparison_film_name, std::move(tiles));

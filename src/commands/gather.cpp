@@ -77,7 +77,7 @@ class GatherSession {
       statuses.push_back(bring(sweep.id(number)));
       if (statuses.back() == RunStatus::missing) missing.push_back(sweep.id(number));
       if (statuses.back() == RunStatus::failed) failed.push_back(sweep.id(number));
-      progress.update(0.5 * static_cast<double>(number) / static_cast<double>(sweep.size()), "runs looked at");
+      progress.update(number, 2 * sweep.size(), "runs looked at or compared");
     }
     if (!missing.empty()) {
       progress.clear();
@@ -89,7 +89,7 @@ class GatherSession {
     ComparisonWatch watch;
     watch.look = stop_if_interrupted;
     watch.done = [&](std::size_t done) {
-      progress.update(0.5 + 0.5 * static_cast<double>(done) / static_cast<double>(sweep.size()), "runs compared");
+      progress.update(sweep.size() + done, 2 * sweep.size(), "runs looked at or compared");
     };
     folder.finish(sweep, statuses, watch);
     progress.clear();

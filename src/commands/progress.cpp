@@ -67,6 +67,14 @@ bool Progress::due() const {
   return since_last >= (choice_ == ProgressChoice::bar ? 0.1 : 2.0);
 }
 
+/// "1,830/s", or by the minute what takes longer.
+std::string Progress::rate(double count) const {
+  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double per_second = elapsed > 0 ? count / elapsed : 0;
+  if (per_second < 1) return fmt::format("{:.2g}/min", 60 * per_second);
+  return per_second < 10 ? fmt::format("{:.2g}/s", per_second) : grouped(static_cast<std::uint64_t>(per_second)) + "/s";
+}
+
 void Progress::show(double done, const std::string& what) {
   const Clock::time_point now = Clock::now();
   const double since_last = std::chrono::duration<double>(now - last_).count();
@@ -85,10 +93,19 @@ void Progress::show(double done, const std::string& what) {
 
 void Progress::update(double time, std::uint64_t collisions, std::uint64_t frames) {
   if (!due()) return;
-  std::string what = fmt::format("{:.4g} of {:.4g} s", time, duration_);
-  if (frames_to_come_ > 0) what += fmt::format(", {} of {} pictures", grouped(frames), grouped(frames_to_come_));
-  what += ", " + counted(collisions, "collision", "collisions");
+  const std::string what = frames_to_come_ > 0
+                               ? fmt::format("{} of {} pictures ({})", grouped(frames), grouped(frames_to_come_),
+                                             rate(static_cast<double>(frames)))
+                               : fmt::format("{:.4g} of {:.4g} s ({}), {}", time, duration_, rate(time),
+                                             counted(collisions, "collision", "collisions"));
   show(duration_ > 0 ? std::clamp(time / duration_, 0.0, 1.0) : 1, what);
+}
+
+void Progress::update(std::size_t done, std::size_t of, std::string_view things, const std::string& more) {
+  if (!due()) return;
+  const auto count = static_cast<double>(done);
+  show(count / static_cast<double>(std::max<std::size_t>(of, 1)),
+       fmt::format("{} of {} {} ({}){}", grouped(done), grouped(of), things, rate(count), more));
 }
 
 void Progress::update(double done, const std::string& what) {

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "commands/command_line.h"
 
@@ -22,7 +23,9 @@ class Progress {
   /// Cheap: writes at most ten times a second (bar), or a line at each tenth of the way and after five seconds, but
   /// never two within two seconds.
   void update(double time, std::uint64_t collisions, std::uint64_t frames);
-  /// The same for work that is not measured in simulated time: `done` of it, 0 to 1, and what it is at.
+  /// The same for `done` of so many things, runs say; `more`: what else there is to tell of them.
+  void update(std::size_t done, std::size_t of, std::string_view things, const std::string& more = "");
+  /// The same for other work: `done` of it, 0 to 1, and what it is at.
   void update(double done, const std::string& what);
   /// The bar's line is free again; to be called before anything else is written to the terminal.
   void clear();
@@ -30,6 +33,7 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
   bool due() const;
+  std::string rate(double count) const;
   void show(double done, const std::string& counts);
   void draw_bar(double done, const std::string& counts, const std::string& left);
 

@@ -137,9 +137,7 @@ class SweepSession {
 
   void tell(const SweepProgress& p) {
     if (!progress_) return;
-    std::string text = fmt::format("{} of {} {}", grouped(p.done), grouped(p.of), what_);
-    if (p.failed > 0) text += fmt::format(", {} failed", grouped(p.failed));
-    progress_->update(static_cast<double>(p.done) / static_cast<double>(std::max<std::size_t>(p.of, 1)), text);
+    progress_->update(p.done, p.of, what_, p.failed > 0 ? fmt::format(", {} failed", grouped(p.failed)) : "");
   }
 
   const Options& options_;

@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "commands/program.h"
 
@@ -56,6 +57,17 @@ TEST(Terminal, BarIsClearedBeforeTheResult) {
   EXPECT_LT(bar, clear);
   EXPECT_LT(clear, result);
   EXPECT_EQ(run.out.find("a [", result), std::string::npos);
+}
+
+TEST(Terminal, BarOfASweepTellsCountRateAndTimeLeft) {
+  const Workplace here;
+  here.write("a.yaml", two_balls());
+  const Finished sweep = here.shell(
+      "TERM=xterm script -qec 'stty cols 100; $CAROM sweep a.yaml --grid balls.red.mass=1:2:600 -j 1 --color never' "
+      "/dev/null");
+  ASSERT_EQ(sweep.code, 0) << sweep.out;
+  const std::regex bar(R"(a\.sweep|a \[=* *\] +[0-9]+ % [0-9]+ of 600 runs \([0-9,]+/s\), [0-9]+ s left)");
+  EXPECT_TRUE(std::regex_search(sweep.out, bar)) << sweep.out;
 }
 
 TEST(Terminal, LostOutputIsAnError) {
