@@ -219,12 +219,8 @@ RunSet::RunSet(std::vector<ListedRun> runs, Sweep sweep) : runs_(std::move(runs)
 }
 
 ComparedRun RunSet::run(std::size_t number) const {
+  if (sweep_) return compared_run(*sweep_, in_sweep_[number], runs_[number].folder);
   ComparedRun run{runs_[number].id, runs_[number].folder, std::vector<std::string>(parameters_.size())};
-  if (sweep_) {
-    const SweepRun of_sweep = sweep_->run(in_sweep_[number]);
-    for (std::size_t p = 0; p < run.values.size(); ++p) run.values[p] = of_sweep.values[p].value_or("");
-    return run;
-  }
   if (parameters_.empty()) return run;
   for (SceneValue& value : values_of(runs_[number]))
     if (const auto found = numbers_.find(value.path); found != numbers_.end())

@@ -18,6 +18,8 @@
 #include "export/open_folder.h"
 #include "export/stored_file.h"
 #include "scene/path_field.h"
+#include "scene/scene_values.h"
+#include "scene/source.h"
 
 namespace carom {
 
@@ -156,13 +158,28 @@ ComparisonPlan comparison_plan(const Sweep& sweep) {
   return plan;
 }
 
+ComparedRun compared_run(const Sweep& sweep, std::size_t number, const std::string& folder) {
+  const SweepRun run = sweep.run(number);
+  ComparedRun out{run.id, folder, {}};
+  std::optional<std::vector<SceneValue>> own;  // the scene's
+  for (std::size_t p = 0; p < run.values.size(); ++p) {
+    out.values.push_back(run.values[p].value_or(""));
+    if (run.values[p]) continue;
+    if (!own) {
+      const Descriptor place = open_folder(AT_FDCWD, folder, true);
+      const auto text = place ? read_text(place.get(), "scene.yaml", max_source_bytes) : std::nullopt;
+      own = text ? scene_values(folder + "/scene.yaml", *text) : std::vector<SceneValue>();
+    }
+    for (SceneValue& value : *own)
+      if (value.path == sweep.paths[p]) out.values[p] = std::move(value.text);
+  }
+  return out;
+}
+
 void SweepFolder::finish(const Sweep& sweep, const std::vector<RunStatus>& statuses, const ComparisonWatch& watch) {
   sync_file_system(place_.path);  // what the manifest says of runs must outlast a power cut before it is said
   const auto compared = [&](std::size_t number) {
-    const SweepRun run = sweep.run(number);
-    ComparedRun out{run.id, fmt::format("{}/runs/{}", place_.path, run.id), {}};
-    for (const auto& value : run.values) out.values.push_back(value.value_or(""));
-    return out;
+    return compared_run(sweep, number, fmt::format("{}/runs/{}", place_.path, sweep.id(number)));
   };
   std::vector<std::unique_ptr<OutputFile>> files =
       write_comparison(place_, comparison_plan(sweep), sweep.size(), compared, watch);

@@ -29,6 +29,10 @@ SweepContent inspect_sweep_folder(const std::string& folder, const Sweep& sweep,
 /// The runs of a sweep that failed, as its manifest says.
 std::vector<std::string> stored_failures(const std::string& folder);
 
+/// A sweep's run that lies in `folder`. What its block does not set is what its scene has; what that does not have
+/// either is empty.
+ComparedRun compared_run(const Sweep& sweep, std::size_t number, const std::string& folder);
+
 /// What the comparison of a sweep's runs shows.
 ComparisonPlan comparison_plan(const Sweep& sweep);
 

@@ -57,6 +57,24 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+/// The cells of summary.csv, a map from column to text a run.
+std::vector<std::map<std::string, std::string>> rows_of(const std::string& text) {
+  std::vector<std::map<std::string, std::string>> rows;
+  const auto cells = [](const std::string& line) {
+    std::vector<std::string> out(1);
+    for (const char c : line) c == ',' ? out.emplace_back() : out.back() += c;
+    return out;
+  };
+  const std::vector<std::string> lines = lines_of(text);
+  const std::vector<std::string> names = cells(lines.at(0));
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string> values = cells(lines[i]);
+    rows.emplace_back();
+    for (std::size_t k = 0; k < names.size(); ++k) rows.back()[names[k]] = values.at(k);
+  }
+  return rows;
+}
+
 TEST(Sweep, WritesARunAFolderAndWhatComparesThem) {
   const Workplace here;
   prepare(here);
@@ -169,6 +187,26 @@ TEST(Sweep, WrongMeasureIsFoundBeforeAnythingIsRun) {
   EXPECT_TRUE(sweep.err.starts_with("offsets.yaml:4:22: error: ")) << sweep.err;
   EXPECT_NE(sweep.err.find("red"), std::string::npos) << sweep.err;
   EXPECT_FALSE(here.has("output"));
+}
+
+TEST(Sweep, PathThatABlockDoesNotSetHasTheBasesValue) {
+  const Workplace here;
+  prepare(here,
+          "sweep: 1\nbase: balls.yaml\nruns:\n  - grid: {balls.red.mass: [5, 7]}\n"
+          "  - grid: {balls.red.position.z: [0.05]}\n");
+  ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
+  const std::string summary = here.read("output/offsets/summary.csv");
+  auto rows = rows_of(summary);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0]["balls.red.mass"], "5");
+  EXPECT_EQ(rows[0]["balls.red.position.z"], "0");
+  EXPECT_EQ(rows[2]["balls.red.mass"], "10");
+  EXPECT_EQ(rows[2]["balls.red.position.z"], "0.05");
+  // The same by another way.
+  ASSERT_EQ(here.carom({"gather", "output/offsets", "-q"}).code, 0);
+  EXPECT_EQ(here.read("output/offsets/summary.csv"), summary);
+  ASSERT_EQ(here.carom({"compare", "output/offsets", "-o", "again", "-q"}).code, 0);
+  EXPECT_EQ(here.read("again/summary.csv"), summary);
 }
 
 TEST(Sweep, NumberOfJobsChangesNoByte) {
@@ -303,24 +341,6 @@ TEST(Submit, ScriptRunsItsPartsAndGathers) {
   EXPECT_EQ(submitted.code, 0) << submitted.err;
   EXPECT_EQ(submitted.out, "parts: job 7; gather: job 7\n");
   EXPECT_EQ(lines_of(here.read("a b/summary.csv")).size(), 7u) << submitted.err;
-}
-
-/// The cells of summary.csv, a map from column to text a run.
-std::vector<std::map<std::string, std::string>> rows_of(const std::string& text) {
-  std::vector<std::map<std::string, std::string>> rows;
-  const auto cells = [](const std::string& line) {
-    std::vector<std::string> out(1);
-    for (const char c : line) c == ',' ? out.emplace_back() : out.back() += c;
-    return out;
-  };
-  const std::vector<std::string> lines = lines_of(text);
-  const std::vector<std::string> names = cells(lines.at(0));
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const std::vector<std::string> values = cells(lines[i]);
-    rows.emplace_back();
-    for (std::size_t k = 0; k < names.size(); ++k) rows.back()[names[k]] = values.at(k);
-  }
-  return rows;
 }
 
 TEST(SweepScenes, BowlingLosesWhatTheClosedFormSays) {
