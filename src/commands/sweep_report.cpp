@@ -10,6 +10,7 @@
 #include "commands/report.h"
 #include "commands/text.h"
 #include "export/copied_run.h"
+#include "scene/value_json.h"
 
 namespace carom {
 
@@ -82,7 +83,7 @@ void show_plan(const Options& options, const SweepJob& job) {
       const SweepRun run = sweep.run(number);
       Json values = Json::object();
       for (std::size_t p = 0; p < sweep.paths.size(); ++p)
-        values[sweep.paths[p]] = run.values[p] ? Json(*run.values[p]) : Json();
+        values[sweep.paths[p]] = run.values[p] ? json_of_yaml(*run.values[p]) : Json();
       runs.push_back({{"run", run.id}, {"state", state_of(job, number)}, {"values", std::move(values)}});
     }
     json["runs"] = std::move(runs);
@@ -96,7 +97,7 @@ void show_plan(const Options& options, const SweepJob& job) {
   for (std::size_t number = 0; number < sweep.size(); ++number) {
     const SweepRun run = sweep.run(number);
     rows.push_back({run.id, state_of(job, number)});
-    for (const auto& value : run.values) rows.back().push_back(value.value_or("-"));
+    for (const auto& value : run.values) rows.back().push_back(value ? printable(cell_text(*value)) : "-");
     left += job.runs()[number].status == RunStatus::done ? 0 : 1;
   }
   Block block(Palette(wants_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));

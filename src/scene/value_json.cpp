@@ -47,4 +47,10 @@ Json json_of_yaml(std::string_view yaml) {
   return node ? json_of(*node) : Json();
 }
 
+std::string cell_text(std::string_view yaml) {
+  if (!yaml.starts_with('"') && !yaml.starts_with('\'')) return std::string(yaml);
+  const Json json = json_of_yaml(yaml);
+  return json.is_string() ? json.get<std::string>() : std::string(yaml);
+}
+
 }  // namespace carom

@@ -20,6 +20,7 @@
 #include "scene/path_field.h"
 #include "scene/scene_values.h"
 #include "scene/source.h"
+#include "scene/value_json.h"
 
 namespace carom {
 
@@ -163,7 +164,7 @@ ComparedRun compared_run(const Sweep& sweep, std::size_t number, const std::stri
   ComparedRun out{run.id, folder, {}};
   std::optional<std::vector<SceneValue>> own;  // the scene's
   for (std::size_t p = 0; p < run.values.size(); ++p) {
-    out.values.push_back(run.values[p].value_or(""));
+    out.values.push_back(run.values[p] ? cell_text(*run.values[p]) : "");
     if (run.values[p]) continue;
     if (!own) {
       const Descriptor place = open_folder(AT_FDCWD, folder, true);

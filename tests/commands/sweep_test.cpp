@@ -141,7 +141,7 @@ TEST(Sweep, PlanShowsRunsAndWritesNothing) {
   here.carom({"sweep", "offsets.yaml", "-q"});
   const Json json = Json::parse(here.carom({"sweep", "offsets.yaml", "--plan", "--json"}).out);
   EXPECT_EQ(json["runs"][3], Json::parse(R"({"run": "r0004", "state": "done",
-                                            "values": {"balls.red.position.z": "0.025", "balls.red.mass": "10"}})"));
+                                            "values": {"balls.red.position.z": 0.025, "balls.red.mass": 10}})"));
 }
 
 TEST(Sweep, OneFailingRunStopsNoOther) {
