@@ -198,7 +198,7 @@ const Option table[] = {
      [](Options& o, const Words& w) { o.measures = split_lists(w); }},
     {"--charts", "", "LIST", "x:y or x:y:by, x and by of what was varied, y a measure\n(by what varies)", read_charts},
     {"--video", "", "", "a film", [](Options& o, const Words&) { o.video = true; }},
-    {"--jobs", "-j", "N", "at most N scenes at a time; changes no result",
+    {"--jobs", "-j", "N", "N scenes at a time (1); changes no result",
      [](Options& o, const Words& w) { o.jobs = whole(w, "--jobs", 1, 4096); }},
     {"--force", "", "", "overwrite other content of the folder, run again what\nis up to date, lift the budget",
      [](Options& o, const Words&) { o.force = true; }},

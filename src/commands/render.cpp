@@ -144,6 +144,7 @@ const CommandText& render_text() {
        {"--only",
         "draw these alone, of frames, video, sheet, vtk, xyz, gltf;\none that the scene does not ask for is made "
         "with default\nsettings"},
+       {"--jobs", "N runs at a time (1); changes no result"},
        {"--force"},
        {"--progress"}},
       "DIR",

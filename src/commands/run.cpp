@@ -3,7 +3,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
+#include <map>
 #include <new>
+#include <optional>
+#include <utility>
 
 #include "commands/interrupt.h"
 #include "commands/plan.h"
@@ -11,12 +16,21 @@
 #include "commands/report.h"
 #include "commands/text.h"
 #include "render/renderer.h"
+#include "study/workers.h"
 
 namespace carom {
 
 using Json = nlohmann::ordered_json;
 
 namespace {
+
+/// What became of a scene, and what is told of it.
+struct Told {
+  std::string status;
+  Json entry;             // of the document of --json
+  std::string out;        // for stdout
+  std::string complaint;  // for stderr; empty: none
+};
 
 /// All scenes of one command line, and what was said of them.
 class Session {
@@ -32,27 +46,25 @@ class Session {
     refuse_other_content(scenes_, options_);
     if (const std::string errors = error_count(scenes_); !errors.empty()) return refuse(errors);
     const auto start = std::chrono::steady_clock::now();
-    int interrupted = 0;
-    for (PlannedScene& planned : scenes_) {
-      if (interrupted != 0) {
-        note(planned, "not run");
-        continue;
-      }
-      interrupted = run_one(planned);
-      planned.scene.reset();  // the next one may need the memory
-    }
+    const auto to_do = static_cast<std::size_t>(std::count_if(
+        scenes_.begin(), scenes_.end(), [&](const PlannedScene& planned) { return !is_up_to_date(planned); }));
+    const std::size_t jobs = std::min<std::size_t>(options_.jobs.value_or(1), to_do);
+    const int code = jobs > 1 ? run_together(jobs, to_do) : run_in_turn();
     if (options_.json) write_out(document(command_, document_));
     const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (scenes_.size() > 1 && !options_.json && !options_.quiet) write_out(total(wall));
-    if (interrupted != 0) return interrupted;
-    return failed_ > 0 ? 1 : 0;
+    if (code != 0) return code;
+    return counts_[failed] > 0 ? 1 : 0;
   }
 
  private:
+  static constexpr const char *done = "done", *up_to_date = "up to date", *failed = "failed",
+                              *interrupted = "interrupted", *not_run = "not run";
+
   int refuse(const std::string& errors) {
     for (const PlannedScene& planned : scenes_) {
       write_err(planned.error);
-      Json entry = begin(planned, planned.errors > 0 ? "wrong" : "not run");
+      Json entry = begin(planned, planned.errors > 0 ? "wrong" : not_run);
       if (planned.errors > 0) entry["error"] = planned.error;
       document_.push_back(entry);
     }
@@ -61,30 +73,89 @@ class Session {
     return 2;
   }
 
-  // Gives the exit code of an interrupt, or 0.
-  int run_one(const PlannedScene& planned) {
-    if (planned.content == FolderContent::this_run && !options_.force) {
-      up_to_date(planned);
-      return 0;
+  bool is_up_to_date(const PlannedScene& planned) const {
+    return planned.content == FolderContent::this_run && !options_.force;
+  }
+
+  // These two give the exit code of an interrupt, or 0.
+
+  int run_in_turn() {
+    int code = 0;
+    for (PlannedScene& planned : scenes_) {
+      try {
+        settle(code != 0 ? told(planned, not_run) : run_one(planned, progress_choice(options_)));
+      } catch (const Interrupted& signal) {
+        settle(told_interrupted(planned));
+        code = signal.exit_code();
+      }
+      planned.scene.reset();  // the next one may need the memory
     }
-    Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO), label(planned),
+    return code;
+  }
+
+  /// Scenes in processes of their own; what is told of them comes in their order.
+  int run_together(std::size_t jobs, std::size_t to_do) {
+    std::vector<std::optional<Told>> all(scenes_.size());
+    std::size_t begun = 0, settled = 0;
+    Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO), std::string(command_), 1,
+                      0);
+    const auto settle_next = [&] {
+      for (; settled < all.size() && all[settled]; ++settled) {
+        progress.clear();
+        settle(*std::exchange(all[settled], Told{}));
+      }
+    };
+    std::size_t finished = 0;
+    Tasks tasks;
+    tasks.next = [&]() -> std::optional<std::size_t> {
+      for (; begun < scenes_.size() && is_up_to_date(scenes_[begun]); ++begun)
+        all[begun] = told_up_to_date(scenes_[begun]);
+      return begun < scenes_.size() ? std::optional(begun++) : std::nullopt;
+    };
+    tasks.work = [&](std::size_t i) {
+      const Told one = run_one(scenes_[i], ProgressChoice::none);
+      return Json::array({one.status, one.entry, one.out, one.complaint})
+          .dump(-1, ' ', false, Json::error_handler_t::replace);
+    };
+    tasks.done = [&](const TaskOutcome& outcome) {
+      if (outcome.kind == TaskOutcome::Kind::done) {
+        Json parts = Json::parse(outcome.text);
+        all[outcome.task] = Told{parts[0], std::move(parts[1]), parts[2], parts[3]};
+      } else {
+        all[outcome.task] = told_failed(scenes_[outcome.task], outcome.text);
+      }
+      settle_next();
+      progress.update(++finished, to_do, "scenes");
+    };
+    tasks.look = stop_if_interrupted;
+    share_processors(jobs);
+    try {
+      work_off(tasks, jobs);
+    } catch (const Interrupted& signal) {
+      for (std::size_t i = 0; i < all.size(); ++i)
+        if (i >= settled && !all[i]) all[i] = i < begun ? told_interrupted(scenes_[i]) : told(scenes_[i], not_run);
+      settle_next();
+      return signal.exit_code();
+    }
+    settle_next();
+    return 0;
+  }
+
+  /// Throws Interrupted.
+  Told run_one(const PlannedScene& planned, ProgressChoice choice) const {
+    if (is_up_to_date(planned)) return told_up_to_date(planned);
+    Progress progress(choice, wants_color(options_.color, STDERR_FILENO), label(planned),
                       planned.scene->simulate.duration, planned.forecast.frames);
     try {
       const RunWatch watch{stop_if_interrupted, [&](double time, std::uint64_t collisions, std::uint64_t pictures) {
                              progress.update(time, collisions, pictures);
                            }};
-      const RunResult result = run_scene(show_of(planned), planned.engine, settings_of(planned), watch);
-      progress.clear();
-      done(planned, result);
-      return 0;
-    } catch (const Interrupted& interrupted) {
-      return interrupt(planned, progress, interrupted);
+      return told_done(planned, run_scene(show_of(planned), planned.engine, settings_of(planned), watch));
     } catch (const std::bad_alloc&) {
-      fail(planned, progress, "not enough memory");
+      return told_failed(planned, "not enough memory");
     } catch (const std::exception& error) {
-      fail(planned, progress, error.what());
+      return told_failed(planned, error.what());
     }
-    return 0;
   }
 
   static Show show_of(const PlannedScene& planned) {
@@ -110,65 +181,64 @@ class Session {
     return settings;
   }
 
-  void done(const PlannedScene& planned, const RunResult& result) {
-    ++done_;
-    Json entry = begin(planned, "done");
-    entry["summary"] = summary_json(result.summary);
-    entry["contact"] = contact_json(result.summary);
-    entry["files"] = files_in(planned.folder);
-    entry["time"] = facts_json(result);
-    document_.push_back(entry);
+  static Told told(const PlannedScene& planned, const char* status) { return {status, begin(planned, status), {}, {}}; }
+
+  Told told_done(const PlannedScene& planned, const RunResult& result) const {
+    Told one = told(planned, done);
+    one.entry["summary"] = summary_json(result.summary);
+    one.entry["contact"] = contact_json(result.summary);
+    one.entry["files"] = files_in(planned.folder);
+    one.entry["time"] = facts_json(result);
     Block block(palette_, width_);
     block.heading(planned.name, planned.scene->title);
     describe(block, planned, result);
-    show(block);
+    one.out = block.text();
+    return one;
   }
 
-  void up_to_date(const PlannedScene& planned) {
-    ++up_to_date_;
-    Json entry = begin(planned, "up to date");
-    entry["files"] = files_in(planned.folder);
-    document_.push_back(entry);
+  Told told_up_to_date(const PlannedScene& planned) const {
+    Told one = told(planned, up_to_date);
+    one.entry["files"] = files_in(planned.folder);
     Block block(palette_, width_);
     block.heading(planned.name, planned.scene->title);
     block.line("up to date", printable(planned.folder));
-    show(block);
+    one.out = block.text();
+    return one;
   }
 
-  void fail(const PlannedScene& planned, Progress& progress, std::string_view text) {
-    ++failed_;
-    progress.clear();
-    complain(options_, fmt::format("{}: the run failed: {}", printable(planned.file), text));
-    Json entry = begin(planned, "failed");
-    entry["error"] = std::string(text);
-    document_.push_back(entry);
+  static Told told_failed(const PlannedScene& planned, std::string_view text) {
+    Told one = told(planned, failed);
+    one.entry["error"] = std::string(text);
+    one.complaint = fmt::format("{}: the run failed: {}", printable(planned.file), text);
+    return one;
   }
 
-  int interrupt(const PlannedScene& planned, Progress& progress, const Interrupted& interrupted) {
-    progress.clear();
-    complain(options_, fmt::format("{}: interrupted; the same command runs what is missing", printable(planned.file)));
-    note(planned, "interrupted");
-    return interrupted.exit_code();
+  static Told told_interrupted(const PlannedScene& planned) {
+    Told one = told(planned, interrupted);
+    one.complaint = fmt::format("{}: interrupted; the same command runs what is missing", printable(planned.file));
+    return one;
   }
 
-  void note(const PlannedScene& planned, std::string_view status) { document_.push_back(begin(planned, status)); }
+  void settle(Told one) {
+    ++counts_[one.status];
+    if (!one.complaint.empty()) complain(options_, one.complaint);
+    document_.push_back(std::move(one.entry));
+    if (options_.json || options_.quiet || one.out.empty()) return;
+    write_out(one.out);
+    flush_out();
+  }
 
   static Json begin(const PlannedScene& planned, std::string_view status) {
     return {{"scene", planned.file}, {"status", std::string(status)}, {"folder", planned.folder}};
   }
 
-  void show(const Block& block) const {
-    if (options_.json || options_.quiet) return;
-    write_out(block.text());
-    flush_out();
-  }
-
-  std::string total(double wall) const {
+  std::string total(double wall) {
     std::vector<std::string> parts;
-    if (done_ > 0) parts.push_back(fmt::format("{} done", done_));
-    if (up_to_date_ > 0) parts.push_back(fmt::format("{} up to date", up_to_date_));
-    if (failed_ > 0) parts.push_back(fmt::format("{} failed", failed_));
-    const std::size_t rest = scenes_.size() - done_ - up_to_date_ - failed_;
+    std::size_t rest = scenes_.size();
+    for (const char* status : {done, up_to_date, failed}) {
+      if (counts_[status] > 0) parts.push_back(fmt::format("{} {}", counts_[status], status));
+      rest -= counts_[status];
+    }
     if (rest > 0) parts.push_back(fmt::format("{} not finished", rest));
     return fmt::format("{} scenes: {}, in {}\n", scenes_.size(), fmt::join(parts, ", "), wait_text(wall));
   }
@@ -185,7 +255,7 @@ class Session {
   std::size_t width_;
   std::vector<PlannedScene> scenes_;
   Json document_ = Json::array();
-  std::size_t done_ = 0, up_to_date_ = 0, failed_ = 0;
+  std::map<std::string, std::size_t> counts_;  // of scenes, by status
 };
 
 }  // namespace
@@ -200,7 +270,7 @@ const CommandText& run_text() {
       "  carom run scenes/*.yaml -o results                    results/<scene file's stem>/...\n",
       "Without -o a scene's run goes to output/<scene file's stem>/. All scenes are checked before\n"
       "the first is run. A folder that holds this very run is up to date and costs nothing.\n"
-      "Scenes run one after another: --jobs is taken and changes nothing.\n\n"
+      "\n"
       "Exit codes: 0 done or up to date, 1 a run failed, 2 the command line or a scene is wrong,\n"
       "130 or 143 interrupted.",
       {{"--output"}, {"--set"}, {"--only"}, {"--seed"}, {"--jobs"}, {"--force"}, {"--progress"}}};

@@ -88,9 +88,7 @@ class SweepSession {
     if (content == SweepContent::other) remove_other_runs(job);
     SweepOutcome outcome;
     outcome.to_do = job.left();
-    // Pictures are the same whatever the number of threads; more of them than processors only wait for one another.
-    const std::size_t threads = std::max<std::size_t>(1, processors() / options_.jobs.value_or(processors()));
-    setenv("LP_NUM_THREADS", std::to_string(threads).c_str(), 0);
+    share_processors(options_.jobs.value_or(processors()));
     show_progress("runs", outcome.to_do);
     job.run([&](const SweepProgress& p) { tell(p); },
             [&](std::size_t number, const std::string& why) { outcome.failures.emplace_back(number, why); });

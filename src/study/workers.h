@@ -26,6 +26,10 @@ struct Tasks {
 /// How many processors this process may use, at least 1.
 std::size_t processors();
 
+/// Divides the processors among so many processes: each draws with its share of threads, unless LP_NUM_THREADS, which
+/// OSMesa goes by, is set. To be called before there are threads.
+void share_processors(std::size_t jobs);
+
 /// Works off all tasks in `jobs` processes. The calling process must have no other threads. Throws std::system_error
 /// where there can be no process, and what the functions of this process throw.
 void work_off(const Tasks& tasks, std::size_t jobs);

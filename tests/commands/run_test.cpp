@@ -205,6 +205,46 @@ TEST(Run, JobsChangeNoResult) {
             "carom run: --jobs is a whole number from 1 to 4096, not `0`\n  carom run --help shows how it is used\n");
 }
 
+TEST(Run, ScenesAtOnceAreToldInTheirOrderAndHaveTheSameBytes) {
+  const Workplace here;
+  std::string busy = two_balls("room: {min: [-1.2, -1, -1], max: [1.2, 1, 1]}\n");
+  busy.replace(busy.find("duration: 1}"), 12, "duration: 9, max_collisions: 1}");
+  here.write("slow.yaml",
+             two_balls("output: {frames: {fps: 100, size: [64, 36], samples: 1}, energy: {every: 0.1}}\n"));
+  here.write("fails.yaml", busy);
+  here.write("quick.yaml", two_balls());
+  here.write("there.yaml", two_balls());
+  const auto run = [&](const std::string& jobs) {
+    here.carom({"run", "there.yaml", "-o", jobs + "/there"});
+    const Finished all =
+        here.carom({"run", "slow.yaml", "fails.yaml", "quick.yaml", "there.yaml", "-j", jobs, "-o", jobs, "--json"});
+    EXPECT_EQ(all.code, 1);
+    EXPECT_TRUE(all.err.starts_with("carom: fails.yaml: the run failed: more than simulate.max_collisions = 1"))
+        << all.err;
+    Json scenes = Json::parse(all.out)["scenes"];
+    for (Json& scene : scenes) {
+      scene.erase("time");
+      scene.erase("folder");
+    }
+    return scenes;
+  };
+  const Json one = run("1"), three = run("3");
+  EXPECT_EQ(one, three);
+  ASSERT_EQ(one.size(), 4u);
+  EXPECT_EQ(one[0]["status"], "done");
+  EXPECT_EQ(one[1]["status"], "failed");
+  EXPECT_EQ(one[3]["status"], "up to date");
+  std::map<std::string, std::string> files[2] = {here.files("1"), here.files("3")};
+  for (auto& some : files) std::erase_if(some, [](const auto& file) { return file.first.ends_with("manifest.json"); });
+  EXPECT_GT(files[0].size(), 110u);
+  EXPECT_EQ(files[0], files[1]);
+  const Finished text = here.carom({"run", "quick.yaml", "slow.yaml", "there.yaml", "-j", "2", "-o", "2"});
+  const std::size_t quick = text.out.find("quick: "), slow = text.out.find("slow: "), last = text.out.find("there: ");
+  EXPECT_LT(quick, slow);
+  EXPECT_LT(slow, last);
+  EXPECT_NE(text.out.find("3 scenes: 3 done, in "), std::string::npos) << text.out;
+}
+
 /// A tetrahedron about a radius of a metre, as STL.
 const std::string tetrahedron =
     "solid t\n"

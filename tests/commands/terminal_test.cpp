@@ -130,6 +130,24 @@ TEST_P(Interrupt, LeavesWhatIsFinishedAndNoPart) {
       << check.out;
 }
 
+TEST_P(Interrupt, EndsAllScenesThatRunAtOnce) {
+  const Workplace here;
+  for (const char* name : {"a.yaml", "b.yaml", "never.yaml"}) here.write(name, long_scene());
+  const Finished run =
+      here.interrupted({"run", "a.yaml", "b.yaml", "never.yaml", "-j", "2", "--json", "--progress", "none"},
+                       "output/b/frames/frame_00002.png", GetParam());
+  EXPECT_EQ(run.code, 128 + GetParam());
+  EXPECT_EQ(run.err,
+            "carom: a.yaml: interrupted; the same command runs what is missing\n"
+            "carom: b.yaml: interrupted; the same command runs what is missing\n");
+  const Json scenes = Json::parse(run.out).at("scenes");
+  EXPECT_EQ(scenes.at(0).at("status"), "interrupted");
+  EXPECT_EQ(scenes.at(1).at("status"), "interrupted");
+  EXPECT_EQ(scenes.at(2).at("status"), "not run");
+  EXPECT_FALSE(here.has("output/a/manifest.json") || here.has("output/b/manifest.json") || here.has("output/never"));
+  for (const auto& [name, bytes] : here.files("output")) EXPECT_EQ(name.find(".part"), std::string::npos) << name;
+}
+
 INSTANTIATE_TEST_SUITE_P(BySignal, Interrupt, ::testing::Values(SIGINT, SIGTERM),
                          [](const auto& signal) { return signal.param == SIGINT ? "SIGINT" : "SIGTERM"; });
 
