@@ -125,8 +125,8 @@ class CompareSession {
     const std::size_t count = differences.runs().size();
     Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO), "compare", 1, 0);
     const ComparisonWatch watch{stop_if_interrupted, [&](std::size_t read) { progress.update(read, count, "runs"); }};
-    std::unique_ptr<SideBySide> film;
     ComparisonFolder folder(folder_);
+    std::unique_ptr<SideBySide> film;
     if (options_.video) film = std::make_unique<SideBySide>(folder.place(), comparison_film_name, std::move(tiles));
     const auto files = write_comparison(
         folder.place(), plan, count, [&](std::size_t number) { return differences.run(number); }, watch);

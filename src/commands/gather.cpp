@@ -13,6 +13,7 @@
 #include "commands/sweep_report.h"
 #include "commands/text.h"
 #include "export/copied_run.h"
+#include "export/failed_run.h"
 #include "export/open_folder.h"
 #include "export/stored_file.h"
 #include "study/sweep_folder.h"
@@ -34,30 +35,38 @@ class GatherSession {
   int go() {
     const std::string source = has_sweep(folder_) ? folder_ : options_.operands.back();
     if (!has_sweep(source)) {
-      complain(options_, fmt::format("{} holds no sweep: there is no {} in it", printable(source), stored_sweep));
-      return 2;
+      return refuse(fmt::format("{} holds no sweep: there is no {} in it", printable(source), stored_sweep));
     }
     try {
-      Sweep sweep = load_sweep(source + "/" + stored_sweep);
-      const std::string base = text_of(source, stored_base);
-      for (std::size_t i = 1; i < options_.operands.size(); ++i) refuse_other(options_.operands[i], sweep, base);
-      return gather(sweep, base);
+      const Sweep sweep = load_sweep(source + "/" + stored_sweep);
+      const auto base = text_of(source, stored_base);
+      if (!base || text_of(source, stored_sweep) != sweep.resolved(stored_base))
+        return refuse(fmt::format("{}/{} is not what a sweep wrote", printable(source), stored_sweep));
+      if (inspect_sweep_folder(folder_, sweep, *base) == SweepContent::other)
+        return refuse(fmt::format("the folder {} holds something else", printable(folder_)));
+      for (std::size_t i = 1; i < options_.operands.size(); ++i) refuse_other(options_.operands[i], sweep, *base);
+      return gather(sweep, *base);
     } catch (const SceneError& error) {
       write_err(error.what());
-      complain(options_, "this is not what a sweep wrote; nothing was gathered");
-      return 2;
+      return refuse("this is not what a sweep wrote");
     }
   }
 
  private:
+  int refuse(const std::string& what) const {
+    complain(options_, what + "; nothing was gathered");
+    if (options_.json) write_out(document("gather", Json{{"folder", folder_}, {"status", "wrong"}, {"error", what}}));
+    return 2;
+  }
+
   static bool has_sweep(const std::string& folder) {
     std::error_code ignored;
     return fs::exists(folder + "/" + stored_sweep, ignored);
   }
 
-  static std::string text_of(const std::string& folder, const char* name) {
+  static std::optional<std::string> text_of(const std::string& folder, const char* name) {
     const Descriptor place = open_folder(AT_FDCWD, folder, true);
-    return place ? read_text(place.get(), name, largest_text).value_or("") : "";
+    return place ? read_text(place.get(), name, largest_text) : std::nullopt;
   }
 
   void refuse_other(const std::string& folder, const Sweep& sweep, const std::string& base) const {
@@ -107,8 +116,6 @@ class GatherSession {
     for (std::size_t i = 1; i < options_.operands.size(); ++i) {
       const std::string from = path(options_.operands[i]);
       if (!is_whole_since(from, "")) continue;
-      std::error_code ignored;
-      fs::remove(path(folder_) + "/" + failure_file, ignored);
       copy_run(from, path(folder_));
       return RunStatus::done;
     }

@@ -48,10 +48,7 @@ bool is_same_folder(const std::string& a, const std::string& b) {
 /// As typed in a shell.
 std::string settings_text(const std::vector<std::string>& settings) {
   std::string text;
-  for (const std::string& setting : settings) {
-    const bool plain = setting.find_first_of(" '\"$`\\*?[](){}<>|&;#!~\t") == std::string::npos;
-    text += plain ? " --set " + setting : fmt::format(" --set '{}'", setting);
-  }
+  for (const std::string& setting : settings) text += " --set " + shell_word(setting);
   return text;
 }
 

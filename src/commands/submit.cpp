@@ -18,18 +18,6 @@ namespace {
 
 constexpr std::size_t runs_a_part = 50, most_parts = 16;  // unless --parts says otherwise
 
-/// A word as a shell takes it.
-std::string shell_word(const std::string& word) {
-  const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           std::string_view("_-./=,:@%+").find(c) != std::string_view::npos;
-  });
-  if (plain) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 std::string words_of(const std::vector<std::string>& words) {
   std::string out;
   for (const std::string& word : words) out += (out.empty() ? "" : " ") + shell_word(word);
@@ -102,6 +90,7 @@ int submit_command(const Options& options) {
   for (const std::string& set : options.set) add("--set", set);
   if (options.only) add("--only", fmt::format("{}", fmt::join(*options.only, ",")));
   if (options.seed) add("--seed", std::to_string(*options.seed));
+  if (options.force) words.emplace_back("--force");
   std::string batch;
   for (const std::string& line : options.batch) batch += fmt::format("#SBATCH {}\n", line);
   const std::string name = "carom-" + (stem.empty() ? "sweep" : stem);

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 
 #include "commands/interrupt.h"
@@ -13,7 +12,6 @@
 #include "commands/sweep_report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
-#include "export/copied_run.h"
 #include "study/sweep_folder.h"
 
 namespace carom {
@@ -33,59 +31,63 @@ class SweepSession {
     } catch (const SceneError& error) {
       write_err(error.what());
       complain(options_, fmt::format("{}: nothing was run", counted(error.count, "error", "errors")));
+      show_failure(options_, "wrong", error.what());
       return 2;
     } catch (const Interrupted& interrupted) {
       progress_.reset();
       complain(options_, fmt::format("{}: interrupted; the same command runs what is missing",
                                      printable(options_.operands.front())));
+      show_failure(options_, "interrupted", "");
       return interrupted.exit_code();
+    } catch (const ExportError& error) {
+      progress_.reset();
+      complain(options_, error.what());
+      show_failure(options_, "failed", error.what());
+      return 1;
     }
   }
 
  private:
   int sweep() {
-    SweepSettings settings = sweep_settings(options_);
-    std::vector<Measure> measures;
-    settings.measure = [&measures](const Scene& scene, const State& end, const Summary& summary) {
-      std::vector<Measured> out;
-      for (const Measure& measure : measures)
-        if (measure.column == nullptr) out.push_back({measure.name, value_of(measure, scene, end, summary)});
-      return out;
-    };
-    SweepJob job(read_sweep(options_), folder_, settings);
+    SweepJob job(read_sweep(options_), folder_, sweep_settings(options_));
     check_comparison(job.sweep(), job.scene(0));
-    measures = measures_of(comparison_plan(job.sweep()));
 
     const SweepContent content = inspect_sweep_folder(folder_, job.sweep(), job.base_text());
     if (content == SweepContent::other && !options_.force) {
-      complain(options_,
-               fmt::format("{}: the folder {} holds something else, or the sweep or its base has changed since\n"
-                           "  write elsewhere with -o, or overwrite it with --force",
-                           printable(options_.operands.front()), printable(folder_)));
-      return 2;
+      return refuse(fmt::format("the folder {} holds something else, or the sweep or its base has changed since",
+                                printable(folder_)));
     }
-    if (content == SweepContent::this_sweep && !options_.force && !options_.plan && stored_failures(folder_).empty()) {
+    if (content == SweepContent::this_sweep && !options_.force && !options_.plan && !job.may_have_meshes() &&
+        stored_failures(folder_).empty()) {
       show(SweepOutcome{"up to date", 0, job.sweep().size(), {}, 0}, job);
       return 0;
     }
     show_progress("scenarios", job.sweep().size());
     job.plan([&](const SweepProgress& p) { tell(p); });
     progress_.reset();
+    if (const auto other = job.other_content(); other && !options_.force)
+      return refuse(fmt::format("the folder {} holds something else than this run", printable(job.run_folder(*other))));
     for (const std::string& path : job.idle_paths())
       complain(options_, fmt::format("{} makes no difference to the motion: what it sets is not used", path));
     if (options_.plan) {
       show_plan(options_, job);
       return 0;
     }
-    return run(job, content);
+    return run(job);
   }
 
-  int run(SweepJob& job, SweepContent content) {
+  int refuse(const std::string& what) const {
+    complain(options_, fmt::format("{}: {}\n  write elsewhere with -o, or overwrite it with --force",
+                                   printable(options_.operands.front()), what));
+    show_failure(options_, "wrong", what);
+    return 2;
+  }
+
+  int run(SweepJob& job) {
     const auto start = std::chrono::steady_clock::now();
     const bool is_part = shard_.count > 1;
     SweepFolder folder(folder_, is_part ? SweepFolder::Use::part : SweepFolder::Use::alone, job.sweep(),
                        job.base_text(), stop_if_interrupted);
-    if (content == SweepContent::other) remove_other_runs(job);
     SweepOutcome outcome;
     outcome.to_do = job.left();
     share_processors(options_.jobs.value_or(processors()));
@@ -109,20 +111,6 @@ class SweepSession {
     outcome.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     show(outcome, job);
     return outcome.failures.empty() ? 0 : 3;
-  }
-
-  /// Of what stood in the folder before: the runs that this sweep does not have.
-  void remove_other_runs(const SweepJob& job) const {
-    std::error_code ignored;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_ + "/runs", ignored)) {
-      const std::string name = entry.path().filename().string();
-      bool ours = false;
-      if (name.size() > 1 && name[0] == 'r') {
-        const std::size_t number = std::strtoull(name.c_str() + 1, nullptr, 10);
-        ours = number >= 1 && number <= job.sweep().size() && job.sweep().id(number - 1) == name;
-      }
-      if (!ours) remove_run(entry.path().string());
-    }
   }
 
   void show(const SweepOutcome& outcome, const SweepJob& job) const { show_outcome(options_, outcome, job); }

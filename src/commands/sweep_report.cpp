@@ -8,8 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/report.h"
+#include "commands/sweep_setup.h"
 #include "commands/text.h"
-#include "export/copied_run.h"
+#include "export/failed_run.h"
 #include "scene/value_json.h"
 
 namespace carom {
@@ -71,6 +72,14 @@ void show_outcome(const Options& options, const SweepOutcome& outcome, const Swe
   }
   write_out(block.text());
   flush_out();
+}
+
+void show_failure(const Options& options, std::string_view status, std::string_view error) {
+  if (!options.json) return;
+  Json json = {
+      {"sweep", options.operands.front()}, {"status", std::string(status)}, {"folder", sweep_folder_of(options)}};
+  if (!error.empty()) json["error"] = std::string(error);
+  write_out(document("sweep", json));
 }
 
 void show_plan(const Options& options, const SweepJob& job) {

@@ -1,6 +1,7 @@
 #pragma once
 // What a sweep says of itself, for people or as JSON.
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct SweepOutcome {
 
 /// The end of a sweep, on stdout, and the runs that failed, on stderr.
 void show_outcome(const Options& options, const SweepOutcome& outcome, const SweepJob& job);
+
+/// With --json: that nothing came of it ("wrong", "interrupted", "failed"), and why.
+void show_failure(const Options& options, std::string_view status, std::string_view error);
 
 /// --plan: every run's id, values and whether it is done. Wants the job planned.
 void show_plan(const Options& options, const SweepJob& job);

@@ -33,6 +33,8 @@ void set_for_all(Sweep& sweep, const std::string& text, std::string_view option)
   const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
   if (varies(sweep, path))
     throw UsageError(fmt::format("{} sets {}, which varies in this sweep", option, carom::quoted(path)));
+  // Of several values the last counts.
+  std::erase_if(sweep.set_values, [&](const SweepValue& set) { return set.text.starts_with(path + "="); });
   // In a file an unquoted # begins a comment; here it can only be a colour.
   sweep.set_values.push_back(
       {path + "=" + (value.starts_with('#') ? in_quotes(value) : value), fmt::format("--set {}", text)});

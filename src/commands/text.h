@@ -27,4 +27,7 @@ std::size_t columns_of(std::string_view text);
 /// terminal.
 std::string printable(std::string_view text);
 
+/// A word as a shell takes it: quoted if need be.
+std::string shell_word(const std::string& word);
+
 }  // namespace carom

@@ -18,8 +18,6 @@
 namespace carom {
 namespace {
 
-constexpr std::uint64_t longest_reason = 1 << 20;  // bytes
-
 /// Its bytes and its hash must be those of the record.
 void copy_file(const FileSpot& from, const FilePlace& to, const FileRecord& record) {
   const std::string& name = from.name;
@@ -43,7 +41,8 @@ void copy_file(const FileSpot& from, const FilePlace& to, const FileRecord& reco
 void copy_run(const std::string& from, const std::string& to) {
   const Descriptor source = open_folder(AT_FDCWD, from, true);
   const std::optional<Manifest> manifest = source ? read_manifest(source.get(), manifest_name) : std::nullopt;
-  const std::optional<std::string> text = manifest ? read_text(source.get(), manifest_name, 256 << 20) : std::nullopt;
+  const std::optional<std::string> text =
+      manifest ? read_text(source.get(), manifest_name, largest_manifest) : std::nullopt;
   if (!text) fail("copy", {-1, from}, "", "it holds no whole run");
   OpenFolder folder(to, Durability::deferred);
   remove_files_of_run(folder.place().folder);
@@ -66,25 +65,7 @@ void remove_run(const std::string& path) {
   const Descriptor folder = open_folder(AT_FDCWD, path, false);
   if (!folder) return;
   remove_files_of_run(folder.get());
-  unlinkat(folder.get(), failure_file, 0);
   rmdir(path.c_str());
-}
-
-void store_failure(const std::string& path, const std::string& why) {
-  OpenFolder folder(path, Durability::deferred);
-  OutputFile file(folder.place(), failure_file);
-  file.write(why);
-  file.write("\n");
-  file.publish();
-  folder.keep();
-}
-
-std::string stored_failure(const std::string& path) {
-  const Descriptor folder = open_folder(AT_FDCWD, path, true);
-  if (!folder) return "";
-  std::string text = read_text(folder.get(), failure_file, longest_reason).value_or("");
-  while (text.ends_with('\n')) text.pop_back();
-  return text;
 }
 
 }  // namespace carom

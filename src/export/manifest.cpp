@@ -17,7 +17,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* tool = "carom";
-constexpr std::uint64_t largest_manifest = 256 << 20;  // bytes; 100,000 frames take 14 million
 
 std::string to_text(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);

@@ -13,6 +13,7 @@
 namespace carom {
 
 inline constexpr const char* manifest_name = "manifest.json";
+inline constexpr std::uint64_t largest_manifest = 256 << 20;  // bytes; 100,000 frames take 14 million
 
 /// What must be known of a run to tell whether another one is the same.
 struct Manifest {

@@ -40,9 +40,10 @@ void remove_parts(int folder) {
     if (is_part_name(name)) remove_entry(folder, name);
 }
 
-/// Parts of files, and series' folders without files.
+/// Parts of files, why a run failed, and series' folders without files.
 void remove_leavings(int folder) {
   remove_parts(folder);
+  unlinkat(folder, failure_file, 0);
   SeriesFolders folders(folder);
   for (const std::string& series : series_folder_names()) {
     const int inner = folders.open(series);
@@ -77,6 +78,7 @@ void remove_files_of_run(int folder) {
   std::vector<std::string> names;
   add_files(names, read_manifest(folder, manifest_name));
   add_files(names, read_manifest(folder, former_manifest));
+  if (names.empty() && stored_size(folder, "scene.yaml")) add_remains(names, folder, Scene());
   unlinkat(folder, manifest_name, 0);
   remove_files(folder, names);
   unlinkat(folder, "scene.yaml", 0);

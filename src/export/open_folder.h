@@ -15,7 +15,8 @@ namespace carom {
 /// A folder's descriptor; none if it is not there, or no folder, or (unless `follow`) a link. Sets errno.
 Descriptor open_folder(int parent, const std::string& name, bool follow);
 
-/// Removes all files that the manifest in this folder names, the manifest first, and parts that were left.
+/// Removes all files that the manifest in this folder names, the manifest first, and parts that were left; of a run
+/// that was interrupted, what runs write beside scene.yaml.
 void remove_files_of_run(int folder);
 
 class OpenFolder {

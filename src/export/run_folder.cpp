@@ -84,6 +84,10 @@ bool is_whole_since(const std::string& path, const std::string& mark) {
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
   const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : std::nullopt;
   if (!manifest || manifest->version != CAROM_VERSION) return false;
+  if (!mark.empty()) {
+    const std::optional<timespec> made = changed({folder.get(), manifest_name});
+    if (!made || !is_before(*made, marked)) return false;
+  }
   const auto unchanged = [&](const FileSpot& spot, const FileRecord& file) {
     const std::optional<timespec> when = changed(spot);
     return when && has_size(spot, file) && (is_before(*when, marked) || has_hash(spot, file));
@@ -106,24 +110,35 @@ void sync_file_system(const std::string& path) {
   if (!folder || syncfs(folder.get()) != 0) fail("write", {-1, path}, "");
 }
 
+bool FoundFolder::has(const std::string& name) const {
+  return std::binary_search(names.begin(), names.end(), name);
+}
+
+FoundFolder look_into(const std::string& path) {
+  FoundFolder found{open_folder(AT_FDCWD, path.empty() ? "." : path, true), {}, FolderContent::nothing};
+  if (!found.folder && errno != ENOENT && errno != ENOTDIR) fail("open", {-1, path}, "");
+  if (!found.folder) {
+    if (errno == ENOTDIR) found.content = FolderContent::other_run;
+    return found;
+  }
+  found.names = folder_names(found.folder.get());
+  const auto says_nothing = [](const std::string& name) { return is_part_name(name) || name == failure_file; };
+  if (!found.names.empty())
+    found.content = std::all_of(found.names.begin(), found.names.end(), says_nothing) ? FolderContent::incomplete
+                                                                                      : FolderContent::other_run;
+  return found;
+}
+
 FolderContent inspect_folder(const std::string& path, const Scene& scene) {
   return inspect_folder(path, scene, outputs_text(scene.output), run_files(scene, scene.output));
 }
 
 FolderContent inspect_folder(const std::string& path, const Scene& scene, const std::string& outputs,
                              const std::vector<std::string>& files) {
-  const Descriptor folder = open_folder(AT_FDCWD, path.empty() ? "." : path, true);
-  if (!folder && errno == ENOENT) return FolderContent::nothing;
-  if (!folder && errno == ENOTDIR) return FolderContent::other_run;
-  if (!folder) fail("open", {-1, path}, "");
-  const std::vector<std::string> names = folder_names(folder.get());
-  if (names.empty()) return FolderContent::nothing;
-  const auto there = [&](const char* name) {
-    return std::binary_search(names.begin(), names.end(), std::string(name));
-  };
-
+  const FoundFolder found = look_into(path);
+  const Descriptor& folder = found.folder;
   const std::string hash = sha256(scene.resolved);
-  if (there(manifest_name)) {
+  if (found.has(manifest_name)) {
     const auto manifest = read_manifest(folder.get(), manifest_name);
     if (!manifest || manifest->scene_sha256 != hash || manifest->meshes != meshes_text(scene)) {
       return FolderContent::other_run;
@@ -131,12 +146,11 @@ FolderContent inspect_folder(const std::string& path, const Scene& scene, const 
     if (is_whole(folder.get(), *manifest, outputs, files)) return FolderContent::this_run;
     return has_more(folder.get(), *manifest, scene, files) ? FolderContent::more : FolderContent::incomplete;
   }
-  if (there("scene.yaml")) {
+  if (found.has("scene.yaml")) {
     const auto stored = read_record(folder.get(), "scene.yaml");
     return stored && stored->sha256 == hash ? FolderContent::incomplete : FolderContent::other_run;
   }
-  // A run that was killed before its first file was whole.
-  return std::all_of(names.begin(), names.end(), is_part_name) ? FolderContent::incomplete : FolderContent::other_run;
+  return found.content;  // incomplete: a run that was killed before its first file was whole, or that failed
 }
 
 }  // namespace carom

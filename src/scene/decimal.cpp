@@ -103,7 +103,16 @@ std::vector<std::string> spread(const Decimal& from, const Decimal& to, std::uin
       continue;
     }
     // (a (last - i) + b i) / last, in units: exact in at most 18 further digits or not at all.
-    const Wide whole = a.units * (last - i) + b.units * i;
+    // Ends that have 18 digits above and as many below the point together do not fit.
+    Wide whole = 0, part = 0;
+    if (__builtin_mul_overflow(a.units, last - i, &whole) || __builtin_mul_overflow(b.units, i, &part) ||
+        __builtin_add_overflow(whole, part, &whole)) {
+      const long double share = static_cast<long double>(i) / static_cast<long double>(last);
+      const auto scale = static_cast<long double>(power(a.places));
+      out.push_back(shortest(static_cast<double>(
+          (static_cast<long double>(a.units) * (1 - share) + static_cast<long double>(b.units) * share) / scale)));
+      continue;
+    }
     Wide sum = whole;
     Decimal value{0, a.places};
     const Wide limit = power(most_digits);

@@ -46,15 +46,6 @@ std::vector<Character> characters(std::string_view line) {
   return out;
 }
 
-std::size_t count_characters(std::string_view text) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < text.size(); ++count) {
-    char32_t code = 0;
-    i += static_cast<std::size_t>(std::max(utf8_length(text, i, code), 1));
-  }
-  return count;
-}
-
 /// Bytes of a character that was cut in front of `text`.
 std::size_t first_whole_character(std::string_view text) {
   std::size_t i = 0;
@@ -96,6 +87,15 @@ std::size_t edits(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+std::size_t count_characters(std::string_view text) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < text.size(); ++count) {
+    char32_t code = 0;
+    i += static_cast<std::size_t>(std::max(utf8_length(text, i, code), 1));
+  }
+  return count;
+}
 
 std::string quoted(std::string_view text) {
   constexpr std::size_t longest = 60;

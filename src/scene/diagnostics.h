@@ -45,6 +45,9 @@ class Diagnostics {
   std::size_t more_ = 0;
 };
 
+/// Characters of UTF-8; a byte that is none counts as one.
+std::size_t count_characters(std::string_view text);
+
 /// `text` between backticks, shortened and free of control characters, for use inside a message.
 std::string quoted(std::string_view text);
 

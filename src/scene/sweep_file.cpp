@@ -61,11 +61,20 @@ class Reader {
   /// "file:line:column"
   std::string where(const Place& place) const {
     if (sources_.front().option) return sources_.front().name;
-    const std::string& text = sources_[place.source].text;
+    // A file may be one line of a million values, or have as many lines: from the last place on, not from the start.
+    const std::string_view text = sources_.front().text;
     const std::size_t offset = std::min<std::size_t>(place.offset, text.size());
-    const std::size_t begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;
-    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
-    return fmt::format("{}:{}:{}", sources_.front().name, line, offset - begin + 1);
+    if (offset < counted_) counted_ = 0, line_ = column_ = 1;
+    const std::string_view between = text.substr(counted_, offset - counted_);
+    const std::size_t last = between.rfind('\n');
+    if (last == std::string_view::npos) {
+      column_ += count_characters(between);
+    } else {
+      line_ += static_cast<std::size_t>(std::count(between.begin(), between.end(), '\n'));
+      column_ = 1 + count_characters(between.substr(last + 1));
+    }
+    counted_ = offset;
+    return fmt::format("{}:{}:{}", sources_.front().name, line_, column_);
   }
 
   std::uint32_t path(const std::string& text) {
@@ -299,6 +308,8 @@ class Reader {
   Diagnostics& diagnostics_;
   Sweep sweep_;
   std::map<std::string, const Key*> taken_;  // paths of this block
+  // How far where() has counted lines and characters.
+  mutable std::size_t counted_ = 0, line_ = 1, column_ = 1;
 };
 
 void stop_if_wrong(const Diagnostics& diagnostics, bool color) {

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "export/manifest.h"
 #include "export/open_folder.h"
@@ -17,10 +16,7 @@
 namespace carom {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-constexpr std::uint64_t longest_manifest = 256 << 20;  // bytes
 constexpr std::size_t motion_size = 6;
 
 [[noreturn]] void refuse(const std::string& folder, const std::string& text) {
@@ -39,13 +35,12 @@ std::vector<std::string> read_summary(const RunRecord& run) {
   return cells;
 }
 
-/// The measures that the run computed itself, where it has no trajectory to tell them.
-Json manifest_measures(const RunRecord& run) {
-  const auto text = read_text(run.folder.get(), manifest_name, longest_manifest);
-  const Json manifest = text ? Json::parse(*text, nullptr, false) : Json();
-  if (!manifest.is_object() || !manifest.contains("measures") || !manifest["measures"].is_object())
-    return Json::object();
-  return manifest["measures"];
+/// A measure that the run computed itself; null: it did not.
+const Measured* find_measured(const std::optional<Manifest>& manifest, const std::string& name) {
+  if (!manifest) return nullptr;
+  const auto found = std::find_if(manifest->measures.begin(), manifest->measures.end(),
+                                  [&](const Measured& measured) { return measured.name == name; });
+  return found == manifest->measures.end() ? nullptr : &*found;
 }
 
 /// Of a body of which all that is known is its motion at the end.
@@ -64,7 +59,7 @@ double from_motion(const Measure& measure, const std::vector<EndMotion>& motions
 
 void read_measures(RunRecord& run, const std::vector<Measure>& measures) {
   const bool of_bodies = std::any_of(measures.begin(), measures.end(), [](const Measure& m) { return !m.column; });
-  const Json known = of_bodies ? manifest_measures(run) : Json();
+  const auto known = of_bodies ? read_manifest(run.folder.get(), manifest_name) : std::nullopt;
   std::optional<std::vector<EndMotion>> motions;
   std::optional<Scene> scene;
   for (const Measure& measure : measures) {
@@ -73,8 +68,8 @@ void read_measures(RunRecord& run, const std::vector<Measure>& measures) {
       run.measures.push_back(number_in(run.summary[column]).value_or(undefined));
       continue;
     }
-    if (const auto found = known.find(measure.name); found != known.end()) {
-      run.measures.push_back(found->is_number() ? found->get<double>() : undefined);
+    if (const Measured* found = find_measured(known, measure.name)) {
+      run.measures.push_back(found->value);
       continue;
     }
     if (!motions) {
@@ -101,12 +96,23 @@ bool has_file(const RunRecord& run, const char* name) {
   return stored_size(run.folder.get(), name).has_value();
 }
 
+bool tells(const std::string& path, const std::vector<Measure>& measures) {
+  if (std::all_of(measures.begin(), measures.end(), [](const Measure& m) { return m.column != nullptr; })) return true;
+  const Descriptor folder = open_folder(AT_FDCWD, path, true);
+  if (!folder) return false;
+  if (stored_size(folder.get(), "trajectory.csv")) return true;
+  const auto manifest = read_manifest(folder.get(), manifest_name);
+  return std::all_of(measures.begin(), measures.end(), [&](const Measure& measure) {
+    return measure.column != nullptr || find_measured(manifest, measure.name) != nullptr;
+  });
+}
+
 RunRecord read_run(ComparedRun run, const std::vector<Measure>& measures) {
   RunRecord record{std::move(run), false, Descriptor(), {}, {}};
   record.folder = open_folder(AT_FDCWD, record.run.folder, true);
-  if (!record.folder) refuse(record.run.folder, "cannot be opened: there is no such folder");
-  record.done = has_file(record, manifest_name) && has_file(record, summary_name);
-  if (!record.done && !has_file(record, "error.txt"))
+  if (!record.folder && !record.run.failed) refuse(record.run.folder, "cannot be opened: there is no such folder");
+  record.done = !record.run.failed && has_file(record, manifest_name) && has_file(record, summary_name);
+  if (!record.done && !record.run.failed && !has_file(record, failure_file))
     refuse(record.run.folder, "holds no whole run: run its scene again, or leave it out");
   if (!record.done) {
     record.summary.assign(summary_columns().size(), "");

@@ -21,6 +21,9 @@ struct RunRecord {
 /// the remedy.
 RunRecord read_run(ComparedRun run, const std::vector<Measure>& measures);
 
+/// Whether all measures can be known of the whole run in this folder.
+bool tells(const std::string& folder, const std::vector<Measure>& measures);
+
 /// A table of the run; throws ExportError where it is not there.
 StoredTable open_table(const RunRecord& run, const char* name);
 /// Whether it is there.

@@ -38,6 +38,7 @@ struct ComparedRun {
   std::string id;
   std::string folder;
   std::vector<std::string> values;  // of the parameters, as text
+  bool failed = false;              // known to have failed, whatever its folder holds
 };
 
 /// All measures that the plan wants of a run: its own and its charts', each once. Throws MeasureError.

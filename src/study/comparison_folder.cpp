@@ -43,15 +43,12 @@ std::string request_text(const ComparisonPlan& plan, const std::string& runs, bo
 }
 
 FolderContent inspect_comparison_folder(const std::string& path, const std::string& request) {
-  const Descriptor folder = open_folder(AT_FDCWD, path.empty() ? "." : path, true);
-  if (!folder && errno == ENOENT) return FolderContent::nothing;
-  if (!folder && errno == ENOTDIR) return FolderContent::other_run;
-  if (!folder) fail("open", {-1, path}, "");
-  const std::vector<std::string> names = folder_names(folder.get());
-  if (names.empty()) return FolderContent::nothing;
-  if (!std::binary_search(names.begin(), names.end(), manifest_name)) {
+  const FoundFolder found = look_into(path);
+  const Descriptor& folder = found.folder;
+  if (found.names.empty()) return found.content;
+  if (!found.has(manifest_name)) {
     // A comparison that was killed while it was written, or while its files got their names.
-    const bool ours = std::all_of(names.begin(), names.end(),
+    const bool ours = std::all_of(found.names.begin(), found.names.end(),
                                   [](const auto& name) { return is_part_name(name) || is_comparison_file(name); });
     return ours ? FolderContent::incomplete : FolderContent::other_run;
   }

@@ -76,7 +76,7 @@ const BodyRange* find_range(const Scene& scene, std::string_view name) {
   return nullptr;
 }
 
-/// The number of a measure's body.
+/// The number of a measure's body. Throws MeasureError where the scene does not have it.
 Entity entity_of(const Measure& measure, const Scene& scene) {
   const std::size_t dot = measure.body.find('.');
   const std::string name = measure.body.substr(0, dot);
@@ -168,7 +168,12 @@ double quantity_of(Quantity quantity, const Vec3& position, const Vec3& velocity
 
 double value_of(const Measure& measure, const Scene& scene, const State& state, const Summary& summary) {
   if (measure.column != nullptr) return measure.column->number(summary);
-  const Entity body = entity_of(measure, scene);
+  Entity body = 0;
+  try {
+    body = entity_of(measure, scene);
+  } catch (const MeasureError&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   if (!state.part_of.empty() && state.part_of[body] != body) return std::numeric_limits<double>::quiet_NaN();
   const double mass = state.mass.empty() ? scene.world.mass[body] : state.mass[body];
   return quantity_of(measure.quantity, state.position[body], state.velocity[body], mass);

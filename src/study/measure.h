@@ -42,7 +42,7 @@ Measure parse_measure(std::string_view name, const Scene& scene);
 double quantity_of(Quantity quantity, const Vec3& position, const Vec3& velocity, double mass);
 
 /// At a run's end: `state` is its last, in the unit that the name ends in. Not a number: undefined, such as the first
-/// collision where there is none, or where a body is that has become part of another. `measure` is of this scene.
+/// collision where there is none, or where a body is that has become part of another or that the scene does not have.
 double value_of(const Measure& measure, const Scene& scene, const State& state, const Summary& summary);
 
 /// The unit that the name of a column or measure ends in: "J", "m/s"; empty: a pure number or text.

@@ -24,8 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t longest_manifest = 256 << 20;  // bytes
-constexpr std::size_t most_told = 10;                  // folders that are wrong
+constexpr std::size_t most_told = 10;  // folders that are wrong
 
 /// The names of a path from its end: "r0001", "runs", "sweep".
 std::vector<std::string> names_of(const std::string& path) {
@@ -46,7 +45,7 @@ std::string look_at(ListedRun& run) {
   const bool has_summary = manifest && std::any_of(manifest->files.begin(), manifest->files.end(),
                                                    [](const FileRecord& file) { return file.name == summary_name; });
   if (!has_summary) {
-    if (stored_size(folder.get(), "error.txt")) return "";
+    if (stored_size(folder.get(), failure_file)) return "";
     return "it holds no whole run: run its scene again";
   }
   for (const FileRecord& file : manifest->files) {
@@ -164,7 +163,7 @@ std::string digest_of(const std::vector<ListedRun>& runs) {
   for (const ListedRun& run : runs) {
     const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
     const auto text =
-        folder ? read_text(folder.get(), run.done ? manifest_name : "error.txt", longest_manifest) : std::nullopt;
+        folder ? read_text(folder.get(), run.done ? manifest_name : failure_file, largest_manifest) : std::nullopt;
     hash.add(fmt::format("{}\n{}\n", run.id, sha256(text.value_or(""))));
   }
   return hash.hex();

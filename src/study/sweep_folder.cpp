@@ -10,6 +10,8 @@
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
 #include <thread>
 
 #include "export/copied_run.h"
@@ -29,64 +31,72 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::uint64_t largest = 1 << 30;  // bytes of a manifest, and of what is read whole beside it
+constexpr std::uint64_t largest = 1 << 30;  // bytes of sweep.yaml and of base.yaml
 constexpr auto patience = std::chrono::seconds(30);
 
+constexpr const char* sweep_key = "sweep";
+
+/// A sweep's manifest: its files, and the runs that failed.
+struct SweepManifest {
+  Manifest of_files;
+  std::set<std::string> failed;
+};
+
 /// None: it is not there, or no sweep's.
-std::optional<Json> read_sweep_manifest(int folder) {
-  const auto text = read_text(folder, manifest_name, largest);
-  if (!text) return std::nullopt;
-  Json json = Json::parse(*text, nullptr, false);
-  if (!json.is_object() || json.value("tool", "") != "carom" || !json.contains("sweep") || !json.contains("failed") ||
-      !json["failed"].is_array() || !json.contains("files") || !json["files"].is_array())
-    return std::nullopt;
-  return json;
+std::optional<SweepManifest> read_sweep_manifest(int folder) {
+  auto of_files = read_manifest(folder, manifest_name);
+  if (!of_files || !Json::parse(of_files->outputs).contains(sweep_key)) return std::nullopt;
+  SweepManifest manifest{std::move(*of_files), {}};
+  const Json json = Json::parse(read_text(folder, manifest_name, largest_manifest).value_or("{}"), nullptr, false);
+  const auto failed = json.find("failed");
+  if (failed == json.end() || !failed->is_array()) return std::nullopt;
+  for (const Json& id : *failed)
+    if (id.is_string()) manifest.failed.insert(id.get<std::string>());
+  return manifest;
 }
 
-std::vector<std::string> failures_of(const Json& manifest) {
-  std::vector<std::string> out;
-  for (const Json& id : manifest["failed"])
-    if (id.is_string()) out.push_back(id.get<std::string>());
-  return out;
-}
-
-bool is_whole(int folder, const std::string& path, const Sweep& sweep, const Json& manifest) {
-  if (manifest.value("version", "") != CAROM_VERSION) return false;
-  for (const Json& file : manifest["files"]) {
-    const auto record = read_record(folder, file.value("name", ""));
-    if (!record || record->sha256 != file.value("sha256", "")) return false;
-  }
+bool is_whole(int folder, const std::string& path, const Sweep& sweep, const SweepManifest& manifest) {
+  if (manifest.of_files.version != CAROM_VERSION || !wrong_file(folder, manifest.of_files).empty()) return false;
   const std::string mark = path + "/" + manifest_name;
-  const std::vector<std::string> failed = failures_of(manifest);
   for (std::size_t number = 0; number < sweep.size(); ++number) {
     const std::string id = sweep.id(number);
-    if (std::find(failed.begin(), failed.end(), id) == failed.end() && !is_whole_since(path + "/runs/" + id, mark))
-      return false;
+    if (!manifest.failed.contains(id) && !is_whole_since(path + "/runs/" + id, mark)) return false;
   }
   return true;
+}
+
+/// What of a sweep's text says which runs there are: from its base on, without what of them is compared.
+std::string_view runs_part(std::string_view text) {
+  const std::size_t begin = std::min(text.find("\nbase: "), text.size());
+  return text.substr(begin, text.find("\ncompare:\n") - begin);
+}
+
+/// Whether the folder's runs are this sweep's.
+bool has_runs_of(int folder, const Sweep& sweep, const std::string& base_text) {
+  const auto stored = read_text(folder, stored_sweep, largest);
+  return stored && runs_part(*stored) == runs_part(sweep.resolved(stored_base)) &&
+         read_text(folder, stored_base, largest) == base_text;
 }
 
 }  // namespace
 
 SweepContent inspect_sweep_folder(const std::string& path, const Sweep& sweep, const std::string& base_text) {
-  const Descriptor folder = open_folder(AT_FDCWD, path, true);
-  if (!folder && errno == ENOENT) return SweepContent::nothing;
-  if (!folder && errno == ENOTDIR) return SweepContent::other;
-  if (!folder) fail("open", {-1, path}, "");
-  const std::vector<std::string> names = folder_names(folder.get());
-  if (std::all_of(names.begin(), names.end(), is_part_name)) return SweepContent::nothing;
-  if (read_text(folder.get(), stored_sweep, largest) != sweep.resolved(stored_base) ||
-      read_text(folder.get(), stored_base, largest) != base_text)
-    return SweepContent::other;
-  const std::optional<Json> manifest = read_sweep_manifest(folder.get());
-  const bool whole = manifest && is_whole(folder.get(), path, sweep, *manifest);
+  const FoundFolder found = look_into(path);
+  if (found.content == FolderContent::nothing || found.content == FolderContent::incomplete)
+    return SweepContent::nothing;
+  if (!found.folder || !has_runs_of(found.folder.get(), sweep, base_text)) return SweepContent::other;
+  if (read_text(found.folder.get(), stored_sweep, largest) != sweep.resolved(stored_base))
+    return SweepContent::incomplete;
+  const auto manifest = read_sweep_manifest(found.folder.get());
+  const bool whole = manifest && is_whole(found.folder.get(), path, sweep, *manifest);
   return whole ? SweepContent::this_sweep : SweepContent::incomplete;
 }
 
 std::vector<std::string> stored_failures(const std::string& path) {
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
-  const std::optional<Json> manifest = folder ? read_sweep_manifest(folder.get()) : std::nullopt;
-  return manifest ? failures_of(*manifest) : std::vector<std::string>();
+  const auto manifest = folder ? read_sweep_manifest(folder.get()) : std::nullopt;
+  return manifest ? std::vector<std::string>(manifest->failed.begin(), manifest->failed.end())
+                  : std::vector<std::string>();
 }
 
 SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, const std::string& base_text,
@@ -98,6 +108,7 @@ SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, c
   if (!folder_) fail("open", {-1, path}, "");
   place_ = {folder_.get(), path};
   const auto begin = [&] {
+    if (!has_runs_of(place_.folder, sweep, base_text)) remove_runs();
     put(stored_sweep, sweep.resolved(stored_base));
     put(stored_base, base_text);
   };
@@ -131,6 +142,14 @@ bool SweepFolder::lock(int how, const std::function<void()>& look) const {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   return true;
+}
+
+/// No run of another sweep may be taken for one of this.
+void SweepFolder::remove_runs() const {
+  const std::string path = place_.path + "/runs";
+  const Descriptor runs = open_folder(AT_FDCWD, path, false);
+  if (!runs) return;
+  for (const std::string& name : folder_names(runs.get())) remove_run(path + "/" + name);
 }
 
 bool SweepFolder::has(const char* name, const std::string& text) const {
@@ -180,31 +199,29 @@ ComparedRun compared_run(const Sweep& sweep, std::size_t number, const std::stri
 void SweepFolder::finish(const Sweep& sweep, const std::vector<RunStatus>& statuses, const ComparisonWatch& watch) {
   sync_file_system(place_.path);  // what the manifest says of runs must outlast a power cut before it is said
   const auto compared = [&](std::size_t number) {
-    return compared_run(sweep, number, fmt::format("{}/runs/{}", place_.path, sweep.id(number)));
+    ComparedRun run = compared_run(sweep, number, fmt::format("{}/runs/{}", place_.path, sweep.id(number)));
+    run.failed = statuses[number] != RunStatus::done;
+    return run;
   };
   std::vector<std::unique_ptr<OutputFile>> files =
       write_comparison(place_, comparison_plan(sweep), sweep.size(), compared, watch);
 
-  Json json;
-  json["tool"] = "carom";
-  json["version"] = CAROM_VERSION;
-  json["sweep"] = {{"title", sweep.title}};
   Json failed = Json::array();
   for (std::size_t number = 0; number < statuses.size(); ++number)
     if (statuses[number] != RunStatus::done) failed.push_back(sweep.id(number));
-  json["counts"] = {{"runs", statuses.size()}, {"done", statuses.size() - failed.size()}, {"failed", failed.size()}};
-  json["failed"] = std::move(failed);
+  Json facts;
+  facts["counts"] = {{"runs", statuses.size()}, {"done", statuses.size() - failed.size()}, {"failed", failed.size()}};
+  facts["failed"] = std::move(failed);
+  const Json outputs = {{sweep_key, {{"title", valid_utf8(sweep.title)}}}};
   std::vector<FileRecord> records = begun_;
   for (const auto& file : files) records.push_back(file->record());
-  json["files"] = Json::array();
-  for (const FileRecord& file : records)
-    json["files"].push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
   OutputFile manifest(place_, manifest_name);
-  manifest.write(json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  manifest.write(manifest_text(outputs.dump(), facts.dump(), records));
   manifest.complete();
 
   // First the folder stops being a whole sweep; names follow bytes, and the manifest's name the others'.
   if (unlinkat(place_.folder, manifest_name, 0) != 0 && errno != ENOENT) fail("replace", place_, manifest_name);
+  unlinkat(place_.folder, repeats_name, 0);  // of a former comparison
   sync_file_system(place_.path);
   for (const auto& file : files) file->publish();
   sync_file_system(place_.path);

@@ -18,12 +18,13 @@ inline constexpr const char* stored_base = "base.yaml";
 enum class SweepContent {
   nothing,     // it is not there, or empty
   this_sweep,  // this very sweep, whole: nothing to do
-  incomplete,  // this sweep's
+  incomplete,  // this sweep's runs, or some of them; it may compare them by something else
   other        // another one's, or files that no sweep wrote
 };
 
 /// What stands in `folder`. `base_text`: the base scene's. Changes nothing. Runs whose files nobody has touched since
-/// the sweep's manifest was written are not read again. Throws ExportError.
+/// the sweep's manifest was written are not read again; whether meshes that the scene names are still the same is not
+/// looked at. Throws ExportError.
 SweepContent inspect_sweep_folder(const std::string& folder, const Sweep& sweep, const std::string& base_text);
 
 /// The runs of a sweep that failed, as its manifest says.
@@ -42,7 +43,8 @@ class SweepFolder {
     alone,  // nobody else may write into it
     part    // other parts of the same sweep may
   };
-  /// Makes the folder if need be, locks it and, unless they stand there, writes sweep.yaml and base.yaml. Waits a while
+  /// Makes the folder if need be, locks it and, unless they stand there, writes sweep.yaml and base.yaml; the runs of
+  /// another sweep go. Waits a while
   /// for whoever writes these at the same time; `look` is called meanwhile and may throw. Throws ExportError, as all of
   /// this class does.
   SweepFolder(const std::string& path, Use use, const Sweep& sweep, const std::string& base_text,
@@ -54,6 +56,7 @@ class SweepFolder {
  private:
   bool lock(int how, const std::function<void()>& look) const;
   bool has(const char* name, const std::string& text) const;
+  void remove_runs() const;
   void put(const char* name, const std::string& text);
 
   Descriptor folder_;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -13,22 +12,25 @@
 #include <utility>
 
 #include "export/copied_run.h"
+#include "export/failed_run.h"
 #include "export/hash.h"
+#include "export/mesh_copies.h"
 #include "scene/motion_text.h"
+#include "study/compared_run.h"
 #include "study/engine.h"
 #include "study/run_scene.h"
+#include "study/sweep_folder.h"
 
 namespace carom {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 namespace {
 
 constexpr std::size_t looked_at_a_time = 64;
-constexpr std::size_t most_shows = 8;   // of one simulation: each may have a film on its way
-constexpr std::size_t wrong_shown = 3;  // scenarios
-constexpr double sync_every = 2;        // s
+constexpr std::size_t most_shows = 8;  // of one simulation: each may have a film on its way
+constexpr char right = '+';            // begins what is told of scenarios that are
+constexpr double sync_every = 2;       // s
 
 std::array<char, 16> digest(std::string_view text) {
   const std::string hex = sha256(text);
@@ -66,21 +68,23 @@ Scene SweepJob::scene(std::size_t number) {
 
 // ---- Planning: what each scenario is, and what stands in its folder.
 
+/// What each of these runs is, or how many errors the first wrong one has, and which.
 std::string SweepJob::look_at(std::size_t first, std::size_t last) {
-  std::string out;
+  std::string out(1, right);
   for (std::size_t number = first; number < last; ++number) {
     settings_.look();
     PlannedRun run;
     try {
       const Scene its = scene(number);
-      run.scene = digest(its.resolved);
+      run.scene = digest(its.resolved + meshes_text(its));  // the text has the meshes' names alone
       run.motion = digest(motion_text(its));
       const std::string folder = run_folder(number);
       run.content = inspect_folder(folder, its);
-      if (run.content == FolderContent::this_run) run.status = RunStatus::done;
+      if (run.content == FolderContent::this_run && !settings_.force && tells(folder, measures_))
+        run.status = RunStatus::done;
       out.append(reinterpret_cast<const char*>(&run), sizeof run);
     } catch (const SceneError& error) {
-      throw SceneError(fmt::format("{}:\n{}", sweep_.id(number), error.what()), error.count);
+      return fmt::format("{} {}:\n{}", error.count, sweep_.id(number), error.what());
     }
   }
   return out;
@@ -89,10 +93,11 @@ std::string SweepJob::look_at(std::size_t first, std::size_t last) {
 void SweepJob::plan(const std::function<void(const SweepProgress&)>& tell) {
   std::size_t next = 0;
   SweepProgress progress{0, 0, runs_.size()};
+  measures_ = measures_of(comparison_plan(sweep_));
   std::map<std::size_t, std::string> wrong;  // by the first run of what was looked at
   Tasks tasks;
   tasks.next = [&]() -> std::optional<std::size_t> {
-    if (next >= runs_.size() || wrong.size() >= wrong_shown) return std::nullopt;
+    if (next >= runs_.size() || !wrong.empty()) return std::nullopt;
     const std::size_t task = next;
     next += looked_at_a_time;
     return task;
@@ -101,17 +106,35 @@ void SweepJob::plan(const std::function<void(const SweepProgress&)>& tell) {
   tasks.work = [&](std::size_t first) { return look_at(first, end_of(first)); };
   tasks.done = [&](const TaskOutcome& outcome) {
     if (outcome.kind != TaskOutcome::Kind::done) {
+      wrong[outcome.task] =
+          fmt::format("1 {} to {}: {}\n", sweep_.id(outcome.task), sweep_.id(end_of(outcome.task) - 1), outcome.text);
+      return;
+    }
+    if (outcome.text.front() != right) {
       wrong[outcome.task] = outcome.text;
       return;
     }
-    std::memcpy(static_cast<void*>(&runs_[outcome.task]), outcome.text.data(), outcome.text.size());
+    std::memcpy(static_cast<void*>(&runs_[outcome.task]), outcome.text.data() + 1, outcome.text.size() - 1);
     progress.done += end_of(outcome.task) - outcome.task;
     tell(progress);
   };
   tasks.look = settings_.look;
   work_off(tasks, std::min(settings_.jobs, (runs_.size() + looked_at_a_time - 1) / looked_at_a_time));
   if (wrong.empty()) return;
-  throw SceneError(wrong.begin()->second, wrong.size());
+  const std::string& told = wrong.begin()->second;
+  const std::size_t blank = told.find(' ');
+  throw SceneError(told.substr(blank + 1), std::stoul(told.substr(0, blank)));
+}
+
+std::optional<std::size_t> SweepJob::other_content() const {
+  const auto found = std::find_if(runs_.begin(), runs_.end(), [](const PlannedRun& run) {
+    return run.content == FolderContent::other_run || run.content == FolderContent::more;
+  });
+  return found == runs_.end() ? std::nullopt : std::optional<std::size_t>(found - runs_.begin());
+}
+
+bool SweepJob::may_have_meshes() {
+  return sweep_.resolved("").find("mesh") != std::string::npos || !scene(0).meshes.empty();
 }
 
 std::vector<std::string> SweepJob::idle_paths() const {
@@ -122,7 +145,9 @@ std::vector<std::string> SweepJob::idle_paths() const {
     const std::string& path = sweep_.paths[p];
     const std::string_view head = std::string_view(path).substr(0, path.find('.'));
     const std::string_view tail = std::string_view(path).substr(path.rfind('.') + 1);
-    if (std::find(looks.begin(), looks.end(), head) != looks.end() || tail == "color" || tail == "visible") continue;
+    if (std::find(looks.begin(), looks.end(), head) != looks.end() || tail == "color" || tail == "visible" ||
+        tail == "mesh")
+      continue;
     std::map<std::string, std::size_t> first;  // by the other values
     std::size_t pairs = 0, alike = 0;
     for (std::size_t number = 0; number < std::min(runs_.size(), most); ++number) {
@@ -211,11 +236,6 @@ std::string SweepJob::work(const Unit& unit) {
       }
     }
   };
-  for (const auto& scenario : unit.scenarios)
-    for (const std::size_t number : scenario) {
-      std::error_code ignored;
-      fs::remove(run_folder(number) + "/" + failure_file, ignored);
-    }
   if (unit.like != none) {
     copy_to_all(unit.like, unit.scenarios.front());
     return failures.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -228,7 +248,13 @@ std::string SweepJob::work(const Unit& unit) {
     shows.push_back({&scenes.back(), run_folder(scenario.front()), 0});
   }
   const RunWatch watch{settings_.look, [](double, std::uint64_t, std::uint64_t) {}};
-  const RunSettings how{Durability::deferred, settings_.measure};
+  const auto measure = [&](const Scene& its, const State& end, const Summary& summary) {
+    std::vector<Measured> out;
+    for (const Measure& one : measures_)
+      if (one.column == nullptr) out.push_back({one.name, value_of(one, its, end, summary)});
+    return out;
+  };
+  const RunSettings how{Durability::deferred, measure};
   const std::vector<RunResult> results = run_shows(shows, choose_engine(scenes.front()), how, watch);
   for (std::size_t i = 0; i < results.size(); ++i) {
     const std::vector<std::size_t>& runs = unit.scenarios[i];
@@ -251,9 +277,13 @@ void SweepJob::run(const std::function<void(const SweepProgress&)>& tell,
   SweepProgress progress{0, 0, left()};
   std::size_t next = 0;
   auto synced = std::chrono::steady_clock::now();
-  const auto fail = [&](std::size_t number, const std::string& why) {
+  const auto fail = [&](std::size_t number, std::string why) {
     runs_[number].status = RunStatus::failed;
-    store_failure(run_folder(number), why);
+    try {
+      store_failure(run_folder(number), why);
+    } catch (const ExportError& error) {
+      if (why != error.what()) why += fmt::format("; {}", error.what());
+    }
     ++progress.failed;
     failed(number, why);
   };

@@ -3,12 +3,14 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "export/exports.h"
 #include "scene/load.h"
 #include "scene/sweep.h"
+#include "study/measure.h"
 #include "study/shard.h"
 #include "study/workers.h"
 
@@ -18,10 +20,9 @@ struct SweepSettings {
   LoadOptions load;  // without settings of its own
   std::size_t jobs = 1;
   Shard shard;
-  bool force = false;                                           // overwrite other content, run again what is done
+  bool force = false;                                           // run again what is done
   std::function<Output(const Output&, const Sweep&)> restrict;  // what of a scene's outputs is written
   std::function<void()> look;                                   // often, in every process; may throw
-  std::function<std::vector<Measured>(const Scene&, const State&, const Summary&)> measure;
 };
 
 enum class RunStatus : std::uint8_t { missing, done, failed };
@@ -50,9 +51,16 @@ class SweepJob {
   const std::vector<PlannedRun>& runs() const { return runs_; }
   std::string run_folder(std::size_t number) const;
 
-  /// Loads every scenario and looks at its folder, several at a time. Throws SceneError with what is wrong with the
-  /// first few wrong ones.
+  /// Loads every scenario and looks at its folder, several at a time. What is done and cannot tell the sweep's measures
+  /// counts as missing. Throws SceneError with what is wrong with the first wrong one.
   void plan(const std::function<void(const SweepProgress&)>& tell);
+
+  /// The first run whose folder holds what this run would overwrite: another scene's run, or more outputs. After
+  /// plan().
+  std::optional<std::size_t> other_content() const;
+
+  /// Whether a scenario may have a mesh, a file that can change without the sweep's doing.
+  bool may_have_meshes();
 
   /// The paths whose value makes no difference to the motion, though it is not of how the motion is looked at: runs
   /// that differ in nothing else move alike. After plan().
@@ -81,6 +89,7 @@ class SweepJob {
   std::string folder_;
   SweepSettings settings_;
   SceneFile base_;
+  std::vector<Measure> measures_;
   std::vector<PlannedRun> runs_;
 };
 

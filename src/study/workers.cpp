@@ -146,12 +146,14 @@ class Pool {
     worker.busy = true;
     const std::uint64_t number = *task;
     // A worker that has ended between two tasks is replaced.
+    int status = 0;
     for (int attempt = 0; attempt < 2; ++attempt) {
       if (worker.process <= 0) start(worker);
       if (send_all(worker.socket, &number, sizeof number)) return true;
-      end(worker);
+      status = end(worker);
     }
-    return true;  // take() will find that it is gone
+    lose(worker, status);
+    return give(worker);
   }
 
   void start(Worker& worker) {
@@ -189,7 +191,6 @@ class Pool {
   }
 
   void take(Worker& worker) {
-    worker.busy = false;
     TaskOutcome outcome;
     outcome.task = worker.task;
     Head head{};
@@ -197,12 +198,20 @@ class Pool {
       outcome.kind = head.kind;
       outcome.text.resize(head.size);
       if (receive_all(worker.socket, outcome.text.data(), head.size)) {
+        worker.busy = false;
         tasks_.done(outcome);
         return;
       }
     }
-    const int status = end(worker);
+    lose(worker, end(worker));
+  }
+
+  /// The worker's process has ended, and its task with it.
+  void lose(Worker& worker, int status) {
+    worker.busy = false;
     tasks_.look();  // an interrupt ends workers too
+    TaskOutcome outcome;
+    outcome.task = worker.task;
     outcome.kind = TaskOutcome::Kind::lost;
     outcome.text =
         WIFSIGNALED(status)
