@@ -30,10 +30,7 @@ namespace fs = std::filesystem;
 /// The runs as they were named, shortened: what the workbook is called.
 std::string title_of(const std::vector<std::string>& folders) {
   std::vector<std::string> names;
-  for (const std::string& folder : folders) {
-    const fs::path path = fs::path(folder).lexically_normal();
-    names.push_back((path.has_filename() ? path : path.parent_path()).filename().string());
-  }
+  for (const std::string& folder : folders) names.push_back(name_of_folder(folder));
   constexpr std::size_t most = 4;
   return "Comparison of " + listed(names, most);
 }
@@ -67,13 +64,13 @@ class CompareSession {
     for (const std::string& folder : options_.operands) refuse_own_folder(folder);
     std::vector<ListedRun> runs;
     try {
-      runs = list_runs(options_.operands);
+      runs = list_runs(options_.operands, stop_if_interrupted);
     } catch (const ExportError& error) {
       return fail("wrong", error.what(), 2);
     }
     // Of one sweep its own file says what was varied, and what to compare.
     const auto sweep = options_.operands.size() == 1 ? sweep_of(options_.operands[0], runs) : std::nullopt;
-    const RunSet differences = sweep ? RunSet(std::move(runs), *sweep) : RunSet(std::move(runs));
+    const RunSet differences = sweep ? RunSet(std::move(runs), *sweep) : RunSet(std::move(runs), stop_if_interrupted);
     std::vector<FilmTile> tiles;
     try {
       if (options_.video) tiles = film_tiles(differences);
@@ -88,7 +85,7 @@ class CompareSession {
     if (!options_.charts.empty()) plan.charts.clear();
     for (const ChartWords& chart : options_.charts) plan.charts.push_back({chart.x, chart.y, chart.by});
     check(plan, differences.runs());
-    const std::string request = request_text(plan, digest_of(differences.runs()), options_.video);
+    const std::string request = request_text(plan, digest_of(differences.runs(), stop_if_interrupted), options_.video);
     const FolderContent content = inspect_comparison_folder(folder_, request);
     if (content == FolderContent::this_run && !options_.force) return up_to_date();
     if (content == FolderContent::other_run && !options_.force)

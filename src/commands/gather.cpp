@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,7 @@
 #include "commands/progress.h"
 #include "commands/report.h"
 #include "commands/sweep_report.h"
+#include "commands/sweep_setup.h"
 #include "commands/text.h"
 #include "export/copied_run.h"
 #include "export/failed_run.h"
@@ -78,12 +80,15 @@ class GatherSession {
   int gather(const Sweep& sweep, const std::string& base) {
     SweepFolder folder(folder_, SweepFolder::Use::alone, sweep, base, stop_if_interrupted);
     Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO),
-                      printable(fs::path(folder_).filename().string()), 1, 0);
+                      printable(name_of_folder(folder_)), 1, 0);
+    std::vector<std::vector<bool>> whole;  // by folder, run
+    for (const std::string& place : options_.operands) whole.push_back(whole_runs(sweep, place, base));
     std::vector<RunStatus> statuses;
     std::vector<std::string> missing, failed;
     for (std::size_t number = 0; number < sweep.size(); ++number) {
       stop_if_interrupted();
-      statuses.push_back(bring(sweep.id(number)));
+      const auto has = std::find_if(whole.begin(), whole.end(), [&](const auto& runs) { return runs[number]; });
+      statuses.push_back(bring(sweep.id(number), static_cast<std::size_t>(has - whole.begin())));
       if (statuses.back() == RunStatus::missing) missing.push_back(sweep.id(number));
       if (statuses.back() == RunStatus::failed) failed.push_back(sweep.id(number));
       progress.update(number, 2 * sweep.size(), "runs looked at or compared");
@@ -109,14 +114,32 @@ class GatherSession {
     return failed.empty() ? 0 : 3;
   }
 
-  /// A run's status here; from another folder's part, if that has it.
-  RunStatus bring(const std::string& id) const {
+  /// Which of the sweep's runs are whole in a folder.
+  std::vector<bool> whole_runs(Sweep sweep, const std::string& folder, const std::string& base) const {
+    std::vector<bool> whole(sweep.size());
+    // Meshes lie where the sweep was made: what cannot be made anew is taken as it is.
+    if (base.find("mesh") != std::string::npos || sweep.resolved("").find("mesh") != std::string::npos) {
+      for (std::size_t number = 0; number < sweep.size(); ++number)
+        whole[number] = is_whole_since(fmt::format("{}/runs/{}", folder, sweep.id(number)), "");
+      return whole;
+    }
+    sweep.base = folder + "/" + stored_base;
+    Options all = options_;
+    all.shard = Shard{};
+    SweepSettings settings = sweep_settings(all);
+    settings.load.budget.enforced = false;
+    SweepJob job(std::move(sweep), folder, std::move(settings));
+    job.plan([](const SweepProgress&) {});
+    for (std::size_t number = 0; number < whole.size(); ++number)
+      whole[number] = job.runs()[number].status == RunStatus::done;
+    return whole;
+  }
+
+  /// A run's status here; copied if need be from folder `from` of the operands; none has it: their number.
+  RunStatus bring(const std::string& id, std::size_t from) const {
     const auto path = [&](const std::string& folder) { return fmt::format("{}/runs/{}", folder, id); };
-    if (is_whole_since(path(folder_), "")) return RunStatus::done;
-    for (std::size_t i = 1; i < options_.operands.size(); ++i) {
-      const std::string from = path(options_.operands[i]);
-      if (!is_whole_since(from, "")) continue;
-      copy_run(from, path(folder_));
+    if (from < options_.operands.size()) {
+      if (from > 0) copy_run(path(options_.operands[from]), path(folder_));
       return RunStatus::done;
     }
     if (!stored_failure(path(folder_)).empty()) return RunStatus::failed;
@@ -141,7 +164,7 @@ class GatherSession {
     }
     if (options_.json || options_.quiet || status != "done") return;
     Block block(Palette(wants_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
-    block.heading(fs::path(folder_).filename().string(), sweep.title);
+    block.heading(name_of_folder(folder_), sweep.title);
     block.line("runs", failed.empty()
                            ? fmt::format("{}", counted(sweep.size(), "run", "runs"))
                            : fmt::format("{}, {} failed", counted(sweep.size(), "run", "runs"), failed.size()));
@@ -162,7 +185,7 @@ const CommandText& gather_text() {
       "  carom gather output/falls                             parts that were written into one folder\n"
       "  carom gather output/falls part1 part2                 parts from elsewhere, copied into it\n",
       "What it writes has the bytes of the same sweep made in one part: summary.csv, comparison.xlsx and\n"
-      "manifest.json. Runs that are missing are named; then nothing is written.\n\n"
+      "manifest.json. Runs that are missing are named; then none of these is written.\n\n"
       "Exit codes: 0 done, 1 runs are missing, 2 the command line is wrong or there is no sweep, 3 some\n"
       "runs failed, 130 or 143 interrupted.",
       {{"--progress"}},

@@ -35,11 +35,6 @@ void refuse_tables(const Options& options) {
       throw UsageError(fmt::format("render makes {}: carom run writes {}", fmt::join(drawn, ", "), name));
 }
 
-std::string name_of_folder(const std::string& folder) {
-  const fs::path path = fs::absolute(folder).lexically_normal();
-  return (path.has_filename() ? path : path.parent_path()).filename().string();
-}
-
 bool is_same_folder(const std::string& a, const std::string& b) {
   std::error_code ignored;
   return fs::equivalent(a, b, ignored);

@@ -5,14 +5,17 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "commands/report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
 
 namespace carom {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -24,10 +27,79 @@ std::string words_of(const std::vector<std::string>& words) {
   return out;
 }
 
+/// No option, whatever it begins with.
+std::string as_operand(const std::string& path) {
+  return path.starts_with('-') ? "./" + path : path;
+}
+
 std::string program() {
   std::error_code error;
   const fs::path path = fs::read_symlink("/proc/self/exe", error);
   return error ? "carom" : path.string();
+}
+
+int submit(const Options& options) {
+  Options local = options;
+  local.shard = Shard{};
+  SweepSettings settings = sweep_settings(local);
+  settings.jobs = processors();
+  SweepJob job(read_sweep(options), sweep_folder_of(options), settings);
+  check_comparison(job);
+  job.plan([](const SweepProgress&) {});
+  const std::size_t runs = job.sweep().size();
+  const std::size_t parts =
+      std::min(options.parts.value_or(std::min((runs + runs_a_part - 1) / runs_a_part, most_parts)), runs);
+  const std::string folder = sweep_folder_of(options);
+  const std::string stem = fs::path(options.operands.front()).stem().string();
+  std::vector<std::string> words = {program(),    "sweep", as_operand(options.operands.front()), "-o", folder,
+                                    "--progress", "lines"};
+  const auto add = [&](const std::string& name, const std::string& value) {
+    words.push_back(name);
+    words.push_back(value);
+  };
+  for (const std::string& grid : options.grid) add("--grid", grid);
+  for (const std::string& set : options.set) add("--set", set);
+  if (options.only) add("--only", fmt::format("{}", fmt::join(*options.only, ",")));
+  if (options.seed) add("--seed", std::to_string(*options.seed));
+  if (options.force) words.emplace_back("--force");
+  std::string batch;
+  for (const std::string& line : options.batch) batch += fmt::format("#SBATCH {}\n", line);
+  const std::string name = "carom-" + (stem.empty() ? "sweep" : stem);
+  // Asked for its end, a task has half a minute to put its files in order. --open-mode: a requeued task's log goes on.
+  const std::string script = fmt::format(
+      R"(#!/bin/sh
+#SBATCH --job-name={0}
+#SBATCH --array=1-{1}
+#SBATCH --ntasks=1
+#SBATCH --cpus-per-task={2}
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --signal=B:TERM@30
+#SBATCH --output={0}-%A_%a.log
+{3}
+# {4} in {7}, as a job array of Slurm. `sh` of this file submits the parts and, after them, what gathers
+# them; `sbatch` of it the parts alone.
+set -eu
+if [ -z "${{SLURM_ARRAY_TASK_ID:-}}" ]; then
+  parts=$(sbatch --parsable "$0")
+  gather=$(sbatch --parsable --dependency=afterany:"$parts" --job-name={0}-gather --output={0}-gather-%j.log \
+    --wrap {5})
+  echo "parts: job $parts; gather: job $gather"
+  exit
+fi
+exec {6} --jobs {2} --shard "$SLURM_ARRAY_TASK_ID/{1}"
+)",
+      shell_word(name), parts, options.jobs.value_or(1), batch, counted(runs, "run", "runs"),
+      shell_word(words_of({program(), "gather", folder})), words_of(words), counted(parts, "part", "parts"));
+  if (options.json)
+    write_out(document("submit", Json{{"sweep", options.operands.front()},
+                                      {"folder", folder},
+                                      {"runs", runs},
+                                      {"parts", parts},
+                                      {"script", script}}));
+  else
+    write_out(script);
+  return 0;
 }
 
 }  // namespace
@@ -64,63 +136,13 @@ const CommandText& submit_text() {
 
 int submit_command(const Options& options) {
   if (!options.slurm) throw UsageError("name the batch system: --slurm");
-  Options local = options;
-  local.shard = Shard{};
-  SweepSettings settings = sweep_settings(local);
-  settings.jobs = processors();
-  SweepJob job(read_sweep(options), sweep_folder_of(options), settings);
   try {
-    check_comparison(job.sweep(), job.scene(0));
-    job.plan([](const SweepProgress&) {});
+    return submit(options);
   } catch (const SceneError& error) {
     write_err(error.what());
+    complain(options, fmt::format("{}: there is nothing to submit", counted(error.count, "error", "errors")));
     return 2;
   }
-  const std::size_t runs = job.sweep().size();
-  const std::size_t parts =
-      std::min(options.parts.value_or(std::min((runs + runs_a_part - 1) / runs_a_part, most_parts)), runs);
-  const std::string folder = sweep_folder_of(options);
-  const std::string stem = fs::path(options.operands.front()).stem().string();
-  std::vector<std::string> words = {program(), "sweep", options.operands.front(), "-o", folder, "--progress", "lines"};
-  const auto add = [&](const std::string& name, const std::string& value) {
-    words.push_back(name);
-    words.push_back(value);
-  };
-  for (const std::string& grid : options.grid) add("--grid", grid);
-  for (const std::string& set : options.set) add("--set", set);
-  if (options.only) add("--only", fmt::format("{}", fmt::join(*options.only, ",")));
-  if (options.seed) add("--seed", std::to_string(*options.seed));
-  if (options.force) words.emplace_back("--force");
-  std::string batch;
-  for (const std::string& line : options.batch) batch += fmt::format("#SBATCH {}\n", line);
-  const std::string name = "carom-" + (stem.empty() ? "sweep" : stem);
-  // Asked for its end, a task has half a minute to put its files in order. --open-mode: a requeued task's log goes on.
-  write_out(fmt::format(
-      R"(#!/bin/sh
-#SBATCH --job-name={0}
-#SBATCH --array=1-{1}
-#SBATCH --ntasks=1
-#SBATCH --cpus-per-task={2}
-#SBATCH --requeue
-#SBATCH --open-mode=append
-#SBATCH --signal=B:TERM@30
-#SBATCH --output={0}-%A_%a.log
-{3}
-# {4} in {1} parts, as a job array of Slurm. `sh` of this file submits the parts and, after them, what gathers
-# them; `sbatch` of it the parts alone.
-set -eu
-if [ -z "${{SLURM_ARRAY_TASK_ID:-}}" ]; then
-  parts=$(sbatch --parsable "$0")
-  gather=$(sbatch --parsable --dependency=afterany:"$parts" --job-name={0}-gather --output={0}-gather-%j.log \
-    --wrap {5})
-  echo "parts: job $parts; gather: job $gather"
-  exit
-fi
-exec {6} --jobs {2} --shard "$SLURM_ARRAY_TASK_ID/{1}"
-)",
-      shell_word(name), parts, options.jobs.value_or(1), batch, counted(runs, "run", "runs"),
-      shell_word(words_of({program(), "gather", folder})), words_of(words)));
-  return 0;
 }
 
 }  // namespace carom

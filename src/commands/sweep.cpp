@@ -50,7 +50,7 @@ class SweepSession {
  private:
   int sweep() {
     SweepJob job(read_sweep(options_), folder_, sweep_settings(options_));
-    check_comparison(job.sweep(), job.scene(0));
+    check_comparison(job);
 
     const SweepContent content = inspect_sweep_folder(folder_, job.sweep(), job.base_text());
     if (content == SweepContent::other && !options_.force) {
@@ -149,8 +149,8 @@ const CommandText& sweep_text() {
       "scenarios are checked before the first is run. Scenarios that move alike share one simulation. A\n"
       "run that fails leaves error.txt in its folder and does not stop the others; the same command runs\n"
       "what is missing or failed.\n\n"
-      "Exit codes: 0 done or up to date, 2 the command line, the sweep or its scene is wrong, 3 some\n"
-      "runs failed, 130 or 143 interrupted.",
+      "Exit codes: 0 done or up to date, 1 the folder cannot be written, 2 the command line, the sweep or\n"
+      "its scene is wrong, 3 some runs failed, 130 or 143 interrupted.",
       {{"--output", "the sweep's folder (output/<sweep file's stem>)"},
        {"--grid"},
        {"--plan"},

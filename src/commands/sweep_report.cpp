@@ -88,7 +88,7 @@ void show_plan(const Options& options, const SweepJob& job) {
     Json json = begin_json(options, job, "planned");
     json["paths"] = sweep.paths;
     Json runs = Json::array();
-    for (std::size_t number = 0; number < sweep.size(); ++number) {
+    for (const std::size_t number : job.of_part()) {
       const SweepRun run = sweep.run(number);
       Json values = Json::object();
       for (std::size_t p = 0; p < sweep.paths.size(); ++p)
@@ -99,11 +99,13 @@ void show_plan(const Options& options, const SweepJob& job) {
     write_out(document("sweep", json));
     return;
   }
+  if (options.quiet) return;
+  const std::vector<std::size_t> all = job.of_part();
   std::vector<std::vector<std::string>> rows;
   rows.push_back({"run", "state"});
   rows.front().insert(rows.front().end(), sweep.paths.begin(), sweep.paths.end());
   std::size_t left = 0;
-  for (std::size_t number = 0; number < sweep.size(); ++number) {
+  for (const std::size_t number : all) {
     const SweepRun run = sweep.run(number);
     rows.push_back({run.id, state_of(job, number)});
     for (const auto& value : run.values) rows.back().push_back(value ? printable(cell_text(*value)) : "-");
@@ -112,7 +114,7 @@ void show_plan(const Options& options, const SweepJob& job) {
   Block block(Palette(wants_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
   block.heading(name_of(options), sweep.title);
   block.table(rows);
-  block.line("to do", fmt::format("{} of {}", grouped(left), counted(sweep.size(), "run", "runs")));
+  block.line("to do", fmt::format("{} of {}", grouped(left), counted(all.size(), "run", "runs")));
   block.line("folder", printable(job.folder()));
   write_out(block.text());
 }

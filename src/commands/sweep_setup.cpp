@@ -40,19 +40,6 @@ void set_for_all(Sweep& sweep, const std::string& text, std::string_view option)
       {path + "=" + (value.starts_with('#') ? in_quotes(value) : value), fmt::format("--set {}", text)});
 }
 
-[[noreturn]] void refuse(const std::string& where, const std::string& message) {
-  throw SceneError(fmt::format("{}: error: {}\n", where, message), 1);
-}
-
-void check_only(const Sweep& sweep) {
-  const auto& known = output_names();
-  for (const SweepValue& name : sweep.only) {
-    if (std::find(known.begin(), known.end(), name.text) != known.end()) continue;
-    refuse(name.where, fmt::format("there is no output {}; it is one of {}{}", carom::quoted(name.text),
-                                   fmt::join(known, ", "), did_you_mean(name.text, known)));
-  }
-}
-
 /// A variable of Slurm's that is a number.
 std::optional<std::size_t> slurm(const char* name) {
   const char* text = std::getenv(name);
@@ -82,7 +69,6 @@ Sweep read_sweep(const Options& options) {
     sweep.only.clear();
     for (const std::string& name : *options.only) sweep.only.push_back({name, "--only"});
   }
-  check_only(sweep);
   return sweep;
 }
 
@@ -115,24 +101,35 @@ SweepSettings sweep_settings(const Options& options) {
   return settings;
 }
 
-void check_comparison(const Sweep& sweep, const Scene& scene) {
-  for (const SweepMeasure& measure : sweep.measures) {
-    try {
-      parse_measure(measure.name, scene);
-    } catch (const MeasureError& error) {
-      refuse(measure.where, error.what());
-    }
+void check_comparison(SweepJob& job) {
+  Scene scene;
+  try {
+    scene = job.scene(0);
+  } catch (const SceneError&) {
+    return;
   }
-  for (const SweepChart& chart : sweep.charts) {
-    ComparisonPlan plan = comparison_plan(sweep);
-    plan.charts = {{chart.x, chart.y, chart.by}};
+  const Sweep& sweep = job.sweep();
+  std::string errors;
+  std::size_t count = 0;
+  const auto check = [&](const std::string& where, const auto& work) {
     try {
+      work();
+    } catch (const MeasureError& error) {
+      errors += fmt::format("{}: error: {}\n", where, error.what());
+      ++count;
+    }
+  };
+  for (const SweepMeasure& measure : sweep.measures) check(measure.where, [&] { parse_measure(measure.name, scene); });
+  for (const SweepChart& chart : sweep.charts) {
+    check(chart.where, [&] {
+      ComparisonPlan plan = comparison_plan(sweep);
+      plan.measures.clear();
+      plan.charts = {{chart.x, chart.y, chart.by}};
       check_charts(plan);
       for (const Measure& measure : measures_of(plan)) parse_measure(measure.name, scene);
-    } catch (const MeasureError& error) {
-      refuse(chart.where, error.what());
-    }
+    });
   }
+  if (count > 0) throw SceneError(errors, count);
 }
 
 Shard shard_of(const Options& options) {

@@ -17,8 +17,9 @@ std::string sweep_folder_of(const Options& options);
 /// How its runs are made here; without --shard a job array's task does its own part.
 SweepSettings sweep_settings(const Options& options);
 
-/// Whether measures and charts mean something for this scene. Throws SceneError.
-void check_comparison(const Sweep& sweep, const Scene& scene);
+/// Whether measures and charts mean something for the first scenario; if that is wrong itself, plan() tells. Throws
+/// SceneError.
+void check_comparison(SweepJob& job);
 
 /// The part that a task of a job array does, by SLURM_ARRAY_TASK_ID, _MIN, _STEP and _COUNT; else everything. Throws
 /// UsageError.

@@ -30,4 +30,7 @@ std::string printable(std::string_view text);
 /// A word as a shell takes it: quoted if need be.
 std::string shell_word(const std::string& word);
 
+/// The last name of a folder's path: "half" of "output/half/", the name of the working folder of ".".
+std::string name_of_folder(const std::string& folder);
+
 }  // namespace carom

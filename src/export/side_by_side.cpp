@@ -82,7 +82,8 @@ void write_label(const FilePlace& place, const std::string& name, const FilmTile
 SideBySide::SideBySide(const FilePlace& place, const std::string& name, std::vector<FilmTile> tiles)
     : tools_(find_film_tools()), file_(place, name, tools_, {}), tiles_(std::move(tiles)) {
   if (tiles_.size() < 2 || tiles_.size() > most_tiles)
-    file_.fail_with(fmt::format("it shows 2 to {} runs, not {}: name fewer", most_tiles, tiles_.size()));
+    file_.fail_with(fmt::format("it shows 2 to {} runs, not {}: name {}", most_tiles, tiles_.size(),
+                                tiles_.size() < 2 ? "more" : "fewer"));
   if (access(font, R_OK) != 0)
     file_.fail_with(
         fmt::format("the font of its labels, {}, is not there: install it (on Debian: apt install "

@@ -238,7 +238,10 @@ class Checker : ValueChecker {
           refuse(value, fmt::format("{} has {} entries", name, value.items.size()), wanted);
         } else {
           for (Node& item : value.items) {
-            if (!item.is(Node::Kind::scalar)) wrong_type(item, "an entry of " + name, "expected a name");
+            if (!item.is(Node::Kind::scalar))
+              wrong_type(item, "an entry of " + name, "expected a name");
+            else if (!field.of.empty())
+              choice(item, field, "an entry of " + name);
           }
         }
         break;
@@ -260,6 +263,8 @@ class Checker : ValueChecker {
           wrong_type(value, name, wanted);
           break;
         }
+        if (field.needs_entries && value.items.empty())
+          refuse(value, fmt::format("{} has no entries", name), "expected at least one");
         for (Node& item : value.items) {
           map(item, kind_named(field.of), "this entry of " + name, item.place, false);
         }

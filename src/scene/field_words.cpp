@@ -134,7 +134,8 @@ std::string expected(const Field& field) {
     case Type::two_names:
       return "[name, name]";
     case Type::names:
-      return "a list of names, such as [red, gas.3]";
+      return field.of.empty() ? fmt::format("a list of names, such as {}", field.example)
+                              : fmt::format("a list of {}", listed(choices(field)));
     case Type::part:
       return "a map of keys";
     case Type::part_or_flag:

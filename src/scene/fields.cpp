@@ -146,7 +146,7 @@ constexpr Field force_fields[] = {
     {.key = "drag", .type = Type::part, .of = "drag", .one_of = forces, .doc = "Drag of the air, or of another medium.", .example = "{linear: 0.1, wind: [5, 0, 0]}"},
     {.key = "spring", .type = Type::part, .of = "spring", .one_of = forces, .doc = "A spring from a fixed point to each body.", .example = "{anchor: [0, 3, 0], stiffness: 40, rest_length: 0.5}"},
     {.key = "attractor", .type = Type::part, .of = "attractor", .one_of = forces, .doc = "Attraction to a fixed point, as by gravity.", .example = "{center: [0, 0, 0], strength: 10}"},
-    {.key = "on", .type = Type::names, .doc = "Balls, bodies, groups and members that it acts on. Default: all.", .example = "[red, gas]", .title = "Bodies that it acts on", .pattern = reference},
+    {.key = "on", .type = Type::names, .doc = "Balls, bodies, groups and members that it acts on. Default: all.", .example = "[red, gas.3]", .title = "Bodies that it acts on", .pattern = reference},
     {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .initial = "0", .doc = "When it sets in.", .example = "0.5", .title = "Start"},
     {.key = "until", .type = Type::number, .unit = "s", .range = above_0, .doc = "When it ceases. Default: never.", .example = "1.5", .title = "End"},
 };

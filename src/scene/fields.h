@@ -23,7 +23,7 @@ enum class Type : std::uint8_t {
   color,         // CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1
   file,          // path, from the scene file's folder
   two_names,     // [name, name] of bodies or fixed things
-  names,         // a list of names of bodies, at least one
+  names,         // a list of names, at least one; of Field::of, separated by |, if that says any
   part,          // a map of kind Field::of
   part_or_flag,  // the same, or true: a map of defaults, or false: absent
   named,         // a map from names to kind Field::of
@@ -57,6 +57,7 @@ struct Field {
   std::string_view with = {};     // a key of the kind that has to stand beside this one
   std::string_view engines = {};  // those that know another value than `initial`, separated by |; empty: all
   std::string_view pattern = {};  // of a text or of names, a regular expression for the schema
+  bool needs_entries = false;     // of a list: it is not empty
 };
 
 struct Kind {

@@ -114,6 +114,12 @@ Json axis_schema(const Kind& range) {
   return {{"anyOf", Json::array({values, reference(range.name)})}};
 }
 
+Json choice_schema(const Field& field) {
+  Json all = Json::array();
+  for (const std::string_view choice : choices(field)) all.push_back(json_of_yaml(choice));
+  return {{"enum", all}};
+}
+
 Json value_schema(const Field& field) {
   switch (field.type) {
     case Type::number:
@@ -125,11 +131,8 @@ Json value_schema(const Field& field) {
     case Type::text:
     case Type::file:
       return text_schema(field);
-    case Type::choice: {
-      Json all = Json::array();
-      for (const std::string_view choice : choices(field)) all.push_back(json_of_yaml(choice));
-      return {{"enum", all}};
-    }
+    case Type::choice:
+      return choice_schema(field);
     case Type::vector:
       return array_schema(number_schema(field.range), 3);
     case Type::direction: {
@@ -146,15 +149,19 @@ Json value_schema(const Field& field) {
     case Type::two_names:
       return array_schema(text_schema(field), 2);
     case Type::names:
-      return {{"type", "array"}, {"items", text_schema(field)}, {"minItems", 1}};
+      return {
+          {"type", "array"}, {"items", field.of.empty() ? text_schema(field) : choice_schema(field)}, {"minItems", 1}};
     case Type::part:
       return {{"allOf", Json::array({reference(field.of)})}};
     case Type::part_or_flag:
       return {{"anyOf", Json::array({{{"type", "boolean"}}, reference(field.of)})}};
     case Type::named:
       return named_schema(kind_named(field.of));
-    case Type::list:
-      return {{"type", "array"}, {"items", reference(field.of)}};
+    case Type::list: {
+      Json schema = {{"type", "array"}, {"items", reference(field.of)}};
+      if (field.needs_entries) schema["minItems"] = 1;
+      return schema;
+    }
     case Type::settings:
       return settings_schema();
     case Type::axes:

@@ -18,9 +18,9 @@ constexpr Field sweep_fields[] = {
     {.key = "base", .type = Type::text, .needed = true, .doc = "The scene file that is varied, from the folder of the sweep file.", .example = "two_bowling_balls.yaml"},
     {.key = "set", .type = Type::settings, .doc = "What differs from the base in every run.", .example = "{simulate.duration: 5}"},
     grid, zip, list, skip,
-    {.key = "runs", .type = Type::list, .of = "block", .doc = "Several such blocks, one after the other, instead of grid, zip, list and skip.", .example = "[{grid: {balls.red.mass: [1, 2]}}, {list: [{balls.red.mass: 9}]}]"},
+    {.key = "runs", .type = Type::list, .of = "block", .doc = "Several such blocks, one after the other, instead of grid, zip, list and skip.", .example = "[{grid: {balls.red.mass: [1, 2]}}, {list: [{balls.red.mass: 9}]}]", .needs_entries = true},
     {.key = "repeat", .type = Type::part, .of = "repeat", .doc = "Each combination several times, with other seeds.", .example = "{seeds: 10}"},
-    {.key = "only", .type = Type::names, .doc = "The outputs that are written, of those of --only. Default: what the base asks for.", .example = "[collisions, energy]"},
+    {.key = "only", .type = Type::names, .of = "trajectory|collisions|energy|contacts|frames|video|sheet|vtk|xyz|gltf|flights", .doc = "The outputs that are written. Default: what the base asks for.", .example = "[collisions, energy]"},
     {.key = "compare", .type = Type::part, .of = "compare", .doc = "What the comparison shows.", .example = "{measures: [energy_lost_J]}"},
 };
 

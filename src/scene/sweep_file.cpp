@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -10,6 +12,7 @@
 #include "scene/document.h"
 #include "scene/resolve.h"
 #include "scene/sweep.h"
+#include "scene/value_json.h"
 #include "scene/values.h"
 #include "scene/view.h"
 
@@ -20,7 +23,7 @@ using Axis = SweepAxis;
 
 /// Whether two values of a path are the same: numbers by value, all else by text.
 bool same_value(const std::string& a, const std::string& b) {
-  if (a == b) return true;
+  if (a == b || cell_text(a) == cell_text(b)) return true;
   const std::optional<double> x = parse_number(a), y = parse_number(b);
   return x && y && *x == *y;
 }
@@ -38,6 +41,10 @@ class Reader {
       for (std::size_t i = 0; i < set->keys.size(); ++i)
         sweep_.set_values.push_back({set->keys[i].text + "=" + flow_text(set->items[i]), where(set->keys[i].place)});
     }
+    const Node* base = usable(root_.find("base"));
+    if (base != nullptr && !sources_.front().option && !std::filesystem::exists(sweep_.base))
+      diagnostics_.add(base->place, fmt::format("there is no file {}", carom::quoted(base->text)),
+                       "expected a scene file, by its path from the folder of this file");
     blocks();
     repeat();
     if (const Node* only = usable(root_.find("only"))) {
@@ -94,11 +101,9 @@ class Reader {
     }
     for (const std::string_view key : {"grid", "zip", "list", "skip"}) {
       if (const Key* beside = root_.find_key(key))
-        diagnostics_.add(beside->place, fmt::format("`runs` and {} stand side by side", quoted(key)),
+        diagnostics_.add(beside->place, fmt::format("`runs` and {} stand side by side", carom::quoted(key)),
                          "expected it in an entry of `runs`");
     }
-    if (runs->items.empty() && !runs->bad)
-      diagnostics_.add(root_.find_key("runs")->place, "`runs` has no entries", "expected at least one");
     for (const Node& item : runs->items) block(item);
   }
 
@@ -137,7 +142,7 @@ class Reader {
   /// A path may vary once in a block.
   void take(const Key& key) {
     if (taken_.emplace(key.text, &key).second) return;
-    diagnostics_.add(key.place, fmt::format("{} varies twice", quoted(key.text)), "remove one of them");
+    diagnostics_.add(key.place, fmt::format("{} varies twice", carom::quoted(key.text)), "remove one of them");
   }
 
   SweepCase one_case(const Node& map) {
@@ -155,8 +160,8 @@ class Reader {
       if (i == 0) axis.cases.resize(column.size());
       if (column.size() != axis.cases.size()) {
         diagnostics_.add(key.place,
-                         fmt::format("{} has {} values, {} has {}", quoted(key.text), column.size(),
-                                     quoted(zip.keys.front().text), axis.cases.size()),
+                         fmt::format("{} has {} values, {} has {}", carom::quoted(key.text), column.size(),
+                                     carom::quoted(zip.keys.front().text), axis.cases.size()),
                          "expected as many of each path: they go in step");
         column.resize(axis.cases.size());
       }
@@ -186,7 +191,7 @@ class Reader {
       const Node& value = *node.find(name);
       const std::optional<Decimal> decimal = parse_decimal(value.text);
       if (!decimal)
-        diagnostics_.add(value.place, fmt::format("{} has more than 18 digits", quoted(value.text)),
+        diagnostics_.add(value.place, fmt::format("{} has more than 18 digits", carom::quoted(value.text)),
                          "give such values one by one");
       return decimal;
     };
@@ -209,7 +214,7 @@ class Reader {
           fmt::format("a step of {} does not lead from {} to {}", step->text, to_text(*from), to_text(*to)),
           "expected a step that does");
     if (out.size() > most_runs) {
-      diagnostics_.add(key.place, fmt::format("{} has more than {} values", quoted(key.text), most_runs),
+      diagnostics_.add(key.place, fmt::format("{} has more than {} values", carom::quoted(key.text), most_runs),
                        "expected a longer step");
       out.clear();
     }
@@ -279,6 +284,9 @@ class Reader {
     const View view(node, kind_named("repeat"), Place{});
     sweep_.seeds = view.whole("seeds").value_or(1);
     sweep_.first_seed = view.whole("first");
+    if (sweep_.first_seed.value_or(0) > std::numeric_limits<std::uint64_t>::max() - sweep_.seeds)
+      diagnostics_.add(node->find_key("first")->place, "there are not so many seeds after this one",
+                       "expected a smaller `first`");
     if (std::find(sweep_.paths.begin(), sweep_.paths.end(), "seed") != sweep_.paths.end()) {
       diagnostics_.add(root_.find_key("repeat")->place, "`seed` varies, and `repeat` varies it too",
                        "remove one of them");

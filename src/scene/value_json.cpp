@@ -48,6 +48,10 @@ Json json_of_yaml(std::string_view yaml) {
 }
 
 std::string cell_text(std::string_view yaml) {
+  if (yaml.starts_with('+')) {
+    const auto number = parse_number(yaml);
+    return number ? shortest(*number) : std::string(yaml);
+  }
   if (!yaml.starts_with('"') && !yaml.starts_with('\'')) return std::string(yaml);
   const Json json = json_of_yaml(yaml);
   return json.is_string() ? json.get<std::string>() : std::string(yaml);

@@ -1,5 +1,6 @@
 #pragma once
 // Folders that were named -> the runs in them, and in which values their scenes differ.
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -18,16 +19,20 @@ struct ListedRun {
 
 /// The runs of folders: each is a run's, or a sweep's, and then its runs/* are meant. Ids are the folders' names, with
 /// more of the path where two are the same. Throws ExportError, which tells of every folder that is neither.
-std::vector<ListedRun> list_runs(const std::vector<std::string>& folders);
+/// `look`: called often, may throw; so below.
+std::vector<ListedRun> list_runs(
+    const std::vector<std::string>& folders, const std::function<void()>& look = [] {});
 
 /// SHA-256 of all that says which runs these are: ids and manifests.
-std::string digest_of(const std::vector<ListedRun>& runs);
+std::string digest_of(
+    const std::vector<ListedRun>& runs, const std::function<void()>& look = [] {});
 
 /// Runs and what was varied in them.
 class RunSet {
  public:
   /// What their scenes differ in, found with one of them in memory. Title and outputs are no parameters.
-  explicit RunSet(std::vector<ListedRun> runs);
+  explicit RunSet(
+      std::vector<ListedRun> runs, const std::function<void()>& look = [] {});
   /// What the sweep varied whose runs these are, as its file says.
   RunSet(std::vector<ListedRun> runs, Sweep sweep);
 

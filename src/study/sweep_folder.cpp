@@ -68,7 +68,7 @@ bool is_whole(int folder, const std::string& path, const Sweep& sweep, const Swe
 /// What of a sweep's text says which runs there are: from its base on, without what of them is compared.
 std::string_view runs_part(std::string_view text) {
   const std::size_t begin = std::min(text.find("\nbase: "), text.size());
-  return text.substr(begin, text.find("\ncompare:\n") - begin);
+  return text.substr(begin, std::min(text.find("\ncompare:\n"), text.size() - 1) - begin);
 }
 
 /// Whether the folder's runs are this sweep's.

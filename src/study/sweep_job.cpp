@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -28,9 +30,34 @@ using Json = nlohmann::json;
 namespace {
 
 constexpr std::size_t looked_at_a_time = 64;
-constexpr std::size_t most_shows = 8;  // of one simulation: each may have a film on its way
-constexpr char right = '+';            // begins what is told of scenarios that are
-constexpr double sync_every = 2;       // s
+constexpr std::size_t most_shows = 8;   // of one simulation: each may have a film on its way
+constexpr std::size_t most_wrong = 16;  // such lots, then the others are not looked at
+constexpr std::size_t errors_shown = 20;
+constexpr char right = '+';       // begins what is told of scenarios that are
+constexpr double sync_every = 2;  // s
+
+/// Of errors by run, each error once, under the first run that has it. An error is a line, and those below it that
+/// begin with a blank.
+std::pair<std::string, std::size_t> each_once(std::string_view text) {
+  std::string out, head;
+  std::set<std::string, std::less<>> known;
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t end = i;
+    do {
+      end = std::min(text.find('\n', end), text.size() - 1) + 1;
+    } while (end < text.size() && text[end] == ' ');
+    const std::string_view block = text.substr(i, end - i);
+    i = end;
+    if (block.ends_with(":\n")) {
+      head = block;
+    } else if (known.emplace(block).second && known.size() <= errors_shown) {
+      out += std::exchange(head, "");
+      out += block;
+    }
+  }
+  if (known.size() > errors_shown) out += fmt::format("and {} more\n", known.size() - errors_shown);
+  return {out, known.size()};
+}
 
 std::array<char, 16> digest(std::string_view text) {
   const std::string hex = sha256(text);
@@ -53,7 +80,11 @@ SweepJob::SweepJob(Sweep sweep, std::string folder, SweepSettings settings)
   if (sweep_.seeds == 0 || sweep_.first_seed) return;
   Sweep once = sweep_;
   once.seeds = 0;
-  sweep_.first_seed = base_.scene(once.run(0).settings).seed;
+  try {
+    sweep_.first_seed = base_.scene(once.run(0).settings).seed;
+  } catch (const SceneError&) {
+    sweep_.first_seed = 0;  // plan() tells what is wrong
+  }
 }
 
 std::string SweepJob::run_folder(std::size_t number) const {
@@ -68,9 +99,10 @@ Scene SweepJob::scene(std::size_t number) {
 
 // ---- Planning: what each scenario is, and what stands in its folder.
 
-/// What each of these runs is, or how many errors the first wrong one has, and which.
+/// What each of these runs is; of the wrong ones, one after the other, the id and the errors.
 std::string SweepJob::look_at(std::size_t first, std::size_t last) {
   std::string out(1, right);
+  std::string errors;
   for (std::size_t number = first; number < last; ++number) {
     settings_.look();
     PlannedRun run;
@@ -84,20 +116,20 @@ std::string SweepJob::look_at(std::size_t first, std::size_t last) {
         run.status = RunStatus::done;
       out.append(reinterpret_cast<const char*>(&run), sizeof run);
     } catch (const SceneError& error) {
-      return fmt::format("{} {}:\n{}", error.count, sweep_.id(number), error.what());
+      errors += fmt::format("{}:\n{}", sweep_.id(number), error.what());
     }
   }
-  return out;
+  return errors.empty() ? out : errors;
 }
 
 void SweepJob::plan(const std::function<void(const SweepProgress&)>& tell) {
   std::size_t next = 0;
   SweepProgress progress{0, 0, runs_.size()};
   measures_ = measures_of(comparison_plan(sweep_));
-  std::map<std::size_t, std::string> wrong;  // by the first run of what was looked at
+  std::map<std::size_t, std::string> wrong;  // by the first run of what was looked at: the errors
   Tasks tasks;
   tasks.next = [&]() -> std::optional<std::size_t> {
-    if (next >= runs_.size() || !wrong.empty()) return std::nullopt;
+    if (next >= runs_.size() || wrong.size() >= most_wrong) return std::nullopt;
     const std::size_t task = next;
     next += looked_at_a_time;
     return task;
@@ -106,8 +138,8 @@ void SweepJob::plan(const std::function<void(const SweepProgress&)>& tell) {
   tasks.work = [&](std::size_t first) { return look_at(first, end_of(first)); };
   tasks.done = [&](const TaskOutcome& outcome) {
     if (outcome.kind != TaskOutcome::Kind::done) {
-      wrong[outcome.task] =
-          fmt::format("1 {} to {}: {}\n", sweep_.id(outcome.task), sweep_.id(end_of(outcome.task) - 1), outcome.text);
+      wrong[outcome.task] = fmt::format("{}: error: {}, between here and {}\n", sweep_.id(outcome.task), outcome.text,
+                                        sweep_.id(end_of(outcome.task) - 1));
       return;
     }
     if (outcome.text.front() != right) {
@@ -121,9 +153,10 @@ void SweepJob::plan(const std::function<void(const SweepProgress&)>& tell) {
   tasks.look = settings_.look;
   work_off(tasks, std::min(settings_.jobs, (runs_.size() + looked_at_a_time - 1) / looked_at_a_time));
   if (wrong.empty()) return;
-  const std::string& told = wrong.begin()->second;
-  const std::size_t blank = told.find(' ');
-  throw SceneError(told.substr(blank + 1), std::stoul(told.substr(0, blank)));
+  std::string all;
+  for (const auto& [first, errors] : wrong) all += errors;
+  const auto [text, count] = each_once(all);
+  throw SceneError(text, count);
 }
 
 std::optional<std::size_t> SweepJob::other_content() const {
@@ -156,7 +189,7 @@ std::vector<std::string> SweepJob::idle_paths() const {
       for (std::size_t q = 0; q < run.values.size(); ++q)
         if (q != p) others += run.values[q].value_or("-") + '\n';
       const auto [found, is_new] = first.emplace(std::move(others), number);
-      if (is_new || run.values[p] == sweep_.run(found->second).values[p]) continue;
+      if (is_new || runs_[number].scene == runs_[found->second].scene) continue;  // equal values differ in writing
       ++pairs;
       if (runs_[number].motion == runs_[found->second].motion) ++alike;
       if (alike < pairs) break;
@@ -168,17 +201,13 @@ std::vector<std::string> SweepJob::idle_paths() const {
 
 // ---- Doing
 
-std::vector<SweepJob::Unit> SweepJob::units() const {
+std::vector<SweepJob::Motion> SweepJob::motions() const {
   // Runs by motion, then scenario, then number.
   std::vector<std::size_t> order(runs_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return std::tie(runs_[a].motion, runs_[a].scene, a) < std::tie(runs_[b].motion, runs_[b].scene, b);
   });
-  struct Motion {
-    std::size_t first_run = none;
-    std::vector<Unit> units;
-  };
   std::vector<Motion> motions;
   for (std::size_t i = 0; i < order.size();) {
     Motion motion;
@@ -189,7 +218,7 @@ std::vector<SweepJob::Unit> SweepJob::units() const {
       std::vector<std::size_t> to_do;
       std::size_t like = none;
       for (; i < order.size() && runs_[order[i]].motion == moves && runs_[order[i]].scene == scenario; ++i) {
-        motion.first_run = std::min(motion.first_run, order[i]);
+        motion.runs.push_back(order[i]);
         if (runs_[order[i]].status == RunStatus::done)
           like = order[i];
         else
@@ -207,10 +236,27 @@ std::vector<SweepJob::Unit> SweepJob::units() const {
     motions.push_back(std::move(motion));
   }
   // Which part a motion belongs to must not depend on what is done already.
-  std::sort(motions.begin(), motions.end(), [](const Motion& a, const Motion& b) { return a.first_run < b.first_run; });
-  std::vector<Unit> out;
+  std::sort(motions.begin(), motions.end(), [](const Motion& a, const Motion& b) { return first(a) < first(b); });
+  std::vector<Motion> mine;
   for (std::size_t m = settings_.shard.index - 1; m < motions.size(); m += settings_.shard.count)
-    std::move(motions[m].units.begin(), motions[m].units.end(), std::back_inserter(out));
+    mine.push_back(std::move(motions[m]));
+  return mine;
+}
+
+std::size_t SweepJob::first(const Motion& motion) {
+  return *std::min_element(motion.runs.begin(), motion.runs.end());
+}
+
+std::vector<SweepJob::Unit> SweepJob::units() const {
+  std::vector<Unit> out;
+  for (Motion& motion : motions()) std::move(motion.units.begin(), motion.units.end(), std::back_inserter(out));
+  return out;
+}
+
+std::vector<std::size_t> SweepJob::of_part() const {
+  std::vector<std::size_t> out;
+  for (const Motion& motion : motions()) out.insert(out.end(), motion.runs.begin(), motion.runs.end());
+  std::sort(out.begin(), out.end());
   return out;
 }
 

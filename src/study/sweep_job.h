@@ -52,7 +52,7 @@ class SweepJob {
   std::string run_folder(std::size_t number) const;
 
   /// Loads every scenario and looks at its folder, several at a time. What is done and cannot tell the sweep's measures
-  /// counts as missing. Throws SceneError with what is wrong with the first wrong one.
+  /// counts as missing. Throws SceneError with all that is wrong, each once (of a great many, the first).
   void plan(const std::function<void(const SweepProgress&)>& tell);
 
   /// The first run whose folder holds what this run would overwrite: another scene's run, or more outputs. After
@@ -66,7 +66,9 @@ class SweepJob {
   /// that differ in nothing else move alike. After plan().
   std::vector<std::string> idle_paths() const;
 
-  /// Runs of this shard that are not done.
+  /// The runs of this shard, in order. After plan(), as all below.
+  std::vector<std::size_t> of_part() const;
+  /// How many of them are not done.
   std::size_t left() const;
 
   /// Does what is left: scenarios that move alike share one simulation, equal ones are run once and copied. A run that
@@ -82,6 +84,13 @@ class SweepJob {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
   std::string look_at(std::size_t first, std::size_t last);
+  /// Runs that move alike.
+  struct Motion {
+    std::vector<std::size_t> runs;
+    std::vector<Unit> units;  // what is to be done of them
+  };
+  static std::size_t first(const Motion& motion);  // its first run
+  std::vector<Motion> motions() const;             // of this part
   std::vector<Unit> units() const;
   std::string work(const Unit& unit);
 

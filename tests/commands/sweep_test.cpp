@@ -209,6 +209,209 @@ TEST(Sweep, PathThatABlockDoesNotSetHasTheBasesValue) {
   EXPECT_EQ(here.read("again/summary.csv"), summary);
 }
 
+/// Sweeps of four masses of the red ball that write energies alone.
+std::string masses(const std::string& values, const std::string& more = "") {
+  return "sweep: 1\nbase: balls.yaml\nonly: [energy]\ngrid: {balls.red.mass: [" + values + "]}\n" + more;
+}
+
+TEST(Sweep, RunsOfAnotherSweepAreNeverTakenForItsOwn) {
+  const Workplace here;
+  prepare(here, masses("10, 20, 30, 40"));
+  ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
+  prepare(here, masses("1, 2, 3, 4"));
+  EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 2);
+  ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q", "--shard", "1/2", "--force"}).code, 0);
+  const Finished gathered = here.carom({"gather", "output/offsets", "-q"});
+  EXPECT_EQ(gathered.code, 1);
+  EXPECT_NE(gathered.err.find("2 of 4 runs are missing: r0002 and r0004"), std::string::npos) << gathered.err;
+  ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q", "--shard", "2/2"}).code, 0);
+  ASSERT_EQ(here.carom({"gather", "output/offsets", "-q"}).code, 0);
+  for (auto& row : rows_of(here.read("output/offsets/summary.csv")))
+    EXPECT_EQ(std::stod(row["energy_start_J"]), 2 * std::stod(row["balls.red.mass"]) + 20);
+}
+
+TEST(Sweep, RunThatWasReplacedIsNotUpToDateAndNotGathered) {
+  const Workplace here;
+  prepare(here, masses("1, 2"));
+  ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
+  ASSERT_EQ(
+      here.shell("rm -r output/offsets/runs/r0001 && cp -r output/offsets/runs/r0002 output/offsets/runs/r0001").code,
+      0);
+  const Finished again = here.carom({"sweep", "offsets.yaml", "-q"});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_EQ(again.err,
+            "carom: offsets.yaml: the folder output/offsets/runs/r0001 holds something else than this run\n"
+            "  write elsewhere with -o, or overwrite it with --force\n");
+  EXPECT_EQ(here.carom({"gather", "output/offsets", "-q"}).code, 1);
+  EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q", "--force"}).code, 0);
+  EXPECT_EQ(here.carom({"gather", "output/offsets", "-q"}).code, 0);
+}
+
+TEST(Sweep, ForceRunsAgainAndANewMeasureRunsWhatCannotTellIt) {
+  const Workplace here;
+  prepare(here, masses("1, 2"));
+  ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
+  const auto made = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"sweep", "offsets.yaml", "--json", "--progress", "none"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Json::parse(here.carom(words).out)["made"];
+  };
+  EXPECT_EQ(made({}), 0);
+  EXPECT_EQ(made({"--force"}), 2);
+  prepare(here, masses("1, 2", "compare: {measures: [energy_end_J]}\n"));
+  EXPECT_EQ(made({}), 0);
+  prepare(here, masses("1, 2", "compare: {measures: [balls.red.vx_m_per_s]}\n"));
+  EXPECT_EQ(made({}), 2);
+  EXPECT_EQ(made({}), 0);
+  for (auto& row : rows_of(here.read("output/offsets/summary.csv")))
+    EXPECT_LT(std::stod(row["balls.red.vx_m_per_s"]), 0) << row["run"];
+}
+
+TEST(Sweep, FolderThatCannotBeWrittenIsOneFailingRun) {
+  const Workplace here;
+  prepare(here, masses("1, 2, 3"));
+  ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
+  ASSERT_EQ(here.shell("rm output/offsets/runs/r000*/energy.csv").code, 0);
+  const Finished sweep = here.shell("flock output/offsets/runs/r0001 $CAROM sweep offsets.yaml -j 1 --progress none");
+  EXPECT_EQ(sweep.code, 3) << sweep.err;
+  EXPECT_NE(sweep.err.find("r0001: the run failed: "), std::string::npos) << sweep.err;
+  const auto rows = rows_of(here.read("output/offsets/summary.csv"));
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].at("status"), "failed");
+  EXPECT_EQ(rows[2].at("status"), "done");
+  EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
+}
+
+TEST(Sweep, MeshesCountByTheirBytes) {
+  const Workplace here;
+  const auto tetrahedron = [](const std::string& size) {
+    return "v 0 0 0\nv " + size + " 0 0\nv 0 " + size + " 0\nv 0 0 " + size + "\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  };
+  here.write("a/pin.obj", tetrahedron("1"));
+  here.write("b/pin.obj", tetrahedron("2"));
+  prepare(here,
+          "sweep: 1\nbase: balls.yaml\nonly: [frames]\nset: {output.frames: {fps: 1, size: [16, 16], samples: 1}}\n"
+          "grid: {balls.red.mesh: [a/pin.obj, b/pin.obj]}\n");
+  const auto sweep = [&] { return Json::parse(here.carom({"sweep", "offsets.yaml", "--json"}).out); };
+  EXPECT_EQ(sweep()["made"], 2);
+  EXPECT_EQ(here.read("output/offsets/runs/r0001/pin.obj"), tetrahedron("1"));
+  EXPECT_EQ(here.read("output/offsets/runs/r0002/pin.obj"), tetrahedron("2"));
+  EXPECT_EQ(sweep()["made"], 0);
+  here.write("b/pin.obj", tetrahedron("3"));
+  EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 2);
+  EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q", "--force"}).code, 0);
+  EXPECT_EQ(here.read("output/offsets/runs/r0002/pin.obj"), tetrahedron("3"));
+}
+
+TEST(Sweep, TextsAndNumbersStandInTheTableAsTheirValues) {
+  const Workplace here;
+  prepare(here,
+          "sweep: 1\nbase: balls.yaml\nonly: [energy]\n"
+          "grid: {balls.red.position.z: [+0.1, 0], balls.red.color: [\"red\", blue, green]}\n"
+          "skip: [{balls.red.color: [red, 'blue'], balls.red.position.z: 0.1}]\n");
+  ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
+  std::string table;
+  for (auto& row : rows_of(here.read("output/offsets/summary.csv")))
+    table += row["balls.red.position.z"] + " " + row["balls.red.color"] + "; ";
+  EXPECT_EQ(table, "0.1 green; 0 red; 0 blue; 0 green; ");
+}
+
+TEST(Sweep, AllErrorsOfAllScenariosAreShownOnce) {
+  const Workplace here;
+  prepare(here,
+          "sweep: 1\nbase: balls.yaml\n"
+          "grid: {balls.red.mass: [1, a, -3], simulate.duration: [-1, 2], balls.blue.radius: [q, 0.1]}\n");
+  const Finished sweep = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
+  EXPECT_EQ(sweep.code, 2);
+  for (const char* place : {"3:28", "3:31", "3:56", "3:84"})
+    EXPECT_NE(sweep.err.find(std::string("offsets.yaml:") + place + ": error: "), std::string::npos) << sweep.err;
+  EXPECT_NE(sweep.err.find("carom: 4 errors: nothing was run\n"), std::string::npos) << sweep.err;
+  const Json json = Json::parse(here.carom({"sweep", "offsets.yaml", "--json"}).out);
+  EXPECT_EQ(json["status"], "wrong");
+  prepare(here, masses("1, 2", "compare: {measures: [balls.rde.x_m, energy_lst_J]}\n"));
+  const Finished measures = here.carom({"sweep", "offsets.yaml", "--progress", "none"});
+  EXPECT_NE(measures.err.find("offsets.yaml:5:22: error: "), std::string::npos) << measures.err;
+  EXPECT_NE(measures.err.find("offsets.yaml:5:37: error: "), std::string::npos) << measures.err;
+}
+
+TEST(Sweep, LastValueOfAPathThatIsSetTwiceCounts) {
+  const Workplace here;
+  prepare(here, masses("1, 2", "set: {simulate.duration: 2}\n"));
+  ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "--set", "simulate.duration=1.5", "-q"}).code, 0);
+  ASSERT_EQ(here.carom({"gather", "output/offsets", "-q"}).code, 0);
+  for (auto& row : rows_of(here.read("output/offsets/summary.csv"))) EXPECT_EQ(row["duration_s"], "1.5");
+}
+
+TEST(Sweep, RepeatsThatAreNoMoreLeaveNoTable) {
+  const Workplace here;
+  prepare(here, masses("1, 2", "repeat: {seeds: 2}\n"));
+  ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
+  EXPECT_TRUE(here.has("output/offsets/repeats.csv"));
+  prepare(here, masses("1, 2"));
+  ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q", "--force"}).code, 0);
+  EXPECT_FALSE(here.has("output/offsets/repeats.csv"));
+}
+
+TEST(Sweep, MeasureOfABodyThatAScenarioLacksIsAnEmptyCell) {
+  const Workplace here;
+  here.write("gas.yaml",
+             "scene: 1\nroom: {min: [-1, -1, -1], max: [1, 1, 1]}\n"
+             "groups: {gas: {count: 3, ball: {mass: 1, radius: 0.1}, in: {min: [-1, -1, -1], max: [1, 1, 1]}, "
+             "arrange: random, speed: 1}}\nsimulate: {duration: 1}\n");
+  here.write("s.yaml",
+             "sweep: 1\nbase: gas.yaml\ngrid: {groups.gas.count: [3, 2]}\ncompare: {measures: [groups.gas.2.x_m]}\n");
+  const Finished sweep = here.carom({"sweep", "s.yaml", "-q"});
+  ASSERT_EQ(sweep.code, 0) << sweep.err;
+  const auto rows = rows_of(here.read("output/s/summary.csv"));
+  EXPECT_NE(rows[0].at("groups.gas.2.x_m"), "");
+  EXPECT_EQ(rows[1].at("groups.gas.2.x_m"), "");
+}
+
+TEST(Sweep, PlanOfAPartHasItsRunsAlone) {
+  const Workplace here;
+  prepare(here, masses("1, 2, 3, 4, 5"));
+  const auto ids = [&](const std::string& part) {
+    const Finished plan = here.carom({"sweep", "offsets.yaml", "--plan", "--json", "--shard", part});
+    const Json document = Json::parse(plan.out);
+    std::string out;
+    for (const Json& run : document["runs"]) out += run["run"].get<std::string>() + " ";
+    return out;
+  };
+  EXPECT_EQ(ids("1/2"), "r0001 r0003 r0005 ");
+  EXPECT_EQ(ids("2/2"), "r0002 r0004 ");
+  EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "--plan", "-q"}).out, "");
+}
+
+TEST(Gather, RefusesAFolderThatHoldsSomethingElse) {
+  const Workplace here;
+  prepare(here, masses("1, 2"));
+  ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "run"}).code, 0);
+  const auto before = here.files("run");
+  const Finished gathered = here.carom({"gather", "run", "output/offsets"});
+  EXPECT_EQ(gathered.code, 2);
+  EXPECT_EQ(gathered.err, "carom: the folder run holds something else; nothing was gathered\n");
+  EXPECT_EQ(here.files("run"), before);
+  // An author's own file of that name is no sweep's.
+  here.write("own/sweep.yaml", "# by hand\n" + masses("1, 2"));
+  here.write("own/balls.yaml", two_balls());
+  EXPECT_EQ(here.carom({"gather", "own"}).code, 2);
+  EXPECT_EQ(here.files("own").size(), 2u);
+}
+
+TEST(Submit, WrongSweepIsExitCode2AndForceIsPassedOn) {
+  const Workplace here;
+  prepare(here, "sweep: 1\nbase: balls.yaml\ngird: {balls.red.mass: [1, 2]}\n");
+  const Finished wrong = here.carom({"submit", "offsets.yaml", "--slurm"});
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_TRUE(wrong.err.starts_with("offsets.yaml:3:1: error: unknown key `gird`")) << wrong.err;
+  prepare(here, masses("1, 2"));
+  const Finished forced = here.carom({"submit", "offsets.yaml", "--slurm", "--force"});
+  EXPECT_NE(forced.out.find(" --force --jobs "), std::string::npos) << forced.out;
+  EXPECT_EQ(Json::parse(here.carom({"submit", "offsets.yaml", "--slurm", "--force", "--json"}).out)["script"],
+            forced.out);
+}
+
 TEST(Sweep, NumberOfJobsChangesNoByte) {
   const Workplace here;
   prepare(here);

@@ -9,6 +9,7 @@ namespace {
 const std::string head = "sweep: 1\nbase: base.yaml\n";
 
 Sweep sweep_of(const std::string& text) {
+  write_file("", "base.yaml");
   const std::string path = write_file(text, "falls.yaml");
   Sweep sweep = load_sweep(path);
   std::filesystem::remove_all(test_folder());
@@ -115,7 +116,7 @@ TEST(SweepFile, IdsDoNotDependOnHowManyThereAre) {
 }
 
 TEST(SweepErrors, AreAllShownWithPlaceAndRemedy) {
-  EXPECT_EQ(sweep_errors("sweep: 1\nbase: b.yaml\ngrd: {a: [1]}\nzip: {a: [1, 2], b: [3]}\nrepeat: {seeds: 0}\n"),
+  EXPECT_EQ(sweep_errors("sweep: 1\nbase: base.yaml\ngrd: {a: [1]}\nzip: {a: [1, 2], b: [3]}\nrepeat: {seeds: 0}\n"),
             "falls.yaml:3:1: error: unknown key `grd` in the sweep\n"
             "   3 | grd: {a: [1]}\n"
             "     | ^~~\n"
