@@ -27,6 +27,12 @@ inline char* put_text(char* to, std::string_view text) {
   return to + text.copy(to, text.size());
 }
 
+/// A number's cell.
+inline std::string number_cell(double value) {
+  char text[number_size];
+  return {text, put_number(text, value)};
+}
+
 /// Any text as a cell: in quotes where it must be; led by an apostrophe where a spreadsheet would take it for a
 /// formula.
 std::string text_cell(std::string_view text);

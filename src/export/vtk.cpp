@@ -16,11 +16,6 @@ static_assert(std::endian::native == std::endian::little, "the files say LittleE
 
 constexpr std::string_view head = "<?xml version=\"1.0\"?>\n";
 
-std::string number(double value) {
-  char text[number_size];
-  return {text, put_number(text, value)};
-}
-
 /// Numbers as VTK has them in base64: how many bytes follow, then these.
 class Bytes {
  public:
@@ -155,8 +150,8 @@ void VtkWriter::add(double time, const State& state, std::span<const ContactForc
     extent_.include(state.position[body], volume_now(scene_.world, state, body).half);
   const auto instant = static_cast<std::int64_t>(bodies_.records().size());
   bodies_.put(instant, bodies_text(scene_, time, state, solids_));
-  collection_.write(
-      fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", number(time), bodies_.records().back().name));
+  collection_.write(fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", number_cell(time),
+                                bodies_.records().back().name));
 }
 
 std::vector<OutputFile*> VtkWriter::files() {

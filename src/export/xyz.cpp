@@ -11,11 +11,6 @@ namespace {
 
 constexpr std::size_t row_numbers = 16;  // at most
 
-std::string number(double value) {
-  char text[number_size];
-  return {text, put_number(text, value)};
-}
-
 /// The coordinate of a room's plane; none: there is no room.
 std::optional<double> room_side(const Scene& scene, std::string_view name, int axis) {
   for (std::size_t i = 0; i < scene.world.planes.size() && i < scene.roster.fixed.size(); ++i)
@@ -31,8 +26,8 @@ std::string cell_text(const Scene& scene) {
     const auto low = room_side(scene, fmt::format("room.{}_min", letter), axis);
     const auto high = room_side(scene, fmt::format("room.{}_max", letter), axis);
     if (!low || !high) return R"(pbc="F F F")";
-    for (int k = 0; k < 3; ++k) edges += (edges.empty() ? "" : " ") + number(k == axis ? *high - *low : 0);
-    corner += (corner.empty() ? "" : " ") + number(*low);
+    for (int k = 0; k < 3; ++k) edges += (edges.empty() ? "" : " ") + number_cell(k == axis ? *high - *low : 0);
+    corner += (corner.empty() ? "" : " ") + number_cell(*low);
   }
   return fmt::format(R"(Lattice="{}" Origin="{}" pbc="F F F")", edges, corner);
 }
@@ -54,14 +49,15 @@ XyzWriter::XyzWriter(OpenFolder& folder, const Scene& scene)
           " Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:color:R:3:id:I:1:molecule:I:1:name:S:1" +
           (solids_ ? ":aspherical_shape:R:3" : "");
   for (const BodyRange& range : scene.roster.bodies)
-    colors_.push_back(fmt::format(" {} {} {}", number(range.color.r), number(range.color.g), number(range.color.b)));
+    colors_.push_back(
+        fmt::format(" {} {} {}", number_cell(range.color.r), number_cell(range.color.g), number_cell(range.color.b)));
 }
 
 void XyzWriter::add(double time, const State& state, std::span<const ContactForce>) {
   const World& world = scene_.world;
   std::size_t count = world.body_count();
   for (Entity body = 0; body < world.body_count(); ++body) count -= is_part_of_another(state, body) ? 1 : 0;
-  file_.write(fmt::format("{}\n{} Time={}\n", count, cell_, number(time)));
+  file_.write(fmt::format("{}\n{} Time={}\n", count, cell_, number_cell(time)));
   for (std::size_t r = 0; r < scene_.roster.bodies.size(); ++r) {
     const BodyRange& range = scene_.roster.bodies[r];
     for (Entity body = range.first; body < range.first + range.count; ++body) {

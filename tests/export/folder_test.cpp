@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "export/csv.h"
+#include "export/failed_run.h"
 #include "export/hash.h"
 #include "export/manifest.h"
 #include "export/stored_file.h"
@@ -452,6 +453,22 @@ TEST(OutputFile, KilledAtAnyMomentNoFinalFileIsIncomplete) {
   }
   run(scene, temp / "run");
   EXPECT_EQ(names_in(temp / "run"), names_in(temp / "whole"));
+}
+
+TEST(FailedRun, LeavesItsReasonAloneAndCountsAsIncomplete) {
+  TempFolder temp;
+  run(scene_with_tables(), temp / "whole");
+  store_failure(temp / "whole", "no luck");
+  EXPECT_EQ(names_in(temp / "whole"), Names{"error.txt"});
+  EXPECT_EQ(stored_failure(temp / "whole"), "no luck");
+  EXPECT_EQ(inspect_folder(temp / "whole", small_scene()), FolderContent::incomplete);
+  // One that was killed: pictures that no manifest names.
+  run(scene_with_frames(), temp / "killed");
+  fs::remove(temp / "killed/manifest.json");
+  store_failure(temp / "killed", "no luck");
+  EXPECT_EQ(names_in(temp / "killed"), Names{"error.txt"});
+  run(small_scene(), temp / "killed");
+  EXPECT_EQ(names_in(temp / "killed"), (Names{"manifest.json", "scene.yaml", "summary.csv"}));
 }
 
 }  // namespace

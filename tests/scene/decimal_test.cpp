@@ -33,6 +33,20 @@ TEST(Decimal, ReadsWhatYamlWritesAndGivesTheShortestText) {
   EXPECT_EQ(to_text(decimal("0e99999999999")), "0");
 }
 
+TEST(Decimal, EndsFarApartDoNotOverflow) {
+  const Texts all = spread_of("1e-18", "1e17", 2000);
+  ASSERT_EQ(all.size(), 2000u);
+  EXPECT_EQ(all.front(), "0.000000000000000001");
+  EXPECT_EQ(all.back(), "100000000000000000");
+  double before = 0;
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    const double value = std::stod(all[i]);
+    EXPECT_GT(value, before) << i;
+    EXPECT_NEAR(value / 1e17, static_cast<double>(i) / 1999, 1e-15) << i;
+    before = value;
+  }
+}
+
 TEST(Decimal, HasAtMostEighteenDigits) {
   EXPECT_TRUE(parse_decimal("123456789.123456789"));
   EXPECT_FALSE(parse_decimal("123456789.1234567891"));
