@@ -98,8 +98,8 @@ std::vector<std::string> spread(const Decimal& from, const Decimal& to, std::uin
   std::vector<std::string> out;
   const auto last = static_cast<Wide>(count) - 1;
   for (Wide i = 0; i <= last; ++i) {
-    if (last == 0 || i == 0) {
-      out.push_back(to_text(a));
+    if (i == 0 || i == last) {
+      out.push_back(to_text(i == 0 ? a : b));
       continue;
     }
     // (a (last - i) + b i) / last, in units: exact in at most 18 further digits or not at all.
