@@ -73,11 +73,16 @@ void describe(Block& block, const RunDifference& difference) {
     block.line("", fmt::format("and {} more: --json has all", difference.values.size() - rows.size() + 1));
   const CollisionDifference& collisions = difference.collisions;
   block.line("collisions", count_text(collisions));
-  if (collisions.outcome)
-    block.line("outcome", fmt::format("of collision {}, {}, is not the same: they leave at {} m/s in {}, {} m/s in {}",
-                                      grouped(*collisions.outcome + 1), collision_text(collisions.outcome_a),
-                                      exact(collisions.outcome_a.separation_speed), a,
-                                      exact(collisions.outcome_b.separation_speed), b));
+  if (collisions.outcome) {
+    const bool by_speed = collisions.outcome_a.separation_speed != collisions.outcome_b.separation_speed;
+    const std::string how =
+        by_speed ? fmt::format("they leave at {} m/s in {}, {} m/s in {}", exact(collisions.outcome_a.separation_speed),
+                               a, exact(collisions.outcome_b.separation_speed), b)
+                 : fmt::format("{} is {} in {}, {} in {}", collisions.column, printable(collisions.cell_a), a,
+                               printable(collisions.cell_b), b);
+    block.line("outcome", fmt::format("of collision {}, {}, is not the same: {}", grouped(*collisions.outcome + 1),
+                                      collision_text(collisions.outcome_a), how));
+  }
   if (collisions.part)
     block.line("part", fmt::format("in collision {}: {}: {}; {}: {}", grouped(collisions.same + 1), a,
                                    collision_text(collisions.next_a), b, collision_text(collisions.next_b)));
@@ -93,19 +98,29 @@ Json collision_json(const std::optional<CollisionFacts>& collision) {
           {"separation_speed_m_per_s", collision->separation_speed}};
 }
 
+/// Empty: the scene does not have it.
+Json value_json(const std::string& text) {
+  if (text.empty()) return nullptr;
+  const Json number = Json::parse(text, nullptr, false);
+  return number.is_number() ? number : Json(text);
+}
+
 Json difference_json(const RunDifference& difference) {
   Json json = {{"a", difference.a.folder}, {"b", difference.b.folder}, {"equal", difference.equal()}};
   json["values"] = Json::array();
   for (const ValueDifference& value : difference.values)
-    json["values"].push_back({{"path", value.path}, {"unit", value.unit}, {"a", value.a}, {"b", value.b}});
+    json["values"].push_back(
+        {{"path", value.path}, {"unit", value.unit}, {"a", value_json(value.a)}, {"b", value_json(value.b)}});
   const CollisionDifference& c = difference.collisions;
   json["collisions"] = {{"a", c.count_a}, {"b", c.count_b}, {"same", c.same}, {"part", nullptr}, {"outcome", nullptr}};
   if (c.part)
     json["collisions"]["part"] = {
         {"number", c.same + 1}, {"a", collision_json(c.next_a)}, {"b", collision_json(c.next_b)}};
   if (c.outcome)
-    json["collisions"]["outcome"] = {
-        {"number", *c.outcome + 1}, {"a", collision_json(c.outcome_a)}, {"b", collision_json(c.outcome_b)}};
+    json["collisions"]["outcome"] = {{"number", *c.outcome + 1},
+                                     {"column", c.column},
+                                     {"a", collision_json(c.outcome_a)},
+                                     {"b", collision_json(c.outcome_b)}};
   json["end"] = nullptr;
   if (const auto& end = difference.end) {
     json["end"] = {{"time_a_s", end->time_a}, {"time_b_s", end->time_b}, {"bodies", end->bodies}};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <tuple>
 
 #include "export/run_folder.h"
 #include "export/stored_file.h"
@@ -38,6 +39,17 @@ class Collisions {
     return cell(0) == other.cell(0) && cell(1) == other.cell(1) && cell(2) == other.cell(2) && cell(3) == other.cell(3);
   }
   bool ends_the_same(const Collisions& other) const { return *cells_ == *other.cells_; }
+  /// A column and its two cells, which are not the same.
+  std::tuple<std::string, std::string, std::string> first_difference(const Collisions& other) const {
+    std::size_t column = columns_[4];
+    if (cell(4) == other.cell(4))
+      for (column = 0; column < cells_->size() && column < other.cells_->size(); ++column)
+        if ((*cells_)[column] != (*other.cells_)[column]) break;
+    const auto text = [column](const Collisions& of) {
+      return column < of.cells_->size() ? std::string((*of.cells_)[column]) : std::string();
+    };
+    return {column < table_.columns().size() ? table_.columns()[column] : std::string(), text(*this), text(other)};
+  }
 
  private:
   std::string_view cell(std::size_t k) const {
@@ -71,6 +83,7 @@ CollisionDifference collision_difference(const RunRecord& run_a, const RunRecord
       difference.outcome = difference.same;
       difference.outcome_a = a.facts();
       difference.outcome_b = b.facts();
+      std::tie(difference.column, difference.cell_a, difference.cell_b) = a.first_difference(b);
     }
     ++difference.same;
   }

@@ -30,6 +30,8 @@ struct CollisionDifference {
   /// The first of the same ones whose outcome is not the same: its number from 0 on, and both rows.
   std::optional<std::uint64_t> outcome;
   CollisionFacts outcome_a, outcome_b;
+  std::string column, cell_a,
+      cell_b;  // the column in which these differ (the separation speed, if in that) and its cells
 };
 
 /// Where bodies are at the ends of the runs.

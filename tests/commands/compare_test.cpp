@@ -223,6 +223,14 @@ TEST(DiffCommand, TellsWhereRunsPartAndHowFarApartTheyEnd) {
             "  outcome     of collision 1, red and blue at 0.44499999999999995 s (body-body), is not the same:\n"
             "              they leave at 2.8 m/s in a, 3.3 m/s in b\n"
             "  end         at most 0.13875000000000004 m apart: red\n");
+  // As fast, but with another impulse.
+  ASSERT_EQ(here.shell("$CAROM run balls.yaml -q -o runs/heavy --set balls.red.restitution=0.5 --set balls.red.mass=20 "
+                       "--set balls.blue.mass=20")
+                .code,
+            0);
+  const Finished heavy = here.carom({"diff", "runs/a", "runs/heavy"});
+  EXPECT_NE(heavy.out.find("impulse_N_s is "), std::string::npos) << heavy.out;
+  EXPECT_EQ(heavy.out.find("they leave at"), std::string::npos) << heavy.out;
   const Json part = Json::parse(here.carom({"diff", "runs/b", "runs/aside", "--json"}).out);
   EXPECT_EQ(part["equal"], false);
   EXPECT_EQ(part["collisions"]["part"]["number"], 1);
