@@ -79,11 +79,12 @@ void remove_files_of_run(int folder) {
   add_files(names, read_manifest(folder, manifest_name));
   add_files(names, read_manifest(folder, former_manifest));
   if (names.empty() && stored_size(folder, "scene.yaml")) add_remains(names, folder, Scene());
+  // scene.yaml last: until then the folder is known to be an unfinished run.
   unlinkat(folder, manifest_name, 0);
   remove_files(folder, names);
-  unlinkat(folder, "scene.yaml", 0);
   remove_leavings(folder);
   unlinkat(folder, former_manifest, 0);
+  unlinkat(folder, "scene.yaml", 0);
 }
 
 OpenFolder::OpenFolder(const std::string& path, Durability durability) : durability_(durability) {

@@ -160,10 +160,13 @@ void SweepJob::plan(const std::function<void(const SweepProgress&)>& tell) {
 }
 
 std::optional<std::size_t> SweepJob::other_content() const {
-  const auto found = std::find_if(runs_.begin(), runs_.end(), [](const PlannedRun& run) {
-    return run.content == FolderContent::other_run || run.content == FolderContent::more;
+  // (What other parts do in their runs' folders meanwhile does not count.)
+  const std::vector<std::size_t> mine = of_part();
+  const auto found = std::find_if(mine.begin(), mine.end(), [&](std::size_t number) {
+    const FolderContent content = runs_[number].content;
+    return content == FolderContent::other_run || content == FolderContent::more;
   });
-  return found == runs_.end() ? std::nullopt : std::optional<std::size_t>(found - runs_.begin());
+  return found == mine.end() ? std::nullopt : std::optional(*found);
 }
 
 bool SweepJob::may_have_meshes() {

@@ -55,8 +55,8 @@ class SweepJob {
   /// counts as missing. Throws SceneError with all that is wrong, each once (of a great many, the first).
   void plan(const std::function<void(const SweepProgress&)>& tell);
 
-  /// The first run whose folder holds what this run would overwrite: another scene's run, or more outputs. After
-  /// plan().
+  /// The first run of this shard whose folder holds what it would overwrite: another scene's run, or more outputs.
+  /// After plan().
   std::optional<std::size_t> other_content() const;
 
   /// Whether a scenario may have a mesh, a file that can change without the sweep's doing.
