@@ -118,7 +118,7 @@ class GatherSession {
   std::vector<bool> whole_runs(Sweep sweep, const std::string& folder, const std::string& base) const {
     std::vector<bool> whole(sweep.size());
     // Meshes lie where the sweep was made: what cannot be made anew is taken as it is.
-    if (base.find("mesh") != std::string::npos || sweep.resolved("").find("mesh") != std::string::npos) {
+    if (may_have_meshes(sweep, base)) {
       for (std::size_t number = 0; number < sweep.size(); ++number)
         whole[number] = is_whole_since(fmt::format("{}/runs/{}", folder, sweep.id(number)), "");
       return whole;

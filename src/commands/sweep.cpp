@@ -57,15 +57,15 @@ class SweepSession {
       return refuse(fmt::format("the folder {} holds something else, or the sweep or its base has changed since",
                                 printable(folder_)));
     }
-    if (content == SweepContent::this_sweep && !options_.force && !options_.plan && !job.may_have_meshes() &&
-        stored_failures(folder_).empty()) {
+    if (content == SweepContent::this_sweep && !options_.force && !options_.plan &&
+        !may_have_meshes(job.sweep(), job.base_text()) && stored_failures(folder_).empty()) {
       show(SweepOutcome{"up to date", 0, job.sweep().size(), {}, 0}, job);
       return 0;
     }
     show_progress("scenarios", job.sweep().size());
     job.plan([&](const SweepProgress& p) { tell(p); });
     progress_.reset();
-    if (const auto other = job.other_content(); other && !options_.force)
+    if (const auto other = options_.force ? std::nullopt : job.other_content())
       return refuse(fmt::format("the folder {} holds something else than this run", printable(job.run_folder(*other))));
     for (const std::string& path : job.idle_paths())
       complain(options_, fmt::format("{} makes no difference to the motion: what it sets is not used", path));

@@ -117,6 +117,9 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name) {
   if (const auto measures = json.find("measures"); measures != json.end() && measures->is_object())
     for (const auto& [measure, value] : measures->items())
       manifest.measures.push_back({measure, value.is_number() ? value.get<double>() : std::nan("")});
+  if (const auto failed = json.find("failed"); failed != json.end() && failed->is_array())
+    for (const Json& id : *failed)
+      if (id.is_string()) manifest.failed.push_back(id.get<std::string>());
   for (const Json& entry : *files) {
     auto record = file_record(entry);
     if (!record) return std::nullopt;

@@ -26,6 +26,7 @@ struct Manifest {
   std::vector<LeftOut> left_out{};  // files of the outputs that there are none of
   std::vector<Measured> measures{};
   std::uint64_t collisions = 0;
+  std::vector<std::string> failed{};  // of a sweep: the runs that did
 };
 
 /// The outputs that were chosen, as JSON: the scene's text alone does not tell, for the command line may have left some

@@ -36,31 +36,19 @@ constexpr auto patience = std::chrono::seconds(30);
 
 constexpr const char* sweep_key = "sweep";
 
-/// A sweep's manifest: its files, and the runs that failed.
-struct SweepManifest {
-  Manifest of_files;
-  std::set<std::string> failed;
-};
-
 /// None: it is not there, or no sweep's.
-std::optional<SweepManifest> read_sweep_manifest(int folder) {
-  auto of_files = read_manifest(folder, manifest_name);
-  if (!of_files || !Json::parse(of_files->outputs).contains(sweep_key)) return std::nullopt;
-  SweepManifest manifest{std::move(*of_files), {}};
-  const Json json = Json::parse(read_text(folder, manifest_name, largest_manifest).value_or("{}"), nullptr, false);
-  const auto failed = json.find("failed");
-  if (failed == json.end() || !failed->is_array()) return std::nullopt;
-  for (const Json& id : *failed)
-    if (id.is_string()) manifest.failed.insert(id.get<std::string>());
-  return manifest;
+std::optional<Manifest> read_sweep_manifest(int folder) {
+  auto manifest = read_manifest(folder, manifest_name);
+  return manifest && Json::parse(manifest->outputs).contains(sweep_key) ? std::move(manifest) : std::nullopt;
 }
 
-bool is_whole(int folder, const std::string& path, const Sweep& sweep, const SweepManifest& manifest) {
-  if (manifest.of_files.version != CAROM_VERSION || !wrong_file(folder, manifest.of_files).empty()) return false;
+bool is_whole(int folder, const std::string& path, const Sweep& sweep, const Manifest& manifest) {
+  if (manifest.version != CAROM_VERSION || !wrong_file(folder, manifest).empty()) return false;
   const std::string mark = path + "/" + manifest_name;
+  const std::set<std::string> failed(manifest.failed.begin(), manifest.failed.end());
   for (std::size_t number = 0; number < sweep.size(); ++number) {
     const std::string id = sweep.id(number);
-    if (!manifest.failed.contains(id) && !is_whole_since(path + "/runs/" + id, mark)) return false;
+    if (!failed.contains(id) && !is_whole_since(path + "/runs/" + id, mark)) return false;
   }
   return true;
 }
@@ -95,8 +83,7 @@ SweepContent inspect_sweep_folder(const std::string& path, const Sweep& sweep, c
 std::vector<std::string> stored_failures(const std::string& path) {
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
   const auto manifest = folder ? read_sweep_manifest(folder.get()) : std::nullopt;
-  return manifest ? std::vector<std::string>(manifest->failed.begin(), manifest->failed.end())
-                  : std::vector<std::string>();
+  return manifest ? manifest->failed : std::vector<std::string>();
 }
 
 SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, const std::string& base_text,

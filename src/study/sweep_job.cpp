@@ -71,6 +71,10 @@ std::array<char, 16> digest(std::string_view text) {
 
 }  // namespace
 
+bool may_have_meshes(const Sweep& sweep, const std::string& base_text) {
+  return base_text.find("mesh") != std::string::npos || sweep.resolved("").find("mesh") != std::string::npos;
+}
+
 SweepJob::SweepJob(Sweep sweep, std::string folder, SweepSettings settings)
     : sweep_(std::move(sweep)),
       folder_(std::move(folder)),
@@ -169,10 +173,6 @@ std::optional<std::size_t> SweepJob::other_content() const {
   return found == mine.end() ? std::nullopt : std::optional(*found);
 }
 
-bool SweepJob::may_have_meshes() {
-  return sweep_.resolved("").find("mesh") != std::string::npos || !scene(0).meshes.empty();
-}
-
 std::vector<std::string> SweepJob::idle_paths() const {
   constexpr std::size_t most = 20'000;  // runs that are looked at
   constexpr std::array<std::string_view, 5> looks = {"camera", "lights", "background", "output", "title"};
@@ -263,11 +263,15 @@ std::vector<std::size_t> SweepJob::of_part() const {
   return out;
 }
 
-std::size_t SweepJob::left() const {
+std::size_t SweepJob::runs_in(const std::vector<Unit>& units) {
   std::size_t count = 0;
-  for (const Unit& unit : units())
+  for (const Unit& unit : units)
     for (const auto& scenario : unit.scenarios) count += scenario.size();
   return count;
+}
+
+std::size_t SweepJob::left() const {
+  return runs_in(units());
 }
 
 /// What a process says of its unit: for each run that failed, why.
@@ -323,7 +327,7 @@ std::string SweepJob::work(const Unit& unit) {
 void SweepJob::run(const std::function<void(const SweepProgress&)>& tell,
                    const std::function<void(std::size_t, const std::string&)>& failed) {
   const std::vector<Unit> all = units();
-  SweepProgress progress{0, 0, left()};
+  SweepProgress progress{0, 0, runs_in(all)};
   std::size_t next = 0;
   auto synced = std::chrono::steady_clock::now();
   const auto fail = [&](std::size_t number, std::string why) {

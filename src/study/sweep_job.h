@@ -25,6 +25,9 @@ struct SweepSettings {
   std::function<void()> look;                                   // often, in every process; may throw
 };
 
+/// Whether a scenario may have a mesh, a file that can change without the sweep's doing. `base_text`: the base scene's.
+bool may_have_meshes(const Sweep& sweep, const std::string& base_text);
+
 enum class RunStatus : std::uint8_t { missing, done, failed };
 
 /// A run that was looked at.
@@ -59,9 +62,6 @@ class SweepJob {
   /// After plan().
   std::optional<std::size_t> other_content() const;
 
-  /// Whether a scenario may have a mesh, a file that can change without the sweep's doing.
-  bool may_have_meshes();
-
   /// The paths whose value makes no difference to the motion, though it is not of how the motion is looked at: runs
   /// that differ in nothing else move alike. After plan().
   std::vector<std::string> idle_paths() const;
@@ -92,6 +92,7 @@ class SweepJob {
   static std::size_t first(const Motion& motion);  // its first run
   std::vector<Motion> motions() const;             // of this part
   std::vector<Unit> units() const;
+  static std::size_t runs_in(const std::vector<Unit>& units);
   std::string work(const Unit& unit);
 
   Sweep sweep_;
