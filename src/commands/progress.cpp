@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "commands/text.h"
+#include "physics/whole.h"
 
 namespace carom {
 
@@ -26,7 +27,7 @@ Progress::~Progress() {
 }
 
 void Progress::clear() {
-  if (drawn_) write_err("\r\x1b[K");
+  if (drawn_) draw_line("");
   drawn_ = false;
 }
 
@@ -47,7 +48,7 @@ void Progress::draw_bar(double done, const std::string& counts, const std::strin
   constexpr std::size_t bar_width = 20;
   std::string text = fmt::format("{} ", name_);
   if (columns_of(text) + bar_width + 24 < width) {
-    const auto full = static_cast<std::size_t>(done * bar_width);
+    const auto full = static_cast<std::size_t>(whole_below(std::clamp(done, 0.0, 1.0) * bar_width));
     const Palette palette(color_);
     std::string rest = fmt::format(" {:3.0f} % ", std::min(99.0, done * 100));
     const std::size_t taken = columns_of(text) + bar_width + 2 + rest.size();
@@ -57,7 +58,7 @@ void Progress::draw_bar(double done, const std::string& counts, const std::strin
   } else {
     text = fmt::format("{:3.0f} %", done * 100);
   }
-  write_err("\r" + text + "\x1b[K");
+  draw_line(text);
   drawn_ = true;
 }
 
@@ -72,7 +73,8 @@ std::string Progress::rate(double count) const {
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
   const double per_second = elapsed > 0 ? count / elapsed : 0;
   if (per_second < 1) return fmt::format("{:.2g}/min", 60 * per_second);
-  return per_second < 10 ? fmt::format("{:.2g}/s", per_second) : grouped(static_cast<std::uint64_t>(per_second)) + "/s";
+  return per_second < 10 ? fmt::format("{:.2g}/s", per_second)
+                         : grouped(static_cast<std::uint64_t>(whole_below(per_second))) + "/s";
 }
 
 void Progress::show(double done, const std::string& what) {
@@ -83,7 +85,7 @@ void Progress::show(double done, const std::string& what) {
   if (choice_ == ProgressChoice::bar) {
     draw_bar(done, counts, left);
   } else {
-    const int tenth = static_cast<int>(done * 10);
+    const int tenth = static_cast<int>(whole_below(std::clamp(done, 0.0, 1.0) * 10));
     if (tenth == 10 || (tenth == tenth_ && since_last < 5)) return;  // the result tells the end
     tenth_ = tenth;
     write_err(fmt::format("{}: {:.0f} %, {}\n", name_, done * 100, counts));

@@ -4,11 +4,15 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <initializer_list>
+
+#include "scene/printable.h"
+#include "scene/source.h"
 
 namespace carom {
 
@@ -50,12 +54,58 @@ Palette::Palette(bool color) {
   reset = "\x1b[0m";
 }
 
+namespace {
+
+/// Length of the escape sequence at the front of `text`, if it is one of Palette's or of a diagnostic's; else 0.
+std::size_t own_sequence(std::string_view text) {
+  for (const std::string_view own :
+       {"\x1b[0m", "\x1b[1m", "\x1b[2m", "\x1b[32m", "\x1b[33m", "\x1b[1;31m", "\x1b[1;32m"})
+    if (text.starts_with(own)) return own.size();
+  return 0;
+}
+
+/// Whatever has found its way into `text` from files and names: lines, tabs and the program's own colours are all that
+/// is left of what a terminal would obey.
+std::string harmless(std::string_view text) {
+  std::string result;
+  result.reserve(text.size());
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t plain = i;
+    while (plain < text.size() && text[plain] >= ' ' && text[plain] < 0x7F) ++plain;
+    result += text.substr(i, plain - i);
+    i = plain;
+    if (i == text.size()) break;
+    std::size_t length = text[i] == '\n' || text[i] == '\t' ? 1 : own_sequence(text.substr(i));
+    if (length > 0) {
+      result += text.substr(i, length);
+    } else {
+      char32_t code = 0;
+      length = static_cast<std::size_t>(std::max(utf8_length(text, i, code), 1));
+      result += printable(text.substr(i, length));
+    }
+    i += length;
+  }
+  return result;
+}
+
+void write_raw(std::string_view text, std::FILE* stream) {
+  const bool whole = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
+  if (!whole && stream == stdout && output_error == 0) output_error = errno;
+}
+
+}  // namespace
+
 void write_out(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() && output_error == 0) output_error = errno;
+  write_raw(harmless(text), stdout);
 }
 
 void write_err(std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stderr);
+  write_raw(harmless(text), stderr);
+  std::fflush(stderr);
+}
+
+void draw_line(std::string_view text) {
+  write_raw("\r" + harmless(text) + "\x1b[K", stderr);
   std::fflush(stderr);
 }
 

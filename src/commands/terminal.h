@@ -21,9 +21,13 @@ struct Palette {
   std::string_view bold, dim, red, green, yellow, reset;
 };
 
-/// Whole text to stdout or stderr. A failure is kept for finish_output().
+/// Whole text to stdout or stderr: the one place where text meets a terminal. Whatever it has from files and names,
+/// unprintable characters are escaped (scene/printable.h), but for line ends, tabs and Palette's sequences; a JSON text
+/// keeps its meaning. A failure is kept for finish_output().
 void write_out(std::string_view text);
 void write_err(std::string_view text);
+/// To stderr, a terminal: `text` in place of the line that the cursor is in.
+void draw_line(std::string_view text);
 
 /// Gives descriptors 0, 1, 2 something to stand for if the caller closed them, so that no data file becomes one of
 /// them.

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "scene/source.h"
-
 namespace carom {
 
 std::string quantity(double value, std::string_view unit) {
@@ -83,24 +81,13 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
   return result;
 }
 
-std::string printable(std::string_view text) {
-  std::string result;
-  for (std::size_t i = 0; i < text.size();) {
-    char32_t code = 0;
-    const int length = utf8_length(text, i, code);  // 0: no UTF-8 here
-    const auto bytes = static_cast<std::size_t>(std::max(length, 1));
-    if (length > 0 && !is_control(code)) {
-      result += text.substr(i, bytes);
-    } else {
-      for (std::size_t j = i; j < i + bytes; ++j)
-        result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[j]));
-    }
-    i += bytes;
-  }
-  return result;
-}
-
 std::string shell_word(const std::string& word) {
+  if (printable(word) != word) {
+    // By numbers, so that the word can be seen, and copied.
+    std::string octal;
+    for (const char c : word) octal += fmt::format("\\{:03o}", static_cast<unsigned char>(c));
+    return "\"$(printf '" + octal + "')\"";
+  }
   const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            std::string_view("_-./=,:@%+").find(c) != std::string_view::npos;

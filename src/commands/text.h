@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/printable.h"
+
 namespace carom {
 
 /// Four significant digits and the unit: "0.4725 s". Not a number: "-".
@@ -23,11 +25,7 @@ std::string listed(const std::vector<std::string>& names, std::size_t most = 10)
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width);
 /// Columns that UTF-8 `text` takes, a code point counted as one.
 std::size_t columns_of(std::string_view text);
-/// `text` with control characters and bytes that are no UTF-8 (a file's name may hold any) made harmless for a
-/// terminal.
-std::string printable(std::string_view text);
-
-/// A word as a shell takes it: quoted if need be.
+/// A word as a shell takes it: quoted if need be, unprintable characters by their bytes.
 std::string shell_word(const std::string& word);
 
 /// The last name of a folder's path: "half" of "output/half/", the name of the working folder of ".".

@@ -5,6 +5,7 @@
 #include "export/picture_streams.h"
 #include "export/timeline.h"
 #include "export/writer.h"
+#include "physics/whole.h"
 
 namespace carom {
 namespace {
@@ -17,8 +18,7 @@ constexpr double first_picture_s = 0.3, pixel_s = 8e-9, sample_s = 3e-9, png_pix
                  table_byte_s = 1e-8;
 
 std::uint64_t whole(double x) {
-  constexpr double most = 9e18;
-  return x >= most ? static_cast<std::uint64_t>(most) : static_cast<std::uint64_t>(std::llround(x));
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(nearest_whole(x), 0));
 }
 
 double pixels(Size size) {

@@ -10,6 +10,7 @@
 
 #include "export/open_folder.h"
 #include "export/run_folder.h"
+#include "physics/whole.h"
 
 namespace carom {
 namespace {
@@ -58,8 +59,8 @@ struct Span {
 Span span_of(const FilmTile& tile, const FilmFacts& film, const FilmFacts& fastest, double start) {
   const double rate = rate_of(fastest);
   const double frames = static_cast<double>(film.frames) * rate / rate_of(film);
-  return {static_cast<std::uint64_t>(std::llround((tile.from - start) * rate)),
-          static_cast<std::uint64_t>(std::max<long long>(1, std::llround(frames)))};
+  return {static_cast<std::uint64_t>(std::max<std::int64_t>(0, nearest_whole((tile.from - start) * rate))),
+          static_cast<std::uint64_t>(std::max<std::int64_t>(1, nearest_whole(frames)))};
 }
 
 /// As large as the longest line allows: a letter of this font is 0.6 of its size wide, roughly.

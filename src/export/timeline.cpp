@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "physics/whole.h"
+
 namespace carom {
 namespace {
 
@@ -15,9 +17,7 @@ constexpr std::int64_t most_ticks = std::int64_t{1} << 53;
 
 /// The tick number nearest to `x`, kept within what can be counted.
 std::int64_t tick_number(double x) {
-  if (!(x > 0)) return 0;
-  if (x >= static_cast<double>(most_ticks)) return most_ticks;
-  return static_cast<std::int64_t>(x);
+  return std::clamp<std::int64_t>(whole_below(x), 0, most_ticks);
 }
 
 struct Ratio {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/whole.h"
+
 namespace carom {
 namespace {
 
@@ -48,7 +50,7 @@ void Occluders::footprint(const Vec3& center, double radius, std::vector<Rect>& 
 template <typename Visit>
 void Occluders::cells(const Rect& rect, Visit visit) const {
   const auto index = [&](double x, double origin, double per) {
-    return static_cast<int>(std::clamp((x - origin) * per, 0.0, side_ - 1.0));
+    return static_cast<int>(std::clamp<std::int64_t>(whole_below((x - origin) * per), 0, side_ - 1));
   };
   const int u0 = index(rect.u0, origin_u_, per_u_), u1 = index(rect.u1, origin_u_, per_u_);
   const int v0 = index(rect.v0, origin_v_, per_v_), v1 = index(rect.v1, origin_v_, per_v_);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "scene/printable.h"
+
 namespace carom {
 namespace {
 
@@ -35,7 +37,7 @@ std::vector<Character> characters(std::string_view line) {
   for (std::size_t i = 0; i < line.size();) {
     char32_t code = 0;
     const int length = utf8_length(line, i, code);
-    if (length == 0 || is_control(code)) {
+    if (length == 0 || is_unprintable(code)) {
       out.push_back({code == '\t' ? " " : "?", 1, i});
       i += static_cast<std::size_t>(std::max(length, 1));
     } else {
@@ -51,12 +53,6 @@ std::size_t first_whole_character(std::string_view text) {
   std::size_t i = 0;
   while (i < std::min<std::size_t>(text.size(), 3) && (static_cast<unsigned char>(text[i]) & 0xC0) == 0x80) ++i;
   return i;
-}
-
-std::string printable(std::string_view text) {
-  std::string out;
-  for (const Character& c : characters(text)) out += c.text;
-  return out;
 }
 
 std::string paint(std::string_view text, std::string_view code, bool color) {

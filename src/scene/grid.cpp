@@ -5,6 +5,7 @@
 
 #include "physics/prefetch.h"
 #include "physics/touch.h"
+#include "physics/whole.h"
 
 namespace carom {
 namespace {
@@ -16,8 +17,7 @@ double dot(const Vec3& a, const Vec3& b) {
 }
 
 std::int64_t cell_of(double x, double cell) {
-  // Beyond 4e18 all cells are one: only positions far outside of any scene are.
-  return static_cast<std::int64_t>(std::clamp(std::floor(x / cell), -4e18, 4e18));
+  return whole_below(x / cell);  // Beyond its range all cells are one.
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "physics/force.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
+#include "physics/whole.h"
 #include "simulate/stepped_simulator.h"
 
 namespace carom {
@@ -216,9 +217,9 @@ void SteppedSimulator::find_velocities(Crowd& crowd) {
   const double share = std::min(25 * h * std::sqrt(crowd.pulls / crowd.smallest), 1.0);
   const bool tell = unrest_ < quiet;
   const double sweeps = std::clamp(2 * share / unrest_, 1.0 * few_sweeps, 1.0 * most_sweeps);
-  const int iterations = tell ? static_cast<int>(std::ceil(polishing * share)) : 0;
+  const int iterations = tell ? static_cast<int>(whole_below(std::ceil(polishing * share))) : 0;
   const std::vector<Vec3> free = crowd.moved;
-  solve(crowd, crowd.moved, tell ? few_sweeps : static_cast<int>(sweeps), iterations);
+  solve(crowd, crowd.moved, tell ? few_sweeps : static_cast<int>(whole_below(sweeps)), iterations);
   // Who is struck from two sides at once cannot always part from both: then nobody bounces in this step.
   bool lively = false;
   for (const CrowdContact& contact : crowd.contacts) lively = lively || (contact.strikes && contact.restitution > 1);

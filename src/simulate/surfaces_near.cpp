@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/contact_time.h"
+#include "physics/whole.h"
 
 namespace carom {
 
@@ -49,9 +50,8 @@ void SurfacesNear::find(const Vec3& center, double reach, std::vector<Entity>& f
   std::frexp(2 * reach, &size);
   const double width = std::ldexp(1.0, size);
   const Vec3 at = center / width;
-  if (all_.size() > few && at.cwiseAbs().maxCoeff() < 0x1p40 && width > 0 && width < 0x1p1000) {
-    const auto floor = [](double x) { return static_cast<std::int64_t>(std::floor(x)); };
-    const Cell cell{floor(at.x()), floor(at.y()), floor(at.z()), size};
+  if (all_.size() > few && (at.array().abs() < 0x1p40).all() && width > 0 && width < 0x1p1000) {
+    const Cell cell{whole_below(at.x()), whole_below(at.y()), whole_below(at.z()), size};
     auto known = cells_.find(cell);
     if (known == cells_.end()) {
       if (cells_.size() >= most_cells) cells_.clear();

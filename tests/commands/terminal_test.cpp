@@ -161,5 +161,57 @@ TEST(Terminal, IgnoredSignalStaysIgnored) {
   EXPECT_TRUE(here.has("output/a/manifest.json"));
 }
 
+/// Characters that show nothing or turn what follows: each is escaped wherever text meets a terminal.
+TEST(Terminal, MarksThatTurnOrHideTextAreEscapedInEveryReport) {
+  const Workplace here;
+  const std::string turned = "a\u202eb\u2066\u00ad\u200b\U000e0041";
+  const std::string shown = R"(a\u202eb\u2066\u00ad\u200b\udb40\udc41)";
+  here.write("a.yaml", two_balls() + "title: \"" + turned + "\"\n");
+  here.write(turned + ".yaml", "scene: 1\n" + turned + ": 1\n");
+  const auto raw = [](const Finished& run) {
+    return (run.out + run.err).find("\u202e") != std::string::npos ||
+           (run.out + run.err).find("\u200b") != std::string::npos;
+  };
+  const std::vector<std::vector<std::string>> commands = {
+      {"check", "a.yaml"},
+      {"run", "a.yaml"},
+      {"run", "a.yaml", "--json"},
+      {"check", "a.yaml", "--json"},
+      {"run", "a.yaml", "--set", turned + "=1"},
+      {"run", turned + ".yaml"},
+      {"run", turned},
+      {turned},
+      {"run", "--" + turned},
+      {"render", turned},
+      {"explain", turned},
+      {"sweep", "a.yaml", "--grid", turned + "=1:2:3"},
+      {"compare", turned},
+      {"diff", turned, turned},
+      {"gather", turned},
+      {"new", "folder/" + turned},
+      {"submit", turned + ".yaml", "--slurm"},
+  };
+  for (const auto& words : commands) {
+    const Finished run = here.carom(words);
+    EXPECT_FALSE(raw(run)) << words.front() << ":\n" << run.out << run.err;
+  }
+  EXPECT_NE(here.carom({"check", "a.yaml"}).out.find("a: " + shown), std::string::npos);
+  // The document of --json means what the file says.
+  EXPECT_EQ(Json::parse(here.carom({"check", "a.yaml", "--json"}).out)["scenes"][0]["title"], turned);
+}
+
+TEST(Terminal, AManifestsVersionIsShownEscaped) {
+  const Workplace here;
+  here.write("a.yaml", two_balls("output: {frames: {fps: 1, size: [16, 16]}}\n"));
+  here.carom({"run", "a.yaml"});
+  std::string manifest = here.read("output/a/manifest.json");
+  const std::string version = "\"version\": \"";
+  manifest.insert(manifest.find(version) + version.size(), "\u202e\\u001b[2J");
+  here.write("output/a/manifest.json", manifest);
+  const Finished run = here.carom({"render", "output/a"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.err.find(R"(carom \u202e\x1b[2J)"), std::string::npos) << run.err;
+}
+
 }  // namespace
 }  // namespace carom::testing

@@ -63,7 +63,12 @@ TEST(Text, WidthCountsCharactersNotBytes) {
 
 TEST(Text, ControlCharactersDoNotReachTheTerminal) {
   EXPECT_EQ(printable("a\x1b[2Jb\n"), "a\\x1b[2Jb\\x0a");
-  EXPECT_EQ(printable("\xff \xc2\x9b ü"), "\\xff \\xc2\\x9b ü");
+  EXPECT_EQ(printable("\xff \xc2\x9b ü"), "\\xff \\u009b ü");
+  EXPECT_EQ(printable("\u202e\u2028\ufeff\u200b\U000e0001 \u00e9"), R"(\u202e\u2028\ufeff\u200b\udb40\udc01 é)");
+}
+
+TEST(Text, AShellGetsUnprintableCharactersByTheirBytes) {
+  EXPECT_EQ(shell_word("a\u202eb"), R"("$(printf '\141\342\200\256\142')")");
 }
 
 }  // namespace
