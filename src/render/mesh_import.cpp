@@ -2,6 +2,7 @@
 
 #include <assimp/BaseImporter.h>
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -9,6 +10,7 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string_view>
@@ -16,17 +18,42 @@
 namespace carom {
 namespace {
 
+/// Makes comments of the lines of a Wavefront file that name groups and materials, which have nothing to do with its
+/// shape: assimp looks each of them up among all others, which takes minutes where there are tens of thousands.
+void drop_names(char* text, std::size_t size) {
+  for (std::size_t i = 0; i < size;) {
+    while (i < size && (text[i] == ' ' || text[i] == '\t')) ++i;
+    const std::string_view rest(text + i, size - i);
+    for (const std::string_view word : {"usemtl", "mtllib", "g", "o"}) {
+      const bool whole = rest.size() == word.size() || (rest.size() > word.size() && rest[word.size()] <= ' ');
+      if (rest.starts_with(word) && whole) text[i] = '#';
+    }
+    while (i < size && text[i] != '\n' && text[i] != '\r') ++i;
+    while (i < size && (text[i] == '\n' || text[i] == '\r')) ++i;
+  }
+}
+
 /// Opens regular files of one folder, for reading: a mesh names its materials' and buffers' files as it likes.
 class OneFolder : public Assimp::DefaultIOSystem {
  public:
-  explicit OneFolder(const std::string& file) : folder_(folder_of(file)) {}
+  OneFolder(const std::string& file, const std::string& ending)
+      : folder_(folder_of(file)), wavefront_(ending == "obj" ? file : "") {}
   bool Exists(const char* file) const override { return within(file) && Assimp::DefaultIOSystem::Exists(file); }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
     const bool reads = std::string_view(mode).find_first_of("wa+") == std::string_view::npos;
-    return reads && within(file) ? Assimp::DefaultIOSystem::Open(file, mode) : nullptr;
+    if (!reads || !within(file)) return nullptr;
+    std::unique_ptr<Assimp::IOStream> stream(Assimp::DefaultIOSystem::Open(file, mode));
+    return stream && file == wavefront_ ? without_names(*stream) : stream.release();
   }
 
  private:
+  static Assimp::IOStream* without_names(Assimp::IOStream& stream) {
+    const std::size_t size = stream.FileSize();
+    auto bytes = std::make_unique<std::uint8_t[]>(size);
+    const std::size_t read = stream.Read(bytes.get(), 1, size);
+    drop_names(reinterpret_cast<char*>(bytes.get()), read);
+    return new Assimp::MemoryIOStream(bytes.release(), read, true);
+  }
   static std::filesystem::path folder_of(const std::string& file) {
     return std::filesystem::path(file).lexically_normal().parent_path();
   }
@@ -35,6 +62,7 @@ class OneFolder : public Assimp::DefaultIOSystem {
     return folder_of(file) == folder_ && std::filesystem::is_regular_file(file, error);
   }
   std::filesystem::path folder_;
+  std::string wavefront_;  // the file, if it is one
 };
 
 /// Leaves only the readers that go by the file's ending: else its content may choose any of them.
@@ -148,7 +176,7 @@ const std::vector<std::string>& mesh_endings() {
 
 ImportedMesh import_mesh(const std::string& path, const std::string& ending, const MeshLimits& limits) {
   Assimp::Importer importer;
-  importer.SetIOHandler(new OneFolder(path));  // which it owns
+  importer.SetIOHandler(new OneFolder(path, ending));  // which it owns
   keep_readers(importer, ending);
   // Of an STL file each triangle is for itself, normals and all: they are made anew to be smooth.
   int unwanted = aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS | aiComponent_TEXCOORDS |
