@@ -154,9 +154,16 @@ std::optional<double> seconds_to_come(const PlannedScene& planned, const Finding
   return planned.load_s + *findings.foresight.simulate_s + planned.forecast.seconds;
 }
 
+std::string steps_text(double steps) {
+  return steps < 1e15 ? counted(static_cast<std::uint64_t>(steps), "step", "steps")
+                      : fmt::format("{:.4g} steps", steps);
+}
+
 std::string to_come_text(const PlannedScene& planned, const Findings& findings) {
   const std::optional<double> seconds = seconds_to_come(planned, findings);
-  return fmt::format("{}, {}, about {} and {}", counted(planned.forecast.frames, "picture", "pictures"),
+  const std::optional<double> steps = steps_of(*planned.scene);
+  return fmt::format("{}{}, {}, about {} and {}", steps ? steps_text(*steps) + ", " : "",
+                     counted(planned.forecast.frames, "picture", "pictures"),
                      counted(planned.forecast.rows, "trajectory row", "trajectory rows"),
                      bytes_text(planned.forecast.bytes),
                      !seconds         ? "a time that only a run can tell"
@@ -244,6 +251,8 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
   if (!findings.foresight.trouble.empty()) entry["first_collision_trouble"] = findings.foresight.trouble;
   if (!findings.foresight.failure.empty()) entry["failure"] = findings.foresight.failure;
   entry["camera"] = findings.camera ? camera_json(scene, *findings.camera, findings.foresight) : Json(nullptr);
+  const std::optional<double> steps = steps_of(scene);
+  entry["steps"] = steps ? Json(*steps) : Json(nullptr);
   entry["pictures"] = planned.forecast.frames;
   entry["trajectory_rows"] = planned.forecast.rows;
   entry["bytes"] = planned.forecast.bytes;

@@ -120,7 +120,7 @@ Json row_json(const FieldPlaces& row) {
           {"meaning", field.doc},
           {"value", value_text(field)},
           {"unit", text_or_null(field.unit)},
-          {"range", range_json(field.range)},
+          {"range", range_json(limited_range(field))},
           {"choices", field.type == Type::choice ? Json(choices(field)) : Json(nullptr)},
           {"default", field.initial.empty() ? Json(nullptr) : json_of_yaml(field.initial)},
           {"example", field.example.empty() ? Json(nullptr) : json_of_yaml(field.example)},

@@ -1,5 +1,7 @@
 #include "commands/foresight.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -57,7 +59,8 @@ class Trial {
       look_if_due();
       while (oracle_->time() < scene_.simulate.duration && wants_more()) advance();
     } catch (const SimulationError& error) {
-      (result_.first ? result_.failure : result_.trouble) = error.what();
+      (result_.first ? result_.failure : result_.trouble) =
+          error.named([&](Entity body) { return fmt::format("`{}`", scene_.roster.name(body)); }).what();
       result_.cut = result_.cut || next_ <= last_;
     }
     return std::move(result_);

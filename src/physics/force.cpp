@@ -98,4 +98,11 @@ double force_rate(const World& world, Entity body, const Vec3& x, const Vec3& v)
   return most;
 }
 
+double default_step(const World& world, const State& initial) {
+  double rate = 0;
+  for (Entity i = 0; i < world.body_count(); ++i)
+    rate = std::max(rate, force_rate(world, i, initial.position[i], initial.velocity[i]));
+  return std::min(0.001, 0.005 / rate);
+}
+
 }  // namespace carom

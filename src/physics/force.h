@@ -4,6 +4,7 @@
 // In the energy books a force that acts for ever has its potential, like gravity; one that sets in or ceases, and what
 // has no potential, does work.
 #include "physics/linear_flight.h"
+#include "physics/state.h"
 #include "physics/world.h"
 
 namespace carom {
@@ -38,5 +39,8 @@ const char* name_of(const ForceLaw& law);
 
 /// 1/s: about how fast the acceleration changes along the body's path at most, at this point of it; 0: it is constant.
 double force_rate(const World& world, Entity body, const Vec3& x, const Vec3& v);
+
+/// s: a step that follows the forces where the bodies start: 1/1000, or 1/200 of the time in which they change.
+double default_step(const World& world, const State& initial);
 
 }  // namespace carom

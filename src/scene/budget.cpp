@@ -5,12 +5,25 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/force.h"
+
 namespace carom {
 
 Budget Budget::without_outputs() const {
   Budget budget = *this;
   budget.frames = budget.rows = budget.keys = budget.files = std::numeric_limits<std::uint64_t>::max();
   return budget;
+}
+
+std::optional<double> steps_of(const Scene& scene) {
+  const Simulate& simulate = scene.simulate;
+  const bool varying = varying_force(scene.world) != nullptr;
+  const bool exact = simulate.engine == Engine::exact ||
+                     (simulate.engine == Engine::automatic && force_without_closed_form(scene.world) == nullptr);
+  if ((exact && !varying) || simulate.duration == 0) return std::nullopt;
+  if (simulate.step && !exact) return std::ceil(simulate.duration / *simulate.step);
+  const double fine = default_step(scene.world, scene.initial);
+  return std::ceil(simulate.duration / (simulate.tolerance && !exact ? 64 * fine : fine));
 }
 
 std::vector<Excess> excesses(const Output& output, double duration, double bodies, const Budget& budget) {

@@ -1,7 +1,6 @@
 #include "scene/check.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <tuple>
@@ -179,9 +178,9 @@ class Checker : ValueChecker {
       wrong_type(value, quoted(field.key), "expected " + expected(field));
       return;
     }
-    struct stat info {};
-    if (stat(beneath(folder_, value.text).c_str(), &info) == 0 && S_ISREG(info.st_mode)) return;
-    refuse(value, fmt::format("there is no file {}", quoted(value.text)), "paths start at the folder of the scene");
+    const std::string why = why_no_file(beneath(folder_, value.text));
+    if (!why.empty())
+      refuse(value, fmt::format("{} {}", why, quoted(value.text)), "paths start at the folder of the scene");
   }
 
   void check_value(Node& value, const Field& field, const Key& key, bool partial) {
@@ -190,7 +189,7 @@ class Checker : ValueChecker {
     const std::string wanted = "expected " + expected(field);
     switch (field.type) {
       case Type::number:
-        number(value, field, name);
+        number(value, field, name, limited_range(field));
         break;
       case Type::whole:
         whole(value, field, name);

@@ -30,7 +30,7 @@ void ValueChecker::wrong_type(Node& node, const std::string& name, const std::st
   }
 }
 
-bool ValueChecker::number(Node& value, const Field& field, const std::string& name) {
+bool ValueChecker::number(Node& value, const Field& field, const std::string& name, const Range& limits) {
   if (value.bad) return false;
   if (!value.is(Node::Kind::scalar)) {
     wrong_type(value, name, "expected " + expected(field));
@@ -46,6 +46,10 @@ bool ValueChecker::number(Node& value, const Field& field, const std::string& na
     refuse(value, fmt::format("{} is {}", name, value.text), "expected " + expected(field));
     return false;
   }
+  if (!contains(limits, *parsed)) {
+    refuse(value, fmt::format("{} is {}", name, value.text), limit_text(limits, field.unit));
+    return false;
+  }
   return true;
 }
 
@@ -58,7 +62,7 @@ bool ValueChecker::whole(Node& value, const Field& field, const std::string& nam
       return false;
     }
   }
-  return number(value, field, name);
+  return number(value, field, name, field.range);
 }
 
 bool ValueChecker::numbers(Node& value, const Field& field, const std::string& name, std::size_t count) {
@@ -74,10 +78,11 @@ bool ValueChecker::numbers(Node& value, const Field& field, const std::string& n
   }
   bool good = true;
   Field each = field;
+  const Range limits = limited_range(field);
   each.type = field.type == Type::pixels ? Type::whole : Type::number;
   for (Node& item : value.items) {
     const std::string part = "a number of " + name;
-    good = (field.type == Type::pixels ? whole(item, each, part) : number(item, each, part)) && good;
+    good = (field.type == Type::pixels ? whole(item, each, part) : number(item, each, part, limits)) && good;
   }
   if (!good) value.bad = true;
   return good;

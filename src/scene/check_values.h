@@ -18,7 +18,8 @@ class ValueChecker {
   void refuse(Node& node, std::string message, std::string remedy);
   void wrong_type(Node& node, const std::string& name, const std::string& wanted);
 
-  bool number(Node& value, const Field& field, const std::string& name);
+  /// `limits`: beyond the field's range, what a run can compute with (fields.h).
+  bool number(Node& value, const Field& field, const std::string& name, const Range& limits);
   bool whole(Node& value, const Field& field, const std::string& name);
   bool numbers(Node& value, const Field& field, const std::string& name, std::size_t count);
   void choice(Node& value, const Field& field, const std::string& name);

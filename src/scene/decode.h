@@ -59,6 +59,13 @@ void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Dia
 void decode_requests(const Node& root, const Inventory& inventory, const Budget& budget, Scene& scene,
                      Diagnostics& diagnostics);
 
+/// Adds an error where places, sizes, speeds or forces are beyond what doubles carry. Wants all decoded but the members
+/// of groups, and no error.
+void check_reach(const Node& root, const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics);
+
+/// Adds an error where the run takes more steps of time than `budget` has. Wants all decoded.
+void check_steps(const Node& root, const Scene& scene, const Budget& budget, Diagnostics& diagnostics);
+
 /// Adds an error where the engine that the scene names cannot serve what stands in it. Wants all decoded.
 void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics);
 

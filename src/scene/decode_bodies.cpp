@@ -48,6 +48,10 @@ class Bodies {
       if (good && !body.group) single(body, view);
       if (good && body.group && body.count > 0) groups_.push_back(&body);
     }
+    if (diagnostics_.empty()) {
+      check_reach(root_, inventory_, scene_, diagnostics_);
+      if (!diagnostics_.empty()) return;
+    }
     grid_.reserve(n);
     check_overlaps(scene_, singles_, grid_, diagnostics_);
     groups();
@@ -160,10 +164,11 @@ std::optional<double> mass_of(const View& body, const Volume& volume, Diagnostic
   const std::optional<double> density = body.number("density");
   if (!density) return std::nullopt;
   const double mass = *density * volume.size();
-  if (mass > 0 && std::isfinite(mass)) return mass;
+  const Range limits = limited_range(*find_field(body.kind(), "mass"));
+  if (contains(limits, mass)) return mass;
   diagnostics.add(body.place("density"),
                   fmt::format("this density and a volume of {:.6g} m^3 make a mass of {} kg", volume.size(), mass),
-                  "expected a mass above 0 and finite");
+                  limit_text(limits, "kg"));
   return std::nullopt;
 }
 

@@ -18,7 +18,7 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
     const std::string group = name.text.substr(0, dot);
     const auto it = std::find_if(inventory.bodies.begin(), inventory.bodies.end(),
                                  [&](const BodyEntry& b) { return b.group && b.key->text == group; });
-    const std::optional<std::uint64_t> member = parse_whole(std::string_view(name.text).substr(dot + 1));
+    const std::optional<std::uint64_t> member = parse_index(std::string_view(name.text).substr(dot + 1));
     if (it != inventory.bodies.end()) {
       if (member && *member < it->count) return Inventory::Range{it->first + static_cast<Entity>(*member), 1};
       diagnostics.add(

@@ -267,6 +267,25 @@ void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics
   }
 }
 
+void check_steps(const Node& root, const Scene& scene, const Budget& budget, Diagnostics& diagnostics) {
+  const std::optional<double> steps = steps_of(scene);
+  const double bodies = scene.world.body_count();
+  if (!steps) return;
+  const bool many = *steps > static_cast<double>(budget.steps);
+  if (!many && *steps * bodies <= static_cast<double>(budget.body_steps)) return;
+  const View simulate = scene_part(root, "simulate");
+  const bool said = simulate.given("step") != nullptr;
+  const Key* forces = root.find_key("forces");
+  const std::string figure = many ? fmt::format("{:.4g} steps of time; the limit is {}", *steps, budget.steps)
+                                  : fmt::format("{:.4g} steps of time for each of {} bodies; the limit is {} in all",
+                                                *steps, scene.world.body_count(), budget.body_steps);
+  diagnostics.add(said || forces == nullptr ? simulate.place(said ? "step" : "duration") : forces->place,
+                  fmt::format("the run would take {}", figure),
+                  said ? "expected a longer `step` or a shorter duration, or --force if that is meant"
+                       : "steps follow the fastest change of a force: expected forces that change more slowly, a "
+                         "`step` or a shorter duration, or --force if that is meant");
+}
+
 bool wanted(const View& output, std::string_view part) {
   const Node* node = output.given(part);
   return node != nullptr && !node->bad &&

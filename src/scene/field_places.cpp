@@ -65,7 +65,7 @@ bool is_path(Steps said, Steps steps) {
   if (any && is_path(said, steps.subspan(1))) return true;
   if (said.empty()) return false;
   const bool fits = said.front() == steps.front() || (steps.front() == any_name && is_name(said.front())) ||
-                    (steps.front() == any_entry && parse_whole(said.front()));
+                    (steps.front() == any_entry && parse_index(said.front()));
   return fits && is_path(said.subspan(1), steps.subspan(1));
 }
 

@@ -23,6 +23,35 @@ bool contains(const Range& range, double value) {
          (range.below_max ? value < range.max : value <= range.max) && (!range.even || std::fmod(value, 2) == 0);
 }
 
+std::span<const UnitLimit> unit_limits() {
+  static constexpr UnitLimit limits[] = {
+      {"", 1e-90, 1e90},         {"m", 1e-30, 1e30},     {"s", 1e-30, 1e30},       {"1/s", 1e-30, 1e30},
+      {"m/s", 1e-30, 1e30},      {"m/s^2", 1e-30, 1e30}, {"m^3/s^2", 1e-90, 1e90}, {"kg", 1e-60, 1e60},
+      {"kg/m^3", 1e-150, 1e150}, {"N", 1e-60, 1e60},     {"N s", 1e-60, 1e60},     {"N/m", 1e-60, 1e60},
+      {"kg/s", 1e-60, 1e60},     {"kg/m", 1e-60, 1e60},
+  };
+  return limits;
+}
+
+Range limited_range(const Field& field) {
+  Range range = field.range;
+  if (field.type == Type::whole || field.type == Type::pixels || field.type == Type::direction) return range;
+  for (const UnitLimit& limit : unit_limits()) {
+    if (limit.unit != field.unit) continue;
+    range.max = std::min(range.max, limit.largest);
+    range.min = std::max(range.min, -limit.largest);
+    if (range.min != 0 || !range.above_min) continue;
+    range.min = limit.smallest;
+    range.above_min = false;
+  }
+  return range;
+}
+
+std::string limit_text(const Range& limits, std::string_view unit) {
+  return fmt::format("a run computes with numbers from {} to {}{}", limits.min, limits.max,
+                     unit.empty() ? "" : fmt::format(" {}", unit));
+}
+
 std::string describe(const Range& range) {
   if (range.min == range.max) return fmt::format("{}", range.min);
   const bool low = range.min > -infinity, high = range.max < infinity;

@@ -84,6 +84,21 @@ const Field* find_field(const Kind& kind, std::string_view key);
 std::string describe(const Range& range);
 bool contains(const Range& range, double value);
 
+/// How large the numbers of a unit may be, whatever their field, and how small where they must be above 0. Within these
+/// no energy, no distance to the eighth power and no quotient of two of them leaves the doubles, and no length the
+/// floats that grids and pictures use.
+struct UnitLimit {
+  std::string_view unit;
+  double smallest, largest;
+};
+std::span<const UnitLimit> unit_limits();
+
+/// The field's range, within the limits of its unit.
+Range limited_range(const Field& field);
+
+/// "a run computes with numbers from 1e-30 to 1e+30 m": of a number beyond limited_range().
+std::string limit_text(const Range& limits, std::string_view unit);
+
 /// What a value of this field looks like: "a number above 0 in kg", "[x, y, z] in m", "average, minimum or maximum".
 std::string expected(const Field& field);
 

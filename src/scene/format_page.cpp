@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "physics/bounds.h"
+#include "scene/budget.h"
 #include "scene/field_places.h"
 
 namespace carom {
@@ -94,10 +96,37 @@ std::string section(const Kind& kind, bool is_file) {
   return text + "\n";
 }
 
+/// What numbers, distances and runs are refused for their size.
+std::string limits() {
+  const Budget budget;
+  std::string text =
+      "## Limits\n\n"
+      "Numbers lie within what doubles carry through energies, distances and their powers.\n\n"
+      "| unit | least of what must be above 0 | largest |\n| --- | --- | --- |\n";
+  for (const UnitLimit& limit : unit_limits())
+    text +=
+        fmt::format("| {} | {:g} | {:g} |\n", limit.unit.empty() ? "none" : limit.unit, limit.smallest, limit.largest);
+  text += fmt::format(
+      "\nThe smallest size is the smallest radius, height or edge of a body, an obstacle or a wall. Nothing lies "
+      "farther\n"
+      "from the origin than {0:g} times that, and no starting speed times the duration is longer. A body that gets "
+      "there\n"
+      "on its way, or to more than {1:g} m/s, ends the run. Its uniform forces accelerate it by at most {2:g} "
+      "m/s^2.\n\n"
+      "A run has a budget, which `--force` lifts and `carom check` holds it against:\n\n"
+      "| of a run | at most |\n| --- | --- |\n"
+      "| bodies | {3} |\n| pictures | {4} |\n| rows of a table | {5} |\n| steps of time | {6} |\n"
+      "| steps of time, times bodies | {7} |\n\n",
+      farthest_by_size, largest_speed, largest_acceleration, budget.bodies, budget.frames, budget.rows, budget.steps,
+      budget.body_steps);
+  return text;
+}
+
 }  // namespace
 
 std::string format_page() {
   std::string page(introduction);
+  page += limits();
   for (const std::span<const Kind> family : families()) {
     for (const Kind& kind : family) page += section(kind, &kind == &family.front());
   }

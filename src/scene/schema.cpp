@@ -123,7 +123,7 @@ Json choice_schema(const Field& field) {
 Json value_schema(const Field& field) {
   switch (field.type) {
     case Type::number:
-      return number_schema(field.range);
+      return number_schema(limited_range(field));
     case Type::whole:
       return whole_schema(field.range);
     case Type::flag:
@@ -134,14 +134,14 @@ Json value_schema(const Field& field) {
     case Type::choice:
       return choice_schema(field);
     case Type::vector:
-      return array_schema(number_schema(field.range), 3);
+      return array_schema(number_schema(limited_range(field)), 3);
     case Type::direction: {
-      Json schema = array_schema(number_schema(field.range), 3);
+      Json schema = array_schema(number_schema(limited_range(field)), 3);
       schema["not"] = {{"items", {{"const", 0}}}};
       return schema;
     }
     case Type::extent:
-      return array_schema(number_schema(field.range), 2);
+      return array_schema(number_schema(limited_range(field)), 2);
     case Type::pixels:
       return array_schema(whole_schema(field.range), 2);
     case Type::color:

@@ -118,7 +118,7 @@ class Walk {
       case Type::named:
         return into_named(step);
       case Type::list: {
-        const std::optional<std::uint64_t> i = parse_whole(step.text);
+        const std::optional<std::uint64_t> i = parse_index(step.text);
         if (!i || *i >= node_->items.size() || !node_->is(Node::Kind::sequence)) {
           return refuse(step, fmt::format("{} has no entry {}", quoted(before_), quoted(step.text)),
                         fmt::format("it has {} entries, the first is 0", node_->items.size()));

@@ -28,6 +28,10 @@ inline constexpr std::uint64_t max_source_bytes = 32 << 20;
 /// device. On failure adds an error without a place to `diagnostics` and gives false.
 bool read_source(const std::string& path, Source& source, Diagnostics& diagnostics);
 
+/// Why no regular file can be read by this path, "there is no file" or the system's reason; empty: one can be, as far
+/// as looking at it says.
+std::string why_no_file(const std::string& path);
+
 /// Refuses what no scene needs and a terminal or a parser may choke on: invalid UTF-8, control characters, tabs, and
 /// more brackets than any scene has (the parser's scanner keeps all tokens of an open bracket in memory).
 /// Tabs between words become spaces so that checking can go on; gives false if it cannot.

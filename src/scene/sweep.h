@@ -76,6 +76,7 @@ class Sweep {
 };
 
 inline constexpr std::size_t most_runs = 1'000'000;
+inline constexpr std::size_t most_values = 10'000'000;  // of all paths that go in step
 
 /// Reads and checks a sweep file, as far as it can be without its base. Throws SceneError, which holds every error.
 /// `color`: in the texts of errors.

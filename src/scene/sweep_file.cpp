@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <map>
 #include <optional>
@@ -42,18 +41,18 @@ class Reader {
         sweep_.set_values.push_back({set->keys[i].text + "=" + flow_text(set->items[i]), where(set->keys[i].place)});
     }
     const Node* base = usable(root_.find("base"));
-    if (base != nullptr && !sources_.front().option && !std::filesystem::exists(sweep_.base))
-      diagnostics_.add(base->place, fmt::format("there is no file {}", carom::quoted(base->text)),
-                       "expected a scene file, by its path from the folder of this file");
+    if (base != nullptr && !sources_.front().option) {
+      if (const std::string why = why_no_file(sweep_.base); !why.empty())
+        diagnostics_.add(base->place, fmt::format("{} {}", why, carom::quoted(base->text)),
+                         "expected a scene file, by its path from the folder of this file");
+    }
     blocks();
     repeat();
     if (const Node* only = usable(root_.find("only"))) {
       for (const Node& item : only->items) sweep_.only.push_back({item.text, where(item.place)});
     }
     compare();
-    if (sweep_.size() > most_runs)
-      diagnostics_.add(root_.keys.front().place, fmt::format("{} runs", sweep_.size()),
-                       fmt::format("expected at most {}", most_runs));
+    if (sweep_.size() > most_runs) refuse_runs(root_.keys.front().place);
     return std::move(sweep_);
   }
 
@@ -104,13 +103,15 @@ class Reader {
         diagnostics_.add(beside->place, fmt::format("`runs` and {} stand side by side", carom::quoted(key)),
                          "expected it in an entry of `runs`");
     }
-    for (const Node& item : runs->items) block(item);
+    for (const Node& item : runs->items)
+      if (sweep_.size() <= most_runs) block(item);
   }
 
   /// What varies in one block.
   void block(const Node& node) {
     if (node.bad || !node.is(Node::Kind::map)) return;
     SweepBlock block;
+    std::uint64_t runs = 1;
     taken_.clear();
     if (const Node* grid = usable(node.find("grid"))) {
       for (std::size_t i = 0; i < grid->keys.size(); ++i) {
@@ -118,17 +119,23 @@ class Reader {
         for (SweepValue& value : values(grid->keys[i], grid->items[i]))
           axis.cases.push_back({{{path(grid->keys[i].text), std::move(value)}}});
         take(grid->keys[i]);
-        if (!axis.cases.empty()) block.axes.push_back(std::move(axis));
+        if (axis.cases.empty()) continue;
+        runs *= axis.cases.size();
+        block.axes.push_back(std::move(axis));
+        // No further axis is spelled out: forty of a million values each would take all memory.
+        if (runs > most_runs) return refuse_runs(grid->keys[i].place);
       }
     }
-    if (const Node* zip = usable(node.find("zip"))) block.axes.push_back(zipped(*zip));
+    if (const Node* zip = usable(node.find("zip"))) {
+      block.axes.push_back(zipped(*zip));
+      if (block.axes.back().cases.empty()) return;  // said
+    }
     if (const Node* list = usable(node.find("list"))) {
       Axis axis{Axis::Kind::list, {}};
       std::map<std::string, const Key*> keys;
-      for (const Node& item : list->items) {
-        axis.cases.push_back(one_case(item));
+      for (const Node& item : list->items) axis.cases.push_back(one_case(item));
+      for (const Node& item : list->items)
         for (const Key& key : item.keys) keys.emplace(key.text, &key);
-      }
       for (const auto& [text, key] : keys) take(*key);
       block.axes.push_back(std::move(axis));
     }
@@ -158,6 +165,11 @@ class Reader {
       const Key& key = zip.keys[i];
       std::vector<SweepValue> column = values(key, zip.items[i]);
       if (i == 0) axis.cases.resize(column.size());
+      if (zip.keys.size() * axis.cases.size() > most_values) {
+        diagnostics_.add(key.place, fmt::format("{} values of {} paths", axis.cases.size(), zip.keys.size()),
+                         fmt::format("expected at most {} values in all", most_values));
+        return {Axis::Kind::zip, {}};
+      }
       if (column.size() != axis.cases.size()) {
         diagnostics_.add(key.place,
                          fmt::format("{} has {} values, {} has {}", carom::quoted(key.text), column.size(),
@@ -221,16 +233,16 @@ class Reader {
     return out;
   }
 
+  void refuse_runs(const Place& place) {
+    diagnostics_.add(place, fmt::format("more than {} runs", most_runs), fmt::format("expected at most {}", most_runs));
+  }
+
   /// Which combinations are left.
   void keep(SweepBlock& block, const Node* skip, const Node& node) {
     std::uint64_t count = 1;
     for (const Axis& axis : block.axes) {
       count *= axis.cases.size();
-      if (count > most_runs) {
-        diagnostics_.add(node.keys.front().place, fmt::format("more than {} runs", most_runs),
-                         fmt::format("expected at most {}", most_runs));
-        return;
-      }
+      if (count > most_runs) return refuse_runs(node.keys.front().place);
     }
     if (skip != nullptr) block.skip = flow_text(*skip);
     std::vector<std::size_t> skipped(skip == nullptr ? 0 : skip->items.size());

@@ -71,11 +71,16 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
-std::optional<std::uint64_t> parse_whole(std::string_view text) {
+std::optional<std::uint64_t> parse_index(std::string_view text) {
   std::uint64_t whole = 0;
   if (has_leading_zero(text)) return std::nullopt;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), whole);
-  if (error == std::errc() && end == text.data() + text.size()) return whole;
+  return error == std::errc() && end == text.data() + text.size() ? std::optional(whole) : std::nullopt;
+}
+
+std::optional<std::uint64_t> parse_whole(std::string_view text) {
+  if (const std::optional<std::uint64_t> digits = parse_index(text)) return digits;
+  if (has_leading_zero(text)) return std::nullopt;
   const std::optional<double> value = parse_number(text);
   if (!value || *value < 0 || *value > 9007199254740992.0 || std::floor(*value) != *value) return std::nullopt;
   return static_cast<std::uint64_t>(*value);

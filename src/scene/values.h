@@ -16,6 +16,9 @@ std::optional<double> parse_number(std::string_view text);
 /// A whole number >= 0, as digits or as any number that is whole (1e6).
 std::optional<std::uint64_t> parse_whole(std::string_view text);
 
+/// The number of a group's member or of a list's entry: digits alone, without a leading zero.
+std::optional<std::uint64_t> parse_index(std::string_view text);
+
 /// What is wrong with a scalar that is no number, and what to write instead.
 struct Complaint {
   std::string message, remedy;

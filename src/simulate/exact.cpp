@@ -29,6 +29,7 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       joint_world_(options.merge ? std::make_unique<World>(world) : nullptr),
       world_(options.merge ? *joint_world_ : world),
       options_(options),
+      bounds_(bounds_of(world)),
       same_radius_(!options.merge && std::adjacent_find(world.radius.begin(), world.radius.end(),
                                                         std::not_equal_to{}) == world.radius.end()),
       pull_(world.body_count(), world.gravity),
@@ -177,12 +178,7 @@ void ExactSimulator::process(Entity i) {
 void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin origin) {
   path_changes(i);
   const double speed = v.norm();
-  if (!(speed < never))
-    throw SimulationError(
-        fmt::format("at t = {} s a body's speed is no longer finite: restitution above 1 makes energy at every "
-                    "collision; lower it, or "
-                    "shorten simulate.duration",
-                    now_.hi));
+  hold_to(bounds_, i, now_.hi, x, v, too_fast);
   tally_.max_speed = std::max(tally_.max_speed, speed);
   book_flight(i, x);
   const bool flies =
@@ -330,6 +326,7 @@ const State& ExactSimulator::state() {
   if (time_ >= options_.duration && !ended_) {
     ended_ = true;
     for (Entity i = 0; i < world_.body_count(); ++i) {
+      hold_to(bounds_, i, time_, state_.position[i], state_.velocity[i], too_fast);
       tally_.max_speed = std::max(tally_.max_speed, state_.velocity[i].norm());
       book_flight(i, state_.position[i]);
       const Vec3 v = flight_[i].velocity(at - flight_[i].start);

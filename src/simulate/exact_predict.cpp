@@ -272,8 +272,9 @@ void ExactSimulator::rebuild_region(Entity i) {
     const double pull = std::sqrt(pull2);
     half = std::min(half, (v.norm() + std::sqrt(v.squaredNorm() + 2 * pull * neighbours_.room(i))) / pull);
   }
-  const Vec3 ahead = half * (f.velocity(since) + (0.5 * half) * f.a);
-  const std::span<const Entity> came = neighbours_.renew(i, f.position(since), ahead);
+  const Vec3 ahead = half * (f.velocity(since) + (0.5 * half) * f.a), here = f.position(since);
+  hold_to(bounds_, i, now_.hi, here, f.velocity(since), too_fast);
+  const std::span<const Entity> came = neighbours_.renew(i, here, ahead);
   Event best = body_[i].event;
   meet_bodies(i, came, best);
   meet_each(i, neighbours_.surfaces(i), best);

@@ -111,6 +111,8 @@ class ExactSimulator final : public Simulator {
     Instant taken_up{never, 0};  // the last that contact has taken up for that
   };
 
+  static constexpr const char* too_fast =
+      "restitution above 1 makes energy at every collision; lower it, or shorten simulate.duration";
   static constexpr double immovable = never;     // kg
   static constexpr double hardly_moving = 1e-5;  // of the speed of falling by a radius: in a crowd as good as none
   static constexpr double restless_gap = 2e-2;   // of a radius: what bodies that were just struck are kept apart
@@ -242,6 +244,7 @@ class ExactSimulator final : public Simulator {
   std::unique_ptr<World> joint_world_;  // where bodies merge: with the joint bodies' masses and volumes
   const World& world_;
   const ExactOptions options_;
+  const Bounds bounds_;
   const bool same_radius_;  // of all bodies, for good
   Instant now_;
   double time_ = 0;  // s, how far advance_to has come

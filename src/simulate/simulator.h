@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <stdexcept>
 
 #include "physics/collision.h"
 #include "physics/contact_force.h"
@@ -11,13 +10,9 @@
 #include "physics/state.h"
 #include "physics/tally.h"
 #include "physics/world.h"
+#include "simulate/simulation_error.h"
 
 namespace carom {
-
-/// The run cannot go on (a limit reached, a number no longer finite). The text is for the user.
-struct SimulationError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// What a simulator did to get where it is. Results do not depend on it.
 struct Effort {

@@ -1,8 +1,12 @@
 #include "simulate/step_choice.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <vector>
+
+#include "physics/force.h"
 
 namespace carom {
 
@@ -79,6 +83,11 @@ StepChoice choose_step(const World& world, const State& initial, SteppedOptions 
     last = std::move(track);
   }
   if (best.difference == std::numeric_limits<double>::infinity() && !trouble.empty()) throw SimulationError(trouble);
+  if (last.empty())
+    throw SimulationError(
+        fmt::format("the forces change so fast that even steps of {:.4g} s take more than {:g} steps of bodies: shorten "
+                    "simulate.duration, or name a simulate.step in place of the tolerance",
+                    std::min(options.duration, 64 * fine), most_steps));
   return best;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "physics/force.h"
+#include "physics/whole.h"
 #include "simulate/stepped_simulator.h"
 
 namespace carom {
@@ -25,16 +26,10 @@ std::unique_ptr<Simulator> make_stepped_simulator(const World& world, const Stat
   return std::make_unique<SteppedSimulator>(world, initial, options);
 }
 
-double default_step(const World& world, const State& initial) {
-  double rate = 0;
-  for (Entity i = 0; i < world.body_count(); ++i)
-    rate = std::max(rate, force_rate(world, i, initial.position[i], initial.velocity[i]));
-  return std::min(0.001, 0.005 / rate);
-}
-
 SteppedSimulator::SteppedSimulator(const World& world, const State& initial, const SteppedOptions& options)
     : world_(world),
       options_(options),
+      bounds_(bounds_of(world)),
       x_(initial.position),
       v_(initial.velocity),
       start_(world.body_count()),
@@ -89,6 +84,10 @@ SteppedSimulator::SteppedSimulator(const World& world, const State& initial, con
 /// s: where the step after the present one ends: at a multiple of the given step, where a force sets in or ceases, or
 /// at the end.
 double SteppedSimulator::next_time(double from) {
+  if (!(from + options_.step > from))
+    throw SimulationError(fmt::format("at t = {} s steps of {} s no longer move the clock: use a longer simulate.step",
+                                      from, options_.step));
+  steps_ = std::max(steps_, static_cast<std::uint64_t>(whole_below(from / options_.step)));
   while (static_cast<double>(steps_) * options_.step <= from) ++steps_;
   double next = std::min(static_cast<double>(steps_) * options_.step, options_.duration);
   const auto at = std::upper_bound(switches_.begin(), switches_.end(), from);
@@ -184,7 +183,7 @@ void SteppedSimulator::do_step() {
     if (cluster_of_[i] != none) strays = std::max(strays, (end_x_[i] - path_[i].position(length_ - start_[i])).norm());
   goes_ += strays;
   for (const Entity i : awake_) {
-    check_finite(end_x_[i], end_v_[i]);
+    hold_to(bounds_, i, to_, end_x_[i], end_v_[i], too_fast);
     tally_.max_speed = std::max(tally_.max_speed, end_v_[i].norm());
     const double work = works_ ? book_work(i, end_x_[i], end_v_[i], length_ - start_[i]) : 0;
     // What a crowd's step does to energy, other than by forces, contact has taken.
@@ -192,14 +191,6 @@ void SteppedSimulator::do_step() {
       lose(0.5 * world_.mass[i] * (v_[i] - end_v_[i]).dot(v_[i] + end_v_[i]) + potential(world_, i, x_[i]) -
            potential(world_, i, end_x_[i]) + work);
   }
-}
-
-void SteppedSimulator::check_finite(const Vec3& x, const Vec3& v) const {
-  if (v.squaredNorm() < never && x.squaredNorm() < never) return;
-  throw SimulationError(fmt::format(
-      "at t = {} s a body's speed is no longer finite: use a smaller simulate.step (now {} s), an attractor with "
-      "`softening`, or restitution of at most 1",
-      to_, options_.step));
 }
 
 void SteppedSimulator::record(const Collision& c) {

@@ -13,7 +13,7 @@ struct SteppedOptions {
   double step = 0.001;  // s
   Integrator integrator = Integrator::rk4;
   // Bodies that touch nothing fly in closed form, and bounces are followed until they are too short to matter: for
-  // scenes without force_without_closed_form (force.h), and a step no longer than default_step.
+  // scenes without force_without_closed_form (force.h), and a step no longer than default_step (force.h).
   bool closed_form = false;
   double rest_speed = 0;             // m/s; slower impacts under load end in resting contact; 0: by the step alone
   std::uint64_t max_collisions = 0;  // stop with an error after so many; 0: no limit
@@ -24,8 +24,5 @@ struct SteppedOptions {
 /// at time 0 is after them.
 std::unique_ptr<Simulator> make_stepped_simulator(const World& world, const State& initial,
                                                   const SteppedOptions& options);
-
-/// s: a step that follows the scene's forces where its bodies start: 1/1000, or 1/200 of the time in which they change.
-double default_step(const World& world, const State& initial);
 
 }  // namespace carom

@@ -160,8 +160,8 @@ void SteppedSimulator::collide(const Event& event) {
     lose(impact_loss(ma, mb, approach, separation));
     v_[a] -= impulse / ma * n;
     if (body) v_[b] += impulse / mb * n;
-    check_finite(x_[a], v_[a]);
-    if (body) check_finite(x_[b], v_[b]);
+    hold_to(bounds_, a, to_, x_[a], v_[a], too_fast);
+    if (body) hold_to(bounds_, b, to_, x_[b], v_[b], too_fast);
   }
   const Event struck{time, Kind::impact, a, b, there.feature, 0, 0};
   bind(group, time, &struck, !lasting);

@@ -111,7 +111,6 @@ class SteppedSimulator final : public Simulator {
   void do_step();
   void end_step();
   double next_time(double from);
-  void check_finite(const Vec3& x, const Vec3& v) const;
   void record(const Collision& collision);
   void lose(double energy);
 
@@ -183,8 +182,12 @@ class SteppedSimulator final : public Simulator {
   bool in_company(Entity i) const { return cluster_of_[i] != none || in_crowd_[i]; }
   bool crowded(Entity e) const { return world_.is_body(e) && in_crowd_[e]; }
 
+  static constexpr const char* too_fast =
+      "use a smaller simulate.step, an attractor with `softening`, or restitution of at most 1";
+
   const World& world_;
   const SteppedOptions options_;
+  const Bounds bounds_;
   std::vector<double> switches_;  // s, ascending: when forces set in or cease
   std::uint64_t steps_ = 0;       // of options_.step that have begun
   double from_ = 0, to_ = 0;      // s: the present step,

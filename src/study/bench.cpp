@@ -13,6 +13,8 @@
 #include <array>
 #include <cmath>
 
+#include "physics/force.h"
+#include "physics/whole.h"
 #include "scene/unsupported.h"
 #include "simulate/stepped.h"
 #include "study/engine.h"
@@ -127,7 +129,8 @@ class Bench {
       const RecordedRun other = is_reference ? RecordedRun{} : record(row, left_);
       const RecordedRun& run = is_reference ? reference_.run : other;
       fill(row, run);
-      row.repeats = std::clamp(static_cast<int>(0.2 * left_ / run.cpu_s), 1, options_.repeat);
+      row.repeats =
+          static_cast<int>(std::clamp<std::int64_t>(whole_below(0.2 * left_ / run.cpu_s), 1, options_.repeat));
     } catch (const Overrun&) {
       result_.left_out.push_back(fmt::format("exact: one run takes more than {:.2g} s of CPU time", left_));
       return;
@@ -159,7 +162,7 @@ class Bench {
         row.cpu_s = bare = time_once(row);
         records = std::max(0.0, run.cpu_s - bare);
         share -= run.cpu_s + bare;
-        row.repeats = std::clamp(static_cast<int>(share / bare), 0, options_.repeat);
+        row.repeats = static_cast<int>(std::clamp<std::int64_t>(whole_below(share / bare), 0, options_.repeat));
         share -= row.repeats * bare;
         if (engine == Engine::stepped && integrator == Integrator::rk4) check_reference(std::move(run));
       } catch (const Overrun&) {

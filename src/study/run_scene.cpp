@@ -1,5 +1,6 @@
 #include "study/run_scene.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -276,9 +277,14 @@ std::vector<RunResult> run_shows(std::span<const Show> shows, const EngineChoice
   std::vector<RunResult> results;
   {
     const Stopwatch wall(wall_s);
-    Run run(shows, engine, settings, watch);
-    run.go();
-    results = run.finish();
+    try {
+      Run run(shows, engine, settings, watch);
+      run.go();
+      results = run.finish();
+    } catch (const SimulationError& error) {
+      const Roster& roster = shows.front().scene->roster;
+      throw error.named([&](Entity body) { return fmt::format("`{}`", roster.name(body)); });
+    }
   }
   for (RunResult& result : results) result.wall_s = wall_s;
   return results;

@@ -98,7 +98,7 @@ const std::vector<Beyond>& beyond_schemas() {
       {"is not beyond near", "two numbers against one another"},
       {"but the scene ends at", "two numbers against one another"},
       {"but `from` is", "two numbers against one another"},
-      {"make a mass of", "the product of two numbers"},
+      {"times the smallest size", "how far and how fast things are against how small they are"},
       {"the limit is", "how much a run may write, which --force lifts"},
       {"paths have no closed form", "what an engine can do depends on forces, volumes and obstacles together"},
       {"`engine: book` has no", "what an engine can do depends on forces, volumes and obstacles together"},

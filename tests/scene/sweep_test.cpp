@@ -149,6 +149,11 @@ TEST(SweepErrors, NameWhatNoSweepCanBe) {
   has(head + "grid: {seed: [1, 2]}\nrepeat: {seeds: 2}\n", "`repeat` varies it too");
   has(head + "grid: {a: {from: 1, to: 1000, count: 1000}, b: {from: 1, to: 1001, count: 1001}}\n",
       "more than 1000000 runs");
+  std::string many;
+  for (int k = 0; k < 40; ++k) many += "  a" + std::to_string(k) + ": {from: 1, to: 1000000, count: 1000000}\n";
+  has(head + "grid:\n" + many, "more than 1000000 runs");
+  has(head + "zip:\n" + many, "1000000 values of 40 paths");
+  has("sweep: 1\nbase: " + std::string(4000, 'b') + "\ngrid: {a: [1]}\n", "cannot be looked at (File name too long):");
   has("sweep: 1\ngrid: {a: [1]}\n", "the sweep has no `base`");
   has("scene: 1\nsimulate: {duration: 1}\n", "this is a scene, not a sweep");
   has("[]", "this is not a sweep");

@@ -1,7 +1,9 @@
 // Families of random scenes, each after one kind of trouble.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "physics/bounds.h"
 #include "stress/make_scene.h"
 
 namespace carom::stress {
@@ -34,7 +36,7 @@ void space(Maker& m) {
   m.gravity(0.7);
   const double speed = m.spread(1e-12, 1e8), radius = m.spread(1e-3, 1), e = m.restitution();
   const double way = radius * m.spread(2, 1e5), duration = std::min(1e6, 2 * way / speed);
-  const Vec3 origin = m.chance(0.5) ? Vec3(Vec3::Zero()) : m.somewhere(m.spread(1, 1e9));
+  const Vec3 origin = m.chance(0.5) ? Vec3(Vec3::Zero()) : m.somewhere(m.spread(1, 1e8));
   if (!m.scene.world.gravity.isZero() && m.chance(0.5)) m.scene.world.gravity *= way / (duration * duration);
   const bool volumes = m.chance(0.3);
   for (int k = m.whole(1, 8); k > 0; --k) {
@@ -242,6 +244,20 @@ void hammers(Maker& m) {
   m.scene.may_stop = true;
 }
 
+/// s: until bodies that nothing holds back have come a tenth as far as doubles carry them.
+double time_in_bounds(const RandomScene& scene) {
+  const World& world = scene.world;
+  double speed = 0, pull = world.gravity.norm();
+  for (Entity i = 0; i < world.body_count(); ++i) {
+    const Vec3 kick = world.impulse.empty() ? Vec3(Vec3::Zero()) : Vec3(world.impulse[i] / world.mass[i]);
+    speed = std::max(speed, (scene.initial.velocity[i] + kick).norm());
+  }
+  for (const Force& f : world.forces)
+    pull += value(f).norm() / (per_mass(f) ? 1 : *std::min_element(world.mass.begin(), world.mass.end()));
+  const double way = 0.1 * bounds_of(world).place;
+  return 2 * way / (speed + std::sqrt(speed * speed + 2 * pull * way));
+}
+
 struct Family {
   const char* name;
   void (*make)(Maker&);
@@ -270,6 +286,7 @@ RandomScene make_scene(std::uint64_t seed) {
   family.make(maker);
   maker.rules();
   World& world = scene.world;
+  scene.options.duration = std::min(scene.options.duration, time_in_bounds(scene));
   // Whatever bounces for ever may do so more often than the limit.
   const auto lasting = [](const auto& thing) { return thing.restitution.value_or(0) >= 1; };
   scene.may_stop =

@@ -1,0 +1,122 @@
+// Whether doubles carry the scene: how far its things lie, and how far its bodies go, by the smallest size in it
+// (physics/bounds.h).
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "physics/bounds.h"
+#include "scene/decode.h"
+#include "scene/values.h"
+
+namespace carom {
+namespace {
+
+class Reach {
+ public:
+  Reach(const Node& root, const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics)
+      : root_(root),
+        inventory_(inventory),
+        scene_(scene),
+        world_(scene.world),
+        diagnostics_(diagnostics),
+        smallest_(smallest_size(world_)),
+        farthest_(farthest_by_size * smallest_) {}
+
+  void check() {
+    for (const FixedEntry& entry : inventory_.fixed) check_places(fixed_view(root_, entry), entry.key->text);
+    for (const BodyEntry& body : inventory_.bodies) {
+      if (body.count == 0) continue;
+      const View view = body_view(root_, body);
+      check_places(body.group ? view.part("in", "in") : view, body.key->text);
+      check_speed(body, view);
+    }
+    check_pull();
+  }
+
+ private:
+  /// Of a body, a fixed thing or a group's box.
+  void check_places(const View& view, const std::string& name) {
+    for (const std::string_view key : {"position", "point", "center", "min", "max"}) {
+      if (find_field(view.kind(), key) == nullptr) continue;
+      const std::optional<Vec3> at = view.vector(key);
+      if (at)
+        check_length(at->cwiseAbs().maxCoeff(), view.place(key), "{} is {} m from the origin", name, "bring it nearer");
+    }
+    for (const std::string_view key : {"radius", "cylinder", "box", "size"}) {
+      if (find_field(view.kind(), key) == nullptr || view.find(key) == nullptr) continue;
+      check_length(largest_number(*view.find(key)), view.place(key), "{} is {} m large", name, "make it smaller");
+    }
+  }
+
+  static double largest_number(const Node& node) {
+    double largest = as_number(&node).value_or(0);
+    for (const Node& item : node.items) largest = std::max(largest, as_number(&item).value_or(0));
+    return largest;
+  }
+
+  void check_length(double length, Place place, std::string_view message, const std::string& name,
+                    std::string_view change) {
+    if (length <= farthest_) return;
+    diagnostics_.add(
+        place,
+        fmt::format(fmt::runtime(message), quoted(name), shortest(length)) +
+            fmt::format(", more than {:g} times the smallest size, {} m", farthest_by_size, shortest(smallest_)),
+        fmt::format("doubles do not resolve contact there: {}, or make what is smallest larger", change));
+  }
+
+  void check_speed(const BodyEntry& body, const View& view) {
+    const double mass = world_.mass[body.first];
+    const Vec3 kick = world_.impulse.empty() ? Vec3(Vec3::Zero()) : Vec3(world_.impulse[body.first] / mass);
+    const View each = body.group ? member_view(root_, view) : view;
+    const std::optional<double> deviation = body.group ? view.number("speed") : std::nullopt;
+    const bool common = body.group && view.given("velocity") != nullptr;
+    const Vec3 velocity = (common ? view : each).vector("velocity").value_or(Vec3::Zero());
+    const double speed = deviation.value_or(velocity.norm()) + kick.norm();
+    const std::string_view key = !kick.isZero(0) ? "impulse" : deviation ? "speed" : "velocity";
+    const Place place = (key == "speed" || (common && key == "velocity") ? view : each).place(key);
+    if (!(speed <= largest_speed)) {
+      diagnostics_.add(place, fmt::format("{} starts with {} m/s", quoted(body.key->text), shortest(speed)),
+                       fmt::format("expected at most {:g} m/s", largest_speed));
+      return;
+    }
+    const double way = speed * scene_.simulate.duration;
+    if (way <= farthest_) return;
+    diagnostics_.add(place,
+                     fmt::format("{} goes {} m in the duration, more than {:g} times the smallest size, {} m",
+                                 quoted(body.key->text), shortest(way), farthest_by_size, shortest(smallest_)),
+                     "doubles do not resolve where it is then: expected a shorter duration, a lower speed, or larger "
+                     "things");
+  }
+
+  /// Of the forces that are the same everywhere, all at once.
+  void check_pull() {
+    for (Entity i = 0; i < world_.body_count(); ++i) {
+      double pull = 0;
+      for (const Force& force : world_.forces) {
+        if (!force.on.empty() && !std::binary_search(force.on.begin(), force.on.end(), i)) continue;
+        if (const auto* uniform = std::get_if<UniformForce>(&force.law)) pull += uniform->force.norm() / world_.mass[i];
+      }
+      if (pull <= largest_acceleration) continue;
+      diagnostics_.add(
+          root_.find_key("forces")->place,
+          fmt::format("the uniform forces accelerate {} by {} m/s^2", quoted(scene_.roster.name(i)), shortest(pull)),
+          fmt::format("expected at most {:g} m/s^2", largest_acceleration));
+      return;
+    }
+  }
+
+  const Node& root_;
+  const Inventory& inventory_;
+  const Scene& scene_;
+  const World& world_;
+  Diagnostics& diagnostics_;
+  double smallest_, farthest_;  // m
+};
+
+}  // namespace
+
+void check_reach(const Node& root, const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics) {
+  Reach(root, inventory, scene, diagnostics).check();
+}
+
+}  // namespace carom

@@ -1,0 +1,32 @@
+#include "simulate/simulation_error.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace carom {
+
+SimulationError::SimulationError(const std::string& before, Entity body, const std::string& after)
+    : runtime_error(fmt::format("{}body {}{}", before, body, after)), about_{{before, body, after}} {}
+
+SimulationError SimulationError::named(const std::function<std::string(Entity)>& name) const {
+  return about_ ? SimulationError(about_->before + name(about_->body) + about_->after) : *this;
+}
+
+void hold_to(const Bounds& bounds, Entity body, double time, const Vec3& x, const Vec3& v, const char* remedy) {
+  if (bounds.hold(x, v)) return;
+  const std::string when = fmt::format("at t = {} s ", time);
+  const double speed = v.norm();
+  if (!std::isfinite(speed)) throw SimulationError(when, body, fmt::format("'s speed is no longer finite: {}", remedy));
+  if (speed > bounds.speed)
+    throw SimulationError(when, body,
+                          fmt::format("'s speed is {:.4g} m/s, more than the {:g} m/s that a run computes with: {}",
+                                      speed, bounds.speed, remedy));
+  throw SimulationError(
+      when, body,
+      fmt::format(" is {:.4g} m from the origin, more than {:g} times the smallest size of the scene, where doubles no "
+                  "longer resolve it: shorten simulate.duration, or hold it back by a wall",
+                  x.cwiseAbs().maxCoeff(), farthest_by_size));
+}
+
+}  // namespace carom

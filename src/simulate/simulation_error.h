@@ -1,0 +1,36 @@
+#pragma once
+// Why a run cannot go on.
+#include <functional>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "physics/bounds.h"
+#include "physics/world.h"
+
+namespace carom {
+
+/// The run cannot go on (a limit reached, a number that doubles do not carry). The text is for the user.
+class SimulationError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+  /// About a body, which simulators know by number: "<before>body 3<after>".
+  SimulationError(const std::string& before, Entity body, const std::string& after);
+
+  /// The same with the body's name in place of its number.
+  SimulationError named(const std::function<std::string(Entity)>& name) const;
+
+ private:
+  struct About {
+    std::string before;
+    Entity body;
+    std::string after;
+  };
+  std::optional<About> about_;
+};
+
+/// Throws SimulationError unless a body's place x (m) and velocity v (m/s) at `time` (s) are within bounds. `remedy`:
+/// what the user can do about a speed.
+void hold_to(const Bounds& bounds, Entity body, double time, const Vec3& x, const Vec3& v, const char* remedy);
+
+}  // namespace carom

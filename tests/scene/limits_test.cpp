@@ -1,0 +1,155 @@
+// What doubles do not carry is refused before anything is computed with it.
+#include <fmt/format.h>
+
+#include "physics/bounds.h"
+#include "scene/fields.h"
+#include "scene/scenes_in_text.h"
+
+namespace carom {
+namespace {
+
+/// A ball of these keys, and `more` below it.
+std::string ball(const std::string& keys, const std::string& more = "simulate: {duration: 1}\n") {
+  return "scene: 1\nballs:\n  red: {" + keys + "}\n" + more;
+}
+
+TEST(Limits, ANumberBeyondThoseOfItsUnitIsRefusedWhereItStands) {
+  EXPECT_EQ(errors_of(ball("mass: 1e154, radius: 1e308, position: [1e200, 0, 0], velocity: [0, 1e155, 0]",
+                           "gravity: [0, -1e154, 0]\nsimulate: {duration: 1e31}\n")),
+            "scene.yaml:3:15: error: `mass` is 1e154\n"
+            "   3 |   red: {mass: 1e154, radius: 1e308, position: [1e200, 0, 0], velocity: [0, 1e155, 0]}\n"
+            "     |               ^~~~~\n"
+            "     = a run computes with numbers from 1e-60 to 1e+60 kg\n"
+            "scene.yaml:3:30: error: `radius` is 1e308\n"
+            "   3 |   red: {mass: 1e154, radius: 1e308, position: [1e200, 0, 0], velocity: [0, 1e155, 0]}\n"
+            "     |                              ^~~~~\n"
+            "     = a run computes with numbers from 1e-30 to 1e+30 m\n"
+            "scene.yaml:3:48: error: a number of `position` is 1e200\n"
+            "   3 |   red: {mass: 1e154, radius: 1e308, position: [1e200, 0, 0], velocity: [0, 1e155, 0]}\n"
+            "     |                                                ^~~~~\n"
+            "     = a run computes with numbers from -1e+30 to 1e+30 m\n"
+            "scene.yaml:3:76: error: a number of `velocity` is 1e155\n"
+            "   3 |   red: {mass: 1e154, radius: 1e308, position: [1e200, 0, 0], velocity: [0, 1e155, 0]}\n"
+            "     |                                                                            ^~~~~\n"
+            "     = a run computes with numbers from -1e+30 to 1e+30 m/s\n"
+            "scene.yaml:4:14: error: a number of `gravity` is -1e154\n"
+            "   4 | gravity: [0, -1e154, 0]\n"
+            "     |              ^~~~~~\n"
+            "     = a run computes with numbers from -1e+30 to 1e+30 m/s^2\n"
+            "scene.yaml:5:22: error: `duration` is 1e31\n"
+            "   5 | simulate: {duration: 1e31}\n"
+            "     |                      ^~~~\n"
+            "     = a run computes with numbers from 0 to 1e+30 s\n");
+}
+
+TEST(Limits, EveryNumberWithAUnitHasALimit) {
+  for (const Kind& kind : kinds())
+    for (const Field& field : kind.fields) {
+      if (field.type != Type::number && field.type != Type::vector && field.type != Type::extent) continue;
+      const Range range = limited_range(field);
+      EXPECT_TRUE(std::abs(range.min) <= 1e150 && std::abs(range.max) <= 1e150) << kind.name << " " << field.key;
+    }
+}
+
+TEST(Limits, ASceneThatIsSmallAndOneThatIsLargeLoad) {
+  for (const double unit : {1e-15, 1e-6, 1.0, 1e11, 1e17})
+    EXPECT_EQ(errors_of(ball(fmt::format("mass: {}, radius: {}, position: [{}, 0, 0], velocity: [{}, 0, 0]", unit, unit,
+                                         1e9 * unit, -unit))),
+              "");
+}
+
+TEST(Limits, APlaceTooFarForTheSmallestSizeIsRefused) {
+  EXPECT_EQ(errors_of(ball("mass: 1, radius: 0.5, position: [0, 6e11, 0]")),
+            "scene.yaml:3:41: error: `red` is 6e+11 m from the origin, more than 1e+12 times the smallest size, "
+            "0.5 m\n"
+            "   3 |   red: {mass: 1, radius: 0.5, position: [0, 6e11, 0]}\n"
+            "     |                                         ^\n"
+            "     = doubles do not resolve contact there: bring it nearer, or make what is smallest larger\n");
+  EXPECT_EQ(errors_of(ball("mass: 1, radius: 0.5, position: [0, 4e11, 0]")), "");
+}
+
+TEST(Limits, ARoomAndAGroupThatWideAreRefused) {
+  const std::string room = ball("mass: 1, radius: 1, position: [0, 0, 0]",
+                                "room: {min: [-1e13, -9, -9], max: [9, 9, 9]}\nsimulate: {duration: 1}\n");
+  EXPECT_NE(errors_of(room).find("scene.yaml:4:13: error: `room` is 1e+13 m from the origin"), std::string::npos)
+      << errors_of(room);
+  const std::string group =
+      "scene: 1\ngroups:\n  gas: {count: 9, in: {min: [0, 0, 0], max: [9e29, 1, 9]}, ball: {mass: 1, radius: 0.1}}\n"
+      "simulate: {duration: 1}\n";
+  EXPECT_NE(errors_of(group).find("scene.yaml:3:45: error: `gas` is 9e+29 m from the origin"), std::string::npos)
+      << errors_of(group);
+}
+
+TEST(Limits, AWayTooLongForTheSmallestSizeIsRefused) {
+  EXPECT_EQ(
+      errors_of(
+          ball("mass: 1, radius: 0.5, position: [0, 0, 0], velocity: [0, 1e6, 0]", "simulate: {duration: 1e6}\n")),
+      "scene.yaml:3:62: error: `red` goes 1e+12 m in the duration, more than 1e+12 times the smallest size, "
+      "0.5 m\n"
+      "   3 |   red: {mass: 1, radius: 0.5, position: [0, 0, 0], velocity: [0, 1e6, 0]}\n"
+      "     |                                                              ^\n"
+      "     = doubles do not resolve where it is then: expected a shorter duration, a lower speed, or larger things\n");
+}
+
+TEST(Limits, AnImpulseThatMakesItTooFastIsRefused) {
+  const std::string text = errors_of(ball("mass: 1e-30, radius: 0.5, position: [0, 0, 0], impulse: [0, 10, 0]"));
+  EXPECT_NE(text.find("`red` starts with 1e+31 m/s"), std::string::npos) << text;
+}
+
+TEST(Limits, ForcesWhoseSumIsTooMuchForAMassAreRefused) {
+  const std::string text =
+      errors_of(ball("mass: 1e-10, radius: 0.5, position: [0, 0, 0]",
+                     "forces: [{uniform: [1e20, 0, 0]}, {uniform: [0, 0, 1e20]}]\nsimulate: {duration: 1}\n"));
+  EXPECT_NE(text.find("scene.yaml:4:1: error: the uniform forces accelerate `red` by 2e+30 m/s^2"), std::string::npos)
+      << text;
+}
+
+TEST(Limits, ADensityWhoseMassIsNoneIsRefused) {
+  const std::string text = errors_of(ball("density: 1e100, radius: 1e-1, position: [0, 0, 0]"));
+  EXPECT_NE(text.find("a run computes with numbers from 1e-60 to 1e+60 kg"), std::string::npos) << text;
+}
+
+TEST(Steps, MoreThanTheBudgetAreRefusedUnlessForced) {
+  const std::string text =
+      ball("mass: 1, radius: 0.5, position: [0, 0, 0]", "simulate: {duration: 1, engine: stepped, step: 1e-9}\n");
+  EXPECT_EQ(errors_of(text),
+            "scene.yaml:4:48: error: the run would take 1e+09 steps of time; the limit is 100000000\n"
+            "   4 | simulate: {duration: 1, engine: stepped, step: 1e-9}\n"
+            "     |                                                ^~~~\n"
+            "     = expected a longer `step` or a shorter duration, or --force if that is meant\n");
+  LoadOptions forced;
+  forced.budget.enforced = false;
+  EXPECT_EQ(errors_of(text, forced), "");
+}
+
+TEST(Steps, ThoseThatAForceAsksForAreCountedToo) {
+  const std::string text = ball("mass: 1, radius: 0.5, position: [0, 0, 0]",
+                                "forces: [{spring: {anchor: [0, 9, 0], stiffness: 1e16}}]\nsimulate: {duration: 9}\n");
+  EXPECT_EQ(errors_of(text),
+            "scene.yaml:4:1: error: the run would take 1.8e+11 steps of time; the limit is 100000000\n"
+            "   4 | forces: [{spring: {anchor: [0, 9, 0], stiffness: 1e16}}]\n"
+            "     | ^~~~~~\n"
+            "     = steps follow the fastest change of a force: expected forces that change more slowly, a `step` or a "
+            "shorter duration, or --force if that is meant\n");
+}
+
+TEST(Steps, AreNoneWhereTheEngineGoesFromEventToEvent) {
+  EXPECT_FALSE(steps_of(load_text(ball("mass: 1, radius: 0.5, position: [0, 0, 0]"))));
+  EXPECT_EQ(steps_of(load_text(ball("mass: 1, radius: 0.5, position: [0, 0, 0]",
+                                    "simulate: {duration: 2, engine: book, step: 0.5}\n"))),
+            4);
+}
+
+TEST(Names, AMemberIsNamedByItsDigitsAlone) {
+  const auto with = [](const std::string& name) {
+    return errors_of(
+        "scene: 1\ngroups:\n  gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}, ball: {mass: 1, radius: 0.1}}\n"
+        "forces: [{uniform: [1, 0, 0], on: [" +
+        name + "]}]\nsimulate: {duration: 1}\n");
+  };
+  EXPECT_EQ(with("gas.1"), "");
+  for (const char* name : {"gas.1e0", "gas.01", "gas.+1", "gas.1.0", "gas.3"}) EXPECT_NE(with(name), "") << name;
+}
+
+}  // namespace
+}  // namespace carom

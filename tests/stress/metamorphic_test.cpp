@@ -1,0 +1,312 @@
+// Scenes that are the same scene seen otherwise: mirrored, in other units, with their bodies in another order. No value
+// to hold against is needed, and a tolerance with a unit or a preferred direction shows at once.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include "physics/force.h"
+#include "simulate/random.h"
+#include "simulate/stepped.h"
+#include "stress/scene.h"
+
+namespace carom::stress {
+namespace {
+
+struct Motion {
+  World world;
+  State initial;
+  double duration = 0;    // s
+  double rest_speed = 0;  // m/s
+  bool merge = false;
+};
+
+enum class Way { exact, euler, verlet, rk4 };
+
+Motion of_seed(std::uint64_t seed) {
+  RandomScene scene = make_scene(seed);
+  return {std::move(scene.world), std::move(scene.initial), scene.options.duration, scene.options.rest_speed,
+          scene.options.merge};
+}
+
+/// Bodies of every volume in a room, under the force of this number: drag, linear and quadratic, a spring with damping,
+/// an attractor.
+enum Drive { linear_drag, quadratic_drag, spring, attractor, drives };
+
+Motion driven(Drive drive, std::uint64_t seed) {
+  Random random(seed);
+  Motion motion;
+  World& world = motion.world;
+  world.gravity = Vec3(0.25, -2, 0.5);
+  for (int k = 0; k < 3; ++k) {
+    world.planes.push_back({Vec3::Constant(-2), Vec3::Unit(k), 0.75});
+    world.planes.push_back({Vec3::Constant(2), -Vec3::Unit(k), std::nullopt});
+  }
+  for (int i = 0; i < 8; ++i) {
+    const double r = random(0.1, 0.3);
+    const Volume volume = i % 3 == 0   ? Volume::sphere(r)
+                          : i % 3 == 1 ? Volume::cylinder(r, 2 * r)
+                                       : Volume::box(Vec3(random(0.2, 0.6), random(0.2, 0.6), random(0.2, 0.6)));
+    world.volume.push_back(volume);
+    world.radius.push_back(volume.reach());
+    world.mass.push_back(random(0.5, 2));
+    world.restitution.push_back(random(0.5, 1));
+    motion.initial.position.push_back(Vec3(i % 2 ? 1 : -1, i / 2 % 2 ? 1 : -1, i / 4 ? 1 : -1));
+    motion.initial.velocity.push_back(Vec3(random(-2, 2), random(-2, 2), random(-2, 2)));
+  }
+  const Vec3 somewhere(random(-1, 1), random(-1, 1), random(-1, 1));
+  switch (drive) {
+    case linear_drag:
+      world.forces.push_back({Drag{0.5, 0, somewhere}});
+      break;
+    case quadratic_drag:
+      world.forces.push_back({Drag{0, 0.25, somewhere}, 0.25, 0.75});
+      break;
+    case spring:
+      world.forces.push_back({Spring{somewhere, 3, 0.5, 0.125}});
+      break;
+    case attractor:
+    case drives:
+      world.forces.push_back({Attractor{somewhere, 2, 0.25}});
+      break;
+  }
+  motion.duration = 1;
+  return motion;
+}
+
+/// Calls `place` for each vector that turns with the scene, and each length, by its dimension.
+Motion mirrored(Motion m, int axis) {
+  const auto flip = [&](Vec3& v) { v[axis] = -v[axis]; };
+  World& world = m.world;
+  for (auto* list : {&m.initial.position, &m.initial.velocity, &world.impulse})
+    for (Vec3& v : *list) flip(v);
+  flip(world.gravity);
+  for (Plane& p : world.planes) flip(p.point), flip(p.normal);
+  for (Obstacle& o : world.obstacles) flip(o.center);
+  for (Wall& w : world.walls) {
+    for (Vec3* v : {&w.center, &w.normal, &w.up, &w.right}) flip(*v);
+    w.right = -w.right;  // right x up = normal
+  }
+  for (Force& f : world.forces) {
+    if (auto* uniform = std::get_if<UniformForce>(&f.law)) flip(uniform->force);
+    if (auto* even = std::get_if<UniformAcceleration>(&f.law)) flip(even->value);
+    if (auto* drag = std::get_if<Drag>(&f.law)) flip(drag->wind);
+    if (auto* spring = std::get_if<Spring>(&f.law)) flip(spring->anchor);
+    if (auto* attractor = std::get_if<Attractor>(&f.law)) flip(attractor->center);
+  }
+  return m;
+}
+
+/// 2^these: the new units' sizes.
+struct Units {
+  int length, time, mass;
+};
+
+Motion scaled(Motion m, const Units& units) {
+  const double l = std::ldexp(1, units.length), t = std::ldexp(1, units.time), kg = std::ldexp(1, units.mass);
+  World& world = m.world;
+  for (Vec3& x : m.initial.position) x *= l;
+  for (Vec3& v : m.initial.velocity) v *= l / t;
+  for (Vec3& p : world.impulse) p *= kg * l / t;
+  for (double& x : world.mass) x *= kg;
+  for (double& r : world.radius) r *= l;
+  for (Volume& v : world.volume) v.half *= l;
+  world.gravity *= l / (t * t);
+  for (Plane& p : world.planes) p.point *= l;
+  for (Obstacle& o : world.obstacles) o.center *= l, o.volume.half *= l;
+  for (Wall& w : world.walls) w.center *= l, w.half_width *= l, w.half_height *= l;
+  for (Force& f : world.forces) {
+    f.from *= t;
+    f.until *= t;
+    if (auto* uniform = std::get_if<UniformForce>(&f.law)) uniform->force *= kg * l / (t * t);
+    if (auto* even = std::get_if<UniformAcceleration>(&f.law)) even->value *= l / (t * t);
+    if (auto* drag = std::get_if<Drag>(&f.law)) {
+      drag->linear *= kg / t;
+      drag->quadratic *= kg / l;
+      drag->wind *= l / t;
+    }
+    if (auto* spring = std::get_if<Spring>(&f.law)) {
+      spring->anchor *= l;
+      spring->stiffness *= kg / (t * t);
+      spring->rest_length *= l;
+      spring->damping *= kg / t;
+    }
+    if (auto* attractor = std::get_if<Attractor>(&f.law)) {
+      attractor->center *= l;
+      attractor->strength *= l * l * l / (t * t);
+      attractor->softening *= l;
+    }
+  }
+  m.duration *= t;
+  m.rest_speed *= l / t;
+  return m;
+}
+
+struct Seen {
+  State end;
+  std::uint64_t collisions = 0;
+  double energy_lost = 0;  // J
+  std::string error;
+};
+
+Seen run(const Motion& motion, Way way) {
+  Seen seen;
+  try {
+    std::unique_ptr<Simulator> simulator;
+    if (way == Way::exact) {
+      ExactOptions options;
+      options.duration = motion.duration;
+      options.rest_speed = motion.rest_speed;
+      options.merge = motion.merge;
+      options.max_collisions = 5000;
+      simulator = make_exact_simulator(motion.world, motion.initial, options);
+    } else {
+      SteppedOptions options;
+      options.duration = motion.duration;
+      options.rest_speed = motion.rest_speed;
+      options.integrator = way == Way::euler    ? Integrator::euler
+                           : way == Way::verlet ? Integrator::verlet
+                                                : Integrator::rk4;
+      options.step = motion.duration / 64;
+      options.max_collisions = 5000;
+      simulator = make_stepped_simulator(motion.world, motion.initial, options);
+    }
+    do simulator->advance_to(motion.duration);
+    while (simulator->time() < motion.duration);
+    seen.end = simulator->state();
+    seen.collisions = simulator->tally().collisions();
+    seen.energy_lost = simulator->tally().energy_lost;
+  } catch (const SimulationError& error) {
+    seen.error = error.what();
+  }
+  return seen;
+}
+
+/// -0 is 0, and so is what has fallen so low, impact by impact, that doubles lose its digits: 1e-290 and less.
+bool same(const Vec3& a, const Vec3& b) {
+  constexpr double none = 1e-290;
+  for (int k = 0; k < 3; ++k)
+    if (a[k] != b[k] && !(std::abs(a[k]) < none && std::abs(b[k]) < none)) return false;
+  return true;
+}
+
+/// Where two runs differ in a bit; empty: nowhere. `back` takes b's vectors to where a has them.
+template <typename Position, typename Velocity>
+std::string difference(const Seen& a, const Seen& b, double lost, const Position& back_x, const Velocity& back_v) {
+  if (a.error.empty() != b.error.empty()) return "one ends with an error: " + a.error + b.error;
+  if (!a.error.empty()) return {};
+  if (a.collisions != b.collisions)
+    return std::to_string(a.collisions) + " and " + std::to_string(b.collisions) + " collisions";
+  for (std::size_t i = 0; i < a.end.position.size(); ++i)
+    if (!same(a.end.position[i], back_x(b.end.position[i])) || !same(a.end.velocity[i], back_v(b.end.velocity[i])))
+      return "body " + std::to_string(i);
+  return a.energy_lost == b.energy_lost * lost ? "" : "energy lost";
+}
+
+std::string mirror_difference(const Motion& motion, Way way, int axis) {
+  const auto flip = [&](Vec3 v) {
+    v[axis] = -v[axis];
+    return v;
+  };
+  return difference(run(motion, way), run(mirrored(motion, axis), way), 1, flip, flip);
+}
+
+std::string unit_difference(const Motion& motion, Way way, const Units& units) {
+  const double l = std::ldexp(1, -units.length), t = std::ldexp(1, -units.time), m = std::ldexp(1, -units.mass);
+  return difference(
+      run(motion, way), run(scaled(motion, units), way), m * l * l / (t * t),
+      [&](const Vec3& x) { return Vec3(x * l); }, [&](const Vec3& v) { return Vec3(v * (l / t)); });
+}
+
+constexpr std::array ways{Way::exact, Way::euler, Way::verlet, Way::rk4};
+constexpr std::array all_units{Units{20, 0, 0}, Units{0, -12, 0}, Units{0, 0, 30}, Units{-30, 7, -24}};
+constexpr std::uint64_t seeds = 13 * 6;  // of each family
+
+class Metamorphic : public ::testing::TestWithParam<Way> {};
+
+TEST_P(Metamorphic, AMirroredSceneMovesMirroredToTheBit) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed)
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_EQ(mirror_difference(of_seed(seed), GetParam(), axis), "") << "seed " << seed << ", axis " << axis;
+}
+
+TEST_P(Metamorphic, OtherUnitsGiveTheSameBits) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed)
+    for (const Units& units : all_units)
+      EXPECT_EQ(unit_difference(of_seed(seed), GetParam(), units), "")
+          << "seed " << seed << ", units 2^" << units.length << " m, 2^" << units.time << " s, 2^" << units.mass
+          << " kg";
+}
+
+TEST_P(Metamorphic, ForcesThatVaryAreMirroredToTheBit) {
+  if (GetParam() == Way::exact) return;  // it has none of them
+  for (int drive = 0; drive < drives; ++drive)
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_EQ(mirror_difference(driven(static_cast<Drive>(drive), 1), GetParam(), axis), "")
+          << "force " << drive << ", axis " << axis;
+}
+
+TEST_P(Metamorphic, ForcesThatVaryHaveTheSameBitsInOtherUnits) {
+  if (GetParam() == Way::exact) return;
+  for (int drive = 0; drive < drives; ++drive)
+    for (const Units& units : all_units)
+      EXPECT_EQ(unit_difference(driven(static_cast<Drive>(drive), 1), GetParam(), units), "")
+          << "force " << drive << ", units 2^" << units.length << " m, 2^" << units.time << " s, 2^" << units.mass
+          << " kg";
+}
+
+std::string name_of(const ::testing::TestParamInfo<Way>& way) {
+  constexpr std::array names{"exact", "euler", "verlet", "rk4"};
+  return names[static_cast<std::size_t>(way.param)];
+}
+INSTANTIATE_TEST_SUITE_P(Ways, Metamorphic, ::testing::ValuesIn(ways), name_of);
+
+/// The bodies in another order. (`motion` has no pairs and no forces on single bodies, which go by number.)
+Motion reordered(const Motion& motion, const std::vector<Entity>& order) {
+  Motion other = motion;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const Entity i = order[k];
+    other.world.mass[k] = motion.world.mass[i];
+    other.world.radius[k] = motion.world.radius[i];
+    other.world.restitution[k] = motion.world.restitution[i];
+    if (!motion.world.volume.empty()) other.world.volume[k] = motion.world.volume[i];
+    if (!motion.world.impulse.empty()) other.world.impulse[k] = motion.world.impulse[i];
+    other.initial.position[k] = motion.initial.position[i];
+    other.initial.velocity[k] = motion.initial.velocity[i];
+  }
+  return other;
+}
+
+/// m: by how much the bodies' ends differ at most.
+double order_difference(const Motion& motion, Way way) {
+  std::vector<Entity> order(motion.world.body_count());
+  std::iota(order.rbegin(), order.rend(), Entity{0});  // backwards
+  const Seen a = run(motion, way), b = run(reordered(motion, order), way);
+  if (a.error != b.error || a.collisions != b.collisions) return std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (std::size_t k = 0; k < order.size(); ++k)
+    most = std::max(most, (a.end.position[order[k]] - b.end.position[k]).norm());
+  return most;
+}
+
+// Bodies of one size in lasting contact may settle in another order; a gas and single collisions do not.
+TEST_P(Metamorphic, BodiesInAnotherOrderMoveTheSame) {
+  for (int drive = 0; drive < drives; ++drive) {
+    if (GetParam() == Way::exact) break;
+    Motion motion = driven(static_cast<Drive>(drive), 2);
+    motion.duration = 0.5;
+    EXPECT_LT(order_difference(motion, GetParam()), 1e-12) << "force " << drive;
+  }
+  for (std::uint64_t seed = 2; seed < 13 * 20; seed += 13) {  // grazing pairs
+
+    Motion motion = of_seed(seed);
+    motion.world.pairs.clear();
+    EXPECT_LT(order_difference(motion, GetParam()), 1e-9) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace carom::stress
