@@ -4,7 +4,14 @@
 #include <bit>
 #include <cmath>
 
-// Of the same arithmetic in vectors of 2 or of 4 the processor at hand takes what it has.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__  // as gcc says it
+#endif
+#endif
+
+// Of the same arithmetic in vectors of 2 or of 4 the processor at hand takes what it has. (The choice comes before a
+// sanitizer is ready.)
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
 #define CAROM_FOR_ALL_PROCESSORS __attribute__((target_clones("avx2", "default")))
 #else
