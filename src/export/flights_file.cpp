@@ -204,7 +204,15 @@ bool FlightsReader::next(PathPiece& piece) {
     piece.radius = take<double>();
     piece.half = take_vector();
   }
-  if (!(piece.from >= last_) || !piece.x.allFinite() || !piece.v.allFinite()) refuse("it is damaged");
+  const auto finite = [](const DoubleDouble& t) { return std::isfinite(t.hi) && std::isfinite(t.lo); };
+  const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
+  if (!(piece.from >= last_) || !std::isfinite(piece.from) || !finite(piece.start) || !finite(piece.until))
+    refuse("it is damaged");
+  for (const Vec3* v : {&piece.x, &piece.v, &piece.a, &piece.haste})
+    if (!v->allFinite()) refuse("it is damaged");
+  if (piece.joint &&
+      !(positive(piece.mass) && positive(piece.radius) && piece.half.allFinite() && piece.half.minCoeff() > 0))
+    refuse("it is damaged");
   last_ = piece.from;
   return true;
 }

@@ -36,6 +36,31 @@ std::string text_member(const Json& json, const char* key) {
   return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
+/// A member that is a whole number; 0 if there is none.
+std::uint64_t whole_member(const Json& json, const char* key) {
+  if (!json.is_object()) return 0;
+  const auto found = json.find(key);
+  return found != json.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
+}
+
+/// Whether brackets are open within one another deeper than in any manifest: writing such a value as text again goes as
+/// deep into the stack.
+bool is_too_deep(std::string_view text) {
+  constexpr int deepest = 64;
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '\\') ++i;
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    if (depth > deepest) return true;
+  }
+  return false;
+}
+
 std::optional<FileRecord> file_record(const Json& json) {
   FileRecord record{text_member(json, "name"), 0, text_member(json, "sha256")};
   if (!is_run_file(record.name) || record.sha256.size() != 64) return std::nullopt;
@@ -97,7 +122,7 @@ std::string manifest_text(const Scene& scene, const Summary& summary, const RunF
 
 std::optional<Manifest> read_manifest(int folder, const std::string& name) {
   const auto text = read_text(folder, name, largest_manifest);
-  if (!text) return std::nullopt;
+  if (!text || is_too_deep(*text)) return std::nullopt;
   const Json json = Json::parse(*text, nullptr, false);
   if (!json.is_object() || text_member(json, "tool") != tool) return std::nullopt;
   const auto outputs = json.find("outputs"), files = json.find("files");
@@ -108,8 +133,7 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name) {
                     "[]",
                     {}};
   if (const auto meshes = json.find("meshes"); meshes != json.end()) manifest.meshes = to_text(*meshes, -1);
-  if (const auto counts = json.find("counts"); counts != json.end() && counts->is_object())
-    manifest.collisions = counts->value("collisions", std::uint64_t{0});
+  manifest.collisions = whole_member(json.value("counts", Json()), "collisions");
   manifest.scene_file = text_member(json.value("scene", Json()), "file");
   if (const auto left_out = json.find("left_out"); left_out != json.end() && left_out->is_object())
     for (const auto& [file, why] : left_out->items())

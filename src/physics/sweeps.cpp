@@ -4,7 +4,14 @@
 #include <bit>
 #include <cmath>
 
-// Of the same arithmetic in vectors of 2 or of 4 the processor at hand takes what it has.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__  // as gcc says it
+#endif
+#endif
+
+// Of the same arithmetic in vectors of 2 or of 4 the processor at hand takes what it has. (The choice comes before a
+// sanitizer is ready.)
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
 #define CAROM_FOR_ALL_PROCESSORS __attribute__((target_clones("avx2", "default")))
 #else
@@ -108,18 +115,17 @@ double Sweeps::potential(std::span<const Vec3> u, std::span<const PressedPair> p
 
 /// What forces that change by so much do to the motions of a batch.
 inline __attribute__((always_inline)) void Sweeps::push(const Batch& row, const Four& change, Motion* motions) {
-  using Places = long long __attribute__((vector_size(aligned)));
   const Four zero{};
   const Four px = change * row.normal[0], py = change * row.normal[1], pz = change * row.normal[2];
   // By pair, from by axis.
-  const Four xy_even = __builtin_shuffle(px, py, Places{0, 4, 2, 6});
-  const Four xy_odd = __builtin_shuffle(px, py, Places{1, 5, 3, 7});
-  const Four z_even = __builtin_shuffle(pz, zero, Places{0, 4, 2, 6});
-  const Four z_odd = __builtin_shuffle(pz, zero, Places{1, 5, 3, 7});
-  const Four p0 = __builtin_shuffle(xy_even, z_even, Places{0, 1, 4, 5});
-  const Four p1 = __builtin_shuffle(xy_odd, z_odd, Places{0, 1, 4, 5});
-  const Four p2 = __builtin_shuffle(xy_even, z_even, Places{2, 3, 6, 7});
-  const Four p3 = __builtin_shuffle(xy_odd, z_odd, Places{2, 3, 6, 7});
+  const Four xy_even = __builtin_shufflevector(px, py, 0, 4, 2, 6);
+  const Four xy_odd = __builtin_shufflevector(px, py, 1, 5, 3, 7);
+  const Four z_even = __builtin_shufflevector(pz, zero, 0, 4, 2, 6);
+  const Four z_odd = __builtin_shufflevector(pz, zero, 1, 5, 3, 7);
+  const Four p0 = __builtin_shufflevector(xy_even, z_even, 0, 1, 4, 5);
+  const Four p1 = __builtin_shufflevector(xy_odd, z_odd, 0, 1, 4, 5);
+  const Four p2 = __builtin_shufflevector(xy_even, z_even, 2, 3, 6, 7);
+  const Four p3 = __builtin_shufflevector(xy_odd, z_odd, 2, 3, 6, 7);
   motions[row.a[0]].u -= row.of_a[0] * p0;
   motions[row.a[1]].u -= row.of_a[1] * p1;
   motions[row.a[2]].u -= row.of_a[2] * p2;
@@ -133,7 +139,6 @@ inline __attribute__((always_inline)) void Sweeps::push(const Batch& row, const 
 /// Once through all batches. The most by which a force has changed beyond its slack.
 CAROM_FOR_ALL_PROCESSORS
 double Sweeps::sweep(Batch* batches, std::size_t count, Motion* motions, bool back) {
-  using Places = long long __attribute__((vector_size(aligned)));
   const Four zero{};
   Four worst = zero - 1;
   for (std::size_t k = 0; k < count; ++k) {
@@ -141,13 +146,13 @@ double Sweeps::sweep(Batch* batches, std::size_t count, Motion* motions, bool ba
     const Four w0 = motions[row.b[0]].u - motions[row.a[0]].u, w1 = motions[row.b[1]].u - motions[row.a[1]].u;
     const Four w2 = motions[row.b[2]].u - motions[row.a[2]].u, w3 = motions[row.b[3]].u - motions[row.a[3]].u;
     // By axis, from by pair.
-    const Four low01 = __builtin_shuffle(w0, w1, Places{0, 4, 2, 6});
-    const Four low23 = __builtin_shuffle(w2, w3, Places{0, 4, 2, 6});
-    const Four high01 = __builtin_shuffle(w0, w1, Places{1, 5, 3, 7});
-    const Four high23 = __builtin_shuffle(w2, w3, Places{1, 5, 3, 7});
-    const Four x = __builtin_shuffle(low01, low23, Places{0, 1, 4, 5});
-    const Four y = __builtin_shuffle(high01, high23, Places{0, 1, 4, 5});
-    const Four z = __builtin_shuffle(low01, low23, Places{2, 3, 6, 7});
+    const Four low01 = __builtin_shufflevector(w0, w1, 0, 4, 2, 6);
+    const Four low23 = __builtin_shufflevector(w2, w3, 0, 4, 2, 6);
+    const Four high01 = __builtin_shufflevector(w0, w1, 1, 5, 3, 7);
+    const Four high23 = __builtin_shufflevector(w2, w3, 1, 5, 3, 7);
+    const Four x = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
+    const Four y = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
+    const Four z = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
     const Four rate = row.normal[0] * x + row.normal[1] * y + row.normal[2] * z;
     const Four wanted = row.force - (rate - row.target) * row.per_rate;
     const Four force = wanted > zero ? wanted : zero, change = force - row.force;

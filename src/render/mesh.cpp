@@ -14,25 +14,19 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <new>
-#include <span>
 #include <stdexcept>
 
 #include "render/mesh_import.h"
+#include "render/mesh_reply.h"
 
 namespace carom {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// What goes through the pipe first. A mesh follows as its vertices, normals and triangles, trouble as its text.
-struct Head {
-  std::uint32_t vertices = 0, triangles = 0, text = 0;
-};
 
 [[noreturn]] void fail(const std::string& path, const std::string& why) {
   throw std::runtime_error(fmt::format("cannot read the mesh {}: {}", path, why));
@@ -106,8 +100,8 @@ void send(int pipe, const void* bytes, std::size_t size) {
 }
 
 void send_trouble(int pipe, const char* text) {
-  Head head;
-  head.text = static_cast<std::uint32_t>(std::min<std::size_t>(std::strlen(text), 300));
+  MeshReplyHead head;
+  head.text = static_cast<std::uint32_t>(std::min<std::size_t>(std::strlen(text), longest_mesh_trouble));
   send(pipe, &head, sizeof head);
   send(pipe, text, head.text);
 }
@@ -115,8 +109,8 @@ void send_trouble(int pipe, const char* text) {
 [[noreturn]] void run_child(int pipe, const std::string& path, const std::string& ending, const MeshLimits& limits) {
   try {
     const ImportedMesh mesh = import_mesh(path, ending, limits);
-    const Head head{static_cast<std::uint32_t>(mesh.vertices.size() / 3),
-                    static_cast<std::uint32_t>(mesh.triangles.size() / 3), 0};
+    const MeshReplyHead head{static_cast<std::uint32_t>(mesh.vertices.size() / 3),
+                             static_cast<std::uint32_t>(mesh.triangles.size() / 3), 0};
     send(pipe, &head, sizeof head);
     send(pipe, mesh.vertices.data(), mesh.vertices.size() * sizeof(float));
     send(pipe, mesh.normals.data(), mesh.normals.size() * sizeof(float));
@@ -211,51 +205,18 @@ class Reader {
   bool late_ = false;
 };
 
-/// A reader's own words, without bytes that a terminal would act upon, and on one line.
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (c < ' ' || c > '~') c = ' ';
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text.empty() ? "it is damaged" : text;
-}
-
-std::vector<Vec3> vectors(std::span<const float> values) {
-  std::vector<Vec3> result(values.size() / 3);
-  for (std::size_t i = 0; i < result.size(); ++i)
-    result[i] = Vec3(double{values[3 * i]}, double{values[3 * i + 1]}, double{values[3 * i + 2]});
-  return result;
-}
-
 }  // namespace
 
 Mesh read_mesh(const std::string& path, const MeshLimits& limits) {
   const std::string ending = check_file(path, limits);
   Reader reader(path, ending, limits);
-  Head head;
-  if (!reader.receive(&head, sizeof head)) fail(path, reader.trouble(limits));
-  if (head.text > 0) {
-    std::string text(std::min<std::size_t>(head.text, 300), ' ');
-    reader.receive(text.data(), text.size());
-    fail(path, printable(text));
+  try {
+    return receive_mesh({[&](void* bytes, std::size_t size) { return reader.receive(bytes, size); },
+                         [&] { return reader.trouble(limits); }},
+                        limits);
+  } catch (const std::runtime_error& error) {
+    fail(path, error.what());
   }
-  // A crashing reader may send anything: nothing of it is trusted.
-  if (head.vertices > limits.vertices || head.triangles > limits.triangles || head.triangles == 0)
-    fail(path, "it is damaged");
-  std::vector<float> positions(3 * std::size_t{head.vertices}), normals(positions.size());
-  Mesh mesh;
-  mesh.triangles.resize(3 * std::size_t{head.triangles});
-  if (!reader.receive(positions.data(), positions.size() * sizeof(float)) ||
-      !reader.receive(normals.data(), normals.size() * sizeof(float)) ||
-      !reader.receive(mesh.triangles.data(), mesh.triangles.size() * sizeof(std::uint32_t)))
-    fail(path, reader.trouble(limits));
-  const auto finite = [](float x) { return std::isfinite(x); };
-  if (!std::all_of(positions.begin(), positions.end(), finite) || !std::all_of(normals.begin(), normals.end(), finite))
-    fail(path, "a vertex is not finite");
-  for (std::uint32_t i : mesh.triangles)
-    if (i >= head.vertices) fail(path, "a triangle has a vertex that is not there");
-  mesh.vertices = vectors(positions);
-  mesh.normals = vectors(normals);
-  return mesh;
 }
 
 std::vector<Vec3> read_mesh_points(const std::string& path, const MeshLimits& limits) {

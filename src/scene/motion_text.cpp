@@ -49,7 +49,7 @@ class MotionText {
 
   void write(const Force& force) {
     const auto& [law, from, until, on] = force;
-    std::visit([&](const auto& it) { line("force", it.name, it, from, until); }, law);
+    std::visit([&, start = from, end = until](const auto& it) { line("force", it.name, it, start, end); }, law);
     for (const Entity body : on) line("on", body);
   }
 

@@ -1,5 +1,20 @@
 #pragma once
 // What vectors the processor at hand has, for kernels that come in several widths.
+//
+// CAROM_BEGIN_AVX2 or CAROM_BEGIN_AVX512, to CAROM_END_TARGET: the functions between them are compiled for processors
+// that have it. Headers are included before: their functions stay as they are.
+
+#ifdef __clang__
+#define CAROM_BEGIN_AVX2 _Pragma("clang attribute push(__attribute__((target(\"avx2\"))), apply_to = function)")
+#define CAROM_BEGIN_AVX512 \
+  _Pragma("clang attribute push(__attribute__((target(\"avx512f,avx512dq,avx512vl\"))), apply_to = function)")
+#define CAROM_END_TARGET _Pragma("clang attribute pop")
+#else
+#define CAROM_BEGIN_AVX2 _Pragma("GCC push_options") _Pragma("GCC target(\"avx2\")")
+#define CAROM_BEGIN_AVX512 \
+  _Pragma("GCC push_options") _Pragma("GCC target(\"avx512f,avx512dq,avx512vl,prefer-vector-width=512\")")
+#define CAROM_END_TARGET _Pragma("GCC pop_options")
+#endif
 
 namespace carom {
 

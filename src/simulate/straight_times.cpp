@@ -17,23 +17,21 @@ namespace pairs {
 }  // namespace pairs
 
 #ifdef __x86_64__
-#pragma GCC push_options
-#pragma GCC target("avx2")
+CAROM_BEGIN_AVX2
 namespace fours {
 #define LANES 4
 #include "simulate/straight_times_kernel.inc"
 #undef LANES
 }  // namespace fours
-#pragma GCC pop_options
+CAROM_END_TARGET
 
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")
+CAROM_BEGIN_AVX512
 namespace eights {
 #define LANES 8
 #include "simulate/straight_times_kernel.inc"
 #undef LANES
 }  // namespace eights
-#pragma GCC pop_options
+CAROM_END_TARGET
 #endif
 
 }  // namespace

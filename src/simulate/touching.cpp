@@ -14,7 +14,9 @@ namespace {
 
 // gcc 12 warns of its own undefined registers (its bug 105593).
 #pragma GCC diagnostic push
+#ifndef __clang__
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 
 namespace fours {
 #define LANES 4
@@ -22,23 +24,21 @@ namespace fours {
 #undef LANES
 }  // namespace fours
 
-#pragma GCC push_options
-#pragma GCC target("avx2")
+CAROM_BEGIN_AVX2
 namespace eights {
 #define LANES 8
 #include "simulate/touching_kernel.inc"
 #undef LANES
 }  // namespace eights
-#pragma GCC pop_options
+CAROM_END_TARGET
 
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx512dq,avx512vl,prefer-vector-width=512")
+CAROM_BEGIN_AVX512
 namespace sixteens {
 #define LANES 16
 #include "simulate/touching_kernel.inc"
 #undef LANES
 }  // namespace sixteens
-#pragma GCC pop_options
+CAROM_END_TARGET
 
 #pragma GCC diagnostic pop
 

@@ -28,8 +28,15 @@ FilmTile tile_of(const ListedRun& run) {
     throw ExportError(
         fmt::format("{} has no film: run its scene again with the output `video` (--only video)", run.folder));
   const Json& video = outputs["video"];
-  tile.file = video.value("file", "animation.mp4");
-  tile.from = video.value("from", 0.0);
+  const auto damaged = [&] {
+    return ExportError(
+        fmt::format("{}/{} is damaged: carom run --force makes the run anew", run.folder, manifest_name));
+  };
+  if (!video.is_object()) throw damaged();
+  const Json file = video.value("file", Json("animation.mp4")), from = video.value("from", Json(0.0));
+  if (!file.is_string() || !is_plain_name(file.get<std::string>()) || !from.is_number()) throw damaged();
+  tile.file = file.get<std::string>();
+  tile.from = from.get<double>();
   return tile;
 }
 

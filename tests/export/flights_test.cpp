@@ -147,6 +147,21 @@ TEST(Flights, OfAnotherSceneOrVersionAreRefused) {
   EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it cannot be opened, or is no file");
 }
 
+TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
+  const TempFolder folder;
+  const Scene scene = small_scene();
+  store(folder, scene);
+  const std::string whole = read(folder / "flights.bin");
+  // Of the first entry: start, its lower part, x, vy, az; of the last one, of a joint body: mass, radius, half.
+  const std::size_t first = 32 + 8, end = whole.size() - 104;
+  for (const std::size_t at : {first, first + 8, first + 16, first + 48, first + 80, end - 40, end - 32, end - 8}) {
+    std::string damaged = whole;
+    damaged.replace(at, 8, std::string("\0\0\0\0\0\0\xF0\x7F", 8));  // infinity
+    write(folder / "flights.bin", damaged);
+    EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it is damaged") << at;
+  }
+}
+
 TEST(Flights, ThatGrowTooLargeAreLeftOut) {
   const TempFolder folder;
   const std::vector<LeftOut> left_out = store(folder, small_scene(), 500);

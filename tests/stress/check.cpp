@@ -15,8 +15,6 @@ namespace carom::stress {
 
 namespace {
 
-constexpr double patience = 10;  // s of CPU time, for a run: hundreds of thousands of collisions
-
 std::string text(double x) {
   char digits[32];
   std::snprintf(digits, sizeof digits, "%.9g", x);
@@ -63,17 +61,18 @@ double coefficient(const World& world, Entity a, Entity b) {
 
 class Check {
  public:
-  Check(const RandomScene& scene, Verdict& verdict) : scene_(scene), world_(scene.world), verdict_(verdict) {}
+  Check(const RandomScene& scene, double patience, Verdict& verdict)
+      : scene_(scene), world_(scene.world), patience_(patience), verdict_(verdict) {}
 
   void run() {
-    first_ = watch(scene_, {}, patience);
+    first_ = watch(scene_, {}, patience_);
     if (first_.too_slow)
-      return fail("takes more than " + text(patience) + " s of CPU time, " + std::to_string(first_.records.size()) +
+      return fail("takes more than " + text(patience_) + " s of CPU time, " + std::to_string(first_.records.size()) +
                   " records so far");
     verdict_.collisions = first_.tally.collisions();
     if (!first_.error.empty()) return stop();
     times_ = times_to_look(scene_, first_.records);
-    seen_ = watch(scene_, times_, 10 * patience);
+    seen_ = watch(scene_, times_, 10 * patience_);
     same("with more outputs", seen_);
     if (!seen_.error.empty() || seen_.seen.size() != times_.size()) return;
     if (!finite()) return;
@@ -82,7 +81,7 @@ class Check {
     energy();
     momentum();
     for (const Collision& c : first_.records) record(c);
-    if (scene_.seed % 8 == 0) same("run again", watch(scene_, {}, patience));
+    if (scene_.seed % 8 == 0) same("run again", watch(scene_, {}, patience_));
     scaling();
     axes();
   }
@@ -101,7 +100,7 @@ class Check {
       // have 24,845 in 0.03 s of CPU time. Without end they run out of patience.
       RandomScene unlimited = scene_;
       unlimited.options.max_collisions = 0;
-      return Check(unlimited, verdict_).run();
+      return Check(unlimited, patience_, verdict_).run();
     }
     if (!scene_.may_stop || (!lively && first_.error.find("clock") != std::string::npos))
       return fail("error: " + first_.error);
@@ -117,7 +116,7 @@ class Check {
     shorter.may_stop = false;
     shorter.options.max_collisions = 0;
     shorter.options.duration = end;
-    Check(shorter, verdict_).run();
+    Check(shorter, patience_, verdict_).run();
   }
 
   void same(const char* how, const Watched& other) {
@@ -223,7 +222,7 @@ class Check {
   void scaling() {
     const auto draw = [&](int k) { return static_cast<int>((scene_.seed * 2654435761u >> (8 * k)) % 41) - 20; };
     const int length = draw(0), time = draw(1), mass_unit = draw(2);
-    const Watched other = watch(scaled(scene_, length, time, mass_unit), {}, patience);
+    const Watched other = watch(scaled(scene_, length, time, mass_unit), {}, patience_);
     const std::string what = difference(first_, other, length, time, mass_unit);
     if (!what.empty())
       fail("scaled by powers of two " + std::to_string(length) + ", " + std::to_string(time) + ", " +
@@ -241,7 +240,7 @@ class Check {
     if (!(next > c.time * (1 + 1e-6)) || c.time == 0 || c.approach_speed < 1e-2 * speed) return;
     RandomScene other = turned(scene_);
     other.options.duration = std::min(other.options.duration, next);
-    const Watched run = watch(other, {}, patience);
+    const Watched run = watch(other, {}, patience_);
     const double slack = 10 * paths_->rounding(c.a, c.b) / c.approach_speed + 1e-12 * c.time;
     if (run.records.empty())
       fail("with its axes turned nothing meets, else " + who(c.a, c.b) + " at t = " + text(c.time));
@@ -252,6 +251,7 @@ class Check {
 
   const RandomScene& scene_;
   const World& world_;
+  const double patience_;  // s of CPU time, for a run
   Verdict& verdict_;
   Watched first_, seen_;
   std::vector<double> times_;
@@ -260,9 +260,9 @@ class Check {
 
 }  // namespace
 
-Verdict check(const RandomScene& scene) {
+Verdict check(const RandomScene& scene, double patience) {
   Verdict verdict;
-  Check(scene, verdict).run();
+  Check(scene, patience, verdict).run();
   return verdict;
 }
 

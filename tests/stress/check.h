@@ -13,7 +13,8 @@ struct Verdict {
   bool stopped = false;  // at a limit, as it may
 };
 
-Verdict check(const RandomScene& scene);
+/// `patience`: s of CPU time, for a run.
+Verdict check(const RandomScene& scene, double patience = 10);
 
 /// Of a run in steps of time, by a method and with a step that the seed chooses.
 Verdict check_stepped(const RandomScene& scene);

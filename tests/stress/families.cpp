@@ -278,10 +278,10 @@ std::span<const char* const> family_names() {
   return names;
 }
 
-RandomScene make_scene(std::uint64_t seed) {
+RandomScene make_scene(std::uint64_t seed, std::string_view bytes) {
   RandomScene scene;
   const Family& family = families[seed % std::size(families)];
-  Maker maker(seed, scene);
+  Maker maker(seed, scene, bytes);
   scene.family = family.name;
   family.make(maker);
   maker.rules();

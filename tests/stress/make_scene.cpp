@@ -27,7 +27,7 @@ Vec3 settled(Vec3 v, Step step) {
 
 }  // namespace
 
-Maker::Maker(std::uint64_t seed, RandomScene& made) : scene(made), random_(seed) {
+Maker::Maker(std::uint64_t seed, RandomScene& made, std::string_view bytes) : scene(made), random_(seed, bytes) {
   scene.seed = seed;
   scene.options.max_collisions = 20000;
 }

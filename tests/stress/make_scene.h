@@ -4,14 +4,14 @@
 #include <initializer_list>
 #include <iterator>
 
-#include "simulate/random.h"
+#include "stress/draws.h"
 #include "stress/scene.h"
 
 namespace carom::stress {
 
 class Maker {
  public:
-  Maker(std::uint64_t seed, RandomScene& scene);
+  Maker(std::uint64_t seed, RandomScene& scene, std::string_view bytes = {});
 
   // Numbers.
   double uniform(double low, double high) { return random_(low, high); }
@@ -46,7 +46,7 @@ class Maker {
   RandomScene& scene;
 
  private:
-  Random random_;
+  Draws random_;
 };
 
 }  // namespace carom::stress

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "physics/state.h"
 #include "physics/world.h"
@@ -22,10 +23,11 @@ struct RandomScene {
 
 std::span<const char* const> family_names();
 
-RandomScene make_scene(std::uint64_t seed);
+/// The seed modulo the number of families chooses one. `bytes`: what it is made of, as far as they reach.
+RandomScene make_scene(std::uint64_t seed, std::string_view bytes = {});
 
-/// The scene as a file that `carom run` reads, to the last bit.
-std::string as_yaml(const RandomScene& scene);
+/// The scene as a file that `carom run` reads, to the last bit. `simulate`: more keys (", engine: book").
+std::string as_yaml(const RandomScene& scene, const std::string& simulate = {});
 
 /// Of the forces of random scenes, which are uniform.
 inline bool per_mass(const Force& f) {

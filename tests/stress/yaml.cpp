@@ -28,6 +28,25 @@ std::string text(const std::optional<double>& restitution) {
   return restitution ? ", restitution: " + text(*restitution) : "";
 }
 
+std::string text(const UniformForce& law) {
+  return "uniform: " + text(law.force);
+}
+std::string text(const UniformAcceleration& law) {
+  return "acceleration: " + text(law.value);
+}
+std::string text(const Drag& law) {
+  return "drag: {linear: " + text(law.linear) + ", quadratic: " + text(law.quadratic) + ", wind: " + text(law.wind) +
+         "}";
+}
+std::string text(const Spring& law) {
+  return "spring: {anchor: " + text(law.anchor) + ", stiffness: " + text(law.stiffness) +
+         ", rest_length: " + text(law.rest_length) + ", damping: " + text(law.damping) + "}";
+}
+std::string text(const Attractor& law) {
+  return "attractor: {center: " + text(law.center) + ", strength: " + text(law.strength) +
+         ", softening: " + text(law.softening) + "}";
+}
+
 /// b0, b1, …, then p, w, o for planes, walls, obstacles.
 std::string name(const World& world, Entity e) {
   if (world.is_body(e)) return "b" + std::to_string(e);
@@ -72,8 +91,7 @@ std::string fixed(const World& world) {
 std::string forces(const World& world) {
   std::string out = world.forces.empty() ? "" : "forces:\n";
   for (const Force& f : world.forces) {
-    out += "  - {" + std::string(per_mass(f) ? "acceleration: " : "uniform: ") + text(value(f)) +
-           ", from: " + text(f.from);
+    out += "  - {" + std::visit([](const auto& law) { return text(law); }, f.law) + ", from: " + text(f.from);
     if (std::isfinite(f.until)) out += ", until: " + text(f.until);
     std::string on;
     for (Entity i : f.on) on += (on.empty() ? "" : ", ") + name(world, i);
@@ -96,9 +114,9 @@ std::string restitution(const World& world) {
 
 }  // namespace
 
-std::string as_yaml(const RandomScene& scene) {
+std::string as_yaml(const RandomScene& scene, const std::string& more) {
   const ExactOptions& o = scene.options;
-  std::string simulate = "simulate: {duration: " + text(o.duration);
+  std::string simulate = "simulate: {duration: " + text(o.duration) + more;
   if (o.rest_speed > 0) simulate += ", rest_speed: " + text(o.rest_speed);
   if (o.merge) simulate += ", contact: merge";
   if (o.max_collisions > 0) simulate += ", max_collisions: " + std::to_string(o.max_collisions);

@@ -1,0 +1,159 @@
+#include "fuzz/any_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "stress/make_scene.h"
+
+namespace carom::fuzz {
+
+namespace {
+
+using stress::Maker;
+
+struct Units {
+  double length, time, mass;
+  double speed() const { return length / time; }
+};
+
+Volume any_volume(Maker& m, double size) {
+  return m.any_volume(m.chance(0.05) ? 1e-3 * size : size * m.uniform(0.05, 1), 0.4);
+}
+
+void surfaces(Maker& m, const Units& u) {
+  const double half = 3 * u.length;
+  if (m.chance(0.5)) m.room(half);
+  for (int k = m.whole(-2, 2); k > 0; --k)
+    m.plane(m.chance(0.5) ? Vec3(0, -half, 0) : Vec3(half * m.direction()),
+            m.chance(0.5) ? Vec3::UnitY() : m.direction());
+  for (int k = m.whole(-2, 2); k > 0; --k)
+    m.wall(m.somewhere(half), m.chance(0.5) ? Vec3(Vec3::Unit(m.whole(0, 2))) : m.direction(), {0.31, 0.7, 0.2},
+           u.length * m.uniform(0.01, 3), u.length * m.uniform(0.01, 3));
+  for (int k = m.whole(-2, 3); k > 0; --k) m.obstacle(m.somewhere(half), any_volume(m, u.length));
+}
+
+void bodies(Maker& m, const Units& u) {
+  const bool wide = m.chance(0.15), lively = m.chance(0.05), far = m.chance(0.1);
+  const double e = m.restitution();
+  for (int k = m.whole(0, 8); k > 0; --k) {
+    const double mass = wide ? m.spread(lightest, heaviest) : u.mass * m.spread(0.1, 10);
+    const double own = lively ? m.any({1.05, 2}) : m.chance(0.2) ? m.restitution() : e;
+    Vec3 v = u.speed() * m.somewhere(1);
+    if (m.chance(0.3)) v.setZero();
+    if (m.chance(0.05)) v *= m.any({most_speeds, 1e-9, 1e-3});
+    if (m.chance(0.2)) v = Vec3(0, -v.norm(), 0);
+    const Volume volume = any_volume(m, u.length);
+    const auto& placed = m.scene.initial.position;
+    if (!placed.empty() && m.chance(0.3)) {  // touching another, along an axis
+      const Entity other = static_cast<Entity>(m.whole(0, static_cast<int>(placed.size()) - 1));
+      const int axis = m.whole(0, 2);
+      Vec3 x = placed[other];
+      x[axis] += m.any({-1, 1}) * (m.scene.world.volume[other].half[axis] + volume.half[axis]);
+      m.body(x, m.chance(0.5) ? v : m.scene.initial.velocity[other], volume, mass, own);
+    } else {
+      m.fit((far ? most_lengths : 3) * u.length, volume, v, mass, own);
+    }
+  }
+  if (m.chance(0.2))
+    for (Entity i = 0; i < m.scene.world.body_count(); ++i)
+      m.scene.world.impulse.push_back(m.chance(0.5) ? Vec3(m.scene.world.mass[i] * u.speed() * m.somewhere(1))
+                                                    : Vec3(Vec3::Zero()));
+}
+
+/// Of sizes that matter within the duration and that some thousands of steps can follow.
+ForceLaw any_law(Maker& m, const Units& u, double light) {
+  const double acceleration = u.speed() / u.time, zero_or_one = m.any({0, 1, 1});
+  switch (m.whole(0, 5)) {
+    case 0:
+      return UniformForce{light * acceleration * m.somewhere(3)};
+    case 1:
+      return UniformAcceleration{acceleration * m.somewhere(3)};
+    case 2:
+      return Drag{light / u.time * m.uniform(0, 3), 0, u.speed() * zero_or_one * m.somewhere(1)};
+    case 3:
+      return Drag{light / u.time * zero_or_one * m.uniform(0, 3), light / u.length * m.uniform(0, 0.5),
+                  u.speed() * zero_or_one * m.somewhere(1)};
+    case 4:
+      return Spring{u.length * m.somewhere(3), light / (u.time * u.time) * m.spread(1e-3, 30),
+                    u.length * zero_or_one * m.uniform(0, 2), light / u.time * m.any({0, 0.1, 3})};
+    default:
+      return Attractor{u.length * m.somewhere(3),
+                       m.any({1, 1, 1, -1}) * u.length * u.speed() * u.speed() * m.uniform(0, 3),
+                       u.length * m.uniform(0.1, 1)};
+  }
+}
+
+void forces(Maker& m, const Units& u) {
+  World& world = m.scene.world;
+  const double light = world.mass.empty() ? u.mass : *std::min_element(world.mass.begin(), world.mass.end());
+  const double duration = m.scene.options.duration;
+  for (int k = m.whole(-2, 3); k > 0; --k) {
+    const double from = m.chance(0.6) ? 0 : duration * m.uniform(0, 1);
+    const double until =
+        m.chance(0.3) ? from + duration * m.uniform(0.01, 0.7) : std::numeric_limits<double>::infinity();
+    world.forces.push_back({any_law(m, u, light), from, until});
+    for (Entity i = 0; i < world.body_count(); ++i)
+      if (m.chance(0.4)) world.forces.back().on.push_back(i);
+  }
+}
+
+/// What carries it forward.
+void choose(Maker& m, AnyScene& made) {
+  const double duration = made.scene.options.duration;
+  const double step = duration / m.any({10, 100, 300, most_steps});
+  static constexpr const char* integrators[] = {"euler", "verlet", "rk4"};
+  made.engine = m.chance(0.4) ? "auto" : m.chance(0.5) ? "stepped" : m.chance(0.6) ? "exact" : "book";
+  made.simulate = fmt::format(", engine: {}", made.engine);
+  if (made.engine == "stepped") made.simulate += fmt::format(", integrator: {}", integrators[m.whole(0, 2)]);
+  if ((made.engine == "stepped" || made.engine == "book") &&
+      (made.engine == "book" || duration > longest_in_default_steps || m.chance(0.7)))
+    made.simulate += fmt::format(", step: {}", step);
+  if (made.engine == "book" && m.chance(0.3)) made.simulate += ", as_printed: true";
+}
+
+void everything(Maker& m) {
+  Units u{1, 1, 1};
+  if (m.chance(0.4)) u = {m.spread(smallest_length, largest_length), m.spread(shortest_time, longest_time), 1};
+  m.scene.options.duration = u.time * (m.chance(0.1) ? m.spread(1e-3, 8) : m.uniform(0.1, 5));
+  m.gravity(1);
+  if (m.chance(0.6)) {
+    const double g = u.speed() / u.time * m.any({0.1, 1, 10});
+    m.scene.world.gravity = m.chance(0.7) ? Vec3(0, -g, 0) : Vec3(g * m.direction());
+  }
+  surfaces(m, u);
+  bodies(m, u);
+  forces(m, u);
+  m.rules();
+  m.scene.options.merge = m.chance(0.05);
+  if (m.chance(0.1)) m.scene.options.rest_speed = u.speed() * m.spread(1e-6, 1e-1);
+  World& world = m.scene.world;
+  const bool spheres =
+      std::all_of(world.volume.begin(), world.volume.end(), [](const Volume& v) { return v.shape == Shape::sphere; });
+  if (spheres) world.volume.clear();
+}
+
+}  // namespace
+
+AnyScene make_any_scene(std::uint64_t seed, std::string_view bytes) {
+  const std::size_t families = stress::family_names().size();
+  const std::size_t kind =
+      bytes.empty() ? seed % (3 * families) : static_cast<unsigned char>(bytes[0]) % (3 * families);
+  bytes.remove_prefix(std::min<std::size_t>(bytes.size(), 1));
+  AnyScene made;
+  if (kind < families) {
+    // Those of families have constant forces alone; the exact engine's runs of them are stress/'s.
+    made.scene = stress::make_scene(kind + families * seed, bytes);
+    stress::RandomScene unused;
+    Maker maker(seed, unused, bytes.substr(std::min<std::size_t>(bytes.size(), 64)));
+    choose(maker, made);
+    return made;
+  }
+  made.scene.family = "everything";
+  Maker maker(seed, made.scene, bytes);
+  everything(maker);
+  choose(maker, made);
+  return made;
+}
+
+}  // namespace carom::fuzz

@@ -1,0 +1,31 @@
+#pragma once
+// Random small scenes of everything at once: all volumes, surfaces, forces, engines, and odd numbers, within bounds in
+// which rounding is not the story.
+#include <string>
+#include <string_view>
+
+#include "stress/scene.h"
+
+namespace carom::fuzz {
+
+// A scene has units of its own, of which its lengths, times and masses are between a thousandth and some thousands.
+inline constexpr double smallest_length = 1e-3, largest_length = 1e3;  // m
+inline constexpr double shortest_time = 1e-3, longest_time = 2;        // s
+inline constexpr double lightest = 1e-9, heaviest = 1e9;               // kg
+inline constexpr double most_lengths = 1e3, most_speeds = 1e2;         // of the unit: places reach 1e6 m
+inline constexpr int most_steps = 2000;
+inline constexpr double longest_in_default_steps = 20;  // s: they take a millisecond at most
+
+struct AnyScene {
+  stress::RandomScene scene;
+  std::string simulate;  // keys beside those of scene.options: ", engine: stepped, step: 0.01"
+  std::string engine;    // as those say
+
+  std::string yaml() const { return stress::as_yaml(scene, simulate); }
+};
+
+/// Of one of the families of random scenes, or of everything at once; made of the bytes, as far as they reach, then of
+/// the seed.
+AnyScene make_any_scene(std::uint64_t seed, std::string_view bytes = {});
+
+}  // namespace carom::fuzz

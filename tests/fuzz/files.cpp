@@ -1,0 +1,232 @@
+// What is read back: meshes, flights.bin, manifests, tables.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "export/exports.h"
+#include "export/flights_file.h"
+#include "export/manifest.h"
+#include "export/stored_table.h"
+#include "fuzz/memory_file.h"
+#include "fuzz/targets.h"
+#include "render/mesh_reply.h"
+
+namespace carom::fuzz {
+
+namespace {
+
+const OwnFolder& folder() {
+  static const OwnFolder own;
+  return own;
+}
+
+void hold(const Mesh& mesh) {
+  if (mesh.normals.size() != mesh.vertices.size()) throw Finding("normals of other vertices");
+  if (mesh.triangles.empty() || mesh.triangles.size() % 3 != 0) throw Finding("no whole triangles");
+  for (const std::uint32_t i : mesh.triangles)
+    if (i >= mesh.vertices.size()) throw Finding("a triangle has a vertex that is not there");
+  for (const auto* vectors : {&mesh.vertices, &mesh.normals})
+    for (const Vec3& v : *vectors)
+      if (!v.allFinite()) throw Finding("a mesh has a vector that is not finite");
+}
+
+template <typename T>
+void put(std::string& bytes, const std::vector<T>& values) {
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+/// Four bodies that fall for 0.2 s.
+Scene small_scene() {
+  Scene scene;
+  scene.file = "small.yaml";
+  scene.title = "Small";
+  scene.world.mass = {2, 1, 1, 1};
+  scene.world.radius = {0.1, 0.1, 0.1, 0.1};
+  scene.world.restitution = {1, 1, 1, 1};
+  scene.initial.position = {Vec3(0, 1, 0), Vec3(1, 1, 0), Vec3(2, 1, 0), Vec3(3, 1, 0)};
+  scene.initial.velocity.assign(4, Vec3::Zero());
+  scene.roster.bodies = {{"red", 0, 1, false, {}}, {"gas", 1, 3, true, {}}};
+  scene.simulate.duration = 0.2;
+  scene.resolved = "scene: 1\n";
+  return scene;
+}
+
+/// flights.bin with a piece of each kind.
+std::string flights() {
+  std::vector<PathPiece> pieces;
+  for (Entity i = 0; i < 4; ++i) pieces.push_back({i, 0, {0, 0}, Vec3(i, 1, 0), Vec3(1, 0, 0), Vec3(0, -10, 0)});
+  pieces.push_back({1, std::nextafter(0.1, 1), {0.1, 1e-18}, Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(0, -1, 0)});
+  PathPiece stride{3, 0.15, {0.15, -1e-18}, Vec3(7, 8, 9), Vec3(1, 1, 1), Vec3::Zero()};
+  stride.hastened = true;
+  stride.until = {0.175, 1e-19};
+  stride.haste = Vec3(0, -1, 0);
+  PathPiece part{0, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3::Zero(), Vec3::Zero()};
+  part.part_of = 1;
+  PathPiece joint{1, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3(3, 0, 0), Vec3(0, -10, 0)};
+  joint.joint = true;
+  joint.mass = 3;
+  joint.radius = 0.125;
+  joint.half = Vec3::Constant(0.125);
+  for (const PathPiece& piece : {stride, part, joint}) pieces.push_back(piece);
+  FlightsFile file({folder().descriptor(), folder().path()}, small_scene());
+  file.record_paths(pieces);
+  file.end(Tally{});
+  for (OutputFile* output : file.files()) output->publish();
+  return bytes_of(folder().path() + "/" + flights_name);
+}
+
+std::string manifest(const Output& output) {
+  Scene scene = small_scene();
+  scene.output = output;
+  RunFacts facts;
+  facts.measures = {{"balls.red.speed_m_per_s", 1.5}, {"balls.red.kinetic_J", std::nan("")}};
+  facts.left_out = {{flights_name, "it would be too large"}};
+  const std::string hash(64, 'a');
+  return manifest_text(scene, Summary{}, facts,
+                       {{"scene.yaml", 11, hash}, {"summary.csv", 200, hash}, {"frames/frame_00000.png", 3, hash}});
+}
+
+}  // namespace
+
+void read_mesh_reply_bytes(std::string_view bytes) {
+  MeshLimits limits;
+  limits.vertices = limits.triangles = 10'000;
+  std::string_view left = bytes;
+  const auto receive = [&](void* to, std::size_t size) {
+    if (size > left.size()) return false;
+    if (size > 0) std::memcpy(to, left.data(), size);
+    left.remove_prefix(size);
+    return true;
+  };
+  try {
+    hold(receive_mesh({receive, [] { return std::string("it is cut off"); }}, limits));
+  } catch (const std::runtime_error& error) {
+    const std::string text = error.what();
+    if (text.empty() || !std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c <= '~'; }))
+      throw Finding("trouble with a mesh is told in bytes that are no text");
+  }
+}
+
+std::vector<std::string> mesh_reply_seeds() {
+  std::string mesh, trouble;
+  put<std::uint32_t>(mesh, {3, 1, 0});
+  put<float>(mesh, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1});
+  put<std::uint32_t>(mesh, {0, 1, 2});
+  put<std::uint32_t>(trouble, {0, 0, 13});
+  return {mesh, trouble + "it is damaged"};
+}
+
+/// The first byte chooses the ending.
+void read_mesh_bytes(std::string_view bytes) {
+  static constexpr const char* names[] = {"a.obj", "a.stl", "a.glb", "a.gltf"};
+  const std::string name = bytes.empty() ? names[0] : names[static_cast<unsigned char>(bytes[0]) % 4];
+  folder().put(name, bytes.substr(std::min<std::size_t>(bytes.size(), 1)));
+  MeshLimits limits;
+  limits.seconds = 3;
+  limits.vertices = limits.triangles = 10'000;
+  try {
+    const Mesh mesh = read_mesh(folder().path() + "/" + name, limits);
+    hold(mesh);
+    for (const Vec3& n : mesh.normals)
+      if (n != Vec3::Zero() && !(std::abs(n.norm() - 1) < 1e-5)) throw Finding("a normal is not a unit vector");
+  } catch (const std::runtime_error& error) {
+    if (std::string_view(error.what()).find(folder().path()) == std::string_view::npos)
+      throw Finding("trouble with a mesh without its path: " + std::string(error.what()));
+  }
+}
+
+std::vector<std::string> mesh_seeds() {
+  std::vector<std::string> seeds;
+  const std::string data = SOURCE_DIR "/tests/data/meshes";
+  for (const auto& [ending, first] :
+       {std::pair{".obj", '\0'}, std::pair{".stl", '\1'}, std::pair{".glb", '\2'}, std::pair{".gltf", '\3'}})
+    for (const std::string& path : files_below(data, ending))
+      if (const std::string bytes = bytes_of(path); bytes.size() < 20'000) seeds.push_back(first + bytes);
+  seeds.push_back(std::string(1, '\0') +
+                  "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nf 1//1 2//1 3//1\nf 1 2 4\nf 1 2 3 4\n");
+  seeds.push_back(std::string(1, '\1') +
+                  "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+                  "0\nendloop\nendfacet\nendsolid a\n");
+  return seeds;
+}
+
+void read_flights_bytes(std::string_view bytes) {
+  static const Scene scene = small_scene();
+  folder().put(flights_name, bytes);
+  try {
+    FlightsReader reader(folder().descriptor(), folder().path(), scene);
+    double last = 0;
+    for (PathPiece piece; reader.next(piece); last = piece.from) {
+      if (piece.body >= scene.world.body_count()) throw Finding("a path of no body");
+      if (piece.part_of != no_entity && piece.part_of >= scene.world.body_count()) throw Finding("part of no body");
+      if (!(piece.from >= last)) throw Finding("paths that go back in time");
+      if (!piece.x.allFinite() || !piece.v.allFinite() || !piece.a.allFinite() || !piece.haste.allFinite() ||
+          !std::isfinite(piece.start.hi + piece.start.lo) || !std::isfinite(piece.until.hi + piece.until.lo))
+        throw Finding("a path that is not finite");
+      if (piece.joint && !(piece.mass > 0 && piece.radius > 0 && piece.half.allFinite() && std::isfinite(piece.mass) &&
+                           std::isfinite(piece.radius)))
+        throw Finding("a joint body without mass or size");
+    }
+  } catch (const ExportError& error) {
+    if (std::string_view(error.what()).find(flights_name) == std::string_view::npos)
+      throw Finding("a refusal that does not name the file: " + std::string(error.what()));
+  }
+}
+
+std::vector<std::string> flights_seeds() {
+  return {flights()};
+}
+
+void read_manifest_bytes(std::string_view bytes) {
+  folder().put(manifest_name, bytes);
+  const std::optional<Manifest> manifest = read_manifest(folder().descriptor(), manifest_name);
+  if (!manifest) return;
+  for (const FileRecord& file : manifest->files) {
+    if (!is_run_file(file.name) || file.name.starts_with('/') || file.name.starts_with("../"))
+      throw Finding("a file that no run writes: " + file.name);
+    if (file.sha256.size() != 64) throw Finding("a hash of another length");
+  }
+}
+
+std::vector<std::string> manifest_seeds() {
+  Output some;
+  some.collisions = true;
+  return {manifest(Output{}), manifest(some),
+          R"({"tool": "carom", "version": "0.1.0", "outputs": {}, "files": [], "failed": ["r0001"], "meshes": []})"};
+}
+
+/// The lines from the end are the rows from the start, where nothing is in quotes.
+void read_table_bytes(std::string_view bytes) {
+  const MemoryFile file(bytes);
+  StoredTable table(file.open());
+  std::vector<std::string> rows;
+  while (const std::vector<std::string_view>* cells = table.next()) {
+    std::string row;
+    for (std::size_t k = 0; k < cells->size(); ++k) {
+      const std::string_view cell = (*cells)[k];
+      if (const auto number = number_in(cell); number && !std::isfinite(*number)) throw Finding("a number without end");
+      row += (k == 0 ? "" : ",") + std::string(cell);
+    }
+    rows.push_back(std::move(row));
+    if (rows.size() > bytes.size()) throw Finding("more rows than bytes");
+  }
+  if (bytes.find('"') != std::string_view::npos) return;
+  // Empty lines at the end, and between rows, are no lines from the end.
+  std::erase(rows, "");
+  lines_from_end(file.open().get(), [&](std::string_view line) {
+    if (rows.empty() || rows.back() != line) throw Finding("another line from the end: " + std::string(line));
+    rows.pop_back();
+    return true;
+  });
+  if (!rows.empty() && bytes.substr(0, bytes.find('\n')).size() > 0)
+    throw Finding("lines from the end stop before the first row");
+}
+
+std::vector<std::string> table_seeds() {
+  std::string many = "time_s,body,x_m\n";
+  for (int k = 0; k < 300; ++k) many += std::to_string(k) + ",red,1e-3\n";
+  return {"time_s,body,x_m\n0,red,1.5\n0.01,\"a, \"\"b\"\"\",-2\n", "a,b\n1,2\n3,4", "a\n\n\n", "\"a\nb\",c\n1,2\r\n",
+          many};
+}
+
+}  // namespace carom::fuzz

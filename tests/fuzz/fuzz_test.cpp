@@ -1,0 +1,47 @@
+// The short part: each target's seeds, then some thousands of inputs made from them (for long: ./dev fuzz).
+#include <gtest/gtest.h>
+
+#include "fuzz/mutate.h"
+#include "fuzz/targets.h"
+
+namespace carom::fuzz {
+namespace {
+
+class AnyBytes : public ::testing::TestWithParam<const char*> {
+ protected:
+  const Target& target() const { return *find_target(GetParam()); }
+
+  void run(const std::string& input) const {
+    try {
+      target().run(input);
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << error.what() << "\nof the input\n" << ::testing::PrintToString(input);
+    }
+  }
+};
+
+TEST_P(AnyBytes, OfSeedsKeepPromises) {
+  const std::vector<std::string> seeds = target().seeds();
+  EXPECT_FALSE(seeds.empty());
+  for (const std::string& seed : seeds) run(seed);
+}
+
+TEST_P(AnyBytes, KeepPromises) {
+  const std::vector<std::string> seeds = target().seeds(), all_words = words();
+  Mutator mutator(1, seeds, all_words);
+  // A mesh's reader is a process, a simulation takes milliseconds.
+  const bool slow = std::string_view(GetParam()) == "mesh" || std::string_view(GetParam()) == "simulators";
+  for (int k = slow ? 200 : 3000; k > 0 && !HasFailure(); --k) run(mutator.next(target().longest));
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, AnyBytes,
+                         ::testing::Values("scene", "sweep", "settings", "mesh_reply", "mesh", "flights", "manifest",
+                                           "table", "simulators"),
+                         [](const auto& target) { return std::string(target.param); });
+
+TEST(Targets, AreAllInTheShortPart) {
+  EXPECT_EQ(targets().size(), 9u);
+}
+
+}  // namespace
+}  // namespace carom::fuzz

@@ -1,0 +1,170 @@
+// The scene loader, the sweep loader, --set.
+#include <algorithm>
+#include <cmath>
+
+#include "fuzz/memory_file.h"
+#include "fuzz/targets.h"
+#include "scene/load.h"
+#include "scene/source.h"
+#include "scene/sweep.h"
+
+namespace carom::fuzz {
+
+namespace {
+
+constexpr std::size_t small_scene = 8000;  // bytes; of longer ones an input would have the beginning alone
+
+LoadOptions options() {
+  LoadOptions options;
+  options.budget.bodies = 300;  // groups are laid out one by one
+  options.mesh_points = [](const std::string&) {
+    return std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
+  };
+  return options;
+}
+
+/// The text of an error is whole: valid UTF-8, without bytes that a terminal acts upon, with the count that it says.
+void hold(const SceneError& error) {
+  const std::string text = error.what();
+  if (text.empty() || error.count == 0) throw Finding("an error without a text");
+  for (std::size_t i = 0; i < text.size();) {
+    char32_t code = 0;
+    const int length = utf8_length(text, i, code);
+    if (length == 0) throw Finding("an error's text is not UTF-8: " + text);
+    if (code != '\n' && (code < ' ' || (code >= 0x7F && code < 0xA0)))
+      throw Finding("an error's text has a control character: " + text);
+    i += static_cast<std::size_t>(length);
+  }
+}
+
+bool all_finite(const std::vector<Vec3>& vectors) {
+  return std::all_of(vectors.begin(), vectors.end(), [](const Vec3& v) { return v.allFinite(); });
+}
+
+/// What a scene promises to those who use it.
+void hold(const Scene& scene) {
+  const World& world = scene.world;
+  const std::size_t n = world.body_count();
+  if (world.radius.size() != n || world.restitution.size() != n || scene.initial.position.size() != n ||
+      scene.initial.velocity.size() != n || (!world.volume.empty() && world.volume.size() != n) ||
+      (!world.impulse.empty() && world.impulse.size() != n))
+    throw Finding("arrays by body differ in length");
+  const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
+  if (!std::all_of(world.mass.begin(), world.mass.end(), positive)) throw Finding("a mass is not above 0");
+  if (!std::all_of(world.radius.begin(), world.radius.end(), positive)) throw Finding("a radius is not above 0");
+  if (!all_finite(scene.initial.position) || !all_finite(scene.initial.velocity) || !all_finite(world.impulse))
+    throw Finding("a body starts nowhere");
+  if (!(scene.simulate.duration >= 0) || !std::isfinite(scene.simulate.duration)) throw Finding("no duration");
+}
+
+/// The resolved text loads, and says the same of itself.
+void hold_resolved(const Scene& scene) {
+  hold(scene);
+  const MemoryFile again(scene.resolved);
+  std::string text;
+  try {
+    text = load_scene(again.path(), options()).resolved;
+  } catch (const SceneError& error) {
+    throw Finding("the resolved scene does not load: " + std::string(error.what()) + "\n" + scene.resolved);
+  }
+  if (text != scene.resolved) throw Finding("the resolved scene is another:\n" + scene.resolved + "---\n" + text);
+}
+
+/// Texts in quotes R"( )" in the tests' sources that have this word.
+void add_texts_of_tests(const std::string& word, std::vector<std::string>& seeds) {
+  for (const std::string& path : files_below(SOURCE_DIR "/tests", ".cpp")) {
+    const std::string source = bytes_of(path);
+    for (std::size_t at = 0; (at = source.find("R\"(", at)) != std::string::npos;) {
+      const std::size_t end = source.find(")\"", at += 3);
+      if (end == std::string::npos) break;
+      std::string text = source.substr(at, end - at);
+      if (text.find(word) != std::string::npos && text.size() < small_scene) seeds.push_back(std::move(text));
+    }
+  }
+}
+
+}  // namespace
+
+void load_scene_bytes(std::string_view bytes) {
+  const MemoryFile file(bytes);
+  try {
+    hold_resolved(load_scene(file.path(), options()));
+  } catch (const SceneError& error) {
+    hold(error);
+  }
+}
+
+std::vector<std::string> scene_seeds() {
+  std::vector<std::string> seeds;
+  for (const std::string& path : files_below(SOURCE_DIR "/scenes", ".yaml"))
+    if (std::string text = bytes_of(path); text.size() < small_scene) seeds.push_back(std::move(text));
+  add_texts_of_tests("scene: 1", seeds);
+  return seeds;
+}
+
+void load_sweep_bytes(std::string_view bytes) {
+  const MemoryFile file(bytes);
+  try {
+    const Sweep sweep = load_sweep(file.path());
+    if (sweep.size() == 0) throw Finding("a sweep without runs");
+    for (const std::size_t k : {std::size_t{0}, sweep.size() / 2, sweep.size() - 1})
+      if (sweep.run(k).values.size() != sweep.paths.size()) throw Finding("a run has values of other paths");
+    const std::string resolved = sweep.resolved("base.yaml");
+    const MemoryFile again(resolved);
+    const Sweep same = load_sweep(again.path());
+    if (same.size() != sweep.size()) throw Finding("the resolved sweep has other runs:\n" + resolved);
+    if (same.resolved("base.yaml") != resolved) throw Finding("the resolved sweep is another:\n" + resolved);
+  } catch (const SceneError& error) {
+    hold(error);
+  }
+}
+
+std::vector<std::string> sweep_seeds() {
+  std::vector<std::string> seeds;
+  for (const std::string& path : files_below(SOURCE_DIR "/scenes", ".yaml"))
+    if (std::string text = bytes_of(path); text.find("\nsweep: 1") != std::string::npos)
+      seeds.push_back(std::move(text));
+  add_texts_of_tests("sweep: 1", seeds);
+  return seeds;
+}
+
+void apply_settings_bytes(std::string_view bytes) {
+  static const MemoryFile base(R"(scene: 1
+defaults: {ball: {mass: 1, radius: 0.1}}
+balls: {red: {position: [0, 1, 0]}, blue: {position: [1, 1, 0], velocity: [-1, 0, 0]}}
+groups: {gas: {count: 3, ball: {mass: 1, radius: 0.1}, in: {min: [2, 0, 0], max: [4, 2, 2]}, speed: 1}}
+planes: {floor: {point: [0, -1, 0], normal: [0, 1, 0]}}
+forces: [{uniform: [1, 0, 0], on: [red]}, {drag: {linear: 0.1}}]
+camera: {eye: [0, 1, 5], target: [0, 0, 0]}
+lights: {sun: {direction: [0, -1, 0]}}
+simulate: {duration: 1}
+output: {trajectory: {every: 0.1}, energy: {every: 0.1}}
+)");
+  static SceneFile scene(base.path(), options());
+  std::vector<Setting> settings;
+  for (std::size_t at = 0; at <= bytes.size() && settings.size() < 4;) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    settings.push_back({std::string(bytes.substr(at, end - at)), settings.size() % 2 == 0 ? "" : "sweep.yaml:7:3"});
+    at = end + 1;
+  }
+  try {
+    hold_resolved(scene.scene(settings));
+  } catch (const SceneError& error) {
+    hold(error);
+  }
+}
+
+std::vector<std::string> settings_seeds() {
+  return {"balls.red.mass=2",
+          "defaults.ball.restitution=0.5\nsimulate.duration=2",
+          "balls.red.position=[0, 2, 0]\nballs.blue.velocity.x=3",
+          "groups.gas.count=5\ngroups.gas.in.max=[9, 9, 9]",
+          "forces.0.uniform.y=2\nforces.1.drag={quadratic: 1}",
+          "output.video={fps: 30, size: [64, 48]}\ncamera.eye.z=9",
+          "balls.red.density=1000",
+          "simulate={duration: 1, engine: stepped, integrator: verlet, step: 0.01}",
+          "restitution={combine: minimum}\nrestitution.pairs=[{between: [red, blue], value: 0.5}]",
+          "title=\"a = b\"\nlights.sun.color=red"};
+}
+
+}  // namespace carom::fuzz

@@ -1,0 +1,65 @@
+#include "fuzz/memory_file.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace carom::fuzz {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void write_all(int file, std::string_view bytes) {
+  if (ftruncate(file, 0) != 0 || pwrite(file, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    throw std::runtime_error("the input cannot be written");
+}
+
+}  // namespace
+
+MemoryFile::MemoryFile(std::string_view bytes)
+    : file_(memfd_create("input", MFD_CLOEXEC)), path_("/proc/self/fd/" + std::to_string(file_.get())) {
+  write_all(file_.get(), bytes);
+}
+
+Descriptor MemoryFile::open() const {
+  return Descriptor(::open(path_.c_str(), O_RDONLY | O_CLOEXEC));
+}
+
+OwnFolder::OwnFolder() {
+  const fs::path shared = "/dev/shm";
+  path_ = ((fs::exists(shared) ? shared : fs::temp_directory_path()) / "carom_fuzz_XXXXXX").string();
+  if (mkdtemp(path_.data()) == nullptr) throw std::runtime_error("no folder for inputs");
+  folder_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+}
+
+OwnFolder::~OwnFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+void OwnFolder::put(const std::string& name, std::string_view bytes) const {
+  const Descriptor file(openat(descriptor(), name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+  write_all(file.get(), bytes);
+}
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<std::string> files_below(const std::string& folder, const std::string& ending) {
+  std::vector<std::string> paths;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && entry.path().extension() == ending) paths.push_back(entry.path().string());
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+}  // namespace carom::fuzz

@@ -1,0 +1,56 @@
+#include "fuzz/mutate.h"
+
+#include <algorithm>
+
+namespace carom::fuzz {
+
+std::uint64_t Mutator::draw(std::uint64_t below) {
+  state_ = state_ * 6364136223846793005u + 1442695040888963407u;
+  return (state_ >> 33) % below;
+}
+
+void Mutator::change(std::string& bytes) {
+  const std::size_t at = draw(bytes.size() + 1), length = std::min<std::size_t>(1 + draw(16), bytes.size() - at);
+  switch (draw(8)) {
+    case 0:
+      if (length > 0) bytes[at] = static_cast<char>(bytes[at] ^ (1 << draw(8)));
+      break;
+    case 1:
+      if (length > 0) bytes[at] = static_cast<char>(draw(256));
+      break;
+    case 2:
+      bytes.erase(at, length);
+      break;
+    case 3:
+      bytes.insert(at, bytes.substr(at, length));
+      break;
+    case 4:
+      bytes.resize(at);
+      break;
+    case 5: {  // a piece of another one
+      const std::string& other = seeds_[draw(seeds_.size())];
+      const std::size_t from = draw(other.size() + 1);
+      bytes.insert(at, other.substr(from, 1 + draw(64)));
+      break;
+    }
+    case 6:  // an odd number in place of digits
+      for (std::size_t k = at; k < bytes.size(); ++k)
+        if (bytes[k] >= '0' && bytes[k] <= '9') {
+          static constexpr const char* odd[] = {"0", "-1", "1e308", "4294967296", "1e-320", "0.1", "999999999", "nan"};
+          bytes.replace(k, 1, odd[draw(std::size(odd))]);
+          break;
+        }
+      break;
+    default:
+      if (!words_.empty()) bytes.insert(at, words_[draw(words_.size())]);
+  }
+}
+
+std::string Mutator::next(std::size_t longest) {
+  std::string bytes = seeds_[draw(seeds_.size())];
+  for (std::uint64_t k = 1 + draw(4); k > 0; --k) change(bytes);
+  if (bytes.size() > longest) bytes.resize(longest);
+  return bytes;
+}
+
+}  // namespace carom::fuzz

@@ -1,0 +1,121 @@
+// carom_fuzz_scenes [SCENES [FIRST_SEED]]: random scenes of everything at once, through the loader and each run by its
+// engine; a process for every thousand, so that a crash or a hang is one finding.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <string>
+
+#include "fuzz/any_scene.h"
+#include "fuzz/memory_file.h"
+#include "fuzz/simulation.h"
+#include "scene/load.h"
+
+namespace carom::fuzz {
+namespace {
+
+constexpr double patience = 3;  // s of CPU time
+constexpr unsigned hang = 120;  // s of the clock
+
+/// What came of a scene, in one line through a pipe.
+struct Line {
+  char engine[12] = "";
+  bool accepted = false, stopped = false, violated = false;
+  std::uint64_t hash = 0;
+};
+
+Line try_scene(std::uint64_t seed) {
+  const AnyScene made = make_any_scene(seed);
+  Line line;
+  std::unique_ptr<Scene> scene;
+  const MemoryFile file(made.yaml());
+  try {
+    scene = std::make_unique<Scene>(load_scene(file.path()));
+  } catch (const SceneError&) {
+    return line;
+  }
+  const Outcome outcome = simulate(*scene, patience);
+  line.accepted = true;
+  line.hash = outcome.hash;
+  line.stopped = !outcome.stopped.empty();
+  line.violated = !outcome.violations.empty();
+  std::snprintf(line.engine, sizeof line.engine, "%s", outcome.engine.c_str());
+  if (line.violated) {
+    std::string text = "\nseed " + std::to_string(seed) + " (" + made.scene.family + ", " + outcome.engine + "):\n";
+    for (const std::string& violation : outcome.violations) text += "  " + violation + "\n";
+    std::printf("%s---8<---\n%s--->8---\n", text.c_str(), made.yaml().c_str());
+    std::fflush(stdout);
+  }
+  return line;
+}
+
+struct Counts {
+  std::uint64_t run = 0, stopped = 0, violated = 0;
+};
+
+int run(std::uint64_t scenes, std::uint64_t first) {
+  std::map<std::string, Counts> by_engine;
+  std::uint64_t refused = 0, crashed = 0, violated = 0, hash = 0;
+  const std::uint64_t end = first + scenes;
+  for (std::uint64_t seed = first; seed < end;) {
+    int ends[2];
+    if (pipe(ends) != 0) return 1;
+    std::fflush(stdout);
+    const pid_t child = fork();
+    if (child == 0) {
+      for (std::uint64_t k = seed; k < end && k < seed + 1000; ++k) {
+        alarm(hang);
+        const Line line = try_scene(k);
+        if (write(ends[1], &line, sizeof line) != sizeof line) _exit(1);
+      }
+      _exit(0);
+    }
+    close(ends[1]);
+    for (Line line; read(ends[0], &line, sizeof line) == sizeof line; ++seed) {
+      if (!line.accepted) {
+        ++refused;
+        continue;
+      }
+      Counts& counts = by_engine[line.engine];
+      ++counts.run;
+      hash = (hash ^ line.hash) * 0x100000001b3u;
+      counts.stopped += line.stopped;
+      counts.violated += line.violated;
+      violated += line.violated;
+    }
+    close(ends[0]);
+    int status = 0;
+    waitpid(child, &status, 0);
+    if (!WIFSIGNALED(status) && WEXITSTATUS(status) == 0) continue;
+    std::printf("\nseed %llu: it %s\n---8<---\n%s--->8---\n", static_cast<unsigned long long>(seed),
+                !WIFSIGNALED(status)          ? "throws what it must not"
+                : WTERMSIG(status) == SIGALRM ? "hangs"
+                                              : strsignal(WTERMSIG(status)),
+                make_any_scene(seed).yaml().c_str());
+    ++crashed;
+    ++seed;
+  }
+  std::printf("\n%-10s %9s %9s %9s\n", "engine", "scenes", "stopped", "violated");
+  for (const auto& [engine, counts] : by_engine)
+    std::printf("%-10s %9llu %9llu %9llu\n", engine.c_str(), static_cast<unsigned long long>(counts.run),
+                static_cast<unsigned long long>(counts.stopped), static_cast<unsigned long long>(counts.violated));
+  std::printf("%llu scenes, %llu refused by the loader, %llu violated, %llu crashed\n",
+              static_cast<unsigned long long>(scenes), static_cast<unsigned long long>(refused),
+              static_cast<unsigned long long>(violated), static_cast<unsigned long long>(crashed));
+  // The same for every compiler and processor: whole states, all records.
+  std::printf("hash %016llx\n", static_cast<unsigned long long>(hash));
+  return violated + crashed == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace carom::fuzz
+
+int main(int count, char** arguments) {
+  const auto number = [&](int k, std::uint64_t otherwise) {
+    return count > k ? std::strtoull(arguments[k], nullptr, 10) : otherwise;
+  };
+  return carom::fuzz::run(number(1, 100'000), number(2, 0));
+}

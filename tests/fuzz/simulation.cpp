@@ -1,0 +1,202 @@
+#include "fuzz/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <memory>
+
+#include "physics/force.h"
+#include "study/engine.h"
+
+namespace carom::fuzz {
+
+namespace {
+
+constexpr int looks = 16;
+constexpr int most_idle = 100'000;  // times that a simulator may be asked to go on and neither does nor records
+constexpr double relative_rounding = 2e-14;
+constexpr double in_crowds = 1e-10;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+class Run {
+ public:
+  Run(const Scene& scene, double patience, Outcome& outcome)
+      : scene_(scene), world_(scene.world), patience_(patience), outcome_(outcome) {}
+
+  void run() {
+    const EngineChoice engine = choose_engine(scene_);
+    outcome_.engine = engine.name;
+    // Under drag the exact engine goes in steps, as the stepped one does.
+    exact_ = engine.name == "exact" && varying_force(world_) == nullptr;
+    book_ = engine.name == "book";
+    try {
+      simulator_ = make_simulator(scene_, true, engine.step);
+      const long double before = energy();
+      if (!go_to(0) || !see()) return;
+      for (int k = 1; k <= looks; ++k) {
+        if (!go_to(k == looks ? scene_.simulate.duration : scene_.simulate.duration * k / looks) || !see()) return;
+      }
+      const Tally& tally = simulator_->tally();
+      outcome_.collisions = tally.collisions();
+      if (counted_ != tally.collisions())
+        fail(fmt::format("{} collisions are recorded and {} counted", counted_, tally.collisions()));
+      if (exact_) books(static_cast<double>(energy() - before), tally);
+      if (exact_) overlaps(tally);
+    } catch (const SimulationError& error) {
+      outcome_.stopped = error.what();
+      if (outcome_.stopped.empty()) fail("an error without a text");
+    }
+  }
+
+ private:
+  void fail(std::string what) {
+    if (outcome_.violations.size() < 12) outcome_.violations.push_back(std::move(what));
+  }
+
+  /// FNV-1a.
+  void hash(const void* bytes, std::size_t size) {
+    for (std::size_t k = 0; k < size; ++k)
+      outcome_.hash = (outcome_.hash ^ static_cast<const unsigned char*>(bytes)[k]) * 0x100000001b3u;
+  }
+  void hash(double x) { hash(&x, sizeof x); }
+  void hash(const Vec3& v) { hash(v.data(), 3 * sizeof(double)); }
+
+  double time_spent() const { return static_cast<double>(std::clock() - begin_) / CLOCKS_PER_SEC; }
+
+  /// False: it does not get there.
+  bool go_to(double time) {
+    int idle = 0;
+    do {
+      const double before = simulator_->time();
+      simulator_->advance_to(time);
+      const double now = simulator_->time();
+      if (!(now >= before) || now > time) {
+        fail(fmt::format("from {} s on to {} s it gets to {} s", before, time, now));
+        return false;
+      }
+      for (const Collision& c : simulator_->collisions()) record(c);
+      idle = now > before || !simulator_->collisions().empty() ? 0 : idle + 1;
+      if (idle > most_idle) {
+        fail(fmt::format("time stands still at {} s", now));
+        return false;
+      }
+      if (time_spent() > patience_) {
+        fail(fmt::format("takes more than {} s of CPU time; {} s of {} s are done, with {} collisions", patience_, now,
+                         scene_.simulate.duration, counted_));
+        return false;
+      }
+    } while (simulator_->time() < time);
+    return true;
+  }
+
+  bool see() {
+    const State& state = simulator_->state();
+    for (Entity i = 0; i < world_.body_count(); ++i) {
+      if (!state.position[i].allFinite() || !state.velocity[i].allFinite()) {
+        fail(fmt::format("body {} is nowhere at {} s", i, state.time));
+        return false;
+      }
+      hash(state.position[i]);
+      hash(state.velocity[i]);
+      extent_ = std::max(extent_, state.position[i].cwiseAbs().sum() + world_.radius[i]);
+    }
+    if (state.time != simulator_->time()) fail("the state is of another time");
+    return true;
+  }
+
+  long double energy() {
+    const State& state = simulator_->state();
+    long double sum = 0;
+    double all = 0;
+    for (Entity i = 0; i < world_.body_count(); ++i) {
+      const long double m = world_.mass[i];
+      const long double kinetic = 0.5L * m * state.velocity[i].cast<long double>().squaredNorm();
+      sum += kinetic + potential(world_, i, state.position[i]);
+      all += static_cast<double>(kinetic) + pull(i) * extent_;
+    }
+    size_ = std::max(size_, all);
+    return sum;
+  }
+
+  /// N, at most, of forces with a potential, when all are constant.
+  double pull(Entity i) const {
+    double sum = world_.mass[i] * world_.gravity.cwiseAbs().sum();
+    for (const Force& f : world_.forces) {
+      if (const auto* uniform = std::get_if<UniformForce>(&f.law)) sum += uniform->force.cwiseAbs().sum();
+      if (const auto* uniform = std::get_if<UniformAcceleration>(&f.law))
+        sum += world_.mass[i] * uniform->value.cwiseAbs().sum();
+    }
+    return sum;
+  }
+
+  /// What is lost is lost in collisions, but for rounding. (Merged bodies have the masses of several.)
+  void books(double gain, const Tally& tally) {
+    if (scene_.simulate.merge) return;
+    const double relative =
+        relative_rounding * (1 + std::sqrt(static_cast<double>(counted_))) + (tally.collapses > 0 ? in_crowds : 0);
+    const double size = size_ + std::abs(tally.energy_lost) + std::abs(tally.work);
+    if (!(std::abs(gain + tally.energy_lost - tally.work) <= relative * size))
+      fail(fmt::format("energy books: gains {} J, lost {} J, work {} J, of {} J", gain, tally.energy_lost, tally.work,
+                       size));
+  }
+
+  void overlaps(const Tally& tally) {
+    double extent = extent_, largest = 0;
+    for (const Wall& w : world_.walls)
+      extent = std::max(extent, w.center.cwiseAbs().sum() + w.half_width + w.half_height);
+    for (const Obstacle& o : world_.obstacles) extent = std::max(extent, o.center.cwiseAbs().sum() + o.volume.reach());
+    for (const Plane& p : world_.planes) extent = std::max(extent, p.point.cwiseAbs().sum());
+    for (const double r : world_.radius) largest = std::max(largest, r);
+    const double allowed = 2 * relative_rounding * extent + (tally.collapses > 0 ? in_crowds * largest : 0);
+    if (!(tally.max_overlap <= allowed)) fail(fmt::format("bodies overlap by {} m", tally.max_overlap));
+  }
+
+  void record(const Collision& c) {
+    const std::string what = fmt::format("record of {} and {} at {} s: ", c.a, c.b, c.time);
+    if (!(c.time >= last_) || c.time > scene_.simulate.duration) fail(what + "out of order");
+    last_ = c.time;
+    for (const double x :
+         {c.time, double{c.a}, double{c.b}, c.approach_speed, c.separation_speed, c.impulse, c.energy_lost})
+      hash(x);
+    hash(c.position);
+    hash(c.normal);
+    if (c.kind == CollisionKind::rest) return;
+    ++counted_;
+    if (!c.position.allFinite() || !c.normal.allFinite() || !std::isfinite(c.approach_speed) ||
+        !std::isfinite(c.separation_speed) || !std::isfinite(c.impulse) || !std::isfinite(c.energy_lost))
+      return fail(what + "not finite");
+    if (c.kind == CollisionKind::merge) return;
+    if (std::abs(c.normal.norm() - 1) > 1e-14) fail(what + fmt::format("its normal has length {}", c.normal.norm()));
+    // The chapter's program strikes what separates, and its printed listings make energy.
+    if (book_) return;
+    if (c.approach_speed < 0) fail(what + fmt::format("they separate at {} m/s", -c.approach_speed));
+    const double rounding = exact_ ? 0 : 8 * epsilon * c.impulse * c.approach_speed;
+    if (c.restitution <= 1 && c.energy_lost < -rounding)
+      fail(what + fmt::format("makes {} J at {} m/s", -c.energy_lost, c.approach_speed));
+  }
+
+  const Scene& scene_;
+  const World& world_;
+  const double patience_;  // s
+  Outcome& outcome_;
+  const std::clock_t begin_ = std::clock();
+  std::unique_ptr<Simulator> simulator_;
+  bool exact_ = false, book_ = false;
+  double last_ = 0;    // s, of the last record
+  double extent_ = 0;  // m, of the farthest place
+  double size_ = 0;    // J, without signs
+  std::uint64_t counted_ = 0;
+};
+
+}  // namespace
+
+Outcome simulate(const Scene& scene, double patience) {
+  Outcome outcome;
+  Run(scene, patience, outcome).run();
+  return outcome;
+}
+
+}  // namespace carom::fuzz

@@ -1,0 +1,47 @@
+#include "fuzz/targets.h"
+
+#include <algorithm>
+#include <set>
+
+#include "scene/fields.h"
+
+namespace carom::fuzz {
+
+std::span<const Target> targets() {
+  static const Target all[] = {
+      {"scene", load_scene_bytes, scene_seeds, 4096},
+      {"sweep", load_sweep_bytes, sweep_seeds, 2048},
+      {"settings", apply_settings_bytes, settings_seeds, 512},
+      {"mesh_reply", read_mesh_reply_bytes, mesh_reply_seeds, 1024},
+      {"mesh", read_mesh_bytes, mesh_seeds, 1024},
+      {"flights", read_flights_bytes, flights_seeds, 2048},
+      {"manifest", read_manifest_bytes, manifest_seeds, 2048},
+      {"table", read_table_bytes, table_seeds, 16384},
+      {"simulators", simulate_bytes, simulator_seeds, 1024},
+  };
+  return all;
+}
+
+const Target* find_target(std::string_view name) {
+  for (const Target& target : targets())
+    if (target.name == name) return &target;
+  return nullptr;
+}
+
+std::vector<std::string> words() {
+  std::set<std::string> all = {"[0, 0, 0]", "[1e3, -2, .5]", "{",     "}",    "[",   "]",   ": ",  "- ",
+                               "\n  ",      "1e308",         "-0",    "0x10", "~",   "yes", "off", "&a",
+                               "*a",        "!!x",           "|",     ">",    "# ",  "\"",  "'",   ",",
+                               "<<",        "...",           "\n---", "null", "nan", ".inf"};
+  for (const std::span<const Kind>& family : families())
+    for (const Kind& kind : family)
+      for (const Field& field : kind.fields) {
+        all.insert(std::string(field.key) + ": ");
+        for (const std::string_view choice : choices(field)) all.emplace(choice);
+        if (!field.example.empty()) all.emplace(field.example);
+      }
+  all.erase("");
+  return {all.begin(), all.end()};
+}
+
+}  // namespace carom::fuzz

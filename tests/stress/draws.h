@@ -1,0 +1,25 @@
+#pragma once
+// The numbers that a random scene is made of: of given bytes, as long as there are any, then of a seed.
+#include <string_view>
+
+#include "simulate/random.h"
+
+namespace carom::stress {
+
+class Draws {
+ public:
+  explicit Draws(std::uint64_t seed, std::string_view bytes = {}) : random_(seed), bytes_(bytes) {}
+
+  double operator()(double low, double high) {
+    if (bytes_.size() < 2) return random_(low, high);
+    const unsigned k = static_cast<unsigned char>(bytes_[0]) + 256u * static_cast<unsigned char>(bytes_[1]);
+    bytes_.remove_prefix(2);
+    return low + (high - low) * (k * 0x1p-16);
+  }
+
+ private:
+  Random random_;
+  std::string_view bytes_;
+};
+
+}  // namespace carom::stress
