@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <new>
 #include <tuple>
 
 #include "export/run_folder.h"
@@ -77,7 +78,9 @@ int seek_file(void* cookie, off64_t* offset, int whence) {
 }
 
 int close_file(void* cookie) {
-  static_cast<File*>(cookie)->descriptor.reset();
+  File& file = *static_cast<File*>(cookie);
+  file.descriptor.reset();
+  file.stream = nullptr;
   return 0;
 }
 
@@ -123,6 +126,9 @@ WorkbookFiles::WorkbookFiles(const FilePlace& place, std::string name) : place_(
 }
 
 WorkbookFiles::~WorkbookFiles() {
+  // Of a workbook that was given up the library leaves files open.
+  for (const auto& file : files_)
+    if (file->stream != nullptr) std::fclose(file->stream);
   current = nullptr;
 }
 
@@ -144,11 +150,13 @@ void WorkbookFiles::check_archive(int archive) const {
   if (!whole || found != wanted) fail("write", place_, name_, "the workbook is not what was written to it");
 }
 
-File* WorkbookFiles::make() {
+FILE* WorkbookFiles::make() {
   try {
     auto file = std::make_unique<File>();
     file->descriptor = nameless_file(place_);
-    return files_.emplace_back(std::move(file)).get();
+    file->stream = fopencookie(file.get(), "w+", {read_file, write_file, seek_file, close_file});
+    if (file->stream == nullptr) throw std::bad_alloc();
+    return files_.emplace_back(std::move(file))->stream;
   } catch (const ExportError&) {
     remember(errno != 0 ? errno : EIO);
   } catch (const std::bad_alloc&) {
@@ -164,11 +172,5 @@ void WorkbookFiles::remember(int error) {
 }  // namespace carom
 
 extern "C" FILE* lxw_tmpfile(char*) {
-  using carom::current;
-  carom::File* const file = current != nullptr ? current->make() : nullptr;
-  if (file == nullptr) return nullptr;
-  FILE* const stream =
-      fopencookie(file, "w+", {carom::read_file, carom::write_file, carom::seek_file, carom::close_file});
-  if (stream == nullptr) current->remember(ENOMEM);
-  return stream;
+  return carom::current != nullptr ? carom::current->make() : nullptr;
 }

@@ -3,6 +3,7 @@
 // a workbook in such files and looks at no error of theirs. These have no name, remember every failure, and know what
 // was written to them, which the finished workbook is held against.
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <vector>
 
@@ -30,11 +31,12 @@ class WorkbookFiles {
   /// One of the files.
   struct File {
     Descriptor descriptor;
+    FILE* stream = nullptr;          // as long as it is open
     std::uint64_t at = 0, size = 0;  // bytes
     std::uint32_t crc = 0;           // of all bytes, as zip archives have it
   };
   /// A new file; none: it cannot be made, as check() says then.
-  File* make();
+  FILE* make();
   /// What became of it: errno.
   void remember(int error);
 
