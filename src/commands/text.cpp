@@ -113,7 +113,7 @@ std::string shell_word(const std::string& word) {
 
 std::string name_of_folder(const std::string& folder) {
   namespace fs = std::filesystem;
-  const fs::path path = fs::absolute(folder).lexically_normal();
+  const fs::path path = fs::path(absolute(folder)).lexically_normal();
   return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 

@@ -71,6 +71,13 @@ std::string canonical(const std::string& path) {
   return whole.string();
 }
 
+std::string absolute(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::absolute(path, error);
+  if (error) fail("look at", {AT_FDCWD, ""}, path, error.message());
+  return whole.string();
+}
+
 bool lock_folder(const FilePlace& place, LockKind kind) {
   int code = 0;
   do code = flock(place.folder, (kind == LockKind::alone ? LOCK_EX : LOCK_SH) | LOCK_NB);

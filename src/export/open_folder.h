@@ -25,6 +25,9 @@ bool is_same_folder(const std::string& a, const std::string& b);
 /// Where a path leads, links followed as far as it is there. Throws ExportError where that cannot be said.
 std::string canonical(const std::string& path);
 
+/// The path from the root. Throws ExportError where that cannot be said.
+std::string absolute(const std::string& path);
+
 enum class LockKind { alone, shared };
 /// False: another one has it. A file system that knows no locks (some network ones) is used without. Throws
 /// ExportError.

@@ -120,7 +120,7 @@ void SideBySide::complete() {
     write_label(file_.workshop(), label, tiles_[k]);
     input.insert(
         input.end(),
-        {"-i", "file:" + std::filesystem::absolute(std::filesystem::path(tiles_[k].folder) / tiles_[k].file).string()});
+        {"-i", "file:" + absolute((std::filesystem::path(tiles_[k].folder) / tiles_[k].file).string())});
     graph += fmt::format("[{}:v]", k);
     if (is_faster(fastest, film)) graph += fmt::format("fps={}/{},", fastest.rate, fastest.per);
     if (film.width != grid.width || film.height != grid.height)

@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <tuple>
 
 #include "scene/check_values.h"
@@ -180,7 +182,12 @@ class Checker : ValueChecker {
       return;
     }
     struct stat info {};
-    if (stat(beneath(folder_, value.text).c_str(), &info) == 0 && S_ISREG(info.st_mode)) return;
+    const bool found = stat(beneath(folder_, value.text).c_str(), &info) == 0;
+    if (found && S_ISREG(info.st_mode)) return;
+    if (!found && errno != ENOENT && errno != ENOTDIR) {
+      refuse(value, fmt::format("the file {} cannot be looked at", quoted(value.text)), std::strerror(errno));
+      return;
+    }
     refuse(value, fmt::format("there is no file {}", quoted(value.text)), "paths start at the folder of the scene");
   }
 

@@ -42,7 +42,8 @@ class Reader {
         sweep_.set_values.push_back({set->keys[i].text + "=" + flow_text(set->items[i]), where(set->keys[i].place)});
     }
     const Node* base = usable(root_.find("base"));
-    if (base != nullptr && !sources_.front().option && !std::filesystem::exists(sweep_.base))
+    std::error_code error;  // of another reason than that it is not there reading it tells
+    if (base != nullptr && !sources_.front().option && !std::filesystem::exists(sweep_.base, error) && !error)
       diagnostics_.add(base->place, fmt::format("there is no file {}", carom::quoted(base->text)),
                        "expected a scene file, by its path from the folder of this file");
     blocks();

@@ -30,7 +30,7 @@ constexpr std::size_t most_told = 10;                // folders that are wrong
 
 /// The names of a path from its end: "r0001", "runs", "sweep".
 std::vector<std::string> names_of(const std::string& path) {
-  const fs::path whole = fs::absolute(path).lexically_normal();
+  const fs::path whole = fs::path(absolute(path)).lexically_normal();
   std::vector<std::string> names;
   for (const fs::path& name : whole)
     if (!name.empty() && name != "/") names.push_back(name.string());
