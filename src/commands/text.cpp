@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "export/open_folder.h"
 #include "scene/source.h"
 
 namespace carom {
