@@ -333,7 +333,7 @@ def disturbed(bench, name, family, detail, place):
     raise ValueError(family)
 
 
-def wrong_end(name, family, done, place, reference, former):
+def wrong_end(name, family, detail, done, place, reference, former):
     """What is wrong with how the command ended; empty: nothing."""
     if done.code == "hang":
         return "it hangs"
@@ -349,6 +349,11 @@ def wrong_end(name, family, done, place, reference, former):
         return ""
     killed = family in ("kill at a call", "kill at random")
     allowed = {0, 1, 2, 3, 130, 143} | ({-9, 137} if killed else set())
+    # LLVM, which draws, ends the program where it gets no memory for its code ("LLVM ERROR: Unable to allocate section
+    # memory!"), or crashes; nothing may be torn by that.
+    memory = family == "limit of memory" or (family.startswith("call") and detail.split()[0] in SAMPLED)
+    if memory and COMMANDS[name].draws:
+        allowed |= {-6, -11}
     if done.code not in allowed:
         return "exit code %s: %s" % (done.code, done.text.strip()[-300:])
     if done.code == 2 and family in ("limit of file size", "tiny file system"):
@@ -388,13 +393,11 @@ def attempt(bench, name, family, detail):
         done = disturbed(bench, name, family, detail, place)
         if done is None:
             return None
-        if family == "tiny file system":
-            why = wrong_end(name, family, done, place, reference, former)
-            subprocess.run(["mount", "-o", "remount,size=64m", out], check=True)
-        else:
-            why = wrong_end(name, family, done, place, reference, former)
+        why = wrong_end(name, family, detail, done, place, reference, former)
         if why:
             return why
+        if family == "tiny file system":
+            subprocess.run(["mount", "-o", "remount,size=64m", out], check=True)
         again = go([bench.carom] + COMMANDS[name].words, place)
         if again.code != 0:
             return "then the same command: exit code %s: %s" % (again.code, again.text.strip()[-300:])
