@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <new>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +11,8 @@
 #include "commands/progress.h"
 #include "commands/report.h"
 #include "commands/text.h"
+#include "export/open_folder.h"
+#include "export/publication.h"
 #include "scene/diagnostics.h"
 #include "study/compared_run.h"
 #include "study/comparison_film.h"
@@ -24,8 +25,6 @@ namespace carom {
 using Json = nlohmann::ordered_json;
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The runs as they were named, shortened: what the workbook is called.
 std::string title_of(const std::vector<std::string>& folders) {
@@ -61,6 +60,7 @@ class CompareSession {
 
  private:
   int compare() {
+    settle_folder(folder_);
     for (const std::string& folder : options_.operands) refuse_own_folder(folder);
     std::vector<ListedRun> runs;
     try {
@@ -100,8 +100,7 @@ class CompareSession {
 
   /// The comparison's folder is no run, and no run is overwritten by what compares it.
   void refuse_own_folder(const std::string& folder) const {
-    std::error_code ignored;
-    if (fs::weakly_canonical(folder, ignored) == fs::weakly_canonical(folder_, ignored))
+    if (canonical(folder) == canonical(folder_))
       throw UsageError(
           fmt::format("{} is both compared and written to: name another folder with -o", printable(folder)));
   }
@@ -129,7 +128,7 @@ class CompareSession {
         folder.place(), plan, count, [&](std::size_t number) { return differences.run(number); }, watch);
     if (film) {
       progress.update(1, "film");
-      film->complete(stop_if_interrupted);
+      film->complete();
     }
     stop_if_interrupted();
     progress.clear();

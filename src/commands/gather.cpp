@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "commands/interrupt.h"
@@ -17,12 +16,12 @@
 #include "export/copied_run.h"
 #include "export/failed_run.h"
 #include "export/open_folder.h"
+#include "export/publication.h"
 #include "export/stored_file.h"
 #include "study/sweep_folder.h"
 
 namespace carom {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 namespace {
@@ -35,6 +34,7 @@ class GatherSession {
   explicit GatherSession(const Options& options) : options_(options), folder_(options.operands.front()) {}
 
   int go() {
+    settle_folder(folder_);
     const std::string source = has_sweep(folder_) ? folder_ : options_.operands.back();
     if (!has_sweep(source)) {
       return refuse(fmt::format("{} holds no sweep: there is no {} in it", printable(source), stored_sweep));
@@ -62,8 +62,7 @@ class GatherSession {
   }
 
   static bool has_sweep(const std::string& folder) {
-    std::error_code ignored;
-    return fs::exists(folder + "/" + stored_sweep, ignored);
+    return what_stands(folder + "/" + stored_sweep) != Standing::nothing;
   }
 
   static std::optional<std::string> text_of(const std::string& folder, const char* name) {

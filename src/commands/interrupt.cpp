@@ -3,6 +3,8 @@
 #include <csignal>
 #include <initializer_list>
 
+#include "export/child.h"
+
 namespace carom {
 
 namespace {
@@ -16,7 +18,7 @@ void remember(int signal) {
 }  // namespace
 
 void catch_signals() {
-  std::signal(SIGPIPE, SIG_IGN);
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   struct sigaction action {};
   action.sa_handler = remember;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
@@ -27,6 +29,7 @@ void catch_signals() {
     if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
     sigaction(signal, &action, nullptr);
   }
+  look_while_waiting(stop_if_interrupted);
 }
 
 void stop_if_interrupted() {

@@ -10,7 +10,8 @@ struct Interrupted {
 };
 
 /// From here on the first SIGINT or SIGTERM sets the flag; a second one ends the program at once.
-/// SIGPIPE is ignored: a reader that went away shows as an error of the write.
+/// Waiting for other programs hears it too. SIGPIPE and SIGXFSZ are ignored: a reader that went away, or a file that
+/// may not grow, shows as an error of the write.
 void catch_signals();
 /// Throws Interrupted if a signal has come.
 void stop_if_interrupted();

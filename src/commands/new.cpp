@@ -41,6 +41,7 @@ fs::path scene_path(const std::string& name) {
 Descriptor opened(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
+  if (error) fail("make", {-1, folder}, "", error.message());
   Descriptor open = open_folder(AT_FDCWD, folder, true);
   if (!open) fail("open", {-1, folder}, "");
   return open;
@@ -49,7 +50,10 @@ Descriptor opened(const std::string& folder) {
 /// Throws UsageError where something has the name, a folder, or unless --force anything.
 void refuse_existing(const FilePlace& place, const std::string& name, bool force) {
   struct stat info {};
-  if (fstatat(place.folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) return;
+  if (fstatat(place.folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) {
+    if (!is_absent(errno)) fail("look at", place, name);
+    return;
+  }
   const std::string path = printable((fs::path(place.path) / name).lexically_normal().string());
   if (S_ISDIR(info.st_mode)) throw UsageError(fmt::format("{} is a folder: choose another name", path));
   if (!force)

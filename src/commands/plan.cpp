@@ -11,6 +11,8 @@
 
 #include "commands/interrupt.h"
 #include "commands/text.h"
+#include "export/open_folder.h"
+#include "export/publication.h"
 #include "render/mesh.h"
 #include "scene/load.h"
 #include "study/bench_folder.h"
@@ -30,9 +32,7 @@ std::string folder_of(const Options& options, const std::string& name, Purpose p
 void refuse_shared_folders(const std::vector<PlannedScene>& scenes) {
   std::map<std::string, const PlannedScene*> owner;
   for (const PlannedScene& scene : scenes) {
-    std::error_code ignored;
-    const fs::path place = fs::weakly_canonical(scene.folder, ignored);
-    const auto [found, is_new] = owner.emplace((place.empty() ? fs::path(scene.folder) : place).string(), &scene);
+    const auto [found, is_new] = owner.emplace(canonical(scene.folder), &scene);
     if (is_new) continue;
     throw UsageError(fmt::format("{} and {} would both be written to {}: run one of them with another -o",
                                  printable(found->second->file), printable(scene.file), printable(scene.folder)));
@@ -58,10 +58,9 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
   planned.forecast = forecast(*planned.scene);
   // With --only it is not the file's outputs that count, but those that are left or added.
   if (options.only && !options.force) hold_to_budget(*planned.scene, planned.forecast, "--only asks for");
-  std::error_code ignored;
-  if (fs::exists(planned.folder, ignored) && !fs::is_directory(planned.folder, ignored)) {
+  if (what_stands(planned.folder) == Standing::other)
     throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
-  }
+  settle_folder(planned.folder);
   if (purpose == Purpose::bench) {
     planned.content = inspect_bench_folder(planned.folder, *planned.scene, options.bench);
     return;

@@ -11,6 +11,8 @@
 #include "commands/run.h"
 #include "commands/text.h"
 #include "export/manifest.h"
+#include "export/open_folder.h"
+#include "export/publication.h"
 #include "scene/motion_text.h"
 #include "scene/output.h"
 
@@ -35,11 +37,6 @@ void refuse_tables(const Options& options) {
       throw UsageError(fmt::format("render makes {}: carom run writes {}", fmt::join(drawn, ", "), name));
 }
 
-bool is_same_folder(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  return fs::equivalent(a, b, ignored);
-}
-
 /// As typed in a shell.
 std::string settings_text(const std::vector<std::string>& settings) {
   std::string text;
@@ -53,6 +50,8 @@ class Planner {
 
   void check(PlannedScene& planned) const {
     const auto start = std::chrono::steady_clock::now();
+    settle_folder(planned.file);
+    settle_folder(planned.folder);
     const std::string path = former_scene_file(planned.file);
     LoadOptions load = load_options(options_, true);
     load.set.clear();
@@ -69,8 +68,7 @@ class Planner {
     planned.engine = choose_engine(*planned.scene);
     planned.forecast = forecast(*planned.scene);
     if (!options_.force) hold_to_budget(*planned.scene, planned.forecast, "this would make");
-    std::error_code ignored;
-    if (fs::exists(planned.folder, ignored) && !fs::is_directory(planned.folder, ignored))
+    if (what_stands(planned.folder) == Standing::other)
       throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
     planned.content = inspect_folder(planned.folder, *planned.scene);
     const bool renews = planned.folder == planned.file;

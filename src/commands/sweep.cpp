@@ -12,6 +12,7 @@
 #include "commands/sweep_report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
+#include "export/publication.h"
 #include "study/sweep_folder.h"
 
 namespace carom {
@@ -52,6 +53,7 @@ class SweepSession {
     SweepJob job(read_sweep(options_), folder_, sweep_settings(options_));
     check_comparison(job);
 
+    settle_folder(folder_);
     const SweepContent content = inspect_sweep_folder(folder_, job.sweep(), job.base_text());
     if (content == SweepContent::other && !options_.force) {
       return refuse(fmt::format("the folder {} holds something else, or the sweep or its base has changed since",

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "export/open_folder.h"
+
 namespace carom {
 
 std::string quantity(double value, std::string_view unit) {
@@ -100,7 +102,7 @@ std::string shell_word(const std::string& word) {
 
 std::string name_of_folder(const std::string& folder) {
   namespace fs = std::filesystem;
-  const fs::path path = fs::absolute(folder).lexically_normal();
+  const fs::path path = fs::path(absolute(folder)).lexically_normal();
   return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 

@@ -18,6 +18,7 @@
 #include <string_view>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "export/run_folder.h"
 
@@ -35,12 +36,33 @@ Descriptor memory_file() {
 
 std::string text_of(int file) {
   std::string text(1 << 20, '\0');
-  const ssize_t size = pread(file, text.data(), text.size(), 0);
-  text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+  std::size_t size = 0;
+  while (size < text.size()) {
+    const ssize_t n = pread(file, text.data() + size, text.size() - size, static_cast<off_t>(size));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail("read", {-1, "what a program wrote"}, "");
+    if (n == 0) break;
+    size += static_cast<std::size_t>(n);
+  }
+  text.resize(size);
   return text;
 }
 
+constexpr auto glance = std::chrono::milliseconds(50);  // between two looks
+
+std::function<void()>& look() {
+  static std::function<void()> function = [] {};
+  return function;
+}
+
+/// A signal's default action for a program that is started: this one ignores these.
+constexpr int ignored[] = {SIGPIPE, SIGXFSZ};
+
 }  // namespace
+
+void look_while_waiting(std::function<void()> function) {
+  look() = std::move(function);
+}
 
 std::optional<std::string> find_program(const std::string& name) {
   const char* path = std::getenv("PATH");
@@ -52,8 +74,12 @@ std::optional<std::string> find_program(const std::string& name) {
     std::error_code error;
     const std::filesystem::path file = std::filesystem::absolute(std::filesystem::path(folder) / name, error);
     struct stat info {};
-    if (!error && stat(file.c_str(), &info) == 0 && S_ISREG(info.st_mode) && access(file.c_str(), X_OK) == 0)
+    if (error) continue;
+    if (stat(file.c_str(), &info) != 0) {
+      if (!is_absent(errno) && errno != EACCES) fail("look for", {-1, std::string(folder)}, name);
+    } else if (S_ISREG(info.st_mode) && access(file.c_str(), X_OK) == 0) {
       return file.string();
+    }
   }
   return std::nullopt;
 }
@@ -82,12 +108,12 @@ Child::Child(const std::vector<std::string>& arguments, int folder, bool fed)
   // Signals as a program expects them, whatever this one ignores or blocks.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
-  sigset_t none, pipe;
+  sigset_t none, defaults;
   sigemptyset(&none);
-  sigemptyset(&pipe);
-  sigaddset(&pipe, SIGPIPE);
+  sigemptyset(&defaults);
+  for (const int signal : ignored) sigaddset(&defaults, signal);
   posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &pipe);
+  posix_spawnattr_setsigdefault(&attributes, &defaults);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
 
   std::vector<char*> list;
@@ -109,15 +135,21 @@ Child::~Child() {
 
 Child::Sent Child::send(const void* bytes, std::size_t size, std::chrono::milliseconds patience) {
   const char* from = static_cast<const char*>(bytes);
+  auto limit = Clock::now() + patience;
   while (size > 0) {
     const ssize_t n = ::send(input_.get(), from, size, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (n >= 0) {
       from += n;
       size -= static_cast<std::size_t>(n);
+      limit = Clock::now() + patience;
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
       pollfd wanted{input_.get(), POLLOUT, 0};
-      const int ready = poll(&wanted, 1, static_cast<int>(patience.count()));
-      if (ready == 0) return Sent::stuck;
+      const int ready = poll(&wanted, 1, static_cast<int>(glance.count()));
+      if (ready < 0 && errno != EINTR) std::this_thread::sleep_for(glance);
+      look()();
+      if (ready > 0) continue;
+      if (has_ended()) return Sent::closed;
+      if (Clock::now() >= limit) return Sent::stuck;
     } else if (errno != EINTR) {
       return Sent::closed;
     }
@@ -126,24 +158,29 @@ Child::Sent Child::send(const void* bytes, std::size_t size, std::chrono::millis
 }
 
 void Child::end_input() {
+  // The end is heard whatever becomes of the descriptor.
+  if (input_) shutdown(input_.get(), SHUT_RDWR);
   input_.reset();
+}
+
+bool Child::has_ended() {
+  if (exit_code_) return true;
+  int status = 0;
+  const pid_t ended = waitpid(id_, &status, WNOHANG);
+  if (ended == id_)
+    exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  else if (ended < 0 && errno != EINTR)
+    exit_code_ = 127;  // somebody else has waited for it
+  return exit_code_.has_value();
 }
 
 std::optional<int> Child::wait(std::chrono::milliseconds patience) {
   const auto limit = Clock::now() + patience;
   std::chrono::microseconds pause(200);
-  while (!exit_code_) {
-    int status = 0;
-    const pid_t ended = waitpid(id_, &status, WNOHANG);
-    if (ended == id_) {
-      exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    } else if (ended < 0 && errno != EINTR) {
-      exit_code_ = 127;  // somebody else has waited for it
-    } else {
-      if (Clock::now() >= limit) break;
-      std::this_thread::sleep_for(pause);
-      pause = std::min(pause * 2, std::chrono::microseconds(20'000));
-    }
+  while (!has_ended() && Clock::now() < limit) {
+    look()();
+    std::this_thread::sleep_for(pause);
+    pause = std::min(pause * 2, std::chrono::microseconds(20'000));
   }
   return exit_code_;
 }
@@ -151,7 +188,10 @@ std::optional<int> Child::wait(std::chrono::milliseconds patience) {
 void Child::kill() {
   if (id_ < 0 || exit_code_) return;
   ::kill(id_, SIGKILL);
-  wait(std::chrono::hours(1));
+  int status = 0;
+  while (!exit_code_ && waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+  }
+  exit_code_ = 128 + SIGKILL;
 }
 
 std::string Child::output() const {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +13,11 @@
 
 namespace carom {
 
-/// The absolute path of a program on PATH; none if it is not there.
+/// What is called 20 times a second while any other program is waited for; it may throw, to be heard by what waits. Set
+/// once, where this program begins; without it waiting hears nothing.
+void look_while_waiting(std::function<void()> look);
+
+/// The absolute path of a program on PATH; none if it is not there. Throws ExportError where that cannot be said.
 std::optional<std::string> find_program(const std::string& name);
 
 class Child {
@@ -27,18 +32,22 @@ class Child {
 
   enum class Sent { all, closed, stuck };
   /// Hands bytes to the program's standard input: all of them; or it has closed its input (mostly: ended); or it took
-  /// nothing for `patience`.
+  /// nothing for `patience`. Throws what the look throws.
   Sent send(const void* bytes, std::size_t size, std::chrono::milliseconds patience);
   void end_input();
 
   /// Waits for the program's end: its exit code, 128 + the number of the signal that ended it, or none: still running.
+  /// Throws what the look throws.
   std::optional<int> wait(std::chrono::milliseconds patience);
   void kill();
 
-  std::string output() const;  // what it wrote to its standard output so far (the first megabyte)
+  // Of these the first megabyte. Throw ExportError.
+  std::string output() const;  // what it wrote to its standard output so far
   std::string errors() const;  // and to its standard error
 
  private:
+  bool has_ended();
+
   pid_t id_ = -1;
   std::optional<int> exit_code_;
   Descriptor input_, output_, errors_;

@@ -45,7 +45,7 @@ void copy_run(const std::string& from, const std::string& to) {
       manifest ? read_text(source.get(), manifest_name, largest_manifest) : std::nullopt;
   if (!text) fail("copy", {-1, from}, "", "it holds no whole run");
   OpenFolder folder(to, Durability::deferred);
-  remove_files_of_run(folder.place().folder);
+  remove_files_of_run(folder.place());
   SeriesFolders from_series(source.get());
   std::map<const OutputKind*, FilePlace> to_series;
   for (const FileRecord& record : manifest->files) {
@@ -64,8 +64,10 @@ void copy_run(const std::string& from, const std::string& to) {
 void remove_run(const std::string& path) {
   const Descriptor folder = open_folder(AT_FDCWD, path, false);
   if (!folder) return;
-  remove_files_of_run(folder.get());
-  rmdir(path.c_str());
+  remove_files_of_run({folder.get(), path});
+  // Of what no run wrote the folder stays.
+  if (rmdir(path.c_str()) != 0 && errno != ENOTEMPTY && errno != EEXIST && !is_absent(errno))
+    fail("remove", {-1, path}, "");
 }
 
 }  // namespace carom

@@ -55,7 +55,7 @@ struct Exports::Impl {
 
     folder.emplace(path, durability);
     if (renewed != nullptr) kept = kept_files(*renewed);
-    first_records = renewed != nullptr ? folder->renew(scene, meshes, kept) : folder->begin(scene, meshes);
+    first_records = renewed != nullptr ? folder->renew(scene, meshes) : folder->begin(scene, meshes);
     for (const OutputKind& kind : output_kinds()) {
       const WriterKind* writer = writer_named(kind.name);
       if (writer == nullptr || !kind.asked(output) || keeps(kind)) continue;
@@ -200,9 +200,9 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
   manifest.write(manifest_text(impl_->scene, summary, facts, records));
   manifest.complete();
 
-  impl_->folder->publish(files, manifest, [&] {
-    if (impl_->film) impl_->film->publish();
-  });
+  std::vector<PartFile*> parts(files.begin(), files.end());
+  if (impl_->film) parts.push_back(&impl_->film->file());
+  impl_->folder->publish(std::move(parts), manifest);
 }
 
 }  // namespace carom

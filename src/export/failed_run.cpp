@@ -14,7 +14,7 @@ constexpr std::uint64_t longest_reason = 1 << 20;  // bytes
 
 void store_failure(const std::string& path, const std::string& why) {
   OpenFolder folder(path, Durability::deferred);
-  remove_files_of_run(folder.place().folder);
+  remove_files_of_run(folder.place());
   OutputFile file(folder.place(), failure_file);
   file.write(why);
   file.write("\n");

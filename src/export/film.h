@@ -18,12 +18,12 @@ class Film {
 
   /// Waits for ffmpeg and counts the frames in the film.
   void complete() { file_.complete(frames_); }
-  void publish() { file_.publish(); }
+  PartFile& file() { return file_; }
   const FileRecord& record() const { return file_.record(); }  // after complete()
 
  private:
   VideoOutput video_;
-  FilmFile file_;  // without publish(): nothing of the film stays
+  FilmFile file_;
   std::uint64_t frames_ = 0;
 };
 

@@ -60,14 +60,15 @@ FilmTools find_film_tools() {
 }
 
 FilmFile::FilmFile(const FilePlace& place, const std::string& name, FilmTools tools, const FilmPatience& patience)
-    : place_(place), tools_(std::move(tools)), patience_(patience) {
-  record_.name = name;
-  if (!is_plain_name(name)) fail_with("a film's name may hold no slash, no control character and no dot at its start");
-}
+    : PartFile(place, name), tools_(std::move(tools)), patience_(patience) {}
 
 FilmFile::~FilmFile() {
   ffmpeg_.reset();
-  if (!published_ && workshop_) remove_entry(place_.folder, part_name(record_.name));
+  if (workshop_) try_to_remove(place_.folder, workshop_name());
+}
+
+std::string FilmFile::workshop_name() const {
+  return part_name(record_.name + ".work");
 }
 
 void FilmFile::fail_with(const std::string& reason) const {
@@ -75,16 +76,16 @@ void FilmFile::fail_with(const std::string& reason) const {
 }
 
 FilePlace FilmFile::workshop() {
-  const std::string part = part_name(record_.name);
+  const std::string folder = workshop_name();
   if (!workshop_) {
     // ffmpeg opens its file by name, more than once, and outlives a run that is killed. In a folder of its own it meets
     // no link, and once the next run has removed that folder it can touch nothing any more.
-    remove_entry(place_.folder, part);
-    if (mkdirat(place_.folder, part.c_str(), 0777) != 0) fail("write", place_, record_.name);
-    workshop_ = open_folder(place_.folder, part, false);
+    remove_entry(place_, folder);
+    if (mkdirat(place_.folder, folder.c_str(), 0777) != 0) fail("write", place_, record_.name);
+    workshop_ = open_folder(place_.folder, folder, false);
     if (!workshop_) fail("write", place_, record_.name);
   }
-  return {workshop_.get(), place_.path + "/" + part};
+  return {workshop_.get(), place_.path + "/" + folder};
 }
 
 void FilmFile::start(const std::vector<std::string>& input, const std::vector<std::string>& filter, int crf, bool fed) {
@@ -119,14 +120,10 @@ void FilmFile::send(const void* bytes, std::size_t size) {
   }
 }
 
-void FilmFile::complete(std::uint64_t frames, const std::function<void()>& look) {
+void FilmFile::complete(std::uint64_t frames) {
   if (!ffmpeg_) fail_with("no picture falls into it");
   ffmpeg_->end_input();
-  std::optional<int> code;
-  const auto limit = std::chrono::steady_clock::now() + patience_.end;
-  constexpr auto glance = std::chrono::milliseconds(100);
-  while (look && !(code = ffmpeg_->wait(glance)) && std::chrono::steady_clock::now() < limit) look();
-  if (!look) code = ffmpeg_->wait(patience_.end);
+  const std::optional<int> code = ffmpeg_->wait(patience_.end);
   if (!code) {
     ffmpeg_->kill();
     fail_with("ffmpeg did not end within " + std::to_string(patience_.end.count() / 1000) + " s and was stopped");
@@ -144,13 +141,8 @@ void FilmFile::complete(std::uint64_t frames, const std::function<void()>& look)
   if (!stored) fail("read", place_, record_.name);
   record_.bytes = stored->bytes;
   record_.sha256 = stored->sha256;
-}
-
-void FilmFile::publish() {
-  if (renameat(workshop_.get(), film_name, place_.folder, record_.name.c_str()) != 0)
-    fail("write", place_, record_.name);
-  published_ = true;
-  remove_entry(place_.folder, part_name(record_.name));
+  give_name(workshop_.get(), film_name, place_, part());
+  remove_entry(place_, workshop_name());
 }
 
 FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const std::string& name) {

@@ -2,7 +2,6 @@
 // A film while ffmpeg writes it, in a folder of its own beside the film's place, until it is whole.
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,14 +25,12 @@ struct FilmPatience {
   std::chrono::milliseconds end = std::chrono::minutes(10);
 };
 
-class FilmFile {
+class FilmFile : public PartFile {
  public:
   /// Throws ExportError, as all of this class does.
   FilmFile(const FilePlace& place, const std::string& name, FilmTools tools, const FilmPatience& patience);
-  /// Without publish(): ffmpeg is stopped and nothing of the film stays.
+  /// ffmpeg is stopped, and its folder goes.
   ~FilmFile();
-  FilmFile(const FilmFile&) = delete;
-  FilmFile& operator=(const FilmFile&) = delete;
 
   /// ffmpeg's own folder; made by the first call.
   FilePlace workshop();
@@ -43,22 +40,19 @@ class FilmFile {
   bool started() const { return ffmpeg_ != nullptr; }
   void send(const void* bytes, std::size_t size);
 
-  /// Waits for ffmpeg's end, calling `look` (which may throw) now and then, and counts the frames in the film: ffmpeg
-  /// may end content with half of them.
-  void complete(std::uint64_t frames, const std::function<void()>& look = {});
-  void publish();
-  const FileRecord& record() const { return record_; }  // after complete()
+  /// Waits for ffmpeg's end and counts the frames in the film: ffmpeg may end content with half of them. The film is
+  /// the part that publish() names.
+  void complete(std::uint64_t frames);
 
   [[noreturn]] void fail_with(const std::string& reason) const;
 
  private:
-  FilePlace place_;
+  std::string workshop_name() const;
+
   FilmTools tools_;
   FilmPatience patience_;
   Descriptor workshop_;
   std::unique_ptr<Child> ffmpeg_;
-  FileRecord record_;
-  bool published_ = false;
 };
 
 /// What there is to know of a stored film.

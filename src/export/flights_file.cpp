@@ -226,7 +226,8 @@ void FlightsReader::fill(std::size_t size) {
   while (end_ < size && left_ > 0) {
     const ssize_t n = read(file_.get(), buffer_.data() + end_, std::min<std::uint64_t>(buffer_.size() - end_, left_));
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) refuse("it cannot be read");
+    if (n < 0) fail("read", {-1, path_}, flights_name);
+    if (n == 0) refuse("it is cut off");
     end_ += static_cast<std::size_t>(n);
     left_ -= static_cast<std::uint64_t>(n);
   }

@@ -1,20 +1,23 @@
 #include "export/mesh_copies.h"
 
+#include <fcntl.h>
+
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "export/hash.h"
 #include "export/run_folder.h"
+#include "export/stored_file.h"
 
 namespace carom {
 namespace {
 
 std::string read_whole(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw ExportError("cannot read the mesh " + path);
+  const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file) fail("read the mesh", {AT_FDCWD, ""}, path);
+  std::string bytes;
+  std::vector<char> buffer(std::size_t{64} * 1024);
+  while (const std::size_t n = read_some(file.get(), buffer.data(), buffer.size())) bytes.append(buffer.data(), n);
   return bytes;
 }
 

@@ -1,6 +1,5 @@
 #include "export/open_folder.h"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -15,6 +14,7 @@
 
 #include "export/folder_names.h"
 #include "export/manifest.h"
+#include "export/publication.h"
 #include "export/run_folder.h"
 #include "export/series_folders.h"
 #include "export/stored_file.h"
@@ -24,34 +24,6 @@ namespace {
 
 /// Where a manifest is kept while the files that it names are removed, so that an interrupted removal can go on.
 constexpr const char* former_manifest = ".manifest.json.former";
-
-/// Removes the named files of a run, but for scene.yaml. What cannot be removed will be told when it is written anew.
-void remove_files(int folder, const std::vector<std::string>& names) {
-  SeriesFolders folders(folder);
-  for (const std::string& name : names) {
-    if (!is_run_file(name) || name == "scene.yaml") continue;
-    const FileSpot spot = folders.spot(name);
-    if (spot.folder >= 0) unlinkat(spot.folder, spot.name.c_str(), 0);
-  }
-}
-
-void remove_parts(int folder) {
-  for (const std::string& name : folder_names(folder))
-    if (is_part_name(name)) remove_entry(folder, name);
-}
-
-/// Parts of files, why a run failed, and series' folders without files.
-void remove_leavings(int folder) {
-  remove_parts(folder);
-  unlinkat(folder, failure_file, 0);
-  SeriesFolders folders(folder);
-  for (const std::string& series : series_folder_names()) {
-    const int inner = folders.open(series);
-    if (inner < 0) continue;
-    remove_parts(inner);
-    unlinkat(folder, series.c_str(), AT_REMOVEDIR);  // if it is empty
-  }
-}
 
 void add_files(std::vector<std::string>& names, const std::optional<Manifest>& manifest) {
   if (!manifest) return;
@@ -71,20 +43,65 @@ void add_remains(std::vector<std::string>& names, int folder, const Scene& scene
 }  // namespace
 
 Descriptor open_folder(int parent, const std::string& name, bool follow) {
-  return Descriptor(openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | (follow ? 0 : O_NOFOLLOW)));
+  Descriptor folder(openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | (follow ? 0 : O_NOFOLLOW)));
+  if (!folder && !is_absent(errno) && (follow || errno != ELOOP)) fail("open", place_of(parent), name);
+  return folder;
 }
 
-void remove_files_of_run(int folder) {
+Standing what_stands(const std::string& path) {
+  struct stat info {};
+  if (stat(path.c_str(), &info) == 0) return S_ISDIR(info.st_mode) ? Standing::folder : Standing::other;
+  if (!is_absent(errno)) fail("look at", {AT_FDCWD, ""}, path);
+  return Standing::nothing;
+}
+
+bool is_same_folder(const std::string& a, const std::string& b) {
+  const Descriptor one = open_folder(AT_FDCWD, a, true), other = open_folder(AT_FDCWD, b, true);
+  if (!one || !other) return false;
+  struct stat first {}, second {};
+  if (fstat(one.get(), &first) != 0) fail("look at", {AT_FDCWD, ""}, a);
+  if (fstat(other.get(), &second) != 0) fail("look at", {AT_FDCWD, ""}, b);
+  return first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+}
+
+std::string canonical(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(path.empty() ? "." : path, error);
+  if (error) fail("look at", {AT_FDCWD, ""}, path, error.message());
+  return whole.string();
+}
+
+std::string absolute(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::absolute(path, error);
+  if (error) fail("look at", {AT_FDCWD, ""}, path, error.message());
+  return whole.string();
+}
+
+bool lock_folder(const FilePlace& place, LockKind kind) {
+  int code = 0;
+  do code = flock(place.folder, (kind == LockKind::alone ? LOCK_EX : LOCK_SH) | LOCK_NB);
+  while (code != 0 && errno == EINTR);
+  if (code == 0) return true;
+  if (errno == EWOULDBLOCK) return false;
+  if (errno != ENOTSUP && errno != ENOLCK && errno != ENOSYS && errno != EINVAL) fail("lock", place, "");
+  return true;
+}
+
+void remove_files_of_run(const FilePlace& place) {
+  const int folder = place.folder;
   std::vector<std::string> names;
-  add_files(names, read_manifest(folder, manifest_name));
-  add_files(names, read_manifest(folder, former_manifest));
+  for (const char* manifest : {manifest_name, former_manifest, next_manifest})
+    add_files(names, read_manifest(folder, manifest));
   if (names.empty() && stored_size(folder, "scene.yaml")) add_remains(names, folder, Scene());
+  std::erase(names, "scene.yaml");
   // scene.yaml last: until then the folder is known to be an unfinished run.
-  unlinkat(folder, manifest_name, 0);
-  remove_files(folder, names);
-  remove_leavings(folder);
-  unlinkat(folder, former_manifest, 0);
-  unlinkat(folder, "scene.yaml", 0);
+  remove_file(place, next_manifest);
+  remove_file(place, manifest_name);
+  remove_files(place, names);
+  remove_leavings(place);
+  remove_file(place, former_manifest);
+  remove_file(place, "scene.yaml");
 }
 
 OpenFolder::OpenFolder(const std::string& path, Durability durability) : durability_(durability) {
@@ -94,6 +111,16 @@ OpenFolder::OpenFolder(const std::string& path, Durability durability) : durabil
   const auto parent = std::filesystem::path(place_.path).parent_path();
   if (!parent.empty()) std::filesystem::create_directories(parent, error);
   if (error) fail("make", {-1, parent.string()}, "", error.message());
+  try {
+    lock();
+    finish_publication(place_, durability_);
+  } catch (...) {
+    if (made_) rmdir(place_.path.c_str());
+    throw;
+  }
+}
+
+void OpenFolder::lock() {
   // A run that fails removes the folder that it made; another one may just have opened it then. So: again.
   for (int attempt = 0; attempt < 10; ++attempt) {
     made_ = mkdir(place_.path.c_str(), 0777) == 0;
@@ -101,21 +128,22 @@ OpenFolder::OpenFolder(const std::string& path, Durability durability) : durabil
     folder_ = open_folder(AT_FDCWD, place_.path, true);
     if (!folder_ && errno == ENOENT) continue;
     if (!folder_) fail("open", place_, "");
-    // A file system that knows no locks (some network ones) is used without.
-    if (flock(folder_.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    place_.folder = folder_.get();
+    if (!lock_folder(place_, LockKind::alone))
       fail("write", place_, "", "another run is writing into it; wait for it, or name another folder with -o");
     struct stat info {};
-    if (fstat(folder_.get(), &info) == 0 && info.st_nlink > 0) break;
+    if (fstat(folder_.get(), &info) != 0) fail("open", place_, "");
+    if (info.st_nlink > 0) return;
     folder_.reset();
   }
-  if (!folder_) fail("open", place_, "", "it is a link to nothing, or something else removes it");
-  place_.folder = folder_.get();
+  fail("open", place_, "", "it is a link to nothing, or something else removes it");
 }
 
 OpenFolder::~OpenFolder() {
   if (renews_) {
     first_files_.clear();
-    remove_parts(place_.folder);
+    // Nothing was decided: what is left of the parts goes.
+    for (const std::string& series : series_folder_names()) try_to_remove(place_.folder, part_name(series));
     return;
   }
   if (keep_) return;
@@ -127,21 +155,34 @@ OpenFolder::~OpenFolder() {
   if (made_) rmdir(place_.path.c_str());
 }
 
+/// Where a folder stands in a file's place, or a file in a series', no name could be given at the end.
+void OpenFolder::refuse_folders(const Scene& scene) const {
+  for (const std::string& name : run_files(scene, scene.output)) refuse_folder(place_, name);
+  for (const OutputKind& kind : output_kinds()) {
+    if (kind.series.folder.empty() || !kind.asked(scene.output)) continue;
+    const std::string series(kind.series.folder);
+    if (!open_folder(place_.folder, series, false) && errno != ENOENT)
+      fail("open", place_, series, "it is no folder, or a link; remove it");
+  }
+}
+
 std::vector<FileRecord> OpenFolder::begin(const Scene& scene, const std::vector<MeshCopy>& meshes) {
+  refuse_folders(scene);
   const int folder = place_.folder;
   std::vector<std::string> names;
   const auto manifest = read_manifest(folder, manifest_name);
-  const auto former = read_manifest(folder, former_manifest);
   add_files(names, manifest);
-  add_files(names, former);
+  add_files(names, read_manifest(folder, former_manifest));
   const auto stored_scene = read_record(folder, "scene.yaml");
   if (!manifest && stored_scene && stored_scene->sha256 == sha256(scene.resolved)) add_remains(names, folder, scene);
+  std::erase(names, "scene.yaml");
 
   // First of all the folder stops being a whole run; then it becomes an unfinished one of this scene; then the old
   // goes.
-  const bool gone = manifest ? renameat(folder, manifest_name, folder, former_manifest) == 0
-                             : unlinkat(folder, manifest_name, 0) == 0 || errno == ENOENT;
-  if (!gone) fail("replace", place_, manifest_name);
+  if (manifest)
+    give_name(folder, manifest_name, place_, former_manifest);
+  else
+    remove_file(place_, manifest_name);
   const auto put = [&](const std::string& name, const std::string& bytes) {
     OutputFile file(place_, name);
     file.write(bytes);
@@ -149,18 +190,17 @@ std::vector<FileRecord> OpenFolder::begin(const Scene& scene, const std::vector<
     begun_.push_back(file.record());
   };
   put("scene.yaml", scene.resolved);
-  remove_files(folder, names);
-  remove_leavings(folder);
-  unlinkat(folder, former_manifest, 0);
+  remove_files(place_, names);
+  remove_leavings(place_);
+  remove_file(place_, former_manifest);
   for (const MeshCopy& mesh : meshes) put(mesh.name, mesh.bytes);
   return begun_;
 }
 
-std::vector<FileRecord> OpenFolder::renew(const Scene& scene, const std::vector<MeshCopy>& meshes,
-                                          const std::vector<FileRecord>& kept) {
+std::vector<FileRecord> OpenFolder::renew(const Scene& scene, const std::vector<MeshCopy>& meshes) {
+  refuse_folders(scene);
   renews_ = true;
-  remove_leavings(place_.folder);
-  for (const FileRecord& file : kept) kept_.push_back(file.name);
+  remove_leavings(place_);
   std::vector<FileRecord> records;
   const auto put = [&](const std::string& name, const std::string& bytes) {
     OutputFile& file = *first_files_.emplace_back(std::make_unique<OutputFile>(place_, name));
@@ -173,72 +213,25 @@ std::vector<FileRecord> OpenFolder::renew(const Scene& scene, const std::vector<
   return records;
 }
 
-/// The folder stops being a whole run, then its files go, but for those that are kept; scene.yaml is replaced before
-/// that, so that the folder is known to be an unfinished run of the new scene.
-void OpenFolder::remove_former() {
-  const int folder = place_.folder;
-  std::vector<std::string> names;
-  add_files(names, read_manifest(folder, manifest_name));
-  if (renameat(folder, manifest_name, folder, former_manifest) != 0) fail("replace", place_, manifest_name);
-  first_files_.front()->publish();
-  std::erase_if(names,
-                [&](const std::string& name) { return std::find(kept_.begin(), kept_.end(), name) != kept_.end(); });
-  remove_files(folder, names);
-  for (const auto& file : first_files_)
-    if (file != first_files_.front()) file->publish();
-}
-
-/// Gives the files of series their places.
-void OpenFolder::move_series() {
-  for (const std::string& series : series_folder_names()) {
-    const Descriptor from = open_folder(place_.folder, part_name(series), false);
-    if (!from) continue;
-    const FilePlace place{-1, place_.path + "/" + series};
-    if (mkdirat(place_.folder, series.c_str(), 0777) != 0 && errno != EEXIST) fail("make", place, "");
-    const Descriptor to = open_folder(place_.folder, series, false);
-    if (!to) fail("open", place, "");
-    for (const std::string& name : folder_names(from.get()))
-      if (renameat(from.get(), name.c_str(), to.get(), name.c_str()) != 0) fail("write", place, name);
-  }
-}
-
 FilePlace OpenFolder::series(const FileSeries& series) {
   const std::string name = renews_ ? part_name(series.folder) : std::string(series.folder);
   const FilePlace place{-1, place_.path + "/" + name};
   if (mkdirat(place_.folder, name.c_str(), 0777) != 0 && errno != EEXIST) fail("make", place, "");
   Descriptor folder = open_folder(place_.folder, name, false);
-  const bool other = !folder && (errno == ENOTDIR || errno == ELOOP);
-  if (!folder) fail("open", place, "", other ? "it is no folder, or a link; remove it" : "");
+  if (!folder) fail("open", place, "", "it is no folder, or a link; remove it");
   series_.push_back(std::move(folder));
   return {series_.back().get(), place.path};
 }
 
-void OpenFolder::publish(const std::vector<OutputFile*>& files, OutputFile& manifest,
-                         const std::function<void()>& others) {
-  sync_all();
-  keep();
-  if (renews_) {
-    remove_former();
-    move_series();
+void OpenFolder::publish(std::vector<PartFile*> files, OutputFile& manifest) {
+  for (const auto& file : first_files_) files.push_back(file.get());
+  try {
+    carom::publish(place_, durability_, files, manifest);
+  } catch (...) {
+    if (manifest.is_handed_over()) decide();  // else all of it is taken back
+    throw;
   }
-  for (OutputFile* file : files) file->publish();
-  if (others) others();
-  sync_names();
-  manifest.publish();
-  sync_names();
-  if (renews_) remove_leavings(place_.folder);
-  if (renews_) unlinkat(place_.folder, former_manifest, 0);
-}
-
-void OpenFolder::sync_all() {
-  if (durability_ == Durability::deferred) return;
-  if (syncfs(place_.folder) != 0) fail("write", place_, "");
-}
-
-void OpenFolder::sync_names() {
-  if (durability_ == Durability::deferred) return;
-  // Some file systems cannot sync a folder, and need not.
-  if (fsync(place_.folder) != 0 && errno != EINVAL && errno != ENOTSUP) fail("write", place_, "");
+  decide();
 }
 
 }  // namespace carom

@@ -1,12 +1,10 @@
 #include "export/output_file.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 
 #include "export/run_folder.h"
@@ -26,55 +24,10 @@ constexpr std::uint64_t early_size = std::uint64_t{32} * 1024 * 1024;
 
 }  // namespace
 
-Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
-  if (this != &other) {
-    reset();
-    number_ = other.release();
-  }
-  return *this;
-}
-
-int Descriptor::release() {
-  const int number = number_;
-  number_ = -1;
-  return number;
-}
-
-void Descriptor::reset() {
-  if (number_ >= 0) close(number_);
-  number_ = -1;
-}
-
-bool is_plain_name(std::string_view name) {
-  if (name.empty() || name.size() > 200 || name.front() == '.') return false;
-  return std::none_of(name.begin(), name.end(),
-                      [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ' || c == 127; });
-}
-
-std::string part_name(std::string_view name) {
-  return fmt::format(".{}.part", name);
-}
-
-void fail(const std::string& what, const FilePlace& place, std::string_view name, const std::string& reason) {
-  const std::string why = reason.empty() ? std::strerror(errno) : reason;
-  const std::string slash = name.empty() || place.path.ends_with('/') ? "" : "/";
-  throw ExportError("cannot " + what + " " + place.path + slash + std::string(name) + ": " + why);
-}
-
 OutputFile::OutputFile(const FilePlace& place, std::string name)
-    : place_(place), pieces_([this](const Piece& piece) { put(piece); }, pieces_alone) {
-  if (!is_plain_name(name))
-    fail("write", place, name, "a file's name may hold no slash, no control character and no dot at its start");
-  record_.name = std::move(name);
-  const std::string part = part_name(record_.name);
-  // A part that an interrupted run left is another file: removed, never written through, for it may be a link.
-  if (unlinkat(place_.folder, part.c_str(), 0) != 0 && errno != ENOENT) fail("replace", place_, part);
-  file_ = Descriptor(openat(place_.folder, part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
-  if (!file_) fail("write", place_, record_.name);
-}
-
-OutputFile::~OutputFile() {
-  if (!published_) unlinkat(place_.folder, part_name(record_.name).c_str(), 0);
+    : PartFile(place, std::move(name)), pieces_([this](const Piece& piece) { put(piece); }, pieces_alone) {
+  file_ = Descriptor(openat(place.folder, part().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+  if (!file_) fail("write", place, record_.name);
 }
 
 void OutputFile::write(std::string_view bytes) {
@@ -133,9 +86,7 @@ void OutputFile::complete() {
 
 void OutputFile::publish() {
   complete();
-  if (renameat(place_.folder, part_name(record_.name).c_str(), place_.folder, record_.name.c_str()) != 0)
-    fail("write", place_, record_.name);
-  published_ = true;
+  PartFile::publish();
 }
 
 }  // namespace carom

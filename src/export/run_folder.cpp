@@ -69,8 +69,9 @@ bool has_more(int folder, const Manifest& manifest, const Scene& scene, const st
 /// When anything about a file was changed last: content, name, owner; no program can set it back.
 std::optional<timespec> changed(const FileSpot& spot) {
   struct stat info {};
-  if (fstatat(spot.folder, spot.name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) return std::nullopt;
-  return info.st_ctim;
+  if (fstatat(spot.folder, spot.name.c_str(), &info, AT_SYMLINK_NOFOLLOW) == 0) return info.st_ctim;
+  if (!is_absent(errno)) fail("read", place_of(spot.folder), spot.name);
+  return std::nullopt;
 }
 
 bool is_before(const timespec& a, const timespec& b) {
@@ -116,7 +117,6 @@ bool FoundFolder::has(const std::string& name) const {
 
 FoundFolder look_into(const std::string& path) {
   FoundFolder found{open_folder(AT_FDCWD, path.empty() ? "." : path, true), {}, FolderContent::nothing};
-  if (!found.folder && errno != ENOENT && errno != ENOTDIR) fail("open", {-1, path}, "");
   if (!found.folder) {
     if (errno == ENOTDIR) found.content = FolderContent::other_run;
     return found;

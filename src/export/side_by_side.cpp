@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <filesystem>
 
@@ -85,6 +86,7 @@ SideBySide::SideBySide(const FilePlace& place, const std::string& name, std::vec
   if (tiles_.size() < 2 || tiles_.size() > most_tiles)
     file_.fail_with(fmt::format("it shows 2 to {} runs, not {}: name {}", most_tiles, tiles_.size(),
                                 tiles_.size() < 2 ? "more" : "fewer"));
+  if (access(font, R_OK) != 0 && !is_absent(errno)) fail("read", {AT_FDCWD, ""}, font);
   if (access(font, R_OK) != 0)
     file_.fail_with(
         fmt::format("the font of its labels, {}, is not there: install it (on Debian: apt install "
@@ -97,7 +99,7 @@ SideBySide::SideBySide(const FilePlace& place, const std::string& name, std::vec
   }
 }
 
-void SideBySide::complete(const std::function<void()>& look) {
+void SideBySide::complete() {
   const Grid grid = grid_of(facts_);
   const FilmFacts& fastest =
       *std::max_element(facts_.begin(), facts_.end(), [](const auto& a, const auto& b) { return is_faster(b, a); });
@@ -119,7 +121,7 @@ void SideBySide::complete(const std::function<void()>& look) {
     write_label(file_.workshop(), label, tiles_[k]);
     input.insert(
         input.end(),
-        {"-i", "file:" + std::filesystem::absolute(std::filesystem::path(tiles_[k].folder) / tiles_[k].file).string()});
+        {"-i", "file:" + absolute((std::filesystem::path(tiles_[k].folder) / tiles_[k].file).string())});
     graph += fmt::format("[{}:v]", k);
     if (is_faster(fastest, film)) graph += fmt::format("fps={}/{},", fastest.rate, fastest.per);
     if (film.width != grid.width || film.height != grid.height)
@@ -140,7 +142,7 @@ void SideBySide::complete(const std::function<void()>& look) {
   }
   graph += fmt::format("{}xstack=inputs={}:layout={}:fill=black", stacked, tiles_.size(), layout);
   file_.start(input, {"-filter_complex", graph}, crf, false);
-  file_.complete(frames, look);
+  file_.complete(frames);
 }
 
 }  // namespace carom

@@ -1,6 +1,5 @@
 #pragma once
 // Films of several runs in one: side by side, in step, each with its name.
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,9 +25,9 @@ class SideBySide {
   /// Looks at the films. Throws ExportError, as all of this class does, which says what is missing and the remedy.
   SideBySide(const FilePlace& place, const std::string& name, std::vector<FilmTile> tiles);
 
-  /// Makes the film; `look` is called now and then and may throw.
-  void complete(const std::function<void()>& look);
-  void publish() { file_.publish(); }
+  /// Makes the film.
+  void complete();
+  PartFile& file() { return file_; }
   const FileRecord& record() const { return file_.record(); }  // after complete()
 
  private:

@@ -8,7 +8,11 @@
 
 namespace carom {
 
-/// Opens a regular file for reading; none if there is none, or a link, a pipe, a folder.
+/// Reads on, up to `size` bytes; 0: at the end. Throws ExportError.
+std::size_t read_some(int file, char* to, std::size_t size);
+
+/// Opens a regular file for reading; none if there is none, or a link, a pipe, a folder. Throws ExportError where that
+/// cannot be said, as all below.
 Descriptor open_stored(int folder, const std::string& name);
 
 /// A stored file's size in bytes.

@@ -8,23 +8,31 @@
 #include <charconv>
 #include <cmath>
 
+#include "export/stored_file.h"
+
 namespace carom {
 namespace {
 
 /// Most tables that are read are short: the first piece is.
 constexpr std::size_t first_piece = 4096, piece_size = std::size_t{64} * 1024;
 
-/// Reads at `offset`; 0 at the end and on failure.
-std::size_t read_at(int file, char* to, std::size_t size, std::uint64_t offset) {
-  ssize_t n;
-  do n = pread(file, to, size, static_cast<off_t>(offset));
-  while (n < 0 && errno == EINTR);
-  return n > 0 ? static_cast<std::size_t>(n) : 0;
+/// Reads all of what is at `offset`.
+void read_at(int file, char* to, std::size_t size, std::uint64_t offset) {
+  while (size > 0) {
+    const ssize_t n = pread(file, to, size, static_cast<off_t>(offset));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail("read", place_of(file), "");
+    if (n == 0) fail("read", place_of(file), "", "it has become shorter");
+    to += n;
+    size -= static_cast<std::size_t>(n);
+    offset += static_cast<std::uint64_t>(n);
+  }
 }
 
 std::uint64_t size_of(int file) {
   struct stat info {};
-  return fstat(file, &info) == 0 ? static_cast<std::uint64_t>(info.st_size) : 0;
+  if (fstat(file, &info) != 0) fail("read", place_of(file), "");
+  return static_cast<std::uint64_t>(info.st_size);
 }
 
 }  // namespace
@@ -87,11 +95,9 @@ bool StoredTable::read_line(std::string_view& line) {
     const std::size_t kept = buffer_.size(),
                       more = std::max(buffer_.capacity() < first_piece ? first_piece : piece_size, kept);
     buffer_.resize(kept + more);
-    ssize_t n;
-    do n = read(file_.get(), buffer_.data() + kept, more);
-    while (n < 0 && errno == EINTR);
-    buffer_.resize(kept + (n > 0 ? static_cast<std::size_t>(n) : 0));
-    ended_ = n <= 0;
+    const std::size_t n = read_some(file_.get(), buffer_.data() + kept, more);
+    buffer_.resize(kept + n);
+    ended_ = n == 0;
   }
   line = std::string_view(buffer_).substr(begin_);
   begin_ = buffer_.size();
@@ -112,7 +118,7 @@ void lines_from_end(int file, const std::function<bool(std::string_view line)>& 
     const std::size_t size = static_cast<std::size_t>(std::min<std::uint64_t>(at, std::max(piece_size, text.size())));
     at -= size;
     std::string piece(size, '\0');
-    if (read_at(file, piece.data(), size, at) != size) return;
+    read_at(file, piece.data(), size, at);
     text.insert(0, piece);
     for (;;) {
       while (text.ends_with('\n')) text.pop_back();

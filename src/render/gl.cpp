@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "render/gl_threads.h"
 #include "render/renderer.h"
 
 namespace carom::gl {
@@ -42,6 +43,9 @@ Context::Context() {
   load_functions();
   // The other drivers that OSMesa may choose give other bytes, or are many times slower.
   setenv("GALLIUM_DRIVER", "llvmpipe", 1);
+  // What draws is made with the first context, and stays.
+  static const bool threads_chosen = (choose_threads(), true);
+  (void)threads_chosen;
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
                             OSMESA_PROFILE,
@@ -58,6 +62,7 @@ Context::Context() {
         "cannot make an OpenGL 4.5 context for pictures. Remedy: install libosmesa6 22.3 or later with llvmpipe "
         "(Debian: "
         "apt-get install libosmesa6), or run without frames, video and sheet.");
+  check_threads();  // (A context that lacks them cannot even be destroyed.)
   try {
     make_current();
   } catch (...) {

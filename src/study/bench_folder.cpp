@@ -143,15 +143,14 @@ void BenchFolder::write(const Scene& scene, const BenchOptions& options, const B
   write_table(table, result);
   png.write(pictures.png);
   svg.write(pictures.svg);
-  const std::vector<OutputFile*> files = {&table, &png, &svg};
-  for (OutputFile* file : files) {
+  for (OutputFile* file : {&table, &png, &svg}) {
     file->complete();
     records.push_back(file->record());
   }
   OutputFile manifest(place, manifest_name);
   manifest.write(manifest_text(scene, outputs_json(options).dump(), facts_json(result).dump(), records));
   manifest.complete();
-  folder_.publish(files, manifest);
+  folder_.publish({&table, &png, &svg}, manifest);
 }
 
 }  // namespace carom

@@ -1,10 +1,8 @@
 #include "study/comparison_folder.h"
 
 #include <fcntl.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <nlohmann/json.hpp>
 
 #include "export/folder_names.h"
@@ -64,23 +62,20 @@ FolderContent inspect_comparison_folder(const std::string& path, const std::stri
 
 void ComparisonFolder::publish(const std::vector<std::unique_ptr<OutputFile>>& files, SideBySide* film,
                                const std::string& request) {
-  const int folder = folder_.place().folder;
-  std::vector<OutputFile*> all;
+  std::vector<PartFile*> all;
   std::vector<FileRecord> records;
   for (const auto& file : files) {
     all.push_back(file.get());
     records.push_back(file->record());
   }
-  if (film != nullptr) records.push_back(film->record());
+  if (film != nullptr) {
+    all.push_back(&film->file());
+    records.push_back(film->record());
+  }
   OutputFile manifest(folder_.place(), manifest_name);
   manifest.write(manifest_text(request, "{}", records));
   manifest.complete();
-  // From here on the folder is no whole comparison until it is this one.
-  if (unlinkat(folder, manifest_name, 0) != 0 && errno != ENOENT) fail("replace", folder_.place(), manifest_name);
-  for (const char* name : {repeats_name, comparison_film_name}) unlinkat(folder, name, 0);  // of a former one
-  folder_.publish(all, manifest, [&] {
-    if (film != nullptr) film->publish();
-  });
+  folder_.publish(std::move(all), manifest);
 }
 
 }  // namespace carom

@@ -39,18 +39,16 @@ std::vector<std::string> output_names_of(const Manifest& manifest) {
 }  // namespace
 
 std::string former_scene_file(const std::string& folder) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  if (!fs::exists(folder, ignored)) refuse("there is no such folder", "name the folder of a run");
-  if (!fs::is_directory(folder, ignored))
-    refuse("it is no folder", "name the folder of a run, which has a manifest.json");
-  if (fs::is_directory(fs::path(folder) / "runs", ignored) && !fs::exists(fs::path(folder) / "scene.yaml", ignored))
+  const Standing stands = what_stands(folder);
+  if (stands == Standing::nothing) refuse("there is no such folder", "name the folder of a run");
+  if (stands == Standing::other) refuse("it is no folder", "name the folder of a run, which has a manifest.json");
+  const std::string file = (std::filesystem::path(folder) / "scene.yaml").string();
+  const bool has_scene = what_stands(file) != Standing::nothing;
+  if (!has_scene && what_stands((std::filesystem::path(folder) / "runs").string()) == Standing::folder)
     refuse("it holds many runs", fmt::format("name one of them or more: {}/runs/r0001", folder));
-  const std::string file = (fs::path(folder) / "scene.yaml").string();
-  if (!fs::exists(fs::path(folder) / manifest_name, ignored))
+  if (what_stands((std::filesystem::path(folder) / manifest_name).string()) == Standing::nothing)
     refuse("it holds no whole run: there is no manifest.json",
-           fs::exists(file, ignored) ? fmt::format("carom run {} -o {} finishes it", file, folder)
-                                     : "name the folder of a run");
+           has_scene ? fmt::format("carom run {} -o {} finishes it", file, folder) : "name the folder of a run");
   return file;
 }
 

@@ -12,6 +12,7 @@
 #include "export/folder_names.h"
 #include "export/manifest.h"
 #include "export/open_folder.h"
+#include "export/publication.h"
 #include "export/run_folder.h"
 #include "export/stored_file.h"
 #include "scene/load.h"
@@ -29,8 +30,7 @@ constexpr std::size_t most_told = 10;                // folders that are wrong
 
 /// The names of a path from its end: "r0001", "runs", "sweep".
 std::vector<std::string> names_of(const std::string& path) {
-  std::error_code ignored;
-  fs::path whole = fs::absolute(path, ignored).lexically_normal();
+  const fs::path whole = fs::path(absolute(path)).lexically_normal();
   std::vector<std::string> names;
   for (const fs::path& name : whole)
     if (!name.empty() && name != "/") names.push_back(name.string());
@@ -40,6 +40,7 @@ std::vector<std::string> names_of(const std::string& path) {
 
 /// What is wrong with a run's folder; empty: it is a whole or a failed run.
 std::string look_at(ListedRun& run) {
+  settle_folder(run.folder);
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
   if (!folder) return "there is no such folder";
   const auto manifest = read_manifest(folder.get(), manifest_name);

@@ -18,6 +18,7 @@
 #include "export/folder_names.h"
 #include "export/manifest.h"
 #include "export/open_folder.h"
+#include "export/publication.h"
 #include "export/stored_file.h"
 #include "scene/path_field.h"
 #include "scene/scene_values.h"
@@ -66,12 +67,20 @@ bool has_runs_of(int folder, const Sweep& sweep, const std::string& base_text) {
          read_text(folder, stored_base, largest) == base_text;
 }
 
+/// Whether this sweep was interrupted, or had no room, before base.yaml was whole: before it no run begins.
+bool has_begun(const FoundFolder& found, const Sweep& sweep) {
+  const bool alone = std::all_of(found.names.begin(), found.names.end(),
+                                 [](const auto& name) { return name == stored_sweep || is_part_name(name); });
+  return alone && read_text(found.folder.get(), stored_sweep, largest) == sweep.resolved(stored_base);
+}
+
 }  // namespace
 
 SweepContent inspect_sweep_folder(const std::string& path, const Sweep& sweep, const std::string& base_text) {
   const FoundFolder found = look_into(path);
   if (found.content == FolderContent::nothing || found.content == FolderContent::incomplete)
     return SweepContent::nothing;
+  if (found.folder && has_begun(found, sweep)) return SweepContent::incomplete;
   if (!found.folder || !has_runs_of(found.folder.get(), sweep, base_text)) return SweepContent::other;
   if (read_text(found.folder.get(), stored_sweep, largest) != sweep.resolved(stored_base))
     return SweepContent::incomplete;
@@ -94,37 +103,40 @@ SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, c
   folder_ = open_folder(AT_FDCWD, path, true);
   if (!folder_) fail("open", {-1, path}, "");
   place_ = {folder_.get(), path};
-  const auto begin = [&] {
-    if (!has_runs_of(place_.folder, sweep, base_text)) remove_runs();
-    put(stored_sweep, sweep.resolved(stored_base));
-    put(stored_base, base_text);
-  };
   const std::string busy =
       "another sweep, or another part of this one, is writing into it; wait for it, or name another folder with -o";
   if (use == Use::alone) {
-    if (!lock(LOCK_EX | LOCK_NB, [] {})) fail("write", place_, "", busy);
-    begin();
+    if (!lock_folder(place_, LockKind::alone)) fail("write", place_, "", busy);
+    finish_publication(place_, Durability::synced);
+    for (const char* name : {summary_name, repeats_name, workbook_name}) refuse_folder(place_, name);
+    begin(sweep, base_text);
     return;
   }
   // Several parts may begin at once: one of them writes, the others find it done.
   const auto start = std::chrono::steady_clock::now();
   while (true) {
-    if (!lock(LOCK_SH | LOCK_NB, look)) fail("write", place_, "", busy);
+    if (!lock(LockKind::shared, look)) fail("write", place_, "", busy);
     if (has(stored_sweep, sweep.resolved(stored_base)) && has(stored_base, base_text)) break;
-    if (flock(folder_.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) begin();
+    if (lock_folder(place_, LockKind::alone)) begin(sweep, base_text);
     if (std::chrono::steady_clock::now() - start > patience) fail("write", place_, "", busy);
     flock(folder_.get(), LOCK_UN);
     look();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  begin();
+  begin(sweep, base_text);
 }
 
-/// A file system that knows no locks (some network ones) is used without.
-bool SweepFolder::lock(int how, const std::function<void()>& look) const {
+void SweepFolder::begin(const Sweep& sweep, const std::string& base_text) {
+  if (!has_runs_of(place_.folder, sweep, base_text)) remove_runs();
+  put(stored_sweep, sweep.resolved(stored_base));
+  put(stored_base, base_text);
+}
+
+/// False: another one had it all the time.
+bool SweepFolder::lock(LockKind kind, const std::function<void()>& look) const {
   const auto start = std::chrono::steady_clock::now();
-  while (flock(folder_.get(), how) != 0 && errno == EWOULDBLOCK) {
-    if (how == (LOCK_EX | LOCK_NB) || std::chrono::steady_clock::now() - start > patience) return false;
+  while (!lock_folder(place_, kind)) {
+    if (std::chrono::steady_clock::now() - start > patience) return false;
     look();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
@@ -206,14 +218,9 @@ void SweepFolder::finish(const Sweep& sweep, const std::vector<RunStatus>& statu
   manifest.write(manifest_text(outputs.dump(), facts.dump(), records));
   manifest.complete();
 
-  // First the folder stops being a whole sweep; names follow bytes, and the manifest's name the others'.
-  if (unlinkat(place_.folder, manifest_name, 0) != 0 && errno != ENOENT) fail("replace", place_, manifest_name);
-  unlinkat(place_.folder, repeats_name, 0);  // of a former comparison
-  sync_file_system(place_.path);
-  for (const auto& file : files) file->publish();
-  sync_file_system(place_.path);
-  manifest.publish();
-  sync_file_system(place_.path);
+  std::vector<PartFile*> parts;
+  for (const auto& file : files) parts.push_back(file.get());
+  publish(place_, Durability::synced, parts, manifest);
 }
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "export/open_folder.h"
 #include "export/output_file.h"
 #include "scene/sweep.h"
 #include "study/comparison.h"
@@ -54,7 +55,8 @@ class SweepFolder {
   void finish(const Sweep& sweep, const std::vector<RunStatus>& statuses, const ComparisonWatch& watch);
 
  private:
-  bool lock(int how, const std::function<void()>& look) const;
+  bool lock(LockKind kind, const std::function<void()>& look) const;
+  void begin(const Sweep& sweep, const std::string& base_text);
   bool has(const char* name, const std::string& text) const;
   void remove_runs() const;
   void put(const char* name, const std::string& text);

@@ -17,6 +17,7 @@
 #include "export/failed_run.h"
 #include "export/hash.h"
 #include "export/mesh_copies.h"
+#include "export/publication.h"
 #include "scene/motion_text.h"
 #include "study/compared_run.h"
 #include "study/engine.h"
@@ -115,6 +116,7 @@ std::string SweepJob::look_at(std::size_t first, std::size_t last) {
       run.scene = digest(its.resolved + meshes_text(its));  // the text has the meshes' names alone
       run.motion = digest(motion_text(its));
       const std::string folder = run_folder(number);
+      settle_folder(folder);
       run.content = inspect_folder(folder, its);
       if (run.content == FolderContent::this_run && !settings_.force && tells(folder, measures_))
         run.status = RunStatus::done;

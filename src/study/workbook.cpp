@@ -1,13 +1,12 @@
 #include "study/workbook.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
+#include <new>
 
 #include "export/manifest.h"
 #include "export/run_folder.h"
@@ -36,8 +35,15 @@ std::size_t length_of(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
+/// What the library gives back where there is no memory.
+template <typename Made>
+Made* made(Made* thing) {
+  if (thing == nullptr) throw std::bad_alloc();
+  return thing;
+}
+
 lxw_format* make_format(lxw_workbook* book, Look look) {
-  lxw_format* format = workbook_add_format(book);
+  lxw_format* format = made(workbook_add_format(book));
   switch (look) {
     case Look::whole:
       format_set_num_format(format, "#,##0");
@@ -74,8 +80,10 @@ lxw_format* make_format(lxw_workbook* book, Look look) {
   return format;
 }
 
-std::string path_of(int descriptor) {
-  return fmt::format("/proc/self/fd/{}", descriptor);
+/// A cell that is not written must not be missing without a word.
+void must(lxw_error error) {
+  if (error == LXW_ERROR_MEMORY_MALLOC_FAILED) throw std::bad_alloc();
+  if (error != LXW_NO_ERROR) throw ExportError(fmt::format("cannot write a cell of a workbook: {}", lxw_strerror(error)));
 }
 
 }  // namespace
@@ -104,19 +112,20 @@ void Sheet::text(std::size_t row, std::size_t column, std::string_view text, Loo
   if (text.empty() && look == Look::plain) return;
   const std::string shown = shortened(text, longest_text);
   widen(column, length_of(shown), look);
-  worksheet_write_string(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), shown.c_str(),
-                         look == Look::plain ? nullptr : format(look));
+  must(worksheet_write_string(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), shown.c_str(),
+                              look == Look::plain ? nullptr : format(look)));
 }
 
 void Sheet::number(std::size_t row, std::size_t column, double value, Look look) {
   lxw_format* const how = look == Look::plain ? nullptr : format(look);
   if (!std::isfinite(value)) {
-    if (how != nullptr) worksheet_write_blank(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), how);
+    if (how != nullptr)
+      must(worksheet_write_blank(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), how));
     return;
   }
   widen(column, 11, look);  // digits that a spreadsheet shows of itself
-  worksheet_write_number(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), value == 0 ? 0.0 : value,
-                         how);
+  must(worksheet_write_number(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column),
+                              value == 0 ? 0.0 : value, how));
 }
 
 void Sheet::cell(std::size_t row, std::size_t column, const Cell& cell, Look look) {
@@ -128,8 +137,8 @@ void Sheet::cell(std::size_t row, std::size_t column, const Cell& cell, Look loo
 
 void Sheet::formula(std::size_t row, std::size_t column, const std::string& formula, double value, Look look) {
   widen(column, 11, look);
-  worksheet_write_formula_num(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), formula.c_str(),
-                              look == Look::plain ? nullptr : format(look), value);
+  must(worksheet_write_formula_num(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column),
+                                   formula.c_str(), look == Look::plain ? nullptr : format(look), value));
 }
 
 void Sheet::fit(std::size_t column, double least, double most, double more) {
@@ -161,16 +170,9 @@ void Sheet::print_table() {
 }
 
 Workbook::Workbook(const FilePlace& place, std::string name, const std::string& title)
-    : place_(place), name_(std::move(name)) {
-  const std::string part = part_name(name_ + ".sheets");
-  unlinkat(place_.folder, part.c_str(), 0);
-  scratch_ = Descriptor(openat(place_.folder, part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
-  if (!scratch_) fail("write", place_, name_);
-  unlinkat(place_.folder, part.c_str(), 0);
-
-  const std::string folder = path_of(place_.folder), file = path_of(scratch_.get());
+    : place_(place), name_(std::move(name)), files_(place_, name_), scratch_(nameless_file(place_)) {
+  const std::string file = fmt::format("/proc/self/fd/{}", scratch_.get());
   lxw_workbook_options options{};
-  options.tmpdir = const_cast<char*>(folder.c_str());
   options.use_zip64 = LXW_FALSE;
   book_ = workbook_new_opt(file.c_str(), &options);
   if (book_ == nullptr) fail("write", place_, name_, "libxlsxwriter has no memory");
@@ -198,17 +200,16 @@ Sheet& Workbook::add(const char* name, bool streamed) {
 }
 
 lxw_chart* Workbook::add_chart(lxw_chart_type type) {
-  return workbook_add_chart(book_, static_cast<std::uint8_t>(type));
+  return made(workbook_add_chart(book_, static_cast<std::uint8_t>(type)));
 }
 
 void Workbook::write(OutputFile& file) {
-  // The library does not look whether rows reached the disk.
-  for (const Sheet& sheet : sheets_)
-    if (std::FILE* rows = sheet.get()->optimize_tmpfile; rows != nullptr)
-      if (std::fflush(rows) != 0 || std::ferror(rows) != 0) fail("write", place_, name_);
+  files_.begin_parts();
   const lxw_error error = workbook_close(book_);
   book_ = nullptr;  // closing frees it, well or not
+  files_.check();
   if (error != LXW_NO_ERROR) fail("write", place_, name_, lxw_strerror(error));
+  files_.check_archive(scratch_.get());
   std::vector<char> piece(std::size_t{256} * 1024);
   off_t at = 0;
   for (;;) {

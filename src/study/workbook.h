@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "export/output_file.h"
+#include "study/workbook_files.h"
 
 namespace carom {
 
@@ -87,12 +88,14 @@ class Workbook {
   Sheet& add(const char* name, bool streamed = false);
   lxw_chart* add_chart(lxw_chart_type type);
 
-  /// Puts it all together, once: the whole workbook, into `file`. Throws ExportError.
+  /// Puts it all together, once: the whole workbook, into `file`, held against what was written to it. Throws
+  /// ExportError.
   void write(OutputFile& file);
 
  private:
   FilePlace place_;
   std::string name_;
+  WorkbookFiles files_;
   Descriptor scratch_;  // where libxlsxwriter puts it together
   lxw_workbook* book_ = nullptr;
   std::vector<lxw_format*> formats_;  // by Look

@@ -10,12 +10,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 namespace carom {
@@ -23,6 +25,8 @@ namespace carom {
 namespace {
 
 constexpr int look_every = 50;  // ms
+/// A process that was told to end and has not is killed after this.
+constexpr auto patience = std::chrono::seconds(1);
 
 /// What goes before an outcome's text.
 struct Head {
@@ -51,6 +55,15 @@ bool receive_all(int socket, void* bytes, std::size_t size) {
     to += n;
     size -= static_cast<std::size_t>(n);
   }
+  return true;
+}
+
+/// Waits a moment until something comes. Where the system cannot wait, all may have something.
+bool wait_for_any(std::vector<pollfd>& sockets) {
+  const int ready = poll(sockets.data(), sockets.size(), look_every);
+  if (ready >= 0 || errno == EINTR) return ready > 0;
+  std::this_thread::sleep_for(std::chrono::milliseconds(look_every));
+  for (pollfd& socket : sockets) socket.revents = POLLIN;
   return true;
 }
 
@@ -83,13 +96,9 @@ class Pool {
 
   /// Ends what still runs: by SIGTERM, so that it can put its files in order.
   ~Pool() {
-    for (const Worker& worker : workers_) {
-      if (worker.process <= 0) continue;
-      kill(worker.process, SIGTERM);
-      close(worker.socket);
-    }
     for (const Worker& worker : workers_)
-      if (worker.process > 0) wait_for(worker.process);
+      if (worker.process > 0) kill(worker.process, SIGTERM);
+    end_all();
   }
   Pool(const Pool&) = delete;
   Pool& operator=(const Pool&) = delete;
@@ -103,24 +112,17 @@ class Pool {
       for (const Worker& worker : workers_)
         if (worker.busy) sockets.push_back({worker.socket, POLLIN, 0});
       if (sockets.empty()) break;
-      const int ready = poll(sockets.data(), sockets.size(), look_every);
+      const bool ready = wait_for_any(sockets);
       tasks_.look();
-      if (ready <= 0) continue;
       for (const pollfd& socket : sockets) {
-        if (socket.revents == 0) continue;
         Worker& worker =
             *std::find_if(workers_.begin(), workers_.end(), [&](const Worker& w) { return w.socket == socket.fd; });
+        if (ready ? socket.revents == 0 : !has_ended(worker)) continue;
         take(worker);
         give(worker);
       }
     }
-    // Each hears that there is no more work.
-    for (Worker& worker : workers_) {
-      if (worker.process <= 0) continue;
-      close(worker.socket);
-      wait_for(worker.process);
-      worker = {};
-    }
+    end_all();
   }
 
  private:
@@ -129,13 +131,60 @@ class Pool {
     int socket = -1;
     bool busy = false;
     std::size_t task = 0;
+    std::optional<int> status{};  // it has ended
   };
 
-  static int wait_for(pid_t process) {
+  static bool has_ended(Worker& worker) {
     int status = 0;
-    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    if (!worker.status && waitpid(worker.process, &status, WNOHANG) == worker.process) worker.status = status;
+    return worker.status.has_value();
+  }
+
+  /// The worker hears that there is no more work, whatever becomes of the descriptor.
+  static void hang_up(Worker& worker) {
+    shutdown(worker.socket, SHUT_RDWR);
+    close(worker.socket);
+    worker.socket = -1;
+  }
+
+  /// Gives the worker time to end, then ends it.
+  static void wait_for(Worker& worker, std::chrono::steady_clock::time_point limit) {
+    while (!has_ended(worker) && std::chrono::steady_clock::now() < limit)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (worker.status) return;
+    kill(worker.process, SIGKILL);
+    int status = 0;
+    while (waitpid(worker.process, &status, 0) < 0 && errno == EINTR) {
     }
-    return status;
+    worker.status = status;
+  }
+
+  void end_all() {
+    for (Worker& worker : workers_)
+      if (worker.process > 0) hang_up(worker);
+    const auto limit = std::chrono::steady_clock::now() + patience;
+    for (Worker& worker : workers_)
+      if (worker.process > 0) wait_for(worker, limit);
+    workers_.clear();
+  }
+
+  /// False: the worker has ended before it sent all of this.
+  bool receive_all(Worker& worker, void* bytes, std::size_t size) {
+    char* to = static_cast<char*>(bytes);
+    while (size > 0) {
+      const ssize_t n = recv(worker.socket, to, size, MSG_DONTWAIT);
+      if (n > 0) {
+        to += n;
+        size -= static_cast<std::size_t>(n);
+        continue;
+      }
+      if (n == 0 || (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)) return false;
+      std::vector<pollfd> wanted = {{worker.socket, POLLIN, 0}};
+      const bool ready = wait_for_any(wanted);
+      tasks_.look();
+      if (!ready && has_ended(worker)) return false;
+    }
+    return true;
   }
 
   /// Whether there was a task to give.
@@ -180,13 +229,15 @@ class Pool {
     close(pair[1]);
     worker.process = process;
     worker.socket = pair[0];
+    worker.status.reset();
   }
 
   static int end(Worker& worker) {
-    close(worker.socket);
-    const int status = wait_for(worker.process);
+    hang_up(worker);
+    wait_for(worker, std::chrono::steady_clock::now() + patience);
+    const int status = *worker.status;
     worker.process = 0;
-    worker.socket = -1;
+    worker.status.reset();
     return status;
   }
 
@@ -194,10 +245,10 @@ class Pool {
     TaskOutcome outcome;
     outcome.task = worker.task;
     Head head{};
-    if (receive_all(worker.socket, &head, sizeof head)) {
+    if (receive_all(worker, &head, sizeof head)) {
       outcome.kind = head.kind;
       outcome.text.resize(head.size);
-      if (receive_all(worker.socket, outcome.text.data(), head.size)) {
+      if (receive_all(worker, outcome.text.data(), head.size)) {
         worker.busy = false;
         tasks_.done(outcome);
         return;

@@ -35,6 +35,7 @@ const std::map<std::string, std::vector<std::string>> library_words = {
     {"PNG", {"png.h", "zlib.h"}},
     {"nettle", {"nettle/"}},
     {"libxlsxwriter", {"xlsxwriter"}},
+    {"minizip", {"minizip/"}},
     {"CLI11", {"CLI/"}},
     {"the pipes of ffmpeg and gnuplot", {}},  // not a header: see OnlyExportStartsOtherPrograms
 };

@@ -110,7 +110,7 @@ TEST(Film, ColoursComeBack) {
   Film film({folder.get(), temp.path()}, video, find_film_tools());
   film.add(image);
   film.complete();
-  film.publish();
+  film.file().publish();
   const std::string pixels = first_frame(temp / "animation.mp4");
   ASSERT_EQ(pixels.size(), image.pixels.size());
   int worst = 0;
@@ -241,7 +241,7 @@ class ScriptedFfmpeg : public ::testing::Test {
       Film film({folder.get(), "out"}, video, {temp_ / "ffmpeg", find_film_tools().ffprobe}, patience);
       for (int i = 0; i < pictures; ++i) film.add(picture(video.size, i));
       film.complete();
-      film.publish();
+      film.file().publish();
     });
     EXPECT_EQ(names_in(temp_ / "out"),
               error == "no error" ? std::vector<std::string>{"animation.mp4"} : std::vector<std::string>{});

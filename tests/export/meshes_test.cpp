@@ -68,7 +68,7 @@ TEST(Meshes, ThatAreGoneAreSaidBeforeAnythingIsTouched) {
     Exports exports(scene, temp / "run");
     FAIL();
   } catch (const ExportError& error) {
-    EXPECT_EQ(std::string(error.what()), "cannot read the mesh " + (temp / "pin.stl"));
+    EXPECT_EQ(std::string(error.what()), "cannot read the mesh " + (temp / "pin.stl") + ": No such file or directory");
   }
   EXPECT_FALSE(fs::exists(temp / "run"));
 }

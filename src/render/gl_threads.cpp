@@ -1,0 +1,88 @@
+#include "render/gl_threads.h"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <future>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "render/renderer.h"
+
+namespace carom::gl {
+namespace {
+
+constexpr const char* variable = "LP_NUM_THREADS";
+constexpr unsigned most_threads = 16;  // llvmpipe starts no more
+constexpr auto patience = std::chrono::seconds(2);
+
+unsigned wanted_threads() {
+  const char* const text = std::getenv(variable);
+  const std::string_view words = text ? text : "";
+  unsigned count = 0;
+  if (std::from_chars(words.data(), words.data() + words.size(), count).ec != std::errc()) {
+    const unsigned processors = std::thread::hardware_concurrency();
+    count = processors > 1 ? processors : 0;
+  }
+  return std::min(count, most_threads);
+}
+
+/// Whether the system has so many threads to give at once.
+bool can_have(unsigned count) {
+  std::promise<void> end;
+  const std::shared_future<void> ended = end.get_future().share();
+  std::vector<std::thread> threads;
+  bool all = true;
+  try {
+    while (threads.size() < count) threads.emplace_back([ended] { ended.wait(); });
+  } catch (const std::system_error&) {
+    all = false;
+  }
+  end.set_value();
+  for (std::thread& thread : threads) thread.join();
+  return all;
+}
+
+/// How many of this process' threads have a name of llvmpipe's drawing threads.
+unsigned drawing_threads() {
+  unsigned count = 0;
+  std::error_code error;
+  for (std::filesystem::directory_iterator task("/proc/self/task", error), end; !error && task != end;
+       task.increment(error)) {
+    std::string name;
+    std::ifstream(task->path() / "comm") >> name;
+    count += name.starts_with("llvmpipe-");
+  }
+  return count;
+}
+
+unsigned chosen = 0;
+
+}  // namespace
+
+void choose_threads() {
+  chosen = wanted_threads();
+  // It starts as many again for other work, and one for its cache.
+  if (!can_have(2 * chosen + 1)) chosen = 0;
+  setenv(variable, std::to_string(chosen).c_str(), 1);
+}
+
+void check_threads() {
+  // A thread gives itself its name.
+  const auto limit = std::chrono::steady_clock::now() + patience;
+  while (drawing_threads() < chosen) {
+    if (std::chrono::steady_clock::now() > limit)
+      throw RenderError(
+          "cannot draw: the system gives no more threads. Remedy: end other programs or raise the limit of processes, or "
+          "set LP_NUM_THREADS=0.");
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+}  // namespace carom::gl

@@ -1,0 +1,112 @@
+// The program where its surroundings fail: what it says, how it ends, and that the same command then goes on.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+
+#include "commands/program.h"
+
+namespace carom::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const film = "output: {video: {fps: 10, size: [32, 18], samples: 1}}\n";
+const char* const sweep =
+    "sweep: 1\n"
+    "base: balls.yaml\n"
+    "grid: {balls.red.mass: [5, 10]}\n";
+
+/// A program of this name in bin/, a shell script.
+void put_program(const Workplace& here, const std::string& name, const std::string& script) {
+  here.write("bin/" + name, "#!/bin/sh\n" + script + "\n");
+  chmod(here.path("bin/" + name).c_str(), 0755);
+}
+
+TEST(FileSizeLimit, IsAnErrorThatNamesTheFile) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("output: {trajectory: {every: 0.0001}}\n"));
+  const Finished run = here.shell("ulimit -f 8; exec \"$CAROM\" run balls.yaml -o out --progress none");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(run.err, "carom run: balls.yaml: the run failed: cannot write out/trajectory.csv: File too large\n");
+  EXPECT_FALSE(here.has("out"));
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", "out"}).code, 0);
+}
+
+class Hanging : public ::testing::TestWithParam<int> {};
+
+TEST_P(Hanging, FfmpegIsLeftAtTheFirstSignal) {
+  for (const char* script : {"exec sleep 1000", "cat > /dev/null; exec sleep 1000"}) {
+    const Workplace here;
+    here.write("balls.yaml", two_balls(film));
+    put_program(here, "ffmpeg", "echo $$ > \"" + here.path("started") + "\"; " + script);
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", (here.path("bin") + ":" + path).c_str(), 1);
+    const auto start = std::chrono::steady_clock::now();
+    const Finished run =
+        here.interrupted({"run", "balls.yaml", "-o", "out", "--progress", "none"}, "started", GetParam());
+    setenv("PATH", path.c_str(), 1);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    EXPECT_EQ(run.code, 128 + GetParam());
+    EXPECT_EQ(run.err, "carom run: balls.yaml: interrupted; the same command runs what is missing\n");
+    EXPECT_LT(seconds, 60);  // a film's patience is ten minutes
+    EXPECT_FALSE(here.has("out"));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Signals, Hanging, ::testing::Values(SIGINT, SIGTERM));
+
+TEST(Workbook, ThatHasNoRoomIsAnErrorAndLeavesNothing) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  here.carom({"run", "balls.yaml", "-o", "a"});
+  here.carom({"run", "balls.yaml", "-o", "b", "--set", "balls.red.mass=5"});
+  const Finished compare = here.shell("ulimit -f 4; exec \"$CAROM\" compare a b -o out --progress none");
+  EXPECT_EQ(compare.code, 1);
+  EXPECT_NE(compare.err.find("carom compare: cannot write out/comparison.xlsx: File too large\n"), std::string::npos)
+      << compare.err;
+  EXPECT_FALSE(here.has("out"));
+  EXPECT_EQ(here.carom({"compare", "a", "b", "-o", "out"}).code, 0);
+}
+
+TEST(Sweep, ThatHadNoRoomForItsBaseGoesOn) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  here.write("sweep.yaml", sweep);
+  ASSERT_EQ(here.carom({"sweep", "sweep.yaml", "-o", "whole"}).code, 0);
+  here.write("out/sweep.yaml", here.read("whole/sweep.yaml"));
+  EXPECT_EQ(here.carom({"sweep", "sweep.yaml", "-o", "out"}).code, 0);
+  EXPECT_EQ(here.read("out/summary.csv"), here.read("whole/summary.csv"));
+  // Of another sweep, it is another's.
+  here.write("other/sweep.yaml", here.read("whole/sweep.yaml") + "# more\n");
+  EXPECT_EQ(here.carom({"sweep", "sweep.yaml", "-o", "other"}).code, 2);
+}
+
+TEST(Film, AFolderInItsPlaceIsNamedBeforeAnythingIsSimulated) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(film));
+  fs::create_directories(here.path("out/animation.mp4/x"));
+  const Finished run = here.carom({"run", "balls.yaml", "-o", "out", "--force", "--progress", "none"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(run.err,
+            "carom run: balls.yaml: the run failed: cannot write out/animation.mp4: a folder of that name stands there; "
+            "remove it\n");
+  EXPECT_FALSE(here.has("out/scene.yaml"));
+  fs::remove_all(here.path("out/animation.mp4"));
+  EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", "out"}).code, 0);
+}
+
+TEST(Folders, ThatCannotBeLookedAtAreNotMissing) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls());
+  fs::create_symlink("loop", here.path("loop"));
+  const Finished run = here.carom({"run", "balls.yaml", "-o", "loop/out"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_EQ(run.err, "carom: cannot look at loop/out: Too many levels of symbolic links\n");
+}
+
+}  // namespace
+}  // namespace carom::testing

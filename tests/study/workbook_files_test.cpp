@@ -1,0 +1,100 @@
+// What libxlsxwriter keeps in temporary files is watched, and the workbook is held against it.
+#include "study/workbook_files.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <minizip/zip.h>
+#include <sys/resource.h>
+#include <unistd.h>
+#include <xlsxwriter.h>
+
+#include <csignal>
+#include <functional>
+#include <string>
+
+#include "export/run_folder.h"
+#include "study/comparison_testing.h"
+
+namespace carom {
+namespace {
+
+using testing::Place;
+
+std::string error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const ExportError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// An archive with these parts.
+Descriptor archive(const Place& place, const std::vector<std::string>& parts) {
+  const std::string path = place / "archive.zip";
+  const zipFile zip = zipOpen(path.c_str(), APPEND_STATUS_CREATE);
+  int number = 0;
+  for (const std::string& part : parts) {
+    zipOpenNewFileInZip(zip, std::to_string(number++).c_str(), nullptr, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, 6);
+    zipWriteInFileInZip(zip, part.data(), static_cast<unsigned>(part.size()));
+    zipCloseFileInZip(zip);
+  }
+  zipClose(zip, nullptr);
+  return Descriptor(open(path.c_str(), O_RDWR | O_CLOEXEC));
+}
+
+class WorkbookFilesTest : public ::testing::Test {
+ protected:
+  /// A temporary file of the library's with this text.
+  static void put(const std::string& text) {
+    FILE* const file = lxw_tmpfile(nullptr);
+    ASSERT_NE(file, nullptr);
+    std::fputs(text.c_str(), file);
+    std::fclose(file);
+  }
+  std::string checked(const Descriptor& found) {
+    return error_of([&] { files_.check_archive(found.get()); });
+  }
+
+  Place place_;
+  Descriptor folder_{open_folder(AT_FDCWD, place_ / "", true)};
+  WorkbookFiles files_{{folder_.get(), "out"}, "book.xlsx"};
+};
+
+TEST_F(WorkbookFilesTest, APartThatIsNotToTheByteWhatWasWrittenIsFound) {
+  const std::string other = "cannot write out/book.xlsx: the workbook is not what was written to it";
+  put("rows");
+  files_.begin_parts();
+  put("<one/>");
+  put("<two/>");
+  EXPECT_EQ(checked(archive(place_, {"<one/>", "<two/>"})), "no error");
+  EXPECT_EQ(checked(archive(place_, {"<two/>", "<one/>"})), "no error");  // where they stand does not matter
+  EXPECT_EQ(checked(archive(place_, {"<one/>", "<two/"})), other);
+  EXPECT_EQ(checked(archive(place_, {"<one/>", "<twi/>"})), other);
+  EXPECT_EQ(checked(archive(place_, {"<one/>"})), other);
+  EXPECT_EQ(checked(archive(place_, {"<one/>", "<two/>", "rows"})), other);
+  const Descriptor cut = archive(place_, {"<one/>", "<two/>"});
+  ASSERT_EQ(ftruncate(cut.get(), lseek(cut.get(), 0, SEEK_END) - 1), 0);
+  EXPECT_EQ(checked(cut), other);
+}
+
+TEST_F(WorkbookFilesTest, AWriteThatFailsIsRemembered) {
+  EXPECT_EQ(error_of([&] { files_.check(); }), "no error");
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit few{10, before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &few);
+  put("more than ten bytes");
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(error_of([&] { files_.check(); }), "cannot write out/book.xlsx: File too large");
+}
+
+TEST_F(WorkbookFilesTest, HaveNoNames) {
+  put("rows");
+  EXPECT_TRUE(std::filesystem::is_empty(place_ / ""));
+}
+
+}  // namespace
+}  // namespace carom
