@@ -449,6 +449,33 @@ TEST(ReadmeBook, TheRadiusSlipsDistancesAndTheRepeatedHandlingAreTheReferences) 
   }
 }
 
+/// The suite and the name of every test in the sources, as "Suite.Name".
+std::set<std::string> all_tests() {
+  static const std::regex test(R"(TEST(?:_[PF])?\(\s*(\w+),\s*(\w+)\s*\))");
+  std::set<std::string> found;
+  for (const auto& entry : fs::recursive_directory_iterator(SOURCE_DIR "/tests")) {
+    if (entry.path().extension() != ".cpp") continue;
+    const std::string text = read_file(entry.path());
+    for (std::sregex_iterator it(text.begin(), text.end(), test), end; it != end; ++it)
+      found.insert((*it)[1].str() + "." + (*it)[2].str());
+  }
+  return found;
+}
+
+TEST(PageOfPromises, NamesTestsThatAreThere) {
+  const std::string page = read_file(SOURCE_DIR "/output/README.md");
+  const std::set<std::string> tests = all_tests();
+  static const std::regex name(R"(`(?:\w+/)?([A-Z]\w*\.)(\w*)(\*?)`)");
+  std::size_t named = 0;
+  for (std::sregex_iterator it(page.begin(), page.end(), name), end; it != end; ++it, ++named) {
+    const std::string start = (*it)[1].str() + (*it)[2].str();
+    const auto found = tests.lower_bound(start);
+    EXPECT_TRUE(found != tests.end() && ((*it)[3].length() > 0 ? found->starts_with(start) : *found == start))
+        << it->str();
+  }
+  EXPECT_GT(named, 20u);
+}
+
 TEST(ReadmeText, NamesOnlyFilesThatAreThere) {
   const std::regex path("(?:scenes|src|tests)/[A-Za-z0-9_/.]+");
   for (std::sregex_iterator i(readme().begin(), readme().end(), path), end; i != end; ++i) {
