@@ -13,8 +13,8 @@ SimulationError SimulationError::named(const std::function<std::string(Entity)>&
   return about_ ? SimulationError(about_->before + name(about_->body) + about_->after) : *this;
 }
 
-void hold_to(const Bounds& bounds, Entity body, double time, const Vec3& x, const Vec3& v, const char* remedy) {
-  if (bounds.hold(x, v)) return;
+void fail_out_of_bounds(const Bounds& bounds, Entity body, double time, const Vec3& x, const Vec3& v,
+                        const char* remedy) {
   const std::string when = fmt::format("at t = {} s ", time);
   const double speed = v.norm();
   if (!std::isfinite(speed)) throw SimulationError(when, body, fmt::format("'s speed is no longer finite: {}", remedy));

@@ -29,8 +29,15 @@ class SimulationError : public std::runtime_error {
   std::optional<About> about_;
 };
 
-/// Throws SimulationError unless a body's place x (m) and velocity v (m/s) at `time` (s) are within bounds. `remedy`:
-/// what the user can do about a speed.
-void hold_to(const Bounds& bounds, Entity body, double time, const Vec3& x, const Vec3& v, const char* remedy);
+/// Throws SimulationError: a body's place x (m) or velocity v (m/s) at `time` (s) is out of bounds. `remedy`: what the
+/// user can do about a speed.
+[[noreturn]] void fail_out_of_bounds(const Bounds& bounds, Entity body, double time, const Vec3& x, const Vec3& v,
+                                     const char* remedy);
+
+/// The same, unless they are within bounds.
+inline void hold_to(const Bounds& bounds, Entity body, double time, const Vec3& x, const Vec3& v, const char* remedy) {
+  if (!bounds.hold(x, v)) [[unlikely]]
+    fail_out_of_bounds(bounds, body, time, x, v, remedy);
+}
 
 }  // namespace carom
