@@ -54,8 +54,7 @@ ssize_t write_file(void* cookie, const char* from, std::size_t size) {
     return 0;
   }
   for (std::size_t done = 0; done < size;) {
-    const ssize_t n =
-        pwrite(file.descriptor.get(), from + done, size - done, static_cast<off_t>(file.size + done));
+    const ssize_t n = pwrite(file.descriptor.get(), from + done, size - done, static_cast<off_t>(file.size + done));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) {
       failed();
@@ -158,7 +157,8 @@ void WorkbookFiles::check_archive(int archive) const {
   for (std::size_t i = rows_; i < files_.size(); ++i) wanted.push_back({files_[i]->size, files_[i]->crc});
   std::sort(found.begin(), found.end());
   std::sort(wanted.begin(), wanted.end());
-  if (!whole || !ends_whole(archive) || found != wanted) fail("write", place_, name_, "the workbook is not what was written to it");
+  if (!whole || !ends_whole(archive) || found != wanted)
+    fail("write", place_, name_, "the workbook is not what was written to it");
 }
 
 FILE* WorkbookFiles::make() {
