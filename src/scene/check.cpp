@@ -184,10 +184,8 @@ class Checker : ValueChecker {
     struct stat info {};
     const bool found = stat(beneath(folder_, value.text).c_str(), &info) == 0;
     if (found && S_ISREG(info.st_mode)) return;
-    if (!found && errno != ENOENT && errno != ENOTDIR) {
-      refuse(value, fmt::format("the file {} cannot be looked at", quoted(value.text)), std::strerror(errno));
-      return;
-    }
+    if (!found && errno != ENOENT && errno != ENOTDIR)
+      return refuse(value, fmt::format("the file {} cannot be looked at", quoted(value.text)), std::strerror(errno));
     refuse(value, fmt::format("there is no file {}", quoted(value.text)), "paths start at the folder of the scene");
   }
 
