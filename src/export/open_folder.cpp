@@ -58,7 +58,8 @@ Standing what_stands(const std::string& path) {
 bool is_same_folder(const std::string& a, const std::string& b) {
   const Descriptor one = open_folder(AT_FDCWD, a, true), other = open_folder(AT_FDCWD, b, true);
   if (!one || !other) return false;
-  struct stat first {}, second {};
+  struct stat first {
+  }, second{};
   if (fstat(one.get(), &first) != 0) fail("look at", {AT_FDCWD, ""}, a);
   if (fstat(other.get(), &second) != 0) fail("look at", {AT_FDCWD, ""}, b);
   return first.st_dev == second.st_dev && first.st_ino == second.st_ino;

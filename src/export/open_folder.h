@@ -54,8 +54,8 @@ class OpenFolder {
   std::vector<FileRecord> begin(const Scene& scene, const std::vector<MeshCopy>& meshes = {});
 
   /// Instead of begin(), where a whole run of the same motion stands: leaves all as it is until publish(), which puts
-  /// this scene's scene.yaml and what is written until then in the place of the files of that run that the manifest does
-  /// not name. Gives the records of scene.yaml and of the copies of meshes.
+  /// this scene's scene.yaml and what is written until then in the place of the files of that run that the manifest
+  /// does not name. Gives the records of scene.yaml and of the copies of meshes.
   std::vector<FileRecord> renew(const Scene& scene, const std::vector<MeshCopy>& meshes);
 
   /// Makes, if need be, and opens the folder of a series.

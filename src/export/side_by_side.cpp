@@ -119,9 +119,8 @@ void SideBySide::complete() {
     const FilmFacts& film = facts_[k];
     const std::string label = fmt::format("label_{}.txt", k);
     write_label(file_.workshop(), label, tiles_[k]);
-    input.insert(
-        input.end(),
-        {"-i", "file:" + absolute((std::filesystem::path(tiles_[k].folder) / tiles_[k].file).string())});
+    input.insert(input.end(),
+                 {"-i", "file:" + absolute((std::filesystem::path(tiles_[k].folder) / tiles_[k].file).string())});
     graph += fmt::format("[{}:v]", k);
     if (is_faster(fastest, film)) graph += fmt::format("fps={}/{},", fastest.rate, fastest.per);
     if (film.width != grid.width || film.height != grid.height)

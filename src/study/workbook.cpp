@@ -83,7 +83,8 @@ lxw_format* make_format(lxw_workbook* book, Look look) {
 /// A cell that is not written must not be missing without a word.
 void must(lxw_error error) {
   if (error == LXW_ERROR_MEMORY_MALLOC_FAILED) throw std::bad_alloc();
-  if (error != LXW_NO_ERROR) throw ExportError(fmt::format("cannot write a cell of a workbook: {}", lxw_strerror(error)));
+  if (error != LXW_NO_ERROR)
+    throw ExportError(fmt::format("cannot write a cell of a workbook: {}", lxw_strerror(error)));
 }
 
 }  // namespace
@@ -137,8 +138,8 @@ void Sheet::cell(std::size_t row, std::size_t column, const Cell& cell, Look loo
 
 void Sheet::formula(std::size_t row, std::size_t column, const std::string& formula, double value, Look look) {
   widen(column, 11, look);
-  must(worksheet_write_formula_num(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column),
-                                   formula.c_str(), look == Look::plain ? nullptr : format(look), value));
+  must(worksheet_write_formula_num(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), formula.c_str(),
+                                   look == Look::plain ? nullptr : format(look), value));
 }
 
 void Sheet::fit(std::size_t column, double least, double most, double more) {

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstring>
 #include <new>
+#include <string_view>
 #include <tuple>
 
 #include "export/run_folder.h"
@@ -53,8 +54,7 @@ ssize_t write_file(void* cookie, const char* from, std::size_t size) {
     return 0;
   }
   for (std::size_t done = 0; done < size;) {
-    const ssize_t n =
-        pwrite(file.descriptor.get(), from + done, size - done, static_cast<off_t>(file.size + done));
+    const ssize_t n = pwrite(file.descriptor.get(), from + done, size - done, static_cast<off_t>(file.size + done));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) {
       failed();
@@ -119,6 +119,16 @@ std::vector<Entry> entries_of(const std::string& path, bool& whole) {
   return entries;
 }
 
+/// Whether an archive's last record ends the file: minizip reads one that is cut within it.
+bool ends_whole(int archive) {
+  constexpr std::string_view signature = "PK\x05\x06";
+  constexpr off_t record = 22;  // bytes, without a comment
+  char begin[signature.size()] = {};
+  const off_t size = lseek(archive, 0, SEEK_END);
+  return size >= record && pread(archive, begin, sizeof begin, size - record) == static_cast<ssize_t>(sizeof begin) &&
+         std::string_view(begin, sizeof begin) == signature;
+}
+
 }  // namespace
 
 WorkbookFiles::WorkbookFiles(const FilePlace& place, std::string name) : place_(place), name_(std::move(name)) {
@@ -147,7 +157,8 @@ void WorkbookFiles::check_archive(int archive) const {
   for (std::size_t i = rows_; i < files_.size(); ++i) wanted.push_back({files_[i]->size, files_[i]->crc});
   std::sort(found.begin(), found.end());
   std::sort(wanted.begin(), wanted.end());
-  if (!whole || found != wanted) fail("write", place_, name_, "the workbook is not what was written to it");
+  if (!whole || !ends_whole(archive) || found != wanted)
+    fail("write", place_, name_, "the workbook is not what was written to it");
 }
 
 FILE* WorkbookFiles::make() {

@@ -1,7 +1,7 @@
 #pragma once
-// libxlsxwriter's temporary files, in place of those that it would make itself. It keeps a sheet's rows and each part of
-// a workbook in such files and looks at no error of theirs. These have no name, remember every failure, and know what
-// was written to them, which the finished workbook is held against.
+// libxlsxwriter's temporary files, in place of those that it would make itself. It keeps a sheet's rows and each part
+// of a workbook in such files and looks at no error of theirs. These have no name, remember every failure, and know
+// what was written to them, which the finished workbook is held against.
 #include <cstdint>
 #include <cstdio>
 #include <memory>

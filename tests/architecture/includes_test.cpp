@@ -23,9 +23,8 @@ struct Rule {
 };
 
 /// The table's words for single headers, and for libraries with the start of what is included.
-const std::map<std::string, std::string> header_words = {{"scene's types", "scene/scene.h"},
-                                                         {"render's Image", "render/image.h"},
-                                                         {"render's Model", "render/model.h"}};
+const std::map<std::string, std::string> header_words = {
+    {"scene's types", "scene/scene.h"}, {"render's Image", "render/image.h"}, {"render's Model", "render/model.h"}};
 const std::map<std::string, std::vector<std::string>> library_words = {
     {"Eigen", {"Eigen/"}},
     {"vector intrinsics", {"immintrin.h"}},

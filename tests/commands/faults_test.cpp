@@ -31,7 +31,7 @@ TEST(FileSizeLimit, IsAnErrorThatNamesTheFile) {
   here.write("balls.yaml", two_balls("output: {trajectory: {every: 0.0001}}\n"));
   const Finished run = here.shell("ulimit -f 8; exec \"$CAROM\" run balls.yaml -o out --progress none");
   EXPECT_EQ(run.code, 1);
-  EXPECT_EQ(run.err, "carom run: balls.yaml: the run failed: cannot write out/trajectory.csv: File too large\n");
+  EXPECT_EQ(run.err, "carom: balls.yaml: the run failed: cannot write out/trajectory.csv: File too large\n");
   EXPECT_FALSE(here.has("out"));
   EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", "out"}).code, 0);
 }
@@ -51,7 +51,7 @@ TEST_P(Hanging, FfmpegIsLeftAtTheFirstSignal) {
     setenv("PATH", path.c_str(), 1);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     EXPECT_EQ(run.code, 128 + GetParam());
-    EXPECT_EQ(run.err, "carom run: balls.yaml: interrupted; the same command runs what is missing\n");
+    EXPECT_EQ(run.err, "carom: balls.yaml: interrupted; the same command runs what is missing\n");
     EXPECT_LT(seconds, 60);  // a film's patience is ten minutes
     EXPECT_FALSE(here.has("out"));
   }
@@ -66,7 +66,7 @@ TEST(Workbook, ThatHasNoRoomIsAnErrorAndLeavesNothing) {
   here.carom({"run", "balls.yaml", "-o", "b", "--set", "balls.red.mass=5"});
   const Finished compare = here.shell("ulimit -f 4; exec \"$CAROM\" compare a b -o out --progress none");
   EXPECT_EQ(compare.code, 1);
-  EXPECT_NE(compare.err.find("carom compare: cannot write out/comparison.xlsx: File too large\n"), std::string::npos)
+  EXPECT_NE(compare.err.find("carom: cannot write out/comparison.xlsx: File too large\n"), std::string::npos)
       << compare.err;
   EXPECT_FALSE(here.has("out"));
   EXPECT_EQ(here.carom({"compare", "a", "b", "-o", "out"}).code, 0);
@@ -92,7 +92,7 @@ TEST(Film, AFolderInItsPlaceIsNamedBeforeAnythingIsSimulated) {
   const Finished run = here.carom({"run", "balls.yaml", "-o", "out", "--force", "--progress", "none"});
   EXPECT_EQ(run.code, 1);
   EXPECT_EQ(run.err,
-            "carom run: balls.yaml: the run failed: cannot write out/animation.mp4: a folder of that name stands there; "
+            "carom: balls.yaml: the run failed: cannot write out/animation.mp4: a folder of that name stands there; "
             "remove it\n");
   EXPECT_FALSE(here.has("out/scene.yaml"));
   fs::remove_all(here.path("out/animation.mp4"));

@@ -63,9 +63,7 @@ TEST(Publication, FromEveryMomentOfItTheNextStateIsReached) {
   // Each step that a publication makes, one after the other; what is left is settled after each.
   const std::vector<std::function<void(const std::string&)>> steps = {
       [](const std::string& at) { fs::rename(at + "/.collisions.csv.part", at + "/collisions.csv"); },
-      [](const std::string& at) {
-        fs::rename(at + "/.frames.part/frame_00000.png", at + "/frames/frame_00000.png");
-      },
+      [](const std::string& at) { fs::rename(at + "/.frames.part/frame_00000.png", at + "/frames/frame_00000.png"); },
       [](const std::string& at) {
         fs::rename(at + "/.frames.part/frame_00001.png", at + "/frames/frame_00001.png");
         fs::rename(at + "/.frames.part/frame_00002.png", at + "/frames/frame_00002.png");
@@ -143,8 +141,7 @@ TEST(Folder, ALoopOfLinksIsNoMissingFolder) {
   const std::string reason = ": Too many levels of symbolic links";
   EXPECT_EQ(error_of([&] { open_folder(AT_FDCWD, temp / "loop", true); }), "cannot open " + (temp / "loop") + reason);
   EXPECT_EQ(error_of([&] { what_stands(temp / "loop"); }), "cannot look at " + (temp / "loop") + reason);
-  EXPECT_EQ(error_of([&] { inspect_folder(temp / "loop", small_scene()); }),
-            "cannot open " + (temp / "loop") + reason);
+  EXPECT_EQ(error_of([&] { inspect_folder(temp / "loop", small_scene()); }), "cannot open " + (temp / "loop") + reason);
   EXPECT_FALSE(open_folder(AT_FDCWD, temp / "missing", true));
   EXPECT_EQ(what_stands(temp / "missing"), Standing::nothing);
 }
