@@ -22,7 +22,7 @@
 namespace carom::fuzz {
 namespace {
 
-constexpr double patience = 3;  // s of CPU time
+constexpr double patience = 10;  // s of CPU time
 constexpr unsigned hang = 120;  // s of the clock
 
 /// What came of a scene, in one line through a pipe.
