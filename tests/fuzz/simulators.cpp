@@ -29,9 +29,9 @@ void simulate_bytes(std::string_view bytes) {
 
 std::vector<std::string> simulator_seeds() {
   std::vector<std::string> seeds;
-  for (int kind = 0; kind < 39; ++kind) {
+  for (unsigned kind = 0; kind < 39; ++kind) {
     std::string bytes(1, static_cast<char>(kind));
-    for (int k = 0; k < 200; ++k) bytes += static_cast<char>((kind * 7919 + k * k * 104729) >> 7);
+    for (unsigned k = 0; k < 200; ++k) bytes += static_cast<char>((kind * 7919 + k * k * 104729) >> 7);
     seeds.push_back(bytes);
   }
   return seeds;

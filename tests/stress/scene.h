@@ -1,5 +1,6 @@
 #pragma once
-// A random scene: made from its seed alone, the same on every machine.
+// A random scene: made from its seed alone, the same on every machine (by another compiler, which draws a call's
+// arguments in another order, another one).
 #include <cstdint>
 #include <span>
 #include <string>
