@@ -68,7 +68,7 @@ TEST(Text, ControlCharactersDoNotReachTheTerminal) {
 }
 
 TEST(Text, AShellGetsUnprintableCharactersByTheirBytes) {
-  EXPECT_EQ(shell_word("a\u202eb"), R"("$(printf '\141\342\200\256\142')")");
+  EXPECT_EQ(shell_word("a\u202eb"), R"sh("$(printf '\141\342\200\256\142')")sh");
 }
 
 }  // namespace

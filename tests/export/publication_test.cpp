@@ -49,7 +49,7 @@ std::map<std::string, std::string> bytes_in(const std::string& folder) {
 /// The folder `to` as it is when a publication was decided: all of the former run, and the next one's parts.
 void decide(const std::string& former, const std::string& next, const std::string& to) {
   fs::copy(former, to, fs::copy_options::recursive);
-  for (const std::string& name : {"collisions.csv", "scene.yaml", "summary.csv"})
+  for (const std::string name : {"collisions.csv", "scene.yaml", "summary.csv"})
     fs::copy(next + "/" + name, to + "/" + part_name(name));
   fs::copy(next + "/frames", to + "/.frames.part", fs::copy_options::recursive);
   fs::copy(next + "/manifest.json", to + "/" + next_manifest);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "physics/force.h"
 #include "simulate/build.h"
 #include "simulate/pile.h"
 
