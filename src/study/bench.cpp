@@ -88,6 +88,10 @@ class Bench {
   }
 
  private:
+  SimulationError named(const SimulationError& error) const {
+    return error.named([&](Entity body) { return fmt::format("`{}`", scene_.roster.name(body)); });
+  }
+
   double spent() const { return cpu_time() - start_; }
 
   Simulate way_of(const BenchRow& row) const {
@@ -135,7 +139,7 @@ class Bench {
       result_.left_out.push_back(fmt::format("exact: one run takes more than {:.2g} s of CPU time", left_));
       return;
     } catch (const SimulationError& error) {
-      row.failure = error.what();
+      row.failure = named(error).what();
     }
     result_.rows.push_back(std::move(row));
   }
@@ -170,7 +174,7 @@ class Bench {
                                                method_name(engine, integrator), step, 0.5 * share));
         return;
       } catch (const SimulationError& error) {
-        row.failure = error.what();
+        row.failure = named(error).what();
       }
       result_.rows.push_back(std::move(row));
     }

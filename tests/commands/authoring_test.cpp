@@ -130,7 +130,7 @@ TEST(New, RefusesWhatIsNoName) {
   here.write("file", "");
   const Finished under = here.carom({"new", "file/first"});
   EXPECT_EQ(under.code, 1);
-  EXPECT_NE(under.err.find("cannot open file"), std::string::npos) << under.err;
+  EXPECT_NE(under.err.find("cannot make file: Not a directory"), std::string::npos) << under.err;
   EXPECT_EQ(here.files().size(), 1u);
 }
 

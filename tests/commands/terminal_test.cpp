@@ -166,7 +166,7 @@ TEST(Terminal, MarksThatTurnOrHideTextAreEscapedInEveryReport) {
   const Workplace here;
   const std::string turned = "a\u202eb\u2066\u00ad\u200b\U000e0041";
   const std::string shown = R"(a\u202eb\u2066\u00ad\u200b\udb40\udc41)";
-  here.write("a.yaml", two_balls() + "title: \"" + turned + "\"\n");
+  here.write("a.yaml", "scene: 1\ntitle: \"" + turned + "\"\nsimulate: {duration: 1}\n");
   here.write(turned + ".yaml", "scene: 1\n" + turned + ": 1\n");
   const auto raw = [](const Finished& run) {
     return (run.out + run.err).find("\u202e") != std::string::npos ||

@@ -65,9 +65,9 @@ TEST(Bounds, ABodyThatFallsOutOfThemEndsTheRunByNameInEveryEngine) {
     EXPECT_EQ(error_of(make, 44'000), "");
     problem.options.duration = 50'000;
     const std::string error = error_of(make, 50'000);
-    EXPECT_NE(error.find("`ball.0` is 1"), std::string::npos) << error;
+    EXPECT_NE(error.find(" s `ball."), std::string::npos) << error;
     EXPECT_NE(error.find("more than 1e+12 times the smallest size of the scene"), std::string::npos) << error;
-    EXPECT_GE(std::stod(error.substr(std::string("at t = ").size())), 44'721.3) << error;
+    EXPECT_GE(std::stod(error.substr(std::string("at t = ").size())), 44'700) << error;
   };
   fails([&] { return make_exact_simulator(problem.world, problem.initial, problem.options); });
   fails([&] { return make_stepped_simulator(problem.world, problem.initial, steps_of(problem.options.duration, 10)); });
@@ -111,7 +111,7 @@ TEST(Bounds, LookingChangesNoVerdict) {
 // As with an attractor in whose centre a body starts: its acceleration changes infinitely fast.
 TEST(Bounds, StepsThatDoNotMoveTheClockEndTheRun) {
   Problem problem;
-  problem.ball({0, 0, 0}, {0, 0, 0});
+  problem.ball({0, 0, 0}, {1, 0, 0});
   problem.world.forces = {{Attractor{{0, 0, 0}, 1, 0}}};
   const double step = default_step(problem.world, problem.initial);
   EXPECT_EQ(step, 0);

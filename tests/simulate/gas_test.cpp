@@ -188,8 +188,8 @@ TEST(Gas, ASceneOfNoneOrOneBallEnds) {
   EXPECT_EQ(run_exact(none).tally.collisions(), 0u);
   Problem one;
   one.ball({0, 0, 0}, {1e8, 0, 0});
-  one.options.duration = 1e6;
-  EXPECT_EQ(run_exact(one).end.position[0], Vec3(1e14, 0, 0));
+  one.options.duration = 1e3;
+  EXPECT_EQ(run_exact(one).end.position[0], Vec3(1e11, 0, 0));
 }
 
 TEST(Gas, ALimitOnCollisionsEndsTheRunWithItsReason) {
