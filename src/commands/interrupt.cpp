@@ -4,6 +4,7 @@
 #include <initializer_list>
 
 #include "export/child.h"
+#include "render/mesh.h"
 
 namespace carom {
 
@@ -30,6 +31,7 @@ void catch_signals() {
     sigaction(signal, &action, nullptr);
   }
   look_while_waiting(stop_if_interrupted);
+  look_while_reading(stop_if_interrupted);
 }
 
 void stop_if_interrupted() {

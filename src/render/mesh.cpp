@@ -28,6 +28,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr std::int64_t glance = 50;  // ms between two looks
+
+std::function<void()>& look() {
+  static std::function<void()> function = [] {};
+  return function;
+}
+
 [[noreturn]] void fail(const std::string& path, const std::string& why) {
   throw std::runtime_error(fmt::format("cannot read the mesh {}: {}", path, why));
 }
@@ -160,12 +167,14 @@ class Reader {
     char* to = static_cast<char*>(bytes);
     while (size > 0) {
       const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
-      pollfd wanted{pipe_, POLLIN, 0};
-      const int ready = left > 0 ? poll(&wanted, 1, static_cast<int>(left)) : 0;
-      if (ready < 0 && errno == EINTR) continue;
-      if (ready <= 0) {
+      if (left <= 0) {
         late_ = true;
         return false;
+      }
+      pollfd wanted{pipe_, POLLIN, 0};
+      if (poll(&wanted, 1, static_cast<int>(std::min<std::int64_t>(left, glance))) <= 0) {
+        look()();
+        continue;
       }
       const ssize_t n = read(pipe_, to, size);
       if (n < 0 && errno == EINTR) continue;
@@ -206,6 +215,10 @@ class Reader {
 };
 
 }  // namespace
+
+void look_while_reading(std::function<void()> function) {
+  look() = std::move(function);
+}
 
 Mesh read_mesh(const std::string& path, const MeshLimits& limits) {
   const std::string ending = check_file(path, limits);

@@ -3,6 +3,7 @@
 // which may use so much of each, can write nothing, and hands the mesh back through a pipe.
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct MeshLimits {
 /// own folder. Polygons are cut into triangles, vertices in one place joined; normals that the file does not give are
 /// made, smooth where faces meet at less than 45 degrees. Throws std::runtime_error with the path and what is wrong.
 Mesh read_mesh(const std::string& path, const MeshLimits& limits = {});
+
+/// What is called 20 times a second while a mesh is waited for; it may throw, to be heard by read_mesh's caller. Set
+/// once, where the program begins.
+void look_while_reading(std::function<void()> look);
 
 /// The vertices alone: what a volume is fitted around.
 std::vector<Vec3> read_mesh_points(const std::string& path, const MeshLimits& limits = {});

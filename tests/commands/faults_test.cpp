@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -36,9 +37,9 @@ TEST(FileSizeLimit, IsAnErrorThatNamesTheFile) {
   EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", "out"}).code, 0);
 }
 
-class Hanging : public ::testing::TestWithParam<int> {};
+class HangingProgram : public ::testing::TestWithParam<int> {};
 
-TEST_P(Hanging, FfmpegIsLeftAtTheFirstSignal) {
+TEST_P(HangingProgram, FfmpegIsLeftAtTheFirstSignal) {
   for (const char* script : {"exec sleep 1000", "cat > /dev/null; exec sleep 1000"}) {
     const Workplace here;
     here.write("balls.yaml", two_balls(film));
@@ -57,7 +58,28 @@ TEST_P(Hanging, FfmpegIsLeftAtTheFirstSignal) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Signals, Hanging, ::testing::Values(SIGINT, SIGTERM));
+INSTANTIATE_TEST_SUITE_P(Signals, HangingProgram, ::testing::Values(SIGINT, SIGTERM));
+
+// One polygon of many corners takes its reader longer than the test has.
+TEST(HangingMesh, IsLeftAtTheFirstSignal) {
+  const Workplace here;
+  std::string mesh, face = "f";
+  for (int k = 0; k < 32'000; ++k) {
+    const double angle = 0.00019634954 * k, radius = k % 2 == 0 ? 1 : 0.9;  // a star
+    mesh += "v " + std::to_string(radius * std::cos(angle)) + " " + std::to_string(radius * std::sin(angle)) + " 0\n";
+    face += " " + std::to_string(k + 1);
+  }
+  here.write("star.obj", mesh + face + "\n");
+  here.write("star.yaml",
+             "scene: 1\nbodies: {a: {mass: 1, mesh: star.obj, fit: sphere, position: [0, 0, 0]}}\n"
+             "simulate: {duration: 1}\n");
+  const auto start = std::chrono::steady_clock::now();
+  const Finished check = here.shell("timeout --preserve-status -s INT 1 \"$CAROM\" check star.yaml");
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_EQ(check.code, 130) << check.out << check.err;
+  EXPECT_EQ(check.err, "carom: interrupted\n");
+  EXPECT_LT(seconds, 5);
+}
 
 TEST(Workbook, ThatHasNoRoomIsAnErrorAndLeavesNothing) {
   const Workplace here;
