@@ -425,6 +425,8 @@ def short_part(all_tries):
 
 
 def main():
+    # What a background job of a plain shell inherits as ignored, the commands would ignore too.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     carom = os.path.abspath(sys.argv[1])
