@@ -74,7 +74,7 @@ TEST(HangingMesh, IsLeftAtTheFirstSignal) {
              "scene: 1\nbodies: {a: {mass: 1, mesh: star.obj, fit: sphere, position: [0, 0, 0]}}\n"
              "simulate: {duration: 1}\n");
   const auto start = std::chrono::steady_clock::now();
-  const Finished check = here.shell("timeout --preserve-status -s INT 1 \"$CAROM\" check star.yaml");
+  const Finished check = here.shell("timeout --foreground --preserve-status -s INT 1 \"$CAROM\" check star.yaml");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_EQ(check.code, 130) << check.out << check.err;
   EXPECT_EQ(check.err, "carom: interrupted\n");
