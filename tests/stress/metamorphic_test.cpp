@@ -77,7 +77,7 @@ Motion driven(Drive drive, std::uint64_t seed) {
   return motion;
 }
 
-/// Calls `place` for each vector that turns with the scene, and each length, by its dimension.
+/// The scene as a mirror across this axis shows it.
 Motion mirrored(Motion m, int axis) {
   const auto flip = [&](Vec3& v) { v[axis] = -v[axis]; };
   World& world = m.world;
