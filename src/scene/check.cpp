@@ -190,99 +190,106 @@ class Checker : ValueChecker {
     switch (field.type) {
       case Type::number:
         number(value, field, name, limited_range(field));
-        break;
+        return;
       case Type::whole:
         whole(value, field, name);
-        break;
+        return;
       case Type::flag:
-        if (!value.is(Node::Kind::scalar) || value.quoted || (value.text != "true" && value.text != "false")) {
-          wrong_type(value, name, wanted);
-        }
-        break;
+        return flag(value, name, wanted);
       case Type::file:
-        file(value, field);
-        break;
+        return file(value, field);
       case Type::text:
-        if (!value.is(Node::Kind::scalar)) {
-          wrong_type(value, name, wanted);
-        } else if (value.text.find('\n') != std::string::npos) {
-          refuse(value, name + " has more than one line", "expected one line");
-        }
-        break;
+        return text(value, name, wanted);
       case Type::choice:
-        choice(value, field, name);
-        break;
+        return choice(value, field, name);
       case Type::vector:
+        numbers(value, field, name, 3);
+        return;
       case Type::direction:
-        if (numbers(value, field, name, 3) && field.type == Type::direction) {
-          bool zero = true;
-          for (const Node& item : value.items) zero = zero && parse_number(item.text).value_or(1) == 0;
-          if (zero) refuse(value, name + " has no length", wanted);
-        }
-        break;
+        return direction(value, field, name, wanted);
       case Type::extent:
-        numbers(value, field, name, 2);
-        break;
       case Type::pixels:
         numbers(value, field, name, 2);
-        break;
+        return;
       case Type::color:
-        color(value, name);
-        break;
+        return color(value, name);
       case Type::two_names:
       case Type::names:
-        if (!value.is(Node::Kind::sequence)) {
-          wrong_type(value, name, wanted);
-        } else if (field.type == Type::names ? value.items.empty() : value.items.size() != 2) {
-          refuse(value, fmt::format("{} has {} entries", name, value.items.size()), wanted);
-        } else {
-          for (Node& item : value.items) {
-            if (!item.is(Node::Kind::scalar))
-              wrong_type(item, "an entry of " + name, "expected a name");
-            else if (!field.of.empty())
-              choice(item, field, "an entry of " + name);
-          }
-        }
-        break;
+        return names(value, field, name, wanted);
       case Type::part_or_flag:
-        if (value.is(Node::Kind::scalar) && !value.quoted && (value.text == "true" || value.text == "false")) break;
-        if (!value.is(Node::Kind::map)) {
-          wrong_type(value, name, wanted);
-          break;
-        }
-        [[fallthrough]];
+        if (is_flag(value)) return;
+        if (!value.is(Node::Kind::map)) return wrong_type(value, name, wanted);
+        return part(value, field, key, partial);
       case Type::part:
-        part(value, field, key, partial);
-        break;
+        return part(value, field, key, partial);
       case Type::named:
-        named(value, field, name);
-        break;
+        return named(value, field, name);
       case Type::list:
-        if (!value.is(Node::Kind::sequence)) {
-          wrong_type(value, name, wanted);
-          break;
-        }
-        if (field.needs_entries && value.items.empty())
-          refuse(value, fmt::format("{} has no entries", name), "expected at least one");
-        for (Node& item : value.items) {
-          map(item, kind_named(field.of), "this entry of " + name, item.place, false);
-        }
-        break;
+        return list(value, field, name, wanted);
       case Type::settings:
-        settings(value, name, wanted);
-        break;
+        return settings(value, name, wanted);
       case Type::axes:
-        axes(value, name, wanted);
-        break;
+        return axes(value, name, wanted);
       case Type::cases:
-        if (!value.is(Node::Kind::sequence)) {
-          wrong_type(value, name, wanted);
-        } else if (value.items.empty()) {
-          refuse(value, name + " has no entries", wanted);
-        }
-        for (Node& item : value.items) settings(item, "this entry of " + name, wanted);
-        break;
+        return cases(value, name, wanted);
     }
+  }
+
+  static bool is_flag(const Node& value) {
+    return value.is(Node::Kind::scalar) && !value.quoted && (value.text == "true" || value.text == "false");
+  }
+
+  void flag(Node& value, const std::string& name, const std::string& wanted) {
+    if (!is_flag(value)) wrong_type(value, name, wanted);
+  }
+
+  void text(Node& value, const std::string& name, const std::string& wanted) {
+    if (!value.is(Node::Kind::scalar)) {
+      wrong_type(value, name, wanted);
+    } else if (value.text.find('\n') != std::string::npos) {
+      refuse(value, name + " has more than one line", "expected one line");
+    }
+  }
+
+  void direction(Node& value, const Field& field, const std::string& name, const std::string& wanted) {
+    if (!numbers(value, field, name, 3)) return;
+    bool zero = true;
+    for (const Node& item : value.items) zero = zero && parse_number(item.text).value_or(1) == 0;
+    if (zero) refuse(value, name + " has no length", wanted);
+  }
+
+  void names(Node& value, const Field& field, const std::string& name, const std::string& wanted) {
+    if (!value.is(Node::Kind::sequence)) {
+      wrong_type(value, name, wanted);
+    } else if (field.type == Type::names ? value.items.empty() : value.items.size() != 2) {
+      refuse(value, fmt::format("{} has {} entries", name, value.items.size()), wanted);
+    } else {
+      for (Node& item : value.items) {
+        if (!item.is(Node::Kind::scalar))
+          wrong_type(item, "an entry of " + name, "expected a name");
+        else if (!field.of.empty())
+          choice(item, field, "an entry of " + name);
+      }
+    }
+  }
+
+  void list(Node& value, const Field& field, const std::string& name, const std::string& wanted) {
+    if (!value.is(Node::Kind::sequence)) {
+      wrong_type(value, name, wanted);
+      return;
+    }
+    if (field.needs_entries && value.items.empty())
+      refuse(value, fmt::format("{} has no entries", name), "expected at least one");
+    for (Node& item : value.items) map(item, kind_named(field.of), "this entry of " + name, item.place, false);
+  }
+
+  void cases(Node& value, const std::string& name, const std::string& wanted) {
+    if (!value.is(Node::Kind::sequence)) {
+      wrong_type(value, name, wanted);
+    } else if (value.items.empty()) {
+      refuse(value, name + " has no entries", wanted);
+    }
+    for (Node& item : value.items) settings(item, "this entry of " + name, wanted);
   }
 
   void part(Node& value, const Field& field, const Key& key, bool partial) {

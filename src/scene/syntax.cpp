@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scene/diagnostics.h"
@@ -65,110 +68,142 @@ bool has_colon(std::string_view line) {
   return line.find(": ") != std::string_view::npos || line.ends_with(':');
 }
 
+/// What one of the parser's complaints means.
+struct SyntaxCause {
+  std::string_view complaint;  // a part of it
+  std::string_view message, remedy;
+};
+
+constexpr std::string_view no_tags = "remove it: the key decides what kind of value it has";
+constexpr std::string_view own_lines = "expected lists as [a, b], or `- ` in lines of their own";
+
+constexpr SyntaxCause causes_in_values[] = {
+    {"anchor is not defined", "an alias", "expected the value itself: scenes have no anchors and aliases"},
+    {"multiple anchors", "a tag or anchor", no_tags},
+    {"tag", "a tag or anchor", no_tags},
+};
+constexpr SyntaxCause causes_in_brackets[] = {
+    {"illegal flow end", "this bracket closes nothing", "remove it"},
+    {"flow not found", "a value ends and another thing begins",
+     "expected ',' or the closing bracket; is a ',' missing?"},
+};
+constexpr SyntaxCause causes_in_lines[] = {
+    {"end of map not found", "this does not fit the lines above",
+     "expected `key: value` at the indentation of one of them"},
+    {"end of sequence not found", "this does not fit the list above",
+     "expected `- ` at its indentation, or a key further left"},
+    {"block entry", "a list entry cannot begin here", own_lines},
+    {"sequence entr", "a list entry cannot begin here", own_lines},
+    {"bad file", "values are nested too deep", "expected a scene"},
+};
+
+/// A failure of the parser. Its functions add an error where they know the cause, and say whether they do.
+class ParseFailure {
+ public:
+  ParseFailure(const Source& source, std::uint32_t index, std::size_t begin, std::size_t noticed,
+               const std::string& complaint, Diagnostics& diagnostics)
+      : text_(source.text),
+        index_(index),
+        begin_(begin),
+        noticed_(noticed),
+        complaint_(complaint),
+        diagnostics_(diagnostics) {}
+
+  void explain() {
+    const bool known = explain_by(causes_in_values) || explain_character() || explain_unpaired() ||
+                       explain_by(causes_in_brackets) || explain_map_value() || explain_by(causes_in_lines);
+    if (!known) add(noticed_, fmt::format("this is not YAML: {}", complaint_), "expected `key: value`");
+  }
+
+ private:
+  void add(std::size_t offset, std::string message, std::string remedy, std::size_t length = 1) {
+    const Place place{index_, static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(length)};
+    diagnostics_.add(place, std::move(message), std::move(remedy));
+  }
+  bool says(std::string_view part) const { return complaint_.find(part) != std::string::npos; }
+
+  bool explain_by(std::span<const SyntaxCause> causes) {
+    for (const SyntaxCause& cause : causes) {
+      if (!says(cause.complaint)) continue;
+      add(noticed_, std::string(cause.message), std::string(cause.remedy));
+      return true;
+    }
+    return false;
+  }
+
+  bool explain_character() {
+    if (says("unknown token")) {
+      const char c = noticed_ < text_.size() ? text_[noticed_] : ' ';
+      add(noticed_, fmt::format("plain text cannot begin with {}", quoted(std::string(1, c))),
+          "put the text in quotes");
+      return true;
+    }
+    if (says("unknown escape")) {
+      add(noticed_ > 0 ? noticed_ - 1 : 0, "an unknown escape in a text in double quotes",
+          "in single quotes a backslash is just a backslash", 2);
+      return true;
+    }
+    return false;
+  }
+
+  bool explain_unpaired() {
+    const Unpaired unpaired = find_unpaired(text_, begin_);
+    if (unpaired.open == std::string::npos) return false;
+    const char c = text_[unpaired.open];
+    const std::string open = quoted(text_.substr(unpaired.open, 1));
+    const std::string closing = c == '[' ? "]" : c == '{' ? "}" : std::string(1, c);
+    if (unpaired.close != std::string::npos) {
+      const auto before = text_.begin() + static_cast<std::ptrdiff_t>(unpaired.open);
+      add(unpaired.close,
+          fmt::format("{} cannot close the {} of line {}", quoted(text_.substr(unpaired.close, 1)), open,
+                      1 + std::count(text_.begin(), before, '\n')),
+          fmt::format("expected {}", quoted(closing)));
+    } else {
+      add(unpaired.open, fmt::format("this {} is never closed", open),
+          fmt::format("expected {} before the next key", quoted(closing)));
+    }
+    return true;
+  }
+
+  /// Two ": " in a line, or a line above that lacks its own and was read on.
+  bool explain_map_value() {
+    if (!says("illegal map value")) return false;
+    const std::size_t start = line_start(text_, noticed_);
+    if (text_.substr(start, noticed_ - start).find(": ") != std::string_view::npos) {
+      add(noticed_, "a second ':' in this line", "expected one `key: value` a line; text that holds ': ' needs quotes");
+      return true;
+    }
+    std::size_t above = start;
+    while (above > begin_) {
+      above = line_start(text_, above - 1);
+      const std::string_view line = line_at(text_, above);
+      const std::size_t word = line.find_first_not_of(' ');
+      if (word == std::string_view::npos || line[word] == '#') continue;
+      if (!has_colon(line)) {
+        add(above + word, "this line has no ':'", "expected `key: value`", line.find_last_not_of(' ') + 1 - word);
+      } else {
+        const std::string_view here = line_at(text_, noticed_);
+        const std::size_t first = std::min(here.find_first_not_of(' '), noticed_ - start);
+        add(start + first, "this line is indented further than the line above, which has its value already",
+            "expected the same indentation");
+      }
+      return true;
+    }
+    return false;
+  }
+
+  const std::string_view text_;
+  const std::uint32_t index_;
+  const std::size_t begin_, noticed_;
+  const std::string& complaint_;
+  Diagnostics& diagnostics_;
+};
+
 }  // namespace
 
 void explain_syntax(const Source& source, std::uint32_t index, std::size_t begin, std::size_t noticed,
                     const std::string& complaint, Diagnostics& diagnostics) {
-  const std::string_view text = source.text;
-  const auto place = [&](std::size_t offset, std::size_t length = 1) {
-    return Place{index, static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(length)};
-  };
-  const auto says = [&](std::string_view part) { return complaint.find(part) != std::string::npos; };
-
-  if (says("anchor is not defined")) {
-    diagnostics.add(place(noticed), "an alias", "expected the value itself: scenes have no anchors and aliases");
-    return;
-  }
-  if (says("multiple tags") || says("multiple anchors") || says("tag")) {
-    diagnostics.add(place(noticed), "a tag or anchor", "remove it: the key decides what kind of value it has");
-    return;
-  }
-  if (says("unknown token")) {
-    const char c = noticed < text.size() ? text[noticed] : ' ';
-    diagnostics.add(place(noticed), fmt::format("plain text cannot begin with {}", quoted(std::string(1, c))),
-                    "put the text in quotes");
-    return;
-  }
-  if (says("unknown escape")) {
-    diagnostics.add(place(noticed > 0 ? noticed - 1 : 0, 2), "an unknown escape in a text in double quotes",
-                    "in single quotes a backslash is just a backslash");
-    return;
-  }
-
-  const Unpaired unpaired = find_unpaired(text, begin);
-  if (unpaired.open != std::string::npos) {
-    const char c = text[unpaired.open];
-    const std::string closing = c == '[' ? "]" : c == '{' ? "}" : std::string(1, c);
-    if (unpaired.close != std::string::npos) {
-      diagnostics.add(
-          place(unpaired.close),
-          fmt::format("{} cannot close the {} of line {}", quoted(text.substr(unpaired.close, 1)),
-                      quoted(text.substr(unpaired.open, 1)),
-                      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(unpaired.open), '\n')),
-          fmt::format("expected {}", quoted(closing)));
-    } else {
-      diagnostics.add(place(unpaired.open),
-                      fmt::format("this {} is never closed", quoted(text.substr(unpaired.open, 1))),
-                      fmt::format("expected {} before the next key", quoted(closing)));
-    }
-    return;
-  }
-  if (says("illegal flow end")) {
-    diagnostics.add(place(noticed), "this bracket closes nothing", "remove it");
-    return;
-  }
-  if (says("flow not found")) {
-    diagnostics.add(place(noticed), "a value ends and another thing begins",
-                    "expected ',' or the closing bracket; is a ',' missing?");
-    return;
-  }
-  if (says("illegal map value")) {
-    // Two ": " in a line, or a line above that lacks its own and was read on.
-    const std::size_t start = line_start(text, noticed);
-    if (text.substr(start, noticed - start).find(": ") != std::string_view::npos) {
-      diagnostics.add(place(noticed), "a second ':' in this line",
-                      "expected one `key: value` a line; text that holds ': ' needs quotes");
-      return;
-    }
-    std::size_t above = start;
-    while (above > begin) {
-      above = line_start(text, above - 1);
-      const std::string_view line = line_at(text, above);
-      const std::size_t word = line.find_first_not_of(' ');
-      if (word == std::string_view::npos || line[word] == '#') continue;
-      if (!has_colon(line)) {
-        diagnostics.add(place(above + word, line.find_last_not_of(' ') + 1 - word), "this line has no ':'",
-                        "expected `key: value`");
-      } else {
-        const std::string_view here = line_at(text, noticed);
-        const std::size_t first = std::min(here.find_first_not_of(' '), noticed - start);
-        diagnostics.add(place(start + first),
-                        "this line is indented further than the line above, which has its value already",
-                        "expected the same indentation");
-      }
-      return;
-    }
-  }
-  if (says("end of map not found")) {
-    diagnostics.add(place(noticed), "this does not fit the lines above",
-                    "expected `key: value` at the indentation of one of them");
-    return;
-  }
-  if (says("end of sequence not found")) {
-    diagnostics.add(place(noticed), "this does not fit the list above",
-                    "expected `- ` at its indentation, or a key further left");
-    return;
-  }
-  if (says("block entry") || says("sequence entr")) {
-    diagnostics.add(place(noticed), "a list entry cannot begin here",
-                    "expected lists as [a, b], or `- ` in lines of their own");
-    return;
-  }
-  if (says("bad file")) {
-    diagnostics.add(place(noticed), "values are nested too deep", "expected a scene");
-    return;
-  }
-  diagnostics.add(place(noticed), fmt::format("this is not YAML: {}", complaint), "expected `key: value`");
+  ParseFailure(source, index, begin, noticed, complaint, diagnostics).explain();
 }
 
 }  // namespace carom
