@@ -20,6 +20,25 @@ float f(double x) {
 
 }  // namespace
 
+Solids::Programs::Programs(const Lighting& lighting, bool walls, bool meshes, int fine)
+    : closed_points({point_vertex_shader}, {"#define CLOSED\n", point_fragment_shader}),
+      open_points({point_vertex_shader}, {point_fragment_shader}),
+      shade({rectangle_vertex_shader},
+            {fmt::format("#define SOLIDS\n#define FINE {}\n{}", fine, walls ? "#define WALLS\n" : ""),
+             meshes ? "#define MESHES\n" : "", lighting.shader(), meshes ? MeshShadows::shader() : "", material_shader,
+             pixel_fragment_shader}),
+      draw({rectangle_vertex_shader}, {onto_fragment_shader}) {}
+
+Solids::Points::Points(int width, int height)
+    : what(gl::make_texture(GL_RG32UI, width, height)),
+      depth(gl::make_texture(GL_DEPTH_COMPONENT32F, width, height)),
+      buffer(gl::make_framebuffer(std::array{what.name()}, depth.name())) {}
+
+Solids::Pixels::Pixels(int width, int height)
+    : color(gl::make_texture(GL_SRGB8_ALPHA8, width, height)),
+      depth(gl::make_texture(GL_R32F, width, height)),
+      buffer(gl::make_framebuffer(std::array{color.name(), depth.name()}, 0)) {}
+
 Solids::Solids(const Shapes& shapes, const Eye& eye, const Lighting& lighting, const Surfaces& surfaces,
                const MeshShadows* meshes, bool smooth)
     : eye_(eye),
@@ -29,45 +48,40 @@ Solids::Solids(const Shapes& shapes, const Eye& eye, const Lighting& lighting, c
       fine_(smooth ? 4 : 1),
       shapes_(shapes),
       axes_{eye.direction(Vec3::Unit(0)), eye.direction(Vec3::Unit(1)), eye.direction(Vec3::Unit(2))},
-      closed_points_({point_vertex_shader}, {"#define CLOSED\n", point_fragment_shader}),
-      open_points_({point_vertex_shader}, {point_fragment_shader}),
-      shade_({rectangle_vertex_shader},
-             {fmt::format("#define SOLIDS\n#define FINE {}\n{}", fine_, surfaces.walls() ? "#define WALLS\n" : ""),
-              meshes ? "#define MESHES\n" : "", lighting.shader(), meshes ? MeshShadows::shader() : "", material_shader,
-              pixel_fragment_shader}),
-      draw_({rectangle_vertex_shader}, {onto_fragment_shader}),
+      programs_(lighting, surfaces.walls(), meshes != nullptr, fine_),
+      points_(std::min(tile_side, eye.size.width) * fine_, std::min(tile_side, eye.size.height) * fine_),
+      pixels_(eye.size.width, eye.size.height),
       rectangles_({4}) {
   const auto [width, height] = eye.size;
-  const int across = std::min(tile_side, width) * fine_, down = std::min(tile_side, height) * fine_;
-  what_ = gl::make_texture(GL_RG32UI, across, down);
-  what_depth_ = gl::make_texture(GL_DEPTH_COMPONENT32F, across, down);
-  color_ = gl::make_texture(GL_SRGB8_ALPHA8, width, height);
-  color_depth_ = gl::make_texture(GL_R32F, width, height);
-  point_buffer_ = gl::make_framebuffer(std::array{what_.name()}, what_depth_.name());
-  color_buffer_ = gl::make_framebuffer(std::array{color_.name(), color_depth_.name()}, 0);
   for (int y = 0; y < height; y += tile_side)
     for (int x = 0; x < width; x += tile_side)
       tiles_.push_back({{x, y, std::min(x + tile_side, width), std::min(y + tile_side, height)}, {}, {}});
+  set_constants(lighting, meshes);
+  gl::check("preparing to draw boxes, cylinders and meshes");
+}
 
+/// Sets the uniforms that never change.
+void Solids::set_constants(const Lighting& lighting, const MeshShadows* meshes) {
+  const auto [width, height] = eye_.size;
   std::array<float, 9> axes{};
   for (std::size_t i = 0; i < 9; ++i) axes[i] = f(axes_[i / 3][static_cast<int>(i % 3)]);
-  for (const gl::Program* program : {&closed_points_, &open_points_, &shade_, &draw_}) {
+  for (const gl::Program* program :
+       {&programs_.closed_points, &programs_.open_points, &programs_.shade, &programs_.draw}) {
     program->use();
     gl::UniformMatrix3fv(program->at("axes"), 1, GL_FALSE, axes.data());
-    gl::Uniform2f(program->at("tangent"), f(eye.tan_x), f(eye.tan_y));
+    gl::Uniform2f(program->at("tangent"), f(eye_.tan_x), f(eye_.tan_y));
     gl::Uniform2f(program->at("picture"), f(width), f(height));
-    gl::Uniform1f(program->at("near"), f(eye.camera.near));
+    gl::Uniform1f(program->at("near"), f(eye_.camera.near));
   }
-  shade_.use();
-  lighting.set(shade_);
-  if (meshes) meshes->set(shade_, 7);
+  programs_.shade.use();
+  lighting.set(programs_.shade);
+  if (meshes) meshes->set(programs_.shade, 7);
   GLint unit = 0;
   for (const char* name : {"occluder_rows", "rows", "edges", "edge_depths", "looks", "what", "what_depth"})
-    gl::Uniform1i(shade_.at(name), unit++);
-  draw_.use();
-  gl::Uniform1i(draw_.at("color"), 0);
-  gl::Uniform1i(draw_.at("color_depth"), 1);
-  gl::check("preparing to draw boxes, cylinders and meshes");
+    gl::Uniform1i(programs_.shade.at(name), unit++);
+  programs_.draw.use();
+  gl::Uniform1i(programs_.draw.at("color"), 0);
+  gl::Uniform1i(programs_.draw.at("color_depth"), 1);
 }
 
 /// The pixels in which a box may show, given in the camera's frame: those of its corners, or all if it reaches before
@@ -112,20 +126,20 @@ Solids::Placed Solids::place(const Things& things, const Thing& thing, std::size
 /// Places what is seen, notes it in its tiles, and fills the rows that the shaders read about it.
 void Solids::collect(const Things& things) {
   Occluders occluders(things.all(), lighting_);
-  occluder_row_.clear();
-  look_row_.clear();
+  rows_.occluders.clear();
+  rows_.looks.clear();
   placed_.clear();
   const int columns = (eye_.size.width + tile_side - 1) / tile_side;
   for (const std::uint32_t i : things.solids()) {
     const Thing& thing = things.all()[i];
     const std::size_t number = placed_.size() + 1;  // 0: nothing
     placed_.push_back(place(things, thing, number));
-    const std::size_t first = occluder_row_.size() / 4;
-    occluders.append_rows(i, things, surfaces_, occluder_row_);
-    for (const float c : things.look(thing).color) look_row_.push_back(c);
+    const std::size_t first = rows_.occluders.size() / 4;
+    occluders.append_rows(i, things, surfaces_, rows_.occluders);
+    for (const float c : things.look(thing).color) rows_.looks.push_back(c);
     for (const std::size_t x :
-         {std::size_t{0}, first, occluder_row_.size() / 4 - first, std::size_t{0}, std::size_t{0}})
-      look_row_.push_back(f(static_cast<double>(x)));
+         {std::size_t{0}, first, rows_.occluders.size() / 4 - first, std::size_t{0}, std::size_t{0}})
+      rows_.looks.push_back(f(static_cast<double>(x)));
 
     const Rect& b = placed_.back().bounds;
     for (int y = b.top / tile_side; y * tile_side < b.bottom; ++y)
@@ -140,17 +154,17 @@ void Solids::collect(const Things& things) {
         tile.solids.push_back(static_cast<std::uint32_t>(number - 1));
       }
   }
-  if (!occluder_row_.empty()) occluders_.fill(occluder_row_);
-  looks_.fill(look_row_);
+  if (!rows_.occluders.empty()) occluders_.fill(rows_.occluders);
+  looks_.fill(rows_.looks);
 }
 
 void Solids::prepare(const Things& things, const Backdrop& backdrop, const gl::TexelBuffer& rows) {
   for (Tile& tile : tiles_) tile.solids.clear();
-  rectangle_row_.clear();
+  rows_.rectangles.clear();
   if (things.solids().empty()) return;
   collect(things);
   gl::Disable(GL_BLEND);
-  gl::BindFramebuffer(GL_FRAMEBUFFER, color_buffer_.name());
+  gl::BindFramebuffer(GL_FRAMEBUFFER, pixels_.buffer.name());
   const float nothing[4] = {};
   gl::ClearBufferfv(GL_COLOR, 0, nothing);
   for (Tile& tile : tiles_) {
@@ -163,14 +177,14 @@ void Solids::prepare(const Things& things, const Backdrop& backdrop, const gl::T
     draw_points(tile);
     shade(tile, backdrop, rows);
     for (const int x : {tile.used.left, tile.used.top, tile.used.right, tile.used.bottom})
-      rectangle_row_.push_back(f(x));
+      rows_.rectangles.push_back(f(x));
   }
   gl::check("drawing boxes, cylinders and meshes");
 }
 
 void Solids::draw_points(const Tile& tile) {
   const auto [left, top, right, bottom] = tile.bounds;
-  gl::BindFramebuffer(GL_FRAMEBUFFER, point_buffer_.name());
+  gl::BindFramebuffer(GL_FRAMEBUFFER, points_.buffer.name());
   gl::Viewport(0, 0, (right - left) * fine_, (bottom - top) * fine_);
   gl::Enable(GL_DEPTH_TEST);
   gl::DepthFunc(GL_GREATER);
@@ -181,21 +195,21 @@ void Solids::draw_points(const Tile& tile) {
   gl::ClearBufferfv(GL_DEPTH, 0, &infinitely_far);
   const double x = 1.0 / (right - left), y = 1.0 / (bottom - top);
   const auto [width, height] = eye_.size;
-  for (const gl::Program* program : {&closed_points_, &open_points_}) {
+  for (const gl::Program* program : {&programs_.closed_points, &programs_.open_points}) {
     program->use();
     gl::Uniform4f(program->at("to_tile"), f(width * x), f(height * y), f((width - 2 * left) * x - 1),
                   f((height - 2 * top) * y - 1));
   }
-  instance_row_.clear();
+  rows_.instances.clear();
   for (const std::uint32_t i : tile.solids)
-    instance_row_.insert(instance_row_.end(), placed_[i].row.begin(), placed_[i].row.end());
-  shapes_.fill_instances(instance_row_);
+    rows_.instances.insert(rows_.instances.end(), placed_[i].row.begin(), placed_[i].row.end());
+  shapes_.fill_instances(rows_.instances);
   for (std::size_t first = 0, end = 0; first < tile.solids.size(); first = end) {
     const Placed& like = placed_[tile.solids[first]];
     const auto alike = [&](const Placed& other) { return other.shape == like.shape && other.cut == like.cut; };
     while (end < tile.solids.size() && alike(placed_[tile.solids[end]])) ++end;
     const bool closed = like.shape < Shapes::file(0);
-    (closed ? closed_points_ : open_points_).use();
+    (closed ? programs_.closed_points : programs_.open_points).use();
     if (closed && !like.cut) gl::Enable(GL_CULL_FACE);
     shapes_.draw(like.shape, first, end - first);
     gl::Disable(GL_CULL_FACE);
@@ -203,11 +217,11 @@ void Solids::draw_points(const Tile& tile) {
 }
 
 void Solids::shade(const Tile& tile, const Backdrop& backdrop, const gl::TexelBuffer& rows) {
-  gl::BindFramebuffer(GL_FRAMEBUFFER, color_buffer_.name());
+  gl::BindFramebuffer(GL_FRAMEBUFFER, pixels_.buffer.name());
   gl::Viewport(0, 0, eye_.size.width, eye_.size.height);
   gl::Disable(GL_DEPTH_TEST);
-  shade_.use();
-  gl::Uniform2i(shade_.at("tile"), tile.bounds.left, tile.bounds.top);
+  programs_.shade.use();
+  gl::Uniform2i(programs_.shade.at("tile"), tile.bounds.left, tile.bounds.top);
   occluders_.bind(0);
   rows.bind(1);
   if (meshes_) meshes_->bind(7);
@@ -216,23 +230,23 @@ void Solids::shade(const Tile& tile, const Backdrop& backdrop, const gl::TexelBu
     gl::bind_texture(3, backdrop.edge_depth);
   }
   looks_.bind(4);
-  gl::bind_texture(5, what_);
-  gl::bind_texture(6, what_depth_);
+  gl::bind_texture(5, points_.what);
+  gl::bind_texture(6, points_.depth);
   const float used[4] = {f(tile.used.left), f(tile.used.top), f(tile.used.right), f(tile.used.bottom)};
   rectangles_.draw(used);
 }
 
 void Solids::draw(Cover cover) {
-  if (rectangle_row_.empty()) return;
-  draw_.use();
-  gl::Uniform1i(draw_.at("whole"), cover == Cover::whole ? 1 : 0);
-  gl::bind_texture(0, color_);
-  gl::bind_texture(1, color_depth_);
+  if (rows_.rectangles.empty()) return;
+  programs_.draw.use();
+  gl::Uniform1i(programs_.draw.at("whole"), cover == Cover::whole ? 1 : 0);
+  gl::bind_texture(0, pixels_.color);
+  gl::bind_texture(1, pixels_.depth);
   gl::Enable(GL_DEPTH_TEST);
   gl::DepthFunc(GL_GREATER);
   gl::Enable(GL_BLEND);
   gl::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-  rectangles_.draw(rectangle_row_);
+  rectangles_.draw(rows_.rectangles);
 }
 
 }  // namespace carom

@@ -42,6 +42,27 @@ class Solids {
     std::array<float, Shapes::row> row;  // origin, number; scale, -
     Rect bounds;
   };
+  struct Programs {
+    Programs(const Lighting& lighting, bool walls, bool meshes, int fine);
+    gl::Program closed_points, open_points, shade, draw;
+  };
+  /// What the points of one tile show.
+  struct Points {
+    Points(int width, int height);
+    gl::Texture what, depth;  // number and normal; near / z
+    gl::Framebuffer buffer;
+  };
+  /// What the picture's pixels show.
+  struct Pixels {
+    Pixels(int width, int height);
+    gl::Texture color, depth;  // colour and cover; near / z
+    gl::Framebuffer buffer;
+  };
+  /// Floats on their way to the shaders.
+  struct Rows {
+    std::vector<float> occluders, looks, instances, rectangles;
+  };
+  void set_constants(const Lighting& lighting, const MeshShadows* meshes);
   Placed place(const Things& things, const Thing& thing, std::size_t number) const;
   Rect bounds_of(const Vec3& origin, const Vec3& half, bool& cut) const;
   void collect(const Things& things);
@@ -55,15 +76,14 @@ class Solids {
   int fine_;                   // points along a pixel's side
   const Shapes& shapes_;
   std::array<Vec3, 3> axes_;  // the world's
-  gl::Program closed_points_, open_points_, shade_, draw_;
-  gl::Texture what_, what_depth_;    // of a tile, by points: number and normal; near / z
-  gl::Texture color_, color_depth_;  // of the picture, by pixels: colour and cover; near / z
-  gl::Framebuffer point_buffer_, color_buffer_;
+  Programs programs_;
+  Points points_;
+  Pixels pixels_;
   gl::TexelBuffer occluders_, looks_;
   gl::Instances rectangles_;
   std::vector<Tile> tiles_;
   std::vector<Placed> placed_;
-  std::vector<float> occluder_row_, look_row_, instance_row_, rectangle_row_;
+  Rows rows_;
 };
 
 }  // namespace carom
