@@ -6,9 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
 
-#include "export/csv.h"
 #include "export/manifest.h"
 #include "export/run_folder.h"
 #include "scene/diagnostics.h"
@@ -22,47 +20,14 @@
 #include "study/parameter_sheet.h"
 #include "study/pivot_sheet.h"
 #include "study/series.h"
+#include "study/summary_sheet.h"
 #include "study/workbook.h"
 
 namespace carom {
 namespace {
 
-/// Up to so many runs the sheet Summary is a table; of more it is streamed, with filters.
-constexpr std::size_t most_in_table = 2000;
-/// A table's names of columns.
-constexpr std::size_t longest_name = 255;
 /// What is compared where nothing is said.
 constexpr const char* usual_measures[] = {"energy_lost_J", "collisions", "max_speed_m_per_s"};
-
-/// One column of summary.csv and of the sheet Summary.
-struct Column {
-  std::string name;
-  Look look = Look::plain;
-  bool is_text = false;
-  // Where the cell comes from: one of these.
-  std::optional<std::size_t> summary, parameter, measure;
-};
-
-std::vector<Column> make_columns(const ComparisonPlan& plan, const std::vector<Measure>& measures) {
-  std::vector<Column> columns;
-  for (std::size_t k = 0; k < summary_columns().size(); ++k) {
-    const SummaryColumn& summary = summary_columns()[k];
-    Column column{std::string(summary.name), Look::plain, summary.number == nullptr, k, {}, {}};
-    for (const char* name : {"energy_residual_J", "momentum_drift_kg_m_per_s", "max_overlap_m"})
-      if (column.name == name) column.look = Look::rounding;
-    if (!column.is_text && unit_of(summary.name).empty()) column.look = Look::whole;
-    columns.push_back(std::move(column));
-  }
-  for (std::size_t k = 0; k < plan.parameters.size(); ++k)
-    columns.push_back({plan.parameters[k].path, Look::swept, false, {}, k, {}});
-  for (std::size_t k = 0; k < measures.size(); ++k)
-    if (measures[k].column == nullptr) columns.push_back({measures[k].name, Look::plain, false, {}, {}, k});
-  if (columns.size() > most_columns)
-    throw ExportError(
-        fmt::format("a comparison of {} columns is more than a spreadsheet's {}: compare fewer parameters",
-                    columns.size(), most_columns));
-  return columns;
-}
 
 ComparisonPlan titled(ComparisonPlan plan, std::size_t count) {
   if (plan.title.empty()) plan.title = fmt::format("Comparison of {} runs", count);
@@ -76,21 +41,18 @@ class Comparison {
         plan_(titled(plan, count)),
         count_(count),
         measures_(measures_of(plan)),
-        columns_(make_columns(plan, measures_)),
-        in_table_(count <= most_in_table),
         book_(place, workbook_name, plan_.title),
-        charts_(book_, !in_table_),
-        sheet_(book_.add("Summary", !in_table_)),
+        charts_(book_, !SummarySheet::is_table(count)),
+        summary_(place, book_, plan_, measures_, count),
         repeats_(plan.seed ? &book_.add("Repeats", true) : nullptr),
         pivot_(two_vary ? &book_.add("Pivot", true) : nullptr),
         series_sheet_(book_.add("Series", true)),
         collisions_(book_.add("Collisions", true)),
         parameters_(book_.add("Parameters"), plan_),
         about_(book_.add("About")),
-        table_(std::make_unique<OutputFile>(place, summary_name)),
         outcomes_(plan, measures_.size(), count),
         series_(count, measures_) {
-    write_heads();
+    summary_.write_heads();
   }
 
   void add(std::size_t number, ComparedRun compared) {
@@ -99,7 +61,7 @@ class Comparison {
     compared.id = valid_utf8(compared.id);
     const RunRecord run = read_run(std::move(compared), measures_);
     if (!run.done) ++failed_;
-    write_row(number, run);
+    summary_.add(number, run);
     outcomes_.add(number, run.run, run.done, run.measures);
     series_.add(run);
     collisions_.add(run);
@@ -110,13 +72,13 @@ class Comparison {
   std::vector<std::unique_ptr<OutputFile>> finish() {
     outcomes_.finish();
     std::vector<std::unique_ptr<OutputFile>> files;
-    files.push_back(std::move(table_));
+    files.push_back(summary_.take_table());
     if (plan_.seed) {
       files.push_back(std::make_unique<OutputFile>(place_, repeats_name));
       write_repeats(*files.back(), plan_, measures_, outcomes_);
       write_repeats(*repeats_, plan_, measures_, outcomes_);
     }
-    finish_summary();
+    summary_.finish();
     write_pivot_sheet();
     const std::vector<PlacedSeries> placed = write_series(series_sheet_, series_);
     collisions_.finish();
@@ -130,81 +92,12 @@ class Comparison {
   }
 
  private:
-  void write_heads() {
-    CsvRow row(*table_);
-    // A table's names differ in more than their letters' case, and are not long.
-    std::map<std::string, int> taken;
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
-      row.text(columns_[k].name);
-      std::string head = columns_[k].name.substr(0, longest_name - 8), lower = head;
-      std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
-      if (const int before = taken[lower]++; before > 0) head += fmt::format(" ({})", before + 1);
-      heads_.push_back(head);
-      sheet_.text(0, k, head, columns_[k].look == Look::swept ? Look::swept_header : Look::header);
-    }
-    row.end();
-  }
-
-  void write_row(std::size_t number, const RunRecord& run) {
-    CsvRow row(*table_);
-    const bool room = number + 1 < most_rows;
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
-      const Column& column = columns_[k];
-      if (column.measure) {
-        row.number(run.measures[*column.measure]);
-        if (room) sheet_.number(number + 1, k, run.measures[*column.measure], column.look);
-        continue;
-      }
-      std::string text = column.parameter ? run.run.values[*column.parameter] : run.summary[*column.summary];
-      if (column.name == "run") text = run.run.id;
-      if (column.name == "status" && !run.done) text = "failed";
-      Cell cell{text};
-      if (!column.is_text) cell = cell_of(text);
-      cell.is_number() ? row.number(cell.number) : row.text(text);
-      if (room) sheet_.cell(number + 1, k, cell, column.look);
-    }
-    row.end();
-  }
-
-  void finish_summary() {
-    const std::size_t rows = std::min(count_, most_rows - 1);
-    const auto last_row = static_cast<lxw_row_t>(rows);
-    const auto last_column = static_cast<lxw_col_t>(columns_.size() - 1);
-    if (in_table_ && rows > 0) {
-      std::vector<lxw_table_column> tables(columns_.size());
-      std::vector<lxw_table_column*> pointers;
-      for (std::size_t k = 0; k < columns_.size(); ++k) {
-        tables[k].header = const_cast<char*>(heads_[k].c_str());
-        tables[k].header_format = sheet_.format(columns_[k].look == Look::swept ? Look::swept_header : Look::header);
-        pointers.push_back(&tables[k]);
-      }
-      pointers.push_back(nullptr);
-      lxw_table_options options{};
-      options.name = const_cast<char*>("Runs");
-      options.style_type = LXW_TABLE_STYLE_TYPE_LIGHT;
-      options.style_type_number = 1;
-      options.columns = pointers.data();
-      worksheet_add_table(sheet_.get(), 0, 0, last_row, last_column, &options);
-    } else if (rows > 0) {
-      worksheet_autofilter(sheet_.get(), 0, 0, last_row, last_column);
-    }
-    sheet_.fit_all(9, 60, 3);  // room for the filters' buttons
-    sheet_.freeze(1, 1);
-    sheet_.print_table();
-  }
-
   void write_pivot_sheet() {
     if (pivot_ == nullptr) return;
     const auto parameters = pivot_parameters(plan_, outcomes_);
     if (!parameters) return;
-    std::vector<std::size_t> of_parameter(plan_.parameters.size()), of_measure(measures_.size());
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
-      if (columns_[k].parameter) of_parameter[*columns_[k].parameter] = k;
-      if (columns_[k].measure) of_measure[*columns_[k].measure] = k;
-      for (std::size_t m = 0; m < measures_.size(); ++m)
-        if (columns_[k].summary && measures_[m].name == columns_[k].name) of_measure[m] = k;
-    }
-    write_pivot(*pivot_, plan_, measures_, outcomes_, *parameters, of_parameter, of_measure, in_table_ ? count_ : 0);
+    write_pivot(*pivot_, plan_, measures_, outcomes_, *parameters, summary_.parameter_columns(),
+                summary_.measure_columns(), summary_.is_table() ? count_ : 0);
   }
 
   void write_charts(const std::vector<PlacedSeries>& placed) {
@@ -221,9 +114,9 @@ class Comparison {
 
   std::vector<std::string> remarks() const {
     std::vector<std::string> remarks;
-    if (count_ > most_in_table)
-      remarks.push_back(
-          fmt::format("Summary is a table of up to {} runs; of more it is a range with filters.", most_in_table));
+    if (!summary_.is_table())
+      remarks.push_back(fmt::format("Summary is a table of up to {} runs; of more it is a range with filters.",
+                                    SummarySheet::most_in_table));
     if (count_ + 1 > most_rows)
       remarks.push_back(fmt::format("Summary holds the first {} runs; summary.csv has all.", most_rows - 1));
     remarks.push_back(fmt::format("Series: at most {} points of a run, evenly chosen.", series_.points()));
@@ -240,18 +133,14 @@ class Comparison {
   ComparisonPlan plan_;
   std::size_t count_, failed_ = 0;
   std::vector<Measure> measures_;
-  std::vector<Column> columns_;
-  std::vector<std::string> heads_;  // of the table, by column
-  bool in_table_;
   Workbook book_;
   CompareSheet charts_;
-  Sheet& sheet_;
+  SummarySheet summary_;
   Sheet *repeats_, *pivot_;
   Sheet& series_sheet_;
   CollisionSheet collisions_;
   ParameterSheet parameters_;
   Sheet& about_;
-  std::unique_ptr<OutputFile> table_;
   Outcomes outcomes_;
   SeriesGatherer series_;
   CommonValues common_;
