@@ -27,6 +27,20 @@ struct ChartWords {
   std::string x, y, by;
 };
 
+/// Of compare.
+struct CompareOptions {
+  std::vector<std::string> measures;
+  std::vector<ChartWords> charts;
+  bool video = false;
+};
+
+/// Of submit.
+struct SubmitOptions {
+  bool slurm = false;
+  std::optional<std::size_t> parts;  // of a sweep
+  std::vector<std::string> batch;    // further options of the batch system
+};
+
 /// What one command was asked to do. A command that lacks an option leaves its default.
 struct Options {
   std::vector<std::string> operands;             // scene files or what else the command takes, in order
@@ -41,17 +55,12 @@ struct Options {
   ProgressChoice progress = ProgressChoice::automatic;
   ColorChoice color = ColorChoice::automatic;
   BenchOptions bench;
+  CompareOptions compare;
+  SubmitOptions submit;
   std::vector<std::string> grid;  // path=from:to:count, path=value,value
   std::optional<Shard> shard;
   bool plan = false;  // show, do not do
   bool page = false;  // of explain: the whole format
-  bool slurm = false;
-  std::optional<std::size_t> parts;  // of a sweep
-  std::vector<std::string> batch;    // further options of the batch system
-  // Of compare:
-  std::vector<std::string> measures;
-  std::vector<ChartWords> charts;
-  bool video = false;
 };
 
 /// An option that a command has, by its name in the table of options (options.h).

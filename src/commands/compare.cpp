@@ -73,7 +73,7 @@ class CompareSession {
     const RunSet differences = sweep ? RunSet(std::move(runs), *sweep) : RunSet(std::move(runs), stop_if_interrupted);
     std::vector<FilmTile> tiles;
     try {
-      if (options_.video) tiles = film_tiles(differences);
+      if (options_.compare.video) tiles = film_tiles(differences);
     } catch (const ExportError& error) {
       return fail("wrong", error.what(), 2);
     }
@@ -81,11 +81,12 @@ class CompareSession {
     if (!sweep) plan.title = title_of(options_.operands);
     plan.parameters = differences.parameters();
     plan.seed = differences.seed();
-    if (!options_.measures.empty()) plan.measures = options_.measures;
-    if (!options_.charts.empty()) plan.charts.clear();
-    for (const ChartWords& chart : options_.charts) plan.charts.push_back({chart.x, chart.y, chart.by});
+    if (!options_.compare.measures.empty()) plan.measures = options_.compare.measures;
+    if (!options_.compare.charts.empty()) plan.charts.clear();
+    for (const ChartWords& chart : options_.compare.charts) plan.charts.push_back({chart.x, chart.y, chart.by});
     check(plan, differences.runs());
-    const std::string request = request_text(plan, digest_of(differences.runs(), stop_if_interrupted), options_.video);
+    const std::string request =
+        request_text(plan, digest_of(differences.runs(), stop_if_interrupted), options_.compare.video);
     const FolderContent content = inspect_comparison_folder(folder_, request);
     if (content == FolderContent::this_run && !options_.force) return up_to_date();
     if (content == FolderContent::other_run && !options_.force)
@@ -123,7 +124,8 @@ class CompareSession {
     const ComparisonWatch watch{stop_if_interrupted, [&](std::size_t read) { progress.update(read, count, "runs"); }};
     ComparisonFolder folder(folder_);
     std::unique_ptr<SideBySide> film;
-    if (options_.video) film = std::make_unique<SideBySide>(folder.place(), comparison_film_name, std::move(tiles));
+    if (options_.compare.video)
+      film = std::make_unique<SideBySide>(folder.place(), comparison_film_name, std::move(tiles));
     const auto files = write_comparison(
         folder.place(), plan, count, [&](std::size_t number) { return differences.run(number); }, watch);
     if (film) {

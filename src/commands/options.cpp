@@ -103,7 +103,7 @@ void read_charts(Options& options, const Words& words) {
     if (chart.x.empty() || chart.y.empty() || lacks_by || chart.by.find(':') != std::string::npos)
       throw UsageError(fmt::format("--charts takes x:y or x:y:by, restitution.default:energy_lost_J say, not {}",
                                    carom::quoted(text)));
-    options.charts.push_back(std::move(chart));
+    options.compare.charts.push_back(std::move(chart));
   }
 }
 
@@ -167,16 +167,16 @@ const Option table[] = {
      }},
     {"--shard", "", "I/N", "part I of N, the first is 1; gather joins them (in a\njob array of Slurm: the task's part)",
      [](Options& o, const Words& w) { o.shard = read_shard(single(w, "--shard")); }},
-    {"--slurm", "", "", "for Slurm", [](Options& o, const Words&) { o.slurm = true; }},
+    {"--slurm", "", "", "for Slurm", [](Options& o, const Words&) { o.submit.slurm = true; }},
     {"--parts", "", "N", "tasks of the array (one for 50 runs, at most 16)",
-     [](Options& o, const Words& w) { o.parts = whole(w, "--parts", 1, 1'000'000); }},
+     [](Options& o, const Words& w) { o.submit.parts = whole(w, "--parts", 1, 1'000'000); }},
     {"--batch", "", "OPTION", "a further option of sbatch, --batch=--time=1:00:00 say;\nmay be repeated",
      [](Options& o, const Words& w) {
        for (const std::string& option : w)
          if (!option.starts_with("-") || option.find('\n') != std::string::npos)
            throw UsageError(fmt::format("--batch takes an option of sbatch, --batch=--time=1:00:00 say, not {}",
                                         carom::quoted(option)));
-       o.batch = w;
+       o.submit.batch = w;
      }},
     {"--plan", "", "", "show the runs, their values and what is done already",
      [](Options& o, const Words&) { o.plan = true; }},
@@ -195,9 +195,9 @@ const Option table[] = {
      reference_names},
     {"--measures", "", "LIST",
      "what runs are compared by: columns of summary.csv, or\nballs.red.speed_m_per_s and its like at the run's end",
-     [](Options& o, const Words& w) { o.measures = split_lists(w); }},
+     [](Options& o, const Words& w) { o.compare.measures = split_lists(w); }},
     {"--charts", "", "LIST", "x:y or x:y:by, x and by of what was varied, y a measure\n(by what varies)", read_charts},
-    {"--video", "", "", "a film", [](Options& o, const Words&) { o.video = true; }},
+    {"--video", "", "", "a film", [](Options& o, const Words&) { o.compare.video = true; }},
     {"--jobs", "-j", "N", "N scenes at a time (1); changes no result",
      [](Options& o, const Words& w) { o.jobs = whole(w, "--jobs", 1, 4096); }},
     {"--force", "", "", "overwrite other content of the folder, run again what\nis up to date, lift the budget",

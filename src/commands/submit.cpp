@@ -48,7 +48,7 @@ int submit(const Options& options) {
   job.plan([](const SweepProgress&) {});
   const std::size_t runs = job.sweep().size();
   const std::size_t parts =
-      std::min(options.parts.value_or(std::min((runs + runs_a_part - 1) / runs_a_part, most_parts)), runs);
+      std::min(options.submit.parts.value_or(std::min((runs + runs_a_part - 1) / runs_a_part, most_parts)), runs);
   const std::string folder = sweep_folder_of(options);
   const std::string stem = fs::path(options.operands.front()).stem().string();
   std::vector<std::string> words = {program(),    "sweep", as_operand(options.operands.front()), "-o", folder,
@@ -63,7 +63,7 @@ int submit(const Options& options) {
   if (options.seed) add("--seed", std::to_string(*options.seed));
   if (options.force) words.emplace_back("--force");
   std::string batch;
-  for (const std::string& line : options.batch) batch += fmt::format("#SBATCH {}\n", line);
+  for (const std::string& line : options.submit.batch) batch += fmt::format("#SBATCH {}\n", line);
   const std::string name = "carom-" + (stem.empty() ? "sweep" : stem);
   // Asked for its end, a task has half a minute to put its files in order. --open-mode: a requeued task's log goes on.
   const std::string script = fmt::format(
@@ -135,7 +135,7 @@ const CommandText& submit_text() {
 }
 
 int submit_command(const Options& options) {
-  if (!options.slurm) throw UsageError("name the batch system: --slurm");
+  if (!options.submit.slurm) throw UsageError("name the batch system: --slurm");
   try {
     return submit(options);
   } catch (const SceneError& error) {
