@@ -59,12 +59,12 @@ std::string rest_text(const Summary& summary) {
 }
 
 std::string energy_text(const Summary& summary) {
-  std::string text = summary.energy_lost == 0  ? "none lost"
-                     : summary.energy_lost > 0 ? quantity(summary.energy_lost, "J lost")
-                                               : quantity(-summary.energy_lost, "J made by collisions");
-  text += fmt::format(", {} -> {}", quantity(summary.energy_start, "J"), quantity(summary.energy_end, "J"));
-  if (summary.work != 0) text += fmt::format(" with {} of work", quantity(summary.work, "J"));
-  return text + fmt::format(", residual {}", quantity(summary.energy_residual, "J"));
+  std::string text = summary.energy.lost == 0  ? "none lost"
+                     : summary.energy.lost > 0 ? quantity(summary.energy.lost, "J lost")
+                                               : quantity(-summary.energy.lost, "J made by collisions");
+  text += fmt::format(", {} -> {}", quantity(summary.energy.start, "J"), quantity(summary.energy.end, "J"));
+  if (summary.energy.work != 0) text += fmt::format(" with {} of work", quantity(summary.energy.work, "J"));
+  return text + fmt::format(", residual {}", quantity(summary.energy.residual, "J"));
 }
 
 Json number_or_null(double value) {
@@ -140,11 +140,11 @@ Json summary_json(const Summary& s) {
           {"body_fixed", s.body_fixed},
           {"first_collision_s", number_or_null(s.first_collision)},
           {"last_collision_s", number_or_null(s.last_collision)},
-          {"energy_start_J", number_or_null(s.energy_start)},
-          {"energy_end_J", number_or_null(s.energy_end)},
-          {"energy_lost_J", number_or_null(s.energy_lost)},
-          {"work_J", number_or_null(s.work)},
-          {"energy_residual_J", number_or_null(s.energy_residual)},
+          {"energy_start_J", number_or_null(s.energy.start)},
+          {"energy_end_J", number_or_null(s.energy.end)},
+          {"energy_lost_J", number_or_null(s.energy.lost)},
+          {"work_J", number_or_null(s.energy.work)},
+          {"energy_residual_J", number_or_null(s.energy.residual)},
           {"momentum_drift_kg_m_per_s", number_or_null(s.momentum_drift)},
           {"max_overlap_m", number_or_null(s.max_overlap)},
           {"max_speed_m_per_s", number_or_null(s.max_speed)},

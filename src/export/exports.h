@@ -27,13 +27,21 @@ struct PictureStream {
   int timeline_stream = 0;
 };
 
+/// Where a run's energy went, J.
+struct EnergyTotals {
+  double start = 0, end = 0;
+  double lost = 0;      // by collisions
+  double work = 0;      // of forces without a potential
+  double residual = 0;  // what neither collisions nor work account for
+};
+
 /// summary.csv's row, in the order of its columns.
 struct Summary {
   std::string run, title, engine, status;
   double duration = 0;
   std::uint64_t bodies = 0, collisions = 0, body_body = 0, body_fixed = 0;
-  double first_collision = 0, last_collision = 0;                                           // s, NaN: empty
-  double energy_start = 0, energy_end = 0, energy_lost = 0, work = 0, energy_residual = 0;  // J
+  double first_collision = 0, last_collision = 0;  // s, NaN: empty
+  EnergyTotals energy;
   double momentum_drift = 0;  // kg m/s, |p(end) - p(start)|
   double max_overlap = 0, max_speed = 0;
   std::uint64_t resting = 0, frames = 0;

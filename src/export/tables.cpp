@@ -233,7 +233,7 @@ void write_summary(OutputFile& file, const Summary& s) {
   row.text(valid_utf8(s.run)).text(valid_utf8(s.title)).text(s.engine).text(s.status).number(s.duration);
   row.count(s.bodies).count(s.collisions).count(s.body_body).count(s.body_fixed);
   row.number(s.first_collision).number(s.last_collision);
-  row.number(s.energy_start).number(s.energy_end).number(s.energy_lost).number(s.work).number(s.energy_residual);
+  row.number(s.energy.start).number(s.energy.end).number(s.energy.lost).number(s.energy.work).number(s.energy.residual);
   row.number(s.momentum_drift).number(s.max_overlap).number(s.max_speed);
   row.count(s.resting).count(s.frames).end();
 }

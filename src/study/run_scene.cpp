@@ -124,11 +124,11 @@ Summary summarize(const Scene& scene, const EngineChoice& engine, double energy_
   summary.body_fixed = tally.body_fixed;
   summary.first_collision = tally.first_collision;
   summary.last_collision = tally.last_collision;
-  summary.energy_start = energy_start;
-  summary.energy_end = energy(scene, end);
-  summary.energy_lost = tally.energy_lost;
-  summary.work = tally.work;
-  summary.energy_residual = summary.energy_end - summary.energy_start - summary.work + summary.energy_lost;
+  summary.energy.start = energy_start;
+  summary.energy.end = energy(scene, end);
+  summary.energy.lost = tally.energy_lost;
+  summary.energy.work = tally.work;
+  summary.energy.residual = summary.energy.end - summary.energy.start - summary.energy.work + summary.energy.lost;
   summary.momentum_drift = (momentum(scene.world, end) - starting_momentum(scene)).norm();
   summary.max_overlap = tally.max_overlap;
   summary.max_speed = tally.max_speed;

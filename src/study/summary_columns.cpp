@@ -11,6 +11,11 @@ double number_of(const Summary& summary) {
   return static_cast<double>(summary.*Member);
 }
 
+template <auto Member>
+double energy_of(const Summary& summary) {
+  return summary.energy.*Member;
+}
+
 constexpr std::array<SummaryColumn, 21> columns = {{
     {"run", "the run's name"},
     {"title", "the scene's title"},
@@ -23,12 +28,12 @@ constexpr std::array<SummaryColumn, 21> columns = {{
     {"body_fixed", "collisions with planes, walls and obstacles", number_of<&Summary::body_fixed>},
     {"first_collision_s", "time of the first collision", number_of<&Summary::first_collision>},
     {"last_collision_s", "time of the last collision", number_of<&Summary::last_collision>},
-    {"energy_start_J", "kinetic and potential energy at the start", number_of<&Summary::energy_start>},
-    {"energy_end_J", "kinetic and potential energy at the end", number_of<&Summary::energy_end>},
-    {"energy_lost_J", "energy that collisions took; below 0: made", number_of<&Summary::energy_lost>},
-    {"work_J", "work of forces without a potential", number_of<&Summary::work>},
+    {"energy_start_J", "kinetic and potential energy at the start", energy_of<&EnergyTotals::start>},
+    {"energy_end_J", "kinetic and potential energy at the end", energy_of<&EnergyTotals::end>},
+    {"energy_lost_J", "energy that collisions took; below 0: made", energy_of<&EnergyTotals::lost>},
+    {"work_J", "work of forces without a potential", energy_of<&EnergyTotals::work>},
     {"energy_residual_J", "energy that neither work nor collisions account for: rounding, or a step's error",
-     number_of<&Summary::energy_residual>},
+     energy_of<&EnergyTotals::residual>},
     {"momentum_drift_kg_m_per_s", "change of the whole momentum, gravity's and surfaces' share included",
      number_of<&Summary::momentum_drift>},
     {"max_overlap_m", "deepest overlap seen", number_of<&Summary::max_overlap>},

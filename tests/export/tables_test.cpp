@@ -174,10 +174,10 @@ TEST(Tables, TheSummaryIsOneRow) {
   summary.body_fixed = 1;
   summary.first_collision = std::nan("");
   summary.last_collision = 0.125;
-  summary.energy_start = 51;
-  summary.energy_end = 50;
-  summary.energy_lost = 1;
-  summary.energy_residual = -1e-17;
+  summary.energy.start = 51;
+  summary.energy.end = 50;
+  summary.energy.lost = 1;
+  summary.energy.residual = -1e-17;
   summary.momentum_drift = 2;
   summary.max_overlap = 3e-17;
   summary.max_speed = 4;
