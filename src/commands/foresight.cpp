@@ -117,7 +117,7 @@ class Trial {
   double budget_;
   Clock::time_point start_ = Clock::now();
   Camera camera_;
-  View view_;
+  CameraFrame view_;
   Ticks ticks_ = Ticks::even(0, 0);
   std::int64_t next_ = 0, last_ = -1;  // ticks that are still to be looked at
   std::vector<bool> seen_;             // by body, at the tick before; empty: none was

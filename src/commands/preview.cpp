@@ -10,7 +10,7 @@ namespace carom {
 namespace {
 
 // The picture's axis that +x lies along most; ahead and back only where it has no length in the picture at all.
-std::string direction_of_plus_x(const View& view) {
+std::string direction_of_plus_x(const CameraFrame& view) {
   const double right = view.right.x(), up = view.up.x();
   if (std::max(std::abs(right), std::abs(up)) < 1e-9) return view.forward.x() > 0 ? "away" : "toward";
   if (std::abs(right) >= std::abs(up)) return right > 0 ? "right" : "left";
@@ -21,7 +21,7 @@ std::string direction_of_plus_x(const View& view) {
 
 CameraPreview preview_camera(const Scene& scene) {
   const Camera camera = camera_of(scene);
-  const View view = view_of(camera, picture_size(scene.output));
+  const CameraFrame view = view_of(camera, picture_size(scene.output));
   CameraPreview preview;
   preview.plus_x = direction_of_plus_x(view);
   preview.fov_x = view.fov_x;

@@ -20,18 +20,18 @@ constexpr auto patience = std::chrono::minutes(1);
 constexpr std::size_t most_bytes = (1 << 20) - 1;  // of a picture, as much as Child::output() keeps
 
 /// Colours that every kind of sight tells apart (Okabe & Ito 2008), and gnuplot's numbers of marks.
-struct Look {
+struct PlotStyle {
   const char* color;
   int mark;
 };
-constexpr std::array<Look, plot_looks> looks = {{{"#D55E00", 13},
-                                                 {"#E69F00", 7},
-                                                 {"#009E73", 5},
-                                                 {"#0072B2", 9},
-                                                 {"#CC79A7", 11},
-                                                 {"#56B4E9", 15},
-                                                 {"#000000", 6},
-                                                 {"#8C8C00", 4}}};
+constexpr std::array<PlotStyle, plot_looks> looks = {{{"#D55E00", 13},
+                                                      {"#E69F00", 7},
+                                                      {"#009E73", 5},
+                                                      {"#0072B2", 9},
+                                                      {"#CC79A7", 11},
+                                                      {"#56B4E9", 15},
+                                                      {"#000000", 6},
+                                                      {"#8C8C00", 4}}};
 
 /// Text in single quotes, as gnuplot takes it to the letter.
 std::string quoted_text(const std::string& text) {
@@ -44,7 +44,7 @@ std::string quoted_text(const std::string& text) {
 }
 
 /// Of one axis; at the end whole powers of ten, with some room beside what was taken.
-struct Range {
+struct AxisRange {
   double from = std::numeric_limits<double>::infinity(), to = 0;
   void take(double value) {
     from = std::min(from, value);
@@ -62,7 +62,7 @@ struct Range {
 /// Where a label would stand on another one it is left out. In parts of the picture's width and height.
 class Labels {
  public:
-  Labels(const Range& x, const Range& y) : x_(x), y_(y) {}
+  Labels(const AxisRange& x, const AxisRange& y) : x_(x), y_(y) {}
   bool fits(double x, double y) {
     const double across = x_.part(x), up = y_.part(y);
     const auto covers = [&](const auto& p) {
@@ -74,13 +74,13 @@ class Labels {
   }
 
  private:
-  const Range &x_, &y_;
+  const AxisRange &x_, &y_;
   std::vector<std::pair<double, double>> taken_;
 };
 
 std::string script(const Plot& plot, const std::string& terminal) {
   const auto height = [&](double y) { return std::max(y, plot.floor); };
-  Range x, y;
+  AxisRange x, y;
   for (const PlotSeries& series : plot.series)
     for (const PlotPoint& point : series.points) x.take(point.x), y.take(height(point.y));
   if (plot.level) y.take(height(plot.level->y));
@@ -110,7 +110,7 @@ std::string script(const Plot& plot, const std::string& terminal) {
   for (std::size_t s = 0; s < plot.series.size(); ++s) {
     const PlotSeries& series = plot.series[s];
     if (series.points.empty()) continue;
-    const Look look = looks.at(series.look);
+    const PlotStyle look = looks.at(series.look);
     std::string labels;
     data += fmt::format("$series{} << END\n", s);
     for (const PlotPoint& point : series.points) {

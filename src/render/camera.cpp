@@ -108,8 +108,8 @@ Size picture_size(const Output& output) {
   return {};
 }
 
-View view_of(const Camera& camera, Size size) {
-  View view;
+CameraFrame view_of(const Camera& camera, Size size) {
+  CameraFrame view;
   view.forward = (camera.target - camera.eye).normalized();
   if (!(view.forward.norm() > 0.5)) view.forward = Vec3(0, 0, -1);  // eye and target in one place
   Vec3 right = view.forward.cross(camera.up.normalized());
@@ -127,7 +127,7 @@ View view_of(const Camera& camera, Size size) {
   return view;
 }
 
-bool sees_sphere(const Camera& camera, const View& view, const Vec3& center, double radius) {
+bool sees_sphere(const Camera& camera, const CameraFrame& view, const Vec3& center, double radius) {
   // The frustum is symmetric: the quarter to the upper right stands for all.
   const Vec3 offset = center - camera.eye;
   const double x = std::abs(view.right.dot(offset)), y = std::abs(view.up.dot(offset)), z = view.forward.dot(offset);
@@ -157,7 +157,7 @@ Camera camera_of(const Scene& scene) {
   camera.target = (box.min + box.max) / 2;
   const Vec3 back = Vec3(0, std::sin(18 * degree), std::cos(18 * degree));  // from the front, looking slightly down
   camera.eye = camera.target + back;
-  const View view = view_of(camera, picture_size(scene.output));
+  const CameraFrame view = view_of(camera, picture_size(scene.output));
   const double margin = 1.12;
   const double tx = std::tan(view.fov_x * degree / 2) / margin, ty = std::tan(view.fov_y * degree / 2) / margin;
 

@@ -12,13 +12,13 @@ Camera camera_of(const Scene& scene);
 Size picture_size(const Output& output);
 
 /// The camera's right-handed frame and its angles.
-struct View {
+struct CameraFrame {
   Vec3 right, up, forward;  // unit; right = forward x up
   double fov_x, fov_y;      // degrees, full angles
 };
-View view_of(const Camera& camera, Size size);
+CameraFrame view_of(const Camera& camera, Size size);
 
 /// Whether any part of a sphere is inside the picture (the view frustum, near and far included).
-bool sees_sphere(const Camera& camera, const View& view, const Vec3& center, double radius);
+bool sees_sphere(const Camera& camera, const CameraFrame& view, const Vec3& center, double radius);
 
 }  // namespace carom

@@ -20,7 +20,7 @@ struct Eye {
   Vec3 point(const Vec3& world) const { return direction(world - camera.eye); }
 
   Camera camera;
-  View view;
+  CameraFrame view;
   Size size;
   double tan_x, tan_y;  // of half the angles of view
   double pixel;         // a pixel's side in the plane z = 1

@@ -82,16 +82,16 @@ aiMaterial* material_of(const Color& color, bool two_sided, const std::string& n
   return out.release();
 }
 
-class Builder {
+class GlbBuilder {
  public:
-  Builder(const Scene& scene, const KeyedMotion& motion)
+  GlbBuilder(const Scene& scene, const KeyedMotion& motion)
       : scene_(scene), motion_(motion), out_(std::make_unique<aiScene>()) {}
-  ~Builder() {
+  ~GlbBuilder() {
     for (aiMesh* mesh : meshes_) delete mesh;
     for (aiMaterial* material : materials_) delete material;
   }
-  Builder(const Builder&) = delete;
-  Builder& operator=(const Builder&) = delete;
+  GlbBuilder(const GlbBuilder&) = delete;
+  GlbBuilder& operator=(const GlbBuilder&) = delete;
 
   std::string build() {
     for (const BodyRange& range : scene_.roster.bodies)
@@ -166,7 +166,7 @@ class Builder {
   void add_camera_and_lights() {
     const Camera camera = camera_of(scene_);
     const Size size = picture_size(scene_.output);
-    const View view = view_of(camera, size);
+    const CameraFrame view = view_of(camera, size);
     GlbNode eye{free_name("camera"), camera.eye, rotation_to(view.right, view.up, -view.forward)};
     eye.camera = GlbCamera{static_cast<double>(size.width) / size.height, view.fov_y * std::numbers::pi / 180,
                            camera.near, camera.far};
@@ -273,7 +273,7 @@ class Builder {
 }  // namespace
 
 std::string glb(const Scene& scene, const KeyedMotion& motion) {
-  return Builder(scene, motion).build();
+  return GlbBuilder(scene, motion).build();
 }
 
 }  // namespace carom

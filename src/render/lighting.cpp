@@ -122,7 +122,7 @@ std::array<float, 3> linear(const Color& srgb) {
   return {static_cast<float>(decode(srgb.r)), static_cast<float>(decode(srgb.g)), static_cast<float>(decode(srgb.b))};
 }
 
-KeyLight default_light(const View& view) {
+KeyLight default_light(const CameraFrame& view) {
   Vec3 ahead = Vec3(view.forward.x(), 0, view.forward.z());
   if (!(ahead.norm() > 1e-3)) ahead = Vec3(view.up.x(), 0, view.up.z());
   ahead.normalize();

@@ -20,7 +20,7 @@ struct KeyLight {
 };
 /// The light of a scene that names none: from above, left of and behind the camera, in the world's own upright frame,
 /// so that a steep camera keeps the sun high.
-KeyLight default_light(const View& view);
+KeyLight default_light(const CameraFrame& view);
 
 class Lighting {
  public:

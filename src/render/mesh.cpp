@@ -135,9 +135,9 @@ void send_trouble(int pipe, const char* text) {
 // ---- the parent ----
 
 /// A child process and the pipe from it; killed when it goes out of scope.
-class Reader {
+class MeshReader {
  public:
-  Reader(const std::string& path, const std::string& ending, const MeshLimits& limits)
+  MeshReader(const std::string& path, const std::string& ending, const MeshLimits& limits)
       : deadline_(Clock::now() + std::chrono::seconds(3 * limits.seconds)) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) fail(path, std::strerror(errno));
@@ -155,12 +155,12 @@ class Reader {
       fail(path, std::strerror(error));
     }
   }
-  ~Reader() {
+  ~MeshReader() {
     end();
     close(pipe_);
   }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  MeshReader(const MeshReader&) = delete;
+  MeshReader& operator=(const MeshReader&) = delete;
 
   /// False: there is no more, or the time is over.
   bool receive(void* bytes, std::size_t size) {
@@ -222,7 +222,7 @@ void look_while_reading(std::function<void()> function) {
 
 Mesh read_mesh(const std::string& path, const MeshLimits& limits) {
   const std::string ending = check_file(path, limits);
-  Reader reader(path, ending, limits);
+  MeshReader reader(path, ending, limits);
   try {
     return receive_mesh({[&](void* bytes, std::size_t size) { return reader.receive(bytes, size); },
                          [&] { return reader.trouble(limits); }},

@@ -25,9 +25,9 @@ constexpr int max_refusals = 200;         // of aliases, duplicate keys and the 
 
 struct Stop {};  // an error was added and nothing after it makes sense
 
-class Builder : public YAML::EventHandler {
+class DocumentBuilder : public YAML::EventHandler {
  public:
-  Builder(std::string_view text, std::uint32_t source, std::size_t base, Diagnostics& diagnostics)
+  DocumentBuilder(std::string_view text, std::uint32_t source, std::size_t base, Diagnostics& diagnostics)
       : text_(text), source_(source), base_(base), diagnostics_(diagnostics) {}
 
   Node root;
@@ -263,7 +263,7 @@ Node* Node::find(std::string_view key) {
 std::optional<Node> parse_document(const std::vector<Source>& sources, std::uint32_t index, std::size_t offset,
                                    Diagnostics& diagnostics) {
   const Source& source = sources[index];
-  Builder builder(source.text, index, offset, diagnostics);
+  DocumentBuilder builder(source.text, index, offset, diagnostics);
   try {
     // The end marker turns a quote that is never closed into an error: at a plain end of file yaml-cpp may accept it.
     std::istringstream stream(source.text.substr(offset) + "\n...\n");

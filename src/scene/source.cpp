@@ -19,9 +19,9 @@ constexpr std::uint64_t max_brackets = 4'000'000;  // and quotes, at about 200 b
 constexpr int max_open_brackets = 1000;            // more than the depth cap, so that the cap's own message comes first
 constexpr int max_shown_tabs = 10;
 
-struct Descriptor {
+struct OpenFile {
   int fd;
-  ~Descriptor() {
+  ~OpenFile() {
     if (fd >= 0) close(fd);
   }
 };
@@ -91,7 +91,7 @@ bool read_source(const std::string& path, Source& source, Diagnostics& diagnosti
     refuse_file(diagnostics, path, "no such file");
     return false;
   }
-  const Descriptor file{open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)};
+  const OpenFile file{open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)};
   struct stat info {};
   if (file.fd < 0 || fstat(file.fd, &info) != 0) {
     const int error = errno;

@@ -49,8 +49,6 @@ SweepRun Sweep::run(std::size_t number) const {
 
 namespace {
 
-using Kind = SweepAxis::Kind;
-
 /// "path: [value, value]" of each path of a grid's or a zip's axis.
 std::string columns(const SweepAxis& axis, const std::vector<std::string>& paths) {
   std::string out;
@@ -76,9 +74,9 @@ std::string lines(const SweepAxis& axis, const std::vector<std::string>& paths) 
 std::string block_text(const SweepBlock& block, const std::vector<std::string>& paths) {
   std::string grid, zip, list;
   for (const SweepAxis& axis : block.axes) {
-    if (axis.kind == Kind::grid) grid += columns(axis, paths);
-    if (axis.kind == Kind::zip) zip += columns(axis, paths);
-    if (axis.kind == Kind::list) list += lines(axis, paths);
+    if (axis.kind == SweepAxis::Kind::grid) grid += columns(axis, paths);
+    if (axis.kind == SweepAxis::Kind::zip) zip += columns(axis, paths);
+    if (axis.kind == SweepAxis::Kind::list) list += lines(axis, paths);
   }
   std::string out;
   const auto add = [&](std::string_view key, const std::string& text) {

@@ -27,9 +27,9 @@ bool same_value(const std::string& a, const std::string& b) {
   return x && y && *x == *y;
 }
 
-class Reader {
+class SweepReader {
  public:
-  Reader(std::vector<Source>& sources, const Node& root, Diagnostics& diagnostics)
+  SweepReader(std::vector<Source>& sources, const Node& root, Diagnostics& diagnostics)
       : sources_(sources), root_(root), diagnostics_(diagnostics) {}
 
   Sweep run() {
@@ -348,7 +348,7 @@ Sweep read(std::vector<Source>& sources, Diagnostics& diagnostics, bool color) {
                     "expected a sweep file, or what is to vary: --grid balls.red.mass=1:2:3");
   } else {
     check_sweep(*root, diagnostics);
-    Sweep sweep = Reader(sources, *root, diagnostics).run();
+    Sweep sweep = SweepReader(sources, *root, diagnostics).run();
     stop_if_wrong(diagnostics, color);
     sweep.file = sources[0].name;
     return sweep;

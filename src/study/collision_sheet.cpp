@@ -6,10 +6,10 @@
 
 namespace carom {
 
-CollisionSheet::CollisionSheet(Sheet& sheet) : sheet_(sheet) {
-  sheet_.text(0, 0, "run", Look::header);
+CollisionSheet::CollisionSheet(Worksheet& sheet) : sheet_(sheet) {
+  sheet_.text(0, 0, "run", CellStyle::header);
   std::size_t column = 1;
-  for (const ColumnText& text : collision_columns()) sheet_.text(0, column++, text.name, Look::header);
+  for (const ColumnText& text : collision_columns()) sheet_.text(0, column++, text.name, CellStyle::header);
 }
 
 void CollisionSheet::add(const RunRecord& run) {
@@ -31,7 +31,7 @@ void CollisionSheet::add(const RunRecord& run) {
 }
 
 void CollisionSheet::finish() {
-  if (rows_ == 0) sheet_.text(1, 0, "No run has collisions in a collisions.csv.", Look::note);
+  if (rows_ == 0) sheet_.text(1, 0, "No run has collisions in a collisions.csv.", CellStyle::note);
   sheet_.fit_all(9, 30, 2);
   sheet_.freeze(1, 1);
   worksheet_autofilter(sheet_.get(), 0, 0, static_cast<lxw_row_t>(std::max<std::size_t>(rows_, 1)),

@@ -9,7 +9,7 @@ class CollisionSheet {
  public:
   static constexpr std::size_t most = 100'000;  // rows
 
-  explicit CollisionSheet(Sheet& sheet);
+  explicit CollisionSheet(Worksheet& sheet);
   /// Appends the run's collisions, as far as there is room.
   void add(const RunRecord& run);
   void finish();
@@ -18,7 +18,7 @@ class CollisionSheet {
   bool full() const { return full_; }  // some had no room
 
  private:
-  Sheet& sheet_;
+  Worksheet& sheet_;
   std::size_t rows_ = 0;
   bool full_ = false;
 };

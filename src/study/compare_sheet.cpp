@@ -26,12 +26,12 @@ lxw_color_t color_of(std::size_t number) {
   return colors[number % colors.size()];
 }
 
-struct Range {
+struct CellRange {
   const char* sheet;
   std::size_t first_row, column, last_row;
 };
 
-lxw_chart_series* add_series(lxw_chart* chart, const Range& x, const Range& y, const std::string& name) {
+lxw_chart_series* add_series(lxw_chart* chart, const CellRange& x, const CellRange& y, const std::string& name) {
   lxw_chart_series* series = chart_add_series(chart, nullptr, nullptr);
   const auto row = [](std::size_t n) { return static_cast<lxw_row_t>(n); };
   const auto column = [](std::size_t n) { return static_cast<lxw_col_t>(n); };
@@ -86,7 +86,8 @@ void set_texts(lxw_chart* chart, const std::string& title, const std::string& x,
 }
 
 /// A standard deviation up and down from one point: a series of its own, for a series' error bars have one length.
-void add_bar(lxw_chart* chart, const Range& x, const Range& y, std::size_t row, double length, std::size_t number) {
+void add_bar(lxw_chart* chart, const CellRange& x, const CellRange& y, std::size_t row, double length,
+             std::size_t number) {
   lxw_chart_series* point = add_series(chart, {x.sheet, row, x.column, row}, {y.sheet, row, y.column, row}, "");
   set_line(point, number, false);
   set_marker(point, number, false);
@@ -152,7 +153,7 @@ void CompareSheet::draw(const ChartData& data, std::size_t number, std::size_t f
   const bool barred = data.numeric && bars > 0 && bars <= most_bars;
   // Texts along x stand in their order, under columns.
   lxw_chart* chart = book_.add_chart(data.numeric ? LXW_CHART_SCATTER : LXW_CHART_COLUMN);
-  const Range x{"Compare", first_row, first_column, last_row};
+  const CellRange x{"Compare", first_row, first_column, last_row};
   for (std::size_t k = 0; k < data.lines.size(); ++k) {
     lxw_chart_series* series =
         add_series(chart, x, {"Compare", first_row, first_column + 1 + k, last_row}, data.lines[k].name);
@@ -208,17 +209,17 @@ void CompareSheet::write_data(const std::vector<ChartData>& charts, std::size_t 
   std::size_t rows = 0, columns = 0;
   for (const ChartData& chart : charts) {
     rows = std::max(rows, chart.x.size());
-    sheet_.text(first_row, columns, chart.title, Look::note);
+    sheet_.text(first_row, columns, chart.title, CellStyle::note);
     columns += chart.lines.size() + 2;
   }
   constexpr double head_height = 45;  // points: three lines
   worksheet_set_row(sheet_.get(), static_cast<lxw_row_t>(first_row + 1), head_height, nullptr);
   std::size_t column = 0;
   for (const ChartData& chart : charts) {
-    sheet_.text(first_row + 1, column, chart.x_label, Look::swept_header);
+    sheet_.text(first_row + 1, column, chart.x_label, CellStyle::swept_header);
     for (std::size_t k = 0; k < chart.lines.size(); ++k) {
       const std::string& name = chart.lines[k].name;
-      sheet_.text(first_row + 1, column + 1 + k, name.empty() ? chart.y_label : name, Look::header);
+      sheet_.text(first_row + 1, column + 1 + k, name.empty() ? chart.y_label : name, CellStyle::header);
     }
     column += chart.lines.size() + 2;
   }
@@ -226,7 +227,7 @@ void CompareSheet::write_data(const std::vector<ChartData>& charts, std::size_t 
     column = 0;
     for (const ChartData& chart : charts) {
       if (row < chart.x.size()) {
-        sheet_.cell(first_row + 2 + row, column, chart.x[row], Look::swept);
+        sheet_.cell(first_row + 2 + row, column, chart.x[row], CellStyle::swept);
         for (std::size_t k = 0; k < chart.lines.size(); ++k)
           sheet_.number(first_row + 2 + row, column + 1 + k, chart.lines[k].y[row]);
       }
@@ -239,8 +240,8 @@ void CompareSheet::write_data(const std::vector<ChartData>& charts, std::size_t 
 
 void CompareSheet::write(const std::string& title, const std::vector<std::string>& lines,
                          const std::vector<ChartData>& charts, const std::vector<PlacedSeries>& series) {
-  sheet_.text(0, 0, title, Look::title);
-  for (std::size_t k = 0; k < lines.size(); ++k) sheet_.text(1 + k, 0, lines[k], Look::note);
+  sheet_.text(0, 0, title, CellStyle::title);
+  for (std::size_t k = 0; k < lines.size(); ++k) sheet_.text(1 + k, 0, lines[k], CellStyle::note);
   charts_row_ = lines.size() + 2;
   const std::size_t all = charts.size() + (series.empty() ? 0 : 1);
   const std::size_t data_row = charts_row_ + (all + charts_across - 1) / charts_across * rows_of_chart + 1;

@@ -24,7 +24,7 @@ class CompareSheet {
   void place(lxw_chart* chart, std::size_t number);
 
   Workbook& book_;
-  Sheet& sheet_;
+  Worksheet& sheet_;
   std::size_t charts_row_ = 0;
 };
 

@@ -136,11 +136,11 @@ class Comparison {
   Workbook book_;
   CompareSheet charts_;
   SummarySheet summary_;
-  Sheet *repeats_, *pivot_;
-  Sheet& series_sheet_;
+  Worksheet *repeats_, *pivot_;
+  Worksheet& series_sheet_;
   CollisionSheet collisions_;
   ParameterSheet parameters_;
-  Sheet& about_;
+  Worksheet& about_;
   Outcomes outcomes_;
   SeriesGatherer series_;
   CommonValues common_;

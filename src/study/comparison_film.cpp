@@ -15,25 +15,24 @@
 namespace carom {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr std::size_t most_labels = 4;  // values under a run's id
 
 FilmTile tile_of(const ListedRun& run) {
   FilmTile tile{run.folder, {}, 0, {run.id}};
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
   const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : std::nullopt;
-  const Json outputs = manifest ? Json::parse(manifest->outputs, nullptr, false) : Json();
+  const nlohmann::json outputs = manifest ? nlohmann::json::parse(manifest->outputs, nullptr, false) : nlohmann::json();
   if (!outputs.is_object() || !outputs.contains("video"))
     throw ExportError(
         fmt::format("{} has no film: run its scene again with the output `video` (--only video)", run.folder));
-  const Json& video = outputs["video"];
+  const nlohmann::json& video = outputs["video"];
   const auto damaged = [&] {
     return ExportError(
         fmt::format("{}/{} is damaged: carom run --force makes the run anew", run.folder, manifest_name));
   };
   if (!video.is_object()) throw damaged();
-  const Json file = video.value("file", Json("animation.mp4")), from = video.value("from", Json(0.0));
+  const nlohmann::json file = video.value("file", nlohmann::json("animation.mp4")),
+                       from = video.value("from", nlohmann::json(0.0));
   if (!file.is_string() || !is_plain_name(file.get<std::string>()) || !from.is_number()) throw damaged();
   tile.file = file.get<std::string>();
   tile.from = from.get<double>();

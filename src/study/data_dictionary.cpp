@@ -54,37 +54,37 @@ std::span<const ColumnText> collision_columns() {
   return collisions;
 }
 
-void write_about(Sheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+void write_about(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
                  const std::vector<std::string>& remarks) {
   std::size_t row = 0;
   const auto section = [&](const char* title) {
     ++row;
-    sheet.text(row++, 0, title, Look::title);
+    sheet.text(row++, 0, title, CellStyle::title);
   };
   const auto column = [&](const char* where, std::string_view name, std::string_view unit, std::string_view meaning) {
     sheet.text(row, 0, where);
     sheet.text(row, 1, name);
     sheet.text(row, 2, unit);
-    sheet.text(row++, 3, meaning, Look::wrapped);
+    sheet.text(row++, 3, meaning, CellStyle::wrapped);
   };
-  sheet.text(row++, 0, plan.title, Look::title);
+  sheet.text(row++, 0, plan.title, CellStyle::title);
   sheet.text(row++, 0,
              "written by carom " CAROM_VERSION
              "; SI units, right-handed axes, y is up; numbers have 16 digits here and "
              "all of theirs in the CSV files",
-             Look::note);
+             CellStyle::note);
   section("Sheets");
   for (const SheetText& text : sheets) {
     sheet.text(row, 0, text.name);
-    sheet.text(row++, 1, text.text, Look::note);
+    sheet.text(row++, 1, text.text, CellStyle::note);
   }
   if (!remarks.empty()) {
     section("Left out");
-    for (const std::string& remark : remarks) sheet.text(row++, 0, remark, Look::note);
+    for (const std::string& remark : remarks) sheet.text(row++, 0, remark, CellStyle::note);
   }
   section("Columns");
   for (std::size_t k = 0; const char* head : {"sheet", "column", "unit", "meaning"})
-    sheet.text(row, k++, head, Look::header);
+    sheet.text(row, k++, head, CellStyle::header);
   ++row;
   for (const SummaryColumn& text : summary_columns()) column("Summary", text.name, unit_of(text.name), text.meaning);
   for (const Parameter& parameter : plan.parameters)

@@ -19,7 +19,7 @@ std::span<const ColumnText> collision_columns();
 
 /// The sheet About: how to read the workbook, and a row for each column of it: name, unit, meaning. `remarks`: what is
 /// left out, and why.
-void write_about(Sheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+void write_about(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
                  const std::vector<std::string>& remarks);
 
 }  // namespace carom

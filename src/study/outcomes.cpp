@@ -170,18 +170,18 @@ void write_repeats(OutputFile& file, const ComparisonPlan& plan, const std::vect
   }
 }
 
-void write_repeats(Sheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+void write_repeats(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
                    const Outcomes& outcomes) {
   const std::vector<std::string> header = repeats_header(plan, measures);
   const std::size_t parameters = plan.parameters.size() - 1;
   for (std::size_t column = 0; column < header.size(); ++column)
-    sheet.text(0, column, header[column], column < parameters ? Look::swept_header : Look::header);
+    sheet.text(0, column, header[column], column < parameters ? CellStyle::swept_header : CellStyle::header);
   std::size_t row = 1;
   for (std::size_t i = 0; i < outcomes.points() && row < most_rows; ++i, ++row) {
     std::size_t column = 0;
     for (const Varied& varied : outcomes.varied())
-      if (varied.parameter != plan.seed) sheet.cell(row, column++, varied.values[varied.of_point[i]], Look::swept);
-    sheet.number(row, column++, static_cast<double>(outcomes.runs(i)), Look::whole);
+      if (varied.parameter != plan.seed) sheet.cell(row, column++, varied.values[varied.of_point[i]], CellStyle::swept);
+    sheet.number(row, column++, static_cast<double>(outcomes.runs(i)), CellStyle::whole);
     for (std::size_t k = 0; k < measures.size(); ++k)
       for (const SpreadColumn& of : spread_columns) sheet.number(row, column++, of.value(outcomes.spread(i, k)));
   }

@@ -80,7 +80,7 @@ class Outcomes {
 void write_repeats(OutputFile& file, const ComparisonPlan& plan, const std::vector<Measure>& measures,
                    const Outcomes& outcomes);
 /// The same as a sheet.
-void write_repeats(Sheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+void write_repeats(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
                    const Outcomes& outcomes);
 
 }  // namespace carom

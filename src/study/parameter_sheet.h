@@ -12,14 +12,14 @@ class ParameterSheet {
  public:
   static constexpr std::size_t most = 2000;  // runs
 
-  ParameterSheet(Sheet& sheet, const ComparisonPlan& plan);
+  ParameterSheet(Worksheet& sheet, const ComparisonPlan& plan);
   void add(const ComparedRun& run);
   void finish(const Outcomes& outcomes, const std::vector<SceneValue>& common);
 
  private:
   std::size_t write_varied(const Outcomes& outcomes, std::size_t row, std::size_t first);
 
-  Sheet& sheet_;
+  Worksheet& sheet_;
   const ComparisonPlan& plan_;
   std::size_t runs_ = 0;
 };

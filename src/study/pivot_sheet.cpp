@@ -35,7 +35,7 @@ bool is_literal(const Cell& cell) {
   return cell.is_number() || (!cell.text.empty() && cell.text.find_first_of("<>=*?~'") == std::string::npos);
 }
 
-void add_scale(Sheet& sheet, std::size_t row, std::size_t rows, std::size_t columns) {
+void add_scale(Worksheet& sheet, std::size_t row, std::size_t rows, std::size_t columns) {
   lxw_conditional_format scale{};
   scale.type = LXW_CONDITIONAL_2_COLOR_SCALE;
   scale.min_color = 0xFFFFFF;
@@ -60,7 +60,7 @@ std::optional<std::pair<std::size_t, std::size_t>> pivot_parameters(const Compar
   return std::pair(independent[0], independent[1]);
 }
 
-void write_pivot(Sheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
                  const Outcomes& outcomes, std::pair<std::size_t, std::size_t> parameters,
                  const std::vector<std::size_t>& parameter_columns, const std::vector<std::size_t>& measure_columns,
                  std::size_t rows) {
@@ -71,7 +71,7 @@ void write_pivot(Sheet& sheet, const ComparisonPlan& plan, const std::vector<Mea
   const bool literal = std::all_of(down.values.begin(), down.values.end(), is_literal) &&
                        std::all_of(across.values.begin(), across.values.end(), is_literal);
   const bool formulas = rows > 0 && literal && blocks * height * width <= most_formulas;
-  sheet.text(0, 0, "Means of the runs by two parameters", Look::title);
+  sheet.text(0, 0, "Means of the runs by two parameters", CellStyle::title);
   sheet.text(
       1, 0,
       fmt::format("down: {}; across: {}{}{}", label_of(plan.parameters[parameters.first]),
@@ -79,7 +79,7 @@ void write_pivot(Sheet& sheet, const ComparisonPlan& plan, const std::vector<Mea
                   height < down.values.size() || width < across.values.size()
                       ? fmt::format("; only the first {} values of each", most_values)
                       : ""),
-      Look::note);
+      CellStyle::note);
   std::size_t row = 3;
   for (std::size_t block = 0; block < blocks; ++block) {
     std::vector<Mean> means(height * width);
@@ -91,14 +91,14 @@ void write_pivot(Sheet& sheet, const ComparisonPlan& plan, const std::vector<Mea
       mean.sum += spread.mean() * static_cast<double>(spread.count());
       mean.count += spread.count();
     }
-    sheet.text(row++, 0, label_of(measures[block].name), Look::title);
+    sheet.text(row++, 0, label_of(measures[block].name), CellStyle::title);
     const std::size_t head = row++;
     sheet.text(head, 0,
                fmt::format("{} \\ {}", plan.parameters[parameters.first].path, plan.parameters[parameters.second].path),
-               Look::header);
-    for (std::size_t k = 0; k < width; ++k) sheet.cell(head, 1 + k, across.values[k], Look::swept_header);
+               CellStyle::header);
+    for (std::size_t k = 0; k < width; ++k) sheet.cell(head, 1 + k, across.values[k], CellStyle::swept_header);
     for (std::size_t i = 0; i < height; ++i, ++row) {
-      sheet.cell(row, 0, down.values[i], Look::swept);
+      sheet.cell(row, 0, down.values[i], CellStyle::swept);
       for (std::size_t k = 0; k < width; ++k) {
         const Mean& mean = means[i * width + k];
         if (mean.count == 0) continue;

@@ -12,7 +12,7 @@ std::optional<std::pair<std::size_t, std::size_t>> pivot_parameters(const Compar
                                                                     const Outcomes& outcomes);
 
 /// `columns`: of the sheet Summary, by parameter and by measure; `rows`: of its data, 0: no formulas.
-void write_pivot(Sheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
                  const Outcomes& outcomes, std::pair<std::size_t, std::size_t> parameters,
                  const std::vector<std::size_t>& parameter_columns, const std::vector<std::size_t>& measure_columns,
                  std::size_t rows);

@@ -130,20 +130,20 @@ void SeriesGatherer::take(const std::string& run, SeriesGroup part) {
   }
 }
 
-std::vector<PlacedSeries> write_series(Sheet& sheet, const SeriesGatherer& series) {
+std::vector<PlacedSeries> write_series(Worksheet& sheet, const SeriesGatherer& series) {
   std::vector<PlacedSeries> placed;
   std::size_t rows = 0, column = 0;
   for (const SeriesGroup& group : series.groups()) {
     rows = std::max(rows, group.times.size());
-    sheet.text(0, column, "time_s", Look::header);
+    sheet.text(0, column, "time_s", CellStyle::header);
     const std::size_t time_column = column++;
     for (const SeriesColumn& values : group.columns) {
-      sheet.text(0, column, fmt::format("{}.{}", values.run, values.name), Look::header);
+      sheet.text(0, column, fmt::format("{}.{}", values.run, values.name), CellStyle::header);
       placed.push_back({values.run, values.name, time_column, column++, group.times.size()});
     }
   }
   if (placed.empty()) {
-    sheet.text(0, 0, "No run has energy.csv or trajectory.csv.", Look::note);
+    sheet.text(0, 0, "No run has energy.csv or trajectory.csv.", CellStyle::note);
     return placed;
   }
   for (std::size_t row = 0; row < rows; ++row) {

@@ -52,6 +52,6 @@ struct PlacedSeries {
 };
 
 /// The sheet: a column of times for each group, then its columns, "r0001.kinetic_J".
-std::vector<PlacedSeries> write_series(Sheet& sheet, const SeriesGatherer& series);
+std::vector<PlacedSeries> write_series(Worksheet& sheet, const SeriesGatherer& series);
 
 }  // namespace carom

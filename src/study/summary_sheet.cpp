@@ -16,8 +16,8 @@ namespace {
 /// A table's names of columns.
 constexpr std::size_t longest_name = 255;
 
-Look head_of(Look look) {
-  return look == Look::swept ? Look::swept_header : Look::header;
+CellStyle head_of(CellStyle look) {
+  return look == CellStyle::swept ? CellStyle::swept_header : CellStyle::header;
 }
 
 }  // namespace
@@ -27,16 +27,16 @@ std::vector<SummarySheet::Column> SummarySheet::make_columns(const ComparisonPla
   std::vector<Column> columns;
   for (std::size_t k = 0; k < summary_columns().size(); ++k) {
     const SummaryColumn& summary = summary_columns()[k];
-    Column column{std::string(summary.name), Look::plain, summary.number == nullptr, k, {}, {}};
+    Column column{std::string(summary.name), CellStyle::plain, summary.number == nullptr, k, {}, {}};
     for (const char* name : {"energy_residual_J", "momentum_drift_kg_m_per_s", "max_overlap_m"})
-      if (column.name == name) column.look = Look::rounding;
-    if (!column.is_text && unit_of(summary.name).empty()) column.look = Look::whole;
+      if (column.name == name) column.look = CellStyle::rounding;
+    if (!column.is_text && unit_of(summary.name).empty()) column.look = CellStyle::whole;
     columns.push_back(std::move(column));
   }
   for (std::size_t k = 0; k < plan.parameters.size(); ++k)
-    columns.push_back({plan.parameters[k].path, Look::swept, false, {}, k, {}});
+    columns.push_back({plan.parameters[k].path, CellStyle::swept, false, {}, k, {}});
   for (std::size_t k = 0; k < measures.size(); ++k)
-    if (measures[k].column == nullptr) columns.push_back({measures[k].name, Look::plain, false, {}, {}, k});
+    if (measures[k].column == nullptr) columns.push_back({measures[k].name, CellStyle::plain, false, {}, {}, k});
   if (columns.size() > most_columns)
     throw ExportError(
         fmt::format("a comparison of {} columns is more than a spreadsheet's {}: compare fewer parameters",

@@ -42,7 +42,7 @@ class SummarySheet {
   /// A column, and where its cells come from: one of `summary`, `parameter`, `measure`.
   struct Column {
     std::string name;
-    Look look = Look::plain;
+    CellStyle look = CellStyle::plain;
     bool is_text = false;
     std::optional<std::size_t> summary, parameter, measure;
   };
@@ -53,7 +53,7 @@ class SummarySheet {
   const std::vector<Measure>& measures_;
   const std::vector<Column> columns_;
   std::vector<std::string> heads_;  // of the table, by column
-  Sheet& sheet_;
+  Worksheet& sheet_;
   std::unique_ptr<OutputFile> table_;
 };
 

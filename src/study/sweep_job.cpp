@@ -26,8 +26,6 @@
 
 namespace carom {
 
-using Json = nlohmann::json;
-
 namespace {
 
 constexpr std::size_t looked_at_a_time = 64;
@@ -278,7 +276,7 @@ std::size_t SweepJob::left() const {
 
 /// What a process says of its unit: for each run that failed, why.
 std::string SweepJob::work(const Unit& unit) {
-  Json failures = Json::object();
+  nlohmann::json failures = nlohmann::json::object();
   const auto fail = [&](std::size_t number, const std::string& why) { failures[std::to_string(number)] = why; };
   const auto copy_to_all = [&](std::size_t from, const std::vector<std::size_t>& runs) {
     for (const std::size_t number : runs) {
@@ -293,7 +291,7 @@ std::string SweepJob::work(const Unit& unit) {
   };
   if (unit.like != none) {
     copy_to_all(unit.like, unit.scenarios.front());
-    return failures.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return failures.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   }
   std::vector<Scene> scenes;
   scenes.reserve(unit.scenarios.size());
@@ -323,7 +321,7 @@ std::string SweepJob::work(const Unit& unit) {
       for (const std::size_t number : runs) fail(number, error.what());
     }
   }
-  return failures.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return failures.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 void SweepJob::run(const std::function<void(const SweepProgress&)>& tell,
@@ -347,7 +345,7 @@ void SweepJob::run(const std::function<void(const SweepProgress&)>& tell,
   tasks.work = [&](std::size_t task) { return work(all[task]); };
   tasks.done = [&](const TaskOutcome& outcome) {
     const bool whole = outcome.kind == TaskOutcome::Kind::done;
-    const Json failures = whole ? Json::parse(outcome.text) : Json::object();
+    const nlohmann::json failures = whole ? nlohmann::json::parse(outcome.text) : nlohmann::json::object();
     for (const auto& scenario : all[outcome.task].scenarios) {
       for (const std::size_t number : scenario) {
         ++progress.done;

@@ -42,39 +42,39 @@ Made* made(Made* thing) {
   return thing;
 }
 
-lxw_format* make_format(lxw_workbook* book, Look look) {
+lxw_format* make_format(lxw_workbook* book, CellStyle look) {
   lxw_format* format = made(workbook_add_format(book));
   switch (look) {
-    case Look::whole:
+    case CellStyle::whole:
       format_set_num_format(format, "#,##0");
       break;
-    case Look::rounding:
+    case CellStyle::rounding:
       format_set_num_format(format, "0.00E+00");
       break;
-    case Look::swept:
+    case CellStyle::swept:
       format_set_bg_color(format, tint);
       break;
-    case Look::header:
-    case Look::swept_header:
+    case CellStyle::header:
+    case CellStyle::swept_header:
       format_set_bold(format);
-      format_set_bg_color(format, look == Look::header ? header_tint : swept_header_tint);
+      format_set_bg_color(format, look == CellStyle::header ? header_tint : swept_header_tint);
       format_set_bottom(format, LXW_BORDER_THIN);
       format_set_text_wrap(format);
       format_set_align(format, LXW_ALIGN_VERTICAL_CENTER);
       break;
-    case Look::title:
+    case CellStyle::title:
       format_set_bold(format);
       format_set_font_size(format, 14);
       break;
-    case Look::note:
+    case CellStyle::note:
       format_set_font_color(format, grey);
       break;
-    case Look::wrapped:
+    case CellStyle::wrapped:
       format_set_text_wrap(format);
       format_set_align(format, LXW_ALIGN_VERTICAL_TOP);
       break;
-    case Look::plain:
-    case Look::count_:
+    case CellStyle::plain:
+    case CellStyle::count_:
       break;
   }
   return format;
@@ -103,22 +103,22 @@ std::string without_guard(std::string_view text) {
   return std::string(text.substr(guarded ? 1 : 0));
 }
 
-void Sheet::widen(std::size_t column, std::size_t characters, Look look) {
-  if (look == Look::title || look == Look::note) return;
+void Worksheet::widen(std::size_t column, std::size_t characters, CellStyle look) {
+  if (look == CellStyle::title || look == CellStyle::note) return;
   if (widths_.size() <= column) widths_.resize(column + 1);
   widths_[column] = std::max(widths_[column], characters);
 }
 
-void Sheet::text(std::size_t row, std::size_t column, std::string_view text, Look look) {
-  if (text.empty() && look == Look::plain) return;
+void Worksheet::text(std::size_t row, std::size_t column, std::string_view text, CellStyle look) {
+  if (text.empty() && look == CellStyle::plain) return;
   const std::string shown = shortened(text, longest_text);
   widen(column, length_of(shown), look);
   must(worksheet_write_string(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), shown.c_str(),
-                              look == Look::plain ? nullptr : format(look)));
+                              look == CellStyle::plain ? nullptr : format(look)));
 }
 
-void Sheet::number(std::size_t row, std::size_t column, double value, Look look) {
-  lxw_format* const how = look == Look::plain ? nullptr : format(look);
+void Worksheet::number(std::size_t row, std::size_t column, double value, CellStyle look) {
+  lxw_format* const how = look == CellStyle::plain ? nullptr : format(look);
   if (!std::isfinite(value)) {
     if (how != nullptr)
       must(worksheet_write_blank(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), how));
@@ -129,40 +129,40 @@ void Sheet::number(std::size_t row, std::size_t column, double value, Look look)
                               value == 0 ? 0.0 : value, how));
 }
 
-void Sheet::cell(std::size_t row, std::size_t column, const Cell& cell, Look look) {
+void Worksheet::cell(std::size_t row, std::size_t column, const Cell& cell, CellStyle look) {
   if (cell.is_number())
     number(row, column, cell.number, look);
   else
     text(row, column, without_guard(cell.text), look);
 }
 
-void Sheet::formula(std::size_t row, std::size_t column, const std::string& formula, double value, Look look) {
+void Worksheet::formula(std::size_t row, std::size_t column, const std::string& formula, double value, CellStyle look) {
   widen(column, 11, look);
   must(worksheet_write_formula_num(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), formula.c_str(),
-                                   look == Look::plain ? nullptr : format(look), value));
+                                   look == CellStyle::plain ? nullptr : format(look), value));
 }
 
-void Sheet::fit(std::size_t column, double least, double most, double more) {
+void Worksheet::fit(std::size_t column, double least, double most, double more) {
   const double wanted = column < widths_.size() ? static_cast<double>(widths_[column]) + 1 + more : least;
   const auto number = static_cast<lxw_col_t>(column);
   worksheet_set_column(sheet_, number, number, std::clamp(wanted, least, most), nullptr);
 }
 
-void Sheet::fit_all(double least, double most, double more) {
+void Worksheet::fit_all(double least, double most, double more) {
   for (std::size_t column = 0; column < widths_.size(); ++column) fit(column, least, most, more);
 }
 
-void Sheet::freeze(std::size_t rows, std::size_t columns) {
+void Worksheet::freeze(std::size_t rows, std::size_t columns) {
   worksheet_freeze_panes(sheet_, static_cast<lxw_row_t>(rows), static_cast<lxw_col_t>(columns));
 }
 
-void Sheet::print_wide() {
+void Worksheet::print_wide() {
   worksheet_set_landscape(sheet_);
   worksheet_set_paper(sheet_, 9);  // A4
   worksheet_fit_to_pages(sheet_, 1, 0);
 }
 
-void Sheet::print_table() {
+void Worksheet::print_table() {
   worksheet_set_landscape(sheet_);
   worksheet_set_paper(sheet_, 9);  // A4
   worksheet_set_print_scale(sheet_, 75);
@@ -184,15 +184,15 @@ Workbook::Workbook(const FilePlace& place, std::string name, const std::string& 
   properties.comments = const_cast<char*>("carom " CAROM_VERSION);
   properties.created = 946'684'800;  // 2000-01-01: no clock, so that the same runs give the same bytes
   workbook_set_properties(book_, &properties);
-  for (int look = 0; look < static_cast<int>(Look::count_); ++look)
-    formats_.push_back(make_format(book_, static_cast<Look>(look)));
+  for (int look = 0; look < static_cast<int>(CellStyle::count_); ++look)
+    formats_.push_back(make_format(book_, static_cast<CellStyle>(look)));
 }
 
 Workbook::~Workbook() {
   if (book_ != nullptr) lxw_workbook_free(book_);
 }
 
-Sheet& Workbook::add(const char* name, bool streamed) {
+Worksheet& Workbook::add(const char* name, bool streamed) {
   book_->options.constant_memory = streamed ? LXW_TRUE : LXW_FALSE;
   lxw_worksheet* sheet = workbook_add_worksheet(book_, name);
   if (sheet == nullptr) fail("write", place_, name_, fmt::format("no sheet {} can be made", name));

@@ -28,7 +28,7 @@ Cell cell_of(std::string_view text);
 std::string without_guard(std::string_view text);
 
 /// How a cell looks.
-enum class Look {
+enum class CellStyle {
   plain,
   whole,     // digits in groups
   rounding,  // powers of ten
@@ -44,17 +44,18 @@ enum class Look {
 /// What a sheet can hold.
 inline constexpr std::size_t most_rows = 1'048'576, most_columns = 16'384;
 
-class Sheet {
+class Worksheet {
  public:
-  Sheet(lxw_worksheet* sheet, const std::vector<lxw_format*>& formats) : sheet_(sheet), formats_(formats) {}
+  Worksheet(lxw_worksheet* sheet, const std::vector<lxw_format*>& formats) : sheet_(sheet), formats_(formats) {}
 
   /// Rows count from 0. Of a streamed sheet they come in order. Text is never a formula; what is longer than a cell
   /// takes is cut. A number that is not finite is an empty cell.
-  void text(std::size_t row, std::size_t column, std::string_view text, Look look = Look::plain);
-  void number(std::size_t row, std::size_t column, double value, Look look = Look::plain);
-  void cell(std::size_t row, std::size_t column, const Cell& cell, Look look = Look::plain);
+  void text(std::size_t row, std::size_t column, std::string_view text, CellStyle look = CellStyle::plain);
+  void number(std::size_t row, std::size_t column, double value, CellStyle look = CellStyle::plain);
+  void cell(std::size_t row, std::size_t column, const Cell& cell, CellStyle look = CellStyle::plain);
   /// `value`: what the formula gives now.
-  void formula(std::size_t row, std::size_t column, const std::string& formula, double value, Look look = Look::plain);
+  void formula(std::size_t row, std::size_t column, const std::string& formula, double value,
+               CellStyle look = CellStyle::plain);
 
   /// A column is as wide as its cells need, from `least` characters to `most`. Titles and notes do not count.
   void fit(std::size_t column, double least = 9, double most = 60, double more = 0);
@@ -66,10 +67,10 @@ class Sheet {
   void print_table();
 
   lxw_worksheet* get() const { return sheet_; }
-  lxw_format* format(Look look) const { return formats_[static_cast<std::size_t>(look)]; }
+  lxw_format* format(CellStyle look) const { return formats_[static_cast<std::size_t>(look)]; }
 
  private:
-  void widen(std::size_t column, std::size_t characters, Look look);
+  void widen(std::size_t column, std::size_t characters, CellStyle look);
 
   lxw_worksheet* sheet_;
   const std::vector<lxw_format*>& formats_;
@@ -85,7 +86,7 @@ class Workbook {
   Workbook& operator=(const Workbook&) = delete;
 
   /// `name`: at most 31 characters, none of []:*?/\ . The first sheet opens first.
-  Sheet& add(const char* name, bool streamed = false);
+  Worksheet& add(const char* name, bool streamed = false);
   lxw_chart* add_chart(lxw_chart_type type);
 
   /// Puts it all together, once: the whole workbook, into `file`, held against what was written to it. Throws
@@ -98,8 +99,8 @@ class Workbook {
   WorkbookFiles files_;
   Descriptor scratch_;  // where libxlsxwriter puts it together
   lxw_workbook* book_ = nullptr;
-  std::vector<lxw_format*> formats_;  // by Look
-  std::list<Sheet> sheets_;
+  std::vector<lxw_format*> formats_;  // by CellStyle
+  std::list<Worksheet> sheets_;
 };
 
 }  // namespace carom

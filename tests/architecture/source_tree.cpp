@@ -84,7 +84,9 @@ const std::vector<SourceFile>& tracked_files() {
 const std::vector<SourceFile>& program_files() {
   static const std::vector<SourceFile> files = [] {
     std::vector<std::string> paths = walk("src", {});
-    std::erase_if(paths, [](const std::string& path) { return !path.ends_with(".h") && !path.ends_with(".cpp"); });
+    std::erase_if(paths, [](const std::string& path) {
+      return !path.ends_with(".h") && !path.ends_with(".cpp") && !path.ends_with(".inc");
+    });
     return read_all(paths);
   }();
   return files;

@@ -17,7 +17,7 @@ SourceFile read_source(const std::string& path);
 /// What git tracks; without git, every file outside of build/ and output/. Sorted.
 const std::vector<SourceFile>& tracked_files();
 
-/// The .h and .cpp files below src/, tracked or not yet. Sorted.
+/// The .h, .cpp and .inc files below src/, tracked or not yet. Sorted.
 const std::vector<SourceFile>& program_files();
 
 }  // namespace carom::testing
