@@ -27,12 +27,6 @@ TEST(Layout, OutputsOfRunsAreNotTracked) {
   }
 }
 
-TEST(Layout, NoSourceFileHasMoreThan400Lines) {
-  for (const SourceFile& file : program_files()) {
-    EXPECT_LE(file.lines().size(), 400u) << file.path;
-  }
-}
-
 TEST(Layout, EveryHeaderOpensWithPragmaOnce) {
   for (const SourceFile& file : program_files()) {
     EXPECT_TRUE(!file.path.ends_with(".h") || file.text.starts_with("#pragma once\n")) << file.path;
