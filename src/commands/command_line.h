@@ -80,7 +80,7 @@ struct CommandText {
   std::string operand_help = "scene files (YAML)";
   std::size_t least = 1, most = std::numeric_limits<std::size_t>::max();  // so many of them
   std::string missing =
-      "name a scene file: carom {} scenes/two_bowling_balls.yaml";  // what a command line with too few is told
+      "name a scene file: carom {} scenes/two_bowling_balls.yaml";  // the answer to a command line with too few
 };
 
 /// Reads the words after the command's name. Throws UsageError. `help`: its text was asked for instead.

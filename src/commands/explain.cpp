@@ -192,7 +192,7 @@ int explain_command(const Options& options) {
       texts.push_back(row_text(row, palette, width));
       fields.push_back(row_json(row));
     }
-    // A key that is called like its kind has told its keys.
+    // A key that is called like its kind has its keys shown already.
     const bool told =
         std::any_of(rows.begin(), rows.end(), [&](const FieldPlaces& row) { return held_kind(*row.field) == kind; });
     if (kind == nullptr || told) continue;

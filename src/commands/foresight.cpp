@@ -151,7 +151,7 @@ Foresight foresee(const Scene& scene, const EngineChoice& engine, bool watch, do
   Foresight result = trial.go();
   const std::string oracle = force_without_closed_form(scene.world) == nullptr ? "exact" : "stepped";
   if (engine.name != oracle) result.failure.clear();             // of another simulator
-  const bool settled = engine.name != "stepped" || engine.step;  // a tolerance is to be met by runs that nobody counted
+  const bool settled = engine.name != "stepped" || engine.step;  // a tolerance takes an unknown number of runs
   if (!settled) return result;
   result.simulate_s = engine.name == oracle ? trial.whole() : own_engine_s(scene, engine, budget);
   return result;

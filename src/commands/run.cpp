@@ -24,7 +24,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// What became of a scene, and what is told of it.
+/// What became of a scene, and what is printed of it.
 struct Told {
   std::string status;
   Json entry;             // of the document of --json
@@ -93,7 +93,7 @@ class Session {
     return code;
   }
 
-  /// Scenes in processes of their own; what is told of them comes in their order.
+  /// Scenes in processes of their own; what is printed of them comes in their order.
   int run_together(std::size_t jobs, std::size_t to_do) {
     std::vector<std::optional<Told>> all(scenes_.size());
     std::size_t begun = 0, settled = 0;

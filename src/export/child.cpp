@@ -86,7 +86,7 @@ std::optional<std::string> find_program(const std::string& name) {
 
 Child::Child(const std::vector<std::string>& arguments, int folder, bool fed)
     : output_(memory_file()), errors_(memory_file()) {
-  // A socket rather than a pipe: sending to it can be told to raise no SIGPIPE, so that no handler need be touched.
+  // A socket rather than a pipe: sending to it need not raise SIGPIPE, so that no handler need be touched.
   Descriptor theirs;
   if (fed) {
     int pair[2];
@@ -170,7 +170,7 @@ bool Child::has_ended() {
   if (ended == id_)
     exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   else if (ended < 0 && errno != EINTR)
-    exit_code_ = 127;  // somebody else has waited for it
+    exit_code_ = 127;  // another part of the program has waited for it
   return exit_code_.has_value();
 }
 

@@ -51,7 +51,7 @@ struct Summary {
   std::uint64_t collapses = 0;  // clusters taken into contact
 };
 
-/// A quantity of the run's end that somebody asked for; not finite: undefined.
+/// A quantity of the run's end that was asked for; not finite: undefined.
 struct Measured {
   std::string name;  // "balls.red.speed_m_per_s"
   double value = 0;

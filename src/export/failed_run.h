@@ -8,7 +8,7 @@ namespace carom {
 /// failure_file. Throws ExportError.
 void store_failure(const std::string& folder, const std::string& why);
 
-/// Why the run failed; empty: it has not, or nobody knows.
+/// Why the run failed; empty: it has not, or that is not known.
 std::string stored_failure(const std::string& folder);
 
 }  // namespace carom

@@ -18,7 +18,7 @@ constexpr std::size_t piece_size = std::size_t{256} * 1024;
 /// After so many pieces a file is worth a thread.
 constexpr std::uint64_t pieces_alone = 8;
 
-/// So much is left to the system before it is told to begin writing, so that the sync at the end has little to wait
+/// So much is left to the system before it is asked to begin writing, so that the sync at the end has little to wait
 /// for.
 constexpr std::uint64_t early_size = std::uint64_t{32} * 1024 * 1024;
 

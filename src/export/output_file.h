@@ -44,7 +44,7 @@ class OutputFile : public PartFile {
 
   Descriptor file_;
   Sha256 hash_;
-  std::uint64_t on_the_way_ = 0;  // bytes of the file that the system was told to write to the disk
+  std::uint64_t on_the_way_ = 0;  // bytes of the file that the system was asked to write to the disk
   // The piece that is being filled.
   char* data_ = nullptr;
   std::size_t size_ = 0, used_ = 0;

@@ -26,11 +26,11 @@ double trajectory_bytes(const Scene& scene, double instants) {
 
 constexpr WriterKind all_kinds[] = {
     {"trajectory", open<TrajectoryTable>, trajectory_bytes},
-    // How many there will be nobody knows; one a body.
+    // How many there will be is not known; one a body.
     {"collisions", open<CollisionTable>,
      [](const Scene& scene, double) { return collision_bytes * scene.world.body_count(); }},
     {"energy", open<EnergyTable>, [](const Scene&, double instants) { return energy_bytes * instants; }},
-    // Which bodies rest when nobody knows; half of them always.
+    // Which bodies rest when is not known; half of them always.
     {"contacts", open<ContactTable>,
      [](const Scene& scene, double instants) { return contact_bytes * instants * scene.world.body_count() / 2; }},
     {"vtk",
@@ -48,7 +48,7 @@ constexpr WriterKind all_kinds[] = {
        return std::make_unique<GltfWriter>(folder, scene, makers);
      },
      GltfWriter::bytes},
-    // How many pieces there will be nobody knows; three a body.
+    // How many pieces there will be is not known; three a body.
     {"flights", open<FlightsFile>,
      [](const Scene& scene, double) { return 3 * path_bytes * scene.world.body_count(); }},
 };

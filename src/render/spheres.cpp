@@ -98,7 +98,7 @@ void main() {
 )";
 
 // Row numbers pass through float attributes, which count exactly so far. The balls in front come last and would go
-// without shadows upon them; a picture of so many shows none that could be told apart.
+// without shadows upon them; a picture of so many shows none of them apart.
 constexpr std::size_t most_rows = (std::size_t{1} << 24) - 4096;
 
 }  // namespace

@@ -46,7 +46,7 @@ class Things {
 
   /// The files of the meshes, each one once.
   const std::vector<std::string>& files() const { return files_; }
-  /// To be told once the files are read.
+  /// To be called once the files are read.
   void measure(const Shapes& shapes, bool outlines);
 
   bool any() const { return !looks_.empty(); }

@@ -9,7 +9,7 @@
 namespace carom {
 
 /// Checks the whole tree of a scene and adds every error. Values that failed are marked bad; map entries whose key is
-/// wrong stay and are ignored by whoever looks up known keys. `folder` is that of the scene file, for its meshes.
+/// wrong stay and are ignored where known keys are looked up. `folder` is that of the scene file, for its meshes.
 void check_scene(Node& root, const std::string& folder, Diagnostics& diagnostics);
 
 /// The same for the tree of a sweep file; what its paths mean is the scene's matter.

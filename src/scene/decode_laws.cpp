@@ -65,7 +65,7 @@ void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Dia
   scene.world.pairs.push_back({a->first, a->count, b->first, b->count, *value});
 }
 
-/// Whom a force acts on; an empty list: all. None: nobody at all, or an error was reported.
+/// The bodies that a force acts on; an empty list: all. None: no body at all, or an error was reported.
 std::optional<std::vector<Entity>> decode_on(const View& force, const Inventory& inventory, Diagnostics& diagnostics) {
   const Node* on = force.given("on");
   if (on == nullptr) return std::vector<Entity>{};

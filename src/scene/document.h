@@ -20,7 +20,7 @@ struct Node {
   enum class Kind : std::uint8_t { null, scalar, sequence, map };
   Kind kind = Kind::null;
   bool quoted = false;  // a scalar in quotes or a block of text: text even if it looks like a number
-  bool bad = false;     // an error about this value was reported: nobody else should use it
+  bool bad = false;     // an error about this value was reported: the value is not to be used
   Place place;       // of the value; of its key where the value has no place of its own (null, a block below its key)
   std::string text;  // of a scalar
   std::vector<Key> keys;    // of a map

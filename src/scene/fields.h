@@ -33,7 +33,7 @@ enum class Type : std::uint8_t {
   cases          // a list of maps from paths to values
 };
 
-/// Numbers from `min` to `max`, ends included unless told otherwise.
+/// Numbers from `min` to `max`, ends included unless said otherwise.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();

@@ -36,7 +36,7 @@ struct RecordedRun {
 RecordedRun record_run(const World& world, const State& initial, const Simulate& simulate,
                        const std::vector<double>& instants, const std::function<void()>& look);
 
-/// The same run, looked at by nobody and recorded nowhere: what is timed. Gives the result's hash.
+/// The same run, neither looked at nor recorded: what is timed. Gives the result's hash.
 std::uint64_t bare_run(const World& world, const State& initial, const Simulate& simulate,
                        const std::function<void()>& look);
 

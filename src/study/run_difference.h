@@ -14,7 +14,7 @@ struct ValueDifference {
   std::string path, unit, a, b;
 };
 
-/// A row of collisions.csv, as far as it is told of.
+/// A row of collisions.csv, as far as it is shown.
 struct CollisionFacts {
   double time = 0;              // s
   std::string kind, a, b;       // a and b: who met

@@ -103,7 +103,7 @@ void SeriesGatherer::add(const RunRecord& run) {
   if (bodies) take(run.run.id, read_bodies(run, bodies_));
 }
 
-/// Nobody said what to follow, and there is nothing else: the first few bodies' speeds.
+/// Where no measure of a body is chosen, and there is nothing else: the first few bodies' speeds.
 void SeriesGatherer::follow_first(const RunRecord& run) {
   constexpr std::size_t few = 3;
   for (const EndMotion& motion : end_of_trajectory(run)) {

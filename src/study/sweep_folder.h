@@ -23,7 +23,7 @@ enum class SweepContent {
   other        // another one's, or files that no sweep wrote
 };
 
-/// What stands in `folder`. `base_text`: the base scene's. Changes nothing. Runs whose files nobody has touched since
+/// What stands in `folder`. `base_text`: the base scene's. Changes nothing. Runs whose files are untouched since
 /// the sweep's manifest was written are not read again; whether meshes that the scene names are still the same is not
 /// looked at. Throws ExportError.
 SweepContent inspect_sweep_folder(const std::string& folder, const Sweep& sweep, const std::string& base_text);
@@ -41,13 +41,12 @@ ComparisonPlan comparison_plan(const Sweep& sweep);
 class SweepFolder {
  public:
   enum class Use {
-    alone,  // nobody else may write into it
+    alone,  // no other process may write into it
     part    // other parts of the same sweep may
   };
   /// Makes the folder if need be, locks it and, unless they stand there, writes sweep.yaml and base.yaml; the runs of
-  /// another sweep go. Waits a while
-  /// for whoever writes these at the same time; `look` is called meanwhile and may throw. Throws ExportError, as all of
-  /// this class does.
+  /// another sweep go. Waits a while for processes that write these at the same time; `look` is called meanwhile and may
+  /// throw. Throws ExportError, as all of this class does.
   SweepFolder(const std::string& path, Use use, const Sweep& sweep, const std::string& base_text,
               const std::function<void()>& look);
 

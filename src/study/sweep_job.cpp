@@ -32,7 +32,7 @@ constexpr std::size_t looked_at_a_time = 64;
 constexpr std::size_t most_shows = 8;   // of one simulation: each may have a film on its way
 constexpr std::size_t most_wrong = 16;  // such lots, then the others are not looked at
 constexpr std::size_t errors_shown = 20;
-constexpr char right = '+';       // begins what is told of scenarios that are
+constexpr char right = '+';       // begins the report of scenarios that are right
 constexpr double sync_every = 2;  // s
 
 /// Of errors by run, each error once, under the first run that has it. An error is a line, and those below it that

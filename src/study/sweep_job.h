@@ -72,7 +72,7 @@ class SweepJob {
   std::size_t left() const;
 
   /// Does what is left: scenarios that move alike share one simulation, equal ones are run once and copied. A run that
-  /// fails leaves `error.txt` in its folder. `failed` is told of each. Nothing is synced to the disk yet.
+  /// fails leaves `error.txt` in its folder. `failed` is called with each. Nothing is synced to the disk yet.
   void run(const std::function<void(const SweepProgress&)>& tell,
            const std::function<void(std::size_t number, const std::string& why)>& failed);
 

@@ -25,7 +25,7 @@ namespace carom {
 namespace {
 
 constexpr int look_every = 50;  // ms
-/// A process that was told to end and has not is killed after this.
+/// A process that was to end and has not is killed after this.
 constexpr auto patience = std::chrono::seconds(1);
 
 /// What goes before an outcome's text.
@@ -67,7 +67,7 @@ bool wait_for_any(std::vector<pollfd>& sockets) {
   return true;
 }
 
-/// A worker's life, until there is no more work or nobody to give it.
+/// A worker's life, until there is no more work or the parent is gone.
 [[noreturn]] void serve(int socket, const Tasks& tasks) {
   std::uint64_t task = 0;
   while (receive_all(socket, &task, sizeof task)) {
@@ -219,7 +219,7 @@ class Pool {
       throw std::system_error(error, std::generic_category(), "cannot start another process");
     }
     if (process == 0) {
-      prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody is left to resume what it does
+      prctl(PR_SET_PDEATHSIG, SIGKILL);  // no process is left to resume what it does
       if (getppid() != parent) _exit(1);
       close(pair[0]);
       for (const Worker& other : workers_)

@@ -1,6 +1,6 @@
 #pragma once
-// Tasks by several processes at a time: one that crashes, or that the system kills for its memory, takes nobody with
-// it.
+// Tasks by several processes at a time: one that crashes, or that the system kills for its memory, takes no other
+// with it.
 #include <cstddef>
 #include <functional>
 #include <optional>

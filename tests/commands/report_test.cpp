@@ -1,4 +1,4 @@
-// What is told of a run that the summary's columns do not hold.
+// What is printed of a run that the summary's columns do not hold.
 #include "commands/report.h"
 
 #include <gtest/gtest.h>

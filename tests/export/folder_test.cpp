@@ -1,4 +1,4 @@
-// What a run's folder holds before, during and after a run: whole files or none, nobody else's, nothing outside.
+// What a run's folder holds before, during and after a run: whole files or none, no other's, nothing outside.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>

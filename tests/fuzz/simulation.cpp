@@ -19,7 +19,7 @@ namespace {
 constexpr int looks = 16;
 constexpr int most_idle = 100'000;  // times that a simulator may be asked to go on and neither does nor records
 constexpr double relative_rounding = 2e-14;
-constexpr double in_crowds = 1e-10;
+constexpr double in_islands = 1e-10;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 class Run {
@@ -138,7 +138,7 @@ class Run {
   void books(double gain, const Tally& tally) {
     if (scene_.simulate.merge) return;
     const double relative =
-        relative_rounding * (1 + std::sqrt(static_cast<double>(counted_))) + (tally.collapses > 0 ? in_crowds : 0);
+        relative_rounding * (1 + std::sqrt(static_cast<double>(counted_))) + (tally.collapses > 0 ? in_islands : 0);
     const double size = size_ + std::abs(tally.energy_lost) + std::abs(tally.work);
     if (!(std::abs(gain + tally.energy_lost - tally.work) <= relative * size))
       fail(fmt::format("energy books: gains {} J, lost {} J, work {} J, of {} J", gain, tally.energy_lost, tally.work,
@@ -152,14 +152,14 @@ class Run {
     for (const Obstacle& o : world_.obstacles) extent = std::max(extent, o.center.cwiseAbs().sum() + o.volume.reach());
     for (const Plane& p : world_.planes) extent = std::max(extent, p.point.cwiseAbs().sum());
     for (const double r : world_.radius) largest = std::max(largest, r);
-    const double allowed = 2 * relative_rounding * extent + (tally.collapses > 0 ? in_crowds * largest : 0);
+    const double allowed = 2 * relative_rounding * extent + (tally.collapses > 0 ? in_islands * largest : 0);
     if (!(tally.max_overlap <= allowed)) fail(fmt::format("bodies overlap by {} m", tally.max_overlap));
   }
 
   void record(const Collision& c) {
     const std::string what = fmt::format("record of {} and {} at {} s: ", c.a, c.b, c.time);
-    // Exempt: the stepped simulator records what a crowd's bodies do to one another at the beginning of the step, after
-    // the single impacts within it.
+    // Exempt: the stepped simulator records what an island's bodies do to one another at the beginning of the step,
+    // after the single impacts within it.
     const double back = exact_ || book_ ? 0 : step_;
     if (!(c.time >= last_ - back) || c.time < 0 || c.time > scene_.simulate.duration)
       fail(what + fmt::format("it comes after one at {} s", last_));
@@ -179,8 +179,8 @@ class Run {
     // The chapter's program strikes what separates, and its printed listings make energy.
     if (book_) return;
     if (c.approach_speed < 0) fail(what + fmt::format("they separate at {} m/s", -c.approach_speed));
-    // Exempt: impacts within a crowd, of which the stepped simulator records how fast two bodies part after all others
-    // have pushed them too. A single impact's restitution says how fast.
+    // Exempt: impacts within an island, of which the stepped simulator records how fast two bodies part after all
+    // others have pushed them too. A single impact's restitution says how fast.
     if (!exact_ && c.separation_speed > c.restitution * c.approach_speed) return;
     const double rounding = exact_ ? 0 : 8 * epsilon * c.impulse * c.approach_speed;
     if (c.restitution <= 1 && c.energy_lost < -rounding)

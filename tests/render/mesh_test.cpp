@@ -149,7 +149,7 @@ TEST(ReadMesh, RefusesMoreThanItsLimits) {
 }
 
 TEST(ReadMesh, MaterialsOfOtherFoldersAreNotOpened) {
-  // A queue that nobody writes to would be waited for: the reader must not even open it.
+  // A queue without a writer would be waited for: the reader must not even open it.
   const Folder folder;
   std::filesystem::create_directory(folder.path + "in");
   ASSERT_EQ(mkfifo((folder.path + "queue").c_str(), 0600), 0);

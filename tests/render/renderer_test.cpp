@@ -46,7 +46,7 @@ TEST(Bytes, WhatIsAsInTheLastPictureIsNotDrawnAgain) {
   for (Vec3& v : later.velocity) v.x() += 1;
   EXPECT_EQ(hash_of(renderer.draw(later)), first);
   EXPECT_EQ(renderer.drawn(), 1U);
-  // Whoever moves, and however little.
+  // Any body that moves, and however little.
   for (std::size_t i = 0; i < later.position.size(); ++i) {
     later.position[i].x() += 1e-12;
     renderer.draw(later);

@@ -1,4 +1,4 @@
-// The schema against the loader: both made from one table, held together by a validator of somebody else's.
+// The schema against the loader: both made from one table, held together by another project's validator.
 #include "scene/schema.h"
 
 #include <fmt/format.h>

@@ -165,7 +165,7 @@ class Check {
     const long double end = energy_of(first_.end, size);
     const Tally& t = first_.tally;
     const double events = static_cast<double>(first_.records.size());
-    // In crowds paths are integrated, not closed forms.
+    // In islands paths are integrated, not closed forms.
     const double relative = 2e-14 * (1 + std::sqrt(events)) + (t.collapses > 0 ? 1e-10 : 0);
     const double tolerance = relative * (size + std::abs(t.energy_lost) + std::abs(t.work));
     const double residual = static_cast<double>(end - start) + t.energy_lost - t.work;

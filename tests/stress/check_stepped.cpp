@@ -1,4 +1,4 @@
-// The same scenes in steps of time, long ones: whatever the method and the step, a run ends, nobody is nowhere or
+// The same scenes in steps of time, long ones: whatever the method and the step, a run ends, no body is nowhere or
 // inside another, outputs change nothing, and no energy comes from nowhere.
 #include <algorithm>
 #include <array>

@@ -12,8 +12,8 @@ namespace carom::stress {
 namespace {
 
 constexpr double relative_rounding = 2e-14;
-constexpr double in_crowds = 1e-10;  // of the smaller one's radius
-constexpr int most_looks = 100;      // at a pair's gap between two outputs
+constexpr double in_islands = 1e-10;  // of the smaller one's radius
+constexpr int most_looks = 100;       // at a pair's gap between two outputs
 
 double extent_of(const Vec3& x) {
   return x.cwiseAbs().sum();
@@ -26,8 +26,8 @@ Long3 on(const Long3& x, const Long3& v, const Long3& a, long double t) {
 }  // namespace
 
 Paths::Paths(const RandomScene& scene, const std::vector<double>& times, const std::vector<State>& seen,
-             const std::vector<Collision>& records, bool crowds)
-    : scene_(scene), times_(times), seen_(seen), crowds_(crowds), recorded_(scene.world.body_count()) {
+             const std::vector<Collision>& records, bool islands)
+    : scene_(scene), times_(times), seen_(seen), islands_(islands), recorded_(scene.world.body_count()) {
   const World& world = scene.world;
   for (const Collision& c : records)
     for (Entity i : {c.a, c.b})
@@ -49,7 +49,7 @@ double Paths::rounding(Entity a, Entity b) const {
 double Paths::allowed(Entity a, Entity b) const {
   const World& world = scene_.world;
   const double smaller = world.is_body(b) ? std::min(world.radius[a], world.radius[b]) : world.radius[a];
-  return rounding(a, b) + (crowds_ ? in_crowds * smaller : 0);
+  return rounding(a, b) + (islands_ ? in_islands * smaller : 0);
 }
 
 /// The paths from look k to the next.

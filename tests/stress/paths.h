@@ -11,14 +11,14 @@ namespace carom::stress {
 class Paths {
  public:
   Paths(const RandomScene& scene, const std::vector<double>& times, const std::vector<State>& seen,
-        const std::vector<Collision>& records, bool crowds);
+        const std::vector<Collision>& records, bool islands);
 
   /// Every overlap beyond what is allowed, in words (the first of each pair).
   std::vector<std::string> overlaps() const;
 
   /// m: what the gap of two things may be off by, from the size of the numbers that it is made of.
   double rounding(Entity a, Entity b) const;
-  /// m: the overlap that they may have: rounding, and in crowds of bodies in lasting contact a little more.
+  /// m: the overlap that they may have: rounding, and in islands of bodies in lasting contact a little more.
   double allowed(Entity a, Entity b) const;
 
  private:
@@ -32,7 +32,7 @@ class Paths {
   const RandomScene& scene_;
   const std::vector<double>& times_;
   const std::vector<State>& seen_;
-  const bool crowds_;
+  const bool islands_;
   std::vector<double> extent_;                 // m, by entity
   std::vector<std::vector<double>> recorded_;  // s, by body: when it collided, ascending
 };

@@ -42,7 +42,7 @@ TEST(RareCoincidences, HoldEveryInvariant) {
 }
 
 TEST(RareCoincidences, HoldInStepsToo) {
-  // Clusters that dissolve before they have gone anywhere, crowds whose bodies are struck from two sides at once, go
+  // Clusters that dissolve before they have gone anywhere, islands whose bodies are struck from two sides at once, go
   // far in a step, or stop short of one another, speeds without bound, light bodies between heavy ones.
   for (std::uint64_t seed : {4004, 4212, 5031, 5976, 10201, 20081, 30169, 31444, 104513, 104764}) {
     const RandomScene scene = make_scene(seed);
