@@ -143,45 +143,52 @@ void ContactSolver::Workspace::give_back(const ContactProblem& problem, std::spa
 }
 
 /// The one place where a method is chosen: by what each would cost. Orthogonal factors take three in unknowns for every
-/// row, sparse ones some thirty factorisations, and need masses that are not too unequal.
+/// row, sparse ones some thirty factorisations, and need masses that are not too unequal. Where the one fails the other
+/// comes next, and then orthogonal factors from nothing.
 Certificate ContactSolver::Workspace::solve_island(Known& last) {
   constexpr double rows_taken_in = 1.3, factorisations = 35, per_entry = 40;
   constexpr double surely_dense = 1e6;  // operations; below it the sparse method's set-up alone costs more
   constexpr double worth_while = 8;     // solutions: factors for which one pays once pay for so many
-  using Verdict = Certificate::Verdict;
-  const auto certify = [](const Judgement& judgement, bool impossible) {
-    const Verdict otherwise = impossible ? Verdict::infeasible : Verdict::doubtful;
-    return Certificate{judgement.within_slack ? Verdict::solved : otherwise, judgement.change};
+  Certificate best{Certificate::Verdict::doubtful, std::numeric_limits<double>::infinity()};
+  ContactAnswer attempt;
+  // Whether that was it.
+  const auto take = [&](const Judgement& judgement, bool infeasible) {
+    if (answer.motion.empty() || judgement.within_slack || judgement.change < best.change) {
+      std::swap(answer, attempt);
+      best.change = judgement.change;
+    }
+    if (infeasible) best.verdict = Certificate::Verdict::infeasible;
+    if (judgement.within_slack) best.verdict = Certificate::Verdict::solved;
+    return judgement.within_slack;
   };
-  const bool alike = remembers && last.resembles(island);
   const auto by_active_set = [&] {
-    const auto result = alike && last.method.has_factors() ? last.method.solve_again(island, last.now, answer)
-                                                           : last.method.solve(island, answer);
-    return certify(result.judgement, result.infeasible);
+    const DualActiveSet::Result result = last.method.solve(island, attempt);
+    return take(result.judgement, result.infeasible);
   };
+  answer.motion.clear();
+  const bool alike = remembers && last.resembles(island);
+  if (alike && last.method.has_factors()) {
+    const DualActiveSet::Result result = last.method.solve_again(island, last.now, attempt);
+    if (take(result.judgement, result.infeasible)) return best;
+  }
+  if (alike)
+    for (std::size_t k = 0; k < last.rows.size(); ++k)
+      if (last.now[k] != DualActiveSet::gone() && !last.rows[k].bilateral)
+        island.rows[last.now[k]].force = last.rows[k].force;
   const double n = static_cast<double>(island.unknowns()), m = static_cast<double>(island.rows.size());
   const double taken = std::min(m, n), dense = rows_taken_in * taken * 6 * n * (n - 0.5 * taken);
-  if (dense <= surely_dense || (alike && last.method.has_factors())) {
-    const Certificate first = by_active_set();
-    if (first.verdict != Verdict::doubtful) return first;
-  }
-  if (alike && !last.method.has_factors())
-    for (std::size_t k = 0; k < last.rows.size(); ++k)
-      if (last.now[k] != DualActiveSet::gone()) island.rows[last.now[k]].force = last.rows[k].force;
+  if (dense <= surely_dense && by_active_set()) return best;
   ContactInteriorPoint sparse(island);
   const double cost = factorisations * (sparse.operations() + per_entry * (n + m));
   const bool unequal = island.mass_ratio > 1e6 && n <= 1500;
-  const bool dense_first = unequal || dense <= (alike ? worth_while : 1) * cost;
-  const auto by_interior_point = [&] { return certify(sparse.solve(answer), false); };
-  const Certificate first = dense_first ? by_active_set() : by_interior_point();
-  if (first.solved()) return first;
-  const ContactAnswer other = answer;
+  if (dense > surely_dense && (unequal || dense <= (alike ? worth_while : 1) * cost) && by_active_set()) return best;
+  if (take(sparse.solve(attempt), false)) return best;
   for (std::size_t c = 0; c < island.rows.size(); ++c)
     island.rows[c].force = island.rows[c].bilateral ? 0 : std::max(answer.force[c].hi, 0.0);
-  const Certificate second = dense_first ? by_interior_point() : by_active_set();
-  if (second.solved() || second.change < first.change) return {second.verdict, second.change};
-  answer = other;
-  return first;
+  if (by_active_set()) return best;
+  for (ContactIsland::Row& r : island.rows) r.force = 0;
+  by_active_set();
+  return best;
 }
 
 Certificate ContactSolver::Workspace::solve(const ContactProblem& problem) {
