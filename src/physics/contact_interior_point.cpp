@@ -19,6 +19,7 @@ using Vector = std::vector<double>;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double loosest = 1,
                  tightest = 1e-8;     // of a row's own effect on itself: by what a force may change the motion
+constexpr int guess_worth = 16;       // factorisations, half of what takes an island without a guess: then it was none
 constexpr double handed_over = 1e-8;  // of the motion: where the interior point hands over
 
 /// 1 + J^T D J and its factors: a block for every body and one for every pair of bodies.
@@ -136,6 +137,22 @@ class ContactInteriorPoint::Method {
   const ContactMatrix& matrix() const { return matrix_; }
 
   Judgement solve(ContactAnswer& answer) {
+    // From forces that were right a moment ago the proximal Newton method alone is there in a few factorisations.
+    bool guessed = false;
+    for (std::size_t c = 0; c < rows(); ++c) {
+      const Row& r = island_.rows[c];
+      z_[c] = r.bilateral ? 0 : r.force / r.scale;
+      guessed = guessed || z_[c] > 0;
+    }
+    if (guessed) {
+      y_ = image(z_);
+      if (find_pressing(tightest, guess_worth)) {
+        refine(answer);
+        if (const Judgement judgement = judge(island_, answer); judgement.within_slack) return judgement;
+      }
+      std::fill(z_.begin(), z_.end(), 0.0);
+      y_ = free_;
+    }
     if (!approach()) std::fill(z_.begin(), z_.end(), 0.0);
     for (double rho = loosest; rho > 0.5 * tightest; rho *= 1e-2)
       if (!find_pressing(rho)) break;
@@ -262,11 +279,11 @@ class ContactInteriorPoint::Method {
 
   /// The nearest motion where contacts yield: min |y - free|^2 / 2 + sum max(0, t_c)^2 / (2 rho), t = rho z - w, by
   /// Newton's method with exact steps along its ways, which come to an end when the set of t > 0 is right; and the
-  /// forces t / rho. False: it gets no further.
-  bool find_pressing(double rho) {
+  /// forces t / rho. False: it gets no further, or not with so many factorisations.
+  bool find_pressing(double rho, int most = std::numeric_limits<int>::max()) {
     const std::size_t m = rows();
     Vector t(m), slope(m), weight(m), former, dy;
-    for (double last = infinite;;) {
+    for (double last = infinite; matrix_.factorisations() < most;) {
       Vector forces(m);
       double merit = 0;
       for (std::size_t c = 0; c < m; ++c) {
@@ -295,7 +312,7 @@ class ContactInteriorPoint::Method {
       const double force = z_[c] - excess_of(y_, c) / rho;
       z_[c] = island_.rows[c].bilateral ? force : std::max(force, 0.0);
     }
-    return true;
+    return matrix_.factorisations() < most;
   }
 
   /// Where along dy the sum is least: its derivative is linear between the points where a row begins or ends to press.
