@@ -93,10 +93,11 @@ Judgement judge(const ContactIsland& island, const ContactAnswer& answer) {
   }
   std::vector<double> lacking;
   imbalance(island, answer, lacking);
-  for (const double r : lacking) {
-    if (r == 0) continue;
-    if (!(std::abs(r) <= accepted_change * island.speed)) judgement.within_slack = false;
-    differ(std::abs(r) / island.speed);
+  for (std::size_t i = 0; i < lacking.size(); ++i) {
+    if (lacking[i] == 0) continue;
+    const double change = std::abs(lacking[i]) / std::max(island.speed, std::abs(answer.motion[i].hi));
+    if (!(change <= accepted_change)) judgement.within_slack = false;
+    differ(change);
   }
   return judgement;
 }

@@ -66,9 +66,9 @@ double excess(const ContactIsland& island, const ContactIsland::Row& row, const 
 /// By coordinate, what free + M^-1 N force lacks: 0 for an exact answer.
 void imbalance(const ContactIsland& island, const ContactAnswer& answer, std::vector<double>& result);
 
-/// The data of which the answer is the exact solution differ by this, relative to each row's and body's own scale: rows
-/// that press are off their target, others short of it, bodies do not move as the forces say. `within_slack`: no row is
-/// farther off than its slack (where it is 0: than rounding).
+/// The data of which the answer is the exact solution differ by this, relative to each row's own scale: rows that press
+/// are off their target, others short of it. Or bodies do not move as the forces say, relative to the greatest motion
+/// given or to their own. `within_slack`: no row is farther off than its slack (where it is 0: than rounding).
 struct Judgement {
   double change = 0;
   bool within_slack = true;
