@@ -198,36 +198,46 @@ void DualActiveSet::refine(const ContactIsland& island, ContactAnswer& answer) {
   }
   for (std::size_t i = 0; i < n; ++i) answer.motion[i] = {island.root[i / 3] * y_[i], 0};
   for (std::size_t j = 0; j < k; ++j) answer.force[active_[j]] = {island.rows[active_[j]].scale * force_[j], 0};
+  double all = 0;
+  for (const double y : y_) all = std::max(all, std::abs(y));
+  // What the rows are off by and what the forces lack, each for as long as there is less and less of it.
+  double off = infinite, unbalanced = infinite;
   std::vector<double> lacking, p(n), g(n), dy(n);
-  double last = infinite;
-  for (;;) {
-    imbalance(island, answer, lacking);
-    for (std::size_t i = 0; i < n; ++i) lacking[i] /= island.root[i / 3];
-    factors_.to_q(lacking.data(), p.data());
-    g = p;
-    for (std::size_t j = 0; j < k; ++j) {
-      const ContactIsland::Row& r = island.rows[active_[j]];
-      g[j] = -r.scale * excess(island, r, answer.motion);
+  const auto greatest = [](const std::vector<double>& v) {
+    double most = 0;
+    for (const double x : v) most = std::max(most, std::abs(x));
+    return most;
+  };
+  while (off > 0 || unbalanced > 0) {
+    std::fill(g.begin(), g.end(), 0.0);
+    std::fill(p.begin(), p.end(), 0.0);
+    if (off > 0) {
+      for (std::size_t j = 0; j < k; ++j) {
+        const ContactIsland::Row& r = island.rows[active_[j]];
+        g[j] = -r.scale * excess(island, r, answer.motion);
+      }
+      factors_.solve_transposed(g.data());
+      const double now = greatest(g);
+      if (!(now < 0.5 * off)) std::fill(g.begin(), g.end(), 0.0);
+      off = now < 0.5 * off && now > 0x1p-92 * all ? now : 0;
     }
-    factors_.solve_transposed(g.data());
+    if (unbalanced > 0) {
+      imbalance(island, answer, lacking);
+      for (std::size_t i = 0; i < n; ++i) lacking[i] /= island.root[i / 3];
+      const double now = greatest(lacking);
+      if (now < 0.5 * unbalanced) factors_.to_q(lacking.data(), p.data());
+      unbalanced = now < 0.5 * unbalanced && now > 0x1p-92 * all ? now : 0;
+    }
+    std::copy(p.begin() + static_cast<std::ptrdiff_t>(k), p.end(), g.begin() + static_cast<std::ptrdiff_t>(k));
     factors_.from_q(g.data(), dy.data());
-    double size = 0, all = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      size = std::max(size, std::abs(dy[i]));
-      all = std::max(all, std::abs(y_[i]));
-    }
-    if (!(size < 0.5 * last)) break;
-    last = size;
     for (std::size_t j = 0; j < k; ++j) g[j] -= p[j];
     factors_.solve(g.data());
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n; ++i)
       answer.motion[i] = answer.motion[i] + DoubleDouble{island.root[i / 3] * dy[i], 0};
-    }
     for (std::size_t j = 0; j < k; ++j) {
       DoubleDouble& x = answer.force[active_[j]];
       x = x + DoubleDouble{island.rows[active_[j]].scale * g[j], 0};
     }
-    if (size <= 0x1p-92 * all) break;
   }
   for (std::size_t i = 0; i < n; ++i) y_[i] = answer.motion[i].hi / island.root[i / 3];
   for (std::size_t j = 0; j < k; ++j) force_[j] = answer.force[active_[j]].hi / island.rows[active_[j]].scale;

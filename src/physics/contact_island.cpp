@@ -95,7 +95,9 @@ Judgement judge(const ContactIsland& island, const ContactAnswer& answer) {
   imbalance(island, answer, lacking);
   for (std::size_t i = 0; i < lacking.size(); ++i) {
     if (lacking[i] == 0) continue;
-    const double change = std::abs(lacking[i]) / std::max(island.speed, std::abs(answer.motion[i].hi));
+    const DoubleDouble* const u = &answer.motion[i - i % 3];
+    const double speed = std::max({island.speed, std::abs(u[0].hi), std::abs(u[1].hi), std::abs(u[2].hi)});
+    const double change = std::abs(lacking[i]) / speed;
     if (!(change <= accepted_change)) judgement.within_slack = false;
     differ(change);
   }
