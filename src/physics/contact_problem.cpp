@@ -1,0 +1,237 @@
+#include "physics/contact_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "physics/active_set.h"
+#include "physics/contact_interior_point.h"
+#include "physics/contact_island.h"
+
+namespace carom {
+
+namespace {
+
+/// Contacts that share bodies, islands one after the other; `fixed` things do not connect.
+struct Islands {
+  std::vector<std::uint32_t> root;      // by body
+  std::vector<std::uint32_t> contacts;  // by island, ascending
+  std::vector<std::size_t> first;       // of each island among contacts; and their number
+
+  Islands(std::size_t bodies, std::span<const ContactConstraint> all) : root(bodies), contacts(all.size()) {
+    std::iota(root.begin(), root.end(), 0u);
+    for (const ContactConstraint& c : all)
+      if (c.b != ContactConstraint::fixed) {
+        const std::uint32_t p = find(c.a), q = find(c.b);
+        root[std::max(p, q)] = std::min(p, q);
+      }
+    std::iota(contacts.begin(), contacts.end(), 0u);
+    for (const ContactConstraint& c : all) root[c.a] = find(c.a);
+    std::stable_sort(contacts.begin(), contacts.end(),
+                     [&](std::uint32_t p, std::uint32_t q) { return root[all[p].a] < root[all[q].a]; });
+    for (std::size_t k = 0; k < contacts.size(); ++k)
+      if (k == 0 || root[all[contacts[k]].a] != root[all[contacts[k - 1]].a]) first.push_back(k);
+    first.push_back(contacts.size());
+  }
+
+  std::uint32_t find(std::uint32_t k) {
+    while (root[k] != k) k = root[k] = root[root[k]];
+    return k;
+  }
+};
+
+}  // namespace
+
+namespace {
+
+/// What is known of an island since it was last solved.
+struct Known {
+  DualActiveSet method;
+  std::vector<double> inverse_mass;
+  std::vector<ContactIsland::Row> rows;  // with their forces
+  std::vector<std::uint32_t> now;        // by row: which of the present island's it is, or DualActiveSet::gone()
+
+  bool resembles(const ContactIsland& island);
+};
+
+/// Whether factors, or the forces, of last time are a start: the same masses, and few of the rows are others.
+bool Known::resembles(const ContactIsland& island) {
+  constexpr std::size_t few = 16;  // of a number of rows, one in so many
+  if (island.inverse_mass != inverse_mass || rows.empty()) return false;
+  const auto key = [](const ContactIsland::Row& r) { return std::uint64_t{r.a} << 32 | r.b; };
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
+  for (std::uint32_t c = 0; c < island.rows.size(); ++c) order.emplace_back(key(island.rows[c]), c);
+  std::sort(order.begin(), order.end());
+  now.assign(rows.size(), DualActiveSet::gone());
+  std::vector<std::uint8_t> taken(island.rows.size(), 0);
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const ContactIsland::Row& r = rows[k];
+    auto it = std::lower_bound(order.begin(), order.end(), std::pair(key(r), std::uint32_t{0}));
+    for (; it != order.end() && it->first == key(r); ++it) {
+      const ContactIsland::Row& is = island.rows[it->second];
+      if (taken[it->second] || is.bilateral != r.bilateral || is.left != r.left || is.right != r.right) continue;
+      now[k] = it->second;
+      taken[it->second] = 1;
+      ++found;
+      break;
+    }
+  }
+  const std::size_t others = (rows.size() - found) + (island.rows.size() - found);
+  return others <= 1 + rows.size() / few;
+}
+
+}  // namespace
+
+struct ContactSolver::Workspace {
+  std::map<std::uint32_t, Known> known;  // by the lowest body of an island
+  ContactIsland island;
+  ContactAnswer answer;
+  std::vector<std::uint32_t> place;   // by body: its number in the island
+  std::vector<std::uint32_t> bodies;  // by number in the island
+  bool remembers = true;
+
+  void take_island(const ContactProblem& problem, std::span<const std::uint32_t> contacts);
+  void give_back(const ContactProblem& problem, std::span<const std::uint32_t> contacts) const;
+  Certificate solve_island(Known& last);
+  Certificate solve(const ContactProblem& problem);
+};
+
+void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::span<const std::uint32_t> contacts) {
+  island.inverse_mass.clear();
+  island.free.clear();
+  island.rows.clear();
+  bodies.clear();
+  for (const std::uint32_t c : contacts)
+    for (const std::uint32_t body : {problem.contacts[c].a, problem.contacts[c].b})
+      if (body != ContactConstraint::fixed && place[body] == ContactConstraint::fixed) {
+        place[body] = 0;
+        bodies.push_back(body);
+      }
+  std::sort(bodies.begin(), bodies.end());
+  for (std::uint32_t k = 0; k < bodies.size(); ++k) {
+    place[bodies[k]] = k;
+    island.inverse_mass.push_back(problem.inverse_mass[bodies[k]]);
+    island.free.push_back(problem.motion[bodies[k]]);
+  }
+  for (const std::uint32_t c : contacts) {
+    const ContactConstraint& from = problem.contacts[c];
+    ContactIsland::Row& row = island.rows.emplace_back();
+    row.a = place[from.a];
+    row.b = from.b == ContactConstraint::fixed ? from.b : place[from.b];
+    row.bilateral = from.bilateral;
+    row.normal = from.normal;
+    row.target = from.target;
+    row.slack = from.slack;
+    row.force = from.bilateral ? 0 : std::max(from.force, 0.0);
+  }
+  for (const std::uint32_t body : bodies) place[body] = ContactConstraint::fixed;
+  island.scale();
+}
+
+void ContactSolver::Workspace::give_back(const ContactProblem& problem, std::span<const std::uint32_t> contacts) const {
+  for (std::size_t k = 0; k < bodies.size(); ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      problem.motion[bodies[k]][static_cast<int>(axis)] =
+          std::ldexp(answer.motion[3 * k + axis].value(), island.motion_exponent);
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    problem.contacts[contacts[k]].force =
+        std::ldexp(answer.force[k].value(), island.motion_exponent - island.mass_exponent);
+}
+
+/// The one place where a method is chosen: by what each would cost. Orthogonal factors take three in unknowns for every
+/// row, sparse ones some thirty factorisations, and need masses that are not too unequal. Where the one fails the other
+/// comes next, and then orthogonal factors from nothing.
+Certificate ContactSolver::Workspace::solve_island(Known& last) {
+  constexpr double rows_taken_in = 1.3, factorisations = 35, per_entry = 40;
+  constexpr double surely_dense = 1e6;  // operations; below it the sparse method's set-up alone costs more
+  constexpr double worth_while = 8;     // solutions: factors for which one pays once pay for so many
+  Certificate best{Certificate::Verdict::doubtful, std::numeric_limits<double>::infinity()};
+  ContactAnswer attempt;
+  // Whether that was it.
+  const auto take = [&](const Judgement& judgement, bool infeasible) {
+    if (answer.motion.empty() || judgement.within_slack || judgement.change < best.change) {
+      std::swap(answer, attempt);
+      best.change = judgement.change;
+    }
+    if (infeasible) best.verdict = Certificate::Verdict::infeasible;
+    if (judgement.within_slack) best.verdict = Certificate::Verdict::solved;
+    return judgement.within_slack;
+  };
+  const auto by_active_set = [&] {
+    const DualActiveSet::Result result = last.method.solve(island, attempt);
+    return take(result.judgement, result.infeasible);
+  };
+  answer.motion.clear();
+  const bool alike = remembers && last.resembles(island);
+  if (alike && last.method.has_factors()) {
+    const DualActiveSet::Result result = last.method.solve_again(island, last.now, attempt);
+    if (take(result.judgement, result.infeasible)) return best;
+  }
+  if (alike)
+    for (std::size_t k = 0; k < last.rows.size(); ++k)
+      if (last.now[k] != DualActiveSet::gone() && !last.rows[k].bilateral)
+        island.rows[last.now[k]].force = last.rows[k].force;
+  const double n = static_cast<double>(island.unknowns()), m = static_cast<double>(island.rows.size());
+  const double taken = std::min(m, n), dense = rows_taken_in * taken * 6 * n * (n - 0.5 * taken);
+  if (dense <= surely_dense && by_active_set()) return best;
+  ContactInteriorPoint sparse(island);
+  const double cost = factorisations * (sparse.operations() + per_entry * (n + m));
+  const bool unequal = island.mass_ratio > 1e6 && n <= 1500;
+  if (dense > surely_dense && (unequal || dense <= (alike ? worth_while : 1) * cost) && by_active_set()) return best;
+  if (take(sparse.solve(attempt), false)) return best;
+  for (std::size_t c = 0; c < island.rows.size(); ++c)
+    island.rows[c].force = island.rows[c].bilateral ? 0 : std::max(answer.force[c].hi, 0.0);
+  if (by_active_set()) return best;
+  for (ContactIsland::Row& r : island.rows) r.force = 0;
+  by_active_set();
+  return best;
+}
+
+Certificate ContactSolver::Workspace::solve(const ContactProblem& problem) {
+  Certificate all;
+  if (problem.contacts.empty()) return all;
+  place.assign(problem.motion.size(), ContactConstraint::fixed);
+  const Islands islands(problem.motion.size(), problem.contacts);
+  for (std::size_t k = 0; k + 1 < islands.first.size(); ++k) {
+    const auto contacts =
+        std::span(islands.contacts).subspan(islands.first[k], islands.first[k + 1] - islands.first[k]);
+    take_island(problem, contacts);
+    if (island.speed == 0) {
+      for (const std::uint32_t c : contacts) problem.contacts[c].force = 0;
+      continue;
+    }
+    Known once;
+    Known& last = remembers ? known[bodies.front()] : once;
+    const Certificate its = solve_island(last);
+    if (remembers) {
+      last.inverse_mass = island.inverse_mass;
+      last.rows = island.rows;
+      for (std::size_t c = 0; c < last.rows.size(); ++c) last.rows[c].force = answer.force[c].hi;
+    }
+    give_back(problem, contacts);
+    all.verdict = std::max(all.verdict, its.verdict);
+    all.change = std::max(all.change, its.change);
+  }
+  return all;
+}
+
+ContactSolver::ContactSolver() : workspace_(std::make_unique<Workspace>()) {}
+ContactSolver::~ContactSolver() = default;
+ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;
+ContactSolver& ContactSolver::operator=(ContactSolver&&) noexcept = default;
+
+Certificate ContactSolver::solve(const ContactProblem& problem) {
+  return workspace_->solve(problem);
+}
+
+Certificate solve(const ContactProblem& problem) {
+  ContactSolver::Workspace once;
+  once.remembers = false;
+  return once.solve(problem);
+}
+
+}  // namespace carom

@@ -1,0 +1,72 @@
+#pragma once
+// The one door to frictionless contact: of all motions that no contact forbids, the one nearest to the free one
+// (Gauss's principle of least constraint). With the forces x_c >= 0 along the normals n_c as unknowns it is the
+// complementarity problem
+//   u = u_free + M^-1 N x,  w = N^T u - target,  0 <= x, 0 <= w, x w = 0.
+// The motion u is unique, the forces need not be.
+//
+// Two methods stand behind it: a dual active set on orthogonal factors (active_set.h), for what is small,
+// ill-conditioned or nearly as it was last time, and an interior point with a proximal Newton method (interior_point.h)
+// on the bodies' sparse matrix, for what is large. Each is the other's fallback, cost alone chooses between them, and
+// one certificate judges both (contact_island.h).
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+
+#include "physics/vec3.h"
+
+namespace carom {
+
+/// Two bodies, or a body and something fixed, that contact keeps from each other.
+struct ContactConstraint {
+  static constexpr std::uint32_t fixed = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t a, b;      // places in the problem's arrays; b `fixed`: something that nothing moves
+  Vec3 normal;             // from a to b; unit but for rounding
+  double target = 0;       // normal . (u_b - u_a) must not be less; in the unit of u
+  double slack = 0;        // an answer that is this much short of it will do; in the unit of u
+  double force = 0;        // in: a guess; out: mass times the unit of u, along the normal; >= 0 unless bilateral
+  bool bilateral = false;  // normal . (u_b - u_a) must be the target: the force may pull too
+};
+
+struct ContactProblem {
+  std::span<const double> inverse_mass;  // 1/kg, > 0, by body
+  std::span<Vec3> motion;                // velocities, accelerations or displacements; in: free; out: allowed
+  std::span<ContactConstraint> contacts;
+};
+
+/// What is known of an answer. It is the exact one, rounded, of data that differ from the given ones by `change`
+/// relative to each row's own scale: a target's, or a free motion's, with the problem's greatest one.
+struct Certificate {
+  enum class Verdict : std::uint8_t {
+    solved,      // to rounding, or to the contacts' slack
+    infeasible,  // no motion keeps all contacts: those that matter most to the method are kept
+    doubtful     // neither method has got as near as rounding allows
+  };
+  Verdict verdict = Verdict::solved;
+  double change = 0;
+  bool solved() const { return verdict == Verdict::solved; }
+};
+
+/// Solves problems that are alike faster one after the other: it keeps the factors of the last one. The motion that it
+/// finds does not depend on that but for its last bits.
+class ContactSolver {
+ public:
+  ContactSolver();
+  ~ContactSolver();
+  ContactSolver(ContactSolver&&) noexcept;
+  ContactSolver& operator=(ContactSolver&&) noexcept;
+
+  Certificate solve(const ContactProblem& problem);
+
+ private:
+  friend Certificate solve(const ContactProblem& problem);
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+/// The same without memory of what came before. Masses, lengths and times in other units, powers of two apart, give the
+/// same bits.
+Certificate solve(const ContactProblem& problem);
+
+}  // namespace carom
