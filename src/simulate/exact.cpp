@@ -14,7 +14,7 @@ namespace carom {
 
 namespace {
 
-constexpr std::size_t collision_buffer = 4096;
+constexpr std::size_t of_an_event = 8;  // collisions that one event may bring, as a rule
 constexpr std::uint32_t events_at_a_time = 65536;
 constexpr Entity cached_bodies = 24576;  // that fit into a processor's own memory
 
@@ -52,13 +52,13 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       needed_(world.body_count()),
       followed_(world.body_count()),
       arrival_(world.body_count(), Vec3::Zero()),
-      arrival_version_(world.body_count()) {
+      arrival_version_(world.body_count()),
+      log_(options.max_collisions, options.record_collisions) {
   start(initial);
 }
 
 void ExactSimulator::start(const State& initial) {
   const Entity n = world_.body_count();
-  if (options_.record_collisions) collisions_.reserve(collision_buffer);
   for (Entity i = 0; i < n; ++i) {
     Vec3 v = initial.velocity[i];
     if (!world_.impulse.empty()) v += world_.impulse[i] / world_.mass[i];
@@ -68,7 +68,7 @@ void ExactSimulator::start(const State& initial) {
       driven_.write(i) = pull.working;
     }
     flight_.set(i, {{}, initial.position[i], v, pull_[i]});
-    tally_.max_speed = std::max(tally_.max_speed, v.norm());
+    log_.note_speed(v.norm());
   }
   neighbours_.start(initial.position);
   if (!options_.merge) {
@@ -101,7 +101,7 @@ bool ExactSimulator::before(Entity i, Entity j) const {
 }
 
 void ExactSimulator::advance_to(double time) {
-  collisions_.clear();
+  log_.begin_advance();
   paths_.clear();
   full_ = false;
   state_fresh_ = false;
@@ -129,7 +129,7 @@ void ExactSimulator::advance_to(double time) {
       return;
     }
     // A full buffer: stop short of the instant reached, for more may happen in it.
-    if (full_) {
+    if (full_ || !log_.has_room(of_an_event)) {
       time_ = std::max(time_, std::nextafter(now_.hi, 0));
       return;
     }
@@ -179,7 +179,7 @@ void ExactSimulator::restart(Entity i, const Vec3& x, const Vec3& v, Origin orig
   path_changes(i);
   const double speed = v.norm();
   hold_to(bounds_, i, now_.hi, x, v, too_fast);
-  tally_.max_speed = std::max(tally_.max_speed, speed);
+  log_.note_speed(speed);
   book_flight(i, x);
   const bool flies =
       body_[i].place == Place::crowd && !following_ && flight_.acceleration(i) != Vec3::Zero();  // through a stride
@@ -208,10 +208,9 @@ void ExactSimulator::new_version(Entity i) {
 void ExactSimulator::book_flight(Entity i, const Vec3& x) {
   if (flight_.acceleration(i) == world_.gravity && world_.forces.empty()) return;
   const Vec3 way = x - flight_[i].x;
-  lose(world_.mass[i] * (pull_[i] - flight_[i].a).dot(way));
+  log_.lose(world_.mass[i] * (pull_[i] - flight_[i].a).dot(way));
   if (world_.forces.empty()) return;
-  work_.add(world_.mass[i] * driven_[i].dot(way));
-  tally_.work = work_.value();
+  log_.add_work(world_.mass[i] * driven_[i].dot(way));
 }
 
 /// What the forces do to body i, or to the parts that it is made of, from now on.
@@ -243,7 +242,7 @@ void ExactSimulator::switch_forces(Entity i) {
   if (body_[i].place == Place::asleep) join(i);
   if (body_[i].place == Place::crowd) {  // the last step had the old forces in it until its end
     const Vec3 slower = velocity_now(i, now_);
-    lose(0.5 * world_.mass[i] * (v - slower).dot(v + slower));
+    log_.lose(0.5 * world_.mass[i] * (v - slower).dot(v + slower));
     v = slower;
     pulled_.write(i) = now_;
     crowd_end_ = now_;
@@ -254,26 +253,10 @@ void ExactSimulator::switch_forces(Entity i) {
   predict(i);
 }
 
-void ExactSimulator::record(const Collision& collision) {
-  tally_.count(collision.kind, collision.time);
-  if (!options_.record_collisions) return;
-  collisions_.push_back(collision);
-  full_ = full_ || collisions_.size() >= collision_buffer - 8;
-}
-
-/// Kinetic energy (J) that a collision or a contact took.
-void ExactSimulator::lose(double energy) {
-  energy_lost_.add(energy);
-  tally_.energy_lost = energy_lost_.value();
-}
-
 /// A run that would never end is stopped: one in which events go on and on while the clock stands still. Elastic
 /// impacts cannot collapse, and unequal masses have millions of them in an instant (Galperin's billiard): of these, and
 /// of events without physics, it takes a thousand times as many, or that the clock moves by its rounding at most.
 void ExactSimulator::check_limits(Kind kind) {
-  if (options_.max_collisions > 0 && tally_.collisions() > options_.max_collisions)
-    throw SimulationError(fmt::format("more than simulate.max_collisions = {} collisions, reached at t = {} s",
-                                      options_.max_collisions, now_.hi));
   const std::uint64_t many = 1'000'000 + 1000ull * world_.body_count();
   const bool impact = kind == Kind::body_body || kind == Kind::body_fixed;
   const bool patient = kind == Kind::none || (impact && struck_ == 1);
@@ -327,10 +310,11 @@ const State& ExactSimulator::state() {
     ended_ = true;
     for (Entity i = 0; i < world_.body_count(); ++i) {
       hold_to(bounds_, i, time_, state_.position[i], state_.velocity[i], too_fast);
-      tally_.max_speed = std::max(tally_.max_speed, state_.velocity[i].norm());
+      log_.note_speed(state_.velocity[i].norm());
       book_flight(i, state_.position[i]);
       const Vec3 v = flight_[i].velocity(at - flight_[i].start);
-      if (v != state_.velocity[i]) lose(0.5 * world_.mass[i] * (v - state_.velocity[i]).dot(v + state_.velocity[i]));
+      if (v != state_.velocity[i])
+        log_.lose(0.5 * world_.mass[i] * (v - state_.velocity[i]).dot(v + state_.velocity[i]));
     }
   }
   if (!part_of_.empty()) {

@@ -15,7 +15,7 @@ namespace carom {
 void ExactSimulator::carry(Entity i, bool carried) {
   if (carried == (carried_[i] != 0)) return;
   carried_.write(i) = carried;
-  carried ? ++tally_.resting : --tally_.resting;
+  carried ? log_.add_resting(1) : log_.remove_resting(1);
 }
 
 /// Body i belongs to the crowd from now on.
@@ -30,12 +30,12 @@ void ExactSimulator::join(Entity i) {
   jostled_.write(i) = 0;
   if (contacts_[i].count > 0) {
     contacts_.write(i).count = 0;
-    --tally_.resting;
+    log_.remove_resting(1);
   }
   if (crowd_.empty()) {
     crowd_end_ = now_;
     following_ = false;
-    ++tally_.collapses;
+    log_.count_collapse();
   }
   if (following_) crowd_end_ = now_;
   idle_.write(i) = 0;
@@ -163,7 +163,7 @@ void ExactSimulator::jostle(Entity i) {
     jostled_.write(a) = 1;
     if (after[k] == before[k]) continue;
     changed.push_back(a);
-    lose(0.5 * world_.mass[a] * (before[k] - after[k]).dot(before[k] + after[k]));
+    log_.lose(0.5 * world_.mass[a] * (before[k] - after[k]).dot(before[k] + after[k]));
     restart(a, at(a), after[k], {});
     flight_.accelerate(a, Vec3::Zero());
   }

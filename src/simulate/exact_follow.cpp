@@ -301,7 +301,7 @@ bool ExactSimulator::follow_crowd() {
   members.swap(crowd_);
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = members[k];
-    lose(0.5 * world_.mass[i] * (before[k] - v[k]).dot(before[k] + v[k]));
+    log_.lose(0.5 * world_.mass[i] * (before[k] - v[k]).dot(before[k] + v[k]));
     if (bound[k]) needed_.write(i) = now_;
     if (!bound[k] && !(held[k] && rests[k]) && now_ - needed_[i] >= grace) {
       body_[i].place = Place::outside;

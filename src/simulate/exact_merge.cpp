@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "physics/force.h"
+#include "physics/impact.h"
 #include "simulate/exact_simulator.h"
 
 namespace carom {
@@ -31,9 +32,12 @@ void ExactSimulator::merge(Entity a, Entity b, const Touch& there) {
   const Vec3 w = vb - va;
   const double approach = std::max(-w.dot(there.normal), 0.0);
   const double lost = 0.5 * (mw * mp / mass) * w.squaredNorm();
-  lose(lost);
-  record({now_.hi, CollisionKind::merge, a, b, there.point, there.normal, approach, 0, 0, approach * (mw * mp / mass),
-          lost});
+  log_.lose(lost);
+  Collision met =
+      make_collision(world_, CollisionKind::merge, now_.hi, a, b, there.point, there.normal, approach, 0, 0);
+  met.impulse = approach * (mw * mp / mass);
+  met.energy_lost = lost;  // of the motion along the surfaces too
+  log_.record(met);
 
   const double potential_before = potential_of(a, xa) + potential_of(b, xb);
 
@@ -61,7 +65,7 @@ void ExactSimulator::merge(Entity a, Entity b, const Touch& there) {
   for (Entity i : {a, b}) {
     if (contacts_[i].count == 0) continue;
     contacts_.write(i).count = 0;
-    --tally_.resting;
+    log_.remove_resting(1);
   }
   neighbours_.remove(part);
   new_version(part);
@@ -69,7 +73,7 @@ void ExactSimulator::merge(Entity a, Entity b, const Touch& there) {
   queue_.update(part, never);
   flight_.set(part, {now_, joint_x, Vec3::Zero(), Vec3::Zero()});
 
-  if (!world.forces.empty()) lose(potential_before - potential_of(whole, joint_x));
+  if (!world.forces.empty()) log_.lose(potential_before - potential_of(whole, joint_x));
   Flight f{now_, joint_x, joint_v, pull_[whole]};
   flight_.set(whole, f);
   new_version(whole);
@@ -82,14 +86,13 @@ void ExactSimulator::merge(Entity a, Entity b, const Touch& there) {
       const Touch t = touch(world, whole, f.x, e, world.fixed_position(e));
       if (!(t.gap < 0)) continue;
       const Vec3 out = t.gap * t.normal;
-      work_.add(potential_of(whole, f.x + out) - potential_of(whole, f.x));  // that lifting it takes
+      log_.add_work(potential_of(whole, f.x + out) - potential_of(whole, f.x));  // that lifting it takes
       f.x += out;
       free = false;
     }
     flight_.set(whole, f);
     if (free) break;
   }
-  tally_.work = work_.value();
   for (Entity e : known_to(whole)) {
     if (!world.is_body(e)) continue;
     const Touch t = touch(world, std::min(whole, e), x(std::min(whole, e)), std::max(whole, e), x(std::max(whole, e)));

@@ -118,10 +118,13 @@ void ExactSimulator::stop_at(Entity striker, Entity struck, std::uint8_t feature
   const double t = now_ - f.start, mass = world_.mass[striker];
   const Vec3 x = f.position(t), v = f.velocity(t);
   const double lost = 0.5 * mass * v.squaredNorm();
-  record({now_.hi, CollisionKind::body_body, std::min(striker, struck), std::max(striker, struck), there.point,
-          there.normal, approach, 0, pair_restitution(world_, striker, struck),
-          impact_impulse(mass, immovable, approach, 0), lost});
-  lose(lost);
+  Collision met =
+      make_collision(world_, CollisionKind::body_body, now_.hi, std::min(striker, struck), std::max(striker, struck),
+                     there.point, there.normal, approach, 0, pair_restitution(world_, striker, struck));
+  met.impulse = impact_impulse(mass, immovable, approach, 0);  // the struck one is held
+  met.energy_lost = lost;
+  log_.record(met);
+  log_.lose(lost);
   restart(striker, x, Vec3::Zero(), {struck, feature});
   predict(striker);
 }
@@ -132,8 +135,9 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const Vec3 xa = p.position(ta), xb = q.position(tb);
   const Vec3 va = p.velocity(ta), vb = q.velocity(tb);
   const Touch there = touch_at(a, xa, b, xb, feature);
-  tally_.max_overlap = std::max(tally_.max_overlap, -there.gap);
-  tally_.max_speed = std::max({tally_.max_speed, va.norm(), vb.norm()});
+  log_.note_overlap(-there.gap);
+  log_.note_speed(va.norm());
+  log_.note_speed(vb.norm());
   if (options_.merge) return merge(a, b, there);
   const double ma = world_.mass[a], mb = world_.mass[b];
   const Vec3 w = vb - va;
@@ -153,10 +157,9 @@ void ExactSimulator::collide_pair(Entity a, Entity b, std::uint8_t feature) {
                        (press > 0 && (e * met == 0 || too_low(xa, e * met, press)));
   const double separation = take_up ? 0 : e * met;
   const double impulse = impact_impulse(ma, mb, take_up ? approach : met, separation);
-  lose(impact_loss(ma, mb, approach, take_up || met == approach ? separation : met + separation - approach));
+  log_.lose(impact_loss(ma, mb, approach, take_up || met == approach ? separation : met + separation - approach));
   if (!take_up)
-    record({now_.hi, CollisionKind::body_body, a, b, there.point, n, met, separation, e, impulse,
-            impact_loss(ma, mb, met, separation)});
+    log_.record(make_collision(world_, CollisionKind::body_body, now_.hi, a, b, there.point, n, met, separation, e));
   for (Entity i : {a, b}) {
     if (take_up || body_[i].place == Place::asleep) join(i);
     stir(i, approach);
@@ -190,8 +193,8 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
   double separation = e * met;
   const double bend = flat ? 0 : bending(world_, i, x, surface, world_.fixed_position(surface), there, -v);
   const double press = free_acceleration(i, surface).dot(n) - bend;
-  tally_.max_overlap = std::max(tally_.max_overlap, -there.gap);
-  tally_.max_speed = std::max(tally_.max_speed, v.norm());
+  log_.note_overlap(-there.gap);
+  log_.note_speed(v.norm());
 
   Contact contact{surface, feature, -n, false, now_, separation};
   bool rests = false;
@@ -211,10 +214,11 @@ void ExactSimulator::collide_fixed(Entity i, Entity surface, std::uint8_t featur
   if (take_up || body_[i].place == Place::asleep) join(i);
   stir(i, approach);
   if (approach > 0 || separation > 0) {
-    lose(impact_loss(mass, immovable, approach, take_up || met == approach ? separation : met + separation - approach));
+    log_.lose(
+        impact_loss(mass, immovable, approach, take_up || met == approach ? separation : met + separation - approach));
     if (!take_up)
-      record({now_.hi, CollisionKind::body_fixed, i, surface, there.point, n, met, separation, e,
-              impact_impulse(mass, immovable, met, separation), impact_loss(mass, immovable, met, separation)});
+      log_.record(
+          make_collision(world_, CollisionKind::body_fixed, now_.hi, i, surface, there.point, n, met, separation, e));
   }
   if (rests) {
     settle(i, contact);

@@ -23,9 +23,9 @@ constexpr double velocity_rounding = 0x1p-48;  // of the speeds that a component
 
 /// Adds a surface to those that carry body i.
 void ExactSimulator::settle(Entity i, const Contact& contact) {
-  lose(impact_loss(world_.mass[i], immovable, contact.residual_speed, 0));
+  log_.lose(impact_loss(world_.mass[i], immovable, contact.residual_speed, 0));
   Contacts& contacts = contacts_.write(i);
-  if (contacts.count == 0) ++tally_.resting;
+  if (contacts.count == 0) log_.add_resting(1);
   contacts.at[contacts.count++] = contact;
 }
 
@@ -37,11 +37,9 @@ void ExactSimulator::finish_rest(Entity i) {
     contact.settling = false;
     const Vec3 n = -contact.normal;
     const Vec3 x = flight_[i].position(now_ - flight_[i].start);
-    const double u = contact.residual_speed;
-    record({now_.hi, CollisionKind::rest, i, contact.surface,
-            touch_at(i, x, contact.surface, world_.fixed_position(contact.surface), contact.feature).point, n, u, 0,
-            pair_restitution(world_, i, contact.surface), impact_impulse(world_.mass[i], immovable, u, 0),
-            impact_loss(world_.mass[i], immovable, u, 0)});
+    const Vec3 point = touch_at(i, x, contact.surface, world_.fixed_position(contact.surface), contact.feature).point;
+    log_.record(make_collision(world_, CollisionKind::rest, now_.hi, i, contact.surface, point, n,
+                               contact.residual_speed, 0, pair_restitution(world_, i, contact.surface)));
     break;
   }
   predict(i);
@@ -53,7 +51,7 @@ void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
   for (std::size_t k = 0; k < contacts.count; ++k)
     if (contacts.at[k].surface == surface) {
       contacts.at[k] = contacts.at[--contacts.count];
-      if (contacts.count == 0) --tally_.resting;
+      if (contacts.count == 0) log_.remove_resting(1);
       break;
     }
   const double t = now_ - flight_[i].start;
@@ -83,9 +81,8 @@ Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v) {
     if (!keep[k]) continue;
     ++collapse_.write(i).impacts;  // in turn with the one that threw it at the surface
     collapse_.write(i).lost += 1 - e;
-    record({now_.hi, CollisionKind::body_fixed, i, contact.surface,
-            touch_at(i, x, contact.surface, world_.fixed_position(contact.surface), contact.feature).point, n, u, 0, e,
-            impact_impulse(world_.mass[i], immovable, u, 0), impact_loss(world_.mass[i], immovable, u, 0)});
+    const Vec3 point = touch_at(i, x, contact.surface, world_.fixed_position(contact.surface), contact.feature).point;
+    log_.record(make_collision(world_, CollisionKind::body_fixed, now_.hi, i, contact.surface, point, n, u, 0, e));
   }
   std::array<Vec3, max_contacts> normals;
   const auto thin_out = [&] {
@@ -108,8 +105,8 @@ Vec3 ExactSimulator::keep_contacts(Entity i, Vec3 v) {
   }
   thin_out();
   allowed = project_to_common_plane(allowed, {normals.data(), contacts.count});
-  if (contacts.count == 0) --tally_.resting;
-  lose(0.5 * world_.mass[i] * (v - allowed).dot(v + allowed));
+  if (contacts.count == 0) log_.remove_resting(1);
+  log_.lose(0.5 * world_.mass[i] * (v - allowed).dot(v + allowed));
   return allowed;
 }
 
@@ -126,7 +123,7 @@ Vec3 ExactSimulator::contact_acceleration(Entity i) {
   for (std::size_t k = 0; k < contacts.count; ++k)
     if (active >> k & 1u) contacts.at[kept++] = contacts.at[k];
   contacts.count = kept;
-  if (kept == 0) --tally_.resting;
+  if (kept == 0) log_.remove_resting(1);
   return a;
 }
 

@@ -15,6 +15,7 @@
 #include "physics/complementarity.h"
 #include "physics/touch.h"
 #include "simulate/by_need.h"
+#include "simulate/event_log.h"
 #include "simulate/exact.h"
 #include "simulate/flight.h"
 #include "simulate/large_pages.h"
@@ -31,9 +32,9 @@ class ExactSimulator final : public Simulator {
   void advance_to(double time) override;
   double time() const override { return time_; }
   const State& state() override;
-  std::span<const Collision> collisions() const override { return collisions_; }
+  std::span<const Collision> collisions() const override { return log_.collisions(); }
   std::span<const PathPiece> paths() const override { return paths_; }
-  const Tally& tally() const override { return tally_; }
+  const Tally& tally() const override { return log_.tally(); }
   Effort effort() const override;
   std::span<const ContactForce> contacts() override;
 
@@ -117,7 +118,7 @@ class ExactSimulator final : public Simulator {
   static constexpr double hardly_moving = 1e-5;  // of the speed of falling by a radius: in a crowd as good as none
   static constexpr double restless_gap = 2e-2;   // of a radius: what bodies that were just struck are kept apart
   /// m/s: a speed as good as none, for products of it with itself underflow.
-  double negligible_speed() const { return 0x1p-200 * tally_.max_speed; }
+  double negligible_speed() const { return 0x1p-200 * log_.tally().max_speed; }
   /// Whether a speed (m/s) against a pressing acceleration (m/s^2) lifts a body by less than its position x (m) is
   /// rounded to.
   static bool too_low(const Vec3& x, double speed, double press) {
@@ -157,8 +158,6 @@ class ExactSimulator final : public Simulator {
   void switch_forces(Entity i);
   void start(const State& initial);
   Vec3 velocity_now(Entity i, const Instant& at) const;
-  void record(const Collision& collision);
-  void lose(double energy);
   void look_ahead();
   void check_limits(Kind kind);  // none: a region was left
 
@@ -289,18 +288,16 @@ class ExactSimulator final : public Simulator {
 
   State state_;
   bool state_fresh_ = false, ended_ = false;
-  std::vector<Collision> collisions_;
+  EventLog log_;
   std::vector<PathPiece> paths_;
   std::vector<Entity> changed_;  // whose paths are to be recorded as they are when all that happens
   Instant changed_at_;           // at this instant has happened
-  bool full_ = false;            // there is no room for what one more event may bring
-  Tally tally_;
+  bool full_ = false;            // paths_ is
   Effort effort_;
   std::vector<Entity> part_of_;             // empty: nothing has merged
   std::vector<std::vector<Entity>> parts_;  // by joint body: itself and what has become part of it
   std::vector<double> joint_share_;         // by body: its own mass over its joint body's
   std::vector<ContactForce> contact_forces_;
-  Sum energy_lost_, work_;  // J
 
   /// How the clock goes on from event to event.
   struct Watch {

@@ -311,7 +311,7 @@ void ExactSimulator::take_stride(const Stride& step) {
     const Vec3 &x = step.x[k], &v = step.settled[k], &moved = step.moved[k];
     const Vec3 before = flight_[i].velocity(now_ - flight_[i].start);
     const auto go_on = [&](const Vec3& velocity) {
-      lose(0.5 * world_.mass[i] * (before - velocity).dot(before + velocity));
+      log_.lose(0.5 * world_.mass[i] * (before - velocity).dot(before + velocity));
       restart(i, x, velocity, {});
     };
     if (step.rests[k]) {
