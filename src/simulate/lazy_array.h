@@ -1,5 +1,5 @@
 #pragma once
-// Values by body of which most scenes need none: they take memory once the first is written.
+// Values by body that most scenes do not need: they take memory once the first is written.
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -8,29 +8,29 @@
 
 namespace carom {
 
-/// All at once. T: the value until then is `common`.
+/// An array that is allocated at the first write. Until then every value is `common`.
 template <typename T>
-class ByNeed {
+class LazyArray {
  public:
-  explicit ByNeed(std::size_t bodies, T common = {}) : bodies_(bodies), common_(std::move(common)) {}
+  explicit LazyArray(std::size_t size, T common = {}) : size_(size), common_(std::move(common)) {}
   const T& operator[](std::size_t i) const { return values_.empty() ? common_ : values_[i]; }
   T& write(std::size_t i) {
-    if (values_.empty()) values_.assign(bodies_, common_);
+    if (values_.empty()) values_.assign(size_, common_);
     return values_[i];
   }
   bool empty() const { return values_.empty(); }
 
  private:
-  std::size_t bodies_;
+  std::size_t size_;
   T common_;
   std::vector<T> values_;
 };
 
-/// One by one, for large values that few bodies have. References stay valid.
+/// An array of large values of which few are written; each takes memory at its own first write. References stay valid.
 template <typename T>
-class OneByOne {
+class SparseArray {
  public:
-  explicit OneByOne(std::size_t bodies) : place_(bodies, 0) {}
+  explicit SparseArray(std::size_t size) : place_(size, 0) {}
   const T& operator[](std::size_t i) const { return place_[i] == 0 ? common_ : values_[place_[i] - 1]; }
   T& write(std::size_t i) {
     std::uint32_t& place = place_.write(i);
@@ -43,7 +43,7 @@ class OneByOne {
 
  private:
   T common_{};
-  ByNeed<std::uint32_t> place_;  // in values_, and one; 0: none
+  LazyArray<std::uint32_t> place_;  // in values_, plus one; 0: not written
   std::deque<T> values_;
 };
 
