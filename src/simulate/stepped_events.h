@@ -10,11 +10,11 @@
 
 namespace carom {
 
-struct StepEvent {
-  enum class Kind : std::uint8_t { release, impact };  // in the order in which events of one instant happen
+enum class StepEventKind : std::uint8_t { release, impact };  // in the order in which events of one instant happen
 
+struct StepEvent {
   double time;  // s, since the step's start
-  Kind kind;
+  StepEventKind kind;
   Entity a, b;           // of a release too: the two that part
   std::uint8_t feature;  // as in Touch
   std::uint32_t version_a = 0, version_b = 0;
@@ -32,7 +32,7 @@ class StepEvents {
   explicit StepEvents(const StepPaths& paths) : paths_(paths) {}
 
   /// Schedules an event of the bodies' present paths.
-  void push(double time, StepEvent::Kind kind, Entity a, Entity b, std::uint8_t feature) {
+  void push(double time, StepEventKind kind, Entity a, Entity b, std::uint8_t feature) {
     queue_.push({time, kind, a, b, feature, paths_.version_of(a), paths_.version_of(b)});
   }
   /// Takes the first event that is not void. False: there is none.

@@ -12,7 +12,7 @@ namespace carom {
 using namespace stepped_tolerance;
 
 double GroupForces::between(Entity a, Entity b) const {
-  for (const Force& f : of_[a])
+  for (const PartnerForce& f : of_[a])
     if (f.partner == b) return f.force;
   return 0;
 }

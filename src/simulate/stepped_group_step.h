@@ -25,11 +25,11 @@ class GroupForces {
   void remember(const GroupBodies& bodies, const std::vector<GroupContact>& contacts, double h);
 
  private:
-  struct Force {
+  struct PartnerForce {
     Entity partner;
     double force;  // N
   };
-  std::vector<std::vector<Force>> of_;  // by the first of the two
+  std::vector<std::vector<PartnerForce>> of_;  // by the first of the two
 };
 
 class GroupStep {

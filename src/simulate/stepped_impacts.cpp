@@ -14,7 +14,7 @@ namespace carom {
 using namespace stepped_tolerance;
 
 void StepImpacts::process(const StepEvent& event) {
-  event.kind == StepEvent::Kind::impact ? collide(event) : release(event);
+  event.kind == StepEventKind::impact ? collide(event) : release(event);
 }
 
 void StepImpacts::release(const StepEvent& event) {
@@ -35,8 +35,8 @@ void StepImpacts::collide(const StepEvent& event) {
   for (const Entity e : {a, b})
     if (shared_.world.is_body(e) && std::find(bodies.begin(), bodies.end(), e) == bodies.end())
       motion_.set_free(e, time, bodies);
-  const Outcome outcome = resolve(event, time, relative_acceleration);
-  binding_.bind_after({time, StepEvent::Kind::impact, a, b, outcome.feature}, outcome.parts, bodies, time);
+  const ImpactOutcome outcome = resolve(event, time, relative_acceleration);
+  binding_.bind_after({time, StepEventKind::impact, a, b, outcome.feature}, outcome.parts, bodies, time);
   begin_paths(bodies);
 }
 
@@ -133,7 +133,8 @@ void StepImpacts::attach(Entity i, Entity carrier) {
 
 /// The impact of two bodies, or of a body and a fixed thing, whose paths begin at `time`. relative_acceleration: m/s^2,
 /// a's less b's as they met.
-StepImpacts::Outcome StepImpacts::resolve(const StepEvent& event, double time, const Vec3& relative_acceleration) {
+StepImpacts::ImpactOutcome StepImpacts::resolve(const StepEvent& event, double time,
+                                                const Vec3& relative_acceleration) {
   const World& world = shared_.world;
   StepPaths& paths = shared_.paths;
   const Entity a = event.a, b = event.b;

@@ -26,7 +26,7 @@ class StepImpacts {
   struct PointState {
     Vec3 x, v;  // m, m/s
   };
-  struct Outcome {
+  struct ImpactOutcome {
     std::uint8_t feature;  // at which the two have met
     bool parts;            // they separate
   };
@@ -39,7 +39,7 @@ class StepImpacts {
   void stop_at_waiting(Entity a, Entity b, double time);
   void stop_at(Entity still, Entity comes, double time);
   void attach(Entity i, Entity carrier);
-  Outcome resolve(const StepEvent& event, double time, const Vec3& relative_acceleration);
+  ImpactOutcome resolve(const StepEvent& event, double time, const Vec3& relative_acceleration);
   void begin_paths(const std::vector<Entity>& bodies);
 
   StepShared& shared_;

@@ -104,7 +104,7 @@ void StepMeetings::predict_pair(Entity a, Entity b) {
       paths.origin[a].partner == b && (!body || (paths.origin[b].partner == a && paths.start[a] == paths.start[b]));
   const Meeting first = meeting(shared_.world, a, pa, b, pb, left ? paths.origin[a].feature : no_feature, length);
   if (!(first.time <= length)) return;
-  events_.push(base + first.time, StepEvent::Kind::impact, a, b, first.feature);
+  events_.push(base + first.time, StepEventKind::impact, a, b, first.feature);
 }
 
 }  // namespace carom

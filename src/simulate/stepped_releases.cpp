@@ -141,7 +141,7 @@ void predict_releases(const StepShared& shared, const ClusterMotion& motion, con
     const ReleaseSearch::Release release = search.find(k);
     if (!(release.time < never)) continue;
     const ClusterContact& c = search.contact(k);
-    events.push(from + release.time, StepEvent::Kind::release, c.a, c.b, release.feature);
+    events.push(from + release.time, StepEventKind::release, c.a, c.b, release.feature);
   }
 }
 

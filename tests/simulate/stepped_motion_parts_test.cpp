@@ -160,7 +160,7 @@ TEST(Releases, ComeWhereTheForceTurnsToZero) {
   predict_releases(parts.shared, parts.motion.of_clusters(), cluster, parts.events);
   StepEvent event;
   ASSERT_TRUE(parts.events.pop(event));
-  EXPECT_EQ(event.kind, StepEvent::Kind::release);
+  EXPECT_EQ(event.kind, StepEventKind::release);
   ClusterState state = parts.motion.of_clusters().start(cluster);
   parts.motion.of_clusters().carry(cluster, event.time, state);
   EXPECT_NEAR(state.end_v[0].squaredNorm(), g * state.end_x[0].y(), 1e-6);

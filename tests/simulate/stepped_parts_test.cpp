@@ -122,10 +122,10 @@ TEST(StepEvents, ComeByTimeThenReleasesThenByNumber) {
   const Problem problem = two_balls();
   const StepPaths paths(problem.world, problem.initial);
   StepEvents events(paths);
-  events.push(0.2, StepEvent::Kind::impact, 0, 1, 0);
-  events.push(0.1, StepEvent::Kind::impact, 1, 2, 0);
-  events.push(0.1, StepEvent::Kind::impact, 0, 2, 0);
-  events.push(0.1, StepEvent::Kind::release, 1, 2, 0);
+  events.push(0.2, StepEventKind::impact, 0, 1, 0);
+  events.push(0.1, StepEventKind::impact, 1, 2, 0);
+  events.push(0.1, StepEventKind::impact, 0, 2, 0);
+  events.push(0.1, StepEventKind::release, 1, 2, 0);
   std::vector<std::pair<double, Entity>> order;
   for (StepEvent event; events.pop(event);) order.emplace_back(event.time, event.a);
   EXPECT_EQ(order, (std::vector<std::pair<double, Entity>>{{0.1, 1}, {0.1, 0}, {0.1, 1}, {0.2, 0}}));
@@ -135,8 +135,8 @@ TEST(StepEvents, OfAPathThatHasEndedAreVoid) {
   const Problem problem = two_balls();
   StepPaths paths(problem.world, problem.initial);
   StepEvents events(paths);
-  events.push(0.1, StepEvent::Kind::impact, 0, 1, 0);
-  events.push(0.2, StepEvent::Kind::impact, 0, 2, 0);
+  events.push(0.1, StepEventKind::impact, 0, 1, 0);
+  events.push(0.2, StepEventKind::impact, 0, 2, 0);
   paths.cut(1, 0.05, {5, 0, 0}, {0, 0, 0}, false);
   StepEvent event;
   ASSERT_TRUE(events.pop(event));

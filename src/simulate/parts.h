@@ -1,6 +1,0 @@
-#pragma once
-#include "simulate/disjoint_sets.h"
-
-namespace carom {
-using Parts = DisjointSets;
-}
