@@ -1,8 +1,9 @@
-// The source chapter's program (ParticleBounce, listings 8.3 and 8.4): each frame tests for overlap, handles what
-// overlaps, then moves every body by semi-implicit Euler, v += a dt, x += v dt.
+// The source chapter's program (ParticleBounce, listings 8.3 and 8.4). Each frame tests for overlap and handles what
+// overlaps. Then it moves every body by semi-implicit Euler, v += a dt, x += v dt.
 //
-// By default it does what the text means: the average of the two coefficients (or the scene's rule), the sum of both
-// radii, the velocity changed once, only bodies that approach. `as_printed` does what the listings print instead:
+// By default it does what the text means: the average of the two coefficients (or the scene's rule) and the sum of both
+// radii. The velocity changes once, and of bodies that approach only. `as_printed` does what the listings print
+// instead:
 //   e = (e1 e2) / 2, where the text says average;
 //   |d|^2 < (r0 + r0)^2, the first body's radius twice;
 //   after v' is set, the acceleration becomes v'/dt, so that the same frame's update adds v' once more;
@@ -18,6 +19,7 @@
 #include "physics/impact.h"
 #include "physics/restitution.h"
 #include "simulate/event_log.h"
+#include "simulate/tolerances_stepped.h"
 
 namespace carom {
 
@@ -176,7 +178,7 @@ void BookSimulator::move() {
 void BookSimulator::advance_to(double time) {
   log_.begin_advance();
   // A time within rounding of a frame's is that frame's.
-  for (int frames = 1; frame_time(frames_) < time - 1e-9 * options_.step; ++frames) {
+  for (int frames = 1; frame_time(frames_) < time - stepped_tolerance::frame_rounding * options_.step; ++frames) {
     do_frame();
     if (!log_.has_room(room_for_frame) || frames == frames_at_a_time) {
       time_ = std::min(frame_time(frames_), time);
@@ -192,7 +194,7 @@ const State& BookSimulator::state() {
   state_.position = x_;
   state_.velocity = v_;
   const double ahead = frame_time(frames_) - time_;
-  if (ahead > 1e-9 * options_.step)
+  if (ahead > stepped_tolerance::frame_rounding * options_.step)
     for (Entity i = 0; i < world_.body_count(); ++i) state_.position[i] -= ahead * v_[i];
   return state_;
 }

@@ -17,9 +17,9 @@ class ClusterBinding {
   /// All must outlive this.
   ClusterBinding(StepShared& shared, StepMotion& motion, const Neighbours& neighbours);
 
-  /// Makes clusters of what is in lasting contact: the bodies, all of whose paths begin at `time` (s, since the step's
-  /// start), among one another, with fixed things, and with others that touch them. Those join the bodies. Velocities
-  /// change so that none of these approach, as little as kinetic energy tells. Contacts that forces open are none.
+  /// Makes clusters of the bodies that are in lasting contact with one another, with fixed things, or with others.
+  /// Those join the bodies. All paths of the bodies begin at `time` (s, since the step's start). Velocities change so
+  /// that no contact closes, as little as kinetic energy tells. Contacts that forces open are left out.
   void bind(std::vector<Entity>& bodies, double time);
   /// The same of bodies of which two have just met. parts: they separate now. Else they are in contact: paths may lead
   /// two into each other that neither their velocities nor their accelerations do.

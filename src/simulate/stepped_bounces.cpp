@@ -13,8 +13,8 @@ BounceLimits::BounceLimits(const World& world, const SteppedOptions& options, bo
       loaded_(loaded),
       rest_speed_(options.rest_speed),
       shortest_bounce_(options.closed_form ? shortest_bounce * options.step : options.step),
-      group_impacts_(options.closed_form ? followed_impacts : group_impacts),
-      many_impacts_(options.closed_form ? followed_impacts : many_impacts),
+      group_impacts_(options.closed_form ? resolved_impacts : group_impacts),
+      many_impacts_(options.closed_form ? resolved_impacts : many_impacts),
       impacts_(world.body_count()),
       meetings_(world.body_count()) {}
 
@@ -22,11 +22,6 @@ void BounceLimits::count_impact(Entity a, Entity b, double e) {
   if (!(e < 1)) return;
   ++impacts_[a];
   if (world_.is_body(b)) ++impacts_[b];
-}
-
-void BounceLimits::begin_step(Entity i) {
-  impacts_[i] = 0;
-  meetings_[i] = 0;
 }
 
 bool BounceLimits::slow(double e, double approach, double press) const {

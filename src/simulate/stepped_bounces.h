@@ -18,7 +18,10 @@ class BounceLimits {
   /// Counts a meeting of whatever kind.
   void count_meeting(Entity a) { meetings_[a] += loaded_; }
   /// Forgets a body's counts.
-  void begin_step(Entity i);
+  void begin_step(Entity i) {
+    impacts_[i] = 0;
+    meetings_[i] = 0;
+  }
 
   /// Whether bounces shorter than the shortest one begin, with this approach (m/s); press (m/s^2) drives the two
   /// together.

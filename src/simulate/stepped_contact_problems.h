@@ -1,6 +1,6 @@
 #pragma once
-// The contact problems of the stepped simulator and how exactly each is solved: complementarity.h's in clusters and in
-// the contact group, held_contacts.h's where it is known which contacts are active.
+// The contact problems of the stepped simulator and how exactly each is solved. In clusters and in the contact group
+// they are those of complementarity.h. Where it is known which contacts are active, those of held_contacts.h.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,8 +24,8 @@ bool solve_balance(std::span<const double> inverse_mass, std::span<Vec3> u, std:
 /// The contact group's problems, of many pairs: by sweeps from the given forces, then by solvers that get nearer.
 class GroupSolver {
  public:
-  /// Moves u (m/s, by body) in at most `sweeps`, and then, if there are any, in as many iterations of conjugate
-  /// gradients; small problems get more of both. Whether that converged.
+  /// Moves u (m/s, by body) in at most `sweeps`, and then in at most as many iterations of conjugate gradients; 0: in
+  /// none. Small problems get more of both. Whether that converged.
   bool solve(std::span<const double> inverse_mass, std::vector<Vec3>& u, std::vector<PressedPair>& pairs, int sweeps,
              int iterations);
 

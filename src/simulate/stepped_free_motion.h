@@ -20,7 +20,7 @@ class FreeMotion {
   }
   /// Carries body i on for `length` (s): x (m) and v (m/s) in and out, `path` between.
   void carry(Entity i, double length, Vec3& x, Vec3& v, Path& path) const;
-  /// J, what forces without a potential do on a path of `length` (s) from x0, v0 to x1, v1 (m, m/s): by Simpson's rule,
+  /// J, what forces without a potential do on a path of `length` (s) from x0, v0 to x1, v1 (m, m/s). By Simpson's rule,
   /// with the middle of Hermite's polynomial through both ends.
   double work(Entity i, const Vec3& x0, const Vec3& v0, const Vec3& x1, const Vec3& v1, double length) const;
 

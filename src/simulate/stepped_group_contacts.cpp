@@ -33,8 +33,8 @@ void GroupContacts::find(const GroupBodies& bodies) {
   searched_ = bound_;
 }
 
-/// Adds the contacts of body k that are within its bound, and were not within the last one; but those that a body of
-/// lower number finds. drop: m, how far bodies fall in a step.
+/// Adds the contacts of body k that are within its bound, and were not within the last one. Pairs that the other body
+/// finds are left out. drop: m, how far bodies fall in a step.
 void GroupContacts::find_near(const GroupBodies& bodies, std::size_t k, double drop) {
   const double h = shared_.clock.length();
   const Entity i = bodies.entity[k];

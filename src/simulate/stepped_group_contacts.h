@@ -1,6 +1,6 @@
 #pragma once
-// Finds the pairs that may come into contact in a step of the contact group. Bodies are searched as far as they may go
-// at a bound of their speeds; where a bound rises, they are searched again, for what is farther.
+// Finds the pairs that may come into contact in a step of the contact group. Each body has a
+// bound of its speed, and is searched as far as it may go at that. Where a bound rises, it is searched again.
 #include <vector>
 
 #include "physics/complementarity.h"

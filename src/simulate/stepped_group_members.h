@@ -1,6 +1,6 @@
 #pragma once
-// The bodies of the contact group: for how many steps yet, in the present step, and whom a body that has met the group
-// within the step goes along with.
+// Which bodies are of the contact group, and for how many steps yet. A body that has met the group within the present
+// step has a carrier: it goes along with that until the step ends.
 #include <cstdint>
 #include <vector>
 

@@ -65,8 +65,8 @@ void GroupRest::try_part(const GroupBodies& group, const Places& places) {
   if (balance == Balance::found) fall_asleep(part);
 }
 
-/// Whether and where forces hold a part of the group in balance, close to where it is: it sinks by a little at a time,
-/// as far as its contacts let it, until it sinks no more. part.x: in: where it is; out: where it stands, or has sunk
+/// Whether and where forces hold a part of the group in balance, close to where it is. It sinks by a little at a time,
+/// as far as its contacts let it, until it sinks no more. part.x is where it begins; then where it stands, or has sunk
 /// to. The impulses of its contacts become forces (N).
 GroupRest::Balance GroupRest::find_balance(GroupBodies& part) {
   const std::vector<Vec3> from = part.x;
@@ -87,8 +87,8 @@ GroupRest::Balance GroupRest::find_balance(GroupBodies& part) {
   return Balance::sinking;
 }
 
-/// Lets a part sink, to where its contacts let it; without them by `drive` (of a radius). pairs: its contacts, with
-/// their forces (kg m). m: how far the farthest body sinks; never: that was not found.
+/// Lets a part sink to where its contacts let it; without them it would by `drive` (of a radius). pairs becomes its
+/// contacts with their forces (kg m). m: how far the farthest body sinks. never: the solver did not converge.
 double GroupRest::sink(GroupBodies& part, double drive, std::vector<PressedPair>& pairs) {
   contacts_.start_all(part, 4 * farthest_sink * part.smallest_radius / shared_.clock.length());
   contacts_.find(part);

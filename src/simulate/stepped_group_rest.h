@@ -1,6 +1,6 @@
 #pragma once
-// How the contact group comes to rest. A part of it that has been slow for a while, and that forces hold in balance
-// close by, is set on its surfaces there and falls asleep: a cluster that costs nothing.
+// How the contact group comes to rest. A part of it that has been slow for a while is looked at. If forces hold it in
+// balance close by, it is set on its surfaces there and falls asleep: a cluster that costs nothing.
 #include <cstdint>
 #include <vector>
 
@@ -16,8 +16,8 @@ class GroupRest {
   /// Both must outlive this.
   GroupRest(StepShared& shared, const StepMeetings& meetings);
 
-  /// Notes whether body i is slow at the end of this step: pressed, and at no more than a small `speed` (m/s) by that
-  /// of falling by its radius under `acceleration` (m/s^2).
+  /// Notes body i's speed (m/s) at the end of this step, and whether contact forces act on it. `acceleration` (m/s^2):
+  /// slow is what is slow by the speed of falling by a radius under it.
   void note(Entity i, bool pressed, double speed, double acceleration);
   /// The group's step is done, its contacts' impulses are known: parts of it come to rest.
   void put_to_rest(const GroupBodies& group, const std::vector<GroupContact>& contacts);

@@ -1,10 +1,11 @@
 #pragma once
-// The time step of the contact group, all bodies at once. First come velocities: of all that the step's forces leave,
-// the nearest ones with which touching pairs separate, after a fast impact at e times their approach, else not
-// approach. Then displacements: halfway between the old and the new velocities, but for as much as it takes to overlap
-// nothing at the step's end. A body that is stopped short keeps its speed, and collides in the next step. Both are
-// problems of complementarity (Moreau, in Nonsmooth Mechanics and Applications, CISM 302 (1988) 1; Stewart & Trinkle,
-// Int. J. Numer. Meth. Eng. 39 (1996) 2673), with the last step's forces as a warm start. The method is of first order.
+// The time step of the contact group, all bodies at once. First come velocities: the nearest ones to the free ones with
+// which no touching pair approaches, and pairs in a fast impact separate at e times their approach. Then come
+// displacements: the nearest ones to the mean of old and new velocities with which nothing overlaps at the step's end.
+// A body that is stopped short keeps its speed, and collides in the next step. Both are problems of complementarity
+// (Moreau, in Nonsmooth Mechanics and Applications, CISM 302 (1988) 1; Stewart & Trinkle, Int. J. Numer. Meth. Eng. 39
+// (1996) 2673). Velocities start from the last step's forces. The method is of first order. The linearised
+// displacements of convex bodies are on the safe side: what overlap there is the solver has left.
 #include <vector>
 
 #include "physics/complementarity.h"

@@ -131,8 +131,7 @@ void StepImpacts::attach(Entity i, Entity carrier) {
   group.join(i);
 }
 
-/// The impact of two bodies, or of a body and a fixed thing, whose paths begin at `time`. relative_acceleration: m/s^2,
-/// a's less b's as they met.
+/// The impact of a and b, whose paths begin at `time`. relative_acceleration: m/s^2, a's less b's as they met.
 StepImpacts::ImpactOutcome StepImpacts::resolve(const StepEvent& event, double time,
                                                 const Vec3& relative_acceleration) {
   const World& world = shared_.world;

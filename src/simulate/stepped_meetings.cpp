@@ -54,14 +54,16 @@ void StepMeetings::predict(Entity i, bool all) {
   const bool sleepers_only = !all && group.from_start(i);
   if (sleepers_only && !some_asleep_) return;
   if (!all && !neighbours_.has_news(i) && travelled_ + step_travel_ < clear_until_[i]) return;
-  const PathBall here = balls_[i];
+  const Entity bodies = shared_.world.body_count();
+  const PathBall* const balls = balls_.data();
+  const PathBall here = balls[i];
   double nearest = never;
   for (const Entity e : neighbours_.near(i)) {
-    if (!shared_.world.is_body(e)) {
+    if (e >= bodies) {
       nearest = std::min(nearest, predict_fixed(i, e, sleepers_only));
       continue;
     }
-    const PathBall& there = balls_[e];
+    const PathBall& there = balls[e];
     const double clear = (there.x - here.x).norm() - (here.radius + there.radius);
     nearest = std::min(nearest, clear);
     if (clear > 0) continue;  // most: what branches foresee comes first
@@ -72,8 +74,8 @@ void StepMeetings::predict(Entity i, bool all) {
   clear_until_[i] = all ? 0 : travelled_ + 0.5 * nearest;
 }
 
-/// Schedules the first meeting of body i with a fixed thing, unless sleepers only are looked at. m: how far body i's
-/// ball is from it.
+/// Schedules the first meeting of body i with a fixed thing, unless sleepers only are looked at. m: from body i's ball
+/// to it.
 double StepMeetings::predict_fixed(Entity i, Entity e, bool sleepers_only) {
   const World& world = shared_.world;
   const PathBall& here = balls_[i];

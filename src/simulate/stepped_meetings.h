@@ -1,6 +1,6 @@
 #pragma once
-// Which bodies' paths meet in a step, and when. Each path lies in a ball. Bodies whose balls are apart do not meet; a
-// body that is far from all others is not looked at again until the bodies have travelled far enough.
+// Which bodies' paths meet in a step, and when. Each path lies in a ball. Bodies whose balls are apart do not meet. A
+// body that is far from all others is not looked at again until bodies have travelled far enough.
 #include <vector>
 
 #include "simulate/neighbours.h"

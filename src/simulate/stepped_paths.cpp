@@ -43,12 +43,4 @@ void StepPaths::stay(Entity i) {
   end_v[i] = v[i];
 }
 
-void StepPaths::begin_step(Entity i) {
-  x[i] = end_x[i];
-  v[i] = end_v[i];
-  start[i] = 0;
-  origin[i] = {};
-  ++version[i];
-}
-
 }  // namespace carom

@@ -42,7 +42,13 @@ struct StepPaths {
   /// Body i stays where its path begins, and keeps its velocity.
   void stay(Entity i);
   /// Begins a step where body i's path ended.
-  void begin_step(Entity i);
+  void begin_step(Entity i) {
+    x[i] = end_x[i];
+    v[i] = end_v[i];
+    start[i] = 0;
+    origin[i] = {};
+    ++version[i];
+  }
 
   const World& world;
   std::vector<Vec3> x, v;              // m, m/s: where a path begins

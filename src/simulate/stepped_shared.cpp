@@ -17,9 +17,4 @@ StepShared::StepShared(const World& of, const State& initial, const SteppedOptio
   for (const Vec3& v : paths.v) log.note_speed(v.norm());
 }
 
-void StepShared::check_bounds(Entity i, const Vec3& x, const Vec3& v) const {
-  hold_to(bounds, i, clock.to(), x, v,
-          "use a smaller simulate.step, an attractor with `softening`, or restitution of at most 1");
-}
-
 }  // namespace carom

@@ -2,6 +2,7 @@
 // What the parts of the stepped simulator share.
 #include "physics/bounds.h"
 #include "simulate/event_log.h"
+#include "simulate/simulation_error.h"
 #include "simulate/stepped.h"
 #include "simulate/stepped_awake.h"
 #include "simulate/stepped_bounces.h"
@@ -22,7 +23,10 @@ struct StepShared {
   /// Whether contact forces shape body i's path.
   bool constrained(Entity i) const { return clusters.holds(i) || group.in_step(i); }
   /// Throws SimulationError if body i is too far or too fast at x (m) and v (m/s).
-  void check_bounds(Entity i, const Vec3& x, const Vec3& v) const;
+  void check_bounds(Entity i, const Vec3& x, const Vec3& v) const {
+    hold_to(bounds, i, clock.to(), x, v,
+            "use a smaller simulate.step, an attractor with `softening`, or restitution of at most 1");
+  }
 
   const World& world;
   const SteppedOptions options;

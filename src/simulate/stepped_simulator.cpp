@@ -128,7 +128,8 @@ void SteppedSimulator::end_step() {
   for (const Entity i : shared_.awake.list()) {
     shared_.check_bounds(i, paths.end_x[i], paths.end_v[i]);
     shared_.log.note_speed(paths.end_v[i].norm());
-    const double work = motion_.book_work(i, paths.end_x[i], paths.end_v[i], length - paths.start[i]);
+    const double work =
+        shared_.free.works() ? motion_.book_work(i, paths.end_x[i], paths.end_v[i], length - paths.start[i]) : 0;
     if (shared_.group.in_step(i)) group_.book_energy(i, work);
   }
 }

@@ -1,10 +1,10 @@
 #pragma once
 // The stepped simulator: its parts, and the loop over its steps.
 //
-// A step integrates every body from one instant to the next as if it were alone, which gives a path. The
-// first meeting of two paths is found (path_meeting.h). Both bodies take their step again, shorter, up to there,
-// collide, and take another for what is left of it; and so on until no paths meet. So no impact is moved to a step's
-// end, and the order of the method outlasts it. Bodies that nothing touches do not depend on the others' impacts.
+// A step integrates every body from one instant to the next as if it were alone, which gives a path. The first meeting
+// of two paths is found (path_meeting.h). Both bodies take their step again, shorter, up to there, collide, and take
+// another for what is left of it. So it goes on until no paths meet. No impact is moved to a step's end, so the order
+// of the method outlasts it. Bodies that nothing touches do not depend on the others' impacts.
 //
 // Bodies in lasting contact make a cluster (stepped_clusters.h): they take their steps together, under contact forces.
 // A contact ends inside the step where its force turns to zero. Bounces shorter than a step are none: there contact

@@ -1,13 +1,14 @@
 #pragma once
-// Every constant that decides the accuracy of the stepped simulator. "Of a radius", "of a step": a share of it.
+// Every constant that decides the accuracy of the stepped simulator, of the choice of its step, and of the book
+// simulator. "Of a radius", "of a step": a share of it.
 #include <cstddef>
 #include <cstdint>
 
 namespace carom::stepped_tolerance {
 
 // Bounces (stepped_bounces.h).
-inline constexpr double shortest_bounce = 1e-6;  // of a step: where bounces are followed, the shortest that is one
-inline constexpr std::uint32_t followed_impacts = 4096;  // with e < 1, of a body in a step, where bounces are followed;
+inline constexpr double shortest_bounce = 1e-6;  // of a step: where bounces are resolved, the shortest that is one
+inline constexpr std::uint32_t resolved_impacts = 4096;  // with e < 1, of a body in a step, where bounces are resolved;
 inline constexpr std::uint32_t many_impacts = 256;  // and where they are not: more of them accumulate, contact begins
 inline constexpr std::uint32_t group_impacts = 16;  // under load, of a body in a step: then it joins the contact group
 inline constexpr std::uint32_t most_meetings = 2000;  // under load, of a body in a step: it is jammed and waits
@@ -84,5 +85,16 @@ inline constexpr std::size_t most_direct_bodies = 4000;  // the direct solver's 
 // The solvers' accuracy in clusters (stepped_contact_problems.h).
 inline constexpr std::size_t few_pairs = 32;     // solved to rounding
 inline constexpr int cluster_iterations = 2000;  // of conjugate gradients, for more of them
+
+// The choice of a step (step_choice.h).
+inline constexpr int instants = 64;           // of a run, at which two runs are compared
+inline constexpr double longest_choice = 64;  // of default_step (force.h): the first step that is tried
+inline constexpr int most_halvings = 24;      // of it
+inline constexpr int few_halvings = 16;       // in which, at its rate, what runs gain must reach the end
+inline constexpr int most_vain_halvings = 5;  // without a gain: then runs differ for good
+inline constexpr double most_steps = 1e9;     // of all bodies together, in the longest run
+
+// The book simulator (book.h).
+inline constexpr double frame_rounding = 1e-9;  // of a frame: a time as near to a frame's is that frame's
 
 }  // namespace carom::stepped_tolerance
