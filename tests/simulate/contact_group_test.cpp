@@ -1,4 +1,4 @@
-// Crowds of the stepped simulator: piles that fall, settle and lie.
+// The stepped simulator's contact group: piles that fall, settle and lie.
 #include <gtest/gtest.h>
 
 #include "physics/sweeps.h"
@@ -18,7 +18,7 @@ std::unique_ptr<Simulator> stepped(const Problem& problem, double step, Integrat
   return make_stepped_simulator(problem.world, problem.initial, options);
 }
 
-TEST(Crowd, OfEverySizeComesToRestByEveryMethodAtEveryStep) {
+TEST(ContactGroup, OfEverySizeComesToRestByEveryMethodAtEveryStep) {
   for (const auto& [side, layers] : {std::pair(2, 8), std::pair(3, 10), std::pair(4, 4), std::pair(5, 5)})
     for (const Integrator method : {Integrator::euler, Integrator::verlet, Integrator::rk4})
       for (const double step : {0.01, 0.004}) {
@@ -29,14 +29,14 @@ TEST(Crowd, OfEverySizeComesToRestByEveryMethodAtEveryStep) {
       }
 }
 
-TEST(Crowd, GainsNoEnergyAsItSettles) {
+TEST(ContactGroup, GainsNoEnergyAsItSettles) {
   for (const int side : {3, 5})
     for (const double step : {0.01, 0.002}) {
       const Problem problem = loose_pile(side, 6, 10);
       const auto simulator = stepped(problem, step);
       double least = energy(problem, problem.initial);
       for (int k = 0; k <= 333; ++k) {
-        const double t = k * 0.03;  // where steps end: in between energy is told to first order
+        const double t = k * 0.03;  // where steps end: in between energy is known to first order
         go_to(*simulator, t);
         const double now = energy(problem, simulator->state());
         EXPECT_LT(now, 1.0003 * least) << side << " at " << t << " by " << step;
@@ -48,7 +48,7 @@ TEST(Crowd, GainsNoEnergyAsItSettles) {
     }
 }
 
-TEST(Crowd, HardlyOverlapsWhileItFalls) {
+TEST(ContactGroup, HardlyOverlapsWhileItFalls) {
   const Problem problem = loose_pile(7, 7, 3);
   for (const double step : {0.02, 0.01, 0.001}) {
     const auto simulator = stepped(problem, step);
@@ -57,7 +57,7 @@ TEST(Crowd, HardlyOverlapsWhileItFalls) {
   }
 }
 
-TEST(Crowd, TellsWhatPressesWhileItStillMoves) {
+TEST(ContactGroup, GivesItsForcesWhileItStillMoves) {
   const Problem problem = loose_pile(4, 4, 3);
   const auto simulator = stepped(problem, 0.01);
   go_to(*simulator, 3);
@@ -70,7 +70,7 @@ TEST(Crowd, TellsWhatPressesWhileItStillMoves) {
 }
 
 // Bodies far away change the order in which neighbours are found.
-TEST(Crowd, MovesToTheSameBitsWhoeverIsFarAway) {
+TEST(ContactGroup, MovesToTheSameBitsWhateverIsFarAway) {
   const Problem alone = loose_pile(4, 4, 3);
   Problem others = alone;
   for (int k = 0; k < 500; ++k)
