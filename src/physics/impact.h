@@ -1,6 +1,10 @@
 #pragma once
 // What a collision does: impulses along the normal, tangential velocity kept (frictionless spheres; chapter 8).
+#include <limits>
+
+#include "physics/collision.h"
 #include "physics/vec3.h"
+#include "physics/world.h"
 
 namespace carom {
 
@@ -14,6 +18,31 @@ inline double impact_impulse(double m1, double m2, double approach, double separ
 /// Kinetic energy (J) that goes: mu (approach^2 - separation^2) / 2. Negative: it is made.
 inline double impact_loss(double m1, double m2, double approach, double separation) {
   return 0.5 * (approach - separation) * (approach + separation) / (1 / m1 + 1 / m2);
+}
+
+/// kg: infinite for fixed things.
+inline double impact_mass(const World& world, Entity e) {
+  return world.is_body(e) ? world.mass[e] : std::numeric_limits<double>::infinity();
+}
+
+/// The record of an impact of body a on b, a body or a fixed thing, at `time` (s); its impulse and its energy lost
+/// follow from the masses. point: m; normal: unit, from a to b; approach, separation: m/s along it; restitution: the
+/// pair's coefficient.
+inline Collision make_collision(const World& world, CollisionKind kind, double time, Entity a, Entity b,
+                                const Vec3& point, const Vec3& normal, double approach, double separation,
+                                double restitution) {
+  const double ma = world.mass[a], mb = impact_mass(world, b);
+  return {time,
+          kind,
+          a,
+          b,
+          point,
+          normal,
+          approach,
+          separation,
+          restitution,
+          impact_impulse(ma, mb, approach, separation),
+          impact_loss(ma, mb, approach, separation)};
 }
 
 }  // namespace carom

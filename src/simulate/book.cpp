@@ -1,8 +1,9 @@
-// The source chapter's program (ParticleBounce, listings 8.3 and 8.4): each frame tests for overlap, handles what
-// overlaps, then moves every body by semi-implicit Euler, v += a dt, x += v dt.
+// The source chapter's program (ParticleBounce, listings 8.3 and 8.4). Each frame tests for overlap and handles what
+// overlaps. Then it moves every body by semi-implicit Euler, v += a dt, x += v dt.
 //
-// By default it does what the text means: the average of the two coefficients (or the scene's rule), the sum of both
-// radii, the velocity changed once, only bodies that approach. `as_printed` does what the listings print instead:
+// By default it does what the text means: the average of the two coefficients (or the scene's rule) and the sum of both
+// radii. The velocity changes once, and of bodies that approach only. `as_printed` does what the listings print
+// instead:
 //   e = (e1 e2) / 2, where the text says average;
 //   |d|^2 < (r0 + r0)^2, the first body's radius twice;
 //   after v' is set, the acceleration becomes v'/dt, so that the same frame's update adds v' once more;
@@ -14,17 +15,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/compensated.h"
 #include "physics/contact_time.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
+#include "simulate/event_log.h"
+#include "simulate/tolerances_stepped.h"
 
 namespace carom {
 
 namespace {
 
-constexpr std::size_t collision_buffer = 4096;
 constexpr int frames_at_a_time = 4096;
+constexpr std::size_t room_for_frame = EventLog::capacity / 2;  // collisions; a frame may have more
 
 class BookSimulator final : public Simulator {
  public:
@@ -33,12 +35,16 @@ class BookSimulator final : public Simulator {
   void advance_to(double time) override;
   double time() const override { return time_; }
   const State& state() override;
-  std::span<const Collision> collisions() const override { return collisions_; }
-  const Tally& tally() const override { return tally_; }
+  std::span<const Collision> collisions() const override { return log_.collisions(); }
+  const Tally& tally() const override { return log_.tally(); }
 
  private:
   double frame_time(std::uint64_t frame) const { return static_cast<double>(frame) * options_.step; }
   void do_frame();
+  void find_forces();
+  void handle_pairs();
+  void handle_surfaces();
+  void move();
   void handle_pair(Entity a, Entity b);
   void handle_fixed(Entity i, Entity surface, const Vec3& point, const Vec3& normal);
   void record(const Collision& collision);
@@ -50,9 +56,7 @@ class BookSimulator final : public Simulator {
   double time_ = 0;           // s, asked for: within the last frame done
   std::vector<Vec3> x_, v_, force_;
   State state_;
-  std::vector<Collision> collisions_;
-  Tally tally_;
-  Sum energy_lost_, work_;
+  EventLog log_;
 };
 
 BookSimulator::BookSimulator(const World& world, const State& initial, const BookOptions& options)
@@ -61,19 +65,14 @@ BookSimulator::BookSimulator(const World& world, const State& initial, const Boo
       bounds_(bounds_of(world)),
       x_(initial.position),
       v_(initial.velocity),
-      force_(world.body_count()) {
-  if (options.record_collisions) collisions_.reserve(collision_buffer);
-  for (const Vec3& v : v_) tally_.max_speed = std::max(tally_.max_speed, v.norm());
+      force_(world.body_count()),
+      log_(options.max_collisions, options.record_collisions) {
+  for (const Vec3& v : v_) log_.note_speed(v.norm());
 }
 
-void BookSimulator::record(const Collision& c) {
-  tally_.count(c.kind, c.time);
-  energy_lost_.add(c.energy_lost);
-  tally_.energy_lost = energy_lost_.value();
-  if (options_.record_collisions) collisions_.push_back(c);
-  if (options_.max_collisions > 0 && tally_.collisions() > options_.max_collisions)
-    throw SimulationError(fmt::format("more than simulate.max_collisions = {} collisions, reached at t = {} s",
-                                      options_.max_collisions, c.time));
+void BookSimulator::record(const Collision& collision) {
+  log_.lose(collision.energy_lost);
+  log_.record(collision);
 }
 
 /// Listing 8.4, HandleCollision.
@@ -88,7 +87,7 @@ void BookSimulator::handle_pair(Entity a, Entity b) {
                     frame_time(frames_)));
   const Vec3 n = d / distance;
   const double ua = v_[a].dot(n), ub = v_[b].dot(n);
-  tally_.max_overlap = std::max(tally_.max_overlap, world_.radius[a] + world_.radius[b] - distance);
+  log_.note_overlap(world_.radius[a] + world_.radius[b] - distance);
   if (ua <= ub && !options_.as_printed) return;
   const double ma = world_.mass[a], mb = world_.mass[b];
   const double e = options_.as_printed
@@ -103,37 +102,51 @@ void BookSimulator::handle_pair(Entity a, Entity b) {
     force_[b] = v_[b] / options_.step * mb;
   }
   const double approach = ua - ub, separation = after_b - after_a;
-  record({frame_time(frames_), CollisionKind::body_body, a, b, x_[a] + world_.radius[a] * n, n, approach, separation, e,
-          impact_impulse(ma, mb, approach, separation), impact_loss(ma, mb, approach, separation)});
+  record(make_collision(world_, CollisionKind::body_body, frame_time(frames_), a, b, x_[a] + world_.radius[a] * n, n,
+                        approach, separation, e));
 }
 
 /// The plane test of the text: above it, nearer than the radius: collided. `normal` points to the body's side.
 void BookSimulator::handle_fixed(Entity i, Entity surface, const Vec3& point, const Vec3& normal) {
   const double height = (x_[i] - point).dot(normal);
   if (height < 0 || height >= world_.radius[i]) return;
-  tally_.max_overlap = std::max(tally_.max_overlap, world_.radius[i] - height);
+  log_.note_overlap(world_.radius[i] - height);
   const double approach = -v_[i].dot(normal);
   if (approach <= 0) return;
   const double e = pair_restitution(world_, i, surface);
   v_[i] += (1 + e) * approach * normal;
-  record({frame_time(frames_), CollisionKind::body_fixed, i, surface, x_[i] - world_.radius[i] * normal, -normal,
-          approach, e * approach, e, impact_impulse(world_.mass[i], never, approach, e * approach),
-          impact_loss(world_.mass[i], never, approach, e * approach)});
+  record(make_collision(world_, CollisionKind::body_fixed, frame_time(frames_), i, surface,
+                        x_[i] - world_.radius[i] * normal, -normal, approach, e * approach, e));
 }
 
-/// Listing 8.3: forces, overlaps, update. A frame's impulse is a force that lasts for the first frame only.
+/// Listing 8.3: forces, overlaps, update.
 void BookSimulator::do_frame() {
-  const Entity n = world_.body_count();
-  const double dt = options_.step;
-  for (Entity i = 0; i < n; ++i) {
+  find_forces();
+  handle_pairs();
+  handle_surfaces();
+  move();
+  ++frames_;
+}
+
+/// A frame's impulse is a force that lasts for the first frame only.
+void BookSimulator::find_forces() {
+  for (Entity i = 0; i < world_.body_count(); ++i) {
     force_[i] = world_.mass[i] * world_.gravity;
-    if (frames_ == 0 && !world_.impulse.empty()) force_[i] += world_.impulse[i] / dt;
+    if (frames_ == 0 && !world_.impulse.empty()) force_[i] += world_.impulse[i] / options_.step;
   }
+}
+
+void BookSimulator::handle_pairs() {
+  const Entity n = world_.body_count();
   for (Entity a = 0; a + 1 < n; ++a)
     for (Entity b = a + 1; b < n; ++b) {
       const double reach = world_.radius[a] + (options_.as_printed ? world_.radius[a] : world_.radius[b]);
       if ((x_[a] - x_[b]).squaredNorm() < reach * reach) handle_pair(a, b);
     }
+}
+
+void BookSimulator::handle_surfaces() {
+  const Entity n = world_.body_count();
   for (Entity i = 0; i < n; ++i) {
     for (std::size_t k = 0; k < world_.planes.size(); ++k)
       handle_fixed(i, n + static_cast<Entity>(k), world_.planes[k].point, world_.planes[k].normal);
@@ -145,27 +158,29 @@ void BookSimulator::do_frame() {
         handle_fixed(i, n + static_cast<Entity>(world_.planes.size() + k), nearest, away / away.norm());
     }
   }
-  for (Entity i = 0; i < n; ++i) {
+}
+
+/// Semi-implicit Euler, and the work of every force but gravity: of the impulse, and of the printed listing's second
+/// helping of velocity.
+void BookSimulator::move() {
+  const double dt = options_.step;
+  for (Entity i = 0; i < world_.body_count(); ++i) {
     const Vec3 before = v_[i];
     v_[i] += force_[i] / world_.mass[i] * dt;
     x_[i] += v_[i] * dt;
     hold_to(bounds_, i, frame_time(frames_), x_[i], v_[i], "use a smaller simulate.step, or engine: exact");
-    tally_.max_speed = std::max(tally_.max_speed, v_[i].norm());
-    // Work of every force but gravity: of the impulse, and of the printed listing's second helping of velocity.
+    log_.note_speed(v_[i].norm());
     const Vec3 other = force_[i] - world_.mass[i] * world_.gravity;
-    if (!other.isZero(0)) work_.add(0.5 * other.dot(before + v_[i]) * dt);
+    if (!other.isZero(0)) log_.add_work(0.5 * other.dot(before + v_[i]) * dt);
   }
-  tally_.work = work_.value();
-  ++frames_;
 }
 
 void BookSimulator::advance_to(double time) {
-  collisions_.clear();
+  log_.begin_advance();
   // A time within rounding of a frame's is that frame's.
-  for (int frames = 1; frame_time(frames_) < time - 1e-9 * options_.step; ++frames) {
+  for (int frames = 1; frame_time(frames_) < time - stepped_tolerance::frame_rounding * options_.step; ++frames) {
     do_frame();
-    const bool full = options_.record_collisions && collisions_.size() >= collision_buffer / 2;
-    if (full || frames == frames_at_a_time) {
+    if (!log_.has_room(room_for_frame) || frames == frames_at_a_time) {
       time_ = std::min(frame_time(frames_), time);
       return;
     }
@@ -179,7 +194,7 @@ const State& BookSimulator::state() {
   state_.position = x_;
   state_.velocity = v_;
   const double ahead = frame_time(frames_) - time_;
-  if (ahead > 1e-9 * options_.step)
+  if (ahead > stepped_tolerance::frame_rounding * options_.step)
     for (Entity i = 0; i < world_.body_count(); ++i) state_.position[i] -= ahead * v_[i];
   return state_;
 }

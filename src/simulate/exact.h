@@ -1,5 +1,5 @@
 #pragma once
-// The exact simulator: from event to event along closed-form paths. See exact.cpp.
+// The exact simulator: from event to event along closed-form paths. See exact_simulator.h.
 #include <cstdint>
 #include <memory>
 
@@ -10,7 +10,7 @@ namespace carom {
 struct ExactOptions {
   double duration = 0;  // s; nothing later is scheduled
   double rest_speed =
-      0;  // m/s; slower impacts under load end in resting contact; 0: chosen by the case (exact_resolve.cpp)
+      0;  // m/s; slower impacts under load end in resting contact; 0: chosen by the case (exact_bodies.h)
   std::uint64_t max_collisions = 0;  // stop with an error after so many; 0: no limit
   bool merge = false;                // bodies that meet become one
   bool record_collisions = true;     // false: no buffer is made and collisions() stays empty

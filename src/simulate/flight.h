@@ -21,9 +21,10 @@ struct Flight {
   Vec3 velocity(double t) const { return v + t * a; }
 };
 
-/// m/s: a velocity v without what forces will have done to it from `at` until `until`, `haste` (m/s^2) on average.
-inline Vec3 without_haste(const Vec3& v, const Instant& at, const Instant& until, const Vec3& haste) {
-  return v - (until - at) * haste;
+/// m/s: a velocity v that has been kicked by what forces do until `until`, `kick` (m/s^2) on average, without what they
+/// do from `at` on.
+inline Vec3 without_kick(const Vec3& v, const Instant& at, const Instant& until, const Vec3& kick) {
+  return v - (until - at) * kick;
 }
 
 /// The flights of all bodies. What pairs are tested by is a cache line a body; accelerations are kept only once bodies

@@ -7,16 +7,13 @@
 #include <vector>
 
 #include "physics/force.h"
+#include "simulate/tolerances_stepped.h"
 
 namespace carom {
 
-namespace {
+using namespace stepped_tolerance;
 
-constexpr int instants = 64;
-constexpr int most_halvings = 24;
-constexpr int few_halvings = 16;
-constexpr int patience = 5;         // halvings without a gain, then runs differ for good
-constexpr double most_steps = 1e9;  // of all bodies together, in the longest run
+namespace {
 
 using Track = std::vector<std::vector<Vec3>>;  // m, by instant, by body
 
@@ -50,8 +47,8 @@ StepChoice choose_step(const World& world, const State& initial, SteppedOptions 
   if (options.duration == 0) return {fine, 0};
   Track last;
   std::string trouble;
-  double step = std::min(options.duration, 64 * fine);
-  for (int halving = 0, vain = 0; halving < most_halvings && vain < patience; ++halving, step *= 0.5) {
+  double step = std::min(options.duration, longest_choice * fine);
+  for (int halving = 0, vain = 0; halving < most_halvings && vain < most_vain_halvings; ++halving, step *= 0.5) {
     if (options.duration / step * static_cast<double>(world.body_count()) > most_steps) break;
     options.step = step;
     Track track;
@@ -84,10 +81,10 @@ StepChoice choose_step(const World& world, const State& initial, SteppedOptions 
   }
   if (best.difference == std::numeric_limits<double>::infinity() && !trouble.empty()) throw SimulationError(trouble);
   if (last.empty())
-    throw SimulationError(
-        fmt::format("the forces change so fast that even steps of {:.4g} s take more than {:g} steps of bodies: shorten "
-                    "simulate.duration, or name a simulate.step in place of the tolerance",
-                    std::min(options.duration, 64 * fine), most_steps));
+    throw SimulationError(fmt::format(
+        "the forces change so fast that even steps of {:.4g} s take more than {:g} steps of bodies: shorten "
+        "simulate.duration, or name a simulate.step in place of the tolerance",
+        std::min(options.duration, longest_choice * fine), most_steps));
   return best;
 }
 

@@ -51,6 +51,19 @@ TEST(Book, TheTextsIntentionsGiveTheChaptersVelocities) {
               1e-14);
 }
 
+TEST(Book, AskingForStatesChangesNothing) {
+  const Phase p = meeting(false, 0.5, true);
+  const auto often = make_book_simulator(p.problem.world, p.problem.initial, p.options);
+  for (int k = 0; k <= 100; ++k) {
+    go_to(*often, k * 0.01);
+    often->state();
+  }
+  const Outcome once = run_book(p);
+  EXPECT_EQ(often->state().position, once.end.position);
+  EXPECT_EQ(often->tally().energy_lost, once.tally.energy_lost);
+  EXPECT_EQ(often->tally().work, once.tally.work);
+}
+
 TEST(Book, AsPrintedHalvesTheProductAndAddsTheVelocityAgain) {
   const auto closed = reference("book_slips")["closed_form_single_call"];
   const Outcome head_on = run_book(meeting(false, 0.5, true));

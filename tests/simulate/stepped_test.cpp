@@ -218,6 +218,32 @@ TEST(Outputs, ChangeNothing) {
   }
   EXPECT_EQ(once->state().position, often->state().position);
   EXPECT_EQ(once->state().velocity, often->state().velocity);
+  EXPECT_EQ(once->tally().energy_lost, often->tally().energy_lost);
+  EXPECT_EQ(once->tally().work, often->tally().work);
+  EXPECT_EQ(once->tally().resting, often->tally().resting);
+}
+
+// To the last bit, where forces work, clusters slide and a contact group settles.
+TEST(Outputs, AskedForTwiceAreTheSame) {
+  Problem problem = loose_pile(3, 3, 2);
+  problem.ball({-3, 0.5, 0}, {1, 0, 0}, 1, 0.5, 0.5);
+  problem.world.forces = {{Drag{0.1, 0.01, Vec3::Zero()}, 0.1}};
+  const auto simulator = make_stepped_simulator(problem.world, problem.initial, options_of(problem, 0.005));
+  for (const double time : {0.0, 0.123, 0.777, 1.5, 2.0}) {
+    go_to(*simulator, time);
+    const Tally before = simulator->tally();
+    const State first = simulator->state();
+    const auto forces = simulator->contacts();
+    const std::vector<ContactForce> asked(forces.begin(), forces.end());
+    const State& second = simulator->state();
+    const auto again = simulator->contacts();
+    EXPECT_EQ(first.position, second.position) << time;
+    EXPECT_EQ(first.velocity, second.velocity) << time;
+    ASSERT_EQ(asked.size(), again.size()) << time;
+    for (std::size_t k = 0; k < asked.size(); ++k) EXPECT_EQ(asked[k].force, again[k].force) << time;
+    EXPECT_EQ(before.energy_lost, simulator->tally().energy_lost) << time;
+    EXPECT_EQ(before.work, simulator->tally().work) << time;
+  }
 }
 
 // Looked at within the step in which it is struck: of a body asleep there was only the step's end to be seen.

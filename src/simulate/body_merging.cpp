@@ -1,0 +1,85 @@
+#include "simulate/body_merging.h"
+
+#include <algorithm>
+
+#include "physics/impact.h"
+
+namespace carom {
+
+void BodyMerging::merge(Entity a, Entity b, const Touch& there) {
+  const World& world = bodies_.world;
+  const Entity whole = world.mass[b] > world.mass[a] ? b : a, part = whole == a ? b : a;
+  for (const Entity i : {a, b}) paths_.note_change(i);
+  for (const Entity i : {a, b}) flights_.book(i, bodies_.position(i));
+  record(a, b, there);
+  join(whole, part);
+  predictor_.renew_region(whole);
+  move_out(whole);
+  for (const Entity e : bodies_.known_to(whole)) {
+    if (!world.is_body(e)) continue;
+    const Entity first = std::min(whole, e), second = std::max(whole, e);
+    const Touch next = touch(world, first, bodies_.position(first), second, bodies_.position(second));
+    if (next.gap < 0) return merge(first, second, next);
+  }
+  predictor_.predict(whole);
+}
+
+void BodyMerging::record(Entity a, Entity b, const Touch& there) {
+  const World& world = bodies_.world;
+  const bool second = world.mass[b] > world.mass[a];
+  const double mw = world.mass[second ? b : a], mp = world.mass[second ? a : b], mass = mw + mp;
+  const Vec3 w = bodies_.velocity(b) - bodies_.velocity(a);
+  const double approach = std::max(-w.dot(there.normal), 0.0);
+  Collision met =
+      make_collision(world, CollisionKind::merge, bodies_.now.hi, a, b, there.point, there.normal, approach, 0, 0);
+  met.impulse = approach * (mw * mp / mass);
+  met.energy_lost = 0.5 * (mw * mp / mass) * w.squaredNorm();  // of the motion along the surfaces too
+  bodies_.log.lose(met.energy_lost);
+  bodies_.log.record(met);
+}
+
+/// The joint body goes on from the centre of mass with the common momentum; forces go on acting on the parts.
+void BodyMerging::join(Entity whole, Entity part) {
+  const double mass_part = bodies_.world.mass[part], share = mass_part / (bodies_.world.mass[whole] + mass_part);
+  const Vec3 xw = bodies_.position(whole), xp = bodies_.position(part);
+  const Vec3 vw = bodies_.velocity(whole), vp = bodies_.velocity(part);
+  const Vec3 x = xw + share * (xp - xw), v = vw + share * (vp - vw);
+  const double before = bodies_.merged.potential(whole, xw) + bodies_.merged.potential(part, xp);  // J
+  bodies_.merged.join(whole, part);
+  if (!bodies_.world.forces.empty()) {
+    bodies_.applied.write(whole) += share * (bodies_.applied[part] - bodies_.applied[whole]);
+    bodies_.working.write(whole) += share * (bodies_.working[part] - bodies_.working[whole]);
+  }
+  for (const Entity i : {whole, part}) flat_.clear(i);
+  bodies_.neighbours.remove(part);
+  flights_.count(part);
+  bodies_.body[part].event = {};
+  queue_.remove(part);
+  bodies_.flights.set(part, {bodies_.now, x, Vec3::Zero(), Vec3::Zero()});
+  if (!bodies_.world.forces.empty()) bodies_.log.lose(before - bodies_.merged.potential(whole, x));
+  bodies_.flights.set(whole, {bodies_.now, x, v, bodies_.applied[whole]});
+  flights_.count(whole);
+  bodies_.body[whole].set_origin({});
+}
+
+/// Moves a joint body out of fixed things that its volume reaches into, and books the work that lifting it takes.
+void BodyMerging::move_out(Entity whole) {
+  const World& world = bodies_.world;
+  Flight f = bodies_.flights[whole];
+  for (int pass = 0; pass < 8; ++pass) {
+    bool free = true;
+    for (const Entity e : bodies_.known_to(whole)) {
+      if (world.is_body(e)) continue;
+      const Touch there = touch(world, whole, f.x, e, world.fixed_position(e));
+      if (!(there.gap < 0)) continue;
+      const Vec3 out = there.gap * there.normal;
+      bodies_.log.add_work(bodies_.merged.potential(whole, f.x + out) - bodies_.merged.potential(whole, f.x));
+      f.x += out;
+      free = false;
+    }
+    bodies_.flights.set(whole, f);
+    if (free) break;
+  }
+}
+
+}  // namespace carom

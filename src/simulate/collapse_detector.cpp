@@ -1,0 +1,62 @@
+#include "simulate/collapse_detector.h"
+
+#include <algorithm>
+
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+void CollapseDetector::count_in_turn(Entity i, double lost) {
+  ++collapse_.write(i).impacts;
+  collapse_.write(i).lost += lost;
+}
+
+/// Counts a slow impact of body i: whether it is one of many within a window of time (s).
+bool CollapseDetector::in_burst(Entity i, double window, int many) {
+  const double now = bodies_.now.hi;
+  Burst& burst = burst_.write(i);
+  if (now - burst.start > window) burst = {now, 0, false};
+  return ++burst.impacts > many;
+}
+
+bool CollapseDetector::collapses(Entity i, Entity other, double e, double approach, double length) {
+  if (e >= 1 && collapse_.empty()) return false;  // none has lost anything yet
+  Collapse& collapse = collapse_.write(i);
+  const double away = std::max(exact_tolerance::collapse_gap * length,
+                               exact_tolerance::position_rounding * bodies_.flights[i].x.cwiseAbs().sum());
+  if (approach * (bodies_.now - collapse.start) > away) collapse = {bodies_.now, 0, 0};
+  if (bodies_.body[i].origin_partner != other) {
+    if (e < 1) ++collapse.impacts;
+    collapse.lost = std::max(collapse.lost + 1 - e, 0.0);
+  }
+  if (collapse.impacts <= exact_tolerance::collapse_impacts || collapse.lost <= exact_tolerance::collapse_loss)
+    return false;
+  collapse.ended = bodies_.now;
+  return true;
+}
+
+bool CollapseDetector::count_impact(Entity a, Entity b, double e, double approach, double press, double length,
+                                    bool alone) {
+  const bool body = bodies_.world.is_body(b);
+  const bool collapse_a = collapses(a, b, e, approach, length);
+  const bool collapse_b = body && collapses(b, a, e, approach, length);
+  if (collapse_a || collapse_b) return true;
+  if (e >= 1) return false;
+  const bool a_in = bodies_.in_lasting_contact(a), b_in = bodies_.in_lasting_contact(b);
+  const bool both_in = a_in && (b_in || !body);
+  const double load = std::max(bodies_.load_on(a), body ? bodies_.load_on(b) : 0.0);
+  if (load == 0) return both_in && collapse_[a].impacts > exact_tolerance::unloaded_impacts;
+  const double slow = bodies_.slow_speed(load, length);
+  if (approach >= slow) return false;
+  if (both_in) return true;
+  if (press > 0 && (a_in || b_in)) return true;
+  const double window = 2 * slow / load;
+  // Alone on flat surfaces a body comes to rest on each in closed form; only between several can it go on for ever.
+  if (alone) return bodies_.body[a].origin_partner != b && in_burst(a, window, exact_tolerance::burst_on_surfaces);
+  const bool burst_a = in_burst(a, window, exact_tolerance::burst_of_bodies);
+  const bool burst_b = body && in_burst(b, window, exact_tolerance::burst_of_bodies);
+  if (body) burst_.write(a).bodies = burst_.write(b).bodies = true;
+  return burst_a || burst_b;
+}
+
+}  // namespace carom

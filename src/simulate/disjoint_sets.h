@@ -1,0 +1,26 @@
+#pragma once
+// Disjoint sets of the numbers 0 .. n-1, united two by two (union-find with path halving).
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace carom {
+
+class DisjointSets {
+ public:
+  /// Each number is a set of its own.
+  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
+
+  /// The number that stands for k's set.
+  std::uint32_t root(std::uint32_t k) {
+    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
+    return k;
+  }
+  /// Unites a's set and b's; b's root stands for it.
+  void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace carom

@@ -1,0 +1,57 @@
+#pragma once
+// What a simulator writes down while it goes on: collisions, energy that contact takes, work of forces, extremes.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "physics/collision.h"
+#include "physics/compensated.h"
+#include "physics/tally.h"
+
+namespace carom {
+
+class EventLog {
+ public:
+  /// max_collisions: one more is an error; 0: no limit. record_collisions: false: they are counted only, without a
+  /// buffer.
+  EventLog(std::uint64_t max_collisions, bool record_collisions);
+
+  /// Empties the buffer for the next advance.
+  void begin_advance() { collisions_.clear(); }
+  /// Counts a collision and buffers it. Throws SimulationError beyond max_collisions.
+  void record(const Collision& collision);
+  /// Whether so many more collisions fit into the buffer. (It grows if they do not: an advance should end before.)
+  bool has_room(std::size_t more) const { return collisions_.size() + more < capacity; }
+  std::span<const Collision> collisions() const { return collisions_; }  // in order
+
+  /// Books energy (J) that a collision or a contact took; negative: made.
+  void lose(double energy) {
+    energy_lost_.add(energy);
+    tally_.energy_lost = energy_lost_.value();
+  }
+  /// Books work (J) of the World's forces, gravity apart.
+  void add_work(double work) {
+    work_.add(work);
+    tally_.work = work_.value();
+  }
+  void note_speed(double speed) { tally_.max_speed = tally_.max_speed < speed ? speed : tally_.max_speed; }  // m/s
+  void note_overlap(double overlap) {                                                                        // m
+    tally_.max_overlap = tally_.max_overlap < overlap ? overlap : tally_.max_overlap;
+  }
+  /// Bodies that come to rest on something, and bodies that leave it.
+  void add_resting(std::uint64_t bodies) { tally_.resting += bodies; }
+  void remove_resting(std::uint64_t bodies) { tally_.resting -= bodies; }
+  void count_collapse() { ++tally_.collapses; }
+  const Tally& tally() const { return tally_; }
+
+  static constexpr std::size_t capacity = 4096;  // collisions
+
+ private:
+  const std::uint64_t max_collisions_;
+  const bool record_collisions_;
+  std::vector<Collision> collisions_;
+  Tally tally_;
+  Sum energy_lost_, work_;  // J
+};
+
+}  // namespace carom

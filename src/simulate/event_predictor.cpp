@@ -1,0 +1,158 @@
+#include "simulate/event_predictor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "simulate/region_exit.h"
+
+namespace carom {
+
+using Kind = ExactEvent::Kind;
+
+void EventPredictor::predict(Entity i) {
+  if (bodies_.neighbours.bodies(i).size() > 128 && bodies_.neighbours.room(i) > 0.05 * bodies_.world.radius[i])
+    bodies_.neighbours.shrink(i, bodies_.position(i));
+  predict_among(i, bodies_.neighbours.bodies(i));
+}
+
+void EventPredictor::predict_all() {
+  std::vector<Entity> others;
+  const auto together = [&](Entity i, Entity j) {
+    const Flights::Core* const f = bodies_.flights.cores();
+    return f[i].v.isZero(0) && f[j].v.isZero(0) && bodies_.flights.acceleration(i) == bodies_.flights.acceleration(j);
+  };
+  for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
+    if (!group_.members.empty()) {
+      predict(i);
+      continue;
+    }
+    others.clear();
+    std::ranges::copy_if(bodies_.neighbours.bodies(i), std::back_inserter(others),
+                         [&](Entity j) { return j < i && !together(i, j); });
+    predict_among(i, others);
+  }
+}
+
+/// The first of what may happen to body i with these bodies, with surfaces and by itself.
+void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
+  ExactEvent best;
+  meet_bodies(i, bodies, best);
+  meet_each(i, bodies_.neighbours.surfaces(i), best);
+  offer_flat_contacts(i, best);
+  if (!bodies_.world.forces.empty())
+    offer(i, best, {{bodies_.merged.next_switch(i, bodies_.now.hi), 0}, no_entity, 0, Kind::force, no_feature});
+  if (bodies_.in_group(i)) offer(i, best, {bodies_.clock.end, no_entity, 0, Kind::step, no_feature});
+  bodies_.body[i].event = best;
+  queue_.schedule(i, region_exit(bodies_, i));
+}
+
+/// Offers when bounces on flat surfaces end, and when body i slides off them.
+void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
+  for (std::size_t k = 0; k < flat_.of(i).count; ++k) {
+    const FlatContact& contact = flat_.of(i).at[k];
+    if (contact.settling) offer(i, best, {contact.rest_time, contact.surface, 0, Kind::rest, contact.feature});
+    if (bodies_.world.is_plane(contact.surface)) continue;
+    const Flight& f = bodies_.flights[i];
+    RelativeMotion m{bodies_.world.fixed_position(contact.surface) - f.x, -f.v, -f.a, f.v.cwiseAbs().sum(), true};
+    const Meeting rim = leave_feature(bodies_.world, i, contact.surface, contact.feature, m,
+                                      Instant{bodies_.options.duration, 0} - f.start);
+    if (rim.time < never) offer(i, best, {f.start + rim.time, contact.surface, 0, Kind::release, rim.feature});
+  }
+}
+
+/// Offers when body i meets each of the others.
+void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEvent& best) {
+  const bool constrained = bodies_.in_group(i) && bodies_.clock.constrained;
+  const std::vector<Entity>& partners = group_.partners[i];
+  for (const Entity e : others) {
+    if (constrained && std::find(partners.begin(), partners.end(), e) != partners.end()) continue;  // they cannot meet
+    std::uint8_t feature = no_feature;
+    if (bodies_.world.is_body(e)) {
+      feature = 0;
+      ++pair_tests_;
+      const Instant time = times_.of_pair(i, e, feature);
+      offer(i, best, {time, e, bodies_.body[e].version, Kind::body_body, feature});
+    } else if (!flat_.carry(i, e)) {
+      ++surface_tests_;
+      const Instant time = times_.of_surface(i, e, feature);
+      offer(i, best, {time, e, 0, Kind::body_fixed, feature});
+    }
+  }
+}
+
+/// The same of bodies, many at a time where all are balls and fall alike.
+void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, ExactEvent& best) {
+  if (!bodies_.world.volume.empty() || bodies_.in_group(i)) return meet_each(i, others, best);
+  const Vec3& a = bodies_.flights.acceleration(i);
+  if (!group_.members.empty() || !bodies_.flights.alike()) {
+    alike_.clear();
+    for (const Entity& e : others)
+      if (bodies_.in_group(e) || bodies_.flights.acceleration(e) != a)
+        meet_each(i, {&e, 1}, best);
+      else
+        alike_.push_back(e);
+    others = alike_;
+  }
+  if (meets_.size() < others.size()) meets_.resize(2 * others.size());
+  const bool latest = bodies_.flights.cores()[i].start == bodies_.now;
+  pair_tests_ += others.size();
+  const double* const radius = bodies_.same_radius ? nullptr : bodies_.world.radius.data();
+  std::size_t count = straight_times(
+      {bodies_.flights.cores(), radius, bodies_.world.radius[i], i, others, a, latest, bodies_.options.duration},
+      meets_.data());
+  for (Meet& meet : std::span(meets_.data(), count)) {
+    std::uint8_t feature = 0;
+    if (meet.time.hi == unsure) meet.time = times_.of_pair(i, meet.with, feature);
+  }
+  // The earliest that the other one is free for: before it, what comes first has it look for body i itself.
+  while (count > 0) {
+    std::size_t first = 0;
+    for (std::size_t k = 1; k < count; ++k)
+      if (meets_[k].time < meets_[first].time) first = k;
+    const Meet& meet = meets_[first];
+    if (best.time.hi < meet.time.hi) return;
+    const ExactEvent& other = bodies_.body[meet.with].event;
+    const bool taken = other.kind == Kind::body_body && other.time.hi < meet.time.hi && bodies_.now.hi < other.time.hi;
+    if (!taken) offer(i, best, {meet.time, meet.with, bodies_.body[meet.with].version, Kind::body_body, 0});
+    meets_[first] = meets_[--count];
+  }
+}
+
+/// Keeps the earlier of two events of body i, by the total order.
+void EventPredictor::offer(Entity i, ExactEvent& best, ExactEvent candidate) const {
+  if (!(candidate.time.hi <= bodies_.options.duration)) return;
+  if (candidate.time < bodies_.now) candidate.time = bodies_.now;  // by rounding only
+  if (best.time < candidate.time) return;
+  if (candidate.time == best.time) {
+    if (best.kind < candidate.kind) return;
+    if (best.kind == candidate.kind) {
+      const auto key = [i](const ExactEvent& e) { return std::pair(std::min(i, e.partner), std::max(i, e.partner)); };
+      if (key(best) < key(candidate)) return;
+    }
+  }
+  best = candidate;
+}
+
+void EventPredictor::renew_region(Entity i) {
+  const Flight f = bodies_.flights[i];
+  const double since = bodies_.now - f.start, until = std::min(bodies_.body[i].event.time.hi, bodies_.options.duration);
+  // Half way to what comes next, or to where the acceleration has reversed the motion.
+  double half = 0.5 * std::max(until - bodies_.now.hi, 0.0);
+  if (const double a2 = f.a.squaredNorm(); a2 > 0) {
+    const Vec3 v = f.velocity(since);
+    const double size = std::sqrt(a2);
+    half = std::min(half, (v.norm() + std::sqrt(v.squaredNorm() + 2 * size * bodies_.neighbours.room(i))) / size);
+  }
+  const Vec3 ahead = half * (f.velocity(since) + (0.5 * half) * f.a), here = f.position(since);
+  hold_to(bodies_.bounds, i, bodies_.now.hi, here, f.velocity(since), ExactBodies::too_fast);
+  const std::span<const Entity> came = bodies_.neighbours.renew(i, here, ahead);
+  ExactEvent best = bodies_.body[i].event;
+  meet_bodies(i, came, best);
+  meet_each(i, bodies_.neighbours.surfaces(i), best);
+  bodies_.body[i].event = best;
+  queue_.schedule(i, region_exit(bodies_, i));
+}
+
+}  // namespace carom

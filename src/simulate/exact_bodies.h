@@ -1,0 +1,88 @@
+#pragma once
+// What the parts of the exact simulator share: the World, the clock, where the bodies are and what forces do to them,
+// and the log.
+//
+// Each body keeps its Flight and is not moved when others collide. Each body keeps one event, the first of its own; the
+// first of all of these is the next thing to happen. A predicted collision is a function of the two flights alone. So
+// it has the same bits from whichever side, and whenever, it is computed: neither outputs nor the search for neighbours
+// can change it.
+#include <vector>
+
+#include "physics/bounds.h"
+#include "physics/touch.h"
+#include "simulate/event_log.h"
+#include "simulate/exact.h"
+#include "simulate/exact_event.h"
+#include "simulate/flight.h"
+#include "simulate/large_pages.h"
+#include "simulate/lazy_array.h"
+#include "simulate/merged_bodies.h"
+#include "simulate/neighbours.h"
+
+namespace carom {
+
+/// How the contact group moves until its next step.
+struct ExactGroupClock {
+  explicit ExactGroupClock(Entity bodies) : kicked_until(bodies), kick(bodies, Vec3::Zero()) {}
+
+  Instant end{never, 0};            // when the next step is due
+  bool constrained = false;         // by constrained motion (constrained_motion.h), else by time stepping
+  LazyArray<Instant> kicked_until;  // by member, in time stepping: forces are in its velocity up to this instant,
+  LazyArray<Vec3> kick;             // m/s^2, this on average, from the start
+};
+
+struct ExactBodies {
+  /// `given` must outlive this.
+  ExactBodies(const World& given, const ExactOptions& given_options);
+
+  const ExactOptions options;
+  MergedBodies merged;
+  const World& world;  // with the joint bodies' masses and volumes
+  const Bounds bounds;
+  const bool same_radius;  // of all bodies, for good
+  Instant now;
+  LazyArray<Vec3> applied;  // m/s^2, by body: gravity and the forces of now,
+  LazyArray<Vec3> working;  // and the part of it that does work (force.h)
+  Flights flights;
+  LargeVector<ExactBody> body;
+  Neighbours neighbours;
+  ExactGroupClock clock;
+  EventLog log;
+
+  static constexpr const char* too_fast =
+      "restitution above 1 makes energy at every collision; lower it, or shorten simulate.duration";
+  static constexpr double immovable = never;  // kg
+
+  Vec3 position(Entity i) const { return flights[i].position(now - flights[i].start); }  // m, now
+  /// m/s, now, as in its flight: with what time stepping has kicked it by.
+  Vec3 velocity(Entity i) const { return flights[i].velocity(now - flights[i].start); }
+  /// m/s, at an instant of its flight, without what forces do later.
+  Vec3 velocity_without_kick(Entity i, const Instant& at) const;
+  /// m: where a body is now, or a fixed thing.
+  Vec3 position_of(Entity e) const { return world.is_body(e) ? position(e) : world.fixed_position(e); }
+
+  bool in_group(Entity i) const { return body[i].state == ContactState::group; }
+  /// Whether e is a body of the contact group, or asleep.
+  bool in_lasting_contact(Entity e) const { return world.is_body(e) && body[e].state != ContactState::free; }
+
+  /// Bodies and fixed things near body i, ascending: what is summed up in this order is the same for any lists.
+  std::vector<Entity> known_to(Entity i) const;
+  /// How a and b touch at xa, xb (m), having just met at this feature.
+  Touch touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) const;
+
+  /// The acceleration (m/s^2) with which body i may press on others. In common free fall, nothing fixed and no other
+  /// forces, there is none: gravity moves all alike.
+  double load_on(Entity i) const;
+  /// The speed (m/s) under which impacts in lasting contact no longer count one by one: rest_speed, or by default a
+  /// share of the speed gained over `length` (m) at the pressing acceleration (m/s^2).
+  double slow_speed(double press, double length) const;
+  /// m/s: a speed as good as none, for products of it with itself underflow.
+  double negligible_speed() const { return 0x1p-200 * log.tally().max_speed; }
+  /// Whether a speed (m/s) against a pressing acceleration (m/s^2) lifts a body by less than its position x (m) is
+  /// rounded to.
+  static bool too_low(const Vec3& x, double speed, double press) {
+    return speed * speed < press * 0x1p-48 * x.cwiseAbs().sum();
+  }
+};
+
+}  // namespace carom

@@ -1,0 +1,94 @@
+#include "simulate/exact_collision_times.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/contact_time.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+namespace {
+
+/// At least |v|.
+double sum_of_speeds(const Vec3& v) {
+  return v.cwiseAbs().sum();
+}
+
+}  // namespace
+
+/// When flights end at the latest; those of the contact group at its next step.
+Instant ExactCollisionTimes::flights_end(bool step) const {
+  return step && bodies_.clock.end.hi < bodies_.options.duration ? bodies_.clock.end
+                                                                 : Instant{bodies_.options.duration, 0};
+}
+
+Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) const {
+  const World& world = bodies_.world;
+  const Entity a = std::min(i, j), b = std::max(i, j);
+  const Flight &p = bodies_.flights[a], &q = bodies_.flights[b];
+  const bool p_earlier = p.start < q.start;
+  const Instant base = p_earlier ? q.start : p.start;
+  const double tp = base - p.start, tq = base - q.start;  // one of them is zero
+  RelativeMotion m;
+  m.w = q.velocity(tq) - p.velocity(tp);
+  m.d = q.position(tq) - p.position(tp);
+  m.a = q.a - p.a;
+  const bool balls = world.volume.empty();
+  if (balls && m.a.isZero(0) && m.d.dot(m.w) >= 0) return {never, 0};
+  m.speeds = sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a);
+  m.just_separated = p.start == q.start && bodies_.body[a].origin_partner == b && bodies_.body[b].origin_partner == a;
+  const bool step = bodies_.in_group(a) || bodies_.in_group(b);
+  const double horizon = flights_end(step) - base;
+  const double s = world.radius[a] + world.radius[b];
+  if (step) {
+    const double greatest = std::max(bodies_.applied[a].norm(), bodies_.applied[b].norm());
+    m.speeds += exact_tolerance::step_rounding * std::sqrt(greatest * s);
+    const double reach = s + horizon * (sum_of_speeds(m.w) + horizon * sum_of_speeds(m.a));
+    if (m.d.squaredNorm() > reach * reach) return {never, 0};
+  }
+  double t;
+  if (balls) {
+    t = sphere_contact_time(m, s, horizon);
+  } else {
+    const Meeting first =
+        meeting(world, a, b, m, m.just_separated ? bodies_.body[a].origin_feature : no_feature, horizon);
+    t = first.time;
+    feature = first.feature;
+  }
+  return t == never ? Instant{never, 0} : base + t;
+}
+
+Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, std::uint8_t& feature) const {
+  const World& world = bodies_.world;
+  const Flight& f = bodies_.flights[i];
+  const bool step = bodies_.in_group(i) && bodies_.clock.end.hi < bodies_.options.duration;
+  const double horizon = flights_end(step) - f.start;
+  const bool left = bodies_.body[i].origin_partner == surface;
+  double t;
+  const bool ball = world.volume.empty() || world.volume[i].shape == Shape::sphere;
+  const double steps = bodies_.in_lasting_contact(i)
+                           ? exact_tolerance::step_rounding * std::sqrt(bodies_.applied[i].norm() * world.radius[i])
+                           : 0;
+  if (ball && world.is_plane(surface)) {
+    const Plane& plane = world.plane(surface);
+    const double noise = 0x1p-49 * (sum_of_speeds(f.v) + steps);
+    t = plane_contact_time(plane_gap(f.x, plane.point, plane.normal, world.radius[i]), plane.normal.dot(f.v),
+                           plane.normal.dot(f.a), noise, left, horizon);
+  } else if (ball && world.is_wall(surface)) {
+    const double reach = world.radius[i] + horizon * (sum_of_speeds(f.v) + horizon * sum_of_speeds(f.a));
+    if (step && (f.x - nearest_on_wall(world.wall(surface), f.x)).squaredNorm() > reach * reach) return {never, 0};
+    const WallContact contact = wall_contact_time(world.wall(surface), f.x, f.v, f.a, world.radius[i],
+                                                  left ? bodies_.body[i].origin_feature : no_feature, horizon);
+    t = contact.time;
+    feature = contact.feature;
+  } else {
+    const RelativeMotion m{world.fixed_position(surface) - f.x, -f.v, -f.a, sum_of_speeds(f.v) + steps, left};
+    const Meeting first = meeting(world, i, surface, m, left ? bodies_.body[i].origin_feature : no_feature, horizon);
+    t = first.time;
+    feature = first.feature;
+  }
+  return t == never ? Instant{never, 0} : f.start + t;
+}
+
+}  // namespace carom

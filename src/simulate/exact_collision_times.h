@@ -1,0 +1,23 @@
+#pragma once
+// When bodies on their flights collide.
+#include "simulate/exact_bodies.h"
+
+namespace carom {
+
+class ExactCollisionTimes {
+ public:
+  explicit ExactCollisionTimes(const ExactBodies& bodies) : bodies_(bodies) {}
+
+  /// When bodies i and j collide, infinite: not before their flights end; and at what feature. From the later of their
+  /// flights' starts, lower number first: the same bits for (i, j) and (j, i).
+  Instant of_pair(Entity i, Entity j, std::uint8_t& feature) const;
+  /// When body i strikes a fixed thing: from its flight's start.
+  Instant of_surface(Entity i, Entity surface, std::uint8_t& feature) const;
+
+ private:
+  Instant flights_end(bool step) const;
+
+  const ExactBodies& bodies_;
+};
+
+}  // namespace carom

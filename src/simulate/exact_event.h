@@ -1,0 +1,55 @@
+#pragma once
+// A predicted event of the exact simulator, and what is known of the body that it is the first event of.
+#include <cstdint>
+
+#include "physics/contact_time.h"
+#include "physics/world.h"
+#include "simulate/instant.h"
+
+namespace carom {
+
+struct ExactEvent {
+  // In the order in which events of one instant happen.
+  enum class Kind : std::uint8_t {
+    force,       // a force on the body sets in or ceases
+    rest,        // bounces end: a line in the record
+    release,     // a body slides off a wall's face
+    step,        // of the contact group: no impact, but new forces
+    body_fixed,  //
+    body_body,   //
+    none
+  };
+
+  Instant time{never, 0};
+  Entity partner = no_entity;
+  std::uint16_t partner_version = 0;  // the event is stale if the partner's is another
+  Kind kind = Kind::none;
+  std::uint8_t feature = no_feature;  // where they meet, as in Touch
+};
+
+/// What a flight began with: the thing that the body has just struck, and where.
+struct FlightOrigin {
+  Entity partner = no_entity;
+  std::uint8_t feature = no_feature;
+};
+
+/// free: by itself or on flat surfaces; group: a member of the contact group; asleep: at rest in contact.
+enum class ContactState : std::uint8_t { free, group, asleep };
+
+/// What events need to know of a body, apart from its flight: half a cache line.
+struct ExactBody {
+  ExactEvent event;           // its next one
+  std::uint16_t version = 1;  // counts its flights, and never is 0
+  ContactState state = ContactState::free;
+  std::uint8_t origin_feature = no_feature;
+  Entity origin_partner = no_entity;
+
+  FlightOrigin origin() const { return {origin_partner, origin_feature}; }
+  void set_origin(const FlightOrigin& origin) {
+    origin_partner = origin.partner;
+    origin_feature = origin.feature;
+  }
+};
+static_assert(sizeof(ExactBody) == 32);
+
+}  // namespace carom

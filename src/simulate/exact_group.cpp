@@ -1,0 +1,156 @@
+#include "simulate/exact_group.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "physics/complementarity.h"
+#include "physics/restitution.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+ExactGroup::ExactGroup(ExactBodies& bodies, FlatContacts& flat, const CollapseDetector& collapses, PathLog& paths)
+    : pressing(bodies.body.size()),
+      partners(bodies.body.size()),
+      index(bodies.body.size(), PressedPair::none),
+      impacts(bodies.body.size()),
+      idle(bodies.body.size()),
+      margin(bodies.body.size()),
+      needed(bodies.body.size()),
+      bodies_(bodies),
+      flat_(flat),
+      collapses_(collapses),
+      paths_(paths),
+      carried_(bodies.body.size()) {}
+
+void ExactGroup::set_carried(Entity i, bool carried) {
+  if (carried == (carried_[i] != 0)) return;
+  carried_.write(i) = carried;
+  carried ? bodies_.log.add_resting(1) : bodies_.log.remove_resting(1);
+}
+
+std::vector<Entity> ExactGroup::take_members() {
+  return std::exchange(members, {});
+}
+
+void ExactGroup::join(Entity i) {
+  ExactGroupClock& clock = bodies_.clock;
+  if (bodies_.body[i].state == ContactState::asleep) wake(i);
+  if (bodies_.in_group(i)) return;
+  paths_.note_change(i);
+  bodies_.body[i].state = ContactState::group;
+  clock.kicked_until.write(i) = bodies_.now;
+  clock.kick.write(i).setZero();
+  margin.write(i) = 0;
+  impacts.write(i) = 0;
+  flat_.clear(i);
+  if (members.empty()) {
+    clock.end = bodies_.now;
+    clock.constrained = false;
+    bodies_.log.count_collapse();
+  }
+  if (clock.constrained) clock.end = bodies_.now;
+  idle.write(i) = 0;
+  needed.write(i) = bodies_.now;
+  members.push_back(i);
+}
+
+void ExactGroup::wake(Entity i) {
+  std::vector<Entity> todo{i};
+  bodies_.body[i].state = ContactState::free;
+  while (!todo.empty()) {
+    const Entity k = todo.back();
+    todo.pop_back();
+    set_carried(k, false);
+    join(k);
+    const Vec3 x = bodies_.flights[k].x;
+    for (const Entity e : bodies_.known_to(k)) {
+      if (!bodies_.world.is_body(e) || bodies_.body[e].state != ContactState::asleep) continue;
+      const double gap = touch(bodies_.world, k, x, e, bodies_.flights[e].x).gap;
+      if (gap > exact_tolerance::waking_gap * bodies_.world.radius[k]) continue;
+      bodies_.body[e].state = ContactState::free;
+      todo.push_back(e);
+    }
+  }
+}
+
+void ExactGroup::join_at_rest(Entity i) {
+  join(i);
+  bodies_.flights.accelerate(i, Vec3::Zero());
+}
+
+void ExactGroup::join_initial(Entity first) {
+  const World& world = bodies_.world;
+  std::vector<Entity> todo{first};
+  while (!todo.empty()) {
+    const Entity i = todo.back();
+    todo.pop_back();
+    for (const Entity e : bodies_.known_to(i)) {
+      const Flight f = bodies_.flights[i];
+      const bool body = world.is_body(e);
+      const bool i_in = bodies_.in_lasting_contact(i), e_in = bodies_.in_lasting_contact(e);
+      if (flat_.carry(i, e) || (i_in && (!body || e_in))) continue;
+      const Vec3 xe = body ? bodies_.flights[e].x : world.fixed_position(e);
+      const Vec3 ve = body ? bodies_.flights[e].v : Vec3(Vec3::Zero());
+      const Vec3 ae = body ? bodies_.flights[e].a : Vec3(Vec3::Zero());
+      const double rounding =
+          exact_tolerance::initial_rounding * (f.x.cwiseAbs().sum() + xe.cwiseAbs().sum() + world.radius[i]);
+      if (body && (xe - f.x).norm() > world.radius[i] + world.radius[e] + 2 * rounding) continue;
+      const Touch there = touch(world, i, f.x, e, xe);
+      if (std::abs(there.gap) > rounding) continue;
+      const Vec3 w = ve - f.v;
+      if (std::abs(there.normal.dot(w)) > exact_tolerance::velocity_rounding * (f.v.norm() + ve.norm())) continue;
+      const double press = -(there.normal.dot(ae - f.a) + bending(world, i, f.x, e, xe, there, w));
+      if (!i_in && !e_in && !(press > 0)) continue;
+      for (const Entity k : {i, e}) {
+        if (!world.is_body(k) || bodies_.in_lasting_contact(k)) continue;
+        join_at_rest(k);
+        todo.push_back(k);
+      }
+    }
+  }
+}
+
+void ExactGroup::widen_margin(Entity i, double approach) {
+  if (!bodies_.in_group(i)) return;
+  needed.write(i) = bodies_.now;
+  margin.write(i) = std::max(
+      margin[i], std::min(0.5 * approach * step_length, exact_tolerance::widest_margin * bodies_.world.radius[i]));
+}
+
+double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity i, Entity e) const {
+  const bool body = bodies_.world.is_body(e);
+  if (bodies_.clock.constrained || approach == 0 || (!bodies_.in_group(i) && !(body && bodies_.in_group(e))))
+    return approach;
+  const Instant& now = bodies_.now;
+  const Vec3 w =
+      bodies_.velocity_without_kick(i, now) - (body ? bodies_.velocity_without_kick(e, now) : Vec3(Vec3::Zero()));
+  return std::max(n.dot(w), 0.0);
+}
+
+void ExactGroup::kick(Entity i, const Vec3& dv) {
+  ExactGroupClock& clock = bodies_.clock;
+  if (clock.constrained || !bodies_.in_group(i) || dv.isZero(0) || !(bodies_.now < clock.end)) return;
+  if (!(bodies_.now < clock.kicked_until[i])) {
+    clock.kicked_until.write(i) = clock.end;
+    clock.kick.write(i).setZero();
+  }
+  clock.kick.write(i) += dv / (clock.kicked_until[i] - bodies_.now);
+}
+
+bool ExactGroup::strikes(Entity i, Entity e, double approach, double greatest) const {
+  const World& world = bodies_.world;
+  const bool body = world.is_body(e);
+  const bool collapse = collapses_.ended_now(i) || (body && collapses_.ended_now(e));
+  const double length = world.radius[i] + (body ? world.radius[e] : 0);
+  return !collapse && greatest > 0 && approach >= bodies_.slow_speed(greatest, length) &&
+         pair_restitution(world, i, e) > 0;
+}
+
+void ExactGroup::report(Entity i, std::vector<ContactForce>& forces) const {
+  if (bodies_.body[i].state == ContactState::free || (bodies_.clock.constrained && bodies_.in_group(i))) return;
+  for (const PressingContact& p : pressing[i]) forces.push_back({i, p.partner, p.force});
+}
+
+}  // namespace carom

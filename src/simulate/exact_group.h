@@ -1,0 +1,73 @@
+#pragma once
+// The exact simulator's contact group: bodies in lasting contact with one another and with anything that is not flat,
+// where paths have no closed form. It moves in steps, all of it together: a small one by constrained motion
+// (constrained_motion.h), a large one by time stepping (time_stepping.h). Here: its members, and what impacts do to
+// them between steps.
+#include <vector>
+
+#include "simulate/collapse_detector.h"
+#include "simulate/exact_bodies.h"
+#include "simulate/flat_contacts.h"
+#include "simulate/path_log.h"
+
+namespace carom {
+
+/// One end of a contact with a force: the lower body's list has the other one.
+struct PressingContact {
+  Entity partner;
+  double force;  // N
+};
+
+class ExactGroup {
+ public:
+  ExactGroup(ExactBodies& bodies, FlatContacts& flat, const CollapseDetector& collapses, PathLog& paths);
+
+  std::vector<Entity> members;                       // ascending after each step
+  LazyArray<std::vector<PressingContact>> pressing;  // by the lower body: what the last step found pressing on it
+  LazyArray<std::vector<Entity>> partners;           // by body: what constrained motion keeps it in contact with
+  LazyArray<std::uint32_t> index;                    // scratch of a step: a member's place in it, or PressedPair::none
+  LazyArray<std::uint32_t> impacts;                  // by member: impacts that ended in contact since the last step
+  LazyArray<std::uint8_t> idle;                      // by member: steps since something pressed on it
+  LazyArray<double> margin;                          // m, by member: the gap that time stepping leaves about it
+  LazyArray<Instant> needed;     // by member: when it was last struck or pressed on, but by flat surfaces alone
+  double step_length = 0;        // s, of the last step
+  std::size_t impact_pairs = 0;  // that simultaneous impacts have solved for since the last step
+
+  /// Body i belongs to the group from now on; if it sleeps, all that rest in contact with it wake too.
+  void join(Entity i);
+  /// A sleeping body, and all that rest in contact with it, belong to the group from now on.
+  void wake(Entity i);
+  /// At the start: a body that touches others, or a curved surface, without speed along the normal and is pressed on
+  /// joins the group, and so does all that it touches.
+  void join_initial(Entity first);
+  /// Whether body i, a member or asleep, rests on something: counted in the tally.
+  void set_carried(Entity i, bool carried);
+  /// Takes all members out, for a step that puts back those that stay.
+  std::vector<Entity> take_members();
+
+  /// Member i has been struck at this speed (m/s): for a while bodies are kept apart by about as much as they could
+  /// move at that speed until the next step.
+  void widen_margin(Entity i, double approach);
+  /// How much of an approach (m/s) along n is there already: in time stepping flights have been kicked by what forces
+  /// do in the rest of the step.
+  double approach_without_kick(double approach, const Vec3& n, Entity i, Entity e) const;
+  /// A force in what is left of a time step changes body i's velocity by dv (m/s), which is in its flight from now on.
+  void kick(Entity i, const Vec3& dv);
+  /// Whether member i and e approach each other (m/s) for an impact that bounces: contact must not take that speed.
+  /// `greatest` is the greatest acceleration in the group (m/s^2).
+  bool strikes(Entity i, Entity e, double approach, double greatest) const;
+
+  /// Appends the forces of sleeping bodies, and of members between steps of time stepping.
+  void report(Entity i, std::vector<ContactForce>& forces) const;
+
+ private:
+  void join_at_rest(Entity i);
+
+  ExactBodies& bodies_;
+  FlatContacts& flat_;
+  const CollapseDetector& collapses_;
+  PathLog& paths_;
+  LazyArray<std::uint8_t> carried_;  // by body: a member or asleep, and something presses on it
+};
+
+}  // namespace carom

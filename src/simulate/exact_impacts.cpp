@@ -1,0 +1,199 @@
+#include "simulate/exact_impacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "physics/impact.h"
+#include "physics/restitution.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+/// Whether a body that lies on flat surfaces strikes one at rest that forces hold on all sides at a speed (m/s) so low
+/// that it would hardly lift it.
+bool ExactImpacts::too_slow_to_wake(Entity striker, Entity struck, double speed) const {
+  const World& world = bodies_.world;
+  if (parts_.flat.of(striker).count == 0) return false;
+  if (!(speed * speed < 2 * exact_tolerance::waking_lift * bodies_.applied[struck].norm() * world.radius[struck]))
+    return false;
+  // Three forces at least, not in a plane.
+  std::vector<Vec3> normals;
+  const Vec3 x = bodies_.flights[struck].x;
+  const auto hold = [&](Entity e) {
+    const bool body = world.is_body(e);
+    normals.push_back(touch(world, struck, x, e, body ? bodies_.flights[e].x : world.fixed_position(e)).normal);
+  };
+  for (const PressingContact& p : parts_.group.pressing[struck])
+    if (p.force > 0) hold(p.partner);
+  for (const Entity e : bodies_.known_to(struck))
+    if (world.is_body(e) && bodies_.body[e].state == ContactState::asleep)
+      for (const PressingContact& p : parts_.group.pressing[e])
+        if (p.partner == struck && p.force > 0) hold(e);
+  for (std::size_t i = 0; i < normals.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t k = 0; k < j; ++k)
+        if (std::abs(normals[i].cross(normals[j]).dot(normals[k])) > exact_tolerance::least_volume) return true;
+  return false;
+}
+
+/// A strike too slow to wake the struck body, by one that nothing presses on it: the striker comes to rest.
+void ExactImpacts::stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach) {
+  const double mass = bodies_.world.mass[striker];
+  const Vec3 x = bodies_.position(striker), v = bodies_.velocity(striker);
+  const double lost = 0.5 * mass * v.squaredNorm();
+  Collision met = make_collision(bodies_.world, CollisionKind::body_body, bodies_.now.hi, std::min(striker, struck),
+                                 std::max(striker, struck), there.point, there.normal, approach, 0,
+                                 pair_restitution(bodies_.world, striker, struck));
+  met.impulse = impact_impulse(mass, ExactBodies::immovable, approach, 0);  // the struck one is held
+  met.energy_lost = lost;
+  bodies_.log.record(met);
+  bodies_.log.lose(lost);
+  parts_.flights.begin(striker, x, Vec3::Zero(), {struck, feature});
+  parts_.predictor.predict(striker);
+}
+
+void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
+  const World& world = bodies_.world;
+  const Flight &p = bodies_.flights[a], &q = bodies_.flights[b];
+  const double ta = bodies_.now - p.start, tb = bodies_.now - q.start;
+  const Vec3 xa = p.position(ta), xb = q.position(tb);
+  const Vec3 va = p.velocity(ta), vb = q.velocity(tb);
+  const Touch there = bodies_.touch_at(a, xa, b, xb, feature);
+  bodies_.log.note_overlap(-there.gap);
+  bodies_.log.note_speed(va.norm());
+  bodies_.log.note_speed(vb.norm());
+  if (bodies_.options.merge) return parts_.merging.merge(a, b, there);
+  const double ma = world.mass[a], mb = world.mass[b];
+  const Vec3 w = vb - va;
+  const Vec3& n = there.normal;
+  const double approach = -w.dot(n) > bodies_.negligible_speed() ? -w.dot(n) : 0;
+  const double e = pair_restitution(world, a, b);
+  parts_.guard.note_restitution(e);
+  const double met = parts_.group.approach_without_kick(approach, n, a, b);
+  const double length = world.radius[a] + world.radius[b];
+  double press = 0;
+  if (p.a != q.a) press = -(n.dot(q.a - p.a) + bending(world, a, xa, b, xb, there, w));
+  if (press <= 0)
+    for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})
+      if (bodies_.body[struck].state == ContactState::asleep && too_slow_to_wake(striker, struck, w.norm()))
+        return stop_at(striker, struck, feature, there, approach);
+  // Where nothing presses, an approach that is but rounding is over with this impact.
+  const bool real = approach > exact_tolerance::approach_rounding * (va.norm() + vb.norm()) || bodies_.load_on(a) > 0 ||
+                    bodies_.load_on(b) > 0;
+  const bool ends = (approach > 0 && met == 0) ||
+                    (real && parts_.collapses.count_impact(a, b, e, met, press, length, false)) ||
+                    (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press)));
+  const double separation = ends ? 0 : e * met;
+  const double impulse = impact_impulse(ma, mb, ends ? approach : met, separation);
+  bodies_.log.lose(impact_loss(ma, mb, approach, ends || met == approach ? separation : met + separation - approach));
+  if (!ends)
+    bodies_.log.record(
+        make_collision(world, CollisionKind::body_body, bodies_.now.hi, a, b, there.point, n, met, separation, e));
+  for (const Entity i : {a, b}) {
+    if (ends || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
+    parts_.group.widen_margin(i, approach);
+  }
+  parts_.flights.begin(a, xa, parts_.flat.keep_at(a, va - (impulse / ma) * n), {b, feature});
+  parts_.flights.begin(b, xb, parts_.flat.keep_at(b, vb + (impulse / mb) * n), {a, feature});
+  if (ends)
+    for (const Entity i : {a, b}) bodies_.flights.accelerate(i, Vec3::Zero());
+  parts_.predictor.predict(a);
+  parts_.predictor.predict(b);
+  if (!ends) return;
+  const double held = impact_impulse(ma, mb, approach - met, 0);
+  parts_.group.kick(a, -held / ma * n);
+  parts_.group.kick(b, held / mb * n);
+  parts_.simultaneous.count_impact(a);
+  parts_.simultaneous.count_impact(b);
+}
+
+ExactImpacts::FixedImpact ExactImpacts::find_fixed(Entity i, Entity surface, std::uint8_t feature) const {
+  const World& world = bodies_.world;
+  const Flight f = bodies_.flights[i];
+  const double t = bodies_.now - f.start;
+  const Vec3 x = f.position(t), v = f.velocity(t);
+  const Vec3& point = world.fixed_position(surface);
+  const bool flat = is_flat(world, i, surface, feature);
+  const Touch there = bodies_.touch_at(i, x, surface, point, feature);
+  const Vec3& n = there.normal;
+  const double approach = v.dot(n) > bodies_.negligible_speed() ? v.dot(n) : 0;
+  const double bend = flat ? 0 : bending(world, i, x, surface, point, there, -v);
+  return {i,
+          surface,
+          feature,
+          flat,
+          f.start == bodies_.now,
+          x,
+          v,
+          there,
+          pair_restitution(world, i, surface),
+          approach,
+          parts_.group.approach_without_kick(approach, n, i, surface),
+          parts_.flat.acceleration_without(i, surface).dot(n) - bend};
+}
+
+/// Whether a flat surface carries the body from now on, in which case `contact` says since when its bounces are over.
+bool ExactImpacts::comes_to_rest(const FixedImpact& impact, FlatContact& contact) const {
+  const auto& [i, surface, feature, flat, began_now, x, v, there, e, approach, unkicked, press] = impact;
+  const double separation = e * unkicked;
+  contact = {surface, feature, -there.normal, false, bodies_.now, separation};
+  const bool ends = e < 1 || approach == 0 || (e == 1 && bodies_.too_low(x, approach, press));
+  const std::size_t carrying = parts_.flat.of(i).count;
+  if (!(press > 0) || !flat || bodies_.in_lasting_contact(i) || carrying >= FlatContactList::most || !ends)
+    return false;
+  const double left = separation == 0 || e == 1 ? 0 : 2 * separation / (press * (1 - e));
+  // Not by hops on this surface alone: thrown back at it by others in between, or by those that carry it, at once.
+  const bool carried = carrying > 0 && (bodies_.body[i].origin_partner != surface || began_now);
+  contact.settling = bodies_.now.hi + left == bodies_.now.hi || approach < bodies_.options.rest_speed ||
+                     (carried && bodies_.too_low(x, approach, press));
+  contact.rest_time = bodies_.now + left;
+  return contact.settling;
+}
+
+bool ExactImpacts::ends_in_contact(const FixedImpact& impact) {
+  const auto& [i, surface, feature, flat, began_now, x, v, there, e, approach, unkicked, press] = impact;
+  if (approach > 0 && unkicked == 0) return true;
+  const bool alone = flat && !parts_.collapses.among_bodies(i);
+  if (parts_.collapses.count_impact(i, surface, e, unkicked, press, bodies_.world.radius[i], alone)) return true;
+  const double separation = e * unkicked;
+  return press > 0 && (!flat || bodies_.in_lasting_contact(i)) &&
+         (separation == 0 || bodies_.too_low(x, separation, press));
+}
+
+void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature) {
+  const World& world = bodies_.world;
+  const FixedImpact impact = find_fixed(i, surface, feature);
+  const Vec3 &x = impact.x, &v = impact.v, &n = impact.there.normal;
+  const double approach = impact.approach, met = impact.unkicked, mass = world.mass[i];
+  parts_.guard.note_restitution(impact.e);
+  bodies_.log.note_overlap(-impact.there.gap);
+  bodies_.log.note_speed(v.norm());
+  FlatContact contact;
+  const bool rests = comes_to_rest(impact, contact);
+  const bool ends = !rests && ends_in_contact(impact);
+  const double separation = ends ? 0 : impact.e * met;
+  if (ends || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
+  parts_.group.widen_margin(i, approach);
+  if (approach > 0 || separation > 0) {
+    bodies_.log.lose(impact_loss(mass, ExactBodies::immovable, approach,
+                                 ends || met == approach ? separation : met + separation - approach));
+    if (!ends)
+      bodies_.log.record(make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, surface,
+                                        impact.there.point, n, met, separation, impact.e));
+  }
+  if (rests) {
+    parts_.flat.add(i, contact);
+    parts_.flights.begin(i, x + impact.there.gap * n, parts_.flat.keep_at(i, v - approach * n), {surface, feature});
+  } else {
+    const double change = (ends ? approach : met) + separation;
+    parts_.flights.begin(i, x, parts_.flat.keep_at(i, v - change * n), {surface, feature});
+  }
+  if (ends) bodies_.flights.accelerate(i, Vec3::Zero());
+  parts_.predictor.predict(i);
+  if (!ends) return;
+  parts_.group.kick(i, (met - approach) * n);
+  parts_.simultaneous.count_impact(i);
+}
+
+}  // namespace carom

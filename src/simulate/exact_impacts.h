@@ -1,0 +1,59 @@
+#pragma once
+// What impacts do to velocities: of two bodies, and of a body and a fixed thing. One pair at a time.
+#include "simulate/body_merging.h"
+#include "simulate/collapse_detector.h"
+#include "simulate/event_predictor.h"
+#include "simulate/exact_group.h"
+#include "simulate/flight_changes.h"
+#include "simulate/simultaneous_impacts.h"
+#include "simulate/stall_guard.h"
+
+namespace carom {
+
+/// The parts of the simulator that an impact changes.
+struct ImpactParts {
+  CollapseDetector& collapses;
+  FlatContacts& flat;
+  ExactGroup& group;
+  FlightChanges& flights;
+  EventPredictor& predictor;
+  SimultaneousImpacts& simultaneous;
+  BodyMerging& merging;
+  StallGuard& guard;
+};
+
+class ExactImpacts {
+ public:
+  ExactImpacts(ExactBodies& bodies, const ImpactParts& parts) : bodies_(bodies), parts_(parts) {}
+
+  /// Bodies a < b meet now, at this feature.
+  void collide_pair(Entity a, Entity b, std::uint8_t feature);
+  /// Body i meets a fixed thing now.
+  void collide_fixed(Entity i, Entity surface, std::uint8_t feature);
+
+ private:
+  /// A body and a fixed thing where they meet.
+  struct FixedImpact {
+    Entity body, surface;
+    std::uint8_t feature;
+    bool flat;
+    bool began_now;   // the flight did
+    Vec3 x, v;        // m, m/s
+    Touch there;      //
+    double e;         // restitution
+    double approach;  // m/s,
+    double unkicked;  // and without what forces do later
+    double press;     // m/s^2, drives the two together
+  };
+
+  bool too_slow_to_wake(Entity striker, Entity struck, double speed) const;
+  void stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach);
+  FixedImpact find_fixed(Entity i, Entity surface, std::uint8_t feature) const;
+  bool comes_to_rest(const FixedImpact& impact, FlatContact& contact) const;
+  bool ends_in_contact(const FixedImpact& impact);
+
+  ExactBodies& bodies_;
+  const ImpactParts parts_;
+};
+
+}  // namespace carom

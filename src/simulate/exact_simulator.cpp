@@ -1,0 +1,243 @@
+#include "simulate/exact_simulator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t collisions_of_event = 8;  // that one event may bring, as a rule
+constexpr std::uint32_t events_at_a_time = 65536;
+constexpr Entity cached_bodies = 24576;  // that fit into a processor's own memory
+
+}  // namespace
+
+std::unique_ptr<Simulator> make_exact_simulator(const World& world, const State& initial, const ExactOptions& options) {
+  return std::make_unique<ExactSimulator>(world, initial, options);
+}
+
+ExactSimulator::ExactSimulator(const World& world, const State& initial, const ExactOptions& options)
+    : bodies_(world, options),
+      paths_(bodies_),
+      collapses_(bodies_),
+      flat_(bodies_, collapses_),
+      group_(bodies_, flat_, collapses_, paths_),
+      flights_(bodies_, flat_, paths_),
+      queue_(bodies_),
+      prefetch_(bodies_, queue_),
+      predictor_(bodies_, queue_, flat_, group_),
+      simultaneous_(bodies_, group_, flights_, predictor_),
+      stepping_(bodies_, group_, flights_, predictor_),
+      constrained_(bodies_, group_, flat_, collapses_, flights_, predictor_),
+      merging_(bodies_, flat_, flights_, queue_, predictor_, paths_),
+      guard_(world.body_count(), options.duration),
+      impacts_(bodies_, {collapses_, flat_, group_, flights_, predictor_, simultaneous_, merging_, guard_}) {
+  start(initial);
+}
+
+void ExactSimulator::start(const State& initial) {
+  const World& world = bodies_.world;
+  const Entity n = world.body_count();
+  for (Entity i = 0; i < n; ++i) {
+    Vec3 v = initial.velocity[i];
+    if (!world.impulse.empty()) v += world.impulse[i] / world.mass[i];
+    if (!world.forces.empty()) {
+      const AppliedAcceleration applied = bodies_.merged.applied(i, 0);
+      bodies_.applied.write(i) = applied.all;
+      bodies_.working.write(i) = applied.working;
+    }
+    bodies_.flights.set(i, {{}, initial.position[i], v, bodies_.applied[i]});
+    bodies_.log.note_speed(v.norm());
+  }
+  bodies_.neighbours.start(initial.position);
+  if (!bodies_.options.merge) {
+    for (Entity i = 0; i < n; ++i)
+      if (!bodies_.applied[i].isZero(0)) flat_.find_initial(i);
+    // Where no force acts, nothing presses.
+    if (!(world.gravity.isZero(0) && world.forces.empty()))
+      for (Entity i = 0; i < n; ++i) group_.join_initial(i);
+  }
+  predictor_.predict_all();
+  if (!group_.members.empty()) step_group();
+  for (Entity i = 0; i < n; ++i) paths_.note_change(i);
+  paths_.record_changes();
+}
+
+void ExactSimulator::advance_to(double time) {
+  bodies_.log.begin_advance();
+  paths_.begin_advance();
+  state_fresh_ = false;
+  const Instant until{std::min(time, bodies_.options.duration), 0};
+  const auto before_now = [&] { return std::nextafter(bodies_.now.hi, 0); };
+  std::uint32_t events = 0;
+  while (queue_.first_time() <= until.hi) {
+    const Entity i = queue_.first();
+    if (bodies_.world.body_count() > cached_bodies) prefetch_.look_ahead();
+    if (!queue_.leaves_first(i) && !(bodies_.body[i].event.time <= until)) break;
+    take_event(i);
+    // After many events that no one has seen, the caller may want to look at the clock.
+    if (++events % events_at_a_time == 0 && before_now() > time_) {
+      time_ = before_now();
+      return;
+    }
+    // A full buffer: stop short of the instant reached, for more may happen in it.
+    if (paths_.full() || !bodies_.log.has_room(collisions_of_event)) {
+      time_ = std::max(time_, before_now());
+      return;
+    }
+  }
+  paths_.record_changes();
+  time_ = std::max(time, time_);
+  if (time_ >= bodies_.options.duration && !booked_) book_last_flights();
+}
+
+/// What is next for body i: its event, or that it leaves its region.
+void ExactSimulator::take_event(Entity i) {
+  ++effort_.events;
+  if (!queue_.leaves_first(i)) return process(i);
+  if (bodies_.now.hi < queue_.first_time()) bodies_.now = {queue_.first_time(), 0};
+  ++effort_.regions;
+  predictor_.renew_region(i);
+  bodies_.neighbours.tidy();
+  guard_.count(StallGuard::Happened::region_left, bodies_.now.hi);
+}
+
+void ExactSimulator::process(Entity i) {
+  using Kind = ExactEvent::Kind;
+  const ExactEvent event = bodies_.body[i].event;
+  bodies_.neighbours.prefetch_list(i);
+  if (event.kind == Kind::body_body) bodies_.neighbours.prefetch_list(event.partner);
+  if (bodies_.now < event.time) bodies_.now = event.time;
+  switch (event.kind) {
+    case Kind::body_body:
+      if (bodies_.body[event.partner].version == event.partner_version)
+        impacts_.collide_pair(std::min(i, event.partner), std::max(i, event.partner), event.feature);
+      else
+        predictor_.predict(i);  // the other one has changed its path since
+      break;
+    case Kind::body_fixed:
+      impacts_.collide_fixed(i, event.partner, event.feature);
+      break;
+    case Kind::force:
+      switch_forces(i);
+      break;
+    case Kind::rest:
+      flat_.end_bounces(i);
+      predictor_.predict(i);
+      break;
+    case Kind::release:
+      release(i, event.partner, event.feature);
+      break;
+    case Kind::step:
+      if (event.time == bodies_.clock.end)
+        step_group();
+      else
+        predictor_.predict(i);  // there has been a step since
+      break;
+    case Kind::none:
+      break;
+  }
+  const bool impact = event.kind == Kind::body_body || event.kind == Kind::body_fixed;
+  guard_.count(impact ? StallGuard::Happened::impact : StallGuard::Happened::other, bodies_.now.hi);
+}
+
+/// A force on body i sets in or ceases, now.
+void ExactSimulator::switch_forces(Entity i) {
+  ExactGroupClock& clock = bodies_.clock;
+  const Vec3 x = bodies_.position(i);
+  Vec3 v = bodies_.velocity(i);
+  paths_.note_change(i);
+  flights_.book(i, x);
+  bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
+  const AppliedAcceleration applied = bodies_.merged.applied(i, bodies_.now.hi);
+  if (bodies_.body[i].state == ContactState::asleep) group_.join(i);
+  if (bodies_.in_group(i)) {  // the last step had the old forces in it until its end
+    const Vec3 slower = bodies_.velocity_without_kick(i, bodies_.now);
+    bodies_.log.lose(0.5 * bodies_.world.mass[i] * (v - slower).dot(v + slower));
+    v = slower;
+    clock.kicked_until.write(i) = bodies_.now;
+    clock.end = bodies_.now;
+  }
+  bodies_.applied.write(i) = applied.all;
+  bodies_.working.write(i) = applied.working;
+  flights_.begin(i, x, flat_.keep_at(i, v), {});
+  predictor_.predict(i);
+}
+
+/// Body i slides over the rim of the wall's face that carried it; the rim's edge is what it has last touched.
+void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
+  flat_.remove(i, surface);
+  flights_.begin(i, bodies_.position(i), bodies_.velocity(i), {surface, edge});
+  predictor_.predict(i);
+}
+
+/// The contact group's next step.
+void ExactSimulator::step_group() {
+  std::sort(group_.members.begin(), group_.members.end());
+  for (const Entity i : group_.members) paths_.note_change(i);
+  if (constrained_.advance()) return;
+  for (const Entity i : group_.members) group_.partners.write(i).clear();
+  bodies_.clock.constrained = false;
+  stepping_.advance();
+}
+
+/// Between collisions a speed is greatest at a flight's ends: the last flights end here.
+void ExactSimulator::book_last_flights() {
+  booked_ = true;
+  const Instant at{time_, 0};
+  for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
+    const Flight f = bodies_.flights[i];
+    const Vec3 x = f.position(at - f.start), kicked = f.velocity(at - f.start);
+    const Vec3 v = bodies_.velocity_without_kick(i, at);
+    hold_to(bodies_.bounds, i, time_, x, v, ExactBodies::too_fast);
+    bodies_.log.note_speed(v.norm());
+    flights_.book(i, x);
+    if (kicked != v) bodies_.log.lose(0.5 * bodies_.world.mass[i] * (kicked - v).dot(kicked + v));
+  }
+}
+
+Effort ExactSimulator::effort() const {
+  Effort effort = effort_;
+  effort.pair_tests = predictor_.pair_tests();
+  effort.surface_tests = predictor_.surface_tests();
+  effort.next = queue_.first_time();
+  return effort;
+}
+
+const State& ExactSimulator::state() {
+  if (state_fresh_) return state_;
+  const World& world = bodies_.world;
+  const Instant at{time_, 0};
+  state_.time = time_;
+  state_.position.resize(world.body_count());
+  state_.velocity.resize(world.body_count());
+  for (Entity i = 0; i < world.body_count(); ++i) {
+    state_.position[i] = bodies_.flights[i].position(at - bodies_.flights[i].start);
+    state_.velocity[i] = bodies_.velocity_without_kick(i, at);
+  }
+  if (bodies_.merged.any()) {
+    state_.mass = world.mass;
+    state_.radius = world.radius;
+    state_.volume = world.volume;
+    state_.part_of = bodies_.merged.whole_of();
+    state_.join_parts();
+  }
+  state_fresh_ = true;
+  return state_;
+}
+
+std::span<const ContactForce> ExactSimulator::contacts() {
+  contact_forces_.clear();
+  for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
+    if (flat_.of(i).count > 0) flat_.report(i, contact_forces_);
+    group_.report(i, contact_forces_);
+  }
+  if (bodies_.clock.constrained && !group_.members.empty()) constrained_.report(time_, contact_forces_);
+  std::sort(contact_forces_.begin(), contact_forces_.end(),
+            [](const ContactForce& p, const ContactForce& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
+  return contact_forces_;
+}
+
+}  // namespace carom

@@ -1,0 +1,191 @@
+#include "simulate/flat_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/complementarity.h"
+#include "physics/contact_cone.h"
+#include "physics/impact.h"
+#include "physics/restitution.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+using exact_tolerance::velocity_rounding;
+
+namespace {
+
+constexpr std::size_t most = FlatContactList::most;
+
+/// The normals of contacts, but for one with `without`. Gives how many.
+std::size_t normals_of(const FlatContactList& contacts, Entity without, std::array<Vec3, most>& normals) {
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < contacts.count; ++k)
+    if (contacts.at[k].surface != without) normals[n++] = contacts.at[k].normal;
+  return n;
+}
+
+}  // namespace
+
+bool FlatContacts::carry(Entity i, Entity surface) const {
+  for (std::size_t k = 0; k < contacts_[i].count; ++k)
+    if (contacts_[i].at[k].surface == surface) return true;
+  return false;
+}
+
+void FlatContacts::add(Entity i, const FlatContact& contact) {
+  bodies_.log.lose(impact_loss(bodies_.world.mass[i], ExactBodies::immovable, contact.residual_speed, 0));
+  FlatContactList& contacts = contacts_.write(i);
+  if (contacts.count == 0) bodies_.log.add_resting(1);
+  contacts.at[contacts.count++] = contact;
+}
+
+void FlatContacts::remove(Entity i, Entity surface) {
+  FlatContactList& contacts = contacts_.write(i);
+  for (std::size_t k = 0; k < contacts.count; ++k) {
+    if (contacts.at[k].surface != surface) continue;
+    contacts.at[k] = contacts.at[--contacts.count];
+    if (contacts.count == 0) bodies_.log.remove_resting(1);
+    break;
+  }
+}
+
+void FlatContacts::clear(Entity i) {
+  if (contacts_[i].count == 0) return;
+  contacts_.write(i).count = 0;
+  bodies_.log.remove_resting(1);
+}
+
+void FlatContacts::find_initial(Entity i) {
+  const World& world = bodies_.world;
+  if (bodies_.neighbours.surfaces(i).empty()) return;
+  Flight f = bodies_.flights[i];
+  for (const Entity e : bodies_.known_to(i)) {
+    if (world.is_body(e) || contacts_[i].count == most) continue;
+    const Vec3& point = world.fixed_position(e);
+    const Touch there = touch(world, i, f.x, e, point);
+    const double rounding =
+        exact_tolerance::flat_rounding * (f.x.cwiseAbs().sum() + point.cwiseAbs().sum() + world.radius[i]);
+    if (!is_flat(world, i, e, there.feature) || std::abs(there.gap) > rounding ||
+        std::abs(there.normal.dot(f.v)) > velocity_rounding * f.v.norm() || there.normal.dot(bodies_.applied[i]) <= 0)
+      continue;
+    add(i, {e, there.feature, -there.normal, false, {}, 0});
+    f.x += there.gap * there.normal;
+    bodies_.body[i].set_origin({e, there.feature});
+  }
+  f.a = keep_pressing(i);
+  bodies_.flights.set(i, f);
+}
+
+void FlatContacts::end_bounces(Entity i) {
+  for (std::size_t k = 0; k < contacts_[i].count; ++k) {
+    FlatContact& contact = contacts_.write(i).at[k];
+    if (!contact.settling || bodies_.now < contact.rest_time) continue;
+    contact.settling = false;
+    const World& world = bodies_.world;
+    const Vec3 point =
+        bodies_
+            .touch_at(i, bodies_.position(i), contact.surface, world.fixed_position(contact.surface), contact.feature)
+            .point;
+    bodies_.log.record(make_collision(world, CollisionKind::rest, bodies_.now.hi, i, contact.surface, point,
+                                      -contact.normal, contact.residual_speed, 0,
+                                      pair_restitution(world, i, contact.surface)));
+    break;
+  }
+}
+
+/// A bounce that is over at once: an impact that leaves nothing.
+void FlatContacts::record_bounce(Entity i, const FlatContact& contact, double approach, double e) {
+  const World& world = bodies_.world;
+  collapses_.count_in_turn(i, 1 - e);  // with the impact that threw it at the surface
+  const Vec3 point =
+      bodies_.touch_at(i, bodies_.position(i), contact.surface, world.fixed_position(contact.surface), contact.feature)
+          .point;
+  bodies_.log.record(make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, contact.surface, point,
+                                    -contact.normal, approach, 0, e));
+}
+
+void FlatContacts::keep(FlatContactList& contacts, const std::array<bool, most>& which) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < contacts.count; ++k)
+    if (which[k]) contacts.at[kept++] = contacts.at[k];
+  contacts.count = kept;
+}
+
+Vec3 FlatContacts::keep_at(Entity i, const Vec3& v) {
+  if (contacts_[i].count == 0) return v;
+  FlatContactList& contacts = contacts_.write(i);
+  const double now = bodies_.now.hi;
+  const Vec3 x = bodies_.position(i);
+  const double noise = velocity_rounding * (v.norm() + bodies_.flights[i].v.norm());
+  std::array<bool, most> kept;
+  std::array<double, most> press;
+  for (std::size_t k = 0; k < contacts.count; ++k) {
+    const FlatContact& contact = contacts.at[k];
+    const Vec3 n = -contact.normal;
+    const double u = n.dot(v);  // into the surface
+    press[k] = n.dot(acceleration_without(i, contact.surface));
+    kept[k] = std::abs(u) <= noise || (press[k] > 0 && bodies_.too_low(x, u, press[k]));
+    if (kept[k] || u < 0 || press[k] <= 0) continue;
+    const double e = pair_restitution(bodies_.world, i, contact.surface);
+    kept[k] = e < 1 && now + 2 * e * u / (press[k] * (1 - e)) == now;
+    if (kept[k]) record_bounce(i, contact, u, e);
+  }
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < contacts.count; ++k)
+    if (kept[k]) press[n++] = press[k];
+  keep(contacts, kept);
+  std::array<Vec3, most> normals;
+  unsigned active;
+  n = normals_of(contacts, no_entity, normals);
+  Vec3 allowed = project_to_cone(v, {normals.data(), n}, active);
+  // A push into one surface may lift the body off another.
+  for (std::size_t k = 0; k < contacts.count; ++k) {
+    const double u = normals[k].dot(allowed);
+    kept[k] = u <= noise || bodies_.too_low(x, u, press[k]);
+  }
+  keep(contacts, kept);
+  n = normals_of(contacts, no_entity, normals);
+  allowed = project_to_common_plane(allowed, {normals.data(), n});
+  if (contacts.count == 0) bodies_.log.remove_resting(1);
+  bodies_.log.lose(0.5 * bodies_.world.mass[i] * (v - allowed).dot(v + allowed));
+  return allowed;
+}
+
+Vec3 FlatContacts::keep_pressing(Entity i) {
+  if (bodies_.in_lasting_contact(i)) return Vec3::Zero();
+  if (contacts_[i].count == 0) return bodies_.applied[i];
+  FlatContactList& contacts = contacts_.write(i);
+  std::array<Vec3, most> normals;
+  const std::size_t n = normals_of(contacts, no_entity, normals);
+  unsigned active;
+  const Vec3 a = project_to_cone(bodies_.applied[i], {normals.data(), n}, active);
+  std::array<bool, most> presses;
+  for (std::size_t k = 0; k < most; ++k) presses[k] = active >> k & 1u;
+  keep(contacts, presses);
+  if (contacts.count == 0) bodies_.log.remove_resting(1);
+  return a;
+}
+
+Vec3 FlatContacts::acceleration_without(Entity i, Entity surface) const {
+  if (contacts_[i].count == 0) return bodies_.applied[i];
+  std::array<Vec3, most> normals;
+  const std::size_t n = normals_of(contacts_[i], surface, normals);
+  unsigned active;
+  return project_to_cone(bodies_.applied[i], {normals.data(), n}, active);
+}
+
+void FlatContacts::report(Entity i, std::vector<ContactForce>& forces) const {
+  const FlatContactList& contacts = contacts_[i];
+  const double slack = exact_tolerance::acceleration_slack * bodies_.applied[i].norm();
+  std::vector<PressedPair> pairs;
+  for (std::size_t k = 0; k < contacts.count; ++k)
+    pairs.push_back({0, PressedPair::none, -contacts.at[k].normal, 0, slack, 0});
+  const double inverse_mass = 1 / bodies_.world.mass[i];
+  Vec3 a = bodies_.applied[i];
+  press_apart({&inverse_mass, 1}, {&a, 1}, pairs, exact_tolerance::flat_iterations);
+  for (std::size_t k = 0; k < contacts.count; ++k)
+    if (pairs[k].force > 0) forces.push_back({i, contacts.at[k].surface, pairs[k].force});
+}
+
+}  // namespace carom

@@ -1,0 +1,47 @@
+#include "simulate/flight_changes.h"
+
+#include <cmath>
+
+namespace carom {
+
+void FlightChanges::begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin) {
+  paths_.note_change(i);
+  const double speed = v.norm();
+  hold_to(bodies_.bounds, i, bodies_.now.hi, x, v, ExactBodies::too_fast);
+  bodies_.log.note_speed(speed);
+  book(i, x);
+  ExactBody& body = bodies_.body[i];
+  const bool member = body.state == ContactState::group;
+  const bool falls =
+      member && !bodies_.clock.constrained && bodies_.flights.acceleration(i) != Vec3::Zero();  // through a time step
+  const double negligible = bodies_.negligible_speed();
+  const bool still =
+      speed <= negligible ||
+      (flat_.of(i).count > 0 && speed * speed < 0x1p-120 * bodies_.applied[i].norm() * bodies_.world.radius[i]);
+  Vec3 kept = v;
+  for (int k = 0; k < 3; ++k)
+    if (still || std::abs(v[k]) <= negligible) kept[k] = 0;
+  bodies_.flights.set(i, {bodies_.now, x, kept, falls ? bodies_.applied[i] : flat_.keep_pressing(i)});
+  body.set_origin(origin);
+  bodies_.neighbours.turned(i);
+  count(i);
+  if (bodies_.clock.constrained && member && bodies_.now < bodies_.clock.end) bodies_.clock.end = bodies_.now;
+}
+
+/// When its count of flights begins anew, old events must not look fresh.
+void FlightChanges::count(Entity i) {
+  if (++bodies_.body[i].version != 0) return;
+  bodies_.body[i].version = 1;
+  for (ExactBody& body : bodies_.body)
+    if (body.event.kind == ExactEvent::Kind::body_body && body.event.partner == i) body.event.partner_version = 0;
+}
+
+void FlightChanges::book(Entity i, const Vec3& x) {
+  const World& world = bodies_.world;
+  if (bodies_.flights.acceleration(i) == world.gravity && world.forces.empty()) return;
+  const Vec3 displacement = x - bodies_.flights[i].x;
+  bodies_.log.lose(world.mass[i] * (bodies_.applied[i] - bodies_.flights[i].a).dot(displacement));
+  if (!world.forces.empty()) bodies_.log.add_work(world.mass[i] * bodies_.working[i].dot(displacement));
+}
+
+}  // namespace carom

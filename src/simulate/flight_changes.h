@@ -1,0 +1,27 @@
+#pragma once
+// Begins flights, and books what forces did on those that end.
+#include "simulate/exact_bodies.h"
+#include "simulate/flat_contacts.h"
+#include "simulate/path_log.h"
+
+namespace carom {
+
+class FlightChanges {
+ public:
+  FlightChanges(ExactBodies& bodies, FlatContacts& flat, PathLog& paths)
+      : bodies_(bodies), flat_(flat), paths_(paths) {}
+
+  /// Begins a new flight of body i, now, at x (m) with velocity v (m/s).
+  void begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
+  /// Books what forces did to body i on the flight that ends at x (m): the World's, and contact forces against them.
+  void book(Entity i, const Vec3& x);
+  /// Events with body i are stale from now on.
+  void count(Entity i);
+
+ private:
+  ExactBodies& bodies_;
+  FlatContacts& flat_;
+  PathLog& paths_;
+};
+
+}  // namespace carom

@@ -1,0 +1,50 @@
+#pragma once
+// Values by body that most scenes do not need: they take memory once the first is written.
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <utility>
+#include <vector>
+
+namespace carom {
+
+/// An array that is allocated at the first write. Until then every value is `common`.
+template <typename T>
+class LazyArray {
+ public:
+  explicit LazyArray(std::size_t size, T common = {}) : size_(size), common_(std::move(common)) {}
+  const T& operator[](std::size_t i) const { return values_.empty() ? common_ : values_[i]; }
+  T& write(std::size_t i) {
+    if (values_.empty()) values_.assign(size_, common_);
+    return values_[i];
+  }
+  bool empty() const { return values_.empty(); }
+
+ private:
+  std::size_t size_;
+  T common_;
+  std::vector<T> values_;
+};
+
+/// An array of large values of which few are written; each takes memory at its own first write. References stay valid.
+template <typename T>
+class SparseArray {
+ public:
+  explicit SparseArray(std::size_t size) : place_(size, 0) {}
+  const T& operator[](std::size_t i) const { return place_[i] == 0 ? common_ : values_[place_[i] - 1]; }
+  T& write(std::size_t i) {
+    std::uint32_t& place = place_.write(i);
+    if (place == 0) {
+      values_.emplace_back();
+      place = static_cast<std::uint32_t>(values_.size());
+    }
+    return values_[place - 1];
+  }
+
+ private:
+  T common_{};
+  LazyArray<std::uint32_t> place_;  // in values_, plus one; 0: not written
+  std::deque<T> values_;
+};
+
+}  // namespace carom

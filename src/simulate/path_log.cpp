@@ -1,0 +1,61 @@
+#include "simulate/path_log.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t path_buffer = 4096;
+
+/// The first double that is not before an instant.
+double first_double(const Instant& at) {
+  return at.lo > 0 ? std::nextafter(at.hi, std::numeric_limits<double>::infinity()) : at.hi;
+}
+
+}  // namespace
+
+void PathLog::begin_advance() {
+  pieces_.clear();
+  full_ = false;
+}
+
+void PathLog::note(Entity i) {
+  if (changed_at_ != bodies_.now) record_changes();
+  changed_at_ = bodies_.now;
+  changed_.push_back(i);
+}
+
+void PathLog::record_changes() {
+  std::sort(changed_.begin(), changed_.end());
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  const double from = first_double(changed_at_);
+  for (const Entity i : changed_) pieces_.push_back(piece_of(i, from));
+  changed_.clear();
+  full_ = full_ || pieces_.size() >= path_buffer;
+}
+
+PathPiece PathLog::piece_of(Entity i, double from) const {
+  const Flight f = bodies_.flights[i];
+  const World &world = bodies_.world, &given = bodies_.merged.given();
+  PathPiece piece{i, from, {f.start.hi, f.start.lo}, f.x, f.v, f.a};
+  if (bodies_.in_group(i) && !bodies_.clock.constrained) {
+    const Instant until = bodies_.clock.kicked_until[i];
+    piece.hastened = true;
+    piece.until = {until.hi, until.lo};
+    piece.haste = bodies_.clock.kick[i];
+  }
+  if (bodies_.merged.any()) {
+    const Entity whole = bodies_.merged.whole_of()[i];
+    if (whole != i) piece.part_of = whole;
+    piece.joint = world.mass[i] != given.mass[i] || world.radius[i] != given.radius[i];
+    piece.mass = world.mass[i];
+    piece.radius = world.radius[i];
+    piece.half = world.volume_of(i).half;
+  }
+  return piece;
+}
+
+}  // namespace carom

@@ -1,0 +1,53 @@
+#include "simulate/region_exit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace carom {
+
+namespace {
+
+/// s, until a straight path from `off` (m, from a ball's middle) at v (m/s) is `radius` (m) away from the middle.
+double straight_exit(const Vec3& off, const Vec3& v, double radius) {
+  const double speed2 = v.squaredNorm(), outward = off.dot(v), left = radius * radius - off.squaredNorm();
+  if (!(left > 0)) return 0.0;
+  const double root = std::sqrt(outward * outward + speed2 * left);
+  return outward > 0 ? left / (root + outward) : speed2 > 0 ? (root - outward) / speed2 : never;
+}
+
+}  // namespace
+
+double region_exit(const ExactBodies& bodies, Entity i) {
+  const Flights::Core& f = bodies.flights.cores()[i];
+  const Vec3& a = bodies.flights.acceleration(i);
+  const double since = bodies.now - f.start, room = bodies.neighbours.room(i);
+  const Vec3 center = bodies.neighbours.center(i);
+  const auto start_of = [&](double t, Vec3& off, Vec3& v) {
+    v = f.v + t * a;
+    off = f.x + t * (f.v + (0.5 * t) * a) - center;
+  };
+  Vec3 off, v;
+  start_of(since, off, v);
+  double t = straight_exit(off, v, room);
+  if (const double a2 = a.squaredNorm(); a2 > 0) {
+    // As far as a straight path within what the acceleration does not take from the room until then, or by the greatest
+    // possible speed; and on from there, while that leads on.
+    const double size = std::sqrt(a2), end = bodies.body[i].event.time.hi - bodies.now.hi;
+    const auto bound = [&](double straight) {
+      const double narrowed = room - 0.5 * size * straight * straight, left = room - off.norm();
+      if (!(left > 0)) return 0.0;
+      const double surely = 2 * left / (v.norm() + std::sqrt(v.squaredNorm() + 2 * size * left));
+      return narrowed > 0 ? std::max(surely, straight_exit(off, v, narrowed)) : surely;
+    };
+    const double straight = t;
+    t = bound(straight);
+    for (double step = t < 0.75 * straight ? t : 0; t < end && step > 0x1p-5 * t;) {
+      start_of(since + t, off, v);
+      step = bound(straight_exit(off, v, room));
+      t += step;
+    }
+  }
+  return (bodies.now.hi + t) * (1 - 0x1p-52);  // rather too soon than too late
+}
+
+}  // namespace carom

@@ -1,0 +1,37 @@
+#include "simulate/stall_guard.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "simulate/simulation_error.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+void StallGuard::count(Happened what, double now) {
+  const bool impact = what == Happened::impact;
+  const bool elastic = what == Happened::region_left || (impact && restitution_ == 1);
+  if (impact) highest_ = std::max(highest_, restitution_);
+  Watch& watch = elastic ? elastic_ : lossy_;
+  const bool full = ++watch.events >= (elastic ? 1000 * many_ : many_);
+  if (!full && watch.events % many_ != 0) return;
+  // At a billionth of the duration per million events a run would never end, nor at a clock's rounding in as many.
+  if (now - watch.seen <= exact_tolerance::clock_rounding * now ||
+      (full && now - watch.since < exact_tolerance::least_progress * duration_)) {
+    const char* advice =
+        " (jammed, or inelastic collapse): give them room, raise their restitution, or simulate.rest_speed";
+    if (elastic) advice = " (jammed, or masses too unequal): give them room, or shorten simulate.duration";
+    if (highest_ > 1)
+      advice = " (restitution above 1 makes energy at every collision): lower it, or shorten simulate.duration";
+    throw SimulationError(
+        fmt::format("at t = {} s bodies collide so often that the clock stands still{}", now, advice));
+  }
+  watch.seen = now;
+  if (!full) return;
+  watch.events = 0;
+  watch.since = now;
+  highest_ = 0;
+}
+
+}  // namespace carom

@@ -1,0 +1,338 @@
+#include "simulate/time_stepping.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/restitution.h"
+#include "simulate/disjoint_sets.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+namespace tol = exact_tolerance;
+
+namespace {
+
+/// m/s, of a pair's b against its a.
+Vec3 relative_velocity(const std::vector<Vec3>& v, const PressedPair& p) {
+  return (p.b == PressedPair::none ? Vec3(Vec3::Zero()) : v[p.b]) - v[p.a];
+}
+
+/// Whether any of the pairs falls short of its target at these velocities.
+bool approaching(const std::vector<Vec3>& v, const std::vector<PressedPair>& pairs) {
+  return std::any_of(pairs.begin(), pairs.end(),
+                     [&](const PressedPair& p) { return p.normal.dot(relative_velocity(v, p)) < p.target - p.slack; });
+}
+
+}  // namespace
+
+void TimeStepping::advance() {
+  Step step = begin_step();
+  const double shortest = step.greatest == 0 ? 0 : tol::shortest_step * std::sqrt(2 * step.smallest / step.greatest);
+  short_steps_ = group_.step_length < 0.01 * shortest ? short_steps_ + 1 : 0;
+  double fastest = 0;
+  for (const double speed : step.expected) fastest = std::max(fastest, speed);
+  step.length = tol::step_displacement * step.smallest / std::max(fastest, 0x1p-900);
+  if (step.greatest > 0) {
+    const double longest = std::clamp(2 * group_.step_length, shortest, tol::longest_step * shortest);
+    step.length = std::clamp(step.length, shortest, longest);
+  }
+  do solve(step);
+  while (shorten(step, shortest));
+  find_islands(step);
+  put_to_rest(step);
+  begin_flights(step);
+}
+
+/// Where members are and how fast, without what the last step's kick gave them for a time that is to come.
+TimeStepping::Step TimeStepping::begin_step() {
+  Step step;
+  for (const Entity i : group_.members) {
+    group_.index.write(i) = static_cast<std::uint32_t>(step.x.size());
+    Vec3 v = bodies_.velocity(i);
+    const Instant& until = bodies_.clock.kicked_until[i];
+    if (bodies_.now < until) v -= (until - bodies_.now) * bodies_.clock.kick[i];
+    bodies_.clock.kicked_until.write(i) = bodies_.now;
+    step.x.push_back(bodies_.position(i));
+    step.v.push_back(v);
+    step.expected.push_back(v.norm());
+    step.inverse_mass.push_back(1 / bodies_.world.mass[i]);
+    step.smallest = std::min(step.smallest, bodies_.world.radius[i]);
+    step.greatest = std::max(step.greatest, bodies_.applied[i].norm());
+  }
+  return step;
+}
+
+/// Whether the step is to be solved for again: shorter, or with contacts searched for farther away.
+bool TimeStepping::shorten(Step& step, double shortest) const {
+  double fastest = 0, displacements = 0;  // m/s, m
+  bool farther = false;
+  for (std::size_t k = 0; k < step.x.size(); ++k) {
+    const double speed = step.solved[k].norm();
+    // A change of speed may take a body less far than speed: impacts find it done from the start.
+    fastest = std::max({fastest, speed, 8 * (step.solved[k] - step.after_impacts[k]).norm()});
+    displacements += step.length * speed;
+    if (speed <= 2 * step.expected[k] || 4 * step.length * speed <= tol::pressing_gap * step.smallest) continue;
+    step.expected[k] = speed;
+    farther = true;
+  }
+  if (step.greatest > 0 && step.length > shortest &&
+      fastest * step.length > 2 * tol::step_displacement * step.smallest) {
+    step.length = std::max(0.5 * step.length, shortest);
+    return true;
+  }
+  return farther && !(displacements > tol::converged_displacement * step.smallest * static_cast<double>(step.x.size()));
+}
+
+void TimeStepping::solve(Step& step) const {
+  find_pairs(step);
+  take_slow_impacts(step);
+  keep_apart(step);
+}
+
+/// The pairs that may press on each other before the step ends, and how fast they must part, or may approach, for it.
+void TimeStepping::find_pairs(Step& step) const {
+  const World& world = bodies_.world;
+  const double h = step.length;
+  const auto margin_of = [&](std::size_t k) {
+    return std::max({group_.margin[group_.members[k]], tol::margin_of_displacement * h * step.v[k].norm(),
+                     tol::least_margin * step.smallest});
+  };
+  step.pairs.clear();
+  step.names.clear();
+  step.gaps.clear();
+  for (std::size_t k = 0; k < group_.members.size(); ++k) {
+    const Entity i = group_.members[k];
+    for (const Entity e : bodies_.known_to(i)) {
+      // A sleeping body is as if fixed; if pressed on, it wakes.
+      const bool asleep = world.is_body(e) && bodies_.body[e].state == ContactState::asleep;
+      const bool body = world.is_body(e) && !asleep;
+      if (body && (e < i || !bodies_.in_group(e))) continue;
+      const std::uint32_t other = body ? group_.index[e] : PressedPair::none;
+      const Vec3 xe = body ? step.x[other] : asleep ? bodies_.flights[e].x : world.fixed_position(e);
+      const Touch there = touch(world, i, step.x[k], e, xe);
+      const double rate = there.normal.dot((body ? step.v[other] : Vec3(Vec3::Zero())) - step.v[k]);
+      if (group_.strikes(i, e, -rate / tol::fast_impact, step.greatest)) continue;
+      const double margin = body ? std::max(margin_of(k), margin_of(other)) : margin_of(k);
+      const double expected = step.expected[k] + (body ? step.expected[other] : 0);
+      const double reach =
+          std::min(4 * step.greatest * h * h, std::max(4 * h * expected, tol::pressing_gap * step.smallest));
+      if (there.gap + h * std::min(rate, 0.0) > margin + reach) continue;
+      PressedPair pair{static_cast<std::uint32_t>(k),  other, there.normal, -std::max(there.gap - margin, 0.0) / h,
+                       tol::margin_slack * margin / h, 0};
+      // With a wide margin, those that the slack would let strike at once part by as much.
+      if (step.greatest > 0 && margin > tol::parting_margin * step.smallest && there.gap < tol::margin_slack * margin &&
+          pair_restitution(world, i, e) < 1)
+        pair.target = (tol::margin_slack * margin - std::max(there.gap, 0.0)) / h;
+      for (const PressingContact& p : group_.pressing[i])
+        if (p.partner == e) pair.force = p.force * h;
+      step.pairs.push_back(pair);
+      step.names.emplace_back(i, e);
+      step.gaps.push_back(there.gap);
+    }
+  }
+}
+
+/// What is left of the velocities once contact has taken slow approaches.
+void TimeStepping::take_slow_impacts(Step& step) const {
+  step.after_impacts = step.v;
+  step.struck.assign(step.pairs.size(), 0);
+  if (step.greatest <= 0 || !approaching(step.v, step.pairs)) return;
+  std::vector<PressedPair> impacts = step.pairs;
+  for (PressedPair& p : impacts) {
+    p.target = std::min(p.target, 0.0);
+    p.force = 0;
+  }
+  press_apart(step.inverse_mass, step.after_impacts, impacts, tol::step_iterations);
+  for (std::size_t c = 0; c < impacts.size(); ++c) step.struck[c] = impacts[c].force > 0;
+}
+
+/// The velocities that keep every pair apart until the step ends: well enough while the group is fast, for impacts are
+/// found in any case, but never so that energy is made.
+void TimeStepping::keep_apart(Step& step) const {
+  const std::size_t n = step.x.size();
+  const double h = step.length;
+  std::vector<Vec3> free = step.after_impacts;
+  for (std::size_t k = 0; k < n; ++k) free[k] += h * bodies_.applied[group_.members[k]];
+  bool part = std::any_of(step.pairs.begin(), step.pairs.end(), [](const PressedPair& p) { return p.target > 0; });
+  for (int attempt = 0; attempt < 8; ++attempt) {
+    step.solved = free;
+    const bool converged = press_apart(step.inverse_mass, step.solved, step.pairs, tol::step_iterations);
+    if (converged && !part) return;
+    double before = 0, after = 0, made = 0, lost = 0;  // m, m: displacements; J, J: now, and by slow impacts
+    for (std::size_t k = 0; k < n; ++k) {
+      const Vec3 &v = step.after_impacts[k], &solved = step.solved[k];
+      before += h * v.norm();
+      after += h * solved.norm();
+      made += (0.5 * (solved - v).dot(solved + v) - (free[k] - v).dot(solved)) / step.inverse_mass[k];
+      lost += 0.5 * (step.v[k] - v).dot(step.v[k] + v) / step.inverse_mass[k];
+    }
+    const bool fast = std::min(before, after) > tol::converged_displacement * step.smallest * static_cast<double>(n);
+    double parting = 0;  // J
+    for (const PressedPair& p : step.pairs) parting += p.force * std::max(p.target, 0.0);
+    if (made <= 0 && parting <= lost && (converged || fast)) return;
+    for (PressedPair& p : step.pairs) p.target = std::min(p.target, 0.0);  // wedged bodies cannot part
+    part = false;
+  }
+  if (n > tol::most_direct_bodies) return;
+  step.solved = free;
+  press_apart_directly(step.inverse_mass, step.solved, step.pairs);
+}
+
+/// Members that press on one another are an island. The faster one of its bodies is, the wider are its margins.
+void TimeStepping::find_islands(Step& step) {
+  const std::size_t n = step.x.size();
+  DisjointSets sets(n);
+  step.carried.assign(n, 0);
+  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
+    const PressedPair& p = step.pairs[c];
+    if (p.force <= 0 && !step.struck[c]) continue;
+    step.carried[p.a] = 1;
+    if (p.b == PressedPair::none) continue;
+    step.carried[p.b] = 1;
+    sets.join(p.a, p.b);
+  }
+  std::vector<std::uint32_t>& island = step.island;
+  island.resize(n);
+  for (std::uint32_t k = 0; k < n; ++k) island[k] = sets.root(k);
+  std::vector<double> margin(n, tol::least_margin * step.smallest);  // m, by island
+  const auto widen = [&](std::uint32_t k, double gap) { margin[island[k]] = std::max(margin[island[k]], gap); };
+  for (std::uint32_t k = 0; k < n; ++k) {
+    widen(k, tol::margin_decay * group_.margin[group_.members[k]]);
+    widen(k, tol::margin_of_displacement * step.length * step.solved[k].norm());
+  }
+  for (const PressedPair& p : step.pairs) {
+    const double missing = step.length * (p.target - p.normal.dot(relative_velocity(step.solved, p)));  // m
+    if (missing > 0) widen(p.a, std::min(2 * missing, tol::widest_margin * step.smallest));
+  }
+  for (std::uint32_t k = 0; k < n; ++k) group_.margin.write(group_.members[k]) = margin[island[k]];
+}
+
+/// By island: whether all its bodies are carried and hardly move. Slow sliders stop, and in a jam all slow bodies.
+std::vector<std::uint8_t> TimeStepping::stop_slow(Step& step) const {
+  const std::size_t n = step.x.size();
+  std::vector<std::uint32_t> size(n, 0);  // by island
+  for (const std::uint32_t k : step.island) ++size[k];
+  std::vector<std::uint8_t> still(n);
+  for (std::uint32_t k = 0; k < n; ++k) still[k] = step.island[k] == k;
+  const double unit = std::sqrt(step.greatest * step.smallest);  // m/s
+  const double slow = std::max(tol::standstill * unit, 16 * tol::least_margin * step.smallest / step.length);
+  for (std::uint32_t k = 0; k < n; ++k) {
+    Vec3& v = step.solved[k];
+    const bool steady = (v - step.after_impacts[k]).norm() <= tol::steady_speed * step.length * step.greatest;
+    const bool stops = (steady && size[step.island[k]] == 1) || short_steps_ > tol::many_short_steps;
+    if (stops && step.carried[k] && v.norm() <= tol::sliding_speed * unit) v.setZero();
+    if (!step.carried[k] || v.norm() > slow) still[step.island[k]] = 0;
+  }
+  return still;
+}
+
+/// m/s^2, by member.
+std::vector<Vec3> TimeStepping::applied() const {
+  std::vector<Vec3> a;
+  for (const Entity i : group_.members) a.push_back(bodies_.applied[i]);
+  return a;
+}
+
+/// The forces among the bodies of still islands, from none: where these are not unique, no more than needed.
+bool TimeStepping::hold(const Step& step, const std::vector<std::uint8_t>& still, int iterations,
+                        Holding& holding) const {
+  holding.pairs.clear();
+  holding.which.clear();
+  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
+    const PressedPair& p = step.pairs[c];
+    if (!still[step.island[p.a]] || step.gaps[c] > tol::resting_gap * step.smallest) continue;
+    holding.pairs.push_back({p.a, p.b, p.normal, 0, tol::rest_slack * step.greatest, 0});
+    holding.which.push_back(c);
+  }
+  holding.a = applied();
+  return press_apart(step.inverse_mass, holding.a, holding.pairs, iterations);
+}
+
+/// At rest are those islands that hardly move and that forces hold in balance.
+void TimeStepping::put_to_rest(Step& step) const {
+  const std::size_t n = step.x.size();
+  step.rests.assign(n, 0);
+  std::vector<std::uint8_t> still = stop_slow(step);
+  if (std::find(still.begin(), still.end(), 1) == still.end()) return;
+  Holding holding;
+  const auto keep_balanced = [&](double within) {
+    for (std::uint32_t k = 0; k < n; ++k)
+      if (!(holding.a[k].norm() <= within * step.greatest)) still[step.island[k]] = 0;
+  };
+  if (!hold(step, still, tol::step_iterations, holding)) {
+    if (n <= tol::most_direct_bodies) {
+      holding.a = applied();
+      press_apart_directly(step.inverse_mass, holding.a, holding.pairs);
+      keep_balanced(tol::rough_balance);
+    }
+    hold(step, still, tol::rest_iterations, holding);
+  }
+  keep_balanced(tol::balance);
+  for (std::uint32_t k = 0; k < n; ++k) step.rests[k] = still[step.island[k]];
+  for (PressedPair& p : step.pairs)
+    if (step.rests[p.a]) p.force = 0;
+  for (std::size_t c = 0; c < holding.pairs.size(); ++c)
+    if (step.rests[holding.pairs[c].a]) step.pairs[holding.which[c]].force = step.length * holding.pairs[c].force;
+}
+
+/// The members' flights until the step's end.
+void TimeStepping::begin_flights(const Step& step) {
+  const double h = step.length;
+  for (const Entity i : group_.members) group_.pressing.write(i).clear();
+  for (std::size_t c = 0; c < step.pairs.size(); ++c)
+    if (step.pairs[c].force > 0)
+      group_.pressing.write(step.names[c].first).push_back({step.names[c].second, step.pairs[c].force / h});
+  group_.step_length = h;
+  group_.impact_pairs = 0;
+  bodies_.clock.end = bodies_.now + h;
+  const std::vector<Entity> members = group_.take_members();
+  for (std::size_t k = 0; k < members.size(); ++k) begin_flight(step, k, members[k]);
+  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
+    const auto [i, e] = step.names[c];
+    const bool asleep = bodies_.world.is_body(e) && bodies_.body[e].state == ContactState::asleep;
+    if (step.pairs[c].b != PressedPair::none || !asleep) continue;
+    if (step.pairs[c].force > 0 && bodies_.in_group(i)) group_.wake(e);
+  }
+  if (group_.members.empty()) bodies_.clock.end = {never, 0};
+  for (const Entity i : members) group_.index.write(i) = PressedPair::none;
+  for (const Entity i : members) predictor_.predict(i);
+}
+
+/// Body i, the step's member k, falls asleep, goes on in the group, or leaves it.
+void TimeStepping::begin_flight(const Step& step, std::size_t k, Entity i) {
+  ExactGroupClock& clock = bodies_.clock;
+  const Vec3 &v = step.after_impacts[k], &solved = step.solved[k];
+  const Vec3 before = bodies_.velocity(i);
+  const auto begin = [&](const Vec3& velocity) {
+    bodies_.log.lose(0.5 * bodies_.world.mass[i] * (before - velocity).dot(before + velocity));
+    flights_.begin(i, step.x[k], velocity, {});
+  };
+  if (step.rests[k]) {
+    bodies_.body[i].state = ContactState::asleep;
+    group_.set_carried(i, true);
+    return begin(Vec3::Zero());
+  }
+  const std::uint8_t idle = step.carried[k] ? std::uint8_t{0} : static_cast<std::uint8_t>(group_.idle[i] + 1);
+  group_.idle.write(i) = idle;
+  if (idle >= tol::idle_steps) {
+    bodies_.body[i].state = ContactState::free;
+    group_.set_carried(i, false);
+    return begin(v);
+  }
+  group_.members.push_back(i);
+  group_.set_carried(i, step.carried[k]);
+  group_.impacts.write(i) = 0;
+  if (step.carried[k]) {
+    clock.kicked_until.write(i) = clock.end;
+    clock.kick.write(i) = step.greatest > 0 ? Vec3((solved - v) / step.length) : Vec3(Vec3::Zero());
+    begin(solved);
+  } else {  // flies as free bodies do
+    clock.kicked_until.write(i) = bodies_.now;
+    clock.kick.write(i).setZero();
+    begin(v);
+    bodies_.flights.accelerate(i, bodies_.applied[i]);
+  }
+}
+
+}  // namespace carom

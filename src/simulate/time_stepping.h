@@ -1,0 +1,78 @@
+#pragma once
+// Time stepping of a large contact group. Between two steps a member that is carried flies straight and the others fall
+// freely, so that impacts with and within the group are found and resolved as everywhere else. At a step contact takes
+// slow approaches at once; fast ones are left to be impacts. Then the velocities are those nearest to what forces alone
+// would make of them that keep every pair apart until the next step (complementarity.h): linearised at the nearest
+// points, which for convex bodies on straight paths is on the safe side. (Stewart & Trinkle, Int. J. Numer. Meth. Eng.
+// 39 (1996) 2673, without friction and with exact impacts.) An impact meets the velocities that bodies have by then,
+// not those that the step's kick has given them for its end. A step that ends early takes back what forces would have
+// done in its rest.
+//
+// Members that have just been struck are kept apart by a margin, so that the small motions that a strike causes wait
+// for the next step instead of making thousands of impacts at one instant. The margin shrinks as the group slows down.
+// Bodies that touch inside their margin part a little, as far as what slow approaches have lost pays for it.
+// An island that forces hold in balance is put to rest: velocities exactly zero, no more steps, until struck.
+#include <utility>
+#include <vector>
+
+#include "physics/complementarity.h"
+#include "simulate/event_predictor.h"
+#include "simulate/exact_group.h"
+#include "simulate/flight_changes.h"
+
+namespace carom {
+
+class TimeStepping {
+ public:
+  TimeStepping(ExactBodies& bodies, ExactGroup& group, FlightChanges& flights, EventPredictor& predictor)
+      : bodies_(bodies), group_(group), flights_(flights), predictor_(predictor) {}
+
+  /// Takes the group's next step.
+  void advance();
+
+ private:
+  /// A step, in numbers of its own: member k is body group.members[k].
+  struct Step {
+    double length = 0;                             // s
+    double smallest = never, greatest = 0;         // m, the least radius; m/s^2, the greatest acceleration
+    std::vector<Vec3> x, v;                        // m, m/s: now,
+    std::vector<Vec3> after_impacts;               // m/s: without the approaches that contact takes at once,
+    std::vector<Vec3> solved;                      // m/s: from now on
+    std::vector<double> expected;                  // m/s: half of the speed that contacts are searched for
+    std::vector<double> inverse_mass;              // 1/kg
+    std::vector<PressedPair> pairs;                // that may press on each other before the step ends,
+    std::vector<std::pair<Entity, Entity>> names;  // their names,
+    std::vector<double> gaps;                      // m, and how far they are apart now
+    std::vector<std::uint8_t> struck;              // by pair: contact takes an approach of theirs at once
+    std::vector<std::uint32_t> island;             // by member: one of those that press on one another with it
+    std::vector<std::uint8_t> carried, rests;      // by member: something presses on it; it is at rest
+  };
+  /// The forces among bodies that may be at rest.
+  struct Holding {
+    std::vector<PressedPair> pairs;
+    std::vector<std::size_t> which;  // of the step's pairs
+    std::vector<Vec3> a;             // m/s^2: what they leave of the members' accelerations
+  };
+
+  Step begin_step();
+  bool shorten(Step& step, double shortest) const;
+  void solve(Step& step) const;
+  void find_pairs(Step& step) const;
+  void take_slow_impacts(Step& step) const;
+  void keep_apart(Step& step) const;
+  void find_islands(Step& step);
+  void put_to_rest(Step& step) const;
+  std::vector<std::uint8_t> stop_slow(Step& step) const;
+  std::vector<Vec3> applied() const;
+  bool hold(const Step& step, const std::vector<std::uint8_t>& still, int iterations, Holding& holding) const;
+  void begin_flights(const Step& step);
+  void begin_flight(const Step& step, std::size_t k, Entity i);
+
+  ExactBodies& bodies_;
+  ExactGroup& group_;
+  FlightChanges& flights_;
+  EventPredictor& predictor_;
+  std::uint32_t short_steps_ = 0;  // on end, that simultaneous impacts ended at once
+};
+
+}  // namespace carom

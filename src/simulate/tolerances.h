@@ -1,0 +1,84 @@
+#pragma once
+// Every constant that decides the accuracy of the exact simulator. "Of a radius", "of a speed": a share of it.
+#include <cstddef>
+#include <cstdint>
+
+namespace carom::exact_tolerance {
+
+// Rounding.
+inline constexpr double velocity_rounding = 0x1p-48;  // of speeds: a component of a velocity that is rounding
+inline constexpr double position_rounding = 0x1p-48;  // of coordinates: a displacement that is rounding
+inline constexpr double flat_rounding = 0x1p-50;      // of coordinates: a gap to a flat surface, in a scene's numbers
+inline constexpr double initial_rounding = 0x1p-46;   // of coordinates: a gap to anything else, in a scene's numbers
+inline constexpr double clock_rounding = 0x1p-46;  // of the clock: in a million events it stands still (stall_guard.h)
+inline constexpr double least_progress = 0x1p-30;  // of the duration: in fewer, a run would never end
+inline constexpr double step_rounding = 512;       // of the speed of falling by a radius: by which steps round speeds
+inline constexpr double approach_rounding = 0x1p-50;  // of speeds: an approach that is rounding where nothing presses
+inline constexpr double acceleration_slack = 1e-15;   // of the greatest acceleration: that contact may fall short by
+inline constexpr double speed_slack = 0x1p-52;        // of the greatest speed: the same
+
+// Impacts that end in contact (collapse_detector.h).
+inline constexpr double slow_impact = 0.03;    // of the speed of falling by a length: impacts in contact do not count
+inline constexpr double collapse_gap = 1e-9;   // of a length: impacts within it are at one place
+inline constexpr int collapse_impacts = 64;    // at one place, of a collapse,
+inline constexpr double collapse_loss = 16;    // and their sum of 1 - e, which leaves exp(-8) of the speeds
+inline constexpr int unloaded_impacts = 8;     // at one place in lasting contact, where nothing presses
+inline constexpr int burst_on_surfaces = 256;  // slow impacts of one body on flat surfaces in the time of a hop
+inline constexpr int burst_of_bodies = 16;     // the same among bodies
+inline constexpr double waking_lift = 1e-4;    // of a radius: an impact that lifts a held body by less does not wake it
+inline constexpr double least_volume = 1e-3;   // of three unit normals: they hold a body on all sides
+inline constexpr int flat_iterations = 1000;   // of conjugate gradients, for the forces of one body's flat contacts
+
+// The contact group (exact_group.h).
+inline constexpr double waking_gap = 1e-6;     // of a radius: what touches a body that wakes, wakes
+inline constexpr double widest_margin = 2e-2;  // of a radius: what bodies that were just struck are kept apart
+inline constexpr double standstill = 1e-5;     // of the speed of falling by a radius: as good as at rest
+
+// Simultaneous impacts (simultaneous_impacts.h).
+inline constexpr std::uint32_t few_impacts = 3;       // of a member between steps are one by one
+inline constexpr double simultaneous_gap = 1e-3;      // of the margin: a gap that counts as contact
+inline constexpr double simultaneous_parting = 0.01;  // of the fastest approach: what those struck at once part with
+inline constexpr double simultaneous_slack = 1e-3;    // of the fastest approach: what contact may leave of it
+inline constexpr double open_margin = 0.5;            // of the widest margin: wider, those struck at once part
+inline constexpr int simultaneous_iterations = 200;   // of conjugate gradients
+inline constexpr std::size_t pairs_of_a_step = 16;    // by member: solving for so many costs as much as a step
+
+// Constrained motion (constrained_motion.h).
+inline constexpr std::size_t most_pairs = 16;        // in contact; a larger group moves by time stepping
+inline constexpr double contact_gap = 1e-9;          // of a radius: a gap that counts as contact
+inline constexpr double contact_rounding = 0x1p-51;  // of coordinates: the same
+inline constexpr double least_overlap = 0x1p-50;     // of a radius: a deeper overlap is closed
+inline constexpr double overlap_slack = 0x1p-54;     // of a radius: what closing leaves of it
+inline constexpr double path_error = 1e-11;          // of the smaller radius: a parabola's distance from the true path
+inline constexpr double longest_constrained = 0.02;  // of the time of falling by a radius: the longest step
+inline constexpr double short_time = 1e-3;  // of a radius over the greatest speed: the same, where nothing falls
+inline constexpr double rim_time = 1e-7;    // of the longest step: that a body may go beyond a flat face's rim
+inline constexpr double constrained_balance = 1e-11;  // of the greatest acceleration: forces in balance
+inline constexpr double velocity_change = 0x1p-40;    // of a speed: a contact has changed it
+inline constexpr double free_time = 1e-6;             // of a radius over the greatest speed: to come back in, unloaded
+
+// Time stepping (time_stepping.h).
+inline constexpr double shortest_step = 0.04;           // of the time in which a body falls freely by its own radius
+inline constexpr double longest_step = 25;              // of the shortest step
+inline constexpr double step_displacement = 0.04;       // of a radius: of the fastest body in a step longer than that
+inline constexpr double fast_impact = 8;                // of slow_speed: bodies that approach faster strike each other
+inline constexpr double pressing_gap = 1e-3;            // of a radius: bodies no farther apart may press in a step
+inline constexpr double margin_of_displacement = 1e-3;  // of a step's displacement: what bodies are kept apart for it,
+inline constexpr double margin_slack = 0.05;            // but for this much of that
+inline constexpr double margin_decay = 0.5;             // a step leaves of the margin
+inline constexpr double least_margin = 1e-10;           // of a radius: what slow bodies are kept apart
+inline constexpr double parting_margin = 1e-3;          // of a radius: with a wider margin bodies part where they touch
+inline constexpr double converged_displacement = 5e-4;  // of a radius: a group that moves less is solved for exactly
+inline constexpr int step_iterations = 300;             // of conjugate gradients
+inline constexpr std::size_t most_direct_bodies = 4000;  // the direct solver's cost grows as their square
+inline constexpr std::uint8_t idle_steps = 8;            // without a force, then a body leaves the group
+inline constexpr double resting_gap = 3e-8;              // of a radius: bodies at rest no farther apart may press
+inline constexpr double rest_slack = 1e-13;              // of the greatest acceleration: of their forces
+inline constexpr int rest_iterations = 20000;            // of conjugate gradients, for their forces
+inline constexpr double balance = 1e-11;                 // of gravity: forces whose sum is less hold a body;
+inline constexpr double rough_balance = 1e-6;            // more than this, by the direct solver, and none do
+inline constexpr double steady_speed = 1e-3;             // of a step's fall: a velocity that a step leaves as it is
+inline constexpr double sliding_speed = 1e-3;            // of the speed of falling by a radius: slower bodies stop
+inline constexpr std::uint32_t many_short_steps = 8;     // ended at once by simultaneous impacts: a jam
+
+}  // namespace carom::exact_tolerance
