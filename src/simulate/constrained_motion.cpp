@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "physics/cube_root.h"
+#include "simulate/exact_contact_problems.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -136,7 +137,7 @@ void ConstrainedMotion::close_overlaps(Step& step) const {
   if (!overlap) return;
   std::vector<Vec3> displacement(step.x.size(), Vec3::Zero());  // m
   for (PressedPair& p : step.pairs) p.slack = tol::overlap_slack * step.smallest;
-  press_few_apart(step.inverse_mass, displacement, step.pairs);
+  solve_few_contacts(step.inverse_mass, displacement, step.pairs);
   for (std::size_t k = 0; k < step.x.size(); ++k) step.x[k] += displacement[k];
 }
 
@@ -148,7 +149,7 @@ void ConstrainedMotion::take_approaches(Step& step) {
     p.target = p.force = 0;
     p.slack = tol::speed_slack * step.fastest;
   }
-  press_few_apart(step.inverse_mass, step.v, step.pairs);
+  solve_few_contacts(step.inverse_mass, step.v, step.pairs);
   for (std::size_t k = 0; k < step.v.size(); ++k) {
     const Entity i = group_.members[k];
     const Vec3& before = step.before[k];
@@ -189,7 +190,7 @@ std::vector<Vec3> ConstrainedMotion::accelerate(Step& step, const std::vector<Ve
     pair.normal = there.normal;
     pair.target = -bending(world, i, x[pair.a], e, xe, there, rate(v, e) - v[pair.a]);
   }
-  press_few_apart(step.inverse_mass, a, step.pairs);
+  solve_few_contacts(step.inverse_mass, a, step.pairs);
   return a;
 }
 
@@ -206,7 +207,7 @@ void ConstrainedMotion::stop_parting(Step& step) const {
     both.push_back(both.back());
     both.back().normal = -p.normal;
   }
-  if (parts) press_few_apart(step.inverse_mass, step.v, both);
+  if (parts) solve_few_contacts(step.inverse_mass, step.v, both);
 }
 
 /// At rest are islands none of whose bodies moves or is accelerated.
@@ -426,7 +427,7 @@ void ConstrainedMotion::report(double time, std::vector<ContactForce>& forces) c
       names.emplace_back(i, e);
     }
   }
-  press_few_apart(inverse_mass, a, pairs);
+  solve_few_contacts(inverse_mass, a, pairs);
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (pairs[c].force > 0) forces.push_back({names[c].first, names[c].second, pairs[c].force});
   forget_index();

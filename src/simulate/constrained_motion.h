@@ -7,7 +7,7 @@
 // contact comes to its rim. All bodies take part in impacts as everywhere else, only the pairs in contact do not.
 #include <vector>
 
-#include "physics/few_contacts.h"
+#include "physics/complementarity.h"
 #include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
 #include "simulate/flight_changes.h"

@@ -40,7 +40,7 @@ void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
   ExactEvent best;
   meet_bodies(i, bodies, best);
   meet_each(i, bodies_.neighbours.surfaces(i), best);
-  offer_flat_contacts(i, best);
+  if (flat_.of(i).count > 0) offer_flat_contacts(i, best);
   if (!bodies_.world.forces.empty())
     offer(i, best, {{bodies_.merged.next_switch(i, bodies_.now.hi), 0}, no_entity, 0, Kind::force, no_feature});
   if (bodies_.in_group(i)) offer(i, best, {bodies_.clock.end, no_entity, 0, Kind::step, no_feature});
@@ -65,9 +65,8 @@ void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
 /// Offers when body i meets each of the others.
 void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEvent& best) {
   const bool constrained = bodies_.in_group(i) && bodies_.clock.constrained;
-  const std::vector<Entity>& partners = group_.partners[i];
   for (const Entity e : others) {
-    if (constrained && std::find(partners.begin(), partners.end(), e) != partners.end()) continue;  // they cannot meet
+    if (constrained && group_.are_partners(i, e)) continue;  // they cannot meet
     std::uint8_t feature = no_feature;
     if (bodies_.world.is_body(e)) {
       feature = 0;

@@ -18,6 +18,7 @@
 #include "simulate/lazy_array.h"
 #include "simulate/merged_bodies.h"
 #include "simulate/neighbours.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 
@@ -77,11 +78,11 @@ struct ExactBodies {
   /// share of the speed gained over `length` (m) at the pressing acceleration (m/s^2).
   double slow_speed(double press, double length) const;
   /// m/s: a speed as good as none, for products of it with itself underflow.
-  double negligible_speed() const { return 0x1p-200 * log.tally().max_speed; }
+  double negligible_speed() const { return exact_tolerance::negligible_speed * log.tally().max_speed; }
   /// Whether a speed (m/s) against a pressing acceleration (m/s^2) lifts a body by less than its position x (m) is
   /// rounded to.
   static bool too_low(const Vec3& x, double speed, double press) {
-    return speed * speed < press * 0x1p-48 * x.cwiseAbs().sum();
+    return speed * speed < press * exact_tolerance::position_rounding * x.cwiseAbs().sum();
   }
 };
 

@@ -72,7 +72,7 @@ Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, std::uint8_t& 
                            : 0;
   if (ball && world.is_plane(surface)) {
     const Plane& plane = world.plane(surface);
-    const double noise = 0x1p-49 * (sum_of_speeds(f.v) + steps);
+    const double noise = exact_tolerance::plane_rounding * (sum_of_speeds(f.v) + steps);
     t = plane_contact_time(plane_gap(f.x, plane.point, plane.normal, world.radius[i]), plane.normal.dot(f.v),
                            plane.normal.dot(f.a), noise, left, horizon);
   } else if (ball && world.is_wall(surface)) {

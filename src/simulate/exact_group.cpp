@@ -148,6 +148,10 @@ bool ExactGroup::strikes(Entity i, Entity e, double approach, double greatest) c
          pair_restitution(world, i, e) > 0;
 }
 
+bool ExactGroup::are_partners(Entity i, Entity e) const {
+  return std::find(partners[i].begin(), partners[i].end(), e) != partners[i].end();
+}
+
 void ExactGroup::report(Entity i, std::vector<ContactForce>& forces) const {
   if (bodies_.body[i].state == ContactState::free || (bodies_.clock.constrained && bodies_.in_group(i))) return;
   for (const PressingContact& p : pressing[i]) forces.push_back({i, p.partner, p.force});

@@ -57,6 +57,9 @@ class ExactGroup {
   /// `greatest` is the greatest acceleration in the group (m/s^2).
   bool strikes(Entity i, Entity e, double approach, double greatest) const;
 
+  /// Whether constrained motion keeps bodies i and e in contact, so that they cannot meet.
+  bool are_partners(Entity i, Entity e) const;
+
   /// Appends the forces of sleeping bodies, and of members between steps of time stepping.
   void report(Entity i, std::vector<ContactForce>& forces) const;
 

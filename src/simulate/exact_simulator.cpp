@@ -90,7 +90,7 @@ void ExactSimulator::advance_to(double time) {
   }
   paths_.record_changes();
   time_ = std::max(time, time_);
-  if (time_ >= bodies_.options.duration && !booked_) book_last_flights();
+  if (time_ >= bodies_.options.duration) flights_.book_last(time_);
 }
 
 /// What is next for body i: its event, or that it leaves its region.
@@ -181,21 +181,6 @@ void ExactSimulator::step_group() {
   for (const Entity i : group_.members) group_.partners.write(i).clear();
   bodies_.clock.constrained = false;
   stepping_.advance();
-}
-
-/// Between collisions a speed is greatest at a flight's ends: the last flights end here.
-void ExactSimulator::book_last_flights() {
-  booked_ = true;
-  const Instant at{time_, 0};
-  for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
-    const Flight f = bodies_.flights[i];
-    const Vec3 x = f.position(at - f.start), kicked = f.velocity(at - f.start);
-    const Vec3 v = bodies_.velocity_without_kick(i, at);
-    hold_to(bodies_.bounds, i, time_, x, v, ExactBodies::too_fast);
-    bodies_.log.note_speed(v.norm());
-    flights_.book(i, x);
-    if (kicked != v) bodies_.log.lose(0.5 * bodies_.world.mass[i] * (kicked - v).dot(kicked + v));
-  }
 }
 
 Effort ExactSimulator::effort() const {

@@ -40,7 +40,6 @@ class ExactSimulator final : public Simulator {
   void switch_forces(Entity i);
   void release(Entity i, Entity surface, std::uint8_t edge);
   void step_group();
-  void book_last_flights();
 
   ExactBodies bodies_;
   PathLog paths_;
@@ -58,8 +57,7 @@ class ExactSimulator final : public Simulator {
   StallGuard guard_;
   ExactImpacts impacts_;
   Effort effort_;
-  double time_ = 0;      // s, how far advance_to has come
-  bool booked_ = false;  // the last flights
+  double time_ = 0;  // s, how far advance_to has come
   State state_;
   bool state_fresh_ = false;
   std::vector<ContactForce> contact_forces_;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/complementarity.h"
 #include "physics/contact_cone.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
+#include "simulate/exact_contact_problems.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -138,7 +138,7 @@ Vec3 FlatContacts::keep_at(Entity i, const Vec3& v) {
   std::array<Vec3, most> normals;
   unsigned active;
   n = normals_of(contacts, no_entity, normals);
-  Vec3 allowed = project_to_cone(v, {normals.data(), n}, active);
+  Vec3 allowed = solve_flat_contacts(v, {normals.data(), n}, active);
   // A push into one surface may lift the body off another.
   for (std::size_t k = 0; k < contacts.count; ++k) {
     const double u = normals[k].dot(allowed);
@@ -159,7 +159,7 @@ Vec3 FlatContacts::keep_pressing(Entity i) {
   std::array<Vec3, most> normals;
   const std::size_t n = normals_of(contacts, no_entity, normals);
   unsigned active;
-  const Vec3 a = project_to_cone(bodies_.applied[i], {normals.data(), n}, active);
+  const Vec3 a = solve_flat_contacts(bodies_.applied[i], {normals.data(), n}, active);
   std::array<bool, most> presses;
   for (std::size_t k = 0; k < most; ++k) presses[k] = active >> k & 1u;
   keep(contacts, presses);
@@ -172,7 +172,7 @@ Vec3 FlatContacts::acceleration_without(Entity i, Entity surface) const {
   std::array<Vec3, most> normals;
   const std::size_t n = normals_of(contacts_[i], surface, normals);
   unsigned active;
-  return project_to_cone(bodies_.applied[i], {normals.data(), n}, active);
+  return solve_flat_contacts(bodies_.applied[i], {normals.data(), n}, active);
 }
 
 void FlatContacts::report(Entity i, std::vector<ContactForce>& forces) const {
@@ -183,7 +183,7 @@ void FlatContacts::report(Entity i, std::vector<ContactForce>& forces) const {
     pairs.push_back({0, PressedPair::none, -contacts.at[k].normal, 0, slack, 0});
   const double inverse_mass = 1 / bodies_.world.mass[i];
   Vec3 a = bodies_.applied[i];
-  press_apart({&inverse_mass, 1}, {&a, 1}, pairs, exact_tolerance::flat_iterations);
+  solve_contacts({&inverse_mass, 1}, {&a, 1}, pairs, exact_tolerance::flat_iterations);
   for (std::size_t k = 0; k < contacts.count; ++k)
     if (pairs[k].force > 0) forces.push_back({i, contacts.at[k].surface, pairs[k].force});
 }

@@ -37,7 +37,7 @@ class Flights {
   };
   static_assert(sizeof(Core) == 8 * sizeof(double));
 
-  /// `common`: m/s^2, the acceleration of all until told otherwise.
+  /// `common`: m/s^2, the acceleration of all until `set` or `accelerate` gives another.
   Flights(Entity bodies, const Vec3& common) : core_(bodies), common_(common) {}
 
   Flight operator[](Entity i) const { return {core_[i].start, core_[i].x, core_[i].v, acceleration(i)}; }

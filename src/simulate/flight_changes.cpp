@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "simulate/tolerances.h"
+
 namespace carom {
 
 void FlightChanges::begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin) {
@@ -15,9 +17,9 @@ void FlightChanges::begin(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   const bool falls =
       member && !bodies_.clock.constrained && bodies_.flights.acceleration(i) != Vec3::Zero();  // through a time step
   const double negligible = bodies_.negligible_speed();
-  const bool still =
-      speed <= negligible ||
-      (flat_.of(i).count > 0 && speed * speed < 0x1p-120 * bodies_.applied[i].norm() * bodies_.world.radius[i]);
+  const bool still = speed <= negligible ||
+                     (flat_.of(i).count > 0 && speed * speed < exact_tolerance::negligible_hop *
+                                                                   bodies_.applied[i].norm() * bodies_.world.radius[i]);
   Vec3 kept = v;
   for (int k = 0; k < 3; ++k)
     if (still || std::abs(v[k]) <= negligible) kept[k] = 0;
@@ -42,6 +44,21 @@ void FlightChanges::book(Entity i, const Vec3& x) {
   const Vec3 displacement = x - bodies_.flights[i].x;
   bodies_.log.lose(world.mass[i] * (bodies_.applied[i] - bodies_.flights[i].a).dot(displacement));
   if (!world.forces.empty()) bodies_.log.add_work(world.mass[i] * bodies_.working[i].dot(displacement));
+}
+
+void FlightChanges::book_last(double time) {
+  if (ended_) return;
+  ended_ = true;
+  const Instant at{time, 0};
+  for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
+    const Flight f = bodies_.flights[i];
+    const Vec3 x = f.position(at - f.start), kicked = f.velocity(at - f.start);
+    const Vec3 v = bodies_.velocity_without_kick(i, at);
+    hold_to(bodies_.bounds, i, time, x, v, ExactBodies::too_fast);
+    bodies_.log.note_speed(v.norm());
+    book(i, x);
+    if (kicked != v) bodies_.log.lose(0.5 * bodies_.world.mass[i] * (kicked - v).dot(kicked + v));
+  }
 }
 
 }  // namespace carom

@@ -15,6 +15,9 @@ class FlightChanges {
   void begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
   /// Books what forces did to body i on the flight that ends at x (m): the World's, and contact forces against them.
   void book(Entity i, const Vec3& x);
+  /// Books all flights up to `time` (s), the run's end; only once. Between collisions a speed is greatest at a flight's
+  /// ends.
+  void book_last(double time);
   /// Events with body i are stale from now on.
   void count(Entity i);
 
@@ -22,6 +25,7 @@ class FlightChanges {
   ExactBodies& bodies_;
   FlatContacts& flat_;
   PathLog& paths_;
+  bool ended_ = false;  // the last flights are booked
 };
 
 }  // namespace carom

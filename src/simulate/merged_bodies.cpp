@@ -1,7 +1,6 @@
 #include "simulate/merged_bodies.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "physics/contact_time.h"
 #include "physics/cube_root.h"
@@ -55,7 +54,7 @@ void MergedBodies::join(Entity whole, Entity part) {
   World& world = *joint_;
   const double mw = world.mass[whole], mp = world.mass[part], mass = mw + mp;
   Volume volume = world.volume_of(whole);
-  volume.half *= std::cbrt((volume.size() + world.volume_of(part).size()) / volume.size());
+  volume.half *= cube_root((volume.size() + world.volume_of(part).size()) / volume.size());
   if (!world.volume.empty()) world.volume[whole] = volume;
   world.radius[whole] = volume.reach();
   world.restitution[whole] = (mw * world.restitution[whole] + mp * world.restitution[part]) / mass;

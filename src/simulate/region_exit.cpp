@@ -5,23 +5,18 @@
 
 namespace carom {
 
-namespace {
-
-/// s, until a straight path from `off` (m, from a ball's middle) at v (m/s) is `radius` (m) away from the middle.
-double straight_exit(const Vec3& off, const Vec3& v, double radius) {
-  const double speed2 = v.squaredNorm(), outward = off.dot(v), left = radius * radius - off.squaredNorm();
-  if (!(left > 0)) return 0.0;
-  const double root = std::sqrt(outward * outward + speed2 * left);
-  return outward > 0 ? left / (root + outward) : speed2 > 0 ? (root - outward) / speed2 : never;
-}
-
-}  // namespace
-
 double region_exit(const ExactBodies& bodies, Entity i) {
   const Flights::Core& f = bodies.flights.cores()[i];
   const Vec3& a = bodies.flights.acceleration(i);
   const double since = bodies.now - f.start, room = bodies.neighbours.room(i);
   const Vec3 center = bodies.neighbours.center(i);
+  // From `off` (m, from the region's middle) on along a straight path at v (m/s), until it is `radius` (m) from there.
+  const auto straight_exit = [](const Vec3& off, const Vec3& v, double radius) {
+    const double speed2 = v.squaredNorm(), outward = off.dot(v), left = radius * radius - off.squaredNorm();
+    if (!(left > 0)) return 0.0;
+    const double root = std::sqrt(outward * outward + speed2 * left);
+    return outward > 0 ? left / (root + outward) : speed2 > 0 ? (root - outward) / speed2 : never;
+  };
   const auto start_of = [&](double t, Vec3& off, Vec3& v) {
     v = f.v + t * a;
     off = f.x + t * (f.v + (0.5 * t) * a) - center;

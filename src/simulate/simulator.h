@@ -1,5 +1,5 @@
 #pragma once
-// The one door to every way of carrying a World forward in time. Crossed once per output time, never per event.
+// The one interface to all engines that carry a World forward in time. Crossed once per output time, never per event.
 #include <cstdint>
 #include <limits>
 #include <span>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "simulate/exact_contact_problems.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -72,7 +73,7 @@ void SimultaneousImpacts::solve(Touching& set, bool part) const {
   }
   const auto press = [&] {
     set.after = set.before;
-    press_apart(set.inverse_mass, set.after, set.pairs, exact_tolerance::simultaneous_iterations);
+    solve_contacts(set.inverse_mass, set.after, set.pairs, exact_tolerance::simultaneous_iterations);
   };
   press();
   double gained = 0;

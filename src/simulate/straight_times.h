@@ -19,7 +19,7 @@ struct Meet {
   Entity with;
 };
 
-/// Body i's meetings with others are asked for. None of them is of the crowd; all have the same acceleration.
+/// Body i's meetings with others are asked for. None of them is in the contact group; all have the same acceleration.
 struct StraightTask {
   const Flights::Core* flights;
   const double* radius;  // m, by body; null: all have the same,

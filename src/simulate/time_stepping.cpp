@@ -5,6 +5,7 @@
 
 #include "physics/restitution.h"
 #include "simulate/disjoint_sets.h"
+#include "simulate/exact_contact_problems.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -143,7 +144,7 @@ void TimeStepping::take_slow_impacts(Step& step) const {
     p.target = std::min(p.target, 0.0);
     p.force = 0;
   }
-  press_apart(step.inverse_mass, step.after_impacts, impacts, tol::step_iterations);
+  solve_contacts(step.inverse_mass, step.after_impacts, impacts, tol::step_iterations);
   for (std::size_t c = 0; c < impacts.size(); ++c) step.struck[c] = impacts[c].force > 0;
 }
 
@@ -157,7 +158,7 @@ void TimeStepping::keep_apart(Step& step) const {
   bool part = std::any_of(step.pairs.begin(), step.pairs.end(), [](const PressedPair& p) { return p.target > 0; });
   for (int attempt = 0; attempt < 8; ++attempt) {
     step.solved = free;
-    const bool converged = press_apart(step.inverse_mass, step.solved, step.pairs, tol::step_iterations);
+    const bool converged = solve_contacts(step.inverse_mass, step.solved, step.pairs, tol::step_iterations);
     if (converged && !part) return;
     double before = 0, after = 0, made = 0, lost = 0;  // m, m: displacements; J, J: now, and by slow impacts
     for (std::size_t k = 0; k < n; ++k) {
@@ -176,7 +177,7 @@ void TimeStepping::keep_apart(Step& step) const {
   }
   if (n > tol::most_direct_bodies) return;
   step.solved = free;
-  press_apart_directly(step.inverse_mass, step.solved, step.pairs);
+  solve_contacts_directly(step.inverse_mass, step.solved, step.pairs);
 }
 
 /// Members that press on one another are an island. The faster one of its bodies is, the wider are its margins.
@@ -246,7 +247,7 @@ bool TimeStepping::hold(const Step& step, const std::vector<std::uint8_t>& still
     holding.which.push_back(c);
   }
   holding.a = applied();
-  return press_apart(step.inverse_mass, holding.a, holding.pairs, iterations);
+  return solve_contacts(step.inverse_mass, holding.a, holding.pairs, iterations);
 }
 
 /// At rest are those islands that hardly move and that forces hold in balance.
@@ -263,7 +264,7 @@ void TimeStepping::put_to_rest(Step& step) const {
   if (!hold(step, still, tol::step_iterations, holding)) {
     if (n <= tol::most_direct_bodies) {
       holding.a = applied();
-      press_apart_directly(step.inverse_mass, holding.a, holding.pairs);
+      solve_contacts_directly(step.inverse_mass, holding.a, holding.pairs);
       keep_balanced(tol::rough_balance);
     }
     hold(step, still, tol::rest_iterations, holding);

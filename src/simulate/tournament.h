@@ -45,7 +45,7 @@ class Tournament {
 
   std::uint32_t first() const { return first_; }  // none: nothing is due
   double first_time() const { return first_time_; }
-  double time(std::uint32_t i) const { return levels_[0].time[i]; }  // as it was told last
+  double time(std::uint32_t i) const { return levels_[0].time[i]; }  // as of the last update
 
   /// Call after entry i has changed; its time (s) may be infinite: it is never due.
   void update(std::uint32_t i, double time) {
@@ -55,7 +55,7 @@ class Tournament {
     for (std::size_t l = 1; l < levels_.size(); ++l) {
       at /= width;
       Level& up = levels_[l];
-      // Who did not win before and comes later than who did changes nothing.
+      // An entry that did not win before and comes later than the winner changes nothing.
       if (up.winner[at] != i && up.time[at] < time) return;
       play(l - 1, at, winner, time);
       // Entry i itself may have changed in more than its time.
@@ -122,13 +122,13 @@ class Tournament {
     unsigned ties = 0;
     for (unsigned k = 0; k < width; ++k) ties |= static_cast<unsigned>(t[k] == time) << k;
 #endif
-    const auto who = [&](unsigned k) {
+    const auto entry = [&](unsigned k) {
       return l == 0 ? static_cast<std::uint32_t>(game * width + k) : level.winner[game * width + k];
     };
-    winner = time < never_ ? who(static_cast<unsigned>(std::countr_zero(ties))) : none;
+    winner = time < never_ ? entry(static_cast<unsigned>(std::countr_zero(ties))) : none;
     if (time == never_) return;
     for (ties &= ties - 1; ties != 0; ties &= ties - 1) {
-      const std::uint32_t other = who(static_cast<unsigned>(std::countr_zero(ties)));
+      const std::uint32_t other = entry(static_cast<unsigned>(std::countr_zero(ties)));
       if (before_(other, winner)) winner = other;
     }
   }

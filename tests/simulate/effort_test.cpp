@@ -113,7 +113,7 @@ TEST(Effort, WhatLiesBeyondTheDurationIsNotScheduled) {
 
 TEST(Effort, RestingBodiesCostNothing) {
   Problem p = columns(1.5, 0.5);
-  // And a stack of two, which rests as a crowd.
+  // And a stack of two, which rests as a contact group.
   p.ball(Vec3(-5, 0.5, 0), Vec3::Zero(), 1, 0.5, 0);
   p.ball(Vec3(-5, 1.5, 0), Vec3::Zero(), 1, 0.5, 0);
   p.options.duration = 1e9;

@@ -21,7 +21,7 @@ TEST(Pile, AWokenPileComesToRestAgain) {
 }
 
 TEST(Pile, GainsNoEnergyAsItSettles) {
-  // Within a stride energy is told as right as motion is, to first order: rises of 1e-4 of it were measured here.
+  // Within a time step energy is as right as motion is, to first order: rises of 1e-4 of it were measured here.
   for (int side : {3, 4, 5}) {
     const Problem problem = loose_pile(side, 6, 20);
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);

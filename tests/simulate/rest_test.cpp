@@ -162,7 +162,7 @@ TEST(Rest, WhoLiesStillCostsNothing) {
 }
 
 TEST(Rest, AColumnThrowsBackWhoFallsOnIt) {
-  // As many balls as strides move, and fewer: at e = 1 the one that falls from 0.5 m comes up again.
+  // As many balls as time stepping moves, and fewer: at e = 1 the one that falls from 0.5 m comes up again.
   for (int n : {2, 16, 17, 18, 24, 40}) {
     Problem problem;
     problem.world.gravity = Vec3(0, -g, 0);

@@ -1,0 +1,296 @@
+// The exact simulator's contacts and impacts, part by part.
+#include <gtest/gtest.h>
+
+#include "simulate/exact_parts.h"
+
+namespace carom {
+namespace {
+
+constexpr double g = 10;  // m/s^2
+
+Problem ball_on_floor(double e = 0.5) {
+  Problem p;
+  p.world.gravity = Vec3(0, -g, 0);
+  p.plane(Vec3::Zero(), Vec3(0, 1, 0));
+  p.ball(Vec3(0, 0.5, 0), Vec3::Zero(), 2, 0.5, e);
+  return p;
+}
+
+/// Three balls in a row that touch, far from everything.
+Problem three_in_a_row(double e) {
+  Problem p;
+  for (int k = 0; k < 3; ++k) p.ball(Vec3(k, 0, 0), Vec3::Zero(), 1, 0.5, e);
+  return p;
+}
+
+TEST(CollapseDetector, FindsImpactsInTurnAtOnePlace) {
+  ExactParts parts(three_in_a_row(0.5));
+  for (int k = 0; k < 64; ++k)
+    EXPECT_FALSE(parts.collapses.count_impact(1, k % 2 == 0 ? 0 : 2, 0.5, 1, 0, 1, false)) << k;
+  EXPECT_TRUE(parts.collapses.count_impact(1, 0, 0.5, 1, 0, 1, false));
+  EXPECT_TRUE(parts.collapses.ended_now(1));
+}
+
+TEST(CollapseDetector, BeginsAnewWhereABodyHasComeAway) {
+  ExactParts parts(three_in_a_row(0.5));
+  for (int k = 0; k < 200; ++k) {
+    parts.bodies.now = {1e-3 * k, 0};
+    EXPECT_FALSE(parts.collapses.count_impact(1, k % 2 == 0 ? 0 : 2, 0.5, 1, 0, 1, false)) << k;
+  }
+}
+
+TEST(CollapseDetector, NeverEndsElasticImpacts) {
+  ExactParts parts(three_in_a_row(1));
+  for (int k = 0; k < 200; ++k)
+    EXPECT_FALSE(parts.collapses.count_impact(1, k % 2 == 0 ? 0 : 2, 1, 1, 0, 1, false)) << k;
+}
+
+TEST(FlatContacts, CarryABodyThatTouchesFromTheStart) {
+  ExactParts parts(ball_on_floor());
+  parts.flat.find_initial(0);
+  EXPECT_TRUE(parts.flat.carry(0, 1));
+  EXPECT_TRUE(parts.bodies.flights[0].a.isZero(0));
+  EXPECT_EQ(parts.bodies.log.tally().resting, 1u);
+}
+
+TEST(FlatContacts, LetABodySlideAndLiftOff) {
+  ExactParts parts(ball_on_floor());
+  parts.flat.find_initial(0);
+  EXPECT_EQ(parts.flat.keep_at(0, Vec3(3, 0, 0)), Vec3(3, 0, 0));
+  EXPECT_TRUE(parts.flat.carry(0, 1));
+  EXPECT_EQ(parts.flat.keep_at(0, Vec3(0, 1, 0)), Vec3(0, 1, 0));
+  EXPECT_FALSE(parts.flat.carry(0, 1));
+  EXPECT_EQ(parts.bodies.log.tally().resting, 0u);
+}
+
+TEST(FlatContacts, ReportTheWeight) {
+  ExactParts parts(ball_on_floor());
+  parts.flat.find_initial(0);
+  std::vector<ContactForce> forces;
+  parts.flat.report(0, forces);
+  ASSERT_EQ(forces.size(), 1u);
+  EXPECT_NEAR(forces[0].force, 2 * g, 1e-12);
+  EXPECT_EQ(parts.flat.acceleration_without(0, 1), Vec3(0, -g, 0));
+}
+
+TEST(FlatContacts, TakeWhatTheLastBounceLeft) {
+  ExactParts parts(ball_on_floor());
+  parts.flat.add(0, {1, 0, Vec3(0, 1, 0), true, {1, 0}, 0.1});
+  EXPECT_DOUBLE_EQ(parts.bodies.log.tally().energy_lost, 0.5 * 2 * 0.01);
+  parts.bodies.now = {1, 0};
+  parts.flat.end_bounces(0);
+  EXPECT_FALSE(parts.flat.of(0).at[0].settling);
+}
+
+TEST(FlightChanges, BookWhatContactTookFromAFlight) {
+  ExactParts parts(ball_on_floor());
+  parts.bodies.flights.accelerate(0, Vec3::Zero());  // carried
+  parts.flights.book(0, Vec3(0, 0.5 - 3, 0));
+  EXPECT_EQ(parts.bodies.log.tally().energy_lost, 2 * g * 3);
+}
+
+TEST(FlightChanges, NeverMakeAnOldEventFresh) {
+  ExactParts parts(three_in_a_row(1));
+  parts.bodies.body[1].event = {{1, 0}, 0, 1, ExactEvent::Kind::body_body, 0};
+  for (int k = 0; k < 0xffff; ++k) parts.flights.count(0);
+  EXPECT_EQ(parts.bodies.body[0].version, 1);
+  EXPECT_EQ(parts.bodies.body[1].event.partner_version, 0);
+}
+
+TEST(ExactImpacts, ExchangeVelocitiesOfEqualMasses) {
+  Problem p = three_in_a_row(1);
+  p.initial.velocity[0] = Vec3(2, 1, 0);
+  ExactParts parts(p);
+  parts.impacts.collide_pair(0, 1, 0);
+  EXPECT_EQ(parts.bodies.flights[0].v, Vec3(0, 1, 0));
+  EXPECT_EQ(parts.bodies.flights[1].v, Vec3(2, 0, 0));
+  ASSERT_EQ(parts.bodies.log.collisions().size(), 1u);
+  EXPECT_EQ(parts.bodies.log.collisions()[0].impulse, 2);
+}
+
+TEST(ExactGroup, WakesAllThatTouch) {
+  ExactParts parts(three_in_a_row(0.5));
+  for (Entity i = 0; i < 3; ++i) {
+    parts.bodies.body[i].state = ContactState::asleep;
+    parts.group.set_carried(i, true);
+  }
+  EXPECT_EQ(parts.bodies.log.tally().resting, 3u);
+  parts.group.join(0);
+  EXPECT_EQ(parts.group.members.size(), 3u);
+  EXPECT_EQ(parts.bodies.log.tally().resting, 0u);
+}
+
+TEST(ExactGroup, TakesAKickOutOfAVelocity) {
+  ExactParts parts(three_in_a_row(0.5));
+  parts.group.join(0);
+  parts.bodies.clock.end = {2, 0};
+  parts.bodies.flights.set(0, {{}, Vec3::Zero(), Vec3(3, 0, 0), Vec3::Zero()});
+  parts.group.kick(0, Vec3(3, 0, 0));  // in two seconds
+  EXPECT_EQ(parts.bodies.velocity_without_kick(0, {0, 0}), Vec3::Zero());
+  EXPECT_EQ(parts.bodies.velocity_without_kick(0, {1, 0}), Vec3(1.5, 0, 0));
+  EXPECT_EQ(parts.bodies.velocity_without_kick(0, {2, 0}), Vec3(3, 0, 0));
+}
+
+TEST(ExactGroup, IsJoinedByBodiesThatPressOnEachOtherFromTheStart) {
+  Problem p = ball_on_floor();
+  p.ball(Vec3(0, 1.5, 0), Vec3::Zero());
+  ExactParts parts(p);
+  parts.flat.find_initial(0);
+  parts.group.join_initial(1);
+  EXPECT_EQ(parts.group.members.size(), 2u);
+}
+
+TEST(SimultaneousImpacts, StrikeAllThatTouchAfterAFewImpacts) {
+  Problem p = three_in_a_row(0.5);
+  p.initial.velocity = {Vec3(1, 0, 0), Vec3::Zero(), Vec3(-1, 0, 0)};
+  ExactParts parts(p);
+  for (Entity i = 0; i < 3; ++i) parts.group.join(i);
+  for (int k = 0; k < 3; ++k) parts.simultaneous.count_impact(1);
+  EXPECT_EQ(parts.bodies.flights[0].v, Vec3(1, 0, 0));
+  parts.simultaneous.count_impact(1);
+  for (Entity i = 0; i < 3; ++i) EXPECT_NEAR(parts.bodies.flights[i].v.norm(), 0, 2e-3);
+  EXPECT_NEAR(parts.bodies.log.tally().energy_lost, 1, 1e-5);
+}
+
+TEST(TimeStepping, PutsToRestWhatForcesHold) {
+  ExactParts parts(ball_on_floor());
+  parts.group.join(0);
+  parts.stepping.advance();
+  EXPECT_EQ(parts.bodies.body[0].state, ContactState::asleep);
+  ASSERT_EQ(parts.group.pressing[0].size(), 1u);
+  EXPECT_NEAR(parts.group.pressing[0][0].force, 2 * g, 1e-9);
+  EXPECT_TRUE(parts.group.members.empty());
+}
+
+TEST(TimeStepping, KeepsAMemberOutOfTheFloorUntilTheStepEnds) {
+  Problem p = ball_on_floor();
+  p.initial.velocity[0] = Vec3(1, 0, 0);
+  ExactParts parts(p);
+  parts.group.join(0);
+  parts.bodies.flights.accelerate(0, Vec3::Zero());
+  parts.stepping.advance();
+  const Instant end = parts.bodies.clock.end;
+  ASSERT_GT(end.hi, 0);
+  EXPECT_GE(parts.bodies.flights[0].position(end.hi).y(), 0.5 - 1e-12);
+  EXPECT_EQ(parts.bodies.log.tally().resting, 1u);
+}
+
+TEST(ConstrainedMotion, KeepsToACurvedSurface) {
+  Problem p;
+  p.world.gravity = Vec3(0, -g, 0);
+  p.obstacle(Vec3::Zero(), Volume::sphere(1));
+  p.ball(Vec3(0, 1.5, 0), Vec3(0.5, 0, 0));
+  ExactParts parts(p);
+  parts.group.join(0);
+  ASSERT_TRUE(parts.constrained.advance());
+  EXPECT_TRUE(parts.bodies.clock.constrained);
+  const double end = parts.bodies.clock.end.hi;
+  ASSERT_GT(end, 0);
+  for (const double t : {0.5 * end, end}) EXPECT_NEAR(parts.bodies.flights[0].position(t).norm(), 1.5, 1e-10);
+  std::vector<ContactForce> forces;
+  parts.constrained.report(0, forces);
+  ASSERT_EQ(forces.size(), 1u);
+  EXPECT_NEAR(forces[0].force, g - 0.25 / 1.5, 1e-12);  // m (g - v^2 / r)
+}
+
+TEST(ConstrainedMotion, LeavesALargeGroupToTimeStepping) {
+  Problem p;
+  for (int k = 0; k < 40; ++k) p.ball(Vec3(2.0 * k, 0, 0), Vec3::Zero());
+  ExactParts parts(p);
+  for (Entity i = 0; i < 40; ++i) parts.group.join(i);
+  EXPECT_FALSE(parts.constrained.advance());
+  EXPECT_EQ(parts.group.members.size(), 40u);
+}
+
+Problem two_lumps() {
+  Problem p;
+  p.options.merge = true;
+  p.ball(Vec3(0, 0, 0), Vec3(4, 0, 0), 1);
+  p.ball(Vec3(1, 0, 0), Vec3(0, 0, 0), 3, 0.5, 0);
+  return p;
+}
+
+TEST(MergedBodies, HaveTheSumOfMassesAndVolumes) {
+  const Problem p = two_lumps();
+  MergedBodies merged(p.world, true);
+  EXPECT_FALSE(merged.any());
+  merged.join(1, 0);
+  EXPECT_EQ(merged.world().mass[1], 4);
+  EXPECT_DOUBLE_EQ(std::pow(merged.world().radius[1], 3), 2 * 0.125);
+  EXPECT_EQ(merged.world().restitution[1], 0.25);
+  EXPECT_EQ(merged.whole_of()[0], 1u);
+  EXPECT_EQ(merged.given().mass[1], 3);
+}
+
+TEST(MergedBodies, FeelTheForcesOnTheirParts) {
+  Problem p = two_lumps();
+  p.world.forces.push_back({UniformForce{Vec3(8, 0, 0)}, 0, 5, {0}});
+  MergedBodies merged(p.world, true);
+  merged.join(1, 0);
+  EXPECT_EQ(merged.applied(1, 0).all, merged.applied(0, 0).all / 4);
+  EXPECT_EQ(merged.next_switch(1, 0), 5);
+}
+
+TEST(BodyMerging, KeepsMomentumAndTheCentreOfMass) {
+  ExactParts parts(two_lumps());
+  parts.merging.merge(0, 1, parts.bodies.touch_at(0, Vec3(0, 0, 0), 1, Vec3(1, 0, 0), 0));
+  EXPECT_EQ(parts.bodies.flights[1].v, Vec3(1, 0, 0));
+  EXPECT_EQ(parts.bodies.flights[1].x, Vec3(0.75, 0, 0));
+  EXPECT_EQ(parts.bodies.log.tally().energy_lost, 0.5 * 0.75 * 16);
+  EXPECT_EQ(parts.bodies.log.tally().merges, 1u);
+}
+
+TEST(PathLog, RecordsAPathOnceAnInstant) {
+  Problem p = three_in_a_row(1);
+  p.options.record_paths = true;
+  ExactParts parts(p);
+  for (const Entity i : {2u, 0u, 2u}) parts.paths.note_change(i);
+  parts.paths.record_changes();
+  ASSERT_EQ(parts.paths.pieces().size(), 2u);
+  EXPECT_EQ(parts.paths.pieces()[0].body, 0u);
+  EXPECT_EQ(parts.paths.pieces()[1].body, 2u);
+  parts.paths.begin_advance();
+  EXPECT_TRUE(parts.paths.pieces().empty());
+}
+
+TEST(PathLog, RecordsNothingUnlessAsked) {
+  ExactParts parts(three_in_a_row(1));
+  parts.paths.note_change(0);
+  parts.paths.record_changes();
+  EXPECT_TRUE(parts.paths.pieces().empty());
+}
+
+TEST(ExactSimulator, TallyDoesNotDependOnWhetherStatesAreAskedFor) {
+  Problem p = ball_on_floor(0.6);
+  p.initial.position[0] = Vec3(0, 3, 0);
+  p.initial.velocity[0] = Vec3(1, 0, 0.1);
+  p.ball(Vec3(0.3, 5, 0.1), Vec3(0, -7, 0), 1, 0.4, 0.3);
+  p.options.duration = 4;
+  const auto silent = make_exact_simulator(p.world, p.initial, p.options);
+  const auto asked = make_exact_simulator(p.world, p.initial, p.options);
+  for (int k = 1; k <= 40; ++k) {
+    while (asked->time() < 0.1 * k) asked->advance_to(0.1 * k);
+    asked->state();
+    asked->contacts();
+  }
+  while (silent->time() < 4) silent->advance_to(4);
+  EXPECT_EQ(silent->tally().energy_lost, asked->tally().energy_lost);
+  EXPECT_EQ(silent->tally().max_speed, asked->tally().max_speed);
+  EXPECT_EQ(silent->tally().work, asked->tally().work);
+  const Tally before = silent->tally();
+  silent->state();
+  EXPECT_EQ(silent->tally().energy_lost, before.energy_lost);
+}
+
+TEST(ExactSimulator, TallyAtTheEndHasTheLastFlights) {
+  Problem p;
+  p.world.gravity = Vec3(0, -g, 0);
+  p.ball(Vec3::Zero(), Vec3::Zero());
+  p.options.duration = 2;
+  const auto simulator = make_exact_simulator(p.world, p.initial, p.options);
+  simulator->advance_to(2);
+  EXPECT_EQ(simulator->tally().max_speed, 2 * g);
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,55 @@
+#pragma once
+// The exact simulator's parts, put together without its loop.
+#include <utility>
+
+#include "simulate/body_merging.h"
+#include "simulate/build.h"
+#include "simulate/constrained_motion.h"
+#include "simulate/event_prefetch.h"
+#include "simulate/exact_impacts.h"
+#include "simulate/time_stepping.h"
+
+namespace carom {
+
+struct ExactParts {
+  explicit ExactParts(Problem given)
+      : problem(std::move(given)),
+        bodies(problem.world, problem.options),
+        paths(bodies),
+        collapses(bodies),
+        flat(bodies, collapses),
+        group(bodies, flat, collapses, paths),
+        flights(bodies, flat, paths),
+        queue(bodies),
+        prefetch(bodies, queue),
+        predictor(bodies, queue, flat, group),
+        simultaneous(bodies, group, flights, predictor),
+        stepping(bodies, group, flights, predictor),
+        constrained(bodies, group, flat, collapses, flights, predictor),
+        merging(bodies, flat, flights, queue, predictor, paths),
+        guard(problem.world.body_count(), problem.options.duration),
+        impacts(bodies, {collapses, flat, group, flights, predictor, simultaneous, merging, guard}) {
+    for (Entity i = 0; i < bodies.world.body_count(); ++i)
+      bodies.flights.set(i, {{}, problem.initial.position[i], problem.initial.velocity[i], problem.world.gravity});
+    bodies.neighbours.start(problem.initial.position);
+  }
+
+  const Problem problem;
+  ExactBodies bodies;
+  PathLog paths;
+  CollapseDetector collapses;
+  FlatContacts flat;
+  ExactGroup group;
+  FlightChanges flights;
+  EventQueue queue;
+  EventPrefetch prefetch;
+  EventPredictor predictor;
+  SimultaneousImpacts simultaneous;
+  TimeStepping stepping;
+  ConstrainedMotion constrained;
+  BodyMerging merging;
+  StallGuard guard;
+  ExactImpacts impacts;
+};
+
+}  // namespace carom
