@@ -14,7 +14,6 @@ namespace carom::testing {
 namespace {
 
 const std::set<std::string> exempt_names = {
-    "Parts",  // in work: src/simulate
 };
 
 /// Names that two types share: classes, enums and aliases at namespace scope, in unnamed namespaces too. Equal aliases

@@ -16,14 +16,8 @@ namespace {
 constexpr std::size_t most_lines = 80, most_members = 20;
 
 const std::set<std::string> exempt_types = {
-    "ExactSimulator",    // in work: src/simulate
-    "SteppedSimulator",  // in work: src/simulate
 };
 const std::set<std::string> exempt_functions = {
-    "ExactSimulator::follow_crowd",  // in work: src/simulate
-    "ExactSimulator::merge",         // in work: src/simulate
-    "SteppedSimulator::settle",      // in work: src/simulate
-    "find_times",                    // in work: src/simulate
     "press_apart",                   // in work: src/physics
 };
 
