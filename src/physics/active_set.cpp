@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace carom {
 
@@ -10,6 +11,8 @@ namespace {
 
 constexpr double dependent = 0x1p-43;    // of a row of unit length: what others span but for rounding
 constexpr double pulling = 8 * 0x1p-53;  // of the greatest force: a negative one that is only rounding
+constexpr double refined_change =
+    4 * 0x1p-53;  // of a row's scale: what is rounding of the data where residuals are exact
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -153,7 +156,8 @@ bool DualActiveSet::take_in(const ContactIsland& island, std::uint32_t c, double
 void DualActiveSet::take_in_violated(const ContactIsland& island) {
   double energy = 0;
   std::size_t idle = 0;
-  std::vector<double> load(island.free.size());  // by body, the speed that forces give it one by one
+  std::vector<double>& load = load_;  // by body, the speed that forces give it one by one
+  load.resize(island.free.size());
   for (;;) {
     std::fill(load.begin(), load.end(), 0.0);
     for (std::size_t k = 0; k < active_.size(); ++k) {
@@ -202,31 +206,35 @@ void DualActiveSet::refine(const ContactIsland& island, ContactAnswer& answer) {
   for (const double y : y_) all = std::max(all, std::abs(y));
   // What the rows are off by and what the forces lack, each for as long as there is less and less of it.
   double off = infinite, unbalanced = infinite;
-  std::vector<double> lacking, p(n), g(n), dy(n);
+  std::vector<double>&p = row_, &g = step_, &dy = work_;
   const auto greatest = [](const std::vector<double>& v) {
     double most = 0;
     for (const double x : v) most = std::max(most, std::abs(x));
     return most;
   };
+  // A round leaves as much of it as the factors' rounding makes: where that is little the next one need not be looked
+  // at.
+  const double left = 0x1p-50 / (factors_.least_diagonal() * factors_.least_diagonal()), enough = 0x1p-92 * all;
   while (off > 0 || unbalanced > 0) {
     std::fill(g.begin(), g.end(), 0.0);
     std::fill(p.begin(), p.end(), 0.0);
     if (off > 0) {
       for (std::size_t j = 0; j < k; ++j) {
         const ContactIsland::Row& r = island.rows[active_[j]];
-        g[j] = -r.scale * excess(island, r, answer.motion);
+        g[j] = -r.scale * excess(r, answer.motion);
       }
       factors_.solve_transposed(g.data());
       const double now = greatest(g);
       if (!(now < 0.5 * off)) std::fill(g.begin(), g.end(), 0.0);
-      off = now < 0.5 * off && now > 0x1p-92 * all ? now : 0;
+      off = now < 0.5 * off && left * now > enough ? now : 0;
     }
     if (unbalanced > 0) {
-      imbalance(island, answer, lacking);
+      find_imbalance(island, answer);
+      std::vector<double>& lacking = answer.lacking;
       for (std::size_t i = 0; i < n; ++i) lacking[i] /= island.root[i / 3];
       const double now = greatest(lacking);
       if (now < 0.5 * unbalanced) factors_.to_q(lacking.data(), p.data());
-      unbalanced = now < 0.5 * unbalanced && now > 0x1p-92 * all ? now : 0;
+      unbalanced = now < 0.5 * unbalanced && left * now > enough ? now : 0;
     }
     std::copy(p.begin() + static_cast<std::ptrdiff_t>(k), p.end(), g.begin() + static_cast<std::ptrdiff_t>(k));
     factors_.from_q(g.data(), dy.data());
@@ -252,8 +260,8 @@ std::uint32_t DualActiveSet::worst_after_refining(const ContactIsland& island, c
     if (place_[c] != none || aside_[c] > 1) continue;
     const ContactIsland::Row& r = island.rows[c];
     if (r.dot(y_.data()) - r.scale * r.target > 0x1p-40 * island.noise_scale(r)) continue;  // surely not
-    const double w = r.scale * excess(island, r, answer.motion);
-    if (w >= -shortfall || w >= -accepted_change * island.noise_scale(r)) continue;
+    const double w = r.scale * excess(r, answer.motion);
+    if (w >= -shortfall || w >= -refined_change * island.noise_scale(r)) continue;
     shortfall = -w;
     worst = c;
   }
@@ -353,7 +361,7 @@ DualActiveSet::Result DualActiveSet::solve_again(const ContactIsland& island, st
 DualActiveSet::Result DualActiveSet::finish(const ContactIsland& island, ContactAnswer& answer) {
   Result best;
   best.judgement = {infinite, false};
-  ContactAnswer attempt;
+  ContactAnswer& attempt = attempt_;
   for (const double looser : {1.0, 32.0, 1.0 / 16, 1024.0}) {
     if (looser != 1) {
       dependent_ = looser * dependent;
@@ -370,7 +378,7 @@ DualActiveSet::Result DualActiveSet::finish(const ContactIsland& island, Contact
     const Result result{judge(island, attempt), infeasible_};
     if (looser == 1 || result.judgement.change < best.judgement.change) {
       best = result;
-      answer = attempt;
+      std::swap(answer, attempt);
     }
     if (best.judgement.within_slack) break;
   }

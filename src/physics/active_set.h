@@ -55,14 +55,15 @@ class DualActiveSet {
   std::uint64_t signature() const;
 
   OrthogonalFactors factors_;
-  std::vector<std::uint32_t> active_;      // rows, in the order of the factors
-  std::vector<double> force_;              // by active row, of a row of unit length
-  std::vector<std::uint8_t> fixed_;        // by active row: bilateral, it stays
-  std::vector<std::uint32_t> place_;       // by row: where it is in active_, or none
-  std::vector<double> y_, free_;           // 3 a body
-  std::vector<std::uint8_t> aside_;        // by row: how often no motion was found that keeps it
-  std::vector<double> row_, step_, work_;  // scratch: a row in the factors' coordinates, ...
-  double dependent_ = 0;                   // a row's tail under which it is spanned by others
+  std::vector<std::uint32_t> active_;             // rows, in the order of the factors
+  std::vector<double> force_;                     // by active row, of a row of unit length
+  std::vector<std::uint8_t> fixed_;               // by active row: bilateral, it stays
+  std::vector<std::uint32_t> place_;              // by row: where it is in active_, or none
+  std::vector<double> y_, free_;                  // 3 a body
+  std::vector<std::uint8_t> aside_;               // by row: how often no motion was found that keeps it
+  std::vector<double> row_, step_, work_, load_;  // scratch: a row in the factors' coordinates, ...
+  ContactAnswer attempt_;                         // scratch
+  double dependent_ = 0;                          // a row's tail under which it is spanned by others
   std::size_t changes_ = 0;
   bool infeasible_ = false;
 };

@@ -361,12 +361,13 @@ class ContactInteriorPoint::Method {
     for (int idle = 0;;) {
       for (std::size_t c = 0; c < m; ++c) {
         const Row& r = island_.rows[c];
-        short_by[c] = -r.scale * excess(island_, r, answer.motion);
+        short_by[c] = -r.scale * excess(r, answer.motion);
         const bool presses = r.bilateral || answer.force[c].hi / r.scale + short_by[c] / rho > 0;
         weight[c] = presses ? 1 / rho : 0;
         if (!presses) answer.force[c] = {0, 0};
       }
-      imbalance(island_, answer, lacking);
+      find_imbalance(island_, answer);
+      lacking = answer.lacking;
       for (std::size_t i = 0; i < n; ++i) lacking[i] /= island_.root[i / 3];
       for (std::size_t c = 0; c < m; ++c)
         if (weight[c] != 0) island_.rows[c].add_to(lacking.data(), short_by[c] / rho);

@@ -58,13 +58,15 @@ struct ContactIsland {
 struct ContactAnswer {
   std::vector<DoubleDouble> motion;  // 3 a body, in the island's unit
   std::vector<DoubleDouble> force;   // by row, in the island's unit
+  std::vector<DoubleDouble> push;    // room for M (motion - free)
+  std::vector<double> lacking;       // and for what it lacks
 };
 
 /// normal . (u_b - u_a) - target.
-double excess(const ContactIsland& island, const ContactIsland::Row& row, const std::vector<DoubleDouble>& motion);
+double excess(const ContactIsland::Row& row, const std::vector<DoubleDouble>& motion);
 
-/// By coordinate, what free + M^-1 N force lacks: 0 for an exact answer.
-void imbalance(const ContactIsland& island, const ContactAnswer& answer, std::vector<double>& result);
+/// Leaves in answer.lacking, by coordinate, free + M^-1 N force - motion: 0 for an exact answer.
+void find_imbalance(const ContactIsland& island, ContactAnswer& answer);
 
 /// The data of which the answer is the exact solution differ by this, relative to each row's own scale: rows that press
 /// are off their target, others short of it. Or bodies do not move as the forces say, relative to the greatest motion
@@ -73,7 +75,7 @@ struct Judgement {
   double change = 0;
   bool within_slack = true;
 };
-Judgement judge(const ContactIsland& island, const ContactAnswer& answer);
+Judgement judge(const ContactIsland& island, ContactAnswer& answer);
 
 /// What an answer may be off by: 90 roundings, as many as the decisions of the methods allow themselves.
 inline constexpr double accepted_change = 90 * 0x1p-53;

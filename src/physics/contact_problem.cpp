@@ -84,12 +84,42 @@ bool Known::resembles(const ContactIsland& island) {
   return others <= 1 + rows.size() / few;
 }
 
+/// The commonest problem by far, one contact, needs no method: twice, the second time for what rounding has left.
+/// False: it is left as it was, for there is more to it.
+bool solve_single(const ContactProblem& problem, Certificate& certificate) {
+  ContactConstraint& c = problem.contacts.front();
+  const bool fixed = c.b == ContactConstraint::fixed;
+  const Vec3 none = Vec3::Zero();
+  const double of_a = problem.inverse_mass[c.a], of_b = fixed ? 0 : problem.inverse_mass[c.b];
+  const double per_force = c.normal.squaredNorm() * (of_a + of_b);
+  Vec3 a = problem.motion[c.a], b = fixed ? none : problem.motion[c.b];
+  const double scale = std::abs(c.target) + (fixed ? 1 : 2) * std::max(a.norm(), b.norm());
+  const auto excess = [&] { return c.normal.dot(b - a) - c.target; };
+  double w = excess(), force = 0;
+  if (c.bilateral || w < 0)
+    for (int pass = 0; pass < 2; ++pass) {
+      const double more = -w / per_force;
+      force += more;
+      a -= of_a * more * c.normal;
+      b += of_b * more * c.normal;
+      w = excess();
+    }
+  const double change = force == 0 ? 0 : std::abs(w) / scale;
+  if (!(change <= accepted_change)) return false;
+  certificate = {Certificate::Verdict::solved, change};
+  c.force = force;
+  problem.motion[c.a] = a;
+  if (!fixed) problem.motion[c.b] = b;
+  return true;
+}
+
 }  // namespace
 
 struct ContactSolver::Workspace {
   std::map<std::uint32_t, Known> known;  // by the lowest body of an island
+  Known unknown;                         // where nothing is remembered
   ContactIsland island;
-  ContactAnswer answer;
+  ContactAnswer answer, attempt;
   std::vector<std::uint32_t> place;   // by body: its number in the island
   std::vector<std::uint32_t> bodies;  // by number in the island
   bool remembers = true;
@@ -132,11 +162,15 @@ void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::s
   island.scale();
 }
 
+/// What contact leaves of a speed is nothing if doubled precision does not resolve it.
 void ContactSolver::Workspace::give_back(const ContactProblem& problem, std::span<const std::uint32_t> contacts) const {
+  const double nothing = 0x1p-96 * island.speed;
   for (std::size_t k = 0; k < bodies.size(); ++k)
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      problem.motion[bodies[k]][static_cast<int>(axis)] =
-          std::ldexp(answer.motion[3 * k + axis].value(), island.motion_exponent);
+    for (int axis = 0; axis < 3; ++axis) {
+      const double u = answer.motion[3 * k + static_cast<std::size_t>(axis)].value();
+      const bool stopped = std::abs(u) <= nothing && u != island.free[k][axis];
+      problem.motion[bodies[k]][axis] = stopped ? 0 : std::ldexp(u, island.motion_exponent);
+    }
   for (std::size_t k = 0; k < contacts.size(); ++k)
     problem.contacts[contacts[k]].force =
         std::ldexp(answer.force[k].value(), island.motion_exponent - island.mass_exponent);
@@ -150,7 +184,6 @@ Certificate ContactSolver::Workspace::solve_island(Known& last) {
   constexpr double surely_dense = 1e6;  // operations; below it the sparse method's set-up alone costs more
   constexpr double worth_while = 8;     // solutions: factors for which one pays once pay for so many
   Certificate best{Certificate::Verdict::doubtful, std::numeric_limits<double>::infinity()};
-  ContactAnswer attempt;
   // Whether that was it.
   const auto take = [&](const Judgement& judgement, bool infeasible) {
     if (answer.motion.empty() || judgement.within_slack || judgement.change < best.change) {
@@ -193,7 +226,7 @@ Certificate ContactSolver::Workspace::solve_island(Known& last) {
 
 Certificate ContactSolver::Workspace::solve(const ContactProblem& problem) {
   Certificate all;
-  if (problem.contacts.empty()) return all;
+  if (problem.contacts.empty() || (problem.contacts.size() == 1 && solve_single(problem, all))) return all;
   place.assign(problem.motion.size(), ContactConstraint::fixed);
   const Islands islands(problem.motion.size(), problem.contacts);
   for (std::size_t k = 0; k + 1 < islands.first.size(); ++k) {
@@ -204,8 +237,7 @@ Certificate ContactSolver::Workspace::solve(const ContactProblem& problem) {
       for (const std::uint32_t c : contacts) problem.contacts[c].force = 0;
       continue;
     }
-    Known once;
-    Known& last = remembers ? known[bodies.front()] : once;
+    Known& last = remembers ? known[bodies.front()] : unknown;
     const Certificate its = solve_island(last);
     if (remembers) {
       last.inverse_mass = island.inverse_mass;
@@ -229,9 +261,10 @@ Certificate ContactSolver::solve(const ContactProblem& problem) {
 }
 
 Certificate solve(const ContactProblem& problem) {
-  ContactSolver::Workspace once;
-  once.remembers = false;
-  return once.solve(problem);
+  // Nothing of a problem but room for the next one stays.
+  thread_local ContactSolver::Workspace room;
+  room.remembers = false;
+  return room.solve(problem);
 }
 
 }  // namespace carom

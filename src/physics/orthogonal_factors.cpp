@@ -65,6 +65,12 @@ void OrthogonalFactors::tail_direction(const double* d, double* v) const {
   for (std::size_t i = 0; i < n_; ++i) v[i] = dot(&q_[i * stride_ + rank_], d + rank_, n_ - rank_);
 }
 
+double OrthogonalFactors::least_diagonal() const {
+  double least = 1;
+  for (std::size_t j = 0; j < rank_; ++j) least = std::min(least, std::abs(r_[j * stride_ + j]));
+  return least;
+}
+
 void OrthogonalFactors::solve(double* d) const {
   for (std::size_t j = rank_; j-- > 0;) {
     const double* column = &r_[j * stride_];
@@ -107,7 +113,8 @@ void OrthogonalFactors::remove(std::size_t place, double* d) {
   --rank_;
   // What is below the diagonal now: one number a column.
   std::vector<double>& cosine = reflector_;
-  std::vector<double> sine(rank_ > place ? rank_ - place : 0);
+  std::vector<double>& sine = sine_;
+  sine.resize(n_);
   for (std::size_t j = place; j < rank_; ++j) {
     double* column = &r_[j * stride_];
     const double p = column[j], q = column[j + 1], length = std::sqrt(p * p + q * q);

@@ -24,6 +24,8 @@ class OrthogonalFactors {
   double tail(const double* d) const;
   /// Q2 times the tail of d.
   void tail_direction(const double* d, double* v) const;
+  /// The least of R's diagonal: rows that nearly depend on others make it small.
+  double least_diagonal() const;
   /// Solves R r = d and R^T r = d in place.
   void solve(double* d) const;
   void solve_transposed(double* d) const;
@@ -35,9 +37,9 @@ class OrthogonalFactors {
 
  private:
   std::size_t n_ = 0, stride_ = 0, rank_ = 0;
-  std::vector<double> q_;  // row by row, stride_ each
-  std::vector<double> r_;  // column by column, stride_ each
-  std::vector<double> reflector_;
+  std::vector<double> q_;                 // row by row, stride_ each
+  std::vector<double> r_;                 // column by column, stride_ each
+  std::vector<double> reflector_, sine_;  // scratch
 };
 
 }  // namespace carom

@@ -9,8 +9,6 @@
 
 namespace carom {
 
-using Kind = ExactEvent::Kind;
-
 void EventPredictor::predict(Entity i) {
   if (bodies_.neighbours.bodies(i).size() > 128 && bodies_.neighbours.room(i) > 0.05 * bodies_.world.radius[i])
     bodies_.neighbours.shrink(i, bodies_.position(i));
@@ -42,8 +40,9 @@ void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
   meet_each(i, bodies_.neighbours.surfaces(i), best);
   if (flat_.of(i).count > 0) offer_flat_contacts(i, best);
   if (!bodies_.world.forces.empty())
-    offer(i, best, {{bodies_.merged.next_switch(i, bodies_.now.hi), 0}, no_entity, 0, Kind::force, no_feature});
-  if (bodies_.in_group(i)) offer(i, best, {bodies_.clock.end, no_entity, 0, Kind::step, no_feature});
+    offer(i, best,
+          {{bodies_.merged.next_switch(i, bodies_.now.hi), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
+  if (bodies_.in_group(i)) offer(i, best, {bodies_.clock.end, no_entity, 0, ExactEvent::Kind::step, no_feature});
   bodies_.body[i].event = best;
   queue_.schedule(i, region_exit(bodies_, i));
 }
@@ -52,13 +51,15 @@ void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
 void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
   for (std::size_t k = 0; k < flat_.of(i).count; ++k) {
     const FlatContact& contact = flat_.of(i).at[k];
-    if (contact.settling) offer(i, best, {contact.rest_time, contact.surface, 0, Kind::rest, contact.feature});
+    if (contact.settling)
+      offer(i, best, {contact.rest_time, contact.surface, 0, ExactEvent::Kind::rest, contact.feature});
     if (bodies_.world.is_plane(contact.surface)) continue;
     const Flight& f = bodies_.flights[i];
     RelativeMotion m{bodies_.world.fixed_position(contact.surface) - f.x, -f.v, -f.a, f.v.cwiseAbs().sum(), true};
     const Meeting rim = leave_feature(bodies_.world, i, contact.surface, contact.feature, m,
                                       Instant{bodies_.options.duration, 0} - f.start);
-    if (rim.time < never) offer(i, best, {f.start + rim.time, contact.surface, 0, Kind::release, rim.feature});
+    if (rim.time < never)
+      offer(i, best, {f.start + rim.time, contact.surface, 0, ExactEvent::Kind::release, rim.feature});
   }
 }
 
@@ -72,11 +73,11 @@ void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEv
       feature = 0;
       ++pair_tests_;
       const Instant time = times_.of_pair(i, e, feature);
-      offer(i, best, {time, e, bodies_.body[e].version, Kind::body_body, feature});
+      offer(i, best, {time, e, bodies_.body[e].version, ExactEvent::Kind::body_body, feature});
     } else if (!flat_.carry(i, e)) {
       ++surface_tests_;
       const Instant time = times_.of_surface(i, e, feature);
-      offer(i, best, {time, e, 0, Kind::body_fixed, feature});
+      offer(i, best, {time, e, 0, ExactEvent::Kind::body_fixed, feature});
     }
   }
 }
@@ -113,8 +114,9 @@ void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, Exact
     const Meet& meet = meets_[first];
     if (best.time.hi < meet.time.hi) return;
     const ExactEvent& other = bodies_.body[meet.with].event;
-    const bool taken = other.kind == Kind::body_body && other.time.hi < meet.time.hi && bodies_.now.hi < other.time.hi;
-    if (!taken) offer(i, best, {meet.time, meet.with, bodies_.body[meet.with].version, Kind::body_body, 0});
+    const bool taken =
+        other.kind == ExactEvent::Kind::body_body && other.time.hi < meet.time.hi && bodies_.now.hi < other.time.hi;
+    if (!taken) offer(i, best, {meet.time, meet.with, bodies_.body[meet.with].version, ExactEvent::Kind::body_body, 0});
     meets_[first] = meets_[--count];
   }
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/contact_cone.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
 #include "simulate/exact_contact_problems.h"
@@ -146,7 +145,7 @@ Vec3 FlatContacts::keep_at(Entity i, const Vec3& v) {
   }
   keep(contacts, kept);
   n = normals_of(contacts, no_entity, normals);
-  allowed = project_to_common_plane(allowed, {normals.data(), n});
+  allowed = keep_flat_contacts(allowed, {normals.data(), n});
   if (contacts.count == 0) bodies_.log.remove_resting(1);
   bodies_.log.lose(0.5 * bodies_.world.mass[i] * (v - allowed).dot(v + allowed));
   return allowed;
@@ -177,13 +176,12 @@ Vec3 FlatContacts::acceleration_without(Entity i, Entity surface) const {
 
 void FlatContacts::report(Entity i, std::vector<ContactForce>& forces) const {
   const FlatContactList& contacts = contacts_[i];
-  const double slack = exact_tolerance::acceleration_slack * bodies_.applied[i].norm();
-  std::vector<PressedPair> pairs;
+  std::vector<ContactConstraint> pairs;
   for (std::size_t k = 0; k < contacts.count; ++k)
-    pairs.push_back({0, PressedPair::none, -contacts.at[k].normal, 0, slack, 0});
+    pairs.push_back({0, ContactConstraint::fixed, -contacts.at[k].normal});
   const double inverse_mass = 1 / bodies_.world.mass[i];
   Vec3 a = bodies_.applied[i];
-  solve_contacts({&inverse_mass, 1}, {&a, 1}, pairs, exact_tolerance::flat_iterations);
+  solve_exactly({&inverse_mass, 1}, {&a, 1}, pairs);
   for (std::size_t k = 0; k < contacts.count; ++k)
     if (pairs[k].force > 0) forces.push_back({i, contacts.at[k].surface, pairs[k].force});
 }

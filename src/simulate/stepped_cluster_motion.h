@@ -4,7 +4,7 @@
 // projected on each other's surfaces, where the method has strayed from them.
 #include <vector>
 
-#include "physics/complementarity.h"
+#include "physics/contact_problem.h"
 #include "physics/path.h"
 #include "physics/world.h"
 #include "simulate/stepped_clusters.h"
@@ -36,7 +36,7 @@ class ClusterMotion {
   /// The accelerations (m/s^2) at x (m) and v (m/s), with the forces of active contacts. pairs: of these, in the
   /// contacts' order.
   void accelerate(const Cluster& cluster, const ClusterState& state, const std::vector<Vec3>& x,
-                  const std::vector<Vec3>& v, std::vector<Vec3>& a, std::vector<PressedPair>& pairs) const;
+                  const std::vector<Vec3>& v, std::vector<Vec3>& a, std::vector<ContactConstraint>& pairs) const;
 
  private:
   void activate(Cluster& cluster, double length, ClusterState& state) const;

@@ -12,7 +12,7 @@ Vec3 StepMotion::acceleration_of(Entity e) const {
   if (cluster.asleep) return Vec3::Zero();
   const ClusterState s = cluster_motion_.start(cluster);
   std::vector<Vec3> a(s.x.size());
-  std::vector<PressedPair> pairs;
+  std::vector<ContactConstraint> pairs;
   cluster_motion_.accelerate(cluster, s, s.x, s.v, a, pairs);
   return a[cluster.place_of(e)];
 }

@@ -17,8 +17,6 @@ inline constexpr double plane_rounding = 0x1p-49;  // of speeds: an approach to 
 inline constexpr double negligible_speed = 0x1p-200;  // of the greatest speed so far: products with itself underflow
 inline constexpr double negligible_hop = 0x1p-120;    // of the squared speed of falling by a radius: a body at rest
 inline constexpr double approach_rounding = 0x1p-50;  // of speeds: an approach that is rounding where nothing presses
-inline constexpr double acceleration_slack = 1e-15;   // of the greatest acceleration: that contact may fall short by
-inline constexpr double speed_slack = 0x1p-52;        // of the greatest speed: the same
 
 // Impacts that end in contact (collapse_detector.h).
 inline constexpr double slow_impact = 0.03;    // of the speed of falling by a length: impacts in contact do not count
@@ -30,7 +28,6 @@ inline constexpr int burst_on_surfaces = 256;  // slow impacts of one body on fl
 inline constexpr int burst_of_bodies = 16;     // the same among bodies
 inline constexpr double waking_lift = 1e-4;    // of a radius: an impact that lifts a held body by less does not wake it
 inline constexpr double least_volume = 1e-3;   // of three unit normals: they hold a body on all sides
-inline constexpr int flat_iterations = 1000;   // of conjugate gradients, for the forces of one body's flat contacts
 
 // The contact group (exact_group.h).
 inline constexpr double waking_gap = 1e-6;     // of a radius: what touches a body that wakes, wakes
@@ -51,7 +48,6 @@ inline constexpr std::size_t most_pairs = 16;        // in contact; a larger gro
 inline constexpr double contact_gap = 1e-9;          // of a radius: a gap that counts as contact
 inline constexpr double contact_rounding = 0x1p-51;  // of coordinates: the same
 inline constexpr double least_overlap = 0x1p-50;     // of a radius: a deeper overlap is closed
-inline constexpr double overlap_slack = 0x1p-54;     // of a radius: what closing leaves of it
 inline constexpr double path_error = 1e-11;          // of the smaller radius: a parabola's distance from the true path
 inline constexpr double longest_constrained = 0.02;  // of the time of falling by a radius: the longest step
 inline constexpr double short_time = 1e-3;  // of a radius over the greatest speed: the same, where nothing falls

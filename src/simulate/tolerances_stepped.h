@@ -27,8 +27,6 @@ inline constexpr double contact_gap = 1e-9;             // of a radius: a gap th
 inline constexpr double position_rounding = 0x1p-50;    // of coordinates: a gap that is rounding
 inline constexpr double far_apart = 1.001;              // of two radii: farther along an axis, no contact is looked for
 inline constexpr double contact_rounding = 0x1p-44;     // of speeds: an approach or separation that is rounding
-inline constexpr double velocity_slack = 0x1p-52;       // of the greatest speed: what contact may leave of an approach
-inline constexpr double acceleration_slack = 1e-15;     // of the greatest acceleration: the same
 inline constexpr double opening_acceleration = 1e-12;   // of the greatest acceleration: more opens a contact
 inline constexpr double standstill = 1e-9;              // of the speed of falling by a radius: at rest, if in balance
 inline constexpr double cluster_balance = 1e-9;         // of the greatest acceleration: forces in balance
@@ -81,10 +79,6 @@ inline constexpr double group_balance = 1e-7;            // of what free bodies 
 inline constexpr double balance_slack = 1e-10;           // of a radius: what contacts may be off by
 inline constexpr int balance_iterations = 2000;          // of the solver for large parts
 inline constexpr std::size_t most_direct_bodies = 4000;  // the direct solver's cost grows as their square
-
-// The solvers' accuracy in clusters (stepped_contact_problems.h).
-inline constexpr std::size_t few_pairs = 32;     // solved to rounding
-inline constexpr int cluster_iterations = 2000;  // of conjugate gradients, for more of them
 
 // The choice of a step (step_choice.h).
 inline constexpr int instants = 64;           // of a run, at which two runs are compared

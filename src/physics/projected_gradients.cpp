@@ -1,4 +1,4 @@
-#include "physics/complementarity.h"
+#include "physics/projected_gradients.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +13,12 @@ namespace {
 /// one more body, which nothing moves.
 class Scaled {
  public:
-  Scaled(std::span<const double> inverse_mass, std::span<const PressedPair> pairs)
+  Scaled(std::span<const double> inverse_mass, std::span<const ContactConstraint> pairs)
       : rows_(pairs.size()), moved_(inverse_mass.size() + 1) {
     const auto nobody = static_cast<std::uint32_t>(inverse_mass.size());
     for (std::size_t c = 0; c < pairs.size(); ++c) {
-      const PressedPair& pair = pairs[c];
-      const bool fixed = pair.b == PressedPair::none;
+      const ContactConstraint& pair = pairs[c];
+      const bool fixed = pair.b == ContactConstraint::fixed;
       const double of_a = inverse_mass[pair.a], of_b = fixed ? 0 : inverse_mass[pair.b];
       const double scale = 1 / std::sqrt(of_a + of_b);
       rows_[c] = {pair.normal, scale, scale * of_a, scale * of_b, pair.a, fixed ? nobody : pair.b};
@@ -74,16 +74,19 @@ class Scaled {
   std::vector<Vec3> moved_;
 };
 
-}  // namespace
-
+/// A power of two: above the greatest of them, at most twice it.
 double power_of_two_near(std::span<const double> values) {
   int exponent;
   std::frexp(*std::max_element(values.begin(), values.end()), &exponent);
   return std::ldexp(1.0, exponent);
 }
 
-bool press_apart(std::span<const double> inverse_masses, std::span<Vec3> u, std::span<PressedPair> pairs,
-                 int iterations) {
+}  // namespace
+
+bool project_gradients(const ContactProblem& problem, int iterations) {
+  const std::span<const double> inverse_masses = problem.inverse_mass;
+  const std::span<Vec3> u = problem.motion;
+  const std::span<ContactConstraint> pairs = problem.contacts;
   const std::size_t m = pairs.size();
   if (m == 0) return true;
   // Masses in a unit of their own, a power of two: masses scaled by one give the same bits.
@@ -93,8 +96,8 @@ bool press_apart(std::span<const double> inverse_masses, std::span<Vec3> u, std:
   Scaled a(inverse_mass, pairs);
   std::vector<double> x(m), g(m), direction(m), image(m), constant(m), slack(m);
   for (std::size_t c = 0; c < m; ++c) {
-    const PressedPair& pair = pairs[c];
-    const Vec3 w = pair.b == PressedPair::none ? Vec3(-u[pair.a]) : Vec3(u[pair.b] - u[pair.a]);
+    const ContactConstraint& pair = pairs[c];
+    const Vec3 w = pair.b == ContactConstraint::fixed ? Vec3(-u[pair.a]) : Vec3(u[pair.b] - u[pair.a]);
     x[c] = std::max(pair.force, 0.0) * unit / a.scale(c);
     constant[c] = a.scale(c) * (pair.normal.dot(w) - pair.target);
     slack[c] = a.scale(c) * pair.slack;
