@@ -245,8 +245,7 @@ Certificate ContactSolver::Workspace::solve(const ContactProblem& problem) {
       for (std::size_t c = 0; c < last.rows.size(); ++c) last.rows[c].force = answer.force[c].hi;
     }
     give_back(problem, contacts);
-    all.verdict = std::max(all.verdict, its.verdict);
-    all.change = std::max(all.change, its.change);
+    all.merge(its);
   }
   return all;
 }

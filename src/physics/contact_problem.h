@@ -46,6 +46,11 @@ struct Certificate {
   Verdict verdict = Verdict::solved;
   double change = 0;
   bool solved() const { return verdict == Verdict::solved; }
+  /// What is known of both answers.
+  void merge(const Certificate& other) {
+    verdict = verdict < other.verdict ? other.verdict : verdict;
+    change = change < other.change ? other.change : change;
+  }
 };
 
 /// Solves problems that are alike faster one after the other: it keeps the factors of the last one. The motion that it

@@ -10,17 +10,18 @@ namespace {
 
 constexpr std::size_t most_flat = 32;
 
-/// One body's motion; the contacts' forces stay with them.
-Vec3 solve_one_body(const Vec3& u, std::span<const Vec3> normals, std::array<ContactConstraint, most_flat>& contacts,
-                    bool bilateral) {
+FlatSolution solve_one_body(const Vec3& u, std::span<const Vec3> normals, bool bilateral) {
+  std::array<ContactConstraint, most_flat> contacts;
   for (std::size_t k = 0; k < normals.size(); ++k) {
     contacts[k] = {0, ContactConstraint::fixed, -normals[k]};
     contacts[k].bilateral = bilateral;
   }
   constexpr double unit_mass = 1;
-  Vec3 allowed = u;
-  solve({{&unit_mass, 1}, {&allowed, 1}, {contacts.data(), normals.size()}});
-  return allowed;
+  FlatSolution solution{u, 0, {}};
+  solution.certificate = solve({{&unit_mass, 1}, {&solution.u, 1}, {contacts.data(), normals.size()}});
+  for (std::size_t k = 0; k < normals.size(); ++k)
+    if (contacts[k].force > 0) solution.active |= 1u << k;
+  return solution;
 }
 
 }  // namespace
@@ -35,18 +36,12 @@ bool solve_contacts(std::span<const double> inverse_mass, std::span<Vec3> u, std
   return project_gradients({inverse_mass, u, contacts}, iterations);
 }
 
-Vec3 solve_flat_contacts(const Vec3& u, std::span<const Vec3> normals, unsigned& active) {
-  std::array<ContactConstraint, most_flat> contacts;
-  const Vec3 allowed = solve_one_body(u, normals, contacts, false);
-  active = 0;
-  for (std::size_t k = 0; k < normals.size(); ++k)
-    if (contacts[k].force > 0) active |= 1u << k;
-  return allowed;
+FlatSolution solve_flat_contacts(const Vec3& u, std::span<const Vec3> normals) {
+  return solve_one_body(u, normals, false);
 }
 
-Vec3 keep_flat_contacts(const Vec3& u, std::span<const Vec3> normals) {
-  std::array<ContactConstraint, most_flat> contacts;
-  return solve_one_body(u, normals, contacts, true);
+FlatSolution keep_flat_contacts(const Vec3& u, std::span<const Vec3> normals) {
+  return solve_one_body(u, normals, true);
 }
 
 }  // namespace carom

@@ -16,11 +16,17 @@ Certificate solve_exactly(std::span<const double> inverse_mass, std::span<Vec3> 
 bool solve_contacts(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<ContactConstraint> contacts,
                     int iterations);
 
-/// For one body and flat surfaces with these unit normals, from the surface to the body. Gives the allowed u; `active`
-/// gets bit k where surface k presses. At most 32 of them.
-Vec3 solve_flat_contacts(const Vec3& u, std::span<const Vec3> normals, unsigned& active);
+/// The motion of one body on flat surfaces.
+struct FlatSolution {
+  Vec3 u;               // allowed
+  unsigned active = 0;  // bit k where surface k presses
+  Certificate certificate;
+};
+
+/// For one body and flat surfaces with these unit normals, from the surface to the body. At most 32 of them.
+FlatSolution solve_flat_contacts(const Vec3& u, std::span<const Vec3> normals);
 
 /// u without its components along any of the unit normals: motion that keeps every one of the contacts.
-Vec3 keep_flat_contacts(const Vec3& u, std::span<const Vec3> normals);
+FlatSolution keep_flat_contacts(const Vec3& u, std::span<const Vec3> normals);
 
 }  // namespace carom

@@ -135,17 +135,19 @@ Vec3 FlatContacts::keep_at(Entity i, const Vec3& v) {
     if (kept[k]) press[n++] = press[k];
   keep(contacts, kept);
   std::array<Vec3, most> normals;
-  unsigned active;
   n = normals_of(contacts, no_entity, normals);
-  Vec3 allowed = solve_flat_contacts(v, {normals.data(), n}, active);
+  FlatSolution solution = solve_flat_contacts(v, {normals.data(), n});
+  bodies_.log.note(solution.certificate);
   // A push into one surface may lift the body off another.
   for (std::size_t k = 0; k < contacts.count; ++k) {
-    const double u = normals[k].dot(allowed);
+    const double u = normals[k].dot(solution.u);
     kept[k] = u <= noise || bodies_.too_low(x, u, press[k]);
   }
   keep(contacts, kept);
   n = normals_of(contacts, no_entity, normals);
-  allowed = keep_flat_contacts(allowed, {normals.data(), n});
+  solution = keep_flat_contacts(solution.u, {normals.data(), n});
+  bodies_.log.note(solution.certificate);
+  const Vec3& allowed = solution.u;
   if (contacts.count == 0) bodies_.log.remove_resting(1);
   bodies_.log.lose(0.5 * bodies_.world.mass[i] * (v - allowed).dot(v + allowed));
   return allowed;
@@ -157,21 +159,20 @@ Vec3 FlatContacts::keep_pressing(Entity i) {
   FlatContactList& contacts = contacts_.write(i);
   std::array<Vec3, most> normals;
   const std::size_t n = normals_of(contacts, no_entity, normals);
-  unsigned active;
-  const Vec3 a = solve_flat_contacts(bodies_.applied[i], {normals.data(), n}, active);
+  const FlatSolution solution = solve_flat_contacts(bodies_.applied[i], {normals.data(), n});
+  bodies_.log.note(solution.certificate);
   std::array<bool, most> presses;
-  for (std::size_t k = 0; k < most; ++k) presses[k] = active >> k & 1u;
+  for (std::size_t k = 0; k < most; ++k) presses[k] = solution.active >> k & 1u;
   keep(contacts, presses);
   if (contacts.count == 0) bodies_.log.remove_resting(1);
-  return a;
+  return solution.u;
 }
 
 Vec3 FlatContacts::acceleration_without(Entity i, Entity surface) const {
   if (contacts_[i].count == 0) return bodies_.applied[i];
   std::array<Vec3, most> normals;
   const std::size_t n = normals_of(contacts_[i], surface, normals);
-  unsigned active;
-  return solve_flat_contacts(bodies_.applied[i], {normals.data(), n}, active);
+  return solve_flat_contacts(bodies_.applied[i], {normals.data(), n}).u;
 }
 
 void FlatContacts::report(Entity i, std::vector<ContactForce>& forces) const {

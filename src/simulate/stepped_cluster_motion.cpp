@@ -5,7 +5,7 @@
 #include "physics/integrator.h"
 #include "physics/touch.h"
 #include "simulate/stepped_contact_problems.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 
@@ -36,9 +36,9 @@ ClusterState ClusterMotion::start(const Cluster& cluster) const {
   return s;
 }
 
-void ClusterMotion::accelerate(const Cluster& cluster, const ClusterState& state, const std::vector<Vec3>& x,
-                               const std::vector<Vec3>& v, std::vector<Vec3>& a,
-                               std::vector<ContactConstraint>& pairs) const {
+Certificate ClusterMotion::accelerate(const Cluster& cluster, const ClusterState& state, const std::vector<Vec3>& x,
+                                      const std::vector<Vec3>& v, std::vector<Vec3>& a,
+                                      std::vector<ContactConstraint>& pairs) const {
   const std::size_t n = cluster.bodies.size();
   for (std::size_t k = 0; k < n; ++k) a[k] = free_.acceleration(cluster.bodies[k], x[k], v[k]);
   pairs.clear();
@@ -51,7 +51,7 @@ void ClusterMotion::accelerate(const Cluster& cluster, const ClusterState& state
         is_flat(world_, c.a, c.b, c.feature) ? 0 : bending(world_, c.a, x[c.of_a], c.b, xb, there, vb - v[c.of_a]);
     pairs.push_back({c.of_a, c.of_b, there.normal, -bend, 0, 0});
   }
-  hold_active(state.inverse_mass, a, pairs);
+  return hold_active(state.inverse_mass, a, pairs);
 }
 
 void ClusterMotion::carry(const Cluster& cluster, double length, ClusterState& s) const {
@@ -62,7 +62,7 @@ void ClusterMotion::carry(const Cluster& cluster, double length, ClusterState& s
   take_step(
       free_.integrator(), length, s.x, s.v,
       [&](const std::vector<Vec3>& x, const std::vector<Vec3>& v, std::vector<Vec3>& a) {
-        accelerate(cluster, s, x, v, a, pairs);
+        s.certificate.merge(accelerate(cluster, s, x, v, a, pairs));
       },
       s.end_x, s.end_v, s.path);
   project(cluster, s);
@@ -89,11 +89,11 @@ void ClusterMotion::project(const Cluster& cluster, ClusterState& s) const {
   for (int pass = 0; pass < projections; ++pass) {  // Newton's method
     find_pairs(false);
     std::vector<Vec3> displacement(s.end_x.size(), Vec3::Zero());
-    hold_active(s.inverse_mass, displacement, pairs);
+    s.certificate.merge(hold_active(s.inverse_mass, displacement, pairs));
     for (std::size_t k = 0; k < displacement.size(); ++k) s.end_x[k] += displacement[k];
   }
   find_pairs(true);
-  hold_active(s.inverse_mass, s.end_v, pairs);
+  s.certificate.merge(hold_active(s.inverse_mass, s.end_v, pairs));
 }
 
 void ClusterMotion::carry_and_activate(Cluster& cluster, double length, ClusterState& s) const {

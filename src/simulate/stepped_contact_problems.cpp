@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "physics/projected_gradients.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 
@@ -14,9 +14,10 @@ Certificate solve_cluster(std::span<const double> inverse_mass, std::span<Vec3> 
   return carom::solve({inverse_mass, u, contacts});
 }
 
-void hold_active(std::span<const double> inverse_mass, std::span<Vec3> u, std::vector<ContactConstraint>& contacts) {
+Certificate hold_active(std::span<const double> inverse_mass, std::span<Vec3> u,
+                        std::vector<ContactConstraint>& contacts) {
   for (ContactConstraint& c : contacts) c.bilateral = true;
-  carom::solve({inverse_mass, u, contacts});
+  return carom::solve({inverse_mass, u, contacts});
 }
 
 bool solve_balance(std::span<const double> inverse_mass, std::span<Vec3> u, std::vector<ContactConstraint>& contacts) {

@@ -15,7 +15,8 @@ Certificate solve_cluster(std::span<const double> inverse_mass, std::span<Vec3> 
                           std::vector<ContactConstraint>& contacts);
 
 /// Moves u (m, m/s or m/s^2, by body) until every contact is at its target, and sets the forces; negative ones pull.
-void hold_active(std::span<const double> inverse_mass, std::span<Vec3> u, std::vector<ContactConstraint>& contacts);
+Certificate hold_active(std::span<const double> inverse_mass, std::span<Vec3> u,
+                        std::vector<ContactConstraint>& contacts);
 
 /// Moves u (m, by body), the displacements of a part of the contact group that sinks. Whether that converged.
 bool solve_balance(std::span<const double> inverse_mass, std::span<Vec3> u, std::vector<ContactConstraint>& contacts);

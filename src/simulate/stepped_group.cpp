@@ -5,7 +5,7 @@
 #include "physics/force.h"
 #include "physics/impact.h"
 #include "physics/touch.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 

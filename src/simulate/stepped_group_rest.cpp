@@ -5,7 +5,7 @@
 
 #include "simulate/disjoint_sets.h"
 #include "simulate/stepped_contact_problems.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 

@@ -5,7 +5,7 @@
 
 #include "physics/restitution.h"
 #include "physics/whole.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 

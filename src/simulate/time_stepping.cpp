@@ -180,7 +180,7 @@ void TimeStepping::keep_apart(Step& step) const {
   }
   if (n > tol::most_direct_bodies) return;
   step.solved = free;
-  solve_exactly(step.inverse_mass, step.solved, step.pairs);
+  bodies_.log.note(solve_exactly(step.inverse_mass, step.solved, step.pairs));
 }
 
 /// Members that press on one another are an island. The faster one of its bodies is, the wider are its margins.
@@ -267,7 +267,7 @@ void TimeStepping::put_to_rest(Step& step) const {
   if (!hold(step, still, tol::step_iterations, holding)) {
     if (n <= tol::most_direct_bodies) {
       holding.a = applied();
-      solve_exactly(step.inverse_mass, holding.a, holding.pairs);
+      bodies_.log.note(solve_exactly(step.inverse_mass, holding.a, holding.pairs));
       keep_balanced(tol::rough_balance);
     }
     hold(step, still, tol::rest_iterations, holding);
