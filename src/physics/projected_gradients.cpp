@@ -83,104 +83,143 @@ double power_of_two_near(std::span<const double> values) {
 
 }  // namespace
 
-bool project_gradients(const ContactProblem& problem, int iterations) {
-  const std::span<const double> inverse_masses = problem.inverse_mass;
-  const std::span<Vec3> u = problem.motion;
-  const std::span<ContactConstraint> pairs = problem.contacts;
-  const std::size_t m = pairs.size();
-  if (m == 0) return true;
-  // Masses in a unit of their own, a power of two: masses scaled by one give the same bits.
-  const double unit = power_of_two_near(inverse_masses);  // 1/kg
-  std::vector<double> inverse_mass(inverse_masses.begin(), inverse_masses.end());
-  for (double& w : inverse_mass) w /= unit;
-  Scaled a(inverse_mass, pairs);
-  std::vector<double> x(m), g(m), direction(m), image(m), constant(m), slack(m);
-  for (std::size_t c = 0; c < m; ++c) {
-    const ContactConstraint& pair = pairs[c];
-    const Vec3 w = pair.b == ContactConstraint::fixed ? Vec3(-u[pair.a]) : Vec3(u[pair.b] - u[pair.a]);
-    x[c] = std::max(pair.force, 0.0) * unit / a.scale(c);
-    constant[c] = a.scale(c) * (pair.normal.dot(w) - pair.target);
-    slack[c] = a.scale(c) * pair.slack;
-  }
-  const auto gradient = [&] { a.multiply(x, [&](std::size_t c, double result) { g[c] = result + constant[c]; }); };
-  const double step = 1.9 / a.norm(), per_step = 1 / step;
-  gradient();
-  // The potential, x A x / 2 + constant x, only falls from here on, and with it the energy that pairs with no target
-  // leave; it must not start above that of no forces at all.
-  double potential = 0;
-  for (std::size_t c = 0; c < m; ++c) potential += 0.5 * x[c] * (g[c] + constant[c]);
-  if (!(potential <= 0)) {
-    std::fill(x.begin(), x.end(), 0.0);
-    g = constant;
-  }
-  std::vector<double> next_x(m), next_g(m);
-  // What has died away to nothing is none: its squares would underflow, and other units would give other bits.
-  double least = 0;
-  for (std::size_t c = 0; c < m; ++c) least = std::max({least, std::abs(constant[c]), x[c]});
-  least *= 0x1p-200;
-  const auto flush = [&](double value) { return std::abs(value) < least ? 0 : value; };
-  double reduced = 0, chopped = 0;  // the gradient on the free pairs, what of it the bounds leave; the pull on others
-  bool done = false;
-  const auto look = [&](std::size_t c) {
-    if (x[c] > 0) {
-      reduced += std::min(x[c] * per_step, g[c]) * g[c];
-      done = done && std::abs(std::min(g[c], x[c])) <= slack[c];  // else falls short, or presses while it parts
-    } else if (g[c] < 0) {
-      chopped += g[c] * g[c];
-      done = done && -g[c] <= slack[c];
-    }
-  };
-  // direction: of the conjugate gradients on the face of the pairs that press, g less `turn` times the last one.
-  const auto begin = [&](double turn) {
-    reduced = chopped = 0;
-    done = true;
+namespace {
+
+/// The unknowns and their gradient, with what one step needs.
+class ProjectedGradients {
+ public:
+  ProjectedGradients(const ContactProblem& problem, double unit, std::span<const double> inverse_mass)
+      : a_(inverse_mass, problem.contacts), step_(1.9 / a_.norm()), per_step_(1 / step_) {
+    const std::size_t m = problem.contacts.size();
+    for (std::vector<double>* v : {&x_, &g_, &direction_, &image_, &constant_, &slack_, &next_x_, &next_g_})
+      v->resize(m);
     for (std::size_t c = 0; c < m; ++c) {
-      direction[c] = flush((x[c] > 0 ? g[c] : 0) - (turn == 0 ? 0 : turn * direction[c]));
-      look(c);
+      const ContactConstraint& pair = problem.contacts[c];
+      const Vec3 w = pair.b == ContactConstraint::fixed ? Vec3(-problem.motion[pair.a])
+                                                        : Vec3(problem.motion[pair.b] - problem.motion[pair.a]);
+      x_[c] = std::max(pair.force, 0.0) * unit / a_.scale(c);
+      constant_[c] = a_.scale(c) * (pair.normal.dot(w) - pair.target);
+      slack_[c] = a_.scale(c) * pair.slack;
     }
-  };
-  begin(0);
-  for (int iteration = 0; iteration < iterations && !done; ++iteration) {
-    const bool on_face = chopped <= reduced;
+  }
+
+  bool run(int iterations) {
+    start();
+    for (int iteration = 0; iteration < iterations && !done_; ++iteration)
+      if (!iterate()) break;
+    return done_;
+  }
+
+  const std::vector<Vec3>& moved() { return a_.move(x_); }
+  double force(std::size_t c) const { return x_[c] * a_.scale(c); }
+
+ private:
+  std::size_t size() const { return x_.size(); }
+  double flush(double value) const { return std::abs(value) < least_ ? 0 : value; }
+  void find_gradient() {
+    a_.multiply(x_, [&](std::size_t c, double result) { g_[c] = result + constant_[c]; });
+  }
+
+  /// The potential, x A x / 2 + constant x, only falls from here on, and with it the energy that pairs with no target
+  /// leave; it must not start above that of no forces at all. What has died away to nothing is none: its squares would
+  /// underflow, and other units would give other bits.
+  void start() {
+    find_gradient();
+    double potential = 0;
+    for (std::size_t c = 0; c < size(); ++c) potential += 0.5 * x_[c] * (g_[c] + constant_[c]);
+    if (!(potential <= 0)) {
+      std::fill(x_.begin(), x_.end(), 0.0);
+      g_ = constant_;
+    }
+    least_ = 0;
+    for (std::size_t c = 0; c < size(); ++c) least_ = std::max({least_, std::abs(constant_[c]), x_[c]});
+    least_ *= 0x1p-200;
+    begin(0);
+  }
+
+  /// direction_: of the conjugate gradients on the face of the pairs that press, g less `turn` times the last one. And
+  /// whether all is within its slack.
+  void begin(double turn) {
+    reduced_ = chopped_ = 0;
+    done_ = true;
+    for (std::size_t c = 0; c < size(); ++c) {
+      direction_[c] = flush((x_[c] > 0 ? g_[c] : 0) - (turn == 0 ? 0 : turn * direction_[c]));
+      if (x_[c] > 0) {
+        reduced_ += std::min(x_[c] * per_step_, g_[c]) * g_[c];
+        done_ = done_ && std::abs(std::min(g_[c], x_[c])) <= slack_[c];  // else falls short, or presses while it parts
+      } else if (g_[c] < 0) {
+        chopped_ += g_[c] * g_[c];
+        done_ = done_ && -g_[c] <= slack_[c];
+      }
+    }
+  }
+
+  /// False: nothing is left but rounding.
+  bool iterate() {
+    const bool on_face = chopped_ <= reduced_;
     if (!on_face)  // pairs that pull to press: let them, as far as is best
-      for (std::size_t c = 0; c < m; ++c) direction[c] = x[c] > 0 ? 0 : std::min(g[c], 0.0);
+      for (std::size_t c = 0; c < size(); ++c) direction_[c] = x_[c] > 0 ? 0 : std::min(g_[c], 0.0);
     double gp = 0, pap = 0;
-    a.multiply(direction, [&](std::size_t c, double result) {
-      image[c] = result;
-      gp += g[c] * direction[c];
-      pap += direction[c] * result;
+    a_.multiply(direction_, [&](std::size_t c, double result) {
+      image_[c] = result;
+      gp += g_[c] * direction_[c];
+      pap += direction_[c] * result;
     });
-    if (!(pap > 0)) break;  // nothing left but rounding
+    if (!(pap > 0)) return false;
     const double best = gp / pap;
     bool feasible = true;
     double turn = 0;
-    for (std::size_t c = 0; c < m; ++c) {
-      next_x[c] = flush(x[c] - best * direction[c]);
-      next_g[c] = flush(g[c] - best * image[c]);
-      feasible = feasible && !(next_x[c] < 0);
-      turn += next_x[c] > 0 ? next_g[c] * image[c] : 0;
+    for (std::size_t c = 0; c < size(); ++c) {
+      next_x_[c] = flush(x_[c] - best * direction_[c]);
+      next_g_[c] = flush(g_[c] - best * image_[c]);
+      feasible = feasible && !(next_x_[c] < 0);
+      turn += next_x_[c] > 0 ? next_g_[c] * image_[c] : 0;
     }
     if (feasible || !on_face) {
-      x.swap(next_x);
-      g.swap(next_g);
+      x_.swap(next_x_);
+      g_.swap(next_g_);
       begin(on_face ? turn / pap : 0);
-      continue;
+    } else {
+      go_to_bound();
     }
-    // Onto the bound, and on along the projected gradient.
+    return true;
+  }
+
+  /// Onto the bound, and on along the projected gradient.
+  void go_to_bound() {
     double first = std::numeric_limits<double>::infinity();
-    for (std::size_t c = 0; c < m; ++c)
-      if (next_x[c] < 0) first = std::min(first, x[c] / direction[c]);
-    for (std::size_t c = 0; c < m; ++c) {
-      const double at_bound = std::max(x[c] - first * direction[c], 0.0);
-      const double slope = x[c] > 0 ? g[c] - first * image[c] : 0;
-      x[c] = std::max(at_bound - step * slope, 0.0);
+    for (std::size_t c = 0; c < size(); ++c)
+      if (next_x_[c] < 0) first = std::min(first, x_[c] / direction_[c]);
+    for (std::size_t c = 0; c < size(); ++c) {
+      const double at_bound = std::max(x_[c] - first * direction_[c], 0.0);
+      const double slope = x_[c] > 0 ? g_[c] - first * image_[c] : 0;
+      x_[c] = std::max(at_bound - step_ * slope, 0.0);
     }
-    gradient();
+    find_gradient();
     begin(0);
   }
-  const std::vector<Vec3>& moved = a.move(x);
-  for (std::size_t i = 0; i < u.size(); ++i) u[i] += moved[i];
-  for (std::size_t c = 0; c < m; ++c) pairs[c].force = x[c] * a.scale(c) / unit;
+
+  Scaled a_;
+  double step_, per_step_;
+  std::vector<double> x_, g_, direction_, image_, constant_, slack_, next_x_, next_g_;  // by pair
+  double least_ = 0;
+  double reduced_ = 0, chopped_ = 0;  // the gradient on the free pairs, what of it the bounds leave; the pull on others
+  bool done_ = false;
+};
+
+}  // namespace
+
+bool project_gradients(const ContactProblem& problem, int iterations) {
+  if (problem.contacts.empty()) return true;
+  // Masses in a unit of their own, a power of two: masses scaled by one give the same bits.
+  const double unit = power_of_two_near(problem.inverse_mass);  // 1/kg
+  std::vector<double> inverse_mass(problem.inverse_mass.begin(), problem.inverse_mass.end());
+  for (double& w : inverse_mass) w /= unit;
+  ProjectedGradients method(problem, unit, inverse_mass);
+  const bool done = method.run(iterations);
+  const std::vector<Vec3>& moved = method.moved();
+  for (std::size_t i = 0; i < problem.motion.size(); ++i) problem.motion[i] += moved[i];
+  for (std::size_t c = 0; c < problem.contacts.size(); ++c) problem.contacts[c].force = method.force(c) / unit;
   return done;
 }
 
