@@ -15,13 +15,13 @@ class Scaled {
  public:
   Scaled(std::span<const double> inverse_mass, std::span<const ContactConstraint> pairs)
       : rows_(pairs.size()), moved_(inverse_mass.size() + 1) {
-    const auto nobody = static_cast<std::uint32_t>(inverse_mass.size());
+    const auto immovable = static_cast<std::uint32_t>(inverse_mass.size());
     for (std::size_t c = 0; c < pairs.size(); ++c) {
       const ContactConstraint& pair = pairs[c];
       const bool fixed = pair.b == ContactConstraint::fixed;
       const double of_a = inverse_mass[pair.a], of_b = fixed ? 0 : inverse_mass[pair.b];
       const double scale = 1 / std::sqrt(of_a + of_b);
-      rows_[c] = {pair.normal, scale, scale * of_a, scale * of_b, pair.a, fixed ? nobody : pair.b};
+      rows_[c] = {pair.normal, scale, scale * of_a, scale * of_b, pair.a, fixed ? immovable : pair.b};
     }
   }
 

@@ -29,7 +29,7 @@ constexpr std::size_t open_batches = 64;  // the bits of a mask
 /// Each pair goes into the oldest open batch that has room and neither of its bodies. So batches follow the pairs'
 /// order nearly, and what one sweep carries on along it is not lost.
 void Sweeps::arrange(std::span<const double> inverse_mass, std::span<const ContactConstraint> pairs) {
-  const auto nobody = static_cast<std::uint32_t>(inverse_mass.size());
+  const auto immovable = static_cast<std::uint32_t>(inverse_mass.size());
   batches_.clear();
   filled_.clear();
   place_.clear();
@@ -55,8 +55,8 @@ void Sweeps::arrange(std::span<const double> inverse_mass, std::span<const Conta
       batch = batches_.size();
       if (batch - oldest == open_batches) close(oldest++);
       Batch empty{};
-      std::fill(std::begin(empty.a), std::end(empty.a), nobody);
-      std::fill(std::begin(empty.b), std::end(empty.b), nobody);
+      std::fill(std::begin(empty.a), std::end(empty.a), immovable);
+      std::fill(std::begin(empty.b), std::end(empty.b), immovable);
       batches_.push_back(empty);
       filled_.push_back(0);
       open |= std::uint64_t{1} << batch % open_batches;
@@ -74,7 +74,7 @@ void Sweeps::arrange(std::span<const double> inverse_mass, std::span<const Conta
     row.target[lane] = p.target;
     row.slack[lane] = p.slack * per_rate;
     row.a[lane] = p.a;
-    row.b[lane] = fixed ? nobody : p.b;
+    row.b[lane] = fixed ? immovable : p.b;
     in_[p.a] |= bit;
     if (!fixed) in_[p.b] |= bit;
     place_.push_back(static_cast<std::uint32_t>(width * batch + lane));
