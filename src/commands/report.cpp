@@ -117,6 +117,9 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   block.line("engine", engine.why.empty() ? engine.name : fmt::format("{} ({})", engine.name, engine.why));
   block.line("collisions", collisions_text(summary));
   block.line("rest", rest_text(summary));
+  if (summary.doubtful > 0)
+    block.line("doubtful", fmt::format("{}: motion may be off by more than rounding; make masses less unequal",
+                                       counted(summary.doubtful, "contact problem", "contact problems")));
   block.line("energy", energy_text(summary));
   block.line("overlap", summary.max_overlap > 0 ? quantity(summary.max_overlap, "m at most") : "none");
   for (const LeftOut& file : result.facts.left_out)
@@ -153,7 +156,10 @@ Json summary_json(const Summary& s) {
 }
 
 Json contact_json(const Summary& s) {
-  return {{"resting", s.resting}, {"clusters_taken_into_contact", s.collapses}, {"merges", s.merges}};
+  return {{"resting", s.resting},
+          {"clusters_taken_into_contact", s.collapses},
+          {"merges", s.merges},
+          {"doubtful", s.doubtful}};
 }
 
 Json facts_json(const RunResult& result) {

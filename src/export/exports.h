@@ -49,6 +49,7 @@ struct Summary {
   // For the report alone: no columns.
   std::uint64_t merges = 0;
   std::uint64_t collapses = 0;  // clusters taken into contact
+  std::uint64_t doubtful = 0;   // contact problems whose answer may be off by more than rounding
 };
 
 /// A quantity of the run's end that was asked for; not finite: undefined.

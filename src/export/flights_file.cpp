@@ -21,7 +21,7 @@ static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view magic = "caromfly";
 constexpr std::uint32_t version = 1, byte_order = 0x01020304, last_entry = 0xffffffff;
-enum Has : std::uint32_t { has_acceleration = 1, has_from = 2, has_haste = 4, has_whole = 8, has_joint = 16 };
+enum Has : std::uint32_t { has_acceleration = 1, has_from = 2, has_kick = 4, has_whole = 8, has_joint = 16 };
 
 constexpr std::size_t header_size = 32, tail_size = 8 + 12 * 8;
 constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5) * 8;
@@ -80,7 +80,7 @@ void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
     std::uint32_t has = 0;
     if (!same_bits(piece.a, acceleration_[piece.body])) has |= has_acceleration;
     if (piece.from != first_double(piece.start)) has |= has_from;
-    if (piece.hastened) has |= has_haste;
+    if (piece.kicked) has |= has_kick;
     if (piece.part_of != no_entity) has |= has_whole;
     if (piece.joint) has |= has_joint;
     char* const begin = file_->room(largest_entry);
@@ -92,9 +92,9 @@ void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
     writer.put(piece.v);
     if (has & has_acceleration) writer.put(acceleration_[piece.body] = piece.a);
     if (has & has_from) writer.put(piece.from);
-    if (has & has_haste) {
+    if (has & has_kick) {
       writer.put(piece.until);
-      writer.put(piece.haste);
+      writer.put(piece.kick);
     }
     if (has & has_whole) writer.put(std::uint64_t{piece.part_of});
     if (has & has_joint) {
@@ -188,10 +188,10 @@ bool FlightsReader::next(PathPiece& piece) {
   if (has & has_acceleration) acceleration_[piece.body] = take_vector();
   piece.a = acceleration_[piece.body];
   piece.from = has & has_from ? take<double>() : first_double(piece.start);
-  if (has & has_haste) {
-    piece.hastened = true;
+  if (has & has_kick) {
+    piece.kicked = true;
     piece.until = take_time();
-    piece.haste = take_vector();
+    piece.kick = take_vector();
   }
   if (has & has_whole) {
     const auto whole = take<std::uint64_t>();
@@ -208,7 +208,7 @@ bool FlightsReader::next(PathPiece& piece) {
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
   if (!(piece.from >= last_) || !std::isfinite(piece.from) || !finite(piece.start) || !finite(piece.until))
     refuse("it is damaged");
-  for (const Vec3* v : {&piece.x, &piece.v, &piece.a, &piece.haste})
+  for (const Vec3* v : {&piece.x, &piece.v, &piece.a, &piece.kick})
     if (!v->allFinite()) refuse("it is damaged");
   if (piece.joint &&
       !(positive(piece.mass) && positive(piece.radius) && piece.half.allFinite() && piece.half.minCoeff() > 0))

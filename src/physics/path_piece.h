@@ -8,7 +8,7 @@
 namespace carom {
 
 /// From `from` on, until the body's next piece, its position is x + t (v + t a / 2) and its velocity v + t a, where t
-/// is the time since `start`, less (until - now) haste where there is any.
+/// is the time since `start`, less (until - now) kick where there is any.
 struct PathPiece {
   Entity body = no_entity;
   double from = 0;              // s, the first double at which it holds
@@ -16,9 +16,9 @@ struct PathPiece {
   Vec3 x = Vec3::Zero();        // m, at start
   Vec3 v = Vec3::Zero();        // m/s, at start
   Vec3 a = Vec3::Zero();        // m/s^2
-  bool hastened = false;        // a stride's: what forces do until its end is in v from the start
+  bool kicked = false;          // by a time step: what forces do until its end is in v from the start
   DoubleDouble until{0, 0};     // s, that end
-  Vec3 haste = Vec3::Zero();    // m/s^2
+  Vec3 kick = Vec3::Zero();     // m/s^2
   Entity part_of = no_entity;   // the body that it has become part of, by whose pieces it moves
   bool joint = false;           // others have become part of it: it now has the
   double mass = 0, radius = 0;  // kg, m,

@@ -28,8 +28,8 @@ constexpr std::size_t open_batches = 64;  // the bits of a mask
 
 /// Each pair goes into the oldest open batch that has room and neither of its bodies. So batches follow the pairs'
 /// order nearly, and what one sweep carries on along it is not lost.
-void Sweeps::arrange(std::span<const double> inverse_mass, std::span<const PressedPair> pairs) {
-  const auto nobody = static_cast<std::uint32_t>(inverse_mass.size());
+void Sweeps::arrange(std::span<const double> inverse_mass, std::span<const ContactConstraint> pairs) {
+  const auto immovable = static_cast<std::uint32_t>(inverse_mass.size());
   batches_.clear();
   filled_.clear();
   place_.clear();
@@ -44,8 +44,8 @@ void Sweeps::arrange(std::span<const double> inverse_mass, std::span<const Press
       in_[batches_[batch].b[lane]] &= ~bit;
     }
   };
-  for (const PressedPair& p : pairs) {
-    const bool fixed = p.b == PressedPair::none;
+  for (const ContactConstraint& p : pairs) {
+    const bool fixed = p.b == ContactConstraint::fixed;
     const std::uint64_t free = open & ~in_[p.a] & (fixed ? ~std::uint64_t{0} : ~in_[p.b]);
     std::size_t batch;
     if (free != 0) {
@@ -55,8 +55,8 @@ void Sweeps::arrange(std::span<const double> inverse_mass, std::span<const Press
       batch = batches_.size();
       if (batch - oldest == open_batches) close(oldest++);
       Batch empty{};
-      std::fill(std::begin(empty.a), std::end(empty.a), nobody);
-      std::fill(std::begin(empty.b), std::end(empty.b), nobody);
+      std::fill(std::begin(empty.a), std::end(empty.a), immovable);
+      std::fill(std::begin(empty.b), std::end(empty.b), immovable);
       batches_.push_back(empty);
       filled_.push_back(0);
       open |= std::uint64_t{1} << batch % open_batches;
@@ -74,7 +74,7 @@ void Sweeps::arrange(std::span<const double> inverse_mass, std::span<const Press
     row.target[lane] = p.target;
     row.slack[lane] = p.slack * per_rate;
     row.a[lane] = p.a;
-    row.b[lane] = fixed ? nobody : p.b;
+    row.b[lane] = fixed ? immovable : p.b;
     in_[p.a] |= bit;
     if (!fixed) in_[p.b] |= bit;
     place_.push_back(static_cast<std::uint32_t>(width * batch + lane));
@@ -82,7 +82,7 @@ void Sweeps::arrange(std::span<const double> inverse_mass, std::span<const Press
 }
 
 /// Sets out from u and the forces that are given, or from none.
-void Sweeps::start(std::span<const Vec3> u, std::span<const PressedPair> pairs, bool guess) {
+void Sweeps::start(std::span<const Vec3> u, std::span<const ContactConstraint> pairs, bool guess) {
   for (std::size_t k = 0; k < u.size(); ++k) motions_[k].u = Four{u[k].x(), u[k].y(), u[k].z(), 0};
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     Batch& row = batches_[place_[c] / width];
@@ -99,14 +99,14 @@ void Sweeps::start(std::span<const Vec3> u, std::span<const PressedPair> pairs, 
 
 /// With x the forces, c the rates at which pairs part without them, less their targets, and A x what forces change of
 /// rates: c x + x A x / 2. Without targets, what the forces have done to kinetic energy.
-double Sweeps::potential(std::span<const Vec3> u, std::span<const PressedPair> pairs) const {
+double Sweeps::potential(std::span<const Vec3> u, std::span<const ContactConstraint> pairs) const {
   double sum = 0;
   for (std::size_t c = 0; c < pairs.size(); ++c) {
-    const PressedPair& p = pairs[c];
+    const ContactConstraint& p = pairs[c];
     const Batch& row = batches_[place_[c] / width];
     const std::size_t lane = place_[c] % width;
     if (row.force[lane] == 0) continue;
-    const Vec3 before = p.b == PressedPair::none ? Vec3(-u[p.a]) : Vec3(u[p.b] - u[p.a]);
+    const Vec3 before = p.b == ContactConstraint::fixed ? Vec3(-u[p.a]) : Vec3(u[p.b] - u[p.a]);
     const Four now = motions_[row.b[lane]].u - motions_[row.a[lane]].u;
     sum += row.force[lane] * (0.5 * p.normal.dot(before + Vec3(now[0], now[1], now[2])) - p.target);
   }
@@ -189,8 +189,8 @@ void Sweeps::go_on(Batch* batches, std::size_t count, Trend* trends, Motion* mot
   }
 }
 
-bool Sweeps::press_apart(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<PressedPair> pairs,
-                         int sweeps) {
+bool Sweeps::solve(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<ContactConstraint> pairs,
+                   int sweeps) {
   arrange(inverse_mass, pairs);
   motions_.assign(u.size() + 1, Motion{});
   trends_.assign(batches_.size(), Trend{});

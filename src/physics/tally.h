@@ -15,11 +15,12 @@ struct Tally {
   std::uint64_t collapses = 0;  // clusters of bodies that hit each other ever faster and slower, taken into contact
   double first_collision = std::numeric_limits<double>::quiet_NaN();  // s, NaN: none
   double last_collision = std::numeric_limits<double>::quiet_NaN();   // s, NaN: none
-  double energy_lost = 0;                                             // J, by collisions and by coming to rest
-  double work = 0;                                                    // J, by the World's forces (gravity apart)
-  double max_overlap = 0;                                             // m, deepest seen
-  double max_speed = 0;                                               // m/s, greatest seen
-  std::uint64_t resting = 0;                                          // bodies in resting contact now
+  std::uint64_t doubtful = 0;  // contact problems whose answer may be off by more than rounding
+  double energy_lost = 0;      // J, by collisions and by coming to rest
+  double work = 0;             // J, by the World's forces (gravity apart)
+  double max_overlap = 0;      // m, deepest seen
+  double max_speed = 0;        // m/s, greatest seen
+  std::uint64_t resting = 0;   // bodies in resting contact now
 
   /// Takes a record into the counts; the end of bounces is no collision.
   void count(CollisionKind kind, double time) {

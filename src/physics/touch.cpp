@@ -141,7 +141,7 @@ Touch touch_at_an_angle(const Sum& sum, const Volume& volume, const Wall& wall, 
     const Vec3 way = points.on_b - points.on_a;
     return {way.norm(), way.normalized(), points.on_a, s.feature};
   }
-  // A little apart along the normal the same points are nearest, and well told from their neighbours.
+  // A little apart along the normal the same points are nearest, clearly so.
   const Vec3 apart = (0x1p-7 * sum.size() - s.gap) * s.normal;
   return {s.gap, s.normal, nearest_points(volume, xa, wall, xb + apart).on_a, s.feature};
 }

@@ -46,7 +46,7 @@ Meeting meeting(const World& world, Entity a, Entity b, const RelativeMotion& mo
 Meeting meeting_by_kind(const World& world, Entity a, Entity b, const RelativeMotion& motion, std::uint8_t left,
                         double horizon);
 
-// Balls among themselves, the common case, are told without a look at volumes.
+// Balls among themselves, the common case, need no look at volumes.
 inline Meeting meeting(const World& world, Entity a, Entity b, const RelativeMotion& motion, std::uint8_t left,
                        double horizon) {
   if (world.volume.empty() && world.is_body(b) && motion.just_separated == (left != no_feature))

@@ -19,7 +19,7 @@
 #include "physics/impact.h"
 #include "physics/restitution.h"
 #include "simulate/event_log.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 

@@ -59,7 +59,7 @@ Vec3 ConstrainedMotion::rate(const std::vector<Vec3>& v, Entity e) const {
 }
 
 void ConstrainedMotion::forget_index() const {
-  for (const Entity i : group_.members) group_.index.write(i) = PressedPair::none;
+  for (const Entity i : group_.members) group_.index.write(i) = ContactConstraint::fixed;
 }
 
 bool ConstrainedMotion::advance() {
@@ -73,9 +73,9 @@ bool ConstrainedMotion::advance() {
   close_overlaps(step);
   take_approaches(step);
   drop_parting(step);
-  for (PressedPair& p : step.pairs) p.force = p.target = 0;
+  for (ContactConstraint& p : step.pairs) p.force = p.target = 0;
   step.a = accelerate(step, step.x, step.v);
-  for (const PressedPair& p : step.pairs) step.force.push_back(p.force);
+  for (const ContactConstraint& p : step.pairs) step.force.push_back(p.force);
   stop_parting(step);
   find_resting(step);
   choose_length(step);
@@ -123,7 +123,7 @@ void ConstrainedMotion::find_contacts(Step& step) const {
       if (there.gap > std::max(tol::contact_gap * world.radius[i], rounding)) continue;
       const double approach = there.normal.dot(step.v[k] - rate(step.v, e));
       if (group_.strikes(i, e, approach, step.greatest)) continue;
-      const std::uint32_t other = body ? group_.index[e] : PressedPair::none;
+      const std::uint32_t other = body ? group_.index[e] : ContactConstraint::fixed;
       step.pairs.push_back({static_cast<std::uint32_t>(k), other, there.normal, -there.gap, 0, 0});
       step.names.push_back({i, e, there.feature});
     }
@@ -136,8 +136,7 @@ void ConstrainedMotion::close_overlaps(Step& step) const {
     overlap = overlap || step.pairs[c].target > tol::least_overlap * bodies_.world.radius[step.names[c].a];
   if (!overlap) return;
   std::vector<Vec3> displacement(step.x.size(), Vec3::Zero());  // m
-  for (PressedPair& p : step.pairs) p.slack = tol::overlap_slack * step.smallest;
-  solve_few_contacts(step.inverse_mass, displacement, step.pairs);
+  bodies_.log.note(solve_exactly(step.inverse_mass, displacement, step.pairs));
   for (std::size_t k = 0; k < step.x.size(); ++k) step.x[k] += displacement[k];
 }
 
@@ -145,11 +144,8 @@ void ConstrainedMotion::close_overlaps(Step& step) const {
 /// turn with the strike, as by e = 0.
 void ConstrainedMotion::take_approaches(Step& step) {
   for (const Vec3& v : step.v) step.fastest = std::max(step.fastest, v.norm());
-  for (PressedPair& p : step.pairs) {
-    p.target = p.force = 0;
-    p.slack = tol::speed_slack * step.fastest;
-  }
-  solve_few_contacts(step.inverse_mass, step.v, step.pairs);
+  for (ContactConstraint& p : step.pairs) p.target = p.force = 0;
+  bodies_.log.note(solve_exactly(step.inverse_mass, step.v, step.pairs));
   for (std::size_t k = 0; k < step.v.size(); ++k) {
     const Entity i = group_.members[k];
     const Vec3& before = step.before[k];
@@ -182,32 +178,29 @@ std::vector<Vec3> ConstrainedMotion::accelerate(Step& step, const std::vector<Ve
   for (const Entity i : group_.members) a.push_back(bodies_.applied[i]);
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
     const auto& [i, e, feature] = step.names[c];
-    PressedPair& pair = step.pairs[c];
-    pair.slack = tol::acceleration_slack * step.greatest;
+    ContactConstraint& pair = step.pairs[c];
     if (is_flat(world, i, e, feature)) continue;
     const Vec3 xe = at(x, e);
     const Touch there = touch(world, i, x[pair.a], e, xe);
     pair.normal = there.normal;
     pair.target = -bending(world, i, x[pair.a], e, xe, there, rate(v, e) - v[pair.a]);
   }
-  solve_few_contacts(step.inverse_mass, a, step.pairs);
+  bodies_.log.note(solve_exactly(step.inverse_mass, a, step.pairs));
   return a;
 }
 
 /// What presses on does not part: the little speed that is left of parting goes too, and no pair comes to approach.
 void ConstrainedMotion::stop_parting(Step& step) const {
-  std::vector<PressedPair> both;
+  std::vector<ContactConstraint> kept;
   bool parts = false;
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const PressedPair& p = step.pairs[c];
+    const ContactConstraint& p = step.pairs[c];
     const double speed = p.normal.dot(rate(step.v, step.names[c].b) - step.v[p.a]);
     parts = parts || (p.force > 0 && speed > tol::velocity_rounding * step.fastest);
-    both.push_back({p.a, p.b, p.normal, 0, tol::speed_slack * step.fastest, 0});
-    if (!(p.force > 0)) continue;
-    both.push_back(both.back());
-    both.back().normal = -p.normal;
+    kept.push_back({p.a, p.b, p.normal});
+    kept.back().bilateral = p.force > 0;
   }
-  if (parts) solve_few_contacts(step.inverse_mass, step.v, both);
+  if (parts) bodies_.log.note(solve_exactly(step.inverse_mass, step.v, kept));
 }
 
 /// At rest are islands none of whose bodies moves or is accelerated.
@@ -215,11 +208,11 @@ void ConstrainedMotion::find_resting(Step& step) const {
   const std::size_t n = step.x.size();
   std::vector<std::size_t> island(n);
   std::iota(island.begin(), island.end(), std::size_t{0});
-  for (const PressedPair& p : step.pairs)
-    if (p.b != PressedPair::none && island[p.a] != island[p.b])
+  for (const ContactConstraint& p : step.pairs)
+    if (p.b != ContactConstraint::fixed && island[p.a] != island[p.b])
       std::replace(island.begin(), island.end(), std::size_t{island[p.a]}, std::size_t{island[p.b]});
   std::vector<std::uint8_t> moves(n, 1);  // by island
-  for (const PressedPair& p : step.pairs) moves[island[p.a]] = 0;
+  for (const ContactConstraint& p : step.pairs) moves[island[p.a]] = 0;
   step.fastest = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const double speed = step.v[k].norm();
@@ -289,12 +282,12 @@ void ConstrainedMotion::find_unbound(Step& step) const {
   step.flats.resize(n);
   step.down.assign(n, Vec3::Zero());
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const PressedPair& p = step.pairs[c];
+    const ContactConstraint& p = step.pairs[c];
     if (!(step.force[c] > 0)) continue;
     const auto& [i, e, feature] = step.names[c];
     step.held[p.a] = 1;
     FlatContactList& flats = step.flats[p.a];
-    if (p.b != PressedPair::none) {
+    if (p.b != ContactConstraint::fixed) {
       step.held[p.b] = step.bound[p.a] = step.bound[p.b] = 1;
     } else if (is_flat(world, i, e, feature) && flats.count < FlatContactList::most) {
       const double gap = touch(world, i, step.x[p.a] + step.down[p.a], e, at(step.x, e)).gap;
@@ -403,7 +396,6 @@ void ConstrainedMotion::report(double time, std::vector<ContactForce>& forces) c
   const Instant now{time, 0};
   std::vector<Vec3> x, v, a;
   std::vector<double> inverse_mass;
-  double greatest = 0;
   for (const Entity i : group_.members) {
     const double t = now - bodies_.flights[i].start;
     group_.index.write(i) = static_cast<std::uint32_t>(x.size());
@@ -411,23 +403,22 @@ void ConstrainedMotion::report(double time, std::vector<ContactForce>& forces) c
     v.push_back(bodies_.flights[i].velocity(t));
     a.push_back(bodies_.applied[i]);
     inverse_mass.push_back(1 / world.mass[i]);
-    greatest = std::max(greatest, bodies_.applied[i].norm());
   }
-  std::vector<PressedPair> pairs;
+  std::vector<ContactConstraint> pairs;
   std::vector<std::pair<Entity, Entity>> names;
   for (const Entity i : group_.members) {
     for (const Entity e : group_.partners[i]) {
       const bool body = world.is_body(e);
       if (body && (e < i || !bodies_.in_group(e))) continue;
-      const std::uint32_t k = group_.index[i], other = body ? group_.index[e] : PressedPair::none;
+      const std::uint32_t k = group_.index[i], other = body ? group_.index[e] : ContactConstraint::fixed;
       const Vec3 xe = at(x, e);
       const Touch there = touch(world, i, x[k], e, xe);
       const double bend = bending(world, i, x[k], e, xe, there, rate(v, e) - v[k]);
-      pairs.push_back({k, other, there.normal, -bend, tol::acceleration_slack * greatest, 0});
+      pairs.push_back({k, other, there.normal, -bend});
       names.emplace_back(i, e);
     }
   }
-  solve_few_contacts(inverse_mass, a, pairs);
+  solve_exactly(inverse_mass, a, pairs);
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (pairs[c].force > 0) forces.push_back({names[c].first, names[c].second, pairs[c].force});
   forget_index();

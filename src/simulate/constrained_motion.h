@@ -7,7 +7,7 @@
 // contact comes to its rim. All bodies take part in impacts as everywhere else, only the pairs in contact do not.
 #include <vector>
 
-#include "physics/complementarity.h"
+#include "physics/contact_problem.h"
 #include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
 #include "simulate/flight_changes.h"
@@ -36,7 +36,7 @@ class ConstrainedMotion {
     double greatest = 0, smallest = never;  // m/s^2, the greatest acceleration; m, the least radius
     std::vector<Vec3> x, v, before;         // m, m/s, by member; before: v as its flight has it
     std::vector<double> inverse_mass;       // 1/kg
-    std::vector<PressedPair> pairs;         // in contact,
+    std::vector<ContactConstraint> pairs;   // in contact,
     std::vector<PairName> names;            // and their names
     std::vector<double> force;              // N, by pair, at the step's start
     std::vector<Vec3> a;                    // m/s^2, at the step's start

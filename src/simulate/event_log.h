@@ -6,6 +6,7 @@
 
 #include "physics/collision.h"
 #include "physics/compensated.h"
+#include "physics/contact_problem.h"
 #include "physics/tally.h"
 
 namespace carom {
@@ -42,6 +43,10 @@ class EventLog {
   void add_resting(std::uint64_t bodies) { tally_.resting += bodies; }
   void remove_resting(std::uint64_t bodies) { tally_.resting -= bodies; }
   void count_collapse() { ++tally_.collapses; }
+  /// Counts an answer that is not certified.
+  void note(const Certificate& certificate) {
+    if (certificate.verdict == Certificate::Verdict::doubtful) ++tally_.doubtful;
+  }
   const Tally& tally() const { return tally_; }
 
   static constexpr std::size_t capacity = 4096;  // collisions

@@ -1,25 +1,47 @@
 #include "simulate/exact_contact_problems.h"
 
-#include "physics/contact_cone.h"
-#include "physics/few_contacts.h"
+#include <array>
+
+#include "physics/projected_gradients.h"
 
 namespace carom {
 
-bool solve_few_contacts(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<PressedPair> pairs) {
-  return press_few_apart(inverse_mass, u, pairs);
+namespace {
+
+constexpr std::size_t most_flat = 32;
+
+FlatSolution solve_one_body(const Vec3& u, std::span<const Vec3> normals, bool bilateral) {
+  std::array<ContactConstraint, most_flat> contacts;
+  for (std::size_t k = 0; k < normals.size(); ++k) {
+    contacts[k] = {0, ContactConstraint::fixed, -normals[k]};
+    contacts[k].bilateral = bilateral;
+  }
+  constexpr double unit_mass = 1;
+  FlatSolution solution{u, 0, {}};
+  solution.certificate = solve({{&unit_mass, 1}, {&solution.u, 1}, {contacts.data(), normals.size()}});
+  for (std::size_t k = 0; k < normals.size(); ++k)
+    if (contacts[k].force > 0) solution.active |= 1u << k;
+  return solution;
 }
 
-bool solve_contacts(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<PressedPair> pairs,
+}  // namespace
+
+Certificate solve_exactly(std::span<const double> inverse_mass, std::span<Vec3> u,
+                          std::span<ContactConstraint> contacts) {
+  return solve({inverse_mass, u, contacts});
+}
+
+bool solve_contacts(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<ContactConstraint> contacts,
                     int iterations) {
-  return press_apart(inverse_mass, u, pairs, iterations);
+  return project_gradients({inverse_mass, u, contacts}, iterations);
 }
 
-bool solve_contacts_directly(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<PressedPair> pairs) {
-  return press_apart_directly(inverse_mass, u, pairs);
+FlatSolution solve_flat_contacts(const Vec3& u, std::span<const Vec3> normals) {
+  return solve_one_body(u, normals, false);
 }
 
-Vec3 solve_flat_contacts(const Vec3& u, std::span<const Vec3> normals, unsigned& active) {
-  return project_to_cone(u, normals, active);
+FlatSolution keep_flat_contacts(const Vec3& u, std::span<const Vec3> normals) {
+  return solve_one_body(u, normals, true);
 }
 
 }  // namespace carom

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "physics/complementarity.h"
+#include "physics/contact_problem.h"
 #include "physics/restitution.h"
 #include "simulate/tolerances.h"
 
@@ -13,7 +13,7 @@ namespace carom {
 ExactGroup::ExactGroup(ExactBodies& bodies, FlatContacts& flat, const CollapseDetector& collapses, PathLog& paths)
     : pressing(bodies.body.size()),
       partners(bodies.body.size()),
-      index(bodies.body.size(), PressedPair::none),
+      index(bodies.body.size(), ContactConstraint::fixed),
       impacts(bodies.body.size()),
       idle(bodies.body.size()),
       margin(bodies.body.size()),

@@ -25,13 +25,13 @@ class ExactGroup {
   std::vector<Entity> members;                       // ascending after each step
   LazyArray<std::vector<PressingContact>> pressing;  // by the lower body: what the last step found pressing on it
   LazyArray<std::vector<Entity>> partners;           // by body: what constrained motion keeps it in contact with
-  LazyArray<std::uint32_t> index;                    // scratch of a step: a member's place in it, or PressedPair::none
-  LazyArray<std::uint32_t> impacts;                  // by member: impacts that ended in contact since the last step
-  LazyArray<std::uint8_t> idle;                      // by member: steps since something pressed on it
-  LazyArray<double> margin;                          // m, by member: the gap that time stepping leaves about it
-  LazyArray<Instant> needed;     // by member: when it was last struck or pressed on, but by flat surfaces alone
-  double step_length = 0;        // s, of the last step
-  std::size_t impact_pairs = 0;  // that simultaneous impacts have solved for since the last step
+  LazyArray<std::uint32_t> index;    // scratch of a step: a member's place in it, or ContactConstraint::fixed
+  LazyArray<std::uint32_t> impacts;  // by member: impacts that ended in contact since the last step
+  LazyArray<std::uint8_t> idle;      // by member: steps since something pressed on it
+  LazyArray<double> margin;          // m, by member: the gap that time stepping leaves about it
+  LazyArray<Instant> needed;         // by member: when it was last struck or pressed on, but by flat surfaces alone
+  double step_length = 0;            // s, of the last step
+  std::size_t impact_pairs = 0;      // that simultaneous impacts have solved for since the last step
 
   /// Body i belongs to the group from now on; if it sleeps, all that rest in contact with it wake too.
   void join(Entity i);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/contact_cone.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
 #include "simulate/exact_contact_problems.h"
@@ -136,17 +135,19 @@ Vec3 FlatContacts::keep_at(Entity i, const Vec3& v) {
     if (kept[k]) press[n++] = press[k];
   keep(contacts, kept);
   std::array<Vec3, most> normals;
-  unsigned active;
   n = normals_of(contacts, no_entity, normals);
-  Vec3 allowed = solve_flat_contacts(v, {normals.data(), n}, active);
+  FlatSolution solution = solve_flat_contacts(v, {normals.data(), n});
+  bodies_.log.note(solution.certificate);
   // A push into one surface may lift the body off another.
   for (std::size_t k = 0; k < contacts.count; ++k) {
-    const double u = normals[k].dot(allowed);
+    const double u = normals[k].dot(solution.u);
     kept[k] = u <= noise || bodies_.too_low(x, u, press[k]);
   }
   keep(contacts, kept);
   n = normals_of(contacts, no_entity, normals);
-  allowed = project_to_common_plane(allowed, {normals.data(), n});
+  solution = keep_flat_contacts(solution.u, {normals.data(), n});
+  bodies_.log.note(solution.certificate);
+  const Vec3& allowed = solution.u;
   if (contacts.count == 0) bodies_.log.remove_resting(1);
   bodies_.log.lose(0.5 * bodies_.world.mass[i] * (v - allowed).dot(v + allowed));
   return allowed;
@@ -158,32 +159,30 @@ Vec3 FlatContacts::keep_pressing(Entity i) {
   FlatContactList& contacts = contacts_.write(i);
   std::array<Vec3, most> normals;
   const std::size_t n = normals_of(contacts, no_entity, normals);
-  unsigned active;
-  const Vec3 a = solve_flat_contacts(bodies_.applied[i], {normals.data(), n}, active);
+  const FlatSolution solution = solve_flat_contacts(bodies_.applied[i], {normals.data(), n});
+  bodies_.log.note(solution.certificate);
   std::array<bool, most> presses;
-  for (std::size_t k = 0; k < most; ++k) presses[k] = active >> k & 1u;
+  for (std::size_t k = 0; k < most; ++k) presses[k] = solution.active >> k & 1u;
   keep(contacts, presses);
   if (contacts.count == 0) bodies_.log.remove_resting(1);
-  return a;
+  return solution.u;
 }
 
 Vec3 FlatContacts::acceleration_without(Entity i, Entity surface) const {
   if (contacts_[i].count == 0) return bodies_.applied[i];
   std::array<Vec3, most> normals;
   const std::size_t n = normals_of(contacts_[i], surface, normals);
-  unsigned active;
-  return solve_flat_contacts(bodies_.applied[i], {normals.data(), n}, active);
+  return solve_flat_contacts(bodies_.applied[i], {normals.data(), n}).u;
 }
 
 void FlatContacts::report(Entity i, std::vector<ContactForce>& forces) const {
   const FlatContactList& contacts = contacts_[i];
-  const double slack = exact_tolerance::acceleration_slack * bodies_.applied[i].norm();
-  std::vector<PressedPair> pairs;
+  std::vector<ContactConstraint> pairs;
   for (std::size_t k = 0; k < contacts.count; ++k)
-    pairs.push_back({0, PressedPair::none, -contacts.at[k].normal, 0, slack, 0});
+    pairs.push_back({0, ContactConstraint::fixed, -contacts.at[k].normal});
   const double inverse_mass = 1 / bodies_.world.mass[i];
   Vec3 a = bodies_.applied[i];
-  solve_contacts({&inverse_mass, 1}, {&a, 1}, pairs, exact_tolerance::flat_iterations);
+  solve_exactly({&inverse_mass, 1}, {&a, 1}, pairs);
   for (std::size_t k = 0; k < contacts.count; ++k)
     if (pairs[k].force > 0) forces.push_back({i, contacts.at[k].surface, pairs[k].force});
 }

@@ -31,7 +31,7 @@ class ListPool {
   }
   const std::uint32_t* data(const List& list) const { return const_cast<ListPool*>(this)->data(list); }
 
-  /// Whether more of the memory is in blocks that nobody has than a pool that has just been filled may leave: what is
+  /// Whether more of the memory is in blocks that hold no list than a pool that has just been filled may leave: what is
   /// left of a page is less than the list that did not fit in.
   bool wasteful() const { return unused_ > used_ + page_granules; }
   /// Of a list of another pool: a copy here.
@@ -133,7 +133,7 @@ class ListPool {
   std::vector<std::unique_ptr<std::uint32_t[], Free>> memory_;
   std::vector<std::uint32_t*> page_;
   std::vector<std::vector<std::uint32_t>> free_;  // by kind
-  std::size_t used_ = 0, unused_ = 0;             // granules, in lists' blocks and in nobody's
+  std::size_t used_ = 0, unused_ = 0;             // granules, in lists' blocks and in free ones
   std::uint32_t next_ = 0;
   std::size_t left_ = 0;  // granules from next_ on
 };

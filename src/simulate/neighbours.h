@@ -65,7 +65,7 @@ class Neighbours {
   /// A narrower region, about x.
   void shrink(Entity i, const Vec3& x);
 
-  /// Now and then, when nobody reads a list: what lists have left behind is given back.
+  /// Now and then, when no list is being read: what lists have left behind is given back.
   void tidy();
 
   /// Body i is no more.

@@ -43,9 +43,9 @@ PathPiece PathLog::piece_of(Entity i, double from) const {
   PathPiece piece{i, from, {f.start.hi, f.start.lo}, f.x, f.v, f.a};
   if (bodies_.in_group(i) && !bodies_.clock.constrained) {
     const Instant until = bodies_.clock.kicked_until[i];
-    piece.hastened = true;
+    piece.kicked = true;
     piece.until = {until.hi, until.lo};
-    piece.haste = bodies_.clock.kick[i];
+    piece.kick = bodies_.clock.kick[i];
   }
   if (bodies_.merged.any()) {
     const Entity whole = bodies_.merged.whole_of()[i];

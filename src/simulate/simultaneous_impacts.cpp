@@ -27,7 +27,7 @@ void SimultaneousImpacts::count_impact(Entity i) {
 /// Member `first` and all that touch one another with it.
 SimultaneousImpacts::Touching SimultaneousImpacts::find_touching(Entity first) const {
   const World& world = bodies_.world;
-  const std::uint32_t unseen = PressedPair::none;
+  const std::uint32_t unseen = ContactConstraint::fixed;
   const double closed = exact_tolerance::simultaneous_gap * group_.margin[first];  // m
   LazyArray<std::uint32_t>& index = group_.index;
   Touching set;
@@ -63,11 +63,11 @@ SimultaneousImpacts::Touching SimultaneousImpacts::find_touching(Entity first) c
 /// The velocities after the impacts. part: whether they part, as far as that makes no energy.
 void SimultaneousImpacts::solve(Touching& set, bool part) const {
   double approach = 0;
-  for (const PressedPair& p : set.pairs) {
-    const Vec3 vb = p.b == PressedPair::none ? Vec3(Vec3::Zero()) : set.before[p.b];
+  for (const ContactConstraint& p : set.pairs) {
+    const Vec3 vb = p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : set.before[p.b];
     approach = std::max(approach, p.normal.dot(set.before[p.a] - vb));
   }
-  for (PressedPair& p : set.pairs) {
+  for (ContactConstraint& p : set.pairs) {
     p.target = part ? exact_tolerance::simultaneous_parting * approach : 0;
     p.slack = exact_tolerance::simultaneous_slack * approach;
   }
@@ -80,7 +80,7 @@ void SimultaneousImpacts::solve(Touching& set, bool part) const {
   for (std::size_t k = 0; k < set.members.size(); ++k)
     gained += bodies_.world.mass[set.members[k]] * (set.after[k] - set.before[k]).dot(set.after[k] + set.before[k]);
   if (!(gained > 0)) return;
-  for (PressedPair& p : set.pairs) p.target = 0;
+  for (ContactConstraint& p : set.pairs) p.target = 0;
   press();
 }
 

@@ -4,7 +4,7 @@
 // little, lest they strike again at the next rounding.
 #include <vector>
 
-#include "physics/complementarity.h"
+#include "physics/contact_problem.h"
 #include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
 #include "simulate/flight_changes.h"
@@ -24,7 +24,7 @@ class SimultaneousImpacts {
   /// Members that touch one another, in numbers of their own.
   struct Touching {
     std::vector<Entity> members;
-    std::vector<PressedPair> pairs;
+    std::vector<ContactConstraint> pairs;
     std::vector<double> inverse_mass;  // 1/kg
     std::vector<Vec3> before, after;   // m/s
   };

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "physics/force.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 

@@ -6,7 +6,7 @@
 #include "physics/restitution.h"
 #include "simulate/disjoint_sets.h"
 #include "simulate/stepped_contact_problems.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 
@@ -112,7 +112,7 @@ void ClusterBinding::find_contacts(const std::vector<Entity>& bodies, const Step
     std::sort(found.begin(), found.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
     for (const auto& [e, there] : found) {
       contacts_.push_back({i, e, there.feature, false, 0});
-      pairs_.push_back({place_[i], world.is_body(e) ? place_[e] : PressedPair::none, there.normal, 0, 0, 0});
+      pairs_.push_back({place_[i], world.is_body(e) ? place_[e] : ContactConstraint::fixed, there.normal, 0, 0, 0});
     }
   }
 }
@@ -130,8 +130,7 @@ void ClusterBinding::stop_approach(const std::vector<Entity>& bodies) {
     v_[k] = paths.v[bodies[k]];
     fastest_ = std::max(fastest_, v_[k].norm());
   }
-  for (PressedPair& p : pairs_) p.slack = velocity_slack * fastest_;
-  solve_cluster(inverse_mass_, v_, pairs_);
+  shared_.log.note(solve_cluster(inverse_mass_, v_, pairs_));
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = bodies[k];
     a_[k] = shared_.free.acceleration(i, paths.x[i], v_[k]);
@@ -151,9 +150,8 @@ void ClusterBinding::find_forces() {
     const Vec3 xb = paths.position_of(c.b);
     const Touch there = touch(world, c.a, paths.x[c.a], c.b, xb, c.feature);
     pairs_[k].target = -bending(world, c.a, paths.x[c.a], c.b, xb, there, paths.velocity_of(c.b) - paths.v[c.a]);
-    pairs_[k].slack = acceleration_slack * strongest_;
   }
-  solve_cluster(inverse_mass_, a_, pairs_);
+  shared_.log.note(solve_cluster(inverse_mass_, a_, pairs_));
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     contacts_[k].active = pairs_[k].force > 0;
     contacts_[k].force = pairs_[k].force;
@@ -162,8 +160,8 @@ void ClusterBinding::find_forces() {
 
 /// m/s or m/s^2, at which contact c opens with these velocities or accelerations.
 double ClusterBinding::opening(std::size_t c, const std::vector<Vec3>& u) const {
-  const PressedPair& p = pairs_[c];
-  return p.normal.dot((p.b == PressedPair::none ? Vec3(Vec3::Zero()) : u[p.b]) - u[p.a]);
+  const ContactConstraint& p = pairs_[c];
+  return p.normal.dot((p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : u[p.b]) - u[p.a]);
 }
 
 /// Keeps the contacts for which keeps(c).
@@ -185,9 +183,9 @@ void ClusterBinding::make_clusters(const std::vector<Entity>& bodies) {
   const std::size_t n = bodies.size();
   DisjointSets sets(n);
   std::vector<std::uint8_t> is_bound(n);
-  for (const PressedPair& p : pairs_) {
+  for (const ContactConstraint& p : pairs_) {
     is_bound[p.a] = 1;
-    if (p.b == PressedPair::none) continue;
+    if (p.b == ContactConstraint::fixed) continue;
     is_bound[p.b] = 1;
     sets.join(p.a, p.b);
   }

@@ -2,7 +2,7 @@
 // Finds which bodies are in lasting contact, takes the rest of their approach, and makes clusters of them.
 #include <vector>
 
-#include "physics/complementarity.h"
+#include "physics/contact_problem.h"
 #include "physics/touch.h"
 #include "simulate/neighbours.h"
 #include "simulate/stepped_events.h"
@@ -47,7 +47,7 @@ class ClusterBinding {
   BodyPlaces place_;  // among the bodies
   // Of the bodies at hand, by place; contacts and pairs side by side.
   std::vector<ClusterContact> contacts_;
-  std::vector<PressedPair> pairs_;
+  std::vector<ContactConstraint> pairs_;
   std::vector<double> inverse_mass_;    // 1/kg
   std::vector<Vec3> v_, a_;             // m/s, m/s^2, what contact leaves of their velocities and accelerations
   double fastest_ = 0, strongest_ = 0;  // m/s, m/s^2, the greatest speed, the greatest free acceleration

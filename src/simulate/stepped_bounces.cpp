@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 

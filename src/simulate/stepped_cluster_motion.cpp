@@ -5,7 +5,7 @@
 #include "physics/integrator.h"
 #include "physics/touch.h"
 #include "simulate/stepped_contact_problems.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 
@@ -15,13 +15,13 @@ namespace {
 
 /// How a contact's two things lie to each other at the end of the motion.
 Touch touch_at_end(const World& world, const ClusterContact& c, const ClusterState& s) {
-  const Vec3 xb = c.of_b != PressedPair::none ? s.end_x[c.of_b] : world.fixed_position(c.b);
+  const Vec3 xb = c.of_b != ContactConstraint::fixed ? s.end_x[c.of_b] : world.fixed_position(c.b);
   return touch(world, c.a, s.end_x[c.of_a], c.b, xb, c.feature);
 }
 
 /// m/s, at which a contact opens at the end of the motion.
 double opening_at_end(const ClusterContact& c, const Vec3& normal, const ClusterState& s) {
-  return normal.dot((c.of_b != PressedPair::none ? s.end_v[c.of_b] : Vec3(Vec3::Zero())) - s.end_v[c.of_a]);
+  return normal.dot((c.of_b != ContactConstraint::fixed ? s.end_v[c.of_b] : Vec3(Vec3::Zero())) - s.end_v[c.of_a]);
 }
 
 }  // namespace
@@ -36,33 +36,33 @@ ClusterState ClusterMotion::start(const Cluster& cluster) const {
   return s;
 }
 
-void ClusterMotion::accelerate(const Cluster& cluster, const ClusterState& state, const std::vector<Vec3>& x,
-                               const std::vector<Vec3>& v, std::vector<Vec3>& a,
-                               std::vector<PressedPair>& pairs) const {
+Certificate ClusterMotion::accelerate(const Cluster& cluster, const ClusterState& state, const std::vector<Vec3>& x,
+                                      const std::vector<Vec3>& v, std::vector<Vec3>& a,
+                                      std::vector<ContactConstraint>& pairs) const {
   const std::size_t n = cluster.bodies.size();
   for (std::size_t k = 0; k < n; ++k) a[k] = free_.acceleration(cluster.bodies[k], x[k], v[k]);
   pairs.clear();
   for (const ClusterContact& c : cluster.contacts) {
     if (!c.active) continue;
-    const bool body = c.of_b != PressedPair::none;
+    const bool body = c.of_b != ContactConstraint::fixed;
     const Vec3 xb = body ? x[c.of_b] : world_.fixed_position(c.b), vb = body ? v[c.of_b] : Vec3(Vec3::Zero());
     const Touch there = touch(world_, c.a, x[c.of_a], c.b, xb, c.feature);
     const double bend =
         is_flat(world_, c.a, c.b, c.feature) ? 0 : bending(world_, c.a, x[c.of_a], c.b, xb, there, vb - v[c.of_a]);
     pairs.push_back({c.of_a, c.of_b, there.normal, -bend, 0, 0});
   }
-  hold_active(state.inverse_mass, a, pairs);
+  return hold_active(state.inverse_mass, a, pairs);
 }
 
 void ClusterMotion::carry(const Cluster& cluster, double length, ClusterState& s) const {
   s.end_x = s.x;
   s.end_v = s.v;
   s.path.resize(s.x.size());
-  std::vector<PressedPair> pairs;
+  std::vector<ContactConstraint> pairs;
   take_step(
       free_.integrator(), length, s.x, s.v,
       [&](const std::vector<Vec3>& x, const std::vector<Vec3>& v, std::vector<Vec3>& a) {
-        accelerate(cluster, s, x, v, a, pairs);
+        s.certificate.merge(accelerate(cluster, s, x, v, a, pairs));
       },
       s.end_x, s.end_v, s.path);
   project(cluster, s);
@@ -71,7 +71,7 @@ void ClusterMotion::carry(const Cluster& cluster, double length, ClusterState& s
 /// Sets bodies in active contact on each other's surfaces and takes what speed they have into or off them. Of the
 /// inactive contacts those that the motion has closed are opened.
 void ClusterMotion::project(const Cluster& cluster, ClusterState& s) const {
-  std::vector<PressedPair> pairs;
+  std::vector<ContactConstraint> pairs;
   std::vector<std::uint8_t> closed(cluster.contacts.size());
   const auto find_pairs = [&](bool of_velocities) {
     pairs.clear();
@@ -89,11 +89,11 @@ void ClusterMotion::project(const Cluster& cluster, ClusterState& s) const {
   for (int pass = 0; pass < projections; ++pass) {  // Newton's method
     find_pairs(false);
     std::vector<Vec3> displacement(s.end_x.size(), Vec3::Zero());
-    hold_active(s.inverse_mass, displacement, pairs);
+    s.certificate.merge(hold_active(s.inverse_mass, displacement, pairs));
     for (std::size_t k = 0; k < displacement.size(); ++k) s.end_x[k] += displacement[k];
   }
   find_pairs(true);
-  hold_active(s.inverse_mass, s.end_v, pairs);
+  s.certificate.merge(hold_active(s.inverse_mass, s.end_v, pairs));
 }
 
 void ClusterMotion::carry_and_activate(Cluster& cluster, double length, ClusterState& s) const {
@@ -107,7 +107,7 @@ void ClusterMotion::activate(Cluster& cluster, double length, ClusterState& s) c
   std::vector<ClusterContact*> activated;
   for (ClusterContact& c : cluster.contacts) {
     if (c.active) continue;
-    const Vec3 xb = c.of_b != PressedPair::none ? s.path[c.of_b].position(length) : world_.fixed_position(c.b);
+    const Vec3 xb = c.of_b != ContactConstraint::fixed ? s.path[c.of_b].position(length) : world_.fixed_position(c.b);
     const double gap = touch(world_, c.a, s.path[c.of_a].position(length), c.b, xb, c.feature).gap;
     if (gap >= -penetration * world_.radius[c.a]) continue;
     c.active = true;
@@ -115,7 +115,7 @@ void ClusterMotion::activate(Cluster& cluster, double length, ClusterState& s) c
   }
   if (activated.empty()) return;
   carry(cluster, length, s);
-  std::vector<PressedPair> pairs;
+  std::vector<ContactConstraint> pairs;
   std::vector<Vec3> a(s.x.size());
   accelerate(cluster, s, s.end_x, s.end_v, a, pairs);
   std::size_t k = 0;

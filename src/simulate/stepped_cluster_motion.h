@@ -4,7 +4,7 @@
 // projected on each other's surfaces, where the method has strayed from them.
 #include <vector>
 
-#include "physics/complementarity.h"
+#include "physics/contact_problem.h"
 #include "physics/path.h"
 #include "physics/world.h"
 #include "simulate/stepped_clusters.h"
@@ -19,6 +19,7 @@ struct ClusterState {
   std::vector<Vec3> x, v;            // m, m/s, where their paths begin
   std::vector<Vec3> end_x, end_v;    // m, m/s, where the motion has led
   std::vector<Path> path;            // between
+  Certificate certificate;           // of the contact problems on the way
 };
 
 class ClusterMotion {
@@ -35,8 +36,8 @@ class ClusterMotion {
   void carry_and_activate(Cluster& cluster, double length, ClusterState& state) const;
   /// The accelerations (m/s^2) at x (m) and v (m/s), with the forces of active contacts. pairs: of these, in the
   /// contacts' order.
-  void accelerate(const Cluster& cluster, const ClusterState& state, const std::vector<Vec3>& x,
-                  const std::vector<Vec3>& v, std::vector<Vec3>& a, std::vector<PressedPair>& pairs) const;
+  Certificate accelerate(const Cluster& cluster, const ClusterState& state, const std::vector<Vec3>& x,
+                         const std::vector<Vec3>& v, std::vector<Vec3>& a, std::vector<ContactConstraint>& pairs) const;
 
  private:
   void activate(Cluster& cluster, double length, ClusterState& state) const;

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "physics/complementarity.h"
+#include "physics/contact_problem.h"
 
 namespace carom {
 
 std::uint32_t Cluster::place_of(Entity e) const {
   const auto at = std::lower_bound(bodies.begin(), bodies.end(), e);
-  return at != bodies.end() && *at == e ? static_cast<std::uint32_t>(at - bodies.begin()) : PressedPair::none;
+  return at != bodies.end() && *at == e ? static_cast<std::uint32_t>(at - bodies.begin()) : ContactConstraint::fixed;
 }
 
 void Cluster::order_bodies() {

@@ -13,7 +13,7 @@ struct ClusterContact {
   std::uint8_t feature;              // as in Touch
   bool active;                       // the two are held to each other; else they only must not come nearer
   double force;                      // N, when the path began
-  std::uint32_t of_a = 0, of_b = 0;  // places among the cluster's bodies; of_b PressedPair::none: fixed
+  std::uint32_t of_a = 0, of_b = 0;  // places among the cluster's bodies; of_b ContactConstraint::fixed: fixed
 };
 
 struct Cluster {
@@ -24,7 +24,7 @@ struct Cluster {
 
   bool in_use() const { return !bodies.empty(); }
   bool moves() const { return in_use() && !asleep; }
-  /// Of a body, among `bodies`; PressedPair::none: it is not of them.
+  /// Of a body, among `bodies`; ContactConstraint::fixed: it is not of them.
   std::uint32_t place_of(Entity e) const;
   /// Puts bodies in order, and sets the contacts' places among them.
   void order_bodies();

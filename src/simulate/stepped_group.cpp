@@ -5,7 +5,7 @@
 #include "physics/force.h"
 #include "physics/impact.h"
 #include "physics/touch.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 
@@ -135,7 +135,7 @@ void ContactGroup::write_paths() {
 void ContactGroup::record_impacts() {
   for (const GroupContact& c : contacts_.list()) {
     if (!c.impact || !(c.impulse > 0)) continue;
-    const bool body = c.of_b != PressedPair::none;
+    const bool body = c.of_b != ContactConstraint::fixed;
     const Vec3 w = (body ? step_.end_v(c.of_b) : Vec3(Vec3::Zero())) - step_.end_v(c.of_a);
     const double separation = std::max(c.normal.dot(w), 0.0);
     const Vec3 point = touch(shared_.world, c.a, shared_.paths.x[c.a], c.b, shared_.paths.position_of(c.b)).point;
@@ -157,7 +157,7 @@ void ContactGroup::count_resting() {
   for (const GroupContact& c : contacts_.list()) {
     if (!lasts(c)) continue;
     rests[c.of_a] = 1;
-    if (c.of_b != PressedPair::none) rests[c.of_b] = 1;
+    if (c.of_b != ContactConstraint::fixed) rests[c.of_b] = 1;
   }
   resting_ = static_cast<std::size_t>(std::count(rests.begin(), rests.end(), 1));
   shared_.log.add_resting(resting_);

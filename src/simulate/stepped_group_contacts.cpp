@@ -46,7 +46,7 @@ void GroupContacts::find_near(const GroupBodies& bodies, std::size_t k, double d
     }
     const bool member = body && place_.in(bodies.entity, e);
     if (body && !member && !others_fixed_) continue;
-    const std::uint32_t other = member ? place_[e] : PressedPair::none;
+    const std::uint32_t other = member ? place_[e] : ContactConstraint::fixed;
     if (member && e < i && !searched(other)) continue;  // e has found i
     const Vec3 xe = member ? bodies.x[other] : body ? shared_.paths.end_x[e] : shared_.world.fixed_position(e);
     const double reach = h * (bound_[k] + (member ? bound_[other] : 0)) + drop;

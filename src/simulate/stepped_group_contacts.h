@@ -3,7 +3,7 @@
 // bound of its speed, and is searched as far as it may go at that. Where a bound rises, it is searched again.
 #include <vector>
 
-#include "physics/complementarity.h"
+#include "physics/contact_problem.h"
 #include "physics/touch.h"
 #include "simulate/neighbours.h"
 #include "simulate/stepped_group_bodies.h"
@@ -15,7 +15,7 @@ namespace carom {
 
 struct GroupContact {
   Entity a, b;
-  std::uint32_t of_a, of_b;  // their places in the group; of_b PressedPair::none: not of it
+  std::uint32_t of_a, of_b;  // their places in the group; of_b ContactConstraint::fixed: not of it
   Vec3 normal;               // unit, from a to b
   double gap, approach;      // m, m/s, as the step begins
   double restitution = 0;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "physics/world.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 

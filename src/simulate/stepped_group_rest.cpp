@@ -5,7 +5,7 @@
 
 #include "simulate/disjoint_sets.h"
 #include "simulate/stepped_contact_problems.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 
@@ -35,7 +35,7 @@ std::vector<GroupRest::Places> GroupRest::parts_of(const GroupBodies& group,
   DisjointSets sets(group.size());
   for (const GroupContact& c : contacts) {
     const bool touches = c.impulse > 0 || c.gap < 2 * first_sink * group.smallest_radius;
-    if (touches && c.of_b != PressedPair::none) sets.join(c.of_a, c.of_b);
+    if (touches && c.of_b != ContactConstraint::fixed) sets.join(c.of_a, c.of_b);
   }
   std::vector<Places> parts(group.size());
   for (std::uint32_t k = 0; k < group.size(); ++k) parts[sets.root(k)].push_back(k);
@@ -70,7 +70,7 @@ void GroupRest::try_part(const GroupBodies& group, const Places& places) {
 /// to. The impulses of its contacts become forces (N).
 GroupRest::Balance GroupRest::find_balance(GroupBodies& part) {
   const std::vector<Vec3> from = part.x;
-  std::vector<PressedPair> pairs;
+  std::vector<ContactConstraint> pairs;
   double drive = first_sink;
   for (int pass = 0; pass < balance_passes; ++pass) {
     const double farthest = sink(part, drive, pairs);
@@ -89,7 +89,7 @@ GroupRest::Balance GroupRest::find_balance(GroupBodies& part) {
 
 /// Lets a part sink to where its contacts let it; without them it would by `drive` (of a radius). pairs becomes its
 /// contacts with their forces (kg m). m: how far the farthest body sinks. never: the solver did not converge.
-double GroupRest::sink(GroupBodies& part, double drive, std::vector<PressedPair>& pairs) {
+double GroupRest::sink(GroupBodies& part, double drive, std::vector<ContactConstraint>& pairs) {
   contacts_.start_all(part, 4 * farthest_sink * part.smallest_radius / shared_.clock.length());
   contacts_.find(part);
   pairs.clear();

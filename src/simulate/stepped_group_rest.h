@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/complementarity.h"
+#include "physics/contact_problem.h"
 #include "simulate/stepped_group_bodies.h"
 #include "simulate/stepped_group_contacts.h"
 #include "simulate/stepped_shared.h"
@@ -30,7 +30,7 @@ class GroupRest {
   bool due(const GroupBodies& group, const Places& part) const;
   void try_part(const GroupBodies& group, const Places& places);
   Balance find_balance(GroupBodies& part);
-  double sink(GroupBodies& part, double drive, std::vector<PressedPair>& pairs);
+  double sink(GroupBodies& part, double drive, std::vector<ContactConstraint>& pairs);
   void stand(const GroupBodies& part);
   void fall_asleep(const GroupBodies& part);
 

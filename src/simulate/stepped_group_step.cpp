@@ -5,7 +5,7 @@
 
 #include "physics/restitution.h"
 #include "physics/whole.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 
@@ -77,7 +77,7 @@ void GroupStep::solve_velocities(const GroupBodies& bodies, bool without_impacts
   double sweeps = slow ? few_sweeps : std::clamp(2 * share / froude_, 1.0 * few_sweeps, 1.0 * most_sweeps);
   if (without_impacts) {
     sweeps = most_sweeps;
-    for (PressedPair& pair : pairs_) {
+    for (ContactConstraint& pair : pairs_) {
       pair.target = std::min(pair.target, 0.0);
       pair.force = 0;
     }
@@ -110,7 +110,7 @@ void GroupStep::find_pressed(const GroupBodies& bodies, const std::vector<GroupC
   for (const GroupContact& c : contacts) {
     if (!(c.impulse > 0)) continue;
     pressed_[c.of_a] = 1;
-    if (c.of_b != PressedPair::none) pressed_[c.of_b] = 1;
+    if (c.of_b != ContactConstraint::fixed) pressed_[c.of_b] = 1;
   }
 }
 

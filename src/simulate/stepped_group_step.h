@@ -8,7 +8,7 @@
 // displacements of convex bodies are on the safe side: what overlap there is the solver has left.
 #include <vector>
 
-#include "physics/complementarity.h"
+#include "physics/contact_problem.h"
 #include "simulate/stepped_contact_problems.h"
 #include "simulate/stepped_group_bodies.h"
 #include "simulate/stepped_group_contacts.h"
@@ -62,9 +62,9 @@ class GroupStep {
   StepShared& shared_;
   GroupSolver solver_;
   GroupForces forces_;
-  std::vector<PressedPair> pairs_;       // the problem at hand,
-  std::vector<std::size_t> contact_of_;  // and, by pair, the place of its contact
-  std::vector<Vec3> end_v_, drift_;      // m/s
+  std::vector<ContactConstraint> pairs_;  // the problem at hand,
+  std::vector<std::size_t> contact_of_;   // and, by pair, the place of its contact
+  std::vector<Vec3> end_v_, drift_;       // m/s
   std::vector<std::uint8_t> pressed_;
   // Of a radius: by how much bodies may overlap, for a step or two: ever less, as long as displacements converge. A gap
   // that this leaves is as good as none.

@@ -7,7 +7,7 @@
 #include "physics/impact.h"
 #include "physics/restitution.h"
 #include "simulate/stepped_releases.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "physics/path_meeting.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 

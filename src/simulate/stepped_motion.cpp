@@ -12,7 +12,7 @@ Vec3 StepMotion::acceleration_of(Entity e) const {
   if (cluster.asleep) return Vec3::Zero();
   const ClusterState s = cluster_motion_.start(cluster);
   std::vector<Vec3> a(s.x.size());
-  std::vector<PressedPair> pairs;
+  std::vector<ContactConstraint> pairs;
   cluster_motion_.accelerate(cluster, s, s.x, s.v, a, pairs);
   return a[cluster.place_of(e)];
 }
@@ -29,6 +29,7 @@ void StepMotion::begin(Cluster& cluster) {
   StepPaths& paths = shared_.paths;
   ClusterState s = cluster_motion_.start(cluster);
   cluster_motion_.carry_and_activate(cluster, shared_.clock.length() - paths.start[cluster.bodies.front()], s);
+  shared_.log.note(s.certificate);
   for (std::size_t k = 0; k < cluster.bodies.size(); ++k) {
     const Entity i = cluster.bodies[k];
     paths.path[i] = s.path[k];
@@ -58,6 +59,7 @@ void StepMotion::dissolve(std::uint32_t c, double time, std::vector<Entity>& bod
   if (!cluster.asleep && time > start) {
     ClusterState s = cluster_motion_.start(cluster);
     cluster_motion_.carry(cluster, time - start, s);
+    shared_.log.note(s.certificate);
     for (std::size_t k = 0; k < cluster.bodies.size(); ++k) end(cluster.bodies[k], time, s.end_x[k], s.end_v[k]);
   }
   for (const Entity i : cluster.bodies) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "physics/touch.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 
@@ -40,8 +40,8 @@ class ReleaseSearch {
   const Cluster& cluster_;
   const double length_;  // s
   ClusterState state_;
-  std::vector<Vec3> a_;             // m/s^2
-  std::vector<PressedPair> pairs_;  // by active contact
+  std::vector<Vec3> a_;                   // m/s^2
+  std::vector<ContactConstraint> pairs_;  // by active contact
   std::vector<const ClusterContact*> active_;
   std::vector<double> first_, last_;  // N, forces at the path's ends
   std::vector<std::uint8_t> last_feature_;
@@ -88,7 +88,7 @@ double ReleaseSearch::force_after(double t, std::size_t k) {
 
 std::uint8_t ReleaseSearch::feature_now(std::size_t k) const {
   const ClusterContact& c = *active_[k];
-  const Vec3 xb = c.of_b != PressedPair::none ? state_.end_x[c.of_b] : world_.fixed_position(c.b);
+  const Vec3 xb = c.of_b != ContactConstraint::fixed ? state_.end_x[c.of_b] : world_.fixed_position(c.b);
   return touch(world_, c.a, state_.end_x[c.of_a], c.b, xb).feature;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "simulate/stepped_releases.h"
-#include "simulate/tolerances_stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 

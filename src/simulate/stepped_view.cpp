@@ -57,7 +57,7 @@ std::span<const ContactForce> StepView::forces(double time) {
 /// Of a cluster, `since` (s) after its paths began.
 void StepView::add_forces(const Cluster& cluster, double since) {
   const bool moved = !cluster.asleep && since > 0;
-  std::vector<PressedPair> pairs;  // by active contact
+  std::vector<ContactConstraint> pairs;  // by active contact
   if (moved) {
     ClusterState s = motion_.start(cluster);
     motion_.carry(cluster, since, s);

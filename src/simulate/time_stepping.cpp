@@ -15,14 +15,15 @@ namespace tol = exact_tolerance;
 namespace {
 
 /// m/s, of a pair's b against its a.
-Vec3 relative_velocity(const std::vector<Vec3>& v, const PressedPair& p) {
-  return (p.b == PressedPair::none ? Vec3(Vec3::Zero()) : v[p.b]) - v[p.a];
+Vec3 relative_velocity(const std::vector<Vec3>& v, const ContactConstraint& p) {
+  return (p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : v[p.b]) - v[p.a];
 }
 
 /// Whether any of the pairs falls short of its target at these velocities.
-bool approaching(const std::vector<Vec3>& v, const std::vector<PressedPair>& pairs) {
-  return std::any_of(pairs.begin(), pairs.end(),
-                     [&](const PressedPair& p) { return p.normal.dot(relative_velocity(v, p)) < p.target - p.slack; });
+bool approaching(const std::vector<Vec3>& v, const std::vector<ContactConstraint>& pairs) {
+  return std::any_of(pairs.begin(), pairs.end(), [&](const ContactConstraint& p) {
+    return p.normal.dot(relative_velocity(v, p)) < p.target - p.slack;
+  });
 }
 
 }  // namespace
@@ -109,7 +110,7 @@ void TimeStepping::find_pairs(Step& step) const {
       const bool asleep = world.is_body(e) && bodies_.body[e].state == ContactState::asleep;
       const bool body = world.is_body(e) && !asleep;
       if (body && (e < i || !bodies_.in_group(e))) continue;
-      const std::uint32_t other = body ? group_.index[e] : PressedPair::none;
+      const std::uint32_t other = body ? group_.index[e] : ContactConstraint::fixed;
       const Vec3 xe = body ? step.x[other] : asleep ? bodies_.flights[e].x : world.fixed_position(e);
       const Touch there = touch(world, i, step.x[k], e, xe);
       const double rate = there.normal.dot((body ? step.v[other] : Vec3(Vec3::Zero())) - step.v[k]);
@@ -119,8 +120,9 @@ void TimeStepping::find_pairs(Step& step) const {
       const double reach =
           std::min(4 * step.greatest * h * h, std::max(4 * h * expected, tol::pressing_gap * step.smallest));
       if (there.gap + h * std::min(rate, 0.0) > margin + reach) continue;
-      PressedPair pair{static_cast<std::uint32_t>(k),  other, there.normal, -std::max(there.gap - margin, 0.0) / h,
-                       tol::margin_slack * margin / h, 0};
+      ContactConstraint pair{
+          static_cast<std::uint32_t>(k),  other, there.normal, -std::max(there.gap - margin, 0.0) / h,
+          tol::margin_slack * margin / h, 0};
       // With a wide margin, those that the slack would let strike at once part by as much.
       if (step.greatest > 0 && margin > tol::parting_margin * step.smallest && there.gap < tol::margin_slack * margin &&
           pair_restitution(world, i, e) < 1)
@@ -139,8 +141,8 @@ void TimeStepping::take_slow_impacts(Step& step) const {
   step.after_impacts = step.v;
   step.struck.assign(step.pairs.size(), 0);
   if (step.greatest <= 0 || !approaching(step.v, step.pairs)) return;
-  std::vector<PressedPair> impacts = step.pairs;
-  for (PressedPair& p : impacts) {
+  std::vector<ContactConstraint> impacts = step.pairs;
+  for (ContactConstraint& p : impacts) {
     p.target = std::min(p.target, 0.0);
     p.force = 0;
   }
@@ -155,7 +157,8 @@ void TimeStepping::keep_apart(Step& step) const {
   const double h = step.length;
   std::vector<Vec3> free = step.after_impacts;
   for (std::size_t k = 0; k < n; ++k) free[k] += h * bodies_.applied[group_.members[k]];
-  bool part = std::any_of(step.pairs.begin(), step.pairs.end(), [](const PressedPair& p) { return p.target > 0; });
+  bool part =
+      std::any_of(step.pairs.begin(), step.pairs.end(), [](const ContactConstraint& p) { return p.target > 0; });
   for (int attempt = 0; attempt < 8; ++attempt) {
     step.solved = free;
     const bool converged = solve_contacts(step.inverse_mass, step.solved, step.pairs, tol::step_iterations);
@@ -170,14 +173,14 @@ void TimeStepping::keep_apart(Step& step) const {
     }
     const bool fast = std::min(before, after) > tol::converged_displacement * step.smallest * static_cast<double>(n);
     double parting = 0;  // J
-    for (const PressedPair& p : step.pairs) parting += p.force * std::max(p.target, 0.0);
+    for (const ContactConstraint& p : step.pairs) parting += p.force * std::max(p.target, 0.0);
     if (made <= 0 && parting <= lost && (converged || fast)) return;
-    for (PressedPair& p : step.pairs) p.target = std::min(p.target, 0.0);  // wedged bodies cannot part
+    for (ContactConstraint& p : step.pairs) p.target = std::min(p.target, 0.0);  // wedged bodies cannot part
     part = false;
   }
   if (n > tol::most_direct_bodies) return;
   step.solved = free;
-  solve_contacts_directly(step.inverse_mass, step.solved, step.pairs);
+  bodies_.log.note(solve_exactly(step.inverse_mass, step.solved, step.pairs));
 }
 
 /// Members that press on one another are an island. The faster one of its bodies is, the wider are its margins.
@@ -186,10 +189,10 @@ void TimeStepping::find_islands(Step& step) {
   DisjointSets sets(n);
   step.carried.assign(n, 0);
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const PressedPair& p = step.pairs[c];
+    const ContactConstraint& p = step.pairs[c];
     if (p.force <= 0 && !step.struck[c]) continue;
     step.carried[p.a] = 1;
-    if (p.b == PressedPair::none) continue;
+    if (p.b == ContactConstraint::fixed) continue;
     step.carried[p.b] = 1;
     sets.join(p.a, p.b);
   }
@@ -202,7 +205,7 @@ void TimeStepping::find_islands(Step& step) {
     widen(k, tol::margin_decay * group_.margin[group_.members[k]]);
     widen(k, tol::margin_of_displacement * step.length * step.solved[k].norm());
   }
-  for (const PressedPair& p : step.pairs) {
+  for (const ContactConstraint& p : step.pairs) {
     const double missing = step.length * (p.target - p.normal.dot(relative_velocity(step.solved, p)));  // m
     if (missing > 0) widen(p.a, std::min(2 * missing, tol::widest_margin * step.smallest));
   }
@@ -241,7 +244,7 @@ bool TimeStepping::hold(const Step& step, const std::vector<std::uint8_t>& still
   holding.pairs.clear();
   holding.which.clear();
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const PressedPair& p = step.pairs[c];
+    const ContactConstraint& p = step.pairs[c];
     if (!still[step.island[p.a]] || step.gaps[c] > tol::resting_gap * step.smallest) continue;
     holding.pairs.push_back({p.a, p.b, p.normal, 0, tol::rest_slack * step.greatest, 0});
     holding.which.push_back(c);
@@ -264,14 +267,14 @@ void TimeStepping::put_to_rest(Step& step) const {
   if (!hold(step, still, tol::step_iterations, holding)) {
     if (n <= tol::most_direct_bodies) {
       holding.a = applied();
-      solve_contacts_directly(step.inverse_mass, holding.a, holding.pairs);
+      bodies_.log.note(solve_exactly(step.inverse_mass, holding.a, holding.pairs));
       keep_balanced(tol::rough_balance);
     }
     hold(step, still, tol::rest_iterations, holding);
   }
   keep_balanced(tol::balance);
   for (std::uint32_t k = 0; k < n; ++k) step.rests[k] = still[step.island[k]];
-  for (PressedPair& p : step.pairs)
+  for (ContactConstraint& p : step.pairs)
     if (step.rests[p.a]) p.force = 0;
   for (std::size_t c = 0; c < holding.pairs.size(); ++c)
     if (step.rests[holding.pairs[c].a]) step.pairs[holding.which[c]].force = step.length * holding.pairs[c].force;
@@ -292,11 +295,11 @@ void TimeStepping::begin_flights(const Step& step) {
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
     const auto [i, e] = step.names[c];
     const bool asleep = bodies_.world.is_body(e) && bodies_.body[e].state == ContactState::asleep;
-    if (step.pairs[c].b != PressedPair::none || !asleep) continue;
+    if (step.pairs[c].b != ContactConstraint::fixed || !asleep) continue;
     if (step.pairs[c].force > 0 && bodies_.in_group(i)) group_.wake(e);
   }
   if (group_.members.empty()) bodies_.clock.end = {never, 0};
-  for (const Entity i : members) group_.index.write(i) = PressedPair::none;
+  for (const Entity i : members) group_.index.write(i) = ContactConstraint::fixed;
   for (const Entity i : members) predictor_.predict(i);
 }
 

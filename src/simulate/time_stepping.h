@@ -2,7 +2,7 @@
 // Time stepping of a large contact group. Between two steps a member that is carried flies straight and the others fall
 // freely, so that impacts with and within the group are found and resolved as everywhere else. At a step contact takes
 // slow approaches at once; fast ones are left to be impacts. Then the velocities are those nearest to what forces alone
-// would make of them that keep every pair apart until the next step (complementarity.h): linearised at the nearest
+// would make of them that keep every pair apart until the next step (contact_problem.h): linearised at the nearest
 // points, which for convex bodies on straight paths is on the safe side. (Stewart & Trinkle, Int. J. Numer. Meth. Eng.
 // 39 (1996) 2673, without friction and with exact impacts.) An impact meets the velocities that bodies have by then,
 // not those that the step's kick has given them for its end. A step that ends early takes back what forces would have
@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "physics/complementarity.h"
+#include "physics/contact_problem.h"
 #include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
 #include "simulate/flight_changes.h"
@@ -40,7 +40,7 @@ class TimeStepping {
     std::vector<Vec3> solved;                      // m/s: from now on
     std::vector<double> expected;                  // m/s: half of the speed that contacts are searched for
     std::vector<double> inverse_mass;              // 1/kg
-    std::vector<PressedPair> pairs;                // that may press on each other before the step ends,
+    std::vector<ContactConstraint> pairs;          // that may press on each other before the step ends,
     std::vector<std::pair<Entity, Entity>> names;  // their names,
     std::vector<double> gaps;                      // m, and how far they are apart now
     std::vector<std::uint8_t> struck;              // by pair: contact takes an approach of theirs at once
@@ -49,7 +49,7 @@ class TimeStepping {
   };
   /// The forces among bodies that may be at rest.
   struct Holding {
-    std::vector<PressedPair> pairs;
+    std::vector<ContactConstraint> pairs;
     std::vector<std::size_t> which;  // of the step's pairs
     std::vector<Vec3> a;             // m/s^2: what they leave of the members' accelerations
   };

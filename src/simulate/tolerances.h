@@ -1,5 +1,6 @@
 #pragma once
-// Every constant that decides the accuracy of the exact simulator. "Of a radius", "of a speed": a share of it.
+// Every constant that decides the accuracy of the simulators, of the choice of a step, and of the book simulator. "Of a
+// radius", "of a speed", "of a step": a share of it.
 #include <cstddef>
 #include <cstdint>
 
@@ -17,8 +18,6 @@ inline constexpr double plane_rounding = 0x1p-49;  // of speeds: an approach to 
 inline constexpr double negligible_speed = 0x1p-200;  // of the greatest speed so far: products with itself underflow
 inline constexpr double negligible_hop = 0x1p-120;    // of the squared speed of falling by a radius: a body at rest
 inline constexpr double approach_rounding = 0x1p-50;  // of speeds: an approach that is rounding where nothing presses
-inline constexpr double acceleration_slack = 1e-15;   // of the greatest acceleration: that contact may fall short by
-inline constexpr double speed_slack = 0x1p-52;        // of the greatest speed: the same
 
 // Impacts that end in contact (collapse_detector.h).
 inline constexpr double slow_impact = 0.03;    // of the speed of falling by a length: impacts in contact do not count
@@ -30,7 +29,6 @@ inline constexpr int burst_on_surfaces = 256;  // slow impacts of one body on fl
 inline constexpr int burst_of_bodies = 16;     // the same among bodies
 inline constexpr double waking_lift = 1e-4;    // of a radius: an impact that lifts a held body by less does not wake it
 inline constexpr double least_volume = 1e-3;   // of three unit normals: they hold a body on all sides
-inline constexpr int flat_iterations = 1000;   // of conjugate gradients, for the forces of one body's flat contacts
 
 // The contact group (exact_group.h).
 inline constexpr double waking_gap = 1e-6;     // of a radius: what touches a body that wakes, wakes
@@ -51,7 +49,6 @@ inline constexpr std::size_t most_pairs = 16;        // in contact; a larger gro
 inline constexpr double contact_gap = 1e-9;          // of a radius: a gap that counts as contact
 inline constexpr double contact_rounding = 0x1p-51;  // of coordinates: the same
 inline constexpr double least_overlap = 0x1p-50;     // of a radius: a deeper overlap is closed
-inline constexpr double overlap_slack = 0x1p-54;     // of a radius: what closing leaves of it
 inline constexpr double path_error = 1e-11;          // of the smaller radius: a parabola's distance from the true path
 inline constexpr double longest_constrained = 0.02;  // of the time of falling by a radius: the longest step
 inline constexpr double short_time = 1e-3;  // of a radius over the greatest speed: the same, where nothing falls
@@ -85,3 +82,92 @@ inline constexpr double sliding_speed = 1e-3;            // of the speed of fall
 inline constexpr std::uint32_t many_short_steps = 8;     // ended at once by simultaneous impacts: a jam
 
 }  // namespace carom::exact_tolerance
+
+namespace carom::stepped_tolerance {
+
+// Bounces (stepped_bounces.h).
+inline constexpr double shortest_bounce = 1e-6;  // of a step: where bounces are resolved, the shortest that is one
+inline constexpr std::uint32_t resolved_impacts = 4096;  // with e < 1, of a body in a step, where bounces are resolved;
+inline constexpr std::uint32_t many_impacts = 256;  // and where they are not: more of them accumulate, contact begins
+inline constexpr std::uint32_t group_impacts = 16;  // under load, of a body in a step: then it joins the contact group
+inline constexpr std::uint32_t most_meetings = 2000;  // under load, of a body in a step: it is jammed and waits
+
+// Meetings of paths (stepped_meetings.h).
+inline constexpr double path_rounding = 0x1p-48;  // of a coordinate: by how much a path may be off by rounding
+inline constexpr double region_steps = 32;        // steps for which a body's region is to last
+
+// Impacts (stepped_impacts.h).
+inline constexpr int refinements = 4;               // of an impact's time by steps of its length: Newton's method
+inline constexpr double farthest_refinement = 0.1;  // of a step: beyond, the path's own time is kept
+inline constexpr double impact_rounding = 0x1p-46;  // of a speed: an approach no faster is rounding
+
+// Lasting contact (stepped_binding.h).
+inline constexpr double contact_gap = 1e-9;             // of a radius: a gap that counts as contact
+inline constexpr double position_rounding = 0x1p-50;    // of coordinates: a gap that is rounding
+inline constexpr double far_apart = 1.001;              // of two radii: farther along an axis, no contact is looked for
+inline constexpr double contact_rounding = 0x1p-44;     // of speeds: an approach or separation that is rounding
+inline constexpr double opening_acceleration = 1e-12;   // of the greatest acceleration: more opens a contact
+inline constexpr double standstill = 1e-9;              // of the speed of falling by a radius: at rest, if in balance
+inline constexpr double cluster_balance = 1e-9;         // of the greatest acceleration: forces in balance
+inline constexpr std::size_t most_cluster_bodies = 24;  // more are a contact group: dense equations grow as the cube
+
+// Constrained motion (stepped_cluster_motion.h) and its end (stepped_releases.h).
+inline constexpr int projections = 2;                 // on the surfaces: the second finds what curvature left
+inline constexpr double penetration = 1e-12;          // of a radius: a deeper contact becomes active
+inline constexpr double force_rounding = 1e-9;        // of a weight: a force that is rounding
+inline constexpr double release_precision = 0x1p-40;  // of a step: to which the time of a zero force is found
+inline constexpr int release_passes = 60;             // of regula falsi, at most
+inline constexpr double rim_precision = 0x1p-48;      // of a step: to which the time at a feature's rim is found
+
+// The contact group (stepped_group*.h).
+inline constexpr std::uint8_t group_steps = 8;          // without contact, then a body leaves the group
+inline constexpr double impact_gap = 1e-3;              // of a radius: across it fast bodies collide in this step
+inline constexpr double slack_of_approach = 1e-2;       // of an approach: what a contact may be off by
+inline constexpr double velocity_accuracy = 0.1;        // of the Froude number: a contact's slack, by a step's fall,
+inline constexpr double least_accuracy = 1e-5;          // at least,
+inline constexpr double most_accuracy = 0.05;           // at most
+inline constexpr int few_sweeps = 15;                   // for velocities: the next step starts from what they leave
+inline constexpr int most_sweeps = 300;                 // for velocities, of a slow group
+inline constexpr int displacement_sweeps = 200;         // these decide on overlap
+inline constexpr double slow_group = 2e-3;              // Froude number: below, sweeps do not converge, iterations do
+inline constexpr int few_iterations = 400;              // of conjugate gradients, for velocities of a slow group
+inline constexpr int many_iterations = 1000;            // for displacements, and between light bodies and heavy ones
+inline constexpr double share_of_fall = 25;             // by the time of falling by a radius: shorter steps need less
+inline constexpr std::size_t small_problem = 200;       // pairs for which many iterations always pay
+inline constexpr std::size_t medium_problem = 2000;     // pairs for which they pay for displacements
+inline constexpr std::size_t most_direct_pairs = 1000;  // pairs for which factorising pays where iterations fail
+inline constexpr double most_gain = 1e-6;               // of kinetic energy, by what the solver leaves
+inline constexpr double least_overlap = 1e-8;           // of a radius: that bodies may have, where it is achieved
+inline constexpr double most_overlap = 1e-3;            // of a radius: that bodies may have
+inline constexpr double overlap_of_drift = 0.5;         // of a step's displacement: least overlap of a fast group
+inline constexpr double overlap_falls = 0.9;            // by step, where displacements have converged
+inline constexpr double overlap_grows = 1.2;            // by step, where they have not
+inline constexpr int search_passes = 4;                 // for contacts of bodies displaced farther than searched
+
+// How a contact group comes to rest (stepped_group_rest.h).
+inline constexpr double slow_body = 1e-3;                // of the speed of falling by a radius: it may be at rest
+inline constexpr std::uint32_t slow_steps = 8;           // for which a part has been slow before it is looked at
+inline constexpr std::uint32_t longest_wait = 10;        // doublings of that for a part that is in no balance
+inline constexpr double first_sink = 1e-3;               // of a radius: how far free bodies would sink, at first
+inline constexpr double last_sink = 1;                   // of a radius: and at last
+inline constexpr double small_sink = 0.1;                // of the first: a part that sinks less may be driven farther
+inline constexpr double sink_grows = 10;                 // by pass
+inline constexpr double farthest_sink = 2e-2;            // of a radius: a part that sinks farther is in no balance
+inline constexpr int balance_passes = 12;                // of sinking
+inline constexpr double group_balance = 1e-7;            // of what free bodies would sink: then forces balance
+inline constexpr double balance_slack = 1e-10;           // of a radius: what contacts may be off by
+inline constexpr int balance_iterations = 2000;          // of the solver for large parts
+inline constexpr std::size_t most_direct_bodies = 4000;  // the direct solver's cost grows as their square
+
+// The choice of a step (step_choice.h).
+inline constexpr int instants = 64;           // of a run, at which two runs are compared
+inline constexpr double longest_choice = 64;  // of default_step (force.h): the first step that is tried
+inline constexpr int most_halvings = 24;      // of it
+inline constexpr int few_halvings = 16;       // in which, at its rate, what runs gain must reach the end
+inline constexpr int most_vain_halvings = 5;  // without a gain: then runs differ for good
+inline constexpr double most_steps = 1e9;     // of all bodies together, in the longest run
+
+// The book simulator (book.h).
+inline constexpr double frame_rounding = 1e-9;  // of a frame: a time as near to a frame's is that frame's
+
+}  // namespace carom::stepped_tolerance

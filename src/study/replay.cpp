@@ -75,7 +75,7 @@ const State& Replay::state() {
     const double t = at - flight.start;
     state_.position[i] = flight.position(t);
     state_.velocity[i] = flight.velocity(t);
-    if (piece.hastened) state_.velocity[i] = without_kick(state_.velocity[i], at, instant(piece.until), piece.haste);
+    if (piece.kicked) state_.velocity[i] = without_kick(state_.velocity[i], at, instant(piece.until), piece.kick);
   }
   if (!part_of_.empty()) {
     state_.mass = mass_;

@@ -135,6 +135,7 @@ Summary summarize(const Scene& scene, const EngineChoice& engine, double energy_
   summary.resting = tally.resting;
   summary.merges = tally.merges;
   summary.collapses = tally.collapses;
+  summary.doubtful = tally.doubtful;
   return summary;
 }
 

@@ -20,11 +20,11 @@ std::vector<PathPiece> pieces() {
   for (Entity i = 0; i < 4; ++i) all.push_back({i, 0, {0, 0}, Vec3(i, 1, -0.0), Vec3(1, -0.0, 0), Vec3(0, -10, 0)});
   all.push_back({1, std::nextafter(0.1, 1), {0.1, 1e-18}, Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(0, -0.0, 0)});
   all.push_back({2, 0.125, {0.0625, 0}, Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(0, -10, 0)});
-  PathPiece stride{3, 0.15, {0.15, -1e-18}, Vec3(7, 8, 9), Vec3(1, 1, 1), Vec3::Zero()};
-  stride.hastened = true;
-  stride.until = {0.175, 1e-19};
-  stride.haste = Vec3(0, -1, 0);
-  all.push_back(stride);
+  PathPiece step{3, 0.15, {0.15, -1e-18}, Vec3(7, 8, 9), Vec3(1, 1, 1), Vec3::Zero()};
+  step.kicked = true;
+  step.until = {0.175, 1e-19};
+  step.kick = Vec3(0, -1, 0);
+  all.push_back(step);
   PathPiece part{0, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3::Zero(), Vec3::Zero()};
   part.part_of = 1;
   PathPiece joint{1, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3(3, 0, 0), Vec3(0, -10, 0)};
@@ -91,8 +91,8 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
     for (int k = 0; k < 3; ++k)
       EXPECT_TRUE(same_bits(got.x[k], piece.x[k]) && same_bits(got.v[k], piece.v[k]) &&
                   same_bits(got.a[k], piece.a[k]));
-    EXPECT_EQ(got.hastened, piece.hastened);
-    EXPECT_TRUE(got.until.hi == piece.until.hi && got.until.lo == piece.until.lo && got.haste == piece.haste);
+    EXPECT_EQ(got.kicked, piece.kicked);
+    EXPECT_TRUE(got.until.hi == piece.until.hi && got.until.lo == piece.until.lo && got.kick == piece.kick);
     EXPECT_EQ(got.part_of, piece.part_of);
     EXPECT_EQ(got.joint, piece.joint);
     EXPECT_TRUE(got.mass == piece.mass && got.radius == piece.radius && got.half == piece.half);
@@ -108,8 +108,8 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
 TEST(Flights, TakeSeventyTwoBytesAndMoreOnlyForWhatIsNew) {
   const TempFolder folder;
   store(folder, small_scene());
-  const std::uintmax_t ends = 32 + 104, first = 4 * 96, bounce = 96, late = 80, stride = 136, part = 104, joint = 136;
-  EXPECT_EQ(fs::file_size(folder / "flights.bin"), ends + first + bounce + late + stride + part + joint);
+  const std::uintmax_t ends = 32 + 104, first = 4 * 96, bounce = 96, late = 80, step = 136, part = 104, joint = 136;
+  EXPECT_EQ(fs::file_size(folder / "flights.bin"), ends + first + bounce + late + step + part + joint);
 }
 
 TEST(Flights, CutOffAnywhereAreRefused) {

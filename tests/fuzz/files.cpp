@@ -56,10 +56,10 @@ std::string flights() {
   std::vector<PathPiece> pieces;
   for (Entity i = 0; i < 4; ++i) pieces.push_back({i, 0, {0, 0}, Vec3(i, 1, 0), Vec3(1, 0, 0), Vec3(0, -10, 0)});
   pieces.push_back({1, std::nextafter(0.1, 1), {0.1, 1e-18}, Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(0, -1, 0)});
-  PathPiece stride{3, 0.15, {0.15, -1e-18}, Vec3(7, 8, 9), Vec3(1, 1, 1), Vec3::Zero()};
-  stride.hastened = true;
-  stride.until = {0.175, 1e-19};
-  stride.haste = Vec3(0, -1, 0);
+  PathPiece step{3, 0.15, {0.15, -1e-18}, Vec3(7, 8, 9), Vec3(1, 1, 1), Vec3::Zero()};
+  step.kicked = true;
+  step.until = {0.175, 1e-19};
+  step.kick = Vec3(0, -1, 0);
   PathPiece part{0, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3::Zero(), Vec3::Zero()};
   part.part_of = 1;
   PathPiece joint{1, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3(3, 0, 0), Vec3(0, -10, 0)};
@@ -67,7 +67,7 @@ std::string flights() {
   joint.mass = 3;
   joint.radius = 0.125;
   joint.half = Vec3::Constant(0.125);
-  for (const PathPiece& piece : {stride, part, joint}) pieces.push_back(piece);
+  for (const PathPiece& piece : {step, part, joint}) pieces.push_back(piece);
   FlightsFile file({folder().descriptor(), folder().path()}, small_scene());
   file.record_paths(pieces);
   file.end(Tally{});
@@ -160,7 +160,7 @@ void read_flights_bytes(std::string_view bytes) {
       if (piece.body >= scene.world.body_count()) throw Finding("a path of no body");
       if (piece.part_of != no_entity && piece.part_of >= scene.world.body_count()) throw Finding("part of no body");
       if (!(piece.from >= last)) throw Finding("paths that go back in time");
-      if (!piece.x.allFinite() || !piece.v.allFinite() || !piece.a.allFinite() || !piece.haste.allFinite() ||
+      if (!piece.x.allFinite() || !piece.v.allFinite() || !piece.a.allFinite() || !piece.kick.allFinite() ||
           !std::isfinite(piece.start.hi + piece.start.lo) || !std::isfinite(piece.until.hi + piece.until.lo))
         throw Finding("a path that is not finite");
       if (piece.joint && !(piece.mass > 0 && piece.radius > 0 && piece.half.allFinite() && std::isfinite(piece.mass) &&

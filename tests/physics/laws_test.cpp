@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "physics/compensated.h"
-#include "physics/contact_cone.h"
 #include "physics/energy.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
@@ -71,23 +70,6 @@ TEST(Impact, ImpulseAndLossAreTheChapters) {
   const double before = 0.5 * (m1 * u1 * u1 + m2 * u2 * u2), after = 0.5 * (m1 * v1 * v1 + m2 * v2 * v2);
   EXPECT_DOUBLE_EQ(impact_loss(m1, m2, u1 - u2, e * (u1 - u2)), before - after);
   EXPECT_DOUBLE_EQ(impact_impulse(2, INFINITY, 3, 1.5), 9) << "against a fixed surface";
-}
-
-TEST(ContactCone, TheNearestAllowedMotionIsChosen) {
-  unsigned active;
-  const Vec3 up = Vec3::Unit(1), slope = Vec3(0.6, 0.8, 0), other = Vec3(-0.6, 0.8, 0), back = Vec3::Unit(2);
-  const Vec3 g(0, -10, -1);
-  EXPECT_EQ(project_to_cone(Vec3(1, 2, 3), std::vector{up}, active), Vec3(1, 2, 3));
-  EXPECT_EQ(active, 0u);
-  EXPECT_EQ(project_to_cone(g, std::vector{up}, active), Vec3(0, 0, -1));
-  EXPECT_EQ(active, 1u);
-  EXPECT_LT((project_to_cone(g, std::vector{slope}, active) - Vec3(4.8, -3.6, -1)).norm(), 1e-14);
-  EXPECT_LT((project_to_cone(g, std::vector{slope, other}, active) - Vec3(0, 0, -1)).norm(), 1e-14);
-  EXPECT_EQ(active, 3u);
-  EXPECT_EQ(project_to_cone(g, std::vector{slope, other, back}, active), Vec3(0, 0, 0));
-  EXPECT_EQ(active, 7u);
-  EXPECT_EQ(project_to_cone(g, std::vector{Vec3(1, 0, 0), up}, active), Vec3(0, 0, -1));
-  EXPECT_EQ(active, 2u) << "a wall that nothing presses on is not active";
 }
 
 TEST(Compensated, DifferenceOfProductsKeepsWhatCancels) {

@@ -92,21 +92,21 @@ TEST(Sweeps, ComeToWhereTheOtherSolverIs) {
     inverse_mass.push_back(1 / random(1, 3));
     free.emplace_back(random(-1, 1), random(-1, 1), random(-1, 1));
   }
-  std::vector<PressedPair> pairs;
+  std::vector<ContactConstraint> pairs;
   for (std::uint32_t k = 0; k < 150; ++k) {
     const auto a = static_cast<std::uint32_t>(random(0, 60)), b = static_cast<std::uint32_t>(random(0, 60));
     const Vec3 normal = Vec3(random(-1, 1), random(-1, 1), random(-1, 1)).normalized();
     if (a == b) continue;
-    pairs.push_back({a, k % 5 == 0 ? PressedPair::none : b, normal, random(-0.2, 0.2), 1e-12, random(0, 1)});
+    pairs.push_back({a, k % 5 == 0 ? ContactConstraint::fixed : b, normal, random(-0.2, 0.2), 1e-12, random(0, 1)});
   }
-  std::vector<PressedPair> other = pairs;
+  std::vector<ContactConstraint> other = pairs;
   std::vector<Vec3> u = free, v = free;
   Sweeps sweeps;
-  EXPECT_TRUE(sweeps.press_apart(inverse_mass, u, pairs, 3000));
-  EXPECT_TRUE(press_apart(inverse_mass, v, other, 3000));
+  EXPECT_TRUE(sweeps.solve(inverse_mass, u, pairs, 3000));
+  EXPECT_TRUE(solve({inverse_mass, v, other}).solved());
   for (std::size_t k = 0; k < u.size(); ++k) EXPECT_LT((u[k] - v[k]).norm(), 1e-10) << k;
-  for (const PressedPair& p : pairs) {
-    const Vec3 w = (p.b == PressedPair::none ? Vec3(Vec3::Zero()) : u[p.b]) - u[p.a];
+  for (const ContactConstraint& p : pairs) {
+    const Vec3 w = (p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : u[p.b]) - u[p.a];
     EXPECT_GE(p.force, 0);
     EXPECT_GT(p.normal.dot(w), p.target - 1e-10);
   }
@@ -122,9 +122,9 @@ TEST(Sweeps, NeverLeaveMoreKineticEnergyThanThereWasHoweverBadTheGuess) {
       u.emplace_back(random(-1, 1), 0, 0);
       before += 0.5 / inverse_mass[static_cast<std::size_t>(k)] * u.back().squaredNorm();
     }
-    std::vector<PressedPair> pairs;
+    std::vector<ContactConstraint> pairs;
     for (std::uint32_t k = 0; k < 3; ++k) pairs.push_back({k, k + 1, Vec3(1, 0, 0), 0, 0, random(0, 10)});
-    Sweeps().press_apart(inverse_mass, u, pairs, 2);
+    Sweeps().solve(inverse_mass, u, pairs, 2);
     for (std::size_t k = 0; k < 4; ++k) after += 0.5 / inverse_mass[k] * u[k].squaredNorm();
     EXPECT_LE(after, before + 1e-12);
   }

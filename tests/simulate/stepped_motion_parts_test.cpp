@@ -90,7 +90,7 @@ TEST(ClusterMotion, ForceOfAnActiveContactIsWeightLessWhatTheBendTakes) {
   const Cluster& cluster = parts.shared.clusters[make_cluster(parts, {{0, 1, 0, true, 0}})];
   const ClusterState state = parts.motion.of_clusters().start(cluster);
   std::vector<Vec3> a(1);
-  std::vector<PressedPair> pairs;
+  std::vector<ContactConstraint> pairs;
   parts.motion.of_clusters().accelerate(cluster, state, state.x, state.v, a, pairs);
   EXPECT_NEAR(pairs[0].force, 2 * (g * std::cos(0.3) - 1), 1e-13);
 }
@@ -328,7 +328,8 @@ TEST(ContactGroup, TakesInWhatItsBodiesMayMeetAndGivesTheForces) {
 TEST(GroupSolver, ComesToWhereTheClustersSolverIs) {
   const std::vector<double> inverse_mass = {1, 0.5, 2};
   std::vector<Vec3> u = {{1, 0, 0}, {0, 0, 0}, {-1, 0, 0}}, v = u;
-  std::vector<PressedPair> pairs = {{0, 1, {1, 0, 0}, 0, 1e-14, 0}, {1, 2, {1, 0, 0}, 0, 1e-14, 0}}, other = pairs;
+  std::vector<ContactConstraint> pairs = {{0, 1, {1, 0, 0}, 0, 1e-14, 0}, {1, 2, {1, 0, 0}, 0, 1e-14, 0}},
+                                 other = pairs;
   GroupSolver solver;
   EXPECT_TRUE(solver.solve(inverse_mass, u, pairs, 10, 0));
   solve_cluster(inverse_mass, v, other);
@@ -339,7 +340,7 @@ TEST(GroupSolver, ComesToWhereTheClustersSolverIs) {
 TEST(HoldActive, PullsWhereItMust) {
   const std::vector<double> inverse_mass = {1, 1};
   std::vector<Vec3> u = {{-1, 0, 0}, {1, 0, 0}};
-  std::vector<PressedPair> pairs = {{0, 1, {1, 0, 0}, 0, 0, 0}};
+  std::vector<ContactConstraint> pairs = {{0, 1, {1, 0, 0}, 0, 0, 0}};
   hold_active(inverse_mass, u, pairs);
   EXPECT_NEAR(u[0].x(), 0, 1e-15);
   EXPECT_NEAR(pairs[0].force, -1, 1e-15);

@@ -1,7 +1,7 @@
 // The parts of the stepped simulator that hold its data: clock, paths, events, clusters, members, counts.
 #include <gtest/gtest.h>
 
-#include "physics/complementarity.h"
+#include "physics/contact_problem.h"
 #include "simulate/build.h"
 #include "simulate/disjoint_sets.h"
 #include "simulate/stepped_awake.h"
@@ -153,7 +153,7 @@ TEST(Clusters, KnowTheirBodiesAndContactsUntilTheyAreTakenApart) {
   clusters[c].order_bodies();
   EXPECT_EQ(clusters[c].bodies, (std::vector<Entity>{1, 3}));
   EXPECT_EQ(clusters[c].contacts[0].of_b, 1u);
-  EXPECT_EQ(clusters[c].contacts[1].of_b, PressedPair::none);
+  EXPECT_EQ(clusters[c].contacts[1].of_b, ContactConstraint::fixed);
   EXPECT_TRUE(clusters.in_contact(3, 1));
   EXPECT_FALSE(clusters.in_contact(3, 7));
   EXPECT_TRUE(clusters[c].moves());
