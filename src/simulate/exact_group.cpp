@@ -124,9 +124,11 @@ double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity 
   if (bodies_.clock.constrained || approach == 0 || (!bodies_.in_group(i) && !(body && bodies_.in_group(e))))
     return approach;
   const Instant& now = bodies_.now;
-  const Vec3 w =
-      bodies_.velocity_without_kick(i, now) - (body ? bodies_.velocity_without_kick(e, now) : Vec3(Vec3::Zero()));
-  return std::max(n.dot(w), 0.0);
+  const Vec3 vi = bodies_.velocity_without_kick(i, now);
+  const Vec3 ve = body ? bodies_.velocity_without_kick(e, now) : Vec3(Vec3::Zero());
+  const double met = n.dot(vi - ve);
+  // What rounding leaves of a difference is no impact: it would be one for ever, since the kick brings them together.
+  return met > exact_tolerance::approach_rounding * (vi.norm() + ve.norm() + approach) ? met : 0;
 }
 
 void ExactGroup::kick(Entity i, const Vec3& dv) {

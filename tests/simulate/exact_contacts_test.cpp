@@ -131,6 +131,22 @@ TEST(ExactGroup, TakesAKickOutOfAVelocity) {
   EXPECT_EQ(parts.bodies.velocity_without_kick(0, {2, 0}), Vec3(3, 0, 0));
 }
 
+TEST(ExactGroup, TakesWhatRoundingLeavesOfAKickedApproachForNone) {
+  ExactParts parts(three_in_a_row(0.5));
+  parts.group.join(0);
+  parts.bodies.clock.end = {3, 0};
+  const Vec3 n(1, 0, 0);
+  const auto approach_beyond_kick = [&](double speed) {
+    parts.bodies.clock.kicked_until.write(0) = {0, 0};
+    parts.bodies.flights.set(0, {{}, Vec3::Zero(), Vec3(0.1 + speed, 2, 0), Vec3::Zero()});
+    parts.group.kick(0, Vec3(0.1, 0, 0));
+    return parts.group.approach_without_kick(0.1 + speed, n, 0, 1);
+  };
+  EXPECT_EQ(approach_beyond_kick(1e-17), 0);
+  EXPECT_EQ(approach_beyond_kick(1e-16), 0);
+  EXPECT_NEAR(approach_beyond_kick(1e-12), 1e-12, 1e-16);
+}
+
 TEST(ExactGroup, IsJoinedByBodiesThatPressOnEachOtherFromTheStart) {
   Problem p = ball_on_floor();
   p.ball(Vec3(0, 1.5, 0), Vec3::Zero());
