@@ -35,7 +35,6 @@ bool DualActiveSet::append(const ContactIsland& island, std::uint32_t c) {
   active_.push_back(c);
   force_.push_back(0);
   fixed_.push_back(island.rows[c].bilateral);
-  ++changes_;
   return true;
 }
 
@@ -48,7 +47,6 @@ void DualActiveSet::drop(std::size_t place) {
   force_.erase(force_.begin() + at);
   fixed_.erase(fixed_.begin() + at);
   for (std::size_t k = place; k < active_.size(); ++k) place_[active_[k]] = static_cast<std::uint32_t>(k);
-  ++changes_;
 }
 
 /// New factors, of the bilateral rows and then of these.
@@ -144,7 +142,6 @@ bool DualActiveSet::take_in(const ContactIsland& island, std::uint32_t c, double
       active_.push_back(c);
       force_.push_back(force);
       fixed_.push_back(0);
-      ++changes_;
       return true;
     }
     drop(first);
@@ -315,7 +312,6 @@ void DualActiveSet::run(const ContactIsland& island, ContactAnswer& answer) {
 
 void DualActiveSet::prepare(const ContactIsland& island) {
   const std::size_t n = island.unknowns();
-  changes_ = 0;
   dependent_ = dependent;
   for (std::vector<double>* v : {&y_, &free_, &row_, &step_, &work_}) v->assign(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) free_[i] = island.free[i / 3][static_cast<int>(i % 3)] / island.root[i / 3];
@@ -343,7 +339,6 @@ DualActiveSet::Result DualActiveSet::solve_again(const ContactIsland& island, st
     if (active_[k] != none) continue;
     factors_.remove(k, row_.data());
     active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(k));
-    ++changes_;
   }
   force_.assign(active_.size(), 0);
   fixed_.resize(active_.size());

@@ -31,9 +31,6 @@ class DualActiveSet {
   /// Whether it has factors of a last island.
   bool has_factors() const { return factors_.columns() > 0; }
 
-  /// How many rows were taken in or let go in the last island: what it cost.
-  std::size_t changes() const { return changes_; }
-
  private:
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
@@ -64,7 +61,6 @@ class DualActiveSet {
   std::vector<double> row_, step_, work_, load_;  // scratch: a row in the factors' coordinates, ...
   ContactAnswer attempt_;                         // scratch
   double dependent_ = 0;                          // a row's tail under which it is spanned by others
-  std::size_t changes_ = 0;
   bool infeasible_ = false;
 };
 

@@ -408,9 +408,6 @@ ContactInteriorPoint::~ContactInteriorPoint() = default;
 double ContactInteriorPoint::operations() const {
   return method_->matrix().operations();
 }
-int ContactInteriorPoint::factorisations() const {
-  return method_->matrix().factorisations();
-}
 Judgement ContactInteriorPoint::solve(ContactAnswer& answer) {
   return method_->solve(answer);
 }

@@ -17,7 +17,6 @@ class ContactInteriorPoint {
   double operations() const;
 
   Judgement solve(ContactAnswer& answer);
-  int factorisations() const;
 
  private:
   class Method;

@@ -10,6 +10,7 @@
 #include "physics/active_set.h"
 #include "physics/contact_interior_point.h"
 #include "physics/contact_island.h"
+#include "physics/disjoint_sets.h"
 
 namespace carom {
 
@@ -17,35 +18,23 @@ namespace {
 
 /// Contacts that share bodies, islands one after the other; `fixed` things do not connect.
 struct Islands {
-  std::vector<std::uint32_t> root;      // by body
   std::vector<std::uint32_t> contacts;  // by island, ascending
   std::vector<std::size_t> first;       // of each island among contacts; and their number
 
-  Islands(std::size_t bodies, std::span<const ContactConstraint> all) : root(bodies), contacts(all.size()) {
-    std::iota(root.begin(), root.end(), 0u);
+  Islands(std::size_t bodies, std::span<const ContactConstraint> all) : contacts(all.size()) {
+    DisjointSets sets(bodies);
     for (const ContactConstraint& c : all)
-      if (c.b != ContactConstraint::fixed) {
-        const std::uint32_t p = find(c.a), q = find(c.b);
-        root[std::max(p, q)] = std::min(p, q);
-      }
+      if (c.b != ContactConstraint::fixed) sets.join(c.a, c.b);
+    std::vector<std::uint32_t> root(all.size());
+    for (std::size_t k = 0; k < all.size(); ++k) root[k] = sets.root(all[k].a);
     std::iota(contacts.begin(), contacts.end(), 0u);
-    for (const ContactConstraint& c : all) root[c.a] = find(c.a);
     std::stable_sort(contacts.begin(), contacts.end(),
-                     [&](std::uint32_t p, std::uint32_t q) { return root[all[p].a] < root[all[q].a]; });
+                     [&](std::uint32_t p, std::uint32_t q) { return root[p] < root[q]; });
     for (std::size_t k = 0; k < contacts.size(); ++k)
-      if (k == 0 || root[all[contacts[k]].a] != root[all[contacts[k - 1]].a]) first.push_back(k);
+      if (k == 0 || root[contacts[k]] != root[contacts[k - 1]]) first.push_back(k);
     first.push_back(contacts.size());
   }
-
-  std::uint32_t find(std::uint32_t k) {
-    while (root[k] != k) k = root[k] = root[root[k]];
-    return k;
-  }
 };
-
-}  // namespace
-
-namespace {
 
 /// What is known of an island since it was last solved.
 struct Known {

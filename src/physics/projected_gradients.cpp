@@ -81,10 +81,6 @@ double power_of_two_near(std::span<const double> values) {
   return std::ldexp(1.0, exponent);
 }
 
-}  // namespace
-
-namespace {
-
 /// The unknowns and their gradient, with what one step needs.
 class ProjectedGradients {
  public:

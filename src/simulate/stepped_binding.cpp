@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "physics/restitution.h"
-#include "simulate/disjoint_sets.h"
+#include "physics/disjoint_sets.h"
 #include "simulate/stepped_contact_problems.h"
 #include "simulate/tolerances.h"
 

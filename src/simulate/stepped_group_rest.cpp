@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "simulate/disjoint_sets.h"
+#include "physics/disjoint_sets.h"
 #include "simulate/stepped_contact_problems.h"
 #include "simulate/tolerances.h"
 

@@ -13,9 +13,6 @@
 namespace carom::testing {
 namespace {
 
-const std::set<std::string> exempt_names = {
-};
-
 /// Names that two types share: classes, enums and aliases at namespace scope, in unnamed namespaces too. Equal aliases
 /// are one type. Nested types and specializations have their names from others. An .inc file, which is compiled
 /// several times, has none of its own.
@@ -31,7 +28,7 @@ std::vector<std::string> shared_names(const std::vector<SourceFile>& files) {
       continue;
     }
     for (const TypeDefinition& type : declarations_of(file.text).types) {
-      if (type.nested || type.is_specialization || type.name.empty() || exempt_names.contains(type.name)) {
+      if (type.nested || type.is_specialization || type.name.empty()) {
         continue;
       }
       const auto [use, is_new] = uses.try_emplace(type.name, Use{type.meaning, "", false});

@@ -41,7 +41,7 @@ TEST(Report, TellsOfMergesAndOfClustersTakenIntoContact) {
 
 TEST(Report, JsonHasThemBesideTheSummary) {
   EXPECT_EQ(contact_json(result_with(2, 1).summary).dump(),
-            R"({"resting":3,"clusters_taken_into_contact":2,"merges":1})");
+            R"({"resting":3,"clusters_taken_into_contact":2,"merges":1,"doubtful":0})");
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include "physics/contact_problem.h"
 #include "simulate/build.h"
-#include "simulate/disjoint_sets.h"
+#include "physics/disjoint_sets.h"
 #include "simulate/stepped_awake.h"
 #include "simulate/stepped_bounces.h"
 #include "simulate/stepped_clock.h"
