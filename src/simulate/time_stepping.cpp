@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/restitution.h"
 #include "physics/disjoint_sets.h"
+#include "physics/restitution.h"
 #include "simulate/exact_contact_problems.h"
 #include "simulate/tolerances.h"
 

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "physics/contact_problem.h"
-#include "simulate/build.h"
 #include "physics/disjoint_sets.h"
+#include "simulate/build.h"
 #include "simulate/stepped_awake.h"
 #include "simulate/stepped_bounces.h"
 #include "simulate/stepped_clock.h"
