@@ -6,9 +6,10 @@
 // The motion u is unique, the forces need not be.
 //
 // Two methods stand behind it: a dual active set on orthogonal factors (active_set.h), for what is small,
-// ill-conditioned or nearly as it was last time, and an interior point with a proximal Newton method (interior_point.h)
-// on the bodies' sparse matrix, for what is large. Each is the other's fallback, cost alone chooses between them, and
-// one certificate judges both (contact_island.h).
+// ill-conditioned or nearly as it was last time, and an interior point with a proximal Newton method
+// (contact_interior_point.h) on the bodies' sparse matrix, for what is large. Each is the other's fallback, cost alone
+// chooses between them, and one certificate judges both (contact_island.h).
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -48,8 +49,8 @@ struct Certificate {
   bool solved() const { return verdict == Verdict::solved; }
   /// What is known of both answers.
   void merge(const Certificate& other) {
-    verdict = verdict < other.verdict ? other.verdict : verdict;
-    change = change < other.change ? other.change : change;
+    verdict = std::max(verdict, other.verdict);
+    change = std::max(change, other.change);
   }
 };
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "physics/cube_root.h"
+#include "physics/disjoint_sets.h"
 #include "simulate/exact_contact_problems.h"
 #include "simulate/tolerances.h"
 
@@ -206,11 +206,11 @@ void ConstrainedMotion::stop_parting(Step& step) const {
 /// At rest are islands none of whose bodies moves or is accelerated.
 void ConstrainedMotion::find_resting(Step& step) const {
   const std::size_t n = step.x.size();
-  std::vector<std::size_t> island(n);
-  std::iota(island.begin(), island.end(), std::size_t{0});
+  DisjointSets islands(n);
   for (const ContactConstraint& p : step.pairs)
-    if (p.b != ContactConstraint::fixed && island[p.a] != island[p.b])
-      std::replace(island.begin(), island.end(), std::size_t{island[p.a]}, std::size_t{island[p.b]});
+    if (p.b != ContactConstraint::fixed) islands.join(p.a, p.b);
+  std::vector<std::uint32_t> island(n);
+  for (std::uint32_t k = 0; k < n; ++k) island[k] = islands.root(k);
   std::vector<std::uint8_t> moves(n, 1);  // by island
   for (const ContactConstraint& p : step.pairs) moves[island[p.a]] = 0;
   step.fastest = 0;

@@ -49,7 +49,7 @@ class ExactGroup {
   /// move at that speed until the next step.
   void widen_margin(Entity i, double approach);
   /// How much of an approach (m/s) along n is there already: in time stepping flights have been kicked by what forces
-  /// do in the rest of the step.
+  /// do in the rest of the step. 0 where no more than rounding is.
   double approach_without_kick(double approach, const Vec3& n, Entity i, Entity e) const;
   /// A force in what is left of a time step changes body i's velocity by dv (m/s), which is in its flight from now on.
   void kick(Entity i, const Vec3& dv);

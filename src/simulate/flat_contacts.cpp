@@ -172,7 +172,9 @@ Vec3 FlatContacts::acceleration_without(Entity i, Entity surface) const {
   if (contacts_[i].count == 0) return bodies_.applied[i];
   std::array<Vec3, most> normals;
   const std::size_t n = normals_of(contacts_[i], surface, normals);
-  return solve_flat_contacts(bodies_.applied[i], {normals.data(), n}).u;
+  const FlatSolution solution = solve_flat_contacts(bodies_.applied[i], {normals.data(), n});
+  bodies_.log.note(solution.certificate);
+  return solution.u;
 }
 
 void FlatContacts::report(Entity i, std::vector<ContactForce>& forces) const {

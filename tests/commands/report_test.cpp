@@ -39,6 +39,13 @@ TEST(Report, TellsOfMergesAndOfClustersTakenIntoContact) {
             "              into contact\n");
 }
 
+TEST(Report, SaysHowManyContactProblemsAreDoubtful) {
+  RunResult result = result_with(0, 0);
+  EXPECT_EQ(lines_of(result).find("doubtful"), std::string::npos);
+  result.summary.doubtful = 2;
+  EXPECT_NE(lines_of(result).find("  doubtful    2 contact problems: motion may be off"), std::string::npos);
+}
+
 TEST(Report, JsonHasThemBesideTheSummary) {
   EXPECT_EQ(contact_json(result_with(2, 1).summary).dump(),
             R"({"resting":3,"clusters_taken_into_contact":2,"merges":1,"doubtful":0})");

@@ -21,19 +21,19 @@ while (entry := struct.unpack_from("<II", data, at))[0] != 0xFFFFFFFF:
     (hi, lo), x, v = take(2), take(3), take(3)
     a[body] = take(3) if has & 1 else a[body]
     since = take(1)[0] if has & 2 else math.nextafter(hi, math.inf) if lo > 0 else hi
-    until, haste = (take(2), take(3)) if has & 4 else ((0, 0), None)
+    until, kick = (take(2), take(3)) if has & 4 else ((0, 0), None)
     if since > time:
         break
     whole[body] = take(1, "Q")[0] if has & 8 else whole[body]
     joint = take(5) if has & 16 else None  # mass, radius, half extents
-    path[body] = hi, lo, x, v, a[body], until, haste
+    path[body] = hi, lo, x, v, a[body], until, kick
 for body in range(bodies):
     while whole[body] != body:
         body = whole[body]
-    hi, lo, x, v, acceleration, until, haste = path[body]
+    hi, lo, x, v, acceleration, until, kick = path[body]
     s = (time - hi) + (0 - lo)
     x = [p + s * (u + (0.5 * s) * g) for p, u, g in zip(x, v, acceleration)]
     v = [u + s * g for u, g in zip(v, acceleration)]
-    if haste:
-        v = [u - ((until[0] - time) + until[1]) * h for u, h in zip(v, haste)]
+    if kick:
+        v = [u - ((until[0] - time) + until[1]) * k for u, k in zip(v, kick)]
     print(*(number.hex() for number in x + v))
