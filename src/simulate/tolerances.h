@@ -17,7 +17,7 @@ inline constexpr double step_rounding = 512;       // of the speed of falling by
 inline constexpr double plane_rounding = 0x1p-49;  // of speeds: an approach to a plane that is rounding
 inline constexpr double negligible_speed = 0x1p-200;  // of the greatest speed so far: products with itself underflow
 inline constexpr double negligible_hop = 0x1p-120;    // of the squared speed of falling by a radius: a body at rest
-inline constexpr double approach_rounding = 0x1p-50;  // of speeds: an approach that is rounding, unpressed or beyond a kick
+inline constexpr double approach_rounding = 0x1p-50;  // of speeds: an approach that is rounding: unpressed, or kicked
 
 // Impacts that end in contact (collapse_detector.h).
 inline constexpr double slow_impact = 0.03;    // of the speed of falling by a length: impacts in contact do not count
