@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace carom {
 
@@ -33,25 +34,58 @@ void ContactIsland::scale() {
   mass_ratio = lightest / heaviest;
   motion_exponent = exponent_of(most);
   mass_exponent = exponent_of(lightest);
+  const PowerOfTwo motion(-motion_exponent), mass(-mass_exponent), force(mass_exponent - motion_exponent);
   speed = 0;
   root.resize(inverse_mass.size());
   for (std::size_t i = 0; i < free.size(); ++i) {
-    inverse_mass[i] = std::ldexp(inverse_mass[i], -mass_exponent);
+    inverse_mass[i] = mass * inverse_mass[i];
     root[i] = std::sqrt(inverse_mass[i]);
-    for (int k = 0; k < 3; ++k) free[i][k] = std::ldexp(free[i][k], -motion_exponent);
+    free[i] = motion * free[i];
     speed = std::max(speed, free[i].norm());
   }
   unilateral = true;
   for (Row& r : rows) {
-    r.target = std::ldexp(r.target, -motion_exponent);
-    r.slack = std::ldexp(r.slack, -motion_exponent);
-    r.force = std::ldexp(r.force, mass_exponent - motion_exponent);
+    r.target = motion * r.target;
+    r.slack = motion * r.slack;
+    r.force = force * r.force;
     r.scale = 1 / std::sqrt(r.normal.squaredNorm() * (inverse_mass[r.a] + (r.moves_b() ? inverse_mass[r.b] : 0)));
     r.left = r.scale * root[r.a] * r.normal;
     r.right = r.moves_b() ? Vec3(r.scale * root[r.b] * r.normal) : Vec3(Vec3::Zero());
     speed = std::max(speed, std::abs(r.target));
     unilateral = unilateral && !r.bilateral;
   }
+}
+
+std::size_t ContactIsland::reach() const {
+  // The rows of every body, one body after the other.
+  std::vector<std::uint32_t> first(free.size() + 1, 0), of;
+  for (const Row& r : rows) {
+    ++first[r.a];
+    if (r.moves_b()) ++first[r.b];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  of.resize(first.back());
+  for (std::uint32_t c = 0; c < rows.size(); ++c) {
+    of[--first[rows[c].a]] = c;
+    if (rows[c].moves_b()) of[--first[rows[c].b]] = c;
+  }
+  std::vector<std::uint32_t> order, distance;
+  const auto search_from = [&](std::uint32_t start) {
+    distance.assign(rows.size(), ContactConstraint::fixed);
+    order.assign(1, start);
+    distance[start] = 0;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const Row& r = rows[order[k]];
+      for (const std::uint32_t body : {r.a, r.moves_b() ? r.b : r.a})
+        for (std::uint32_t at = first[body]; at < first[body + 1]; ++at)
+          if (distance[of[at]] == ContactConstraint::fixed) {
+            distance[of[at]] = distance[order[k]] + 1;
+            order.push_back(of[at]);
+          }
+    }
+    return order.back();
+  };
+  return distance[search_from(search_from(0))];
 }
 
 double excess(const ContactIsland::Row& r, const std::vector<DoubleDouble>& motion) {

@@ -1,6 +1,7 @@
 #pragma once
 // Contacts that share bodies and have nothing to do with others, in numbers and units of their own: what the methods
 // behind contact_problem.h work on, and the certificate that judges their answers.
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,6 +10,18 @@
 #include "physics/contact_problem.h"
 
 namespace carom {
+
+/// 2^exponent times a number, as std::ldexp and faster.
+class PowerOfTwo {
+ public:
+  explicit PowerOfTwo(int exponent)
+      : half_(std::ldexp(1.0, exponent / 2)), rest_(std::ldexp(1.0, exponent - exponent / 2)) {}
+  double operator*(double x) const { return x * half_ * rest_; }
+  Vec3 operator*(const Vec3& x) const { return x * half_ * rest_; }
+
+ private:
+  double half_, rest_;
+};
 
 /// The unit of motion is a power of two near the greatest free motion or target, that of inverse mass one near the
 /// greatest: other units give the same digits. In y = u / root every contact is a row of unit length.
@@ -50,6 +63,9 @@ struct ContactIsland {
   std::size_t unknowns() const { return 3 * free.size(); }
   /// What rounding of the data can do to a row of unit length times the motion.
   double noise_scale(const Row& r) const { return r.scale * (std::abs(r.target) + (r.moves_b() ? 2 : 1) * speed); }
+  /// From a row to any other it goes over at most so many that share a body, about: the farthest from the farthest from
+  /// the first.
+  std::size_t reach() const;
   /// Fills in all that follows from inverse_mass, free, and the rows' bodies, normals, targets, slacks and guesses.
   void scale();
 };

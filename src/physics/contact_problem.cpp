@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "physics/active_set.h"
 #include "physics/contact_interior_point.h"
 #include "physics/contact_island.h"
+#include "physics/contact_projected_gradients.h"
 #include "physics/disjoint_sets.h"
 
 namespace carom {
@@ -19,21 +20,27 @@ namespace {
 /// Contacts that share bodies, islands one after the other; `fixed` things do not connect.
 struct Islands {
   std::vector<std::uint32_t> contacts;  // by island, ascending
-  std::vector<std::size_t> first;       // of each island among contacts; and their number
+  std::vector<std::uint32_t> first;     // of each island among contacts; and their number
 
-  Islands(std::size_t bodies, std::span<const ContactConstraint> all) : contacts(all.size()) {
+  void find(std::size_t bodies, std::span<const ContactConstraint> all) {
     DisjointSets sets(bodies);
     for (const ContactConstraint& c : all)
       if (c.b != ContactConstraint::fixed) sets.join(c.a, c.b);
-    std::vector<std::uint32_t> root(all.size());
-    for (std::size_t k = 0; k < all.size(); ++k) root[k] = sets.root(all[k].a);
-    std::iota(contacts.begin(), contacts.end(), 0u);
-    std::stable_sort(contacts.begin(), contacts.end(),
-                     [&](std::uint32_t p, std::uint32_t q) { return root[p] < root[q]; });
-    for (std::size_t k = 0; k < contacts.size(); ++k)
-      if (k == 0 || root[contacts[k]] != root[contacts[k - 1]]) first.push_back(k);
-    first.push_back(contacts.size());
+    // Sorted by root: how many contacts each has, and then where the next one goes.
+    next_.assign(bodies, 0);
+    for (const ContactConstraint& c : all) ++next_[sets.root(c.a)];
+    first.assign(1, 0);
+    for (std::uint32_t& next : next_) {
+      const std::uint32_t count = next;
+      next = first.back();
+      if (count > 0) first.push_back(next + count);
+    }
+    contacts.resize(all.size());
+    for (std::uint32_t k = 0; k < all.size(); ++k) contacts[next_[sets.root(all[k].a)]++] = k;
   }
+
+ private:
+  std::vector<std::uint32_t> next_;  // by root
 };
 
 /// What is known of an island since it was last solved.
@@ -75,8 +82,7 @@ bool Known::resembles(const ContactIsland& island) {
 
 /// The commonest problem by far, one contact, needs no method: twice, the second time for what rounding has left.
 /// False: it is left as it was, for there is more to it.
-bool solve_single(const ContactProblem& problem, Certificate& certificate) {
-  ContactConstraint& c = problem.contacts.front();
+bool solve_single(const ContactProblem& problem, ContactConstraint& c, Certificate& certificate) {
   const bool fixed = c.b == ContactConstraint::fixed;
   const Vec3 none = Vec3::Zero();
   const double of_a = problem.inverse_mass[c.a], of_b = fixed ? 0 : problem.inverse_mass[c.b];
@@ -102,12 +108,52 @@ bool solve_single(const ContactProblem& problem, Certificate& certificate) {
   return true;
 }
 
+/// Whether the free motion is what contact allows.
+bool nothing_presses(const ContactProblem& problem, std::span<const std::uint32_t> contacts) {
+  return std::all_of(contacts.begin(), contacts.end(), [&](std::uint32_t k) {
+    const ContactConstraint& c = problem.contacts[k];
+    const Vec3 b = c.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : problem.motion[c.b];
+    return !c.bilateral && c.normal.dot(b - problem.motion[c.a]) >= c.target;
+  });
+}
+
+/// What an exact answer would cost: multiplications and additions. Orthogonal factors take three in unknowns for every
+/// row, sparse ones some thirty factorisations.
+class ExactCost {
+ public:
+  explicit ExactCost(const ContactIsland& island) : island_(island) {
+    constexpr double rows_taken_in = 1.3;
+    const double n = static_cast<double>(island.unknowns()), m = static_cast<double>(island.rows.size());
+    const double taken = std::min(m, n);
+    dense_ = rows_taken_in * taken * 6 * n * (n - 0.5 * taken);
+    least_sparse_ = factorisations * per_entry * (n + m);
+  }
+
+  double dense() const { return dense_; }
+  /// At least that of either.
+  double least() const { return std::min(dense_, least_sparse_); }
+  double sparse() { return least_sparse_ + factorisations * method().operations(); }
+  /// The sparse method, set up once it is asked for.
+  ContactInteriorPoint& method() {
+    if (!method_) method_.emplace(island_);
+    return *method_;
+  }
+
+ private:
+  static constexpr double factorisations = 35, per_entry = 40;
+  const ContactIsland& island_;
+  std::optional<ContactInteriorPoint> method_;
+  double dense_, least_sparse_;
+};
+
 }  // namespace
 
 struct ContactSolver::Workspace {
   std::map<std::uint32_t, Known> known;  // by the lowest body of an island
   Known unknown;                         // where nothing is remembered
+  Islands islands;
   ContactIsland island;
+  ContactProjectedGradients gradients;
   ContactAnswer answer, attempt;
   std::vector<std::uint32_t> place;   // by body: its number in the island
   std::vector<std::uint32_t> bodies;  // by number in the island
@@ -115,7 +161,9 @@ struct ContactSolver::Workspace {
 
   void take_island(const ContactProblem& problem, std::span<const std::uint32_t> contacts);
   void give_back(const ContactProblem& problem, std::span<const std::uint32_t> contacts) const;
-  Certificate solve_island(Known& last);
+  Certificate solve_exactly(ExactCost& cost, Known& last);
+  Certificate solve_to_slack(ContactAccuracy accuracy);
+  Certificate solve_island(const ContactProblem& problem, std::span<const std::uint32_t> contacts);
   Certificate solve(const ContactProblem& problem);
 };
 
@@ -144,7 +192,7 @@ void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::s
     row.bilateral = from.bilateral;
     row.normal = from.normal;
     row.target = from.target;
-    row.slack = from.slack;
+    row.slack = problem.accuracy == ContactAccuracy::rounding ? 0 : from.slack;
     row.force = from.bilateral ? 0 : std::max(from.force, 0.0);
   }
   for (const std::uint32_t body : bodies) place[body] = ContactConstraint::fixed;
@@ -154,22 +202,20 @@ void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::s
 /// What contact leaves of a speed is nothing if doubled precision does not resolve it.
 void ContactSolver::Workspace::give_back(const ContactProblem& problem, std::span<const std::uint32_t> contacts) const {
   const double nothing = 0x1p-96 * island.speed;
+  const PowerOfTwo unit(island.motion_exponent), unit_of_force(island.motion_exponent - island.mass_exponent);
   for (std::size_t k = 0; k < bodies.size(); ++k)
     for (int axis = 0; axis < 3; ++axis) {
       const double u = answer.motion[3 * k + static_cast<std::size_t>(axis)].value();
       const bool stopped = std::abs(u) <= nothing && u != island.free[k][axis];
-      problem.motion[bodies[k]][axis] = stopped ? 0 : std::ldexp(u, island.motion_exponent);
+      problem.motion[bodies[k]][axis] = stopped ? 0 : unit * u;
     }
   for (std::size_t k = 0; k < contacts.size(); ++k)
-    problem.contacts[contacts[k]].force =
-        std::ldexp(answer.force[k].value(), island.motion_exponent - island.mass_exponent);
+    problem.contacts[contacts[k]].force = unit_of_force * answer.force[k].value();
 }
 
-/// The one place where a method is chosen: by what each would cost. Orthogonal factors take three in unknowns for every
-/// row, sparse ones some thirty factorisations, and need masses that are not too unequal. Where the one fails the other
-/// comes next, and then orthogonal factors from nothing.
-Certificate ContactSolver::Workspace::solve_island(Known& last) {
-  constexpr double rows_taken_in = 1.3, factorisations = 35, per_entry = 40;
+/// Here and in solve_to_slack a method is chosen: by what each would cost, and orthogonal factors where masses are too
+/// unequal for sparse ones. Where the one fails the other comes next, and then orthogonal factors from nothing.
+Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, Known& last) {
   constexpr double surely_dense = 1e6;  // operations; below it the sparse method's set-up alone costs more
   constexpr double worth_while = 8;     // solutions: factors for which one pays once pay for so many
   Certificate best{Certificate::Verdict::doubtful, std::numeric_limits<double>::infinity()};
@@ -197,14 +243,11 @@ Certificate ContactSolver::Workspace::solve_island(Known& last) {
     for (std::size_t k = 0; k < last.rows.size(); ++k)
       if (last.now[k] != DualActiveSet::gone() && !last.rows[k].bilateral)
         island.rows[last.now[k]].force = last.rows[k].force;
-  const double n = static_cast<double>(island.unknowns()), m = static_cast<double>(island.rows.size());
-  const double taken = std::min(m, n), dense = rows_taken_in * taken * 6 * n * (n - 0.5 * taken);
-  if (dense <= surely_dense && by_active_set()) return best;
-  ContactInteriorPoint sparse(island);
-  const double cost = factorisations * (sparse.operations() + per_entry * (n + m));
-  const bool unequal = island.mass_ratio > 1e6 && n <= 1500;
-  if (dense > surely_dense && (unequal || dense <= (alike ? worth_while : 1) * cost) && by_active_set()) return best;
-  if (take(sparse.solve(attempt), false)) return best;
+  if (cost.dense() <= surely_dense && by_active_set()) return best;
+  const bool unequal = island.mass_ratio > 1e6 && island.unknowns() <= 1500;
+  const bool dense = unequal || cost.dense() <= (alike ? worth_while : 1) * cost.sparse();
+  if (cost.dense() > surely_dense && dense && by_active_set()) return best;
+  if (take(cost.method().solve(attempt), false)) return best;
   for (std::size_t c = 0; c < island.rows.size(); ++c)
     island.rows[c].force = island.rows[c].bilateral ? 0 : std::max(answer.force[c].hi, 0.0);
   if (by_active_set()) return best;
@@ -213,28 +256,56 @@ Certificate ContactSolver::Workspace::solve_island(Known& last) {
   return best;
 }
 
-Certificate ContactSolver::Workspace::solve(const ContactProblem& problem) {
-  Certificate all;
-  if (problem.contacts.empty() || (problem.contacts.size() == 1 && solve_single(problem, all))) return all;
-  place.assign(problem.motion.size(), ContactConstraint::fixed);
-  const Islands islands(problem.motion.size(), problem.contacts);
-  for (std::size_t k = 0; k + 1 < islands.first.size(); ++k) {
-    const auto contacts =
-        std::span(islands.contacts).subspan(islands.first[k], islands.first[k + 1] - islands.first[k]);
-    take_island(problem, contacts);
-    if (island.speed == 0) {
-      for (const std::uint32_t c : contacts) problem.contacts[c].force = 0;
-      continue;
-    }
+/// By projected gradients, until they have cost as much as an exact answer would: that they are almost there is as
+/// likely then as that they are not, and at worst it costs twice what was needed.
+Certificate ContactSolver::Workspace::solve_to_slack(ContactAccuracy accuracy) {
+  ExactCost cost(island);
+  gradients.start(island);
+  bool done = gradients.run(accuracy, cost.least());
+  if (!done && cost.least() < cost.dense())
+    done = gradients.run(accuracy, std::min(cost.dense(), cost.sparse()));
+  if (done) return {Certificate::Verdict::solved, gradients.finish(answer)};
+  gradients.guess(island);
+  return solve_exactly(cost, unknown);
+}
+
+Certificate ContactSolver::Workspace::solve_island(const ContactProblem& problem,
+                                                   std::span<const std::uint32_t> contacts) {
+  Certificate certificate;
+  if (nothing_presses(problem, contacts)) {
+    for (const std::uint32_t c : contacts) problem.contacts[c].force = 0;
+    return certificate;
+  }
+  if (contacts.size() == 1 && solve_single(problem, problem.contacts[contacts.front()], certificate))
+    return certificate;
+  take_island(problem, contacts);
+  if (island.speed == 0) {
+    for (const std::uint32_t c : contacts) problem.contacts[c].force = 0;
+    return certificate;
+  }
+  if (problem.accuracy != ContactAccuracy::rounding && island.unilateral) {
+    certificate = solve_to_slack(problem.accuracy);
+  } else {
     Known& last = remembers ? known[bodies.front()] : unknown;
-    const Certificate its = solve_island(last);
+    ExactCost cost(island);
+    certificate = solve_exactly(cost, last);
     if (remembers) {
       last.inverse_mass = island.inverse_mass;
       last.rows = island.rows;
       for (std::size_t c = 0; c < last.rows.size(); ++c) last.rows[c].force = answer.force[c].hi;
     }
-    give_back(problem, contacts);
-    all.merge(its);
+  }
+  give_back(problem, contacts);
+  return certificate;
+}
+
+Certificate ContactSolver::Workspace::solve(const ContactProblem& problem) {
+  Certificate all;
+  place.resize(std::max(place.size(), problem.motion.size()), ContactConstraint::fixed);
+  islands.find(problem.motion.size(), problem.contacts);
+  for (std::size_t k = 0; k + 1 < islands.first.size(); ++k) {
+    const std::size_t first = islands.first[k], count = islands.first[k + 1] - first;
+    all.merge(solve_island(problem, std::span(islands.contacts).subspan(first, count)));
   }
   return all;
 }

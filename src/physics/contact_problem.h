@@ -30,10 +30,18 @@ struct ContactConstraint {
   bool bilateral = false;  // normal . (u_b - u_a) must be the target: the force may pull too
 };
 
+/// How near an answer has to be.
+enum class ContactAccuracy : std::uint8_t {
+  rounding,  // whatever the contacts' slack
+  contacts,  // every contact to within its slack
+  energy     // or until more work would change no more kinetic energy than contacts off by their slack have
+};
+
 struct ContactProblem {
   std::span<const double> inverse_mass;  // 1/kg, > 0, by body
   std::span<Vec3> motion;                // velocities, accelerations or displacements; in: free; out: allowed
   std::span<ContactConstraint> contacts;
+  ContactAccuracy accuracy = ContactAccuracy::rounding;
 };
 
 /// What is known of an answer. It is the exact one, rounded, of data that differ from the given ones by `change`

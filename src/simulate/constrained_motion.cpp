@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "physics/contact_problem.h"
 #include "physics/cube_root.h"
 #include "physics/disjoint_sets.h"
-#include "simulate/exact_contact_problems.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -136,7 +136,7 @@ void ConstrainedMotion::close_overlaps(Step& step) const {
     overlap = overlap || step.pairs[c].target > tol::least_overlap * bodies_.world.radius[step.names[c].a];
   if (!overlap) return;
   std::vector<Vec3> displacement(step.x.size(), Vec3::Zero());  // m
-  bodies_.log.note(solve_exactly(step.inverse_mass, displacement, step.pairs));
+  bodies_.log.note(solve({step.inverse_mass, displacement, step.pairs}));
   for (std::size_t k = 0; k < step.x.size(); ++k) step.x[k] += displacement[k];
 }
 
@@ -145,7 +145,7 @@ void ConstrainedMotion::close_overlaps(Step& step) const {
 void ConstrainedMotion::take_approaches(Step& step) {
   for (const Vec3& v : step.v) step.fastest = std::max(step.fastest, v.norm());
   for (ContactConstraint& p : step.pairs) p.target = p.force = 0;
-  bodies_.log.note(solve_exactly(step.inverse_mass, step.v, step.pairs));
+  bodies_.log.note(solve({step.inverse_mass, step.v, step.pairs}));
   for (std::size_t k = 0; k < step.v.size(); ++k) {
     const Entity i = group_.members[k];
     const Vec3& before = step.before[k];
@@ -185,7 +185,7 @@ std::vector<Vec3> ConstrainedMotion::accelerate(Step& step, const std::vector<Ve
     pair.normal = there.normal;
     pair.target = -bending(world, i, x[pair.a], e, xe, there, rate(v, e) - v[pair.a]);
   }
-  bodies_.log.note(solve_exactly(step.inverse_mass, a, step.pairs));
+  bodies_.log.note(solve({step.inverse_mass, a, step.pairs}));
   return a;
 }
 
@@ -200,7 +200,7 @@ void ConstrainedMotion::stop_parting(Step& step) const {
     kept.push_back({p.a, p.b, p.normal});
     kept.back().bilateral = p.force > 0;
   }
-  if (parts) bodies_.log.note(solve_exactly(step.inverse_mass, step.v, kept));
+  if (parts) bodies_.log.note(solve({step.inverse_mass, step.v, kept}));
 }
 
 /// At rest are islands none of whose bodies moves or is accelerated.
@@ -418,7 +418,7 @@ void ConstrainedMotion::report(double time, std::vector<ContactForce>& forces) c
       names.emplace_back(i, e);
     }
   }
-  solve_exactly(inverse_mass, a, pairs);
+  solve({inverse_mass, a, pairs});
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (pairs[c].force > 0) forces.push_back({names[c].first, names[c].second, pairs[c].force});
   forget_index();

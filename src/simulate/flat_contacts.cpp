@@ -5,7 +5,7 @@
 
 #include "physics/impact.h"
 #include "physics/restitution.h"
-#include "simulate/exact_contact_problems.h"
+#include "simulate/flat_contact_problems.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -184,7 +184,7 @@ void FlatContacts::report(Entity i, std::vector<ContactForce>& forces) const {
     pairs.push_back({0, ContactConstraint::fixed, -contacts.at[k].normal});
   const double inverse_mass = 1 / bodies_.world.mass[i];
   Vec3 a = bodies_.applied[i];
-  solve_exactly({&inverse_mass, 1}, {&a, 1}, pairs);
+  solve({{&inverse_mass, 1}, {&a, 1}, pairs});
   for (std::size_t k = 0; k < contacts.count; ++k)
     if (pairs[k].force > 0) forces.push_back({i, contacts.at[k].surface, pairs[k].force});
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "simulate/exact_contact_problems.h"
+#include "physics/contact_problem.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -73,7 +73,7 @@ void SimultaneousImpacts::solve(Touching& set, bool part) const {
   }
   const auto press = [&] {
     set.after = set.before;
-    solve_contacts(set.inverse_mass, set.after, set.pairs, exact_tolerance::simultaneous_iterations);
+    bodies_.log.note(carom::solve({set.inverse_mass, set.after, set.pairs, ContactAccuracy::energy}));
   };
   press();
   double gained = 0;

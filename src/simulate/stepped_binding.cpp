@@ -5,7 +5,7 @@
 
 #include "physics/disjoint_sets.h"
 #include "physics/restitution.h"
-#include "simulate/stepped_contact_problems.h"
+#include "physics/contact_problem.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -130,7 +130,7 @@ void ClusterBinding::stop_approach(const std::vector<Entity>& bodies) {
     v_[k] = paths.v[bodies[k]];
     fastest_ = std::max(fastest_, v_[k].norm());
   }
-  shared_.log.note(solve_cluster(inverse_mass_, v_, pairs_));
+  shared_.log.note(solve({inverse_mass_, v_, pairs_}));
   for (std::size_t k = 0; k < n; ++k) {
     const Entity i = bodies[k];
     a_[k] = shared_.free.acceleration(i, paths.x[i], v_[k]);
@@ -151,7 +151,7 @@ void ClusterBinding::find_forces() {
     const Touch there = touch(world, c.a, paths.x[c.a], c.b, xb, c.feature);
     pairs_[k].target = -bending(world, c.a, paths.x[c.a], c.b, xb, there, paths.velocity_of(c.b) - paths.v[c.a]);
   }
-  shared_.log.note(solve_cluster(inverse_mass_, a_, pairs_));
+  shared_.log.note(solve({inverse_mass_, a_, pairs_}));
   for (std::size_t k = 0; k < pairs_.size(); ++k) {
     contacts_[k].active = pairs_[k].force > 0;
     contacts_[k].force = pairs_[k].force;

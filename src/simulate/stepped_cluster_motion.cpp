@@ -4,7 +4,6 @@
 
 #include "physics/integrator.h"
 #include "physics/touch.h"
-#include "simulate/stepped_contact_problems.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -49,9 +48,9 @@ Certificate ClusterMotion::accelerate(const Cluster& cluster, const ClusterState
     const Touch there = touch(world_, c.a, x[c.of_a], c.b, xb, c.feature);
     const double bend =
         is_flat(world_, c.a, c.b, c.feature) ? 0 : bending(world_, c.a, x[c.of_a], c.b, xb, there, vb - v[c.of_a]);
-    pairs.push_back({c.of_a, c.of_b, there.normal, -bend, 0, 0});
+    pairs.push_back({c.of_a, c.of_b, there.normal, -bend, 0, 0, true});
   }
-  return hold_active(state.inverse_mass, a, pairs);
+  return solve({state.inverse_mass, a, pairs});
 }
 
 void ClusterMotion::carry(const Cluster& cluster, double length, ClusterState& s) const {
@@ -83,17 +82,17 @@ void ClusterMotion::project(const Cluster& cluster, ClusterState& s) const {
         closed[k] = closed[k] || there.gap < 0;
         if (!closed[k] || (of_velocities && opening_at_end(c, there.normal, s) >= 0)) continue;
       }
-      pairs.push_back({c.of_a, c.of_b, there.normal, of_velocities ? 0 : -there.gap, 0, 0});
+      pairs.push_back({c.of_a, c.of_b, there.normal, of_velocities ? 0 : -there.gap, 0, 0, true});
     }
   };
   for (int pass = 0; pass < projections; ++pass) {  // Newton's method
     find_pairs(false);
     std::vector<Vec3> displacement(s.end_x.size(), Vec3::Zero());
-    s.certificate.merge(hold_active(s.inverse_mass, displacement, pairs));
+    s.certificate.merge(solve({s.inverse_mass, displacement, pairs}));
     for (std::size_t k = 0; k < displacement.size(); ++k) s.end_x[k] += displacement[k];
   }
   find_pairs(true);
-  s.certificate.merge(hold_active(s.inverse_mass, s.end_v, pairs));
+  s.certificate.merge(solve({s.inverse_mass, s.end_v, pairs}));
 }
 
 void ClusterMotion::carry_and_activate(Cluster& cluster, double length, ClusterState& s) const {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "physics/disjoint_sets.h"
-#include "simulate/stepped_contact_problems.h"
+#include "physics/contact_problem.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -98,7 +98,7 @@ double GroupRest::sink(GroupBodies& part, double drive, std::vector<ContactConst
   std::vector<Vec3> displacement(part.size());
   for (std::size_t k = 0; k < part.size(); ++k)
     displacement[k] = drive * part.smallest_radius / part.greatest_acceleration * part.free_acceleration[k];
-  if (!solve_balance(part.inverse_mass, displacement, pairs)) return never;
+  if (!solve({part.inverse_mass, displacement, pairs, ContactAccuracy::contacts}).solved()) return never;
   double farthest = 0;
   for (std::size_t k = 0; k < part.size(); ++k) {
     part.x[k] += displacement[k];

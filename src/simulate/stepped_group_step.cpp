@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "physics/restitution.h"
-#include "physics/whole.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -66,23 +65,14 @@ void GroupStep::choose_pairs(const GroupBodies& bodies, std::vector<GroupContact
   }
 }
 
-/// Moves end_v_, free velocities, to where contacts allow. The slower the bodies, the more exactly. In shorter steps
-/// less is to be done, as they start nearer to where they go.
+/// Moves end_v_, free velocities, to where contacts allow.
 void GroupStep::solve_velocities(const GroupBodies& bodies, bool without_impacts) {
-  const double h = shared_.clock.length();
-  const double share =
-      std::min(share_of_fall * h * std::sqrt(bodies.greatest_acceleration / bodies.smallest_radius), 1.0);
-  const bool slow = froude_ < slow_group;
-  const int iterations = slow ? static_cast<int>(whole_below(std::ceil(few_iterations * share))) : 0;
-  double sweeps = slow ? few_sweeps : std::clamp(2 * share / froude_, 1.0 * few_sweeps, 1.0 * most_sweeps);
-  if (without_impacts) {
-    sweeps = most_sweeps;
+  if (without_impacts)
     for (ContactConstraint& pair : pairs_) {
       pair.target = std::min(pair.target, 0.0);
       pair.force = 0;
     }
-  }
-  solver_.solve(bodies.inverse_mass, end_v_, pairs_, static_cast<int>(whole_below(sweeps)), iterations);
+  shared_.log.note(solve({bodies.inverse_mass, end_v_, pairs_, ContactAccuracy::energy}));
 }
 
 /// Whether the bodies have more kinetic energy at end_v_ than at these velocities (m/s), beyond what the solver leaves.
@@ -101,8 +91,9 @@ void GroupStep::find_displacements(const GroupBodies& bodies, const std::vector<
   for (std::size_t k = 0; k < bodies.size(); ++k) drift_[k] = 0.5 * (bodies.v[k] + end_v_[k]);
   pairs_.clear();
   for (const GroupContact& c : contacts) pairs_.push_back({c.of_a, c.of_b, c.normal, -c.gap / h, slack, 0});
-  const int iterations = pairs_.size() <= medium_problem ? many_iterations : 0;
-  converged_ = solver_.solve(bodies.inverse_mass, drift_, pairs_, displacement_sweeps, iterations);
+  const Certificate certificate = solve({bodies.inverse_mass, drift_, pairs_, ContactAccuracy::contacts});
+  shared_.log.note(certificate);
+  converged_ = certificate.solved();
 }
 
 void GroupStep::find_pressed(const GroupBodies& bodies, const std::vector<GroupContact>& contacts) {

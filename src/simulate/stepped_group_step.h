@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "physics/contact_problem.h"
-#include "simulate/stepped_contact_problems.h"
 #include "simulate/stepped_group_bodies.h"
 #include "simulate/stepped_group_contacts.h"
 #include "simulate/stepped_shared.h"
@@ -60,7 +59,6 @@ class GroupStep {
   double allowed_overlap(const GroupBodies& bodies) const { return overlap_ * bodies.smallest_radius; }
 
   StepShared& shared_;
-  GroupSolver solver_;
   GroupForces forces_;
   std::vector<ContactConstraint> pairs_;  // the problem at hand,
   std::vector<std::size_t> contact_of_;   // and, by pair, the place of its contact

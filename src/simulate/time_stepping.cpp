@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/contact_problem.h"
 #include "physics/disjoint_sets.h"
 #include "physics/restitution.h"
-#include "simulate/exact_contact_problems.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -146,41 +146,40 @@ void TimeStepping::take_slow_impacts(Step& step) const {
     p.target = std::min(p.target, 0.0);
     p.force = 0;
   }
-  solve_contacts(step.inverse_mass, step.after_impacts, impacts, tol::step_iterations);
+  bodies_.log.note(carom::solve({step.inverse_mass, step.after_impacts, impacts, ContactAccuracy::energy}));
   for (std::size_t c = 0; c < impacts.size(); ++c) step.struck[c] = impacts[c].force > 0;
 }
 
-/// The velocities that keep every pair apart until the step ends: well enough while the group is fast, for impacts are
-/// found in any case, but never so that energy is made.
+/// The velocities that keep every pair apart until the step ends. Where margins are wide some pairs are to part: they
+/// do if that is possible, and if it takes no more energy than slow impacts have lost.
 void TimeStepping::keep_apart(Step& step) const {
-  const std::size_t n = step.x.size();
-  const double h = step.length;
   std::vector<Vec3> free = step.after_impacts;
-  for (std::size_t k = 0; k < n; ++k) free[k] += h * bodies_.applied[group_.members[k]];
-  bool part =
-      std::any_of(step.pairs.begin(), step.pairs.end(), [](const ContactConstraint& p) { return p.target > 0; });
-  for (int attempt = 0; attempt < 8; ++attempt) {
+  for (std::size_t k = 0; k < free.size(); ++k) free[k] += step.length * bodies_.applied[group_.members[k]];
+  const auto press = [&] {
     step.solved = free;
-    const bool converged = solve_contacts(step.inverse_mass, step.solved, step.pairs, tol::step_iterations);
-    if (converged && !part) return;
-    double before = 0, after = 0, made = 0, lost = 0;  // m, m: displacements; J, J: now, and by slow impacts
-    for (std::size_t k = 0; k < n; ++k) {
-      const Vec3 &v = step.after_impacts[k], &solved = step.solved[k];
-      before += h * v.norm();
-      after += h * solved.norm();
-      made += (0.5 * (solved - v).dot(solved + v) - (free[k] - v).dot(solved)) / step.inverse_mass[k];
-      lost += 0.5 * (step.v[k] - v).dot(step.v[k] + v) / step.inverse_mass[k];
-    }
-    const bool fast = std::min(before, after) > tol::converged_displacement * step.smallest * static_cast<double>(n);
-    double parting = 0;  // J
-    for (const ContactConstraint& p : step.pairs) parting += p.force * std::max(p.target, 0.0);
-    if (made <= 0 && parting <= lost && (converged || fast)) return;
-    for (ContactConstraint& p : step.pairs) p.target = std::min(p.target, 0.0);  // wedged bodies cannot part
-    part = false;
+    return carom::solve({step.inverse_mass, step.solved, step.pairs, ContactAccuracy::contacts});
+  };
+  Certificate certificate = press();
+  const bool part =
+      std::any_of(step.pairs.begin(), step.pairs.end(), [](const ContactConstraint& p) { return p.target > 0; });
+  if (part && (!certificate.solved() || makes_energy(step, free))) {
+    for (ContactConstraint& p : step.pairs) p.target = std::min(p.target, 0.0);
+    certificate = press();
   }
-  if (n > tol::most_direct_bodies) return;
-  step.solved = free;
-  bodies_.log.note(solve_exactly(step.inverse_mass, step.solved, step.pairs));
+  bodies_.log.note(certificate);
+}
+
+/// Whether the step makes more energy than slow impacts have lost. free (m/s): its velocities without contact.
+bool TimeStepping::makes_energy(const Step& step, const std::vector<Vec3>& free) const {
+  double made = 0, lost = 0;  // J, J: now, and by slow impacts
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    const Vec3 &v = step.after_impacts[k], &solved = step.solved[k];
+    made += (0.5 * (solved - v).dot(solved + v) - (free[k] - v).dot(solved)) / step.inverse_mass[k];
+    lost += 0.5 * (step.v[k] - v).dot(step.v[k] + v) / step.inverse_mass[k];
+  }
+  double parting = 0;  // J
+  for (const ContactConstraint& p : step.pairs) parting += p.force * std::max(p.target, 0.0);
+  return made > 0 || parting > lost;
 }
 
 /// Members that press on one another are an island. The faster one of its bodies is, the wider are its margins.
@@ -231,26 +230,18 @@ std::vector<std::uint8_t> TimeStepping::stop_slow(Step& step) const {
   return still;
 }
 
-/// m/s^2, by member.
-std::vector<Vec3> TimeStepping::applied() const {
-  std::vector<Vec3> a;
-  for (const Entity i : group_.members) a.push_back(bodies_.applied[i]);
-  return a;
-}
-
 /// The forces among the bodies of still islands, from none: where these are not unique, no more than needed.
-bool TimeStepping::hold(const Step& step, const std::vector<std::uint8_t>& still, int iterations,
-                        Holding& holding) const {
-  holding.pairs.clear();
-  holding.which.clear();
+TimeStepping::Holding TimeStepping::hold(const Step& step, const std::vector<std::uint8_t>& still) const {
+  Holding holding;
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
     const ContactConstraint& p = step.pairs[c];
     if (!still[step.island[p.a]] || step.gaps[c] > tol::resting_gap * step.smallest) continue;
     holding.pairs.push_back({p.a, p.b, p.normal, 0, tol::rest_slack * step.greatest, 0});
     holding.which.push_back(c);
   }
-  holding.a = applied();
-  return solve_contacts(step.inverse_mass, holding.a, holding.pairs, iterations);
+  for (const Entity i : group_.members) holding.a.push_back(bodies_.applied[i]);
+  bodies_.log.note(carom::solve({step.inverse_mass, holding.a, holding.pairs, ContactAccuracy::contacts}));
+  return holding;
 }
 
 /// At rest are those islands that hardly move and that forces hold in balance.
@@ -259,20 +250,9 @@ void TimeStepping::put_to_rest(Step& step) const {
   step.rests.assign(n, 0);
   std::vector<std::uint8_t> still = stop_slow(step);
   if (std::find(still.begin(), still.end(), 1) == still.end()) return;
-  Holding holding;
-  const auto keep_balanced = [&](double within) {
-    for (std::uint32_t k = 0; k < n; ++k)
-      if (!(holding.a[k].norm() <= within * step.greatest)) still[step.island[k]] = 0;
-  };
-  if (!hold(step, still, tol::step_iterations, holding)) {
-    if (n <= tol::most_direct_bodies) {
-      holding.a = applied();
-      bodies_.log.note(solve_exactly(step.inverse_mass, holding.a, holding.pairs));
-      keep_balanced(tol::rough_balance);
-    }
-    hold(step, still, tol::rest_iterations, holding);
-  }
-  keep_balanced(tol::balance);
+  const Holding holding = hold(step, still);
+  for (std::uint32_t k = 0; k < n; ++k)
+    if (!(holding.a[k].norm() <= tol::balance * step.greatest)) still[step.island[k]] = 0;
   for (std::uint32_t k = 0; k < n; ++k) step.rests[k] = still[step.island[k]];
   for (ContactConstraint& p : step.pairs)
     if (step.rests[p.a]) p.force = 0;

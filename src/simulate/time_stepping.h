@@ -60,11 +60,11 @@ class TimeStepping {
   void find_pairs(Step& step) const;
   void take_slow_impacts(Step& step) const;
   void keep_apart(Step& step) const;
+  bool makes_energy(const Step& step, const std::vector<Vec3>& free) const;
   void find_islands(Step& step);
   void put_to_rest(Step& step) const;
   std::vector<std::uint8_t> stop_slow(Step& step) const;
-  std::vector<Vec3> applied() const;
-  bool hold(const Step& step, const std::vector<std::uint8_t>& still, int iterations, Holding& holding) const;
+  Holding hold(const Step& step, const std::vector<std::uint8_t>& still) const;
   void begin_flights(const Step& step);
   void begin_flight(const Step& step, std::size_t k, Entity i);
 

@@ -1,7 +1,6 @@
 // The stepped simulator's contact group: piles that fall, settle and lie.
 #include <gtest/gtest.h>
 
-#include "physics/sweeps.h"
 #include "simulate/pile.h"
 #include "simulate/random.h"
 #include "simulate/stepped.h"
@@ -81,52 +80,6 @@ TEST(ContactGroup, MovesToTheSameBitsWhateverIsFarAway) {
   for (Entity i = 0; i < alone.world.body_count(); ++i) {
     EXPECT_EQ(a->state().position[i], b->state().position[i]) << i;
     EXPECT_EQ(a->state().velocity[i], b->state().velocity[i]) << i;
-  }
-}
-
-TEST(Sweeps, ComeToWhereTheOtherSolverIs) {
-  Random random;
-  std::vector<double> inverse_mass;
-  std::vector<Vec3> free;
-  for (int k = 0; k < 60; ++k) {
-    inverse_mass.push_back(1 / random(1, 3));
-    free.emplace_back(random(-1, 1), random(-1, 1), random(-1, 1));
-  }
-  std::vector<ContactConstraint> pairs;
-  for (std::uint32_t k = 0; k < 150; ++k) {
-    const auto a = static_cast<std::uint32_t>(random(0, 60)), b = static_cast<std::uint32_t>(random(0, 60));
-    const Vec3 normal = Vec3(random(-1, 1), random(-1, 1), random(-1, 1)).normalized();
-    if (a == b) continue;
-    pairs.push_back({a, k % 5 == 0 ? ContactConstraint::fixed : b, normal, random(-0.2, 0.2), 1e-12, random(0, 1)});
-  }
-  std::vector<ContactConstraint> other = pairs;
-  std::vector<Vec3> u = free, v = free;
-  Sweeps sweeps;
-  EXPECT_TRUE(sweeps.solve(inverse_mass, u, pairs, 3000));
-  EXPECT_TRUE(solve({inverse_mass, v, other}).solved());
-  for (std::size_t k = 0; k < u.size(); ++k) EXPECT_LT((u[k] - v[k]).norm(), 1e-10) << k;
-  for (const ContactConstraint& p : pairs) {
-    const Vec3 w = (p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : u[p.b]) - u[p.a];
-    EXPECT_GE(p.force, 0);
-    EXPECT_GT(p.normal.dot(w), p.target - 1e-10);
-  }
-}
-
-TEST(Sweeps, NeverLeaveMoreKineticEnergyThanThereWasHoweverBadTheGuess) {
-  Random random;
-  for (int run = 0; run < 100; ++run) {
-    const std::vector<double> inverse_mass{1, 0.5, 20, 1};
-    std::vector<Vec3> u;
-    double before = 0, after = 0;
-    for (int k = 0; k < 4; ++k) {
-      u.emplace_back(random(-1, 1), 0, 0);
-      before += 0.5 / inverse_mass[static_cast<std::size_t>(k)] * u.back().squaredNorm();
-    }
-    std::vector<ContactConstraint> pairs;
-    for (std::uint32_t k = 0; k < 3; ++k) pairs.push_back({k, k + 1, Vec3(1, 0, 0), 0, 0, random(0, 10)});
-    Sweeps().solve(inverse_mass, u, pairs, 2);
-    for (std::size_t k = 0; k < 4; ++k) after += 0.5 / inverse_mass[k] * u[k].squaredNorm();
-    EXPECT_LE(after, before + 1e-12);
   }
 }
 

@@ -6,7 +6,6 @@
 #include "physics/touch.h"
 #include "simulate/build.h"
 #include "simulate/stepped_binding.h"
-#include "simulate/stepped_contact_problems.h"
 #include "simulate/stepped_group.h"
 #include "simulate/stepped_impacts.h"
 #include "simulate/stepped_meetings.h"
@@ -323,27 +322,6 @@ TEST(ContactGroup, TakesInWhatItsBodiesMayMeetAndGivesTheForces) {
     if (force.b == 3) floor += force.force;
   EXPECT_NEAR(floor, 3 * g, 0.05 * 3 * g);
   EXPECT_GT(parts.shared.paths.end_x[0].y(), 0.5 - 1e-3);
-}
-
-TEST(GroupSolver, ComesToWhereTheClustersSolverIs) {
-  const std::vector<double> inverse_mass = {1, 0.5, 2};
-  std::vector<Vec3> u = {{1, 0, 0}, {0, 0, 0}, {-1, 0, 0}}, v = u;
-  std::vector<ContactConstraint> pairs = {{0, 1, {1, 0, 0}, 0, 1e-14, 0}, {1, 2, {1, 0, 0}, 0, 1e-14, 0}},
-                                 other = pairs;
-  GroupSolver solver;
-  EXPECT_TRUE(solver.solve(inverse_mass, u, pairs, 10, 0));
-  solve_cluster(inverse_mass, v, other);
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(u[k].x(), v[k].x(), 1e-12) << k;
-  EXPECT_NEAR(v[0].x(), 1.0 / 7, 1e-15);  // momentum 0.5 kg m/s of 3.5 kg
-}
-
-TEST(HoldActive, PullsWhereItMust) {
-  const std::vector<double> inverse_mass = {1, 1};
-  std::vector<Vec3> u = {{-1, 0, 0}, {1, 0, 0}};
-  std::vector<ContactConstraint> pairs = {{0, 1, {1, 0, 0}, 0, 0, 0}};
-  hold_active(inverse_mass, u, pairs);
-  EXPECT_NEAR(u[0].x(), 0, 1e-15);
-  EXPECT_NEAR(pairs[0].force, -1, 1e-15);
 }
 
 }  // namespace

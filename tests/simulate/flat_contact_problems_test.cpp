@@ -1,5 +1,5 @@
-// The exact simulator's contact problems of one body.
-#include "simulate/exact_contact_problems.h"
+// The contact problems of one body on flat surfaces.
+#include "simulate/flat_contact_problems.h"
 
 #include <gtest/gtest.h>
 

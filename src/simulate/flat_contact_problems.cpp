@@ -1,8 +1,6 @@
-#include "simulate/exact_contact_problems.h"
+#include "simulate/flat_contact_problems.h"
 
 #include <array>
-
-#include "physics/projected_gradients.h"
 
 namespace carom {
 
@@ -25,16 +23,6 @@ FlatSolution solve_one_body(const Vec3& u, std::span<const Vec3> normals, bool b
 }
 
 }  // namespace
-
-Certificate solve_exactly(std::span<const double> inverse_mass, std::span<Vec3> u,
-                          std::span<ContactConstraint> contacts) {
-  return solve({inverse_mass, u, contacts});
-}
-
-bool solve_contacts(std::span<const double> inverse_mass, std::span<Vec3> u, std::span<ContactConstraint> contacts,
-                    int iterations) {
-  return project_gradients({inverse_mass, u, contacts}, iterations);
-}
 
 FlatSolution solve_flat_contacts(const Vec3& u, std::span<const Vec3> normals) {
   return solve_one_body(u, normals, false);

@@ -1,0 +1,350 @@
+#include "physics/contact_projected_gradients.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__  // as gcc says it
+#endif
+#endif
+
+// Of the same arithmetic in vectors of 2 or of 4 the processor at hand takes what it has. (The choice comes before a
+// sanitizer is ready.)
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+#define CAROM_FOR_ALL_PROCESSORS __attribute__((target_clones("avx2", "default")))
+#else
+#define CAROM_FOR_ALL_PROCESSORS
+#endif
+
+namespace carom {
+
+/// Of the four rows what forces x of theirs do to the motion of their bodies.
+inline __attribute__((always_inline)) void ContactProjectedGradients::push(const Rows& rows, const Four& x,
+                                                                           Motion* moved) {
+  const Four zero{};
+  const Four px = x * rows.normal[0], py = x * rows.normal[1], pz = x * rows.normal[2];
+  // By row, from by axis.
+  const Four xy_even = __builtin_shufflevector(px, py, 0, 4, 2, 6);
+  const Four xy_odd = __builtin_shufflevector(px, py, 1, 5, 3, 7);
+  const Four z_even = __builtin_shufflevector(pz, zero, 0, 4, 2, 6);
+  const Four z_odd = __builtin_shufflevector(pz, zero, 1, 5, 3, 7);
+  const Four p0 = __builtin_shufflevector(xy_even, z_even, 0, 1, 4, 5);
+  const Four p1 = __builtin_shufflevector(xy_odd, z_odd, 0, 1, 4, 5);
+  const Four p2 = __builtin_shufflevector(xy_even, z_even, 2, 3, 6, 7);
+  const Four p3 = __builtin_shufflevector(xy_odd, z_odd, 2, 3, 6, 7);
+  // One after the other: they may share bodies.
+  moved[rows.a[0]].u -= rows.left[0] * p0;
+  moved[rows.b[0]].u += rows.right[0] * p0;
+  moved[rows.a[1]].u -= rows.left[1] * p1;
+  moved[rows.b[1]].u += rows.right[1] * p1;
+  moved[rows.a[2]].u -= rows.left[2] * p2;
+  moved[rows.b[2]].u += rows.right[2] * p2;
+  moved[rows.a[3]].u -= rows.left[3] * p3;
+  moved[rows.b[3]].u += rows.right[3] * p3;
+}
+
+/// Of the four rows, of unit length, what such motion of their bodies is along them.
+inline __attribute__((always_inline)) void ContactProjectedGradients::find_rate(const Rows& rows, const Motion* moved,
+                                                                                Four& rate) {
+  const Four w0 = moved[rows.b[0]].u - moved[rows.a[0]].u, w1 = moved[rows.b[1]].u - moved[rows.a[1]].u;
+  const Four w2 = moved[rows.b[2]].u - moved[rows.a[2]].u, w3 = moved[rows.b[3]].u - moved[rows.a[3]].u;
+  // By axis, from by row.
+  const Four low01 = __builtin_shufflevector(w0, w1, 0, 4, 2, 6);
+  const Four low23 = __builtin_shufflevector(w2, w3, 0, 4, 2, 6);
+  const Four high01 = __builtin_shufflevector(w0, w1, 1, 5, 3, 7);
+  const Four high23 = __builtin_shufflevector(w2, w3, 1, 5, 3, 7);
+  const Four x = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
+  const Four y = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
+  const Four z = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
+  rate = rows.scale * (rows.normal[0] * x + rows.normal[1] * y + rows.normal[2] * z);
+}
+
+/// What these forces do to every body.
+CAROM_FOR_ALL_PROCESSORS
+void ContactProjectedGradients::move(const Rows* rows, const Forces* forces, std::size_t count, Four Forces::*x,
+                                     Motion* moved, std::size_t bodies) {
+  std::fill(moved, moved + bodies, Motion{});
+  for (std::size_t k = 0; k < count; ++k) push(rows[k], forces[k].*x, moved);
+}
+
+/// From what the direction does to bodies what it does to rows.
+CAROM_FOR_ALL_PROCESSORS
+void ContactProjectedGradients::find_image(const Rows* rows, Forces* forces, std::size_t count, const Motion* moved,
+                                           Sums& sums) {
+  Four gp{}, pap{};
+  for (std::size_t k = 0; k < count; ++k) {
+    Forces& f = forces[k];
+    find_rate(rows[k], moved, f.image);
+    gp += f.g * f.direction;
+    pap += f.direction * f.image;
+  }
+  sums.gp = (gp[0] + gp[1]) + (gp[2] + gp[3]);
+  sums.pap = (pap[0] + pap[1]) + (pap[2] + pap[3]);
+}
+
+/// The next forces and gradient, by this step.
+CAROM_FOR_ALL_PROCESSORS
+void ContactProjectedGradients::try_step(Forces* forces, std::size_t count, double step, double least, Sums& sums) {
+  const Four zero{};
+  Four lowest{}, turn{};
+  for (std::size_t k = 0; k < count; ++k) {
+    Forces& f = forces[k];
+    Four x = f.x - step * f.direction, g = f.g - step * f.image;
+    x = (x < zero ? -x : x) < least ? zero : x;
+    g = (g < zero ? -g : g) < least ? zero : g;
+    f.next_x = x;
+    f.next_g = g;
+    lowest = x < lowest ? x : lowest;
+    turn += x > zero ? g * f.image : zero;
+  }
+  sums.feasible = !(std::min(std::min(lowest[0], lowest[1]), std::min(lowest[2], lowest[3])) < 0);
+  sums.turn = (turn[0] + turn[1]) + (turn[2] + turn[3]);
+}
+
+/// Takes the next forces. The direction of the conjugate gradients on the face of the rows that press: g less `turn`
+/// times the last one.
+CAROM_FOR_ALL_PROCESSORS
+void ContactProjectedGradients::take_next(Forces* forces, std::size_t count, double turn, double per_step, double least,
+                                        Sums& sums) {
+  const Four zero{};
+  Four reduced{}, chopped{}, potential{}, worst = zero - 1;
+  for (std::size_t k = 0; k < count; ++k) {
+    Forces& f = forces[k];
+    const Four x = f.next_x, g = f.next_g;
+    f.x = x;
+    f.g = g;
+    Four p = x > zero ? g : zero;
+    if (turn != 0) p -= turn * f.direction;
+    f.direction = (p < zero ? -p : p) < least ? zero : p;
+    const Four limited = x * per_step < g ? x * per_step : g, pull = g < zero ? g : zero;
+    reduced += x > zero ? limited * g : zero;
+    chopped += x > zero ? zero : pull * pull;
+    potential += x * (g + f.constant);
+    // A row that presses falls short, or presses while it parts.
+    const Four least_of = x < g ? x : g, off = x > zero ? (least_of < zero ? -least_of : least_of) : -pull;
+    const Four excess = off - f.slack;
+    worst = excess > worst ? excess : worst;
+  }
+  sums.reduced = (reduced[0] + reduced[1]) + (reduced[2] + reduced[3]);
+  sums.chopped = (chopped[0] + chopped[1]) + (chopped[2] + chopped[3]);
+  sums.potential = (potential[0] + potential[1]) + (potential[2] + potential[3]);
+  sums.within_slack = std::max(std::max(worst[0], worst[1]), std::max(worst[2], worst[3])) <= 0;
+}
+
+/// Takes next forces onto their bounds. How far along the direction the first bound is.
+CAROM_FOR_ALL_PROCESSORS
+double ContactProjectedGradients::project(Forces* forces, std::size_t count) {
+  const Four zero{};
+  Four lowest = zero + std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < count; ++k) {
+    Forces& f = forces[k];
+    const Four until = f.next_x < zero ? f.x / f.direction : lowest;
+    lowest = until < lowest ? until : lowest;
+    f.next_x = f.next_x > zero ? f.next_x : zero;
+  }
+  return std::min(std::min(lowest[0], lowest[1]), std::min(lowest[2], lowest[3]));
+}
+
+/// Along the direction to the first bound, and from there by this step along the projected gradient.
+CAROM_FOR_ALL_PROCESSORS
+void ContactProjectedGradients::bend(Forces* forces, std::size_t count, double first, double step) {
+  const Four zero{};
+  for (std::size_t k = 0; k < count; ++k) {
+    Forces& f = forces[k];
+    const Four there = f.x - first * f.direction, slope = f.x > zero ? f.g - first * f.image : zero;
+    const Four x = (there > zero ? there : zero) - step * slope;
+    f.next_x = x > zero ? x : zero;
+  }
+}
+
+void ContactProjectedGradients::take_rows() {
+  const ContactIsland& island = *island_;
+  const auto immovable = static_cast<std::uint32_t>(island.free.size());
+  const std::size_t count = (island.rows.size() + width - 1) / width;
+  Rows none{};
+  std::fill(std::begin(none.a), std::end(none.a), immovable);
+  std::fill(std::begin(none.b), std::end(none.b), immovable);
+  rows_.assign(count, none);
+  forces_.assign(count, Forces{});
+  moved_.resize(island.free.size() + 1);
+  slack_energy_ = 0;
+  for (std::size_t c = 0; c < island.rows.size(); ++c) {
+    const ContactIsland::Row& r = island.rows[c];
+    const auto [four, lane] = place(c);
+    Rows& rows = rows_[four];
+    Forces& forces = forces_[four];
+    for (int axis = 0; axis < 3; ++axis) rows.normal[axis][lane] = r.normal[axis];
+    rows.scale[lane] = r.scale;
+    rows.left[lane] = r.scale * island.inverse_mass[r.a];
+    rows.right[lane] = r.moves_b() ? r.scale * island.inverse_mass[r.b] : 0;
+    rows.a[lane] = r.a;
+    rows.b[lane] = r.moves_b() ? r.b : immovable;
+    const Vec3 w = r.moves_b() ? Vec3(island.free[r.b] - island.free[r.a]) : Vec3(-island.free[r.a]);
+    const double slack = r.scale * r.slack;
+    forces.next_x[lane] = r.force / r.scale;
+    forces.constant[lane] = r.scale * (r.normal.dot(w) - r.target);
+    forces.slack[lane] = slack;
+    slack_energy_ += slack * slack;
+  }
+}
+
+/// At least the greatest eigenvalue of A: by the rows that share a body (Gershgorin's discs, |n . n'| <= 1).
+double ContactProjectedGradients::norm() {
+  std::fill(moved_.begin(), moved_.end(), Motion{});
+  const ContactIsland& island = *island_;
+  for (const ContactIsland::Row& r : island.rows) {
+    moved_[r.a].u[0] += r.scale;
+    if (r.moves_b()) moved_[r.b].u[0] += r.scale;
+  }
+  double most = 0;
+  for (const ContactIsland::Row& r : island.rows) {
+    double sum = island.inverse_mass[r.a] * moved_[r.a].u[0];
+    if (r.moves_b()) sum += island.inverse_mass[r.b] * moved_[r.b].u[0];
+    most = std::max(most, r.scale * sum);
+  }
+  return most;
+}
+
+/// Of the next forces. Twice their potential.
+double ContactProjectedGradients::find_next_gradient() {
+  move(rows_.data(), forces_.data(), forces_.size(), &Forces::next_x, moved_.data(), moved_.size());
+  Four potential{};
+  for (std::size_t k = 0; k < forces_.size(); ++k) {
+    Forces& f = forces_[k];
+    find_rate(rows_[k], moved_.data(), f.next_g);
+    f.next_g += f.constant;
+    potential += f.next_x * (f.next_g + f.constant);
+  }
+  ++products_;
+  return (potential[0] + potential[1]) + (potential[2] + potential[3]);
+}
+
+void ContactProjectedGradients::start(const ContactIsland& island) {
+  island_ = &island;
+  products_ = reach_ = 0;
+  stuck_ = false;
+  take_rows();
+  step_ = 1.9 / norm();
+  // The potential must not start above that of no forces at all. What has died away to nothing is none: its squares
+  // would underflow, and other units would give other bits.
+  Four most{};
+  for (const Forces& f : forces_) {
+    const Four size = f.constant < Four{} ? -f.constant : f.constant;
+    most = size > most ? size : most;
+    most = f.next_x > most ? f.next_x : most;
+  }
+  least_ = 0x1p-200 * std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
+  if (!(find_next_gradient() <= 0)) {
+    for (Forces& f : forces_) f.next_x = Four{};
+    find_next_gradient();
+  }
+  begin(0);
+  fresh_ = true;
+  potential_.assign(1, sums_.potential);
+}
+
+/// Takes the next forces, and with them a new direction: conjugate to the last one, or where turn is 0 the gradient.
+void ContactProjectedGradients::begin(double turn) {
+  take_next(forces_.data(), forces_.size(), turn, 1 / step_, least_, sums_);
+}
+
+/// One step: along the face of the rows that press, onto its bound, or with the rows that are to press.
+void ContactProjectedGradients::iterate() {
+  fresh_ = false;
+  const bool on_face = sums_.chopped <= sums_.reduced;
+  const Four zero{};
+  if (!on_face)
+    for (Forces& f : forces_) f.direction = f.x > zero || f.g > zero ? zero : f.g;
+  move(rows_.data(), forces_.data(), forces_.size(), &Forces::direction, moved_.data(), moved_.size());
+  find_image(rows_.data(), forces_.data(), forces_.size(), moved_.data(), sums_);
+  ++products_;
+  stuck_ = !(sums_.pap > 0);
+  if (stuck_) return;
+  try_step(forces_.data(), forces_.size(), sums_.gp / sums_.pap, least_, sums_);
+  if (!sums_.feasible && on_face) return go_on_at_bounds();
+  begin(on_face ? sums_.turn / sums_.pap : 0);
+}
+
+/// On in the same direction as if there were no bounds, then onto them, if that is better than to stop at the first one
+/// (Kruzik, Horak, Cermak, Pospisil & Pecha, Adv. Eng. Softw. 149 (2020) 102895). Else from there along the projected
+/// gradient, as far as surely gains.
+void ContactProjectedGradients::go_on_at_bounds() {
+  const double first = project(forces_.data(), forces_.size());
+  const double at_first = sums_.potential - first * (2 * sums_.gp - first * sums_.pap);
+  if (!(find_next_gradient() <= at_first)) {
+    bend(forces_.data(), forces_.size(), first, step_);
+    find_next_gradient();
+  }
+  begin(0);
+  fresh_ = true;
+}
+
+/// What a product with the matrix takes with all that goes with it, in the time of multiplications and additions of a
+/// factorisation.
+double ContactProjectedGradients::cost() const {
+  constexpr double per_four_rows = 60, per_product = 100;
+  return static_cast<double>(products_) * (per_four_rows * static_cast<double>(rows_.size()) + per_product);
+}
+
+/// Whether the second half of all iterations has gained no more than the slack's energy, and an iteration has come from
+/// every row to every other.
+bool ContactProjectedGradients::gains_little() {
+  const std::size_t now = potential_.size() - 1;
+  if (now == 0 || potential_[now / 2] - potential_[now] > slack_energy_) return false;
+  if (reach_ == 0) reach_ = std::max<std::size_t>(island_->reach(), 1);
+  return now >= reach_;
+}
+
+/// The gradient that steps have carried along is rounded.
+void ContactProjectedGradients::renew() {
+  for (Forces& f : forces_) f.next_x = f.x;
+  find_next_gradient();
+  begin(0);
+  fresh_ = true;
+}
+
+bool ContactProjectedGradients::run(ContactAccuracy accuracy, double operations) {
+  for (;;) {
+    if (sums_.within_slack) {
+      if (fresh_) return true;
+      renew();
+      continue;
+    }
+    if (stuck_ || cost() >= operations) break;
+    iterate();
+    potential_.push_back(sums_.potential);
+    if (accuracy == ContactAccuracy::energy && gains_little()) {
+      if (!fresh_) renew();
+      return true;
+    }
+  }
+  return false;
+}
+
+void ContactProjectedGradients::guess(ContactIsland& island) const {
+  for (std::size_t c = 0; c < island.rows.size(); ++c)
+    island.rows[c].force = island.rows[c].scale * forces_[place(c).four].x[place(c).lane];
+}
+
+double ContactProjectedGradients::finish(ContactAnswer& answer) const {
+  const ContactIsland& island = *island_;
+  answer.motion.resize(island.unknowns());
+  answer.force.resize(island.rows.size());
+  for (std::size_t k = 0; k < island.free.size(); ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      answer.motion[3 * k + axis] = two_sum(island.free[k][static_cast<int>(axis)], moved_[k].u[axis]);
+  double change = 0;
+  for (std::size_t c = 0; c < island.rows.size(); ++c) {
+    const ContactIsland::Row& r = island.rows[c];
+    const auto [four, lane] = place(c);
+    const double x = forces_[four].x[lane], g = forces_[four].g[lane];
+    answer.force[c] = {r.scale * x, 0};
+    const double off = x > 0 ? std::abs(g) : std::max(-g, 0.0);
+    if (off > 0) change = std::max(change, off / island.noise_scale(r));
+  }
+  return change;
+}
+
+}  // namespace carom

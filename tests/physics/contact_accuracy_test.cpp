@@ -1,0 +1,190 @@
+// Contact to within its slack: how near such answers are to the exact ones.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "physics/contact_cases.h"
+#include "physics/contact_island.h"
+#include "physics/contact_projected_gradients.h"
+
+namespace carom {
+namespace {
+
+using namespace contact_cases;
+
+constexpr std::uint32_t fixed = ContactConstraint::fixed;
+
+/// Rows, stacks, lattices and packings of every load, with contacts' slack of this share of the greatest free motion
+/// and forces guessed at random.
+std::vector<Case> cases(double slack) {
+  std::vector<Case> all;
+  for (const Load load : loads)
+    for (const double decades : {0.0, 3.0})
+      for (const Balls& balls : {row(12), stack(8), stack(40), lattice(2), lattice(3), packing(60, 1), packing(150, 2)}) {
+        Case c = loaded(std::to_string(balls.center.size()), balls, load, decades);
+        double most = 0;
+        for (const Vec3& u : c.motion) most = std::max(most, u.norm());
+        Draw draw(3);
+        for (ContactConstraint& contact : c.contacts) {
+          contact.slack = slack * most;
+          contact.force = std::max(0.0, draw(-1, 1)) * most;
+        }
+        all.push_back(std::move(c));
+      }
+  return all;
+}
+
+Certificate solve_to(ContactAccuracy accuracy, Case& c) {
+  return solve({c.inverse_mass, c.motion, c.contacts, accuracy});
+}
+
+/// By how much more than its slack a contact falls short, or presses while it parts, relative to the slack.
+double beyond_slack(const Case& c) {
+  double most = 0;
+  for (const ContactConstraint& p : c.contacts) {
+    const Vec3 b = p.b == fixed ? Vec3(Vec3::Zero()) : c.motion[p.b];
+    const double w = p.normal.dot(b - c.motion[p.a]) - p.target;
+    most = std::max(most, -w / p.slack);
+  }
+  return most;
+}
+
+double energy(const Case& c, const std::vector<Vec3>& motion) {
+  double sum = 0;
+  for (std::size_t k = 0; k < motion.size(); ++k) sum += 0.5 / c.inverse_mass[k] * motion[k].squaredNorm();
+  return sum;
+}
+
+TEST(ContactAccuracy, EveryContactIsWithinItsSlack) {
+  for (const double slack : {1e-2, 1e-4, 1e-8, 1e-12})
+    for (Case& c : cases(slack)) {
+      const Certificate certificate = solve_to(ContactAccuracy::contacts, c);
+      EXPECT_TRUE(certificate.solved()) << c.name;
+      EXPECT_LE(beyond_slack(c), 1 + 1e-15 / slack) << c.name << ", slack " << slack;
+      for (const ContactConstraint& p : c.contacts) EXPECT_GE(p.force, 0) << c.name;
+    }
+}
+
+/// The energy of what the motion is off by, by that of contacts off by their slack.
+TEST(ContactAccuracy, EnergyIsRightToThatOfTheSlack) {
+  double most = 0;
+  for (const double slack : {1e-2, 1e-3, 1e-4, 1e-6})
+    for (Case& c : cases(slack)) {
+      Case exact = c;
+      EXPECT_TRUE(solve_to(ContactAccuracy::rounding, exact).solved()) << c.name;
+      EXPECT_TRUE(solve_to(ContactAccuracy::energy, c).solved()) << c.name;
+      std::vector<Vec3> off = c.motion;
+      for (std::size_t k = 0; k < off.size(); ++k) off[k] -= exact.motion[k];
+      double of_slack = 0;
+      for (const ContactConstraint& p : c.contacts)
+        of_slack += 0.5 * p.slack * p.slack / (c.inverse_mass[p.a] + (p.b == fixed ? 0 : c.inverse_mass[p.b]));
+      const double share = energy(c, off) / of_slack;
+      EXPECT_LT(share, 32) << c.name << ", slack " << slack;
+      most = std::max(most, share);
+    }
+  std::printf("at most %.3g of the slack's\n", most);
+}
+
+TEST(ContactAccuracy, NoEnergyIsMadeHoweverBadTheGuess) {
+  for (const ContactAccuracy accuracy : {ContactAccuracy::contacts, ContactAccuracy::energy})
+    for (const double slack : {1e-1, 1e-3})
+      for (Case& c : cases(slack)) {
+        const double before = energy(c, c.motion);
+        solve_to(accuracy, c);
+        EXPECT_LE(energy(c, c.motion), before * (1 + 1e-14)) << c.name;
+      }
+}
+
+TEST(ContactAccuracy, OtherUnitsGiveTheSameBits) {
+  const double mass = 0x1p-7, length = 0x1p21;
+  for (const ContactAccuracy accuracy : {ContactAccuracy::contacts, ContactAccuracy::energy, ContactAccuracy::rounding})
+    for (Case& c : cases(1e-4)) {
+      Case other = c;
+      for (double& w : other.inverse_mass) w /= mass;
+      for (Vec3& u : other.motion) u *= length;
+      for (ContactConstraint& p : other.contacts) {
+        p.slack *= length;
+        p.force *= mass * length;
+      }
+      solve_to(accuracy, c);
+      solve_to(accuracy, other);
+      for (std::size_t k = 0; k < c.motion.size(); ++k)
+        ASSERT_EQ(Vec3(length * c.motion[k]), other.motion[k]) << c.name << ", body " << k;
+      for (std::size_t k = 0; k < c.contacts.size(); ++k)
+        ASSERT_EQ(mass * length * c.contacts[k].force, other.contacts[k].force) << c.name << ", contact " << k;
+    }
+}
+
+/// Far away the same again: neither changes the other's bits.
+TEST(ContactAccuracy, CompanyDoesNotMatter) {
+  for (const ContactAccuracy accuracy : {ContactAccuracy::contacts, ContactAccuracy::energy}) {
+    std::vector<Case> all = cases(1e-3);
+    for (std::size_t k = 0; k + 1 < all.size(); ++k) {
+      Case one = all[k], both = all[k];
+      const Case& company = all[k + 1];
+      const auto n = static_cast<std::uint32_t>(one.motion.size());
+      both.inverse_mass.insert(both.inverse_mass.end(), company.inverse_mass.begin(), company.inverse_mass.end());
+      both.motion.insert(both.motion.end(), company.motion.begin(), company.motion.end());
+      for (ContactConstraint p : company.contacts) {
+        p.a += n;
+        if (p.b != fixed) p.b += n;
+        both.contacts.push_back(p);
+      }
+      solve_to(accuracy, one);
+      solve_to(accuracy, both);
+      for (std::size_t i = 0; i < n; ++i) ASSERT_EQ(one.motion[i], both.motion[i]) << one.name << ", body " << i;
+    }
+  }
+}
+
+TEST(ContactAccuracy, WhatIsToPartAndCannotIsSaid) {
+  const std::vector<double> inverse_mass{1};
+  std::vector<Vec3> u{{0, 0, 0}};
+  std::vector<ContactConstraint> contacts{{0, fixed, {1, 0, 0}, 0.1, 1e-3}, {0, fixed, {-1, 0, 0}, 0.1, 1e-3}};
+  for (const ContactAccuracy accuracy : {ContactAccuracy::contacts, ContactAccuracy::energy})
+    EXPECT_EQ(solve({inverse_mass, u, contacts, accuracy}).verdict, Certificate::Verdict::infeasible);
+}
+
+ContactIsland island_of(const Case& c) {
+  ContactIsland island;
+  island.inverse_mass = c.inverse_mass;
+  island.free = c.motion;
+  for (const ContactConstraint& p : c.contacts) {
+    ContactIsland::Row row;
+    row.a = p.a;
+    row.b = p.b;
+    row.normal = p.normal;
+    row.slack = p.slack;
+    island.rows.push_back(row);
+  }
+  island.scale();
+  return island;
+}
+
+TEST(ContactIsland, ReachIsTheWayFromOneRowToTheFarthest) {
+  EXPECT_EQ(island_of(loaded("", stack(1), Load::gravity, 0)).reach(), 0u);
+  EXPECT_EQ(island_of(loaded("", stack(20), Load::gravity, 0)).reach(), 19u);
+  EXPECT_EQ(island_of(loaded("", stack(200), Load::gravity, 0)).reach(), 199u);
+}
+
+TEST(ContactProjectedGradients, GoOnFromWhereTheirCostHasStoppedThem) {
+  Case c = loaded("", packing(60, 1), Load::gravity, 0);
+  for (ContactConstraint& p : c.contacts) p.slack = 1e-9;
+  const ContactIsland island = island_of(c);
+  ContactProjectedGradients at_once, by_parts;
+  ContactAnswer one, other;
+  at_once.start(island);
+  by_parts.start(island);
+  double operations = 0;
+  int parts = 1;
+  for (; !by_parts.run(ContactAccuracy::contacts, operations += 1e5); ++parts) ASSERT_LT(parts, 1000);
+  EXPECT_GT(parts, 2);
+  ASSERT_TRUE(at_once.run(ContactAccuracy::contacts, 1e12));
+  EXPECT_EQ(at_once.finish(one), by_parts.finish(other));
+  for (std::size_t k = 0; k < one.motion.size(); ++k) EXPECT_EQ(one.motion[k].value(), other.motion[k].value());
+}
+
+}  // namespace
+}  // namespace carom
