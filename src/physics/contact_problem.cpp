@@ -117,22 +117,26 @@ bool nothing_presses(const ContactProblem& problem, std::span<const std::uint32_
   });
 }
 
-/// What an exact answer would cost: multiplications and additions. Orthogonal factors take three in unknowns for every
-/// row, sparse ones some thirty factorisations.
+/// What an exact answer would cost, ns on one core: only what it is to other costs matters. Orthogonal factors take
+/// three in unknowns for every row, sparse ones some thirty factorisations and a set-up that finds their pattern.
 class ExactCost {
  public:
   explicit ExactCost(const ContactIsland& island) : island_(island) {
-    constexpr double rows_taken_in = 1.3;
+    constexpr double rows_taken_in = 1.3, per_row = 1500, per_operation = 0.1;
+    constexpr double per_entry_set_up = 300, per_entry = 60;
     const double n = static_cast<double>(island.unknowns()), m = static_cast<double>(island.rows.size());
-    const double taken = std::min(m, n);
-    dense_ = rows_taken_in * taken * 6 * n * (n - 0.5 * taken);
-    least_sparse_ = factorisations * per_entry * (n + m);
+    const double taken = std::min(m, n), rows = rows_taken_in * taken;
+    dense_ = rows * (per_row + per_operation * 6 * n * (n - 0.5 * taken));
+    least_sparse_ = (per_entry_set_up + factorisations * per_entry) * (n + m);
   }
 
   double dense() const { return dense_; }
-  /// At least that of either.
-  double least() const { return std::min(dense_, least_sparse_); }
-  double sparse() { return least_sparse_ + factorisations * method().operations(); }
+  /// At least what the sparse method costs, whatever its factors' fill.
+  double least_sparse() const { return least_sparse_; }
+  double sparse() {
+    constexpr double per_operation = 0.35;
+    return least_sparse_ + factorisations * per_operation * method().operations();
+  }
   /// The sparse method, set up once it is asked for.
   ContactInteriorPoint& method() {
     if (!method_) method_.emplace(island_);
@@ -140,7 +144,7 @@ class ExactCost {
   }
 
  private:
-  static constexpr double factorisations = 35, per_entry = 40;
+  static constexpr double factorisations = 35;
   const ContactIsland& island_;
   std::optional<ContactInteriorPoint> method_;
   double dense_, least_sparse_;
@@ -216,8 +220,7 @@ void ContactSolver::Workspace::give_back(const ContactProblem& problem, std::spa
 /// Here and in solve_to_slack a method is chosen: by what each would cost, and orthogonal factors where masses are too
 /// unequal for sparse ones. Where the one fails the other comes next, and then orthogonal factors from nothing.
 Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, Known& last) {
-  constexpr double surely_dense = 1e6;  // operations; below it the sparse method's set-up alone costs more
-  constexpr double worth_while = 8;     // solutions: factors for which one pays once pay for so many
+  constexpr double worth_while = 8;  // solutions: factors for which one pays once pay for so many
   Certificate best{Certificate::Verdict::doubtful, std::numeric_limits<double>::infinity()};
   // Whether that was it.
   const auto take = [&](const Judgement& judgement, bool infeasible) {
@@ -243,10 +246,11 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, Known& last
     for (std::size_t k = 0; k < last.rows.size(); ++k)
       if (last.now[k] != DualActiveSet::gone() && !last.rows[k].bilateral)
         island.rows[last.now[k]].force = last.rows[k].force;
-  if (cost.dense() <= surely_dense && by_active_set()) return best;
   const bool unequal = island.mass_ratio > 1e6 && island.unknowns() <= 1500;
-  const bool dense = unequal || cost.dense() <= (alike ? worth_while : 1) * cost.sparse();
-  if (cost.dense() > surely_dense && dense && by_active_set()) return best;
+  const double times = alike ? worth_while : 1;
+  const bool dense =
+      unequal || cost.dense() <= times * cost.least_sparse() || cost.dense() <= times * cost.sparse();
+  if (dense && by_active_set()) return best;
   if (take(cost.method().solve(attempt), false)) return best;
   for (std::size_t c = 0; c < island.rows.size(); ++c)
     island.rows[c].force = island.rows[c].bilateral ? 0 : std::max(answer.force[c].hi, 0.0);
@@ -261,8 +265,8 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, Known& last
 Certificate ContactSolver::Workspace::solve_to_slack(ContactAccuracy accuracy) {
   ExactCost cost(island);
   gradients.start(island);
-  bool done = gradients.run(accuracy, cost.least());
-  if (!done && cost.least() < cost.dense())
+  bool done = gradients.run(accuracy, std::min(cost.dense(), cost.least_sparse()));
+  if (!done && cost.least_sparse() < cost.dense())
     done = gradients.run(accuracy, std::min(cost.dense(), cost.sparse()));
   if (done) return {Certificate::Verdict::solved, gradients.finish(answer)};
   gradients.guess(island);

@@ -224,11 +224,9 @@ double ContactProjectedGradients::find_next_gradient() {
 void ContactProjectedGradients::start(const ContactIsland& island) {
   island_ = &island;
   products_ = reach_ = 0;
-  stuck_ = false;
   take_rows();
   step_ = 1.9 / norm();
-  // The potential must not start above that of no forces at all. What has died away to nothing is none: its squares
-  // would underflow, and other units would give other bits.
+  // What has died away to nothing is none: its squares would underflow, and other units would give other bits.
   Four most{};
   for (const Forces& f : forces_) {
     const Four size = f.constant < Four{} ? -f.constant : f.constant;
@@ -236,13 +234,27 @@ void ContactProjectedGradients::start(const ContactIsland& island) {
     most = f.next_x > most ? f.next_x : most;
   }
   least_ = 0x1p-200 * std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
-  if (!(find_next_gradient() <= 0)) {
-    for (Forces& f : forces_) f.next_x = Four{};
-    find_next_gradient();
-  }
+  find_next_gradient();
+  scale_guess();
   begin(0);
   fresh_ = true;
   potential_.assign(1, sums_.potential);
+}
+
+/// The guess times the factor for which the potential is least, which is not above that of no forces at all.
+void ContactProjectedGradients::scale_guess() {
+  Four square{}, linear{};
+  for (const Forces& f : forces_) {
+    square += f.next_x * (f.next_g - f.constant);
+    linear += f.next_x * f.constant;
+  }
+  const double xax = (square[0] + square[1]) + (square[2] + square[3]);
+  const double cx = (linear[0] + linear[1]) + (linear[2] + linear[3]);
+  const double factor = xax > 0 ? std::max(-cx / xax, 0.0) : 0;
+  for (Forces& f : forces_) {
+    f.next_g = factor * (f.next_g - f.constant) + f.constant;
+    f.next_x *= factor;
+  }
 }
 
 /// Takes the next forces, and with them a new direction: conjugate to the last one, or where turn is 0 the gradient.
@@ -250,8 +262,9 @@ void ContactProjectedGradients::begin(double turn) {
   take_next(forces_.data(), forces_.size(), turn, 1 / step_, least_, sums_);
 }
 
-/// One step: along the face of the rows that press, onto its bound, or with the rows that are to press.
-void ContactProjectedGradients::iterate() {
+/// One step: along the face of the rows that press, onto its bound, or with the rows that are to press. False: nothing
+/// is left but rounding, or no motion keeps all rows.
+bool ContactProjectedGradients::iterate() {
   fresh_ = false;
   const bool on_face = sums_.chopped <= sums_.reduced;
   const Four zero{};
@@ -260,11 +273,13 @@ void ContactProjectedGradients::iterate() {
   move(rows_.data(), forces_.data(), forces_.size(), &Forces::direction, moved_.data(), moved_.size());
   find_image(rows_.data(), forces_.data(), forces_.size(), moved_.data(), sums_);
   ++products_;
-  stuck_ = !(sums_.pap > 0);
-  if (stuck_) return;
+  if (!(sums_.pap > 0)) return false;
   try_step(forces_.data(), forces_.size(), sums_.gp / sums_.pap, least_, sums_);
-  if (!sums_.feasible && on_face) return go_on_at_bounds();
-  begin(on_face ? sums_.turn / sums_.pap : 0);
+  if (!sums_.feasible && on_face)
+    go_on_at_bounds();
+  else
+    begin(on_face ? sums_.turn / sums_.pap : 0);
+  return true;
 }
 
 /// On in the same direction as if there were no bounds, then onto them, if that is better than to stop at the first one
@@ -281,10 +296,9 @@ void ContactProjectedGradients::go_on_at_bounds() {
   fresh_ = true;
 }
 
-/// What a product with the matrix takes with all that goes with it, in the time of multiplications and additions of a
-/// factorisation.
+/// What products with the matrix have taken, with all that goes with them: ns, as ExactCost.
 double ContactProjectedGradients::cost() const {
-  constexpr double per_four_rows = 60, per_product = 100;
+  constexpr double per_four_rows = 18, per_product = 25;
   return static_cast<double>(products_) * (per_four_rows * static_cast<double>(rows_.size()) + per_product);
 }
 
@@ -305,22 +319,20 @@ void ContactProjectedGradients::renew() {
   fresh_ = true;
 }
 
-bool ContactProjectedGradients::run(ContactAccuracy accuracy, double operations) {
+bool ContactProjectedGradients::run(ContactAccuracy accuracy, double most_cost) {
   for (;;) {
     if (sums_.within_slack) {
       if (fresh_) return true;
       renew();
       continue;
     }
-    if (stuck_ || cost() >= operations) break;
-    iterate();
+    if (cost() >= most_cost || !iterate()) return false;
     potential_.push_back(sums_.potential);
     if (accuracy == ContactAccuracy::energy && gains_little()) {
       if (!fresh_) renew();
       return true;
     }
   }
-  return false;
 }
 
 void ContactProjectedGradients::guess(ContactIsland& island) const {

@@ -13,12 +13,12 @@ namespace carom {
 
 class ContactProjectedGradients {
  public:
-  /// From the rows' guesses, unless no forces at all are better; no row is bilateral. The island must outlive this.
+  /// From the rows' guesses, all times one factor; no row is bilateral. The island must outlive this.
   void start(const ContactIsland& island);
 
-  /// Goes on for as long as the answer is not as near as `accuracy` asks, but for no more than about so many
-  /// operations in all since start(). Whether it is.
-  bool run(ContactAccuracy accuracy, double operations);
+  /// Goes on for as long as the answer is not as near as `accuracy` asks, but for no more than about `most_cost` ns in
+  /// all since start(). Whether it is.
+  bool run(ContactAccuracy accuracy, double most_cost);
 
   /// Leaves the answer, once it is near enough. By how much data differ of which it is the exact solution, as in
   /// Judgement.
@@ -69,8 +69,9 @@ class ContactProjectedGradients {
   void take_rows();
   double norm();
   double find_next_gradient();
+  void scale_guess();
   void begin(double turn);
-  void iterate();
+  bool iterate();
   void go_on_at_bounds();
   void renew();
   bool gains_little();
@@ -97,7 +98,6 @@ class ContactProjectedGradients {
   std::size_t products_ = 0, reach_ = 0;  // with the matrix; the island's, 0: not looked for yet
   Sums sums_;
   bool fresh_ = false;  // the gradient and moved_ are those of x but for rounding
-  bool stuck_ = false;  // nothing is left but rounding
 };
 
 }  // namespace carom
