@@ -7,7 +7,7 @@
 
 namespace carom {
 
-/// The largest place (m), and the longest way in a duration (m), by the smallest size (m).
+/// The largest place (m), and the longest path (m), by the smallest size (m).
 inline constexpr double farthest_by_size = 1e12;
 /// m/s, m/s^2: what speeds and accelerations may be.
 inline constexpr double largest_speed = 1e30, largest_acceleration = 1e30;

@@ -248,8 +248,7 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, Known& last
         island.rows[last.now[k]].force = last.rows[k].force;
   const bool unequal = island.mass_ratio > 1e6 && island.unknowns() <= 1500;
   const double times = alike ? worth_while : 1;
-  const bool dense =
-      unequal || cost.dense() <= times * cost.least_sparse() || cost.dense() <= times * cost.sparse();
+  const bool dense = unequal || cost.dense() <= times * cost.least_sparse() || cost.dense() <= times * cost.sparse();
   if (dense && by_active_set()) return best;
   if (take(cost.method().solve(attempt), false)) return best;
   for (std::size_t c = 0; c < island.rows.size(); ++c)

@@ -5,10 +5,11 @@
 //   u = u_free + M^-1 N x,  w = N^T u - target,  0 <= x, 0 <= w, x w = 0.
 // The motion u is unique, the forces need not be.
 //
-// Two methods stand behind it: a dual active set on orthogonal factors (active_set.h), for what is small,
+// Two methods find it to rounding: a dual active set on orthogonal factors (active_set.h), for what is small,
 // ill-conditioned or nearly as it was last time, and an interior point with a proximal Newton method
 // (contact_interior_point.h) on the bodies' sparse matrix, for what is large. Each is the other's fallback, cost alone
-// chooses between them, and one certificate judges both (contact_island.h).
+// chooses between them, and one certificate judges both (contact_island.h). Where contacts may be off by their slack
+// projected gradients (contact_projected_gradients.h) go first, for as long as they are the cheaper way.
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -30,11 +31,12 @@ struct ContactConstraint {
   bool bilateral = false;  // normal . (u_b - u_a) must be the target: the force may pull too
 };
 
-/// How near an answer has to be.
+/// How near an answer has to be. Contacts off by their slacks s have the kinetic energy of the motions that would mend
+/// them one by one: the sum of s^2 / (2/m_a + 2/m_b).
 enum class ContactAccuracy : std::uint8_t {
   rounding,  // whatever the contacts' slack
-  contacts,  // every contact to within its slack
-  energy     // or until more work would change no more kinetic energy than contacts off by their slack have
+  contacts,  // every contact is within its slack
+  energy     // or the second half of the work has changed the potential by no more than that energy
 };
 
 struct ContactProblem {
@@ -48,7 +50,7 @@ struct ContactProblem {
 /// relative to each row's own scale: a target's, or a free motion's, with the problem's greatest one.
 struct Certificate {
   enum class Verdict : std::uint8_t {
-    solved,      // to rounding, or to the contacts' slack
+    solved,      // to rounding, or as nearly as was asked
     infeasible,  // no motion keeps all contacts: those that matter most to the method are kept
     doubtful     // neither method has got as near as rounding allows
   };

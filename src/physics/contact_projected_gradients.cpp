@@ -107,7 +107,7 @@ void ContactProjectedGradients::try_step(Forces* forces, std::size_t count, doub
 /// times the last one.
 CAROM_FOR_ALL_PROCESSORS
 void ContactProjectedGradients::take_next(Forces* forces, std::size_t count, double turn, double per_step, double least,
-                                        Sums& sums) {
+                                          Sums& sums) {
   const Four zero{};
   Four reduced{}, chopped{}, potential{}, worst = zero - 1;
   for (std::size_t k = 0; k < count; ++k) {

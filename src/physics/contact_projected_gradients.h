@@ -44,11 +44,11 @@ class ContactProjectedGradients {
   };
   /// The unknowns of four rows, and what goes with them.
   struct alignas(aligned) Forces {
-    Four x, g;         // of a row of unit length, >= 0; and the gradient: how far the row is from its target
-    Four direction;    // along which x is to fall,
-    Four image;        // and A times it
-    Four constant;     // g without forces
-    Four slack;        // of a row of unit length
+    Four x, g;       // of a row of unit length, >= 0; and the gradient: how far the row is from its target
+    Four direction;  // along which x is to fall,
+    Four image;      // and A times it
+    Four constant;   // g without forces
+    Four slack;      // of a row of unit length
     Four next_x, next_g;
   };
   /// What a pass over all rows adds up.
@@ -90,11 +90,11 @@ class ContactProjectedGradients {
   const ContactIsland* island_ = nullptr;
   std::vector<Rows> rows_;
   std::vector<Forces> forces_;
-  std::vector<Motion> moved_;  // by body: what forces do to it; and one more, which nothing moves
-  double step_ = 0;          // along the projected gradient
-  double least_ = 0;         // less is nothing
-  double slack_energy_ = 0;  // twice what rows off by their slack would have
-  std::vector<double> potential_;          // twice, by iteration
+  std::vector<Motion> moved_;             // by body: what forces do to it; and one more, which nothing moves
+  double step_ = 0;                       // along the projected gradient
+  double least_ = 0;                      // less is nothing
+  double slack_energy_ = 0;               // twice what rows off by their slack would have
+  std::vector<double> potential_;         // twice, by iteration
   std::size_t products_ = 0, reach_ = 0;  // with the matrix; the island's, 0: not looked for yet
   Sums sums_;
   bool fresh_ = false;  // the gradient and moved_ are those of x but for rounding

@@ -16,7 +16,7 @@ constexpr double velocity_noise = 16 * 0x1p-53;
 /// Of the square of a distance: gaps that it is too coarse to tell from none.
 constexpr double gap_noise = 0x1p-51;
 
-/// t = c / (-b + sqrt(b^2 - a c)), with the discriminant as a s^2 - |d x w|^2 (Lagrange), so that a long way does not
+/// t = c / (-b + sqrt(b^2 - a c)), with the discriminant as a s^2 - |d x w|^2 (Lagrange), so that a long path does not
 /// swamp a small miss distance.
 double straight_contact_time(const RelativeMotion& m, double s, double horizon) {
   const double b = m.d.dot(m.w);

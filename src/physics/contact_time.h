@@ -27,7 +27,7 @@ double sphere_contact_time(const RelativeMotion& motion, double s, double horizo
 Polynomial squared_gap_polynomial(const RelativeMotion& motion, double s);
 
 /// The contacts of spheres of unequal accelerations, one after the other: a curved path may enter twice. The quartic's
-/// coefficients lose what the square of a long way is rounded to, and a grazing pair is as inexact as they are. So it
+/// coefficients lose what the square of a long path is rounded to, and a grazing pair is as inexact as they are. So it
 /// only tells on which pieces of the path contact is possible, by the least value that rounding allows; there the gap
 /// is evaluated in double-double.
 class CurvedContacts {

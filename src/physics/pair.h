@@ -41,10 +41,10 @@ std::uint8_t wall_feature(std::uint8_t prism_feature);
 
 /// The points of a's and b's surface where the two are nearest, for walls at an angle to a box or a cylinder a; the
 /// middle of all where there are several. Both in the world (m).
-struct NearestPoints {
+struct ClosestPoints {
   Vec3 on_a, on_b;
 };
-NearestPoints nearest_points(const Volume& a, const Vec3& xa, const Wall& wall, const Vec3& xb);
+ClosestPoints closest_points(const Volume& a, const Vec3& xa, const Wall& wall, const Vec3& xb);
 
 inline SlabSum slab_sum(const World& world, Entity a, Entity b) {
   return SlabSum(world.volume_of(a).half, world.wall(b));

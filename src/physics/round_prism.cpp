@@ -169,10 +169,10 @@ bool RoundPrism::as_spheres(std::uint8_t feature, const RelativeMotion& m, Relat
   return radius > 0;
 }
 
-Meeting RoundPrism::leave(std::uint8_t feature, const RelativeMotion& m, double horizon) const {
+FeatureTime RoundPrism::leave(std::uint8_t feature, const RelativeMotion& m, double horizon) const {
   const PrismFeature f = PrismFeature::of(feature);
   if (!f.level() && disc > 0) return leave_round_cap(f, m, horizon);
-  Meeting first{never, no_feature};
+  FeatureTime first{never, no_feature};
   const auto offer = [&](double t, PrismFeature beyond) {
     if (t < first.time) first = {t, unique(beyond).code()};
   };
@@ -213,8 +213,8 @@ Meeting RoundPrism::leave(std::uint8_t feature, const RelativeMotion& m, double 
 }
 
 /// Over the rim of a rectangle with round corners, or of a disc. (The ball is missing, or the rectangle is.)
-Meeting RoundPrism::leave_round_cap(PrismFeature f, const RelativeMotion& m, double horizon) const {
-  Meeting first{never, no_feature};
+FeatureTime RoundPrism::leave_round_cap(PrismFeature f, const RelativeMotion& m, double horizon) const {
+  FeatureTime first{never, no_feature};
   const auto path = [&](double t) -> Vec3 { return m.d + t * (m.w + 0.5 * t * m.a); };
   const auto offer = [&](double t, PrismFeature beyond) {
     if (!(t < first.time) || t > horizon) return;

@@ -75,7 +75,7 @@ struct RoundPrism {
   bool as_spheres(std::uint8_t feature, const RelativeMotion& motion, RelativeMotion& reduced, double& radius) const;
 
   /// See leave_feature in touch.h. The motion's d is in the prism's frame.
-  Meeting leave(std::uint8_t feature, const RelativeMotion& motion, double horizon) const;
+  FeatureTime leave(std::uint8_t feature, const RelativeMotion& motion, double horizon) const;
 
   double size() const { return half.sum() + disc + ball; }
 
@@ -90,7 +90,7 @@ struct RoundPrism {
   PrismFeature unique(PrismFeature feature) const;
   Vec3 from_corner(const Vec3& p, PrismFeature feature) const;
   PrismFeature nearest_side(const Vec3& p) const;
-  Meeting leave_round_cap(PrismFeature feature, const RelativeMotion& motion, double horizon) const;
+  FeatureTime leave_round_cap(PrismFeature feature, const RelativeMotion& motion, double horizon) const;
 };
 
 }  // namespace carom

@@ -1,5 +1,5 @@
 #pragma once
-// Where a point lies to a convex set: what meeting_search.h asks of the Minkowski sums.
+// Where a point lies to a convex set: what conservative_advancement.h asks of the Minkowski sums.
 #include <cstdint>
 
 #include "physics/vec3.h"

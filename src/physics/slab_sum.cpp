@@ -44,8 +44,8 @@ double SlabSum::displaced_gap(const Vec3&, std::uint8_t feature, double gap, con
   return gap + (feature % 2 == 0 ? along : -along);
 }
 
-Meeting SlabSum::leave(std::uint8_t feature, const RelativeMotion& m, double horizon) const {
-  Meeting first{never, no_feature};
+FeatureTime SlabSum::leave(std::uint8_t feature, const RelativeMotion& m, double horizon) const {
+  FeatureTime first{never, no_feature};
   const Vec3& n = slabs_[feature / 2].normal;
   for (int k = 0; k < 2 * count_; ++k) {
     const auto other = static_cast<std::uint8_t>(k);

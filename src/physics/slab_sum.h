@@ -19,7 +19,7 @@ class SlabSum {
   Separation nearest(const Vec3& p) const;
   Separation at(const Vec3& p, std::uint8_t feature) const;
   double displaced_gap(const Vec3& p, std::uint8_t feature, double gap, const Vec3& displacement) const;
-  Meeting leave(std::uint8_t feature, const RelativeMotion& motion, double horizon) const;
+  FeatureTime leave(std::uint8_t feature, const RelativeMotion& motion, double horizon) const;
   double size() const { return size_; }
 
   // All of the surface is faces.

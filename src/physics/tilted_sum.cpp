@@ -157,8 +157,8 @@ bool TiltedSum::as_spheres(std::uint8_t feature, const RelativeMotion& m, Relati
   return true;
 }
 
-Meeting TiltedSum::leave(std::uint8_t feature, const RelativeMotion& m, double horizon) const {
-  Meeting first{never, no_feature};
+FeatureTime TiltedSum::leave(std::uint8_t feature, const RelativeMotion& m, double horizon) const {
+  FeatureTime first{never, no_feature};
   if (!flat(feature)) return first;
   const Vec3 n = face_normal(feature);
   // The face: what of the sum lies farthest along n, a polygon about its centre, drawn out by the disc under a cap.

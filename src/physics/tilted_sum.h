@@ -26,7 +26,7 @@ class TiltedSum {
   double bending(const Vec3& p, std::uint8_t feature, const Vec3& w) const;
   bool flat(std::uint8_t feature) const { return feature < patches; }
   bool as_spheres(std::uint8_t feature, const RelativeMotion& motion, RelativeMotion& reduced, double& radius) const;
-  Meeting leave(std::uint8_t feature, const RelativeMotion& motion, double horizon) const;
+  FeatureTime leave(std::uint8_t feature, const RelativeMotion& motion, double horizon) const;
   double curvature_radius(const Vec3& p, std::uint8_t feature) const;
   double size() const { return size_; }
 

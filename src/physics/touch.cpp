@@ -83,11 +83,11 @@ Vec3 middle_of_areas(double disc, const Volume& other, const Vec3& d) {
   }
   if (middle.norm() <= disc) return middle;
   // Only a corner of the rectangle is over the disc: halfway from there to the disc's rim.
-  const Vec3 way = middle - nearest;
-  const double half = nearest.dot(way), length = way.squaredNorm();
+  const Vec3 across = middle - nearest;
+  const double half = nearest.dot(across), length = across.squaredNorm();
   const double inside = std::max(disc * disc - nearest.squaredNorm(), 0.0);
   const double on_rim = inside > 0 ? inside / (half + std::sqrt(half * half + length * inside)) : 0;
-  return nearest + 0.5 * on_rim * way;
+  return nearest + 0.5 * on_rim * across;
 }
 
 /// Where a touches b, from a's centre, in the pair's frame; p and n as there.
@@ -137,13 +137,13 @@ Touch touch_at_an_angle(const Sum& sum, const Volume& volume, const Wall& wall, 
   Separation s = feature == no_feature ? sum.nearest(xb - xa) : sum.at(xb - xa, feature);
   s.gap += s.normal.dot(lost_in_difference(xa, xb));
   if (feature == no_feature && s.gap > rounding_of_gap(xa, xb, sum.size())) {
-    const NearestPoints points = nearest_points(volume, xa, wall, xb);
-    const Vec3 way = points.on_b - points.on_a;
-    return {way.norm(), way.normalized(), points.on_a, s.feature};
+    const ClosestPoints points = closest_points(volume, xa, wall, xb);
+    const Vec3 across = points.on_b - points.on_a;
+    return {across.norm(), across.normalized(), points.on_a, s.feature};
   }
   // A little apart along the normal the same points are nearest, clearly so.
   const Vec3 apart = (0x1p-7 * sum.size() - s.gap) * s.normal;
-  return {s.gap, s.normal, nearest_points(volume, xa, wall, xb + apart).on_a, s.feature};
+  return {s.gap, s.normal, closest_points(volume, xa, wall, xb + apart).on_a, s.feature};
 }
 
 }  // namespace

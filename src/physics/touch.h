@@ -22,7 +22,7 @@ struct Touch {
 
 /// The gap is as exact as the positions where it is small (compensated sums). Where sharp volumes overlap, or touch but
 /// for rounding at edges or corners only, the normal is that of the face over which they are farthest apart (x before y
-/// before z). `feature`: look there, where a meeting says they meet; no_feature: where they are nearest.
+/// before z). `feature`: look there, where two things meet; no_feature: where they are nearest.
 Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature = no_feature);
 
 /// Second derivative of the gap (m/s^2) under the constant relative velocity w = v_b - v_a (m/s): what the curvature of
@@ -33,7 +33,8 @@ double bending(const World& world, Entity a, const Vec3& xa, Entity b, const Vec
 /// Whether a pair meets at this feature in a plane for as long as it does, so that motion along it is straight.
 bool is_flat(const World& world, Entity a, Entity b, std::uint8_t feature);
 
-struct Meeting {
+/// An instant, and where two things touch then.
+struct FeatureTime {
   double time;           // s, or never
   std::uint8_t feature;  // as in Touch
 };
@@ -41,22 +42,22 @@ struct Meeting {
 /// First t in [0, horizon] at which a and b touch and approach, from x_b - x_a = motion.d on. `left`: the feature at
 /// which the pair has just bounced (its gap is zero by definition), or no_feature; it stands for
 /// motion.just_separated.
-Meeting meeting(const World& world, Entity a, Entity b, const RelativeMotion& motion, std::uint8_t left,
-                double horizon);
-Meeting meeting_by_kind(const World& world, Entity a, Entity b, const RelativeMotion& motion, std::uint8_t left,
-                        double horizon);
+FeatureTime time_of_impact(const World& world, Entity a, Entity b, const RelativeMotion& motion, std::uint8_t left,
+                           double horizon);
+FeatureTime time_of_impact_by_kind(const World& world, Entity a, Entity b, const RelativeMotion& motion,
+                                   std::uint8_t left, double horizon);
 
 // Balls among themselves, the common case, need no look at volumes.
-inline Meeting meeting(const World& world, Entity a, Entity b, const RelativeMotion& motion, std::uint8_t left,
-                       double horizon) {
+inline FeatureTime time_of_impact(const World& world, Entity a, Entity b, const RelativeMotion& motion,
+                                  std::uint8_t left, double horizon) {
   if (world.volume.empty() && world.is_body(b) && motion.just_separated == (left != no_feature))
     return {sphere_contact_time(motion, world.radius[a] + world.radius[b], horizon), 0};
-  return meeting_by_kind(world, a, b, motion, left, horizon);
+  return time_of_impact_by_kind(world, a, b, motion, left, horizon);
 }
 
 /// First t in (0, horizon] at which a pair in lasting contact at this feature comes to the feature's rim, and the
 /// feature beyond it; never, no_feature where it has no rim. The motion keeps to the feature.
-Meeting leave_feature(const World& world, Entity a, Entity b, std::uint8_t feature, const RelativeMotion& motion,
-                      double horizon);
+FeatureTime leave_feature(const World& world, Entity a, Entity b, std::uint8_t feature, const RelativeMotion& motion,
+                          double horizon);
 
 }  // namespace carom

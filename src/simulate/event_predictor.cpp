@@ -56,8 +56,8 @@ void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
     if (bodies_.world.is_plane(contact.surface)) continue;
     const Flight& f = bodies_.flights[i];
     RelativeMotion m{bodies_.world.fixed_position(contact.surface) - f.x, -f.v, -f.a, f.v.cwiseAbs().sum(), true};
-    const Meeting rim = leave_feature(bodies_.world, i, contact.surface, contact.feature, m,
-                                      Instant{bodies_.options.duration, 0} - f.start);
+    const FeatureTime rim = leave_feature(bodies_.world, i, contact.surface, contact.feature, m,
+                                          Instant{bodies_.options.duration, 0} - f.start);
     if (rim.time < never)
       offer(i, best, {f.start + rim.time, contact.surface, 0, ExactEvent::Kind::release, rim.feature});
   }

@@ -51,8 +51,8 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
   if (balls) {
     t = sphere_contact_time(m, s, horizon);
   } else {
-    const Meeting first =
-        meeting(world, a, b, m, m.just_separated ? bodies_.body[a].origin_feature : no_feature, horizon);
+    const FeatureTime first =
+        time_of_impact(world, a, b, m, m.just_separated ? bodies_.body[a].origin_feature : no_feature, horizon);
     t = first.time;
     feature = first.feature;
   }
@@ -84,7 +84,8 @@ Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, std::uint8_t& 
     feature = contact.feature;
   } else {
     const RelativeMotion m{world.fixed_position(surface) - f.x, -f.v, -f.a, sum_of_speeds(f.v) + steps, left};
-    const Meeting first = meeting(world, i, surface, m, left ? bodies_.body[i].origin_feature : no_feature, horizon);
+    const FeatureTime first =
+        time_of_impact(world, i, surface, m, left ? bodies_.body[i].origin_feature : no_feature, horizon);
     t = first.time;
     feature = first.feature;
   }

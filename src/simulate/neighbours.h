@@ -51,14 +51,14 @@ class Neighbours {
   /// Whether a body has come to body i's list since this was asked last.
   bool has_news(Entity i) { return std::exchange(known_[i].news, 0) != 0; }
 
-  /// A new region for a body at x (m), wider where few are near and narrower where many are. `ahead`: m, the way on
-  /// which its middle may be. One that has left several on one way gets a wider one. Gives who has come to the list,
+  /// A new region for a body at x (m), wider where few are near and narrower where many are. `ahead`: m, the path on
+  /// which its middle may be. One that has left several on one path gets a wider one. Gives who has come to the list,
   /// valid until regions change.
   std::span<const Entity> renew(Entity i, const Vec3& x, const Vec3& ahead);
-  /// Body i goes another way from now on.
+  /// Body i goes another path from now on.
   void turned(Entity i) { known_[i].left = 0; }
 
-  /// A new region for a body at x (m) that may go as far as `reach` (m), and whose way later leads along `drift` (m):
+  /// A new region for a body at x (m) that may go as far as `reach` (m), and whose path later leads along `drift` (m):
   /// it lies ahead, as far as drift goes, so that it is left late.
   void cover(Entity i, const Vec3& x, double reach, const Vec3& drift);
 
@@ -77,7 +77,7 @@ class Neighbours {
     std::uint8_t news = 1;
     std::int16_t level = 0;           // of its region's half width
     std::uint32_t surfaces : 24 = 0;  // at the list's end
-    std::uint32_t left : 8 = 0;       // regions on its way, up to many
+    std::uint32_t left : 8 = 0;       // regions on its path, up to many
   };
   static_assert(sizeof(Known) == 16);
 

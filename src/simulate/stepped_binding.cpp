@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/contact_problem.h"
 #include "physics/disjoint_sets.h"
 #include "physics/restitution.h"
-#include "physics/contact_problem.h"
 #include "simulate/tolerances.h"
 
 namespace carom {

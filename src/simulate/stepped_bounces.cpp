@@ -16,7 +16,7 @@ BounceLimits::BounceLimits(const World& world, const SteppedOptions& options, bo
       group_impacts_(options.closed_form ? resolved_impacts : group_impacts),
       many_impacts_(options.closed_form ? resolved_impacts : many_impacts),
       impacts_(world.body_count()),
-      meetings_(world.body_count()) {}
+      contacts_(world.body_count()) {}
 
 void BounceLimits::count_impact(Entity a, Entity b, double e) {
   if (!(e < 1)) return;
@@ -35,7 +35,7 @@ bool BounceLimits::ends_in_contact(Entity a, Entity b, double e, double approach
 }
 
 bool BounceLimits::jammed(Entity a) const {
-  return meetings_[a] > most_meetings;
+  return contacts_[a] > most_contacts;
 }
 
 }  // namespace carom

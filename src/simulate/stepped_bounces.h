@@ -15,12 +15,12 @@ class BounceLimits {
 
   /// Counts an impact of two with restitution e in this step.
   void count_impact(Entity a, Entity b, double e);
-  /// Counts a meeting of whatever kind.
-  void count_meeting(Entity a) { meetings_[a] += loaded_; }
+  /// Counts a contact of whatever kind.
+  void count_contact(Entity a) { contacts_[a] += loaded_; }
   /// Forgets a body's counts.
   void begin_step(Entity i) {
     impacts_[i] = 0;
-    meetings_[i] = 0;
+    contacts_[i] = 0;
   }
 
   /// Whether bounces shorter than the shortest one begin, with this approach (m/s); press (m/s^2) drives the two
@@ -40,7 +40,7 @@ class BounceLimits {
   double shortest_bounce_;   // s
   std::uint32_t group_impacts_, many_impacts_;
   std::vector<std::uint32_t> impacts_;   // by body, in this step, with e < 1,
-  std::vector<std::uint32_t> meetings_;  // and of whatever kind under load
+  std::vector<std::uint32_t> contacts_;  // and of whatever kind under load
 };
 
 }  // namespace carom

@@ -9,13 +9,13 @@
 
 namespace carom {
 
-ContactGroup::ContactGroup(StepShared& shared, StepMotion& motion, StepMeetings& meetings)
+ContactGroup::ContactGroup(StepShared& shared, StepMotion& motion, StepImpactPredictor& predictor)
     : shared_(shared),
       motion_(motion),
-      meetings_(meetings),
-      contacts_(shared, meetings, false),
+      predictor_(predictor),
+      contacts_(shared, predictor, false),
       step_(shared),
-      rest_(shared, meetings) {}
+      rest_(shared, predictor) {}
 
 void ContactGroup::step() {
   shared_.log.remove_resting(resting_);
@@ -25,7 +25,7 @@ void ContactGroup::step() {
   const std::span<const Entity> awake = shared_.awake.list();
   if (std::none_of(awake.begin(), awake.end(), [&](Entity i) { return shared_.group.joined(i); })) return;
   for (const Entity i : awake)
-    if (!shared_.group.joined(i)) meetings_.cover_path(i);
+    if (!shared_.group.joined(i)) predictor_.cover_path(i);
   for (const Entity i : find_bodies()) {
     const Vec3 &x = shared_.paths.x[i], &v = shared_.paths.v[i];
     bodies_.add(shared_.world, i, x, v, shared_.free.acceleration(i, x, v));
@@ -59,7 +59,7 @@ void ContactGroup::add_reachable(std::vector<Entity>& bodies, std::size_t k) {
   const StepPaths& paths = shared_.paths;
   const double h = shared_.clock.length();
   const Entity i = bodies[k];
-  for (const Entity e : meetings_.neighbours().near(i)) {
+  for (const Entity e : predictor_.neighbours().near(i)) {
     if (!world.is_body(e) || shared_.group.in_step(e)) continue;
     const double acceleration = shared_.free.acceleration(i, paths.x[i], paths.v[i]).norm();
     const double far = h * (paths.v[i].norm() + paths.v[e].norm() + h * acceleration);
@@ -82,7 +82,7 @@ void ContactGroup::add_reachable(std::vector<Entity>& bodies, std::size_t k) {
 /// Sees to it that body i's neighbours are all that it can meet at this speed (m/s), in any direction.
 void ContactGroup::cover_speed(Entity i, double speed) {
   shared_.paths.path[i] = {shared_.paths.x[i], Vec3(speed, speed, speed), Vec3::Zero(), Vec3::Zero()};
-  meetings_.cover_path(i);
+  predictor_.cover_path(i);
 }
 
 /// Finds the contacts within the bounds of the bodies' speeds.

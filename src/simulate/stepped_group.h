@@ -10,7 +10,7 @@
 #include "simulate/stepped_group_contacts.h"
 #include "simulate/stepped_group_rest.h"
 #include "simulate/stepped_group_step.h"
-#include "simulate/stepped_meetings.h"
+#include "simulate/stepped_impact_predictor.h"
 #include "simulate/stepped_motion.h"
 #include "simulate/stepped_shared.h"
 
@@ -19,7 +19,7 @@ namespace carom {
 class ContactGroup {
  public:
   /// All must outlive this.
-  ContactGroup(StepShared& shared, StepMotion& motion, StepMeetings& meetings);
+  ContactGroup(StepShared& shared, StepMotion& motion, StepImpactPredictor& predictor);
 
   /// Takes the present step, if there are any bodies in the group. The other bodies have paths as if nothing met.
   void step();
@@ -41,7 +41,7 @@ class ContactGroup {
 
   StepShared& shared_;
   StepMotion& motion_;
-  StepMeetings& meetings_;
+  StepImpactPredictor& predictor_;
   GroupBodies bodies_;      // of the present step
   GroupContacts contacts_;  // of the present step
   GroupStep step_;

@@ -5,8 +5,8 @@
 
 namespace carom {
 
-GroupContacts::GroupContacts(const StepShared& shared, const StepMeetings& meetings, bool others_fixed)
-    : shared_(shared), meetings_(meetings), others_fixed_(others_fixed), place_(shared.world.body_count()) {}
+GroupContacts::GroupContacts(const StepShared& shared, const StepImpactPredictor& predictor, bool others_fixed)
+    : shared_(shared), predictor_(predictor), others_fixed_(others_fixed), place_(shared.world.body_count()) {}
 
 void GroupContacts::start(const GroupBodies& bodies, double more) {
   start_all(bodies, 0);
@@ -38,11 +38,11 @@ void GroupContacts::find(const GroupBodies& bodies) {
 void GroupContacts::find_near(const GroupBodies& bodies, std::size_t k, double drop) {
   const double h = shared_.clock.length();
   const Entity i = bodies.entity[k];
-  for (const Entity e : meetings_.neighbours().near(i)) {
+  for (const Entity e : predictor_.neighbours().near(i)) {
     const bool body = shared_.world.is_body(e);
     if (body && !others_fixed_) {  // most are not in reach
-      const double reach = meetings_.ball(i).radius + meetings_.ball(e).radius;
-      if ((meetings_.ball(e).x - bodies.x[k]).squaredNorm() > reach * reach) continue;
+      const double reach = predictor_.ball(i).radius + predictor_.ball(e).radius;
+      if ((predictor_.ball(e).x - bodies.x[k]).squaredNorm() > reach * reach) continue;
     }
     const bool member = body && place_.in(bodies.entity, e);
     if (body && !member && !others_fixed_) continue;

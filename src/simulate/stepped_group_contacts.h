@@ -7,7 +7,7 @@
 #include "physics/touch.h"
 #include "simulate/neighbours.h"
 #include "simulate/stepped_group_bodies.h"
-#include "simulate/stepped_meetings.h"
+#include "simulate/stepped_impact_predictor.h"
 #include "simulate/stepped_places.h"
 #include "simulate/stepped_shared.h"
 
@@ -27,7 +27,7 @@ class GroupContacts {
  public:
   /// others_fixed: bodies that are not of the group are fixed where their paths end; else they are left out. Both must
   /// outlive this.
-  GroupContacts(const StepShared& shared, const StepMeetings& meetings, bool others_fixed);
+  GroupContacts(const StepShared& shared, const StepImpactPredictor& predictor, bool others_fixed);
 
   /// Begins with none. Each body's bound is its speed, and so much (m/s) more,
   void start(const GroupBodies& bodies, double more);
@@ -49,7 +49,7 @@ class GroupContacts {
   Touch touch_of(const GroupBodies& bodies, std::size_t k, Entity e, const Vec3& xe, double reach) const;
 
   const StepShared& shared_;
-  const StepMeetings& meetings_;
+  const StepImpactPredictor& predictor_;
   const bool others_fixed_;
   BodyPlaces place_;              // in the group
   std::vector<double> bound_;     // m/s, by place: how fast a body may go, at least,

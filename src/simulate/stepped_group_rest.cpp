@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <limits>
 
-#include "physics/disjoint_sets.h"
 #include "physics/contact_problem.h"
+#include "physics/disjoint_sets.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
 
 using namespace stepped_tolerance;
 
-GroupRest::GroupRest(StepShared& shared, const StepMeetings& meetings)
+GroupRest::GroupRest(StepShared& shared, const StepImpactPredictor& predictor)
     : shared_(shared),
-      contacts_(shared, meetings, true),
+      contacts_(shared, predictor, true),
       slow_steps_(shared.world.body_count()),
       failures_(shared.world.body_count()) {}
 

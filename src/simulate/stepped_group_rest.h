@@ -14,7 +14,7 @@ namespace carom {
 class GroupRest {
  public:
   /// Both must outlive this.
-  GroupRest(StepShared& shared, const StepMeetings& meetings);
+  GroupRest(StepShared& shared, const StepImpactPredictor& predictor);
 
   /// Notes body i's speed (m/s) at the end of this step, and whether contact forces act on it. `acceleration` (m/s^2):
   /// slow is what is slow by the speed of falling by a radius under it.

@@ -28,7 +28,7 @@ void StepImpacts::collide(const StepEvent& event) {
   const Entity a = event.a, b = event.b;
   const double time = refined_time(event);
   if (waits_for_step(a) || waits_for_step(b)) return stop_at_waiting(a, b, time);
-  shared_.bounces.count_meeting(a);
+  shared_.bounces.count_contact(a);
   if (shared_.bounces.jammed(a)) return stop_at(b, a, time);
   const Vec3 relative_acceleration = motion_.acceleration_of(a) - motion_.acceleration_of(b);
   std::vector<Entity> bodies;
@@ -112,8 +112,8 @@ void StepImpacts::stop_at(Entity still, Entity comes, double time) {
   }
   for (const Entity i : bodies) attach(i, still);
   for (const Entity i : bodies) {
-    meetings_.cover_path(i);
-    meetings_.predict(i);
+    predictor_.cover_path(i);
+    predictor_.predict(i);
   }
 }
 
@@ -178,8 +178,8 @@ void StepImpacts::begin_paths(const std::vector<Entity>& bodies) {
       motion_.begin(shared_.clusters[c]);
     }
   }
-  for (const Entity i : bodies) meetings_.cover_path(i);
-  for (const Entity i : bodies) meetings_.predict(i);
+  for (const Entity i : bodies) predictor_.cover_path(i);
+  for (const Entity i : bodies) predictor_.predict(i);
   for (const std::uint32_t c : moving) predict_releases(shared_, motion_.of_clusters(), shared_.clusters[c], events_);
 }
 

@@ -6,7 +6,7 @@
 #include "physics/touch.h"
 #include "simulate/stepped_binding.h"
 #include "simulate/stepped_events.h"
-#include "simulate/stepped_meetings.h"
+#include "simulate/stepped_impact_predictor.h"
 #include "simulate/stepped_motion.h"
 #include "simulate/stepped_shared.h"
 
@@ -15,9 +15,9 @@ namespace carom {
 class StepImpacts {
  public:
   /// All must outlive this.
-  StepImpacts(StepShared& shared, StepMotion& motion, StepMeetings& meetings, ClusterBinding& binding,
+  StepImpacts(StepShared& shared, StepMotion& motion, StepImpactPredictor& predictor, ClusterBinding& binding,
               StepEvents& events)
-      : shared_(shared), motion_(motion), meetings_(meetings), binding_(binding), events_(events) {}
+      : shared_(shared), motion_(motion), predictor_(predictor), binding_(binding), events_(events) {}
 
   /// An event of the bodies' present paths happens.
   void process(const StepEvent& event);
@@ -44,7 +44,7 @@ class StepImpacts {
 
   StepShared& shared_;
   StepMotion& motion_;
-  StepMeetings& meetings_;
+  StepImpactPredictor& predictor_;
   ClusterBinding& binding_;
   StepEvents& events_;
 };

@@ -23,10 +23,10 @@ SteppedSimulator::SteppedSimulator(const World& world, const State& initial, con
     : shared_(world, initial, options),
       motion_(shared_),
       events_(shared_.paths),
-      meetings_(shared_, events_),
-      binding_(shared_, motion_, meetings_.neighbours()),
-      impacts_(shared_, motion_, meetings_, binding_, events_),
-      group_(shared_, motion_, meetings_),
+      predictor_(shared_, events_),
+      binding_(shared_, motion_, predictor_.neighbours()),
+      impacts_(shared_, motion_, predictor_, binding_, events_),
+      group_(shared_, motion_, predictor_),
       view_(shared_, motion_.of_clusters(), group_) {
   for (Entity i = 0; i < world.body_count(); ++i) {
     if (shared_.clusters.holds(i)) continue;
@@ -45,7 +45,7 @@ void SteppedSimulator::advance_to(double time) {
       return;
     }
     do_step();
-    meetings_.tidy();
+    predictor_.tidy();
   }
   time_ = std::max(time_, time);
 }
@@ -69,7 +69,7 @@ void SteppedSimulator::begin_step() {
     return !shared_.clusters.asleep(i);
   });
   shared_.paths.pieces.clear();
-  meetings_.begin_step();
+  predictor_.begin_step();
   shared_.clock.advance();
 }
 
@@ -111,7 +111,7 @@ void SteppedSimulator::begin_paths() {
 }
 
 void SteppedSimulator::predict_events() {
-  meetings_.predict_step();
+  predictor_.predict_step();
   for (std::uint32_t c = 0; c < shared_.clusters.size(); ++c)
     if (shared_.clusters[c].moves()) predict_releases(shared_, motion_.of_clusters(), shared_.clusters[c], events_);
 }
@@ -124,7 +124,7 @@ void SteppedSimulator::end_step() {
   for (const Entity i : shared_.awake.list())
     if (shared_.clusters.holds(i))
       strays = std::max(strays, (paths.end_x[i] - paths.path[i].position(length - paths.start[i])).norm());
-  meetings_.add_travel(strays);
+  predictor_.add_travel(strays);
   for (const Entity i : shared_.awake.list()) {
     shared_.check_bounds(i, paths.end_x[i], paths.end_v[i]);
     shared_.log.note_speed(paths.end_v[i].norm());

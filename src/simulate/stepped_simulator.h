@@ -1,10 +1,10 @@
 #pragma once
 // The stepped simulator: its parts, and the loop over its steps.
 //
-// A step integrates every body from one instant to the next as if it were alone, which gives a path. The first meeting
-// of two paths is found (path_meeting.h). Both bodies take their step again, shorter, up to there, collide, and take
-// another for what is left of it. So it goes on until no paths meet. No impact is moved to a step's end, so the order
-// of the method outlasts it. Bodies that nothing touches do not depend on the others' impacts.
+// A step integrates every body from one instant to the next as if it were alone, which gives a path. The first impact
+// of two paths is found (path_time_of_impact.h). Both bodies take their step again, shorter, up to there, collide, and
+// take another for what is left of it. So it goes on until no paths meet. No impact is moved to a step's end, so the
+// order of the method outlasts it. Bodies that nothing touches do not depend on the others' impacts.
 //
 // Bodies in lasting contact make a cluster (stepped_clusters.h): they take their steps together, under contact forces.
 // A contact ends inside the step where its force turns to zero. Bounces shorter than a step are none: there contact
@@ -15,8 +15,8 @@
 #include "simulate/stepped_binding.h"
 #include "simulate/stepped_events.h"
 #include "simulate/stepped_group.h"
+#include "simulate/stepped_impact_predictor.h"
 #include "simulate/stepped_impacts.h"
-#include "simulate/stepped_meetings.h"
 #include "simulate/stepped_motion.h"
 #include "simulate/stepped_shared.h"
 #include "simulate/stepped_view.h"
@@ -46,7 +46,7 @@ class SteppedSimulator final : public Simulator {
   StepShared shared_;
   StepMotion motion_;
   StepEvents events_;
-  StepMeetings meetings_;
+  StepImpactPredictor predictor_;
   ClusterBinding binding_;
   StepImpacts impacts_;
   ContactGroup group_;

@@ -11,7 +11,7 @@
 
 namespace carom {
 
-/// A meeting that only sphere_contact_time can tell the time of, or that there is none: touching, or grazing.
+/// An impact that only sphere_contact_time can tell the time of, or that there is none: touching, or grazing.
 inline constexpr double unsure = -std::numeric_limits<double>::infinity();
 
 struct Meet {
@@ -19,7 +19,7 @@ struct Meet {
   Entity with;
 };
 
-/// Body i's meetings with others are asked for. None of them is in the contact group; all have the same acceleration.
+/// Body i's impacts with others are asked for. None of them is in the contact group; all have the same acceleration.
 struct StraightTask {
   const Flights::Core* flights;
   const double* radius;  // m, by body; null: all have the same,
@@ -28,10 +28,10 @@ struct StraightTask {
   std::span<const Entity> others;
   Vec3 a;       // m/s^2
   bool latest;  // none of the others' flights began after body i's
-  double end;   // s, later meetings are none
+  double end;   // s, later impacts are none
 };
 
-/// Writes the meetings, each by itself, in the others' order; gives how many. There must be room for as many as others.
+/// Writes the impacts, each by itself, in the others' order; gives how many. There must be room for as many as others.
 std::size_t straight_times(const StraightTask& task, Meet* found);
 
 /// What straight_times chooses from, on this processor.

@@ -18,7 +18,7 @@ class SurfacesNear {
   void find(const Vec3& center, double reach, std::vector<Entity>& found);
 
  private:
-  /// x . normal - offset is the way from a plane.
+  /// x . normal - offset is the distance from a plane.
   struct HalfSpace {
     Vec3 normal;
     double offset, rounding;  // m

@@ -68,13 +68,13 @@ inline constexpr double margin_decay = 0.5;             // a step leaves of the 
 inline constexpr double least_margin = 1e-10;           // of a radius: what slow bodies are kept apart
 inline constexpr double parting_margin = 1e-3;          // of a radius: with a wider margin bodies part where they touch
 inline constexpr double converged_displacement = 5e-4;  // of a radius: a group that moves less is solved for exactly
-inline constexpr std::uint8_t idle_steps = 8;            // without a force, then a body leaves the group
-inline constexpr double resting_gap = 3e-8;              // of a radius: bodies at rest no farther apart may press
-inline constexpr double rest_slack = 1e-13;              // of the greatest acceleration: of their forces
-inline constexpr double balance = 1e-11;                 // of gravity: forces whose sum is less hold a body
-inline constexpr double steady_speed = 1e-3;             // of a step's fall: a velocity that a step leaves as it is
-inline constexpr double sliding_speed = 1e-3;            // of the speed of falling by a radius: slower bodies stop
-inline constexpr std::uint32_t many_short_steps = 8;     // ended at once by simultaneous impacts: a jam
+inline constexpr std::uint8_t idle_steps = 8;           // without a force, then a body leaves the group
+inline constexpr double resting_gap = 3e-8;             // of a radius: bodies at rest no farther apart may press
+inline constexpr double rest_slack = 1e-13;             // of the greatest acceleration: of their forces
+inline constexpr double balance = 1e-11;                // of gravity: forces whose sum is less hold a body
+inline constexpr double steady_speed = 1e-3;            // of a step's fall: a velocity that a step leaves as it is
+inline constexpr double sliding_speed = 1e-3;           // of the speed of falling by a radius: slower bodies stop
+inline constexpr std::uint32_t many_short_steps = 8;    // ended at once by simultaneous impacts: a jam
 
 }  // namespace carom::exact_tolerance
 
@@ -85,9 +85,9 @@ inline constexpr double shortest_bounce = 1e-6;  // of a step: where bounces are
 inline constexpr std::uint32_t resolved_impacts = 4096;  // with e < 1, of a body in a step, where bounces are resolved;
 inline constexpr std::uint32_t many_impacts = 256;  // and where they are not: more of them accumulate, contact begins
 inline constexpr std::uint32_t group_impacts = 16;  // under load, of a body in a step: then it joins the contact group
-inline constexpr std::uint32_t most_meetings = 2000;  // under load, of a body in a step: it is jammed and waits
+inline constexpr std::uint32_t most_contacts = 2000;  // under load, of a body in a step: it is jammed and waits
 
-// Meetings of paths (stepped_meetings.h).
+// Impacts of paths (stepped_impact_predictor.h).
 inline constexpr double path_rounding = 0x1p-48;  // of a coordinate: by how much a path may be off by rounding
 inline constexpr double region_steps = 32;        // steps for which a body's region is to last
 
@@ -115,32 +115,32 @@ inline constexpr int release_passes = 60;             // of regula falsi, at mos
 inline constexpr double rim_precision = 0x1p-48;      // of a step: to which the time at a feature's rim is found
 
 // The contact group (stepped_group*.h).
-inline constexpr std::uint8_t group_steps = 8;          // without contact, then a body leaves the group
-inline constexpr double impact_gap = 1e-3;              // of a radius: across it fast bodies collide in this step
-inline constexpr double slack_of_approach = 1e-2;       // of an approach: what a contact may be off by
-inline constexpr double velocity_accuracy = 0.1;        // of the Froude number: a contact's slack, by a step's fall,
-inline constexpr double least_accuracy = 1e-5;          // at least,
-inline constexpr double most_accuracy = 0.05;           // at most
-inline constexpr double most_gain = 1e-6;               // of kinetic energy, by what the solver leaves
-inline constexpr double least_overlap = 1e-8;           // of a radius: that bodies may have, where it is achieved
-inline constexpr double most_overlap = 1e-3;            // of a radius: that bodies may have
-inline constexpr double overlap_of_drift = 0.5;         // of a step's displacement: least overlap of a fast group
-inline constexpr double overlap_falls = 0.9;            // by step, where displacements have converged
-inline constexpr double overlap_grows = 1.2;            // by step, where they have not
-inline constexpr int search_passes = 4;                 // for contacts of bodies displaced farther than searched
+inline constexpr std::uint8_t group_steps = 8;     // without contact, then a body leaves the group
+inline constexpr double impact_gap = 1e-3;         // of a radius: across it fast bodies collide in this step
+inline constexpr double slack_of_approach = 1e-2;  // of an approach: what a contact may be off by
+inline constexpr double velocity_accuracy = 0.1;   // of the Froude number: a contact's slack, by a step's fall,
+inline constexpr double least_accuracy = 1e-5;     // at least,
+inline constexpr double most_accuracy = 0.05;      // at most
+inline constexpr double most_gain = 1e-6;          // of kinetic energy, by what the solver leaves
+inline constexpr double least_overlap = 1e-8;      // of a radius: that bodies may have, where it is achieved
+inline constexpr double most_overlap = 1e-3;       // of a radius: that bodies may have
+inline constexpr double overlap_of_drift = 0.5;    // of a step's displacement: least overlap of a fast group
+inline constexpr double overlap_falls = 0.9;       // by step, where displacements have converged
+inline constexpr double overlap_grows = 1.2;       // by step, where they have not
+inline constexpr int search_passes = 4;            // for contacts of bodies displaced farther than searched
 
 // How a contact group comes to rest (stepped_group_rest.h).
-inline constexpr double slow_body = 1e-3;                // of the speed of falling by a radius: it may be at rest
-inline constexpr std::uint32_t slow_steps = 8;           // for which a part has been slow before it is looked at
-inline constexpr std::uint32_t longest_wait = 10;        // doublings of that for a part that is in no balance
-inline constexpr double first_sink = 1e-3;               // of a radius: how far free bodies would sink, at first
-inline constexpr double last_sink = 1;                   // of a radius: and at last
-inline constexpr double small_sink = 0.1;                // of the first: a part that sinks less may be driven farther
-inline constexpr double sink_grows = 10;                 // by pass
-inline constexpr double farthest_sink = 2e-2;            // of a radius: a part that sinks farther is in no balance
-inline constexpr int balance_passes = 12;                // of sinking
-inline constexpr double group_balance = 1e-7;            // of what free bodies would sink: then forces balance
-inline constexpr double balance_slack = 1e-10;           // of a radius: what contacts may be off by
+inline constexpr double slow_body = 1e-3;          // of the speed of falling by a radius: it may be at rest
+inline constexpr std::uint32_t slow_steps = 8;     // for which a part has been slow before it is looked at
+inline constexpr std::uint32_t longest_wait = 10;  // doublings of that for a part that is in no balance
+inline constexpr double first_sink = 1e-3;         // of a radius: how far free bodies would sink, at first
+inline constexpr double last_sink = 1;             // of a radius: and at last
+inline constexpr double small_sink = 0.1;          // of the first: a part that sinks less may be driven farther
+inline constexpr double sink_grows = 10;           // by pass
+inline constexpr double farthest_sink = 2e-2;      // of a radius: a part that sinks farther is in no balance
+inline constexpr int balance_passes = 12;          // of sinking
+inline constexpr double group_balance = 1e-7;      // of what free bodies would sink: then forces balance
+inline constexpr double balance_slack = 1e-10;     // of a radius: what contacts may be off by
 
 // The choice of a step (step_choice.h).
 inline constexpr int instants = 64;           // of a run, at which two runs are compared

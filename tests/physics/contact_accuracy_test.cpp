@@ -22,7 +22,8 @@ std::vector<Case> cases(double slack) {
   std::vector<Case> all;
   for (const Load load : loads)
     for (const double decades : {0.0, 3.0})
-      for (const Balls& balls : {row(12), stack(8), stack(40), lattice(2), lattice(3), packing(60, 1), packing(150, 2)}) {
+      for (const Balls& balls :
+           {row(12), stack(8), stack(40), lattice(2), lattice(3), packing(60, 1), packing(150, 2)}) {
         Case c = loaded(std::to_string(balls.center.size()), balls, load, decades);
         double most = 0;
         for (const Vec3& u : c.motion) most = std::max(most, u.norm());

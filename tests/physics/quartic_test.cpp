@@ -127,7 +127,7 @@ TEST(Quartic, ABallAndAFixedBallAreAsExactAsTheReferenceTablesCascade) {
       world.radius[0] = 0.5 * c.s;
       world.obstacles[0].volume = Volume::sphere(0.5 * c.s);
       const bool left = c.motion.just_separated;
-      const double t = meeting(world, 0, 1, c.motion, left ? 0 : no_feature, 100).time;
+      const double t = time_of_impact(world, 0, 1, c.motion, left ? 0 : no_feature, 100).time;
       const Quad expected = reference(c.motion, c.s, left, 100);
       hits += expected >= 0;
       missed += expected >= 0 && t == never;

@@ -17,7 +17,7 @@ Vec3 in_cube(Random& random, double half) {
 }
 
 /// When i and j meet, by the law for a single pair.
-Instant meeting_of(const Flights& flights, const std::vector<double>& radius, Entity i, Entity j, double end) {
+Instant time_of(const Flights& flights, const std::vector<double>& radius, Entity i, Entity j, double end) {
   const Flight p = flights[i], q = flights[j];
   const Instant base = p.start < q.start ? q.start : p.start;
   const double tp = base - p.start, tq = base - q.start;
@@ -59,12 +59,12 @@ TEST_P(StraightTimes, HasTheBitsOfTheLawForEveryWidth) {
           bool latest = true;
           for (const Entity j : asked) latest = latest && flights[j].start <= flights[i].start;
           for (const bool told : {false, latest}) {
-            const std::size_t meetings =
+            const std::size_t impacts =
                 kernel({flights.cores(), alike ? nullptr : r.data(), r[i], i, asked, a, told, end}, found.data());
             std::size_t next = 0;
             for (const Entity j : asked) {
-              const Instant law = meeting_of(flights, r, i, j, end);
-              if (next < meetings && found[next].with == j) {
+              const Instant law = time_of(flights, r, i, j, end);
+              if (next < impacts && found[next].with == j) {
                 const Instant time = found[next++].time;
                 if (time.hi == unsure) {
                   ++left;
@@ -76,7 +76,7 @@ TEST_P(StraightTimes, HasTheBitsOfTheLawForEveryWidth) {
                 EXPECT_EQ(law.hi, never) << i << " and " << j;
               }
             }
-            EXPECT_EQ(next, meetings);
+            EXPECT_EQ(next, impacts);
           }
         }
     EXPECT_GT(met, 500);

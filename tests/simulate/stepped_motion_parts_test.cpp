@@ -1,4 +1,5 @@
-// The parts of the stepped simulator that move bodies: clusters, meetings, releases, impacts, the contact group, views.
+// The parts of the stepped simulator that move bodies: clusters, predictor, releases, impacts, the contact group,
+// views.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,8 +8,8 @@
 #include "simulate/build.h"
 #include "simulate/stepped_binding.h"
 #include "simulate/stepped_group.h"
+#include "simulate/stepped_impact_predictor.h"
 #include "simulate/stepped_impacts.h"
-#include "simulate/stepped_meetings.h"
 #include "simulate/stepped_motion.h"
 #include "simulate/stepped_releases.h"
 #include "simulate/stepped_view.h"
@@ -37,10 +38,10 @@ struct Parts {
   StepShared shared;
   StepMotion motion{shared};
   StepEvents events{shared.paths};
-  StepMeetings meetings{shared, events};
-  ClusterBinding binding{shared, motion, meetings.neighbours()};
-  StepImpacts impacts{shared, motion, meetings, binding, events};
-  ContactGroup group{shared, motion, meetings};
+  StepImpactPredictor predictor{shared, events};
+  ClusterBinding binding{shared, motion, predictor.neighbours()};
+  StepImpacts impacts{shared, motion, predictor, binding, events};
+  ContactGroup group{shared, motion, predictor};
   StepView view{shared, motion.of_clusters(), group};
 };
 
@@ -134,14 +135,14 @@ TEST(ClusterBinding, LeavesBodiesAloneThatSeparate) {
   EXPECT_FALSE(parts.shared.clusters.holds(0));
 }
 
-TEST(StepMeetings, FindTheTimeAtWhichTwoPathsMeet) {
+TEST(StepImpactPredictor, FindTheTimeAtWhichTwoPathsMeet) {
   Problem problem;
   problem.ball({0, 0, 0}, {1, 0, 0});
   problem.ball({2, 0, 0}, {-1, 0, 0});
   problem.ball({50, 0, 0}, {-1, 0, 0});
   Parts parts(problem, 1);
   parts.begin_all();
-  parts.meetings.predict_step();
+  parts.predictor.predict_step();
   StepEvent event;
   ASSERT_TRUE(parts.events.pop(event));
   EXPECT_EQ(event.time, 0.5);
@@ -171,7 +172,7 @@ TEST(StepImpacts, OfEqualElasticBallsSwapVelocities) {
   problem.ball({2, 0, 0}, {-1, 0, 0});
   Parts parts(problem, 1);
   parts.begin_all();
-  parts.meetings.predict_step();
+  parts.predictor.predict_step();
   for (StepEvent event; parts.events.pop(event);) parts.impacts.process(event);
   EXPECT_EQ(parts.shared.paths.end_v[0], Vec3(-1, 0, 0));
   EXPECT_EQ(parts.shared.paths.end_x[1], Vec3(2, 0, 0));
@@ -185,7 +186,7 @@ TEST(StepImpacts, ThatComeToRestEndInContact) {
   problem.initial.position[0].y() = 0.50001;  // reached at 0.014 m/s
   Parts parts(problem);
   parts.begin_all();
-  parts.meetings.predict_step();
+  parts.predictor.predict_step();
   for (StepEvent event; parts.events.pop(event);) parts.impacts.process(event);
   EXPECT_TRUE(parts.shared.clusters.holds(0));
   EXPECT_NEAR(parts.shared.paths.end_x[0].y(), 0.5, 1e-15);
@@ -197,7 +198,7 @@ TEST(StepView, ShowsABodyBeforeAndAfterAnImpactInTheStep) {
   problem.ball({2, 0, 0}, {-1, 0, 0});
   Parts parts(problem, 1);
   parts.begin_all();
-  parts.meetings.predict_step();
+  parts.predictor.predict_step();
   for (StepEvent event; parts.events.pop(event);) parts.impacts.process(event);
   EXPECT_EQ(parts.view.state(0.25).position[0], Vec3(0.25, 0, 0));
   parts.view.clear();
@@ -232,9 +233,9 @@ TEST(GroupContacts, FindEachPairOnceAndMoreAtAHigherSpeed) {
   problem.ball({3, 0.5, 0}, {0, 0, 0});
   Parts parts(problem);
   parts.begin_all();
-  for (const Entity i : parts.shared.awake.list()) parts.meetings.cover_path(i);
+  for (const Entity i : parts.shared.awake.list()) parts.predictor.cover_path(i);
   const GroupBodies bodies = all_bodies(parts);
-  GroupContacts contacts(parts.shared, parts.meetings, true);
+  GroupContacts contacts(parts.shared, parts.predictor, true);
   contacts.start(bodies, 0.1);
   contacts.find(bodies);
   EXPECT_EQ(contacts.list().size(), 4u);  // three of the tower, two of them with another ball, and one of the last ball
@@ -265,10 +266,10 @@ TEST(GroupStep, LetsATowerStand) {
   const Problem problem = tower(4);
   Parts parts(problem);
   const GroupBodies bodies = all_bodies(parts);
-  GroupContacts contacts(parts.shared, parts.meetings, false);
+  GroupContacts contacts(parts.shared, parts.predictor, false);
   contacts.start(bodies, g * 0.01);
   parts.begin_all();
-  for (const Entity i : parts.shared.awake.list()) parts.meetings.cover_path(i);
+  for (const Entity i : parts.shared.awake.list()) parts.predictor.cover_path(i);
   contacts.find(bodies);
   GroupStep step(parts.shared);
   step.find_velocities(bodies, contacts.list());
@@ -285,12 +286,12 @@ TEST(GroupRest, PutsAPartToSleepThatHasBeenSlowForAWhile) {
   const Problem problem = tower(3);
   Parts parts(problem);
   const GroupBodies bodies = all_bodies(parts);
-  GroupRest rest(parts.shared, parts.meetings);
-  GroupContacts contacts(parts.shared, parts.meetings, false);
+  GroupRest rest(parts.shared, parts.predictor);
+  GroupContacts contacts(parts.shared, parts.predictor, false);
   contacts.start(bodies, g * 0.01);
   parts.begin_all();
   for (const Entity i : parts.shared.awake.list()) {
-    parts.meetings.cover_path(i);
+    parts.predictor.cover_path(i);
     parts.shared.paths.stay(i);
   }
   contacts.find(bodies);

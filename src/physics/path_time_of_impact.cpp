@@ -1,4 +1,4 @@
-#include "physics/path_meeting.h"
+#include "physics/path_time_of_impact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,20 +7,20 @@ namespace carom {
 
 namespace {
 
-Meeting cubic_meeting(const World& world, Entity a, const Path& pa, Entity b, const Path& pb, double speeds,
-                      std::uint8_t left, double horizon) {
-  const Path way{Vec3::Zero(), pb.v - pa.v, pb.a - pa.a, pb.j - pa.j};
+FeatureTime cubic_time_of_impact(const World& world, Entity a, const Path& pa, Entity b, const Path& pb, double speeds,
+                                 std::uint8_t left, double horizon) {
+  const Path relative{Vec3::Zero(), pb.v - pa.v, pb.a - pa.a, pb.j - pa.j};
   const double far = pa.x.cwiseAbs().sum() + pb.x.cwiseAbs().sum() + world.radius[a];
   const double closed = 0x1p-49 * far, noise = 0x1p-48 * speeds;
   double t = 0;
   for (int look = 0; look < 500 && t <= horizon; ++look) {
-    const Vec3 xa = pa.x - way.position(t);  // b stands still
+    const Vec3 xa = pa.x - relative.position(t);  // b stands still
     const bool leaving = t == 0 && left != no_feature;
     const Touch there = touch(world, a, xa, b, pb.x, leaving ? left : no_feature);
-    const Vec3 w = way.velocity(t);
+    const Vec3 w = relative.velocity(t);
     const Vec3& n = there.normal;
     double rate = n.dot(w);
-    const double acceleration = n.dot(way.a + t * way.j), jerk = n.dot(way.j);
+    const double acceleration = n.dot(relative.a + t * relative.j), jerk = n.dot(relative.j);
     Polynomial gap;
     gap.degree = 3;
     double least = 0;  // s, that the path is surely outside for
@@ -47,13 +47,13 @@ Meeting cubic_meeting(const World& world, Entity a, const Path& pa, Entity b, co
 
 }  // namespace
 
-Meeting meeting(const World& world, Entity a, const Path& pa, Entity b, const Path& pb, std::uint8_t left,
-                double horizon) {
+FeatureTime time_of_impact(const World& world, Entity a, const Path& pa, Entity b, const Path& pb, std::uint8_t left,
+                           double horizon) {
   const double speeds = pa.v.cwiseAbs().sum() + pb.v.cwiseAbs().sum();
   if (pa.j == pb.j)
-    return meeting(world, a, b, RelativeMotion{pb.x - pa.x, pb.v - pa.v, pb.a - pa.a, speeds, left != no_feature}, left,
-                   horizon);
-  return cubic_meeting(world, a, pa, b, pb, speeds, left, horizon);
+    return time_of_impact(
+        world, a, b, RelativeMotion{pb.x - pa.x, pb.v - pa.v, pb.a - pa.a, speeds, left != no_feature}, left, horizon);
+  return cubic_time_of_impact(world, a, pa, b, pb, speeds, left, horizon);
 }
 
 }  // namespace carom

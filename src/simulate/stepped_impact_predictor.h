@@ -9,10 +9,10 @@
 
 namespace carom {
 
-class StepMeetings {
+class StepImpactPredictor {
  public:
   /// Both must outlive this.
-  StepMeetings(const StepShared& shared, StepEvents& events);
+  StepImpactPredictor(const StepShared& shared, StepEvents& events);
 
   /// A ball that a body's surface does not leave on its path.
   struct PathBall {
@@ -26,9 +26,9 @@ class StepMeetings {
   /// Sees to it that body i's neighbours are all that it can meet on its path.
   void cover_path(Entity i);
 
-  /// All awake bodies' paths have begun with the step: schedules the first meeting of each pair.
+  /// All awake bodies' paths have begun with the step: schedules the first impact of each pair.
   void predict_step();
-  /// Body i's path has begun within the step: schedules its first meeting with each thing.
+  /// Body i's path has begun within the step: schedules its first impact with each thing.
   void predict(Entity i) { predict(i, true); }
   /// Bodies may go farther than their paths, by so much (m).
   void add_travel(double distance) { step_travel_ += distance; }

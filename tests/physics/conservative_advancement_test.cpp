@@ -23,7 +23,8 @@ struct Path {
 void check(const World& world, const Path& path, double horizon, Tally& tally, bool print = false) {
   const Thing a = of(world, 0), b = of(world, 1);
   const double size = a.half.sum() + b.half.sum();
-  const Meeting m = meeting(world, 0, 1, {path.d, path.w, path.a, path.w.cwiseAbs().sum(), false}, no_feature, horizon);
+  const FeatureTime m =
+      time_of_impact(world, 0, 1, {path.d, path.w, path.a, path.w.cwiseAbs().sum(), false}, no_feature, horizon);
   ++tally.paths;
   const double end = std::min(m.time, horizon);
   const Thing core_a = shrunk(a, 1e-7), core_b = shrunk(b, 1e-7);
@@ -70,7 +71,7 @@ Path random_path(const World& world, Random& random, bool curved, double& horizo
   return path;
 }
 
-TEST(Meeting, NoContactIsMissedAndNoneInvented) {
+TEST(TimeOfImpact, NoContactIsMissedAndNoneInvented) {
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds)
       for (bool curved : {false, true}) {
@@ -93,7 +94,7 @@ TEST(Meeting, NoContactIsMissedAndNoneInvented) {
       }
 }
 
-TEST(Meeting, NoContactIsMissedInChainsOfBounces) {
+TEST(TimeOfImpact, NoContactIsMissedInChainsOfBounces) {
   // After its first contact a pair is pressed together and bounces, with restitutions down to 1e-4, over faces, edges
   // and rims.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
@@ -110,7 +111,7 @@ TEST(Meeting, NoContactIsMissedInChainsOfBounces) {
         std::uint8_t left = no_feature;
         for (int bounce = 0; bounce < 9; ++bounce) {
           const RelativeMotion motion{path.d, path.w, path.a, path.w.cwiseAbs().sum(), false};
-          const Meeting m = meeting(world, 0, 1, motion, left, horizon);
+          const FeatureTime m = time_of_impact(world, 0, 1, motion, left, horizon);
           ++tally.paths;
           const double end = std::min(m.time, horizon);
           for (int i = 0; i < 60; ++i)
@@ -141,7 +142,7 @@ TEST(Meeting, NoContactIsMissedInChainsOfBounces) {
     }
 }
 
-TEST(MeetingSearch, APathAlmostAlongAnAxisMeetsLikeAnyOther) {
+TEST(ConservativeAdvancement, APathAlmostAlongAnAxisMeetsLikeAnyOther) {
   // The small part of the position tells times that the large part is too coarse for.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
@@ -165,7 +166,7 @@ TEST(MeetingSearch, APathAlmostAlongAnAxisMeetsLikeAnyOther) {
     }
 }
 
-TEST(MeetingSearch, AGapSmallerThanThePositionsCanTellIsMet) {
+TEST(ConservativeAdvancement, AGapSmallerThanThePositionsCanTellIsMet) {
   // A ball on its way to a cylinder's rim, 1.5e-16 m from it: its position does not change before the gap is closed.
   World world;
   world.mass = {1, 1};
@@ -175,7 +176,7 @@ TEST(MeetingSearch, AGapSmallerThanThePositionsCanTellIsMet) {
   for (const Volume& v : world.volume) world.radius.push_back(v.reach());
   const Vec3 d(-0x1.45045fdbd18d2p-3, -0x1.f505e83252fep-4, -0x1.0c62378514edp-6);
   const Vec3 w(-0x1.6a2c3cc0d9176p+0, 0x1.0c0275dcc06dbp+2, -0x1.6dacd5e43692ap-2), a(0, 0x1.17607721b7d0cp+3, 0);
-  EXPECT_LT(meeting(world, 0, 1, {d, w, a, 20, false}, no_feature, 1).time, 1e-15);
+  EXPECT_LT(time_of_impact(world, 0, 1, {d, w, a, 20, false}, no_feature, 1).time, 1e-15);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "physics/meeting_search.h"
+#include "physics/conservative_advancement.h"
 #include "physics/pair.h"
 
 namespace carom {
@@ -9,21 +9,21 @@ RelativeMotion in_frame(const Frame& frame, const RelativeMotion& m) {
   return {frame.to(m.d), frame.to(m.w), frame.to(m.a), m.speeds, m.just_separated};
 }
 
-/// How large the positions are that the way d from a to b is the difference of, as far as that is known.
+/// How large the positions are that d, from a to b, is the difference of, as far as that is known.
 double size_of_positions(const World& world, Entity b, const Vec3& d) {
   if (world.is_body(b)) return d.cwiseAbs().sum();
   const Vec3& x = world.fixed_position(b);
   return x.cwiseAbs().sum() + (x - d).cwiseAbs().sum();
 }
 
-Meeting meet_spheres(const RelativeMotion& motion, double s, std::uint8_t left, double horizon) {
+FeatureTime meet_spheres(const RelativeMotion& motion, double s, std::uint8_t left, double horizon) {
   RelativeMotion m = motion;
   m.just_separated = left != no_feature;
   return {sphere_contact_time(m, s, horizon), 0};
 }
 
-/// d is the way to the plane's point.
-Meeting meet_plane(const Plane& plane, const RelativeMotion& m, double reach, std::uint8_t left, double horizon) {
+/// d leads to the plane's point.
+FeatureTime meet_plane(const Plane& plane, const RelativeMotion& m, double reach, std::uint8_t left, double horizon) {
   const double noise = 0x1p-49 * m.speeds;
   const double gap = plane_gap(-m.d, Vec3::Zero(), plane.normal, reach);
   return {plane_contact_time(gap, -plane.normal.dot(m.w), -plane.normal.dot(m.a), noise, left != no_feature, horizon),
@@ -32,8 +32,8 @@ Meeting meet_plane(const Plane& plane, const RelativeMotion& m, double reach, st
 
 }  // namespace
 
-Meeting meeting_by_kind(const World& world, Entity a, Entity b, const RelativeMotion& motion, std::uint8_t left,
-                        double horizon) {
+FeatureTime time_of_impact_by_kind(const World& world, Entity a, Entity b, const RelativeMotion& motion,
+                                   std::uint8_t left, double horizon) {
   switch (pair_kind(world, a, b)) {
     case PairKind::spheres: {
       const double s = world.volume_of(a).half.x() + world.volume_of(b).half.x();
@@ -47,23 +47,24 @@ Meeting meeting_by_kind(const World& world, Entity a, Entity b, const RelativeMo
     }
     case PairKind::prism: {
       const PairPrism pair = pair_prism(world, a, b);
-      return MeetingSearch(pair.sum, in_frame(pair.frame, motion), size_of_positions(world, b, motion.d), horizon)
+      return ConservativeAdvancement(pair.sum, in_frame(pair.frame, motion), size_of_positions(world, b, motion.d),
+                                     horizon)
           .run(left);
     }
     case PairKind::box_wall: {
       const SlabSum sum = slab_sum(world, a, b);
-      return MeetingSearch(sum, motion, size_of_positions(world, b, motion.d), horizon).run(left);
+      return ConservativeAdvancement(sum, motion, size_of_positions(world, b, motion.d), horizon).run(left);
     }
     case PairKind::cylinder_wall: {
       const TiltedSum sum = tilted_sum(world, a, b);
-      return MeetingSearch(sum, motion, size_of_positions(world, b, motion.d), horizon).run(left);
+      return ConservativeAdvancement(sum, motion, size_of_positions(world, b, motion.d), horizon).run(left);
     }
   }
   return {never, no_feature};
 }
 
-Meeting leave_feature(const World& world, Entity a, Entity b, std::uint8_t feature, const RelativeMotion& motion,
-                      double horizon) {
+FeatureTime leave_feature(const World& world, Entity a, Entity b, std::uint8_t feature, const RelativeMotion& motion,
+                          double horizon) {
   switch (pair_kind(world, a, b)) {
     case PairKind::spheres:
     case PairKind::half_space:
@@ -75,7 +76,7 @@ Meeting leave_feature(const World& world, Entity a, Entity b, std::uint8_t featu
       }
       const PairPrism pair = pair_prism(world, a, b);
       const RelativeMotion m = in_frame(pair.frame, motion);
-      const Meeting beyond = pair.sum.leave(prism_feature(feature, m.d), m, horizon);
+      const FeatureTime beyond = pair.sum.leave(prism_feature(feature, m.d), m, horizon);
       return {beyond.time, beyond.feature == no_feature ? no_feature : wall_feature(beyond.feature)};
     }
     case PairKind::prism: {

@@ -1,8 +1,8 @@
-#include "simulate/stepped_meetings.h"
+#include "simulate/stepped_impact_predictor.h"
 
 #include <algorithm>
 
-#include "physics/path_meeting.h"
+#include "physics/path_time_of_impact.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -18,18 +18,18 @@ Vec3 reach_of(const Path& p, double length) {
 
 }  // namespace
 
-StepMeetings::StepMeetings(const StepShared& shared, StepEvents& events)
+StepImpactPredictor::StepImpactPredictor(const StepShared& shared, StepEvents& events)
     : shared_(shared), events_(events), neighbours_(shared.world), clear_until_(shared.world.body_count()) {
   for (Entity i = 0; i < shared.world.body_count(); ++i) balls_.push_back({shared.paths.x[i], shared.world.radius[i]});
   neighbours_.start(shared.paths.x);
 }
 
-void StepMeetings::begin_step() {
+void StepImpactPredictor::begin_step() {
   travelled_ += step_travel_;
   step_travel_ = 0;
 }
 
-void StepMeetings::cover_path(Entity i) {
+void StepImpactPredictor::cover_path(Entity i) {
   const Path& path = shared_.paths.path[i];
   const double step = shared_.clock.length(), length = step - shared_.paths.start[i];
   const double far = reach_of(path, length).norm();
@@ -40,15 +40,15 @@ void StepMeetings::cover_path(Entity i) {
   neighbours_.cover(i, path.x, far, region_steps * step * shared_.paths.v[i]);
 }
 
-void StepMeetings::predict_step() {
+void StepImpactPredictor::predict_step() {
   for (const Entity i : shared_.awake.list()) cover_path(i);
   some_asleep_ = shared_.clusters.any_asleep();
   for (const Entity i : shared_.awake.list()) predict(i, false);
 }
 
-/// Schedules the first meeting of body i with each of its neighbours. all: else only with those that do not find it
+/// Schedules the first impact of body i with each of its neighbours. all: else only with those that do not find it
 /// themselves. The contact group's bodies are kept apart by its step. Others find them, but those asleep do not.
-void StepMeetings::predict(Entity i, bool all) {
+void StepImpactPredictor::predict(Entity i, bool all) {
   const GroupMembers& group = shared_.group;
   const Clusters& clusters = shared_.clusters;
   const bool sleepers_only = !all && group.from_start(i);
@@ -74,9 +74,9 @@ void StepMeetings::predict(Entity i, bool all) {
   clear_until_[i] = all ? 0 : travelled_ + 0.5 * nearest;
 }
 
-/// Schedules the first meeting of body i with a fixed thing, unless sleepers only are looked at. m: from body i's ball
+/// Schedules the first impact of body i with a fixed thing, unless sleepers only are looked at. m: from body i's ball
 /// to it.
-double StepMeetings::predict_fixed(Entity i, Entity e, bool sleepers_only) {
+double StepImpactPredictor::predict_fixed(Entity i, Entity e, bool sleepers_only) {
   const World& world = shared_.world;
   const PathBall& here = balls_[i];
   const double clear = touch(world, i, here.x, e, world.fixed_position(e)).gap + world.radius[i] - here.radius;
@@ -85,7 +85,7 @@ double StepMeetings::predict_fixed(Entity i, Entity e, bool sleepers_only) {
 }
 
 /// Whether the contact group's step has kept a body and another thing apart. One that came later it has not.
-bool StepMeetings::kept_apart(Entity a, Entity b) const {
+bool StepImpactPredictor::kept_apart(Entity a, Entity b) const {
   const GroupMembers& group = shared_.group;
   const bool body = shared_.world.is_body(b);
   if (!group.in_step(a) || (body && !group.in_step(b))) return false;
@@ -95,7 +95,7 @@ bool StepMeetings::kept_apart(Entity a, Entity b) const {
   return !came_later(a, b) && !(body && came_later(b, a));
 }
 
-void StepMeetings::predict_pair(Entity a, Entity b) {
+void StepImpactPredictor::predict_pair(Entity a, Entity b) {
   if (kept_apart(a, b) || shared_.clusters.in_contact(a, b)) return;
   const StepPaths& paths = shared_.paths;
   const bool body = shared_.world.is_body(b);
@@ -104,7 +104,8 @@ void StepMeetings::predict_pair(Entity a, Entity b) {
   const Path pa = paths.from(a, base), pb = paths.from(b, base);
   const bool left =
       paths.origin[a].partner == b && (!body || (paths.origin[b].partner == a && paths.start[a] == paths.start[b]));
-  const Meeting first = meeting(shared_.world, a, pa, b, pb, left ? paths.origin[a].feature : no_feature, length);
+  const FeatureTime first =
+      time_of_impact(shared_.world, a, pa, b, pb, left ? paths.origin[a].feature : no_feature, length);
   if (!(first.time <= length)) return;
   events_.push(base + first.time, StepEventKind::impact, a, b, first.feature);
 }

@@ -13,13 +13,13 @@
 namespace carom {
 
 template <typename Set>
-class MeetingSearch {
+class ConservativeAdvancement {
  public:
   /// far: m, the size of the positions that motion.d is the difference of.
-  MeetingSearch(const Set& set, const RelativeMotion& motion, double far, double horizon)
+  ConservativeAdvancement(const Set& set, const RelativeMotion& motion, double far, double horizon)
       : set_(set), m_(motion), far_(far), horizon_(horizon) {}
 
-  Meeting run(std::uint8_t left) {
+  FeatureTime run(std::uint8_t left) {
     left_ = left;
     if (left != no_feature && set_.sharp(left)) left_ = face_left(left, m_.d, m_.w);
     if (left_ != no_feature) m_.d = set_.within(m_.d, left_);
@@ -49,9 +49,10 @@ class MeetingSearch {
         if (on == 0) return contact(t, s.feature);
       }
       if (on == never) return {never, no_feature};
-      const Vec3 p = m_.d + way(t);
-      const bool untold = s.gap <= 2 * rounding * s.normal.cwiseAbs().dot(p.cwiseAbs()) || p == m_.d + way(t + on);
-      if (s.gap > 0 && untold) {  // positions are too coarse to tell this gap: it is closed
+      const Vec3 p = m_.d + displacement(t);
+      const bool unresolved =
+          s.gap <= 2 * rounding * s.normal.cwiseAbs().dot(p.cwiseAbs()) || p == m_.d + displacement(t + on);
+      if (s.gap > 0 && unresolved) {  // positions are too coarse to resolve this gap: it is closed
         if (set_.sharp(s.feature)) s = set_.at(p, face_left(s.feature, p, v));
         double out = s.normal.dot(v);
         if (std::abs(out) <= noise(s.feature)) out = 0;
@@ -71,15 +72,15 @@ class MeetingSearch {
     const double turn = set_.flat(feature) ? 0 : far_ / set_.curvature_radius(m_.d, feature);
     return 16 * rounding * m_.speeds * (1 + turn);
   }
-  Vec3 way(double t) const { return t * (m_.w + 0.5 * t * m_.a); }
+  Vec3 displacement(double t) const { return t * (m_.w + 0.5 * t * m_.a); }
 
   Separation look(double t) const {
-    const Vec3 p = m_.d + way(t);
+    const Vec3 p = m_.d + displacement(t);
     const Separation s = set_.nearest(p);
     if (left_ == no_feature) return s;
     // The feature left is the one whose gap is known to be zero at the start; near the seam to the next one, rounding
     // must not decide between the two.
-    const double gap = set_.displaced_gap(m_.d, left_, 0, way(t));
+    const double gap = set_.displaced_gap(m_.d, left_, 0, displacement(t));
     const double seam = 16 * rounding * (set_.size() + m_.d.cwiseAbs().sum());
     if (s.feature == left_ || (gap > s.gap && gap - s.gap <= seam)) return {gap, set_.at(p, left_).normal, left_};
     return s;
@@ -90,7 +91,7 @@ class MeetingSearch {
     const double acceleration = s.normal.dot(m_.a);
     if (acceleration >= 0) return never;
     if (speed > 0) return 2 * speed / -acceleration;
-    const Vec3 p = m_.d + way(t);
+    const Vec3 p = m_.d + displacement(t);
     if (!(acceleration + set_.bending(p, s.feature, v) > 0)) return 0;
     // It flies off along a curved surface that turns away faster than the path does. The plane tells nothing; a short
     // step, as the surface's size goes, lifts it off.
@@ -116,8 +117,8 @@ class MeetingSearch {
   }
 
   /// The contact near time t, as exact as the feature's own equation gives it.
-  Meeting contact(double t, std::uint8_t feature) const {
-    if (set_.sharp(feature)) feature = set_.foremost_face(m_.d + way(t), feature);
+  FeatureTime contact(double t, std::uint8_t feature) const {
+    if (set_.sharp(feature)) feature = set_.foremost_face(m_.d + displacement(t), feature);
     const bool is_left = feature == left_;
     const Separation start = set_.at(m_.d, feature);
     const double gap = is_left ? 0 : start.gap;
@@ -136,17 +137,18 @@ class MeetingSearch {
       return 64 * rounding * (reach + set_.size());
     };
     if (closed < never && std::abs(look(closed).gap) <= tolerance(closed) &&
-        (is_left || std::abs(set_.at(m_.d + way(closed), feature).gap) <= tolerance(closed)))
+        (is_left || std::abs(set_.at(m_.d + displacement(closed), feature).gap) <= tolerance(closed)))
       return {closed, feature};
     // Newton's method on the feature's gap; where the path only just comes to the feature's rim, its surface, endlessly
     // continued, may be met elsewhere.
     const double found = t;
     double last = never;
     for (int k = 0; k < 8; ++k) {
-      const double slope = set_.at(m_.d + way(t), feature).normal.dot(m_.w + t * m_.a);
+      const double slope = set_.at(m_.d + displacement(t), feature).normal.dot(m_.w + t * m_.a);
       if (!(slope < 0)) break;
       double rest;
-      if (is_left || !set_.rim_gap(feature, m_, t, rest)) rest = set_.displaced_gap(m_.d, feature, gap, way(t));
+      if (is_left || !set_.rim_gap(feature, m_, t, rest))
+        rest = set_.displaced_gap(m_.d, feature, gap, displacement(t));
       const double step = -rest / slope;
       if (!(std::abs(step) < 0.5 * last) || !(t + step >= 0) || t + step == t) break;
       last = std::abs(step);

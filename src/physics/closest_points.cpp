@@ -24,7 +24,7 @@ struct Segment {
 };
 
 /// Parameters in [0, 1] at which two segments are nearest. Ericson, Real-Time Collision Detection (2005), 5.1.9.
-std::array<double, 2> nearest_parameters(const Segment& p, const Segment& q) {
+std::array<double, 2> closest_parameters(const Segment& p, const Segment& q) {
   const Vec3 r = p.from - q.from;
   const double a = p.along.squaredNorm(), e = q.along.squaredNorm(), b = p.along.dot(q.along);
   const double c = p.along.dot(r), f = q.along.dot(r), det = a * e - b * b;
@@ -55,10 +55,10 @@ double nearest_parameter(const Segment& p, const Volume& cylinder) {
 
 }  // namespace
 
-NearestPoints nearest_points(const Volume& a, const Vec3& xa, const Wall& wall, const Vec3& xb) {
+ClosestPoints closest_points(const Volume& a, const Vec3& xa, const Wall& wall, const Vec3& xb) {
   // All from a's centre.
   const Vec3 center = xb - xa, right = wall.half_width * wall.right, up = wall.half_height * wall.up;
-  std::vector<NearestPoints> all;
+  std::vector<ClosestPoints> all;
   std::array<Segment, 4> edges;
   for (std::size_t k = 0; k < 4; ++k) {
     const double s = k % 2 == 0 ? 1 : -1, t = k / 2 == 0 ? 1 : -1;
@@ -79,7 +79,7 @@ NearestPoints nearest_points(const Volume& a, const Vec3& xa, const Wall& wall, 
         if (corner[axis] > 0) continue;
         const Segment edge{corner, 2 * a.half[axis] * Vec3::Unit(axis)};
         for (const Segment& other : edges) {
-          const auto [s, t] = nearest_parameters(edge, other);
+          const auto [s, t] = closest_parameters(edge, other);
           all.push_back({edge.from + s * edge.along, other.from + t * other.along});
         }
       }
@@ -97,11 +97,11 @@ NearestPoints nearest_points(const Volume& a, const Vec3& xa, const Wall& wall, 
     }
   }
   double least = never;
-  for (const NearestPoints& p : all) least = std::min(least, (p.on_b - p.on_a).norm());
+  for (const ClosestPoints& p : all) least = std::min(least, (p.on_b - p.on_a).norm());
   const double tie = least + 0x1p-48 * (a.half.sum() + wall.half_width + wall.half_height);
-  NearestPoints middle{Vec3::Zero(), Vec3::Zero()};
+  ClosestPoints middle{Vec3::Zero(), Vec3::Zero()};
   int count = 0;
-  for (const NearestPoints& p : all) {
+  for (const ClosestPoints& p : all) {
     if (!((p.on_b - p.on_a).norm() <= tie)) continue;
     middle.on_a += p.on_a;
     middle.on_b += p.on_b;

@@ -24,13 +24,13 @@ RelativeMotion motion(const Vec3& d, const Vec3& w, const Vec3& a = Vec3::Zero()
 
 double meet(const Volume& a, const Volume& b, const Vec3& d, const Vec3& w, const Vec3& acceleration = Vec3::Zero(),
             double horizon = 100) {
-  return meeting(two(a, b), 0, 1, motion(d, w, acceleration), no_feature, horizon).time;
+  return time_of_impact(two(a, b), 0, 1, motion(d, w, acceleration), no_feature, horizon).time;
 }
 
 const Volume ball = Volume::sphere(0.5), can = Volume::cylinder(0.5, 2), brick = Volume::box({1, 2, 3});
 const Vec3 right = Vec3::UnitX(), up = Vec3::UnitY(), far_z = Vec3::UnitZ(), none = Vec3::Zero();
 
-TEST(Meeting, HeadOnIsTheGapOverTheSpeed) {
+TEST(TimeOfImpact, HeadOnIsTheGapOverTheSpeed) {
   EXPECT_EQ(meet(brick, brick, {5, 0.5, 1}, -2 * right), 2);
   EXPECT_EQ(meet(brick, ball, {5, 0.5, 1}, -2 * right), 2);
   EXPECT_EQ(meet(can, can, {5, 1.5, 0}, -2 * right), 2);
@@ -40,7 +40,7 @@ TEST(Meeting, HeadOnIsTheGapOverTheSpeed) {
   EXPECT_EQ(meet(brick, can, {0, 3.5, -6}, 2 * far_z), never) << "passes over";
 }
 
-TEST(Meeting, UnderGravityItIsTheFallsTime) {
+TEST(TimeOfImpact, UnderGravityItIsTheFallsTime) {
   EXPECT_EQ(meet(brick, brick, {0.5, 7, 0}, none, -10 * up), 1);
   EXPECT_EQ(meet(can, brick, {0.5, 7, 0}, none, -10 * up), 1);
   EXPECT_EQ(meet(brick, ball, {0.25, 6.5, 0}, none, -10 * up), 1);
@@ -48,7 +48,7 @@ TEST(Meeting, UnderGravityItIsTheFallsTime) {
   EXPECT_NEAR(meet(can, can, {0, 7, 0}, 10 * up, -10 * up), 1 + std::sqrt(2.0), 4.5e-16);
 }
 
-TEST(Meeting, EdgesCornersAndRimsAreRoundForABall) {
+TEST(TimeOfImpact, EdgesCornersAndRimsAreRoundForABall) {
   // On the edge's cylinder at 3-4-5, the corner's ball at 2-3-6-7, the rim's torus at 3-4-5 around the axis.
   EXPECT_NEAR(meet(brick, ball, {0.5 + 0.3, 1 + 0.4 + 2, 0}, -up), 2, 4e-16);
   const Volume marble = Volume::sphere(0.7);
@@ -58,31 +58,31 @@ TEST(Meeting, EdgesCornersAndRimsAreRoundForABall) {
   EXPECT_NEAR(meet(can, ball, {0.8, 1.4 + 5, 0}, none, -10 * up), 1, 2e-16);
 }
 
-TEST(Meeting, APlaneIsMetByTheVolumesForemostPoint) {
+TEST(TimeOfImpact, APlaneIsMetByTheVolumesForemostPoint) {
   for (const Volume& v : {ball, can, brick}) {
     World world = two(v, ball);
     const Vec3 n(0.6, 0.8, 0);
     world.planes = {{none, n, std::nullopt}};
     const double reach = v.support(n);
-    const Meeting m = meeting(world, 0, 2, motion(-(reach + 5) * n, none, 10 * n), no_feature, 10);
+    const FeatureTime m = time_of_impact(world, 0, 2, motion(-(reach + 5) * n, none, 10 * n), no_feature, 10);
     EXPECT_NEAR(m.time, 1, 3e-16);
     EXPECT_TRUE(is_flat(world, 0, 2, m.feature));
   }
 }
 
-TEST(Meeting, TheFaceThatIsEnteredLastGivesTheNormal) {
+TEST(TimeOfImpact, TheFaceThatIsEnteredLastGivesTheNormal) {
   const World world = two(brick, brick);
   // x is entered at t = 1, y at 2, z always.
-  const Meeting m = meeting(world, 0, 1, motion({2, 4, 0.5}, {-1, -1, 0}), no_feature, 10);
+  const FeatureTime m = time_of_impact(world, 0, 1, motion({2, 4, 0.5}, {-1, -1, 0}), no_feature, 10);
   EXPECT_EQ(m.time, 2);
   EXPECT_EQ(touch(world, 0, none, 1, {0, 2, 0.5}, m.feature).normal, up);
   // Both at once: x before y.
-  const Meeting tie = meeting(world, 0, 1, motion({2, 3, 0.5}, {-1, -1, 0}), no_feature, 10);
+  const FeatureTime tie = time_of_impact(world, 0, 1, motion({2, 3, 0.5}, {-1, -1, 0}), no_feature, 10);
   EXPECT_NEAR(tie.time, 1, 3e-16);
   EXPECT_EQ(touch(world, 0, none, 1, {1, 2, 0.5}, tie.feature).normal, right);
 }
 
-TEST(Meeting, TouchingAndApproachingIsNowAndSeparatingIsNever) {
+TEST(TimeOfImpact, TouchingAndApproachingIsNowAndSeparatingIsNever) {
   const Volume volumes[] = {ball, can, brick};
   for (const Volume& a : volumes)
     for (const Volume& b : volumes) {
@@ -95,18 +95,19 @@ TEST(Meeting, TouchingAndApproachingIsNowAndSeparatingIsNever) {
       }
       const World world = two(a, b);
       const RelativeMotion noise{reach * right, -0x1p-52 * right, none, 2, false};
-      EXPECT_EQ(meeting(world, 0, 1, noise, no_feature, 10).time, never) << "an approach within rounding is none";
+      EXPECT_EQ(time_of_impact(world, 0, 1, noise, no_feature, 10).time, never)
+          << "an approach within rounding is none";
     }
 }
 
-TEST(Meeting, SlidingAlongAFaceIsNoCollision) {
+TEST(TimeOfImpact, SlidingAlongAFaceIsNoCollision) {
   EXPECT_EQ(meet(brick, brick, {0, 2, 0}, right), never);
   EXPECT_EQ(meet(brick, ball, {0, 1.5, 0}, right), never);
   EXPECT_EQ(meet(can, can, {0, 2, 0}, right), never);
   EXPECT_EQ(meet(can, brick, {0, 2, 0}, right, -10 * up), 0) << "pressed on";
 }
 
-TEST(Meeting, AFaceBeyondTheRoundEdgeIsNotMetBeforeTheWayToIt) {
+TEST(TimeOfImpact, AFaceBeyondTheRoundEdgeIsNotMetBeforeTheWayToIt) {
   // Along the front of a box, a rounding too near to it and nearing by a rounding of the speeds, from beside it.
   const Volume box = Volume::box({0.1384421871664729, 0.24287791388904598, 0.12745924292686853});
   const Volume lid = Volume::cylinder(0.14984609735707394, 0.10311819694931741);
@@ -118,19 +119,20 @@ TEST(Meeting, AFaceBeyondTheRoundEdgeIsNotMetBeforeTheWayToIt) {
   }
 }
 
-TEST(Meeting, ABallThatFallsOffABoxesFaceStrikesItsEdgeOnlyWhereItIsSlow) {
+TEST(TimeOfImpact, ABallThatFallsOffABoxesFaceStrikesItsEdgeOnlyWhereItIsSlow) {
   const World world = two(brick, ball);
   const auto after = [&](double speed, std::uint8_t left) {
-    return meeting(world, 0, 1, motion({0.5, 1.5, 0}, speed * right, -10 * up), left, 10).time;
+    return time_of_impact(world, 0, 1, motion({0.5, 1.5, 0}, speed * right, -10 * up), left, 10).time;
   };
-  const Meeting rim = leave_feature(world, 0, 1, PrismFeature{0, 1, 0}.code(), motion({0.25, 1.5, 0}, 2 * right), 10);
+  const FeatureTime rim =
+      leave_feature(world, 0, 1, PrismFeature{0, 1, 0}.code(), motion({0.25, 1.5, 0}, 2 * right), 10);
   EXPECT_EQ(rim.time, 0.125);
   // On a rim of radius r it stays for speeds below sqrt(g r) = sqrt(5).
   EXPECT_EQ(after(2.2, rim.feature), 0);
   EXPECT_EQ(after(2.3, rim.feature), never);
 }
 
-TEST(Meeting, ExchangingTheTwoChangesNothing) {
+TEST(TimeOfImpact, ExchangingTheTwoChangesNothing) {
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : {Kind::sphere, Kind::cylinder, Kind::box}) {
       Random random(3);
@@ -138,19 +140,20 @@ TEST(Meeting, ExchangingTheTwoChangesNothing) {
         const World world = pair_world(ka, kb, true, random);
         const Vec3 d = random.uniform(2, 5) * random.direction(), a = k % 2 * random.vector(5);
         const Vec3 w = -(d + random.vector(1));
-        const double t = meeting(world, 0, 1, motion(d, w, a), no_feature, 10).time;
-        EXPECT_EQ(meeting(world, 1, 0, motion(-d, -w, -a), no_feature, 10).time, t);
+        const double t = time_of_impact(world, 0, 1, motion(d, w, a), no_feature, 10).time;
+        EXPECT_EQ(time_of_impact(world, 1, 0, motion(-d, -w, -a), no_feature, 10).time, t);
         // Mirrored in x as well.
         const Vec3 mirror(-1, 1, 1);
-        EXPECT_EQ(meeting(world, 0, 1, motion(d.cwiseProduct(mirror), w.cwiseProduct(mirror), a.cwiseProduct(mirror)),
-                          no_feature, 10)
-                      .time,
-                  t);
+        EXPECT_EQ(
+            time_of_impact(world, 0, 1, motion(d.cwiseProduct(mirror), w.cwiseProduct(mirror), a.cwiseProduct(mirror)),
+                           no_feature, 10)
+                .time,
+            t);
       }
     }
 }
 
-TEST(Meeting, AxesMayBePermutedAsFarAsTheShapesAllow) {
+TEST(TimeOfImpact, AxesMayBePermutedAsFarAsTheShapesAllow) {
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : {Kind::sphere, Kind::cylinder, Kind::box}) {
       Random random(4);
@@ -158,13 +161,14 @@ TEST(Meeting, AxesMayBePermutedAsFarAsTheShapesAllow) {
         World world = pair_world(ka, kb, true, random);
         const Vec3 d = random.uniform(2, 5) * random.direction(), a = k % 2 * random.vector(5);
         const Vec3 w = -(d + random.vector(0.5));
-        const double t = meeting(world, 0, 1, motion(d, w, a), no_feature, 10).time;
+        const double t = time_of_impact(world, 0, 1, motion(d, w, a), no_feature, 10).time;
         const bool round = ka == Kind::cylinder || kb == Kind::cylinder;
         const auto permuted = [&](const Vec3& v) {
           return round ? Vec3(v.z(), v.y(), v.x()) : Vec3(v.y(), v.z(), v.x());
         };
         for (Volume& v : world.volume) v.half = permuted(v.half);
-        const double u = meeting(world, 0, 1, motion(permuted(d), permuted(w), permuted(a)), no_feature, 10).time;
+        const double u =
+            time_of_impact(world, 0, 1, motion(permuted(d), permuted(w), permuted(a)), no_feature, 10).time;
         if (t == never) {
           EXPECT_EQ(u, never);
         } else {
@@ -174,7 +178,7 @@ TEST(Meeting, AxesMayBePermutedAsFarAsTheShapesAllow) {
     }
 }
 
-TEST(Meeting, ScalingByPowersOfTwoKeepsTheBits) {
+TEST(TimeOfImpact, ScalingByPowersOfTwoKeepsTheBits) {
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
       Random random(5);
@@ -182,7 +186,7 @@ TEST(Meeting, ScalingByPowersOfTwoKeepsTheBits) {
         const World world = pair_world(ka, kb, false, random);
         const Vec3 d = random.uniform(2, 5) * random.direction(), a = k % 2 * random.vector(5);
         const Vec3 w = -(d + random.vector(0.5));
-        const Meeting m = meeting(world, 0, 1, motion(d, w, a), no_feature, 10);
+        const FeatureTime m = time_of_impact(world, 0, 1, motion(d, w, a), no_feature, 10);
         for (const auto& [length, time] : {std::pair(0x1p20, 0x1p-7), std::pair(0x1p-30, 0x1p11)}) {
           World scaled = world;
           scaled.volume[0].half *= length;
@@ -191,8 +195,8 @@ TEST(Meeting, ScalingByPowersOfTwoKeepsTheBits) {
             wall.half_width *= length;
             wall.half_height *= length;
           }
-          const Meeting n = meeting(scaled, 0, 1, motion(length * d, length / time * w, length / time / time * a),
-                                    no_feature, 10 * time);
+          const FeatureTime n = time_of_impact(
+              scaled, 0, 1, motion(length * d, length / time * w, length / time / time * a), no_feature, 10 * time);
           EXPECT_EQ(n.time, m.time * time) << name(ka) << " " << name(kb);
           EXPECT_EQ(n.feature, m.feature);
         }
@@ -200,7 +204,7 @@ TEST(Meeting, ScalingByPowersOfTwoKeepsTheBits) {
     }
 }
 
-TEST(Meeting, BouncedPairsAreNotHitAgainByRounding) {
+TEST(TimeOfImpact, BouncedPairsAreNotHitAgainByRounding) {
   // Each pair is let meet and bounce, with what is left of the speed along the normal scaled down to almost nothing.
   // Straight on, they never meet again; pressed together by an acceleration, they do so after the whole hop.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
@@ -210,7 +214,7 @@ TEST(Meeting, BouncedPairsAreNotHitAgainByRounding) {
       for (int k = 0; k < 200; ++k) {
         World world = pair_world(ka, kb, false, random);
         const Vec3 d = random.uniform(2, 5) * random.direction(), w = -(d + random.vector(0.5));
-        const Meeting m = meeting(world, 0, 1, motion(d, w), no_feature, 10);
+        const FeatureTime m = time_of_impact(world, 0, 1, motion(d, w), no_feature, 10);
         if (m.time == never) continue;
         ++bounced;
         const Vec3 x = d + m.time * w;
@@ -218,9 +222,10 @@ TEST(Meeting, BouncedPairsAreNotHitAgainByRounding) {
         const Touch t = touch(world, 0, none, 1, x, m.feature);
         const Vec3 along = w - w.dot(t.normal) * t.normal;
         for (double speed : {1.0, 1e-3, 1e-6, 1e-9}) {
-          EXPECT_EQ(meeting(world, 0, 1, motion(x, speed * t.normal + along), m.feature, 10).time, never)
+          EXPECT_EQ(time_of_impact(world, 0, 1, motion(x, speed * t.normal + along), m.feature, 10).time, never)
               << name(ka) << " " << name(kb) << " feature " << int(m.feature) << " speed " << speed;
-          const Meeting again = meeting(world, 0, 1, motion(x, speed * t.normal, -10 * t.normal), m.feature, 10);
+          const FeatureTime again =
+              time_of_impact(world, 0, 1, motion(x, speed * t.normal, -10 * t.normal), m.feature, 10);
           EXPECT_NEAR(again.time / (0.2 * speed), 1, 1e-13)  // worst: 1.4e-14, at oblique patches
               << name(ka) << " " << name(kb) << " feature " << int(m.feature) << " speed " << speed;
         }
@@ -229,7 +234,7 @@ TEST(Meeting, BouncedPairsAreNotHitAgainByRounding) {
     }
 }
 
-TEST(Meeting, PairsARoundingApartThatApproachMeetAtOnce) {
+TEST(TimeOfImpact, PairsARoundingApartThatApproachMeetAtOnce) {
   // As bodies are that have just been struck by others while they touched: at no feature may the way left, which is
   // shorter than the positions can tell, be gone in ever smaller steps.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
@@ -239,7 +244,7 @@ TEST(Meeting, PairsARoundingApartThatApproachMeetAtOnce) {
       for (int k = 0; k < 400; ++k) {
         World world = pair_world(ka, kb, false, random);
         const Vec3 d = random.uniform(2, 5) * random.direction(), w = -(d + random.vector(0.5));
-        const Meeting m = meeting(world, 0, 1, motion(d, w), no_feature, 10);
+        const FeatureTime m = time_of_impact(world, 0, 1, motion(d, w), no_feature, 10);
         if (m.time == never) continue;
         ++touched;
         const double off = random.uniform(-1e-15, 1e-15);
@@ -249,14 +254,14 @@ TEST(Meeting, PairsARoundingApartThatApproachMeetAtOnce) {
         const Vec3 fall(1, -10, 2);
         const double speed = -there.normal.dot(w);
         if (speed < 0.1 * w.norm()) continue;
-        const Meeting now = meeting(world, 0, 1, motion(x, w, fall), no_feature, 10);
+        const FeatureTime now = time_of_impact(world, 0, 1, motion(x, w, fall), no_feature, 10);
         EXPECT_LE(now.time * speed, 1e-14) << name(ka) << " " << name(kb) << " feature " << int(m.feature);
       }
       EXPECT_GT(touched, 20) << name(ka) << " " << name(kb);
     }
 }
 
-TEST(Meeting, GrazingARoundingIsAHitOrAMissByItsDepth) {
+TEST(TimeOfImpact, GrazingARoundingIsAHitOrAMissByItsDepth) {
   // Past a fixed edge, corner, rim or side at a depth of 2^-k of the ball's radius, against long double.
   for (Kind kb : {Kind::cylinder, Kind::box}) {
     Random random(8);
@@ -298,7 +303,7 @@ TEST(Meeting, GrazingARoundingIsAHitOrAMissByItsDepth) {
       for (int k = 0; k < 3; ++k) {
         world.volume[0] = Volume::sphere(least * (1 + depths[k]));
         const double r = world.volume[0].half.x();
-        const double t = meeting(world, 0, 1, motion(-from, -v), no_feature, 10).time;
+        const double t = time_of_impact(world, 0, 1, motion(-from, -v), no_feature, 10).time;
         ASSERT_LT(t, never) << name(kb) << " depth " << depths[k];
         long double a = 0, b = low;
         for (int step = 0; step < 200; ++step) {
@@ -307,7 +312,7 @@ TEST(Meeting, GrazingARoundingIsAHitOrAMissByItsDepth) {
         }
         worst[k] = std::max(worst[k], std::abs(static_cast<double>((t - a) / a)));
         world.volume[0] = Volume::sphere(least * (1 - depths[k]));
-        EXPECT_EQ(meeting(world, 0, 1, motion(-from, -v), no_feature, 10).time, never) << name(kb) << depths[k];
+        EXPECT_EQ(time_of_impact(world, 0, 1, motion(-from, -v), no_feature, 10).time, never) << name(kb) << depths[k];
       }
     }
     printf("%s: %d, relative error at depths 2^-10, 2^-20, 2^-33: %.2g %.2g %.2g\n", name(kb), hits, worst[0], worst[1],
