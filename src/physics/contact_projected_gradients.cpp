@@ -255,6 +255,7 @@ void ContactProjectedGradients::scale_guess() {
     f.next_g = factor * (f.next_g - f.constant) + f.constant;
     f.next_x *= factor;
   }
+  for (Motion& m : moved_) m.u *= factor;
 }
 
 /// Takes the next forces, and with them a new direction: conjugate to the last one, or where turn is 0 the gradient.

@@ -68,6 +68,33 @@ TEST(ContactAccuracy, EveryContactIsWithinItsSlack) {
     }
 }
 
+/// What M (motion - free) is off the forces by, relative to the greatest of both.
+double unbalanced(const Case& given, const Case& c) {
+  std::vector<Vec3> lacking;
+  double most = 0, scale = 0;
+  for (std::size_t k = 0; k < c.motion.size(); ++k) {
+    lacking.push_back((c.motion[k] - given.motion[k]) / c.inverse_mass[k]);
+    scale = std::max(scale, (given.motion[k] / c.inverse_mass[k]).norm());
+  }
+  for (const ContactConstraint& p : c.contacts) {
+    lacking[p.a] += p.force * p.normal;
+    if (p.b != fixed) lacking[p.b] -= p.force * p.normal;
+    scale = std::max(scale, p.force);
+  }
+  for (const Vec3& f : lacking) most = std::max(most, f.norm());
+  return most / scale;
+}
+
+TEST(ContactAccuracy, TheMotionIsWhatTheForcesMakeOfIt) {
+  for (const ContactAccuracy accuracy : {ContactAccuracy::contacts, ContactAccuracy::energy})
+    for (const double slack : {10.0, 1.0, 1e-1, 1e-3})
+      for (Case& c : cases(slack)) {
+        const Case given = c;
+        EXPECT_TRUE(solve_to(accuracy, c).solved()) << c.name;
+        EXPECT_LE(unbalanced(given, c), 1e-12) << c.name << ", slack " << slack;
+      }
+}
+
 /// The energy of what the motion is off by, by that of contacts off by their slack.
 TEST(ContactAccuracy, EnergyIsRightToThatOfTheSlack) {
   double most = 0;
