@@ -144,6 +144,7 @@ bool DualActiveSet::take_in(const ContactIsland& island, std::uint32_t c, double
       fixed_.push_back(0);
       return true;
     }
+    if (first == none) return false;  // no number
     drop(first);
   }
 }
@@ -368,7 +369,7 @@ DualActiveSet::Result DualActiveSet::finish(const ContactIsland& island, Contact
       rebuild(island, rows);
     }
     run(island, attempt);
-    for (const std::uint32_t c : active_)  // negative by rounding alone
+    for (std::size_t c = 0; c < island.rows.size(); ++c)  // negative by rounding alone
       if (!island.rows[c].bilateral && attempt.force[c].hi < 0) attempt.force[c] = {0, 0};
     const Result result{judge(island, attempt), infeasible_};
     if (looser == 1 || result.judgement.change < best.judgement.change) {

@@ -63,8 +63,8 @@ struct ContactIsland {
   std::size_t unknowns() const { return 3 * free.size(); }
   /// What rounding of the data can do to a row of unit length times the motion.
   double noise_scale(const Row& r) const { return r.scale * (std::abs(r.target) + (r.moves_b() ? 2 : 1) * speed); }
-  /// From a row to any other it goes over at most so many that share a body, about: the farthest from the farthest from
-  /// the first.
+  /// From row to row that share a body, how many steps the longest of the shortest paths has, about: from the row that
+  /// is farthest from the first one to the one that is farthest from it.
   std::size_t reach() const;
   /// Fills in all that follows from inverse_mass, free, and the rows' bodies, normals, targets, slacks and guesses.
   void scale();

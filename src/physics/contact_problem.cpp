@@ -91,7 +91,7 @@ bool solve_single(const ContactProblem& problem, ContactConstraint& c, Certifica
   const double scale = std::abs(c.target) + (fixed ? 1 : 2) * std::max(a.norm(), b.norm());
   const auto excess = [&] { return c.normal.dot(b - a) - c.target; };
   double w = excess(), force = 0;
-  if (c.bilateral || w < 0)
+  if (c.bilateral || !(w >= 0))
     for (int pass = 0; pass < 2; ++pass) {
       const double more = -w / per_force;
       force += more;
@@ -259,8 +259,8 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, Known& last
   return best;
 }
 
-/// By projected gradients, until they have cost as much as an exact answer would: that they are almost there is as
-/// likely then as that they are not, and at worst it costs twice what was needed.
+/// By projected gradients, until they have cost as much as an exact answer would, which is found then. So the two cost
+/// at most about twice what the cheaper one does.
 Certificate ContactSolver::Workspace::solve_to_slack(ContactAccuracy accuracy) {
   ExactCost cost(island);
   gradients.start(island);

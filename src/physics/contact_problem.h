@@ -5,11 +5,11 @@
 //   u = u_free + M^-1 N x,  w = N^T u - target,  0 <= x, 0 <= w, x w = 0.
 // The motion u is unique, the forces need not be.
 //
-// Two methods find it to rounding: a dual active set on orthogonal factors (active_set.h), for what is small,
-// ill-conditioned or nearly as it was last time, and an interior point with a proximal Newton method
-// (contact_interior_point.h) on the bodies' sparse matrix, for what is large. Each is the other's fallback, cost alone
-// chooses between them, and one certificate judges both (contact_island.h). Where contacts may be off by their slack
-// projected gradients (contact_projected_gradients.h) go first, for as long as they are the cheaper way.
+// Two methods find it to rounding. A dual active set on orthogonal factors (active_set.h) is for what is small,
+// ill-conditioned or nearly as it was last time. An interior point with a proximal Newton method on the bodies' sparse
+// matrix (contact_interior_point.h) is for what is large. Each is the other's fallback, and one certificate judges both
+// (contact_island.h). Cost chooses between them, unless masses are too unequal for the sparse one. Where contacts may
+// be off by their slack projected gradients (contact_projected_gradients.h) go first, while they are cheaper.
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -31,12 +31,12 @@ struct ContactConstraint {
   bool bilateral = false;  // normal . (u_b - u_a) must be the target: the force may pull too
 };
 
-/// How near an answer has to be. Contacts off by their slacks s have the kinetic energy of the motions that would mend
-/// them one by one: the sum of s^2 / (2/m_a + 2/m_b).
+/// How near an answer has to be. A contact that is off by its slack s has the kinetic energy of the motion that would
+/// mend it: s^2 / (2/m_a + 2/m_b).
 enum class ContactAccuracy : std::uint8_t {
   rounding,  // whatever the contacts' slack
   contacts,  // every contact is within its slack
-  energy     // or the second half of the work has changed the potential by no more than that energy
+  energy     // or an iterative method gains less in the second half of its work than that, by contact, of the least
 };
 
 struct ContactProblem {

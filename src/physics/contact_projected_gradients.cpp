@@ -73,13 +73,15 @@ void ContactProjectedGradients::move(const Rows* rows, const Forces* forces, std
 CAROM_FOR_ALL_PROCESSORS
 void ContactProjectedGradients::find_image(const Rows* rows, Forces* forces, std::size_t count, const Motion* moved,
                                            Sums& sums) {
-  Four gp{}, pap{};
+  Four gp{}, pap{}, square{};
   for (std::size_t k = 0; k < count; ++k) {
     Forces& f = forces[k];
     find_rate(rows[k], moved, f.image);
     gp += f.g * f.direction;
     pap += f.direction * f.image;
+    square += f.direction * f.direction;
   }
+  sums.square = (square[0] + square[1]) + (square[2] + square[3]);
   sums.gp = (gp[0] + gp[1]) + (gp[2] + gp[3]);
   sums.pap = (pap[0] + pap[1]) + (pap[2] + pap[3]);
 }
@@ -109,7 +111,7 @@ CAROM_FOR_ALL_PROCESSORS
 void ContactProjectedGradients::take_next(Forces* forces, std::size_t count, double turn, double per_step, double least,
                                           Sums& sums) {
   const Four zero{};
-  Four reduced{}, chopped{}, potential{}, worst = zero - 1;
+  Four reduced{}, chopped{}, potential{}, beyond{};
   for (std::size_t k = 0; k < count; ++k) {
     Forces& f = forces[k];
     const Four x = f.next_x, g = f.next_g;
@@ -123,14 +125,14 @@ void ContactProjectedGradients::take_next(Forces* forces, std::size_t count, dou
     chopped += x > zero ? zero : pull * pull;
     potential += x * (g + f.constant);
     // A row that presses falls short, or presses while it parts.
-    const Four least_of = x < g ? x : g, off = x > zero ? (least_of < zero ? -least_of : least_of) : -pull;
-    const Four excess = off - f.slack;
-    worst = excess > worst ? excess : worst;
+    const Four least_of = x < g ? x : g, part = g >= zero ? zero : -g;
+    const Four off = x > zero ? (least_of < zero ? -least_of : least_of) : part;
+    beyond = off <= f.slack ? beyond : zero + 1;  // what is no number, too
   }
   sums.reduced = (reduced[0] + reduced[1]) + (reduced[2] + reduced[3]);
   sums.chopped = (chopped[0] + chopped[1]) + (chopped[2] + chopped[3]);
   sums.potential = (potential[0] + potential[1]) + (potential[2] + potential[3]);
-  sums.within_slack = std::max(std::max(worst[0], worst[1]), std::max(worst[2], worst[3])) <= 0;
+  sums.within_slack = (beyond[0] + beyond[1]) + (beyond[2] + beyond[3]) == 0;
 }
 
 /// Takes next forces onto their bounds. How far along the direction the first bound is.
@@ -169,7 +171,7 @@ void ContactProjectedGradients::take_rows() {
   rows_.assign(count, none);
   forces_.assign(count, Forces{});
   moved_.resize(island.free.size() + 1);
-  slack_energy_ = 0;
+  double least = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < island.rows.size(); ++c) {
     const ContactIsland::Row& r = island.rows[c];
     const auto [four, lane] = place(c);
@@ -186,8 +188,9 @@ void ContactProjectedGradients::take_rows() {
     forces.next_x[lane] = r.force / r.scale;
     forces.constant[lane] = r.scale * (r.normal.dot(w) - r.target);
     forces.slack[lane] = slack;
-    slack_energy_ += slack * slack;
+    least = std::min(least, slack);
   }
+  slack_energy_ = least * least * static_cast<double>(island.rows.size());
 }
 
 /// At least the greatest eigenvalue of A: by the rows that share a body (Gershgorin's discs, |n . n'| <= 1).
@@ -241,16 +244,23 @@ void ContactProjectedGradients::start(const ContactIsland& island) {
   potential_.assign(1, sums_.potential);
 }
 
+/// Whether forces x do more to bodies than rounding, by x A x and x x: some press against one another and do nothing.
+bool ContactProjectedGradients::moves_bodies(double xax, double xx) const {
+  return xax * step_ > 0x1p-46 * xx;
+}
+
 /// The guess times the factor for which the potential is least, which is not above that of no forces at all.
 void ContactProjectedGradients::scale_guess() {
-  Four square{}, linear{};
+  Four quadratic{}, linear{}, square{};
   for (const Forces& f : forces_) {
-    square += f.next_x * (f.next_g - f.constant);
+    quadratic += f.next_x * (f.next_g - f.constant);
     linear += f.next_x * f.constant;
+    square += f.next_x * f.next_x;
   }
-  const double xax = (square[0] + square[1]) + (square[2] + square[3]);
+  const double xax = (quadratic[0] + quadratic[1]) + (quadratic[2] + quadratic[3]);
   const double cx = (linear[0] + linear[1]) + (linear[2] + linear[3]);
-  const double factor = xax > 0 ? std::max(-cx / xax, 0.0) : 0;
+  const double xx = (square[0] + square[1]) + (square[2] + square[3]);
+  const double factor = moves_bodies(xax, xx) ? std::max(-cx / xax, 0.0) : 0;
   for (Forces& f : forces_) {
     f.next_g = factor * (f.next_g - f.constant) + f.constant;
     f.next_x *= factor;
@@ -274,7 +284,7 @@ bool ContactProjectedGradients::iterate() {
   move(rows_.data(), forces_.data(), forces_.size(), &Forces::direction, moved_.data(), moved_.size());
   find_image(rows_.data(), forces_.data(), forces_.size(), moved_.data(), sums_);
   ++products_;
-  if (!(sums_.pap > 0)) return false;
+  if (!moves_bodies(sums_.pap, sums_.square)) return false;
   try_step(forces_.data(), forces_.size(), sums_.gp / sums_.pap, least_, sums_);
   if (!sums_.feasible && on_face)
     go_on_at_bounds();
@@ -283,9 +293,9 @@ bool ContactProjectedGradients::iterate() {
   return true;
 }
 
-/// On in the same direction as if there were no bounds, then onto them, if that is better than to stop at the first one
-/// (Kruzik, Horak, Cermak, Pospisil & Pecha, Adv. Eng. Softw. 149 (2020) 102895). Else from there along the projected
-/// gradient, as far as surely gains.
+/// On in the same direction as if there were no bounds, then onto them, if that is better than to stop at the first
+/// one. Else from there along the projected gradient, as far as surely gains. (Kruzik, Horak, Cermak, Pospisil & Pecha,
+/// Adv. Eng. Softw. 149 (2020) 102895.)
 void ContactProjectedGradients::go_on_at_bounds() {
   const double first = project(forces_.data(), forces_.size());
   const double at_first = sums_.potential - first * (2 * sums_.gp - first * sums_.pap);
@@ -303,11 +313,11 @@ double ContactProjectedGradients::cost() const {
   return static_cast<double>(products_) * (per_four_rows * static_cast<double>(rows_.size()) + per_product);
 }
 
-/// Whether the second half of all iterations has gained no more than the slack's energy, and an iteration has come from
-/// every row to every other.
+/// Whether the second half of all iterations has gained no more than the slack's energy. Asked once an iteration has
+/// come from every row to every other.
 bool ContactProjectedGradients::gains_little() {
   const std::size_t now = potential_.size() - 1;
-  if (now == 0 || potential_[now / 2] - potential_[now] > slack_energy_) return false;
+  if (now == 0 || !(potential_[now / 2] - potential_[now] <= slack_energy_)) return false;
   if (reach_ == 0) reach_ = std::max<std::size_t>(island_->reach(), 1);
   return now >= reach_;
 }

@@ -16,12 +16,12 @@ class ContactProjectedGradients {
   /// From the rows' guesses, all times one factor; no row is bilateral. The island must outlive this.
   void start(const ContactIsland& island);
 
-  /// Goes on for as long as the answer is not as near as `accuracy` asks, but for no more than about `most_cost` ns in
-  /// all since start(). Whether it is.
+  /// Goes on until the answer is as near as `accuracy` asks, or has cost about `most_cost` ns since start(). Whether it
+  /// is.
   bool run(ContactAccuracy accuracy, double most_cost);
 
-  /// Leaves the answer, once it is near enough. By how much data differ of which it is the exact solution, as in
-  /// Judgement.
+  /// Leaves the answer, once it is near enough: bodies move as the forces make them, to rounding. By how much targets
+  /// differ of which it is the exact solution, as in Judgement.
   double finish(ContactAnswer& answer) const;
 
   /// Gives the rows of the island as a guess the forces found so far.
@@ -53,6 +53,7 @@ class ContactProjectedGradients {
   };
   /// What a pass over all rows adds up.
   struct Sums {
+    double square = 0;                // of the direction
     double gp = 0, pap = 0;           // direction times gradient and times image
     double turn = 0;                  // where rows press, the next gradient times image
     bool feasible = true;             // no next force is negative
@@ -69,6 +70,7 @@ class ContactProjectedGradients {
   void take_rows();
   double norm();
   double find_next_gradient();
+  bool moves_bodies(double xax, double xx) const;
   void scale_guess();
   void begin(double turn);
   bool iterate();
@@ -93,7 +95,7 @@ class ContactProjectedGradients {
   std::vector<Motion> moved_;             // by body: what forces do to it; and one more, which nothing moves
   double step_ = 0;                       // along the projected gradient
   double least_ = 0;                      // less is nothing
-  double slack_energy_ = 0;               // twice what rows off by their slack would have
+  double slack_energy_ = 0;               // twice that of rows off by the least slack
   std::vector<double> potential_;         // twice, by iteration
   std::size_t products_ = 0, reach_ = 0;  // with the matrix; the island's, 0: not looked for yet
   Sums sums_;

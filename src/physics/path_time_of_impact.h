@@ -7,7 +7,7 @@ namespace carom {
 
 /// First t in [0, horizon] at which a and b touch and approach; pa and pb from the same instant on (b fixed: a path
 /// that stands at its position). `left`: as in touch.h. Quadratic relative paths go to touch.h's function; cubic ones
-/// are followed from separating plane to separating plane: until the path comes to the plane through the nearest points
+/// are followed from separating plane to separating plane: until the path comes to the plane through the closest points
 /// (a cubic's root) there is no contact, so that none is jumped over.
 FeatureTime time_of_impact(const World& world, Entity a, const Path& pa, Entity b, const Path& pb, std::uint8_t left,
                            double horizon);

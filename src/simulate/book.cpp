@@ -151,7 +151,7 @@ void BookSimulator::handle_surfaces() {
     for (std::size_t k = 0; k < world_.planes.size(); ++k)
       handle_fixed(i, n + static_cast<Entity>(k), world_.planes[k].point, world_.planes[k].normal);
     for (std::size_t k = 0; k < world_.walls.size(); ++k) {
-      // A wall is a plane as far as it reaches; round its rim, the direction from its nearest point.
+      // A wall is a plane as far as it reaches; round its rim, the direction from its closest point.
       const Vec3 nearest = nearest_on_wall(world_.walls[k], x_[i]);
       const Vec3 away = x_[i] - nearest;
       if (away.squaredNorm() > 0)

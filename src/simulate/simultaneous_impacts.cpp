@@ -73,15 +73,17 @@ void SimultaneousImpacts::solve(Touching& set, bool part) const {
   }
   const auto press = [&] {
     set.after = set.before;
-    bodies_.log.note(carom::solve({set.inverse_mass, set.after, set.pairs, ContactAccuracy::energy}));
+    return carom::solve({set.inverse_mass, set.after, set.pairs, ContactAccuracy::contacts});
   };
-  press();
+  Certificate certificate = press();
   double gained = 0;
   for (std::size_t k = 0; k < set.members.size(); ++k)
     gained += bodies_.world.mass[set.members[k]] * (set.after[k] - set.before[k]).dot(set.after[k] + set.before[k]);
-  if (!(gained > 0)) return;
-  for (ContactConstraint& p : set.pairs) p.target = 0;
-  press();
+  if (!certificate.solved() || gained > 0) {
+    for (ContactConstraint& p : set.pairs) p.target = p.force = 0;
+    certificate = press();
+  }
+  bodies_.log.note(certificate);
 }
 
 /// Gives those whose velocities have changed.

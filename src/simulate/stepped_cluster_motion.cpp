@@ -116,7 +116,7 @@ void ClusterMotion::activate(Cluster& cluster, double length, ClusterState& s) c
   carry(cluster, length, s);
   std::vector<ContactConstraint> pairs;
   std::vector<Vec3> a(s.x.size());
-  accelerate(cluster, s, s.end_x, s.end_v, a, pairs);
+  s.certificate.merge(accelerate(cluster, s, s.end_x, s.end_v, a, pairs));
   std::size_t k = 0;
   bool some_pull = false;
   for (ClusterContact& c : cluster.contacts) {

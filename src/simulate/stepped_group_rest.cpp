@@ -88,7 +88,7 @@ GroupRest::Balance GroupRest::find_balance(GroupBodies& part) {
 }
 
 /// Lets a part sink to where its contacts let it; without them it would by `drive` (of a radius). pairs becomes its
-/// contacts with their forces (kg m). m: how far the farthest body sinks. never: the solver did not converge.
+/// contacts with their forces (kg m). m: how far the farthest body sinks. never: no displacement keeps all contacts.
 double GroupRest::sink(GroupBodies& part, double drive, std::vector<ContactConstraint>& pairs) {
   contacts_.start_all(part, 4 * farthest_sink * part.smallest_radius / shared_.clock.length());
   contacts_.find(part);
@@ -98,7 +98,9 @@ double GroupRest::sink(GroupBodies& part, double drive, std::vector<ContactConst
   std::vector<Vec3> displacement(part.size());
   for (std::size_t k = 0; k < part.size(); ++k)
     displacement[k] = drive * part.smallest_radius / part.greatest_acceleration * part.free_acceleration[k];
-  if (!solve({part.inverse_mass, displacement, pairs, ContactAccuracy::contacts}).solved()) return never;
+  const Certificate certificate = solve({part.inverse_mass, displacement, pairs, ContactAccuracy::contacts});
+  shared_.log.note(certificate);
+  if (!certificate.solved()) return never;
   double farthest = 0;
   for (std::size_t k = 0; k < part.size(); ++k) {
     part.x[k] += displacement[k];

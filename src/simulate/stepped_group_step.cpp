@@ -27,14 +27,16 @@ void GroupStep::find_velocities(const GroupBodies& bodies, std::vector<GroupCont
   end_v_ = bodies.v;
   for (std::size_t k = 0; k < bodies.size(); ++k) end_v_[k] += shared_.clock.length() * bodies.free_acceleration[k];
   const std::vector<Vec3> free = end_v_;
-  solve_velocities(bodies, false);
+  const Certificate certificate = solve_velocities(bodies, false);
   // A body that is struck from two sides at once cannot always separate from both: then no contact bounces in this
   // step.
   const bool energy_may_grow = std::any_of(contacts.begin(), contacts.end(),
                                            [](const GroupContact& c) { return c.impact && c.restitution > 1; });
-  if (!energy_may_grow && gains_energy(bodies, free)) {
+  if (!certificate.solved() || (!energy_may_grow && gains_energy(bodies, free))) {
     end_v_ = free;
-    solve_velocities(bodies, true);
+    shared_.log.note(solve_velocities(bodies, true));
+  } else {
+    shared_.log.note(certificate);
   }
   for (std::size_t p = 0; p < pairs_.size(); ++p) contacts[contact_of_[p]].impulse = pairs_[p].force;
 }
@@ -66,13 +68,13 @@ void GroupStep::choose_pairs(const GroupBodies& bodies, std::vector<GroupContact
 }
 
 /// Moves end_v_, free velocities, to where contacts allow.
-void GroupStep::solve_velocities(const GroupBodies& bodies, bool without_impacts) {
+Certificate GroupStep::solve_velocities(const GroupBodies& bodies, bool without_impacts) {
   if (without_impacts)
     for (ContactConstraint& pair : pairs_) {
       pair.target = std::min(pair.target, 0.0);
       pair.force = 0;
     }
-  shared_.log.note(solve({bodies.inverse_mass, end_v_, pairs_, ContactAccuracy::energy}));
+  return solve({bodies.inverse_mass, end_v_, pairs_, ContactAccuracy::energy});
 }
 
 /// Whether the bodies have more kinetic energy at end_v_ than at these velocities (m/s), beyond what the solver leaves.
@@ -82,7 +84,7 @@ bool GroupStep::gains_energy(const GroupBodies& bodies, const std::vector<Vec3>&
     before += free[k].squaredNorm() / bodies.inverse_mass[k];
     after += end_v_[k].squaredNorm() / bodies.inverse_mass[k];
   }
-  return after > (1 + most_gain) * before;
+  return !(after <= (1 + most_gain) * before);
 }
 
 void GroupStep::find_displacements(const GroupBodies& bodies, const std::vector<GroupContact>& contacts) {

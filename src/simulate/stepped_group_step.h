@@ -54,7 +54,7 @@ class GroupStep {
 
  private:
   void choose_pairs(const GroupBodies& bodies, std::vector<GroupContact>& contacts);
-  void solve_velocities(const GroupBodies& bodies, bool without_impacts);
+  Certificate solve_velocities(const GroupBodies& bodies, bool without_impacts);
   bool gains_energy(const GroupBodies& bodies, const std::vector<Vec3>& free) const;
   double allowed_overlap(const GroupBodies& bodies) const { return overlap_ * bodies.smallest_radius; }
 

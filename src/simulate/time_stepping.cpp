@@ -150,8 +150,8 @@ void TimeStepping::take_slow_impacts(Step& step) const {
   for (std::size_t c = 0; c < impacts.size(); ++c) step.struck[c] = impacts[c].force > 0;
 }
 
-/// The velocities that keep every pair apart until the step ends. Where margins are wide some pairs are to part: they
-/// do if that is possible, and if it takes no more energy than slow impacts have lost.
+/// The velocities that keep every pair apart until the step ends. Where margins are wide some pairs are to part. They
+/// do if that is possible and takes no more energy than slow impacts have lost.
 void TimeStepping::keep_apart(Step& step) const {
   std::vector<Vec3> free = step.after_impacts;
   for (std::size_t k = 0; k < free.size(); ++k) free[k] += step.length * bodies_.applied[group_.members[k]];
@@ -163,7 +163,10 @@ void TimeStepping::keep_apart(Step& step) const {
   const bool part =
       std::any_of(step.pairs.begin(), step.pairs.end(), [](const ContactConstraint& p) { return p.target > 0; });
   if (part && (!certificate.solved() || makes_energy(step, free))) {
-    for (ContactConstraint& p : step.pairs) p.target = std::min(p.target, 0.0);
+    for (ContactConstraint& p : step.pairs) {
+      p.target = std::min(p.target, 0.0);
+      p.force = 0;
+    }
     certificate = press();
   }
   bodies_.log.note(certificate);

@@ -67,7 +67,7 @@ inline constexpr double margin_slack = 0.05;            // but for this much of 
 inline constexpr double margin_decay = 0.5;             // a step leaves of the margin
 inline constexpr double least_margin = 1e-10;           // of a radius: what slow bodies are kept apart
 inline constexpr double parting_margin = 1e-3;          // of a radius: with a wider margin bodies part where they touch
-inline constexpr double converged_displacement = 5e-4;  // of a radius: a group that moves less is solved for exactly
+inline constexpr double converged_displacement = 5e-4;  // of a radius: a group that moves less is not solved for again
 inline constexpr std::uint8_t idle_steps = 8;           // without a force, then a body leaves the group
 inline constexpr double resting_gap = 3e-8;             // of a radius: bodies at rest no farther apart may press
 inline constexpr double rest_slack = 1e-13;             // of the greatest acceleration: of their forces
@@ -140,7 +140,7 @@ inline constexpr double sink_grows = 10;           // by pass
 inline constexpr double farthest_sink = 2e-2;      // of a radius: a part that sinks farther is in no balance
 inline constexpr int balance_passes = 12;          // of sinking
 inline constexpr double group_balance = 1e-7;      // of what free bodies would sink: then forces balance
-inline constexpr double balance_slack = 1e-10;     // of a radius: what contacts may be off by
+inline constexpr double balance_slack = 1e-12;     // of a radius: what contacts may be off by
 
 // The choice of a step (step_choice.h).
 inline constexpr int instants = 64;           // of a run, at which two runs are compared

@@ -175,6 +175,72 @@ TEST(ContactAccuracy, WhatIsToPartAndCannotIsSaid) {
     EXPECT_EQ(solve({inverse_mass, u, contacts, accuracy}).verdict, Certificate::Verdict::infeasible);
 }
 
+/// Rows of 1 to 6 balls between two fixed things that are to part from all: they press against one another, and no
+/// force moves them.
+TEST(ContactAccuracy, RowsThatArePinchedAreInfeasibleAndThenExact) {
+  Draw draw(11);
+  for (int run = 0; run < 300; ++run) {
+    const auto n = static_cast<std::uint32_t>(draw(1, 7));
+    std::vector<double> inverse_mass;
+    std::vector<Vec3> free;
+    for (std::uint32_t k = 0; k < n; ++k) {
+      inverse_mass.push_back(draw(0.5, 2));
+      free.push_back(draw.direction());
+    }
+    const Vec3 along = draw.direction();
+    std::vector<ContactConstraint> contacts{{0, fixed, along, 0.01, 1e-3}, {n - 1, fixed, -along, 0.01, 1e-3}};
+    for (std::uint32_t k = 0; k + 1 < n; ++k) contacts.push_back({k + 1, k, along, 0.01, 1e-3});
+    std::vector<Vec3> u = free, exact = free;
+    EXPECT_FALSE(solve({inverse_mass, u, contacts, ContactAccuracy::contacts}).solved());
+    for (ContactConstraint& c : contacts) c.target = c.force = 0;
+    u = free;
+    EXPECT_TRUE(solve({inverse_mass, u, contacts, ContactAccuracy::contacts}).solved());
+    EXPECT_TRUE(solve({inverse_mass, exact, contacts}).solved());
+    for (std::uint32_t k = 0; k < n; ++k) EXPECT_LT((u[k] - exact[k]).norm(), 3e-3);  // m/s; measured: 1e-3
+  }
+}
+
+/// A ball between two walls, guessed to be pressed by both as by a mountain.
+TEST(ContactAccuracy, GuessesThatDoNothingAreNone) {
+  Draw draw(12);
+  for (int run = 0; run < 300; ++run) {
+    const std::vector<double> inverse_mass{1};
+    const Vec3 free = draw.direction(), along = draw.direction();
+    const double guess = std::pow(10, draw(0, 18));
+    for (const ContactAccuracy accuracy : {ContactAccuracy::contacts, ContactAccuracy::energy}) {
+      std::vector<ContactConstraint> contacts{{0, fixed, along, 0, 1e-3, guess}, {0, fixed, -along, 0, 1e-3, guess}};
+      std::vector<Vec3> u{free};
+      EXPECT_TRUE(solve({inverse_mass, u, contacts, accuracy}).solved());
+      EXPECT_LT((u[0] - (free - along.dot(free) * along)).norm(), 3e-3);  // m/s; measured: 1e-3
+    }
+  }
+}
+
+/// A ball on a pebble on the floor: the pebble's contact is as well kept as the ball's.
+TEST(ContactAccuracy, EnergyOfHeavyBodiesDoesNotPayForLightOnes) {
+  for (const double ratio : {1e1, 1e3, 1e6}) {
+    const std::vector<double> inverse_mass{1 / ratio, 1 / ratio, 1};
+    std::vector<Vec3> u(3, Vec3(0, -1, 0));
+    std::vector<ContactConstraint> contacts{{0, fixed, {0, -1, 0}, 0, 1e-2, 0},
+                                            {0, 1, {1, 0, 0}, 0, 1e-2, 0},
+                                            {1, 2, {0, -1, 0}, 0, 1e-2, 0},
+                                            {2, fixed, {0, -1, 0}, 0, 1e-2, 0}};
+    EXPECT_TRUE(solve({inverse_mass, u, contacts, ContactAccuracy::energy}).solved());
+    for (const Vec3& v : u) EXPECT_LT(v.norm(), 0.03) << ratio;  // m/s; measured: 2e-10
+  }
+}
+
+TEST(ContactAccuracy, WhatIsNoNumberIsNotSolved) {
+  const std::vector<double> inverse_mass{1, 1};
+  for (const ContactAccuracy accuracy :
+       {ContactAccuracy::rounding, ContactAccuracy::contacts, ContactAccuracy::energy}) {
+    std::vector<Vec3> u{{std::nan(""), 0, 0}, {1, 0, 0}};
+    std::vector<ContactConstraint> contacts{{0, 1, {1, 0, 0}, 0.1, 1e-3}, {0, 1, {0, 1, 0}, 0.1, 1e-3}};
+    EXPECT_FALSE(solve({inverse_mass, u, contacts, accuracy}).solved());
+    EXPECT_FALSE(solve({inverse_mass, u, {contacts.data(), 1}, accuracy}).solved());
+  }
+}
+
 ContactIsland island_of(const Case& c) {
   ContactIsland island;
   island.inverse_mass = c.inverse_mass;

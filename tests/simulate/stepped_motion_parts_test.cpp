@@ -1,5 +1,5 @@
-// The parts of the stepped simulator that move bodies: clusters, predictor, releases, impacts, the contact group,
-// views.
+// The parts of the stepped simulator that move bodies: clusters, the impact predictor, releases, impacts, the contact
+// group, views.
 #include <gtest/gtest.h>
 
 #include <cmath>
