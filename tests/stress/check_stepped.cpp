@@ -1,5 +1,6 @@
 // The same scenes in steps of time, long ones: whatever the method and the step, a run ends, no body is nowhere or
-// inside another, outputs change nothing, and no energy comes from nowhere.
+// inside another, outputs change nothing. In steps in which no body falls farther than the smallest one's radius no
+// energy comes from nowhere either; in longer ones groups in contact may make some, which the books say.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,7 +15,7 @@ namespace carom::stress {
 namespace {
 
 constexpr double deepest = 0.1;     // of the smaller radius, and
-constexpr double most_gain = 4e-3;  // of the energy; of 100,000 scenes one has 3.7e-3, the others less than 2e-3
+constexpr double most_gain = 2e-3;  // of the energy; of 100,000 scenes none has more
 
 struct Seen {
   std::vector<State> states;
@@ -63,6 +64,15 @@ std::string text(double x) {
   return digits;
 }
 
+/// m, that a body falls in a step of length h (s), at most.
+double fall_in_a_step(const World& world, double h) {
+  if (world.body_count() == 0) return 0;
+  double most = world.gravity.norm();
+  const double lightest = *std::min_element(world.mass.begin(), world.mass.end());
+  for (const Force& f : world.forces) most += value(f).norm() / (per_mass(f) ? 1 : lightest);
+  return 0.5 * most * h * h;
+}
+
 }  // namespace
 
 Verdict check_stepped(const RandomScene& scene) {
@@ -95,14 +105,9 @@ Verdict check_stepped(const RandomScene& scene) {
   if (end.position != often.states.back().position || end.velocity != often.states.back().velocity)
     fail("outputs change where it ends");
   const bool lively = std::any_of(world.restitution.begin(), world.restitution.end(), [](double e) { return e > 1; });
+  const double fall = fall_in_a_step(world, options.step);
   // Euler's steps lead bodies off surfaces, onto which they are set again, by as much as they fall in one.
-  double falls = 0;
-  if (options.integrator == Integrator::euler && world.body_count() > 0) {
-    falls = world.gravity.norm();
-    const double lightest = *std::min_element(world.mass.begin(), world.mass.end());
-    for (const Force& f : world.forces) falls += value(f).norm() / (per_mass(f) ? 1 : lightest);
-    falls *= options.step * options.step;
-  }
+  const double falls = options.integrator == Integrator::euler ? 2 * fall : 0;
   for (const State& s : often.states)
     for (Entity a = 0; a < world.body_count(); ++a) {
       if (!s.position[a].allFinite() || !s.velocity[a].allFinite()) {
@@ -119,7 +124,8 @@ Verdict check_stepped(const RandomScene& scene) {
                " of a radius at t = " + text(s.time));
       }
     }
-  if (lively || options.integrator == Integrator::euler) return verdict;
+  const bool coarse = world.body_count() > 0 && fall > *std::min_element(world.radius.begin(), world.radius.end());
+  if (lively || coarse || options.integrator == Integrator::euler) return verdict;
   long double before, after;
   const long double first = energy(world, start, before), last = energy(world, end, after);
   const double size = static_cast<double>(before + after) + once.tally.energy_lost + std::abs(once.tally.work);
