@@ -1,32 +1,34 @@
 #pragma once
 // Every constant that decides the accuracy of the simulators, of the choice of a step, and of the book simulator. "Of a
-// radius", "of a speed", "of a step": a share of it.
+// radius", "of a speed", "of a step": a share of it. In brackets, as ./dev bench tolerances measures it: by how much of
+// a radius, at most, a body is elsewhere in nine short runs with 4 times the constant, and with a quarter; - nowhere;
+// * a pile rests too late or a run fails; ' another step is chosen. No brackets: nothing of that.
 #include <cstddef>
 #include <cstdint>
 
 namespace carom::exact_tolerance {
 
 // Rounding.
-inline constexpr double velocity_rounding = 0x1p-48;  // of speeds: a component of a velocity that is rounding
+inline constexpr double velocity_rounding = 0x1p-48;  // [9e-20 1e-14] of speeds: of a component, rounding
 inline constexpr double position_rounding = 0x1p-48;  // of coordinates: a displacement that is rounding
 inline constexpr double flat_rounding = 0x1p-50;      // of coordinates: a gap to a flat surface, in a scene's numbers
 inline constexpr double initial_rounding = 0x1p-46;   // of coordinates: a gap to anything else, in a scene's numbers
 inline constexpr double clock_rounding = 0x1p-46;  // of the clock: in a million events it stands still (stall_guard.h)
 inline constexpr double least_progress = 0x1p-30;  // of the duration: in fewer, a run would never end
-inline constexpr double step_rounding = 512;       // of the speed of falling by a radius: by which steps round speeds
-inline constexpr double plane_rounding = 0x1p-49;  // of speeds: an approach to a plane that is rounding
+inline constexpr double step_rounding = 512;       // [3e-10 2e-10] of the speed of falling by a radius: rounding
+inline constexpr double plane_rounding = 0x1p-49;  // [3e-10 2e-10] of speeds: an approach to a plane that is rounding
 inline constexpr double negligible_speed = 0x1p-200;  // of the greatest speed so far: products with itself underflow
 inline constexpr double negligible_hop = 0x1p-120;    // of the squared speed of falling by a radius: a body at rest
 inline constexpr double approach_rounding = 0x1p-50;  // of speeds: an approach that is rounding: unpressed, or kicked
 
 // Impacts that end in contact (collapse_detector.h).
-inline constexpr double slow_impact = 0.03;    // of the speed of falling by a length: impacts in contact do not count
+inline constexpr double slow_impact = 0.03;    // [4e-7 4e-2] of the speed of falling by a length: no impact in contact
 inline constexpr double collapse_gap = 1e-9;   // of a length: impacts within it are at one place
-inline constexpr int collapse_impacts = 64;    // at one place, of a collapse,
+inline constexpr int collapse_impacts = 64;    // [- 7e-15] at one place, of a collapse,
 inline constexpr double collapse_loss = 16;    // and their sum of 1 - e, which leaves exp(-8) of the speeds
 inline constexpr int unloaded_impacts = 8;     // at one place in lasting contact, where nothing presses
-inline constexpr int burst_on_surfaces = 256;  // slow impacts of one body on flat surfaces in the time of a hop
-inline constexpr int burst_of_bodies = 16;     // the same among bodies
+inline constexpr int burst_on_surfaces = 256;  // [- 2e-15] slow impacts of a body on flat surfaces in a hop
+inline constexpr int burst_of_bodies = 16;     // [6e-8 6e-6] the same among bodies
 inline constexpr double waking_lift = 1e-4;    // of a radius: an impact that lifts a held body by less does not wake it
 inline constexpr double least_volume = 1e-3;   // of three unit normals: they hold a body on all sides
 
@@ -36,20 +38,20 @@ inline constexpr double widest_margin = 2e-2;  // of a radius: what bodies that 
 inline constexpr double standstill = 1e-5;     // of the speed of falling by a radius: as good as at rest
 
 // Simultaneous impacts (simultaneous_impacts.h).
-inline constexpr std::uint32_t few_impacts = 3;       // of a member between steps are one by one
+inline constexpr std::uint32_t few_impacts = 3;       // [2e-11 1e-10] of a member between steps are one by one
 inline constexpr double simultaneous_gap = 1e-3;      // of the margin: a gap that counts as contact
 inline constexpr double simultaneous_parting = 0.01;  // of the fastest approach: what those struck at once part with
-inline constexpr double simultaneous_slack = 1e-3;    // of the fastest approach: what contact may leave of it
+inline constexpr double simultaneous_slack = 1e-3;    // [1e-14 7e-15] of the fastest approach: what may be left
 inline constexpr double open_margin = 0.5;            // of the widest margin: wider, those struck at once part
 inline constexpr std::size_t pairs_of_a_step = 16;    // by member: solving for so many costs as much as a step
 
 // Constrained motion (constrained_motion.h).
-inline constexpr std::size_t most_pairs = 16;        // in contact; a larger group moves by time stepping
-inline constexpr double contact_gap = 1e-9;          // of a radius: a gap that counts as contact
+inline constexpr std::size_t most_pairs = 16;        // [* 5e-2] in contact; a larger group moves by time stepping
+inline constexpr double contact_gap = 1e-9;          // [5e-16 4e-16] of a radius: a gap that counts as contact
 inline constexpr double contact_rounding = 0x1p-51;  // of coordinates: the same
-inline constexpr double least_overlap = 0x1p-50;     // of a radius: a deeper overlap is closed
-inline constexpr double path_error = 1e-11;          // of the smaller radius: a parabola's distance from the true path
-inline constexpr double longest_constrained = 0.02;  // of the time of falling by a radius: the longest step
+inline constexpr double least_overlap = 0x1p-50;     // [5e-15 2e-14] of a radius: a deeper overlap is closed
+inline constexpr double path_error = 1e-11;          // [1e-7 6e-8] of a radius: a parabola's distance from the path
+inline constexpr double longest_constrained = 0.02;  // [2e-9 1e-9] of the time of falling by a radius: a step
 inline constexpr double short_time = 1e-3;  // of a radius over the greatest speed: the same, where nothing falls
 inline constexpr double rim_time = 1e-7;    // of the longest step: that a body may go beyond a flat face's rim
 inline constexpr double constrained_balance = 1e-11;  // of the greatest acceleration: forces in balance
@@ -57,14 +59,14 @@ inline constexpr double velocity_change = 0x1p-40;    // of a speed: a contact h
 inline constexpr double free_time = 1e-6;             // of a radius over the greatest speed: to come back in, unloaded
 
 // Time stepping (time_stepping.h).
-inline constexpr double shortest_step = 0.04;           // of the time in which a body falls freely by its own radius
-inline constexpr double longest_step = 25;              // of the shortest step
-inline constexpr double step_displacement = 0.04;       // of a radius: of the fastest body in a step longer than that
+inline constexpr double shortest_step = 0.04;           // [1e-2 6e-3] of the time of falling by a radius
+inline constexpr double longest_step = 25;              // [- 6e-3] of the shortest step
+inline constexpr double step_displacement = 0.04;       // [1e-1 3e-2] of a radius: of the fastest body in longer steps
 inline constexpr double fast_impact = 8;                // of slow_speed: bodies that approach faster strike each other
 inline constexpr double pressing_gap = 1e-3;            // of a radius: bodies no farther apart may press in a step
 inline constexpr double margin_of_displacement = 1e-3;  // of a step's displacement: what bodies are kept apart for it,
 inline constexpr double margin_slack = 0.05;            // but for this much of that
-inline constexpr double margin_decay = 0.5;             // a step leaves of the margin
+inline constexpr double margin_decay = 0.5;             // [* -] a step leaves of the margin
 inline constexpr double least_margin = 1e-10;           // of a radius: what slow bodies are kept apart
 inline constexpr double parting_margin = 1e-3;          // of a radius: with a wider margin bodies part where they touch
 inline constexpr double converged_displacement = 5e-4;  // of a radius: a group that moves less is not solved for again
@@ -83,8 +85,8 @@ namespace carom::stepped_tolerance {
 // Bounces (stepped_bounces.h).
 inline constexpr double shortest_bounce = 1e-6;  // of a step: where bounces are resolved, the shortest that is one
 inline constexpr std::uint32_t resolved_impacts = 4096;  // with e < 1, of a body in a step, where bounces are resolved;
-inline constexpr std::uint32_t many_impacts = 256;  // and where they are not: more of them accumulate, contact begins
-inline constexpr std::uint32_t group_impacts = 16;  // under load, of a body in a step: then it joins the contact group
+inline constexpr std::uint32_t many_impacts = 256;    // and where they are not: more of them accumulate, contact begins
+inline constexpr std::uint32_t group_impacts = 16;    // [1 1'] of a body under load in a step: then it joins the group
 inline constexpr std::uint32_t most_contacts = 2000;  // under load, of a body in a step: it is jammed and waits
 
 // Impacts of paths (stepped_impact_predictor.h).
@@ -97,34 +99,34 @@ inline constexpr double farthest_refinement = 0.1;  // of a step: beyond, the pa
 inline constexpr double impact_rounding = 0x1p-46;  // of a speed: an approach no faster is rounding
 
 // Lasting contact (stepped_binding.h).
-inline constexpr double contact_gap = 1e-9;             // of a radius: a gap that counts as contact
-inline constexpr double position_rounding = 0x1p-50;    // of coordinates: a gap that is rounding
-inline constexpr double far_apart = 1.001;              // of two radii: farther along an axis, no contact is looked for
+inline constexpr double contact_gap = 1e-9;           // of a radius: a gap that counts as contact
+inline constexpr double position_rounding = 0x1p-50;  // of coordinates: a gap that is rounding
+inline constexpr double far_apart = 1.001;  // [- *] of two radii: farther along an axis, no contact is looked for
 inline constexpr double contact_rounding = 0x1p-44;     // of speeds: an approach or separation that is rounding
 inline constexpr double opening_acceleration = 1e-12;   // of the greatest acceleration: more opens a contact
 inline constexpr double standstill = 1e-9;              // of the speed of falling by a radius: at rest, if in balance
 inline constexpr double cluster_balance = 1e-9;         // of the greatest acceleration: forces in balance
-inline constexpr std::size_t most_cluster_bodies = 24;  // more are a contact group: dense equations grow as the cube
+inline constexpr std::size_t most_cluster_bodies = 24;  // [- 3e-3] more are a contact group
 
 // Constrained motion (stepped_cluster_motion.h) and its end (stepped_releases.h).
-inline constexpr int projections = 2;                 // on the surfaces: the second finds what curvature left
-inline constexpr double penetration = 1e-12;          // of a radius: a deeper contact becomes active
-inline constexpr double force_rounding = 1e-9;        // of a weight: a force that is rounding
-inline constexpr double release_precision = 0x1p-40;  // of a step: to which the time of a zero force is found
-inline constexpr int release_passes = 60;             // of regula falsi, at most
+inline constexpr int projections = 2;           // [4e-17 2e-8] on the surfaces: the second finds what curvature left
+inline constexpr double penetration = 1e-12;    // of a radius: a deeper contact becomes active
+inline constexpr double force_rounding = 1e-9;  // [6e-16 4e-16] of a weight: a force that is rounding
+inline constexpr double release_precision = 0x1p-40;  // [- 3e-14] of a step: to which the time of a zero force is found
+inline constexpr int release_passes = 60;             // [- 9e-16] of regula falsi, at most
 inline constexpr double rim_precision = 0x1p-48;      // of a step: to which the time at a feature's rim is found
 
 // The contact group (stepped_group*.h).
 inline constexpr std::uint8_t group_steps = 8;     // without contact, then a body leaves the group
-inline constexpr double impact_gap = 1e-3;         // of a radius: across it fast bodies collide in this step
-inline constexpr double slack_of_approach = 1e-2;  // of an approach: what a contact may be off by
-inline constexpr double velocity_accuracy = 0.1;   // of the Froude number: a contact's slack, by a step's fall,
+inline constexpr double impact_gap = 1e-3;         // [4e-4 2] of a radius: across it fast bodies collide in this step
+inline constexpr double slack_of_approach = 1e-2;  // [3e-3 -] of an approach: what a contact may be off by
+inline constexpr double velocity_accuracy = 0.1;   // [1e-2 4e-3] of the Froude number: slack, by a step's fall,
 inline constexpr double least_accuracy = 1e-5;     // at least,
-inline constexpr double most_accuracy = 0.05;      // at most
+inline constexpr double most_accuracy = 0.05;      // [8e-4 5e-3] at most
 inline constexpr double most_gain = 1e-6;          // of kinetic energy, by what the solver leaves
 inline constexpr double least_overlap = 1e-8;      // of a radius: that bodies may have, where it is achieved
-inline constexpr double most_overlap = 1e-3;       // of a radius: that bodies may have
-inline constexpr double overlap_of_drift = 0.5;    // of a step's displacement: least overlap of a fast group
+inline constexpr double most_overlap = 1e-3;       // [3e-1 2e-2] of a radius: that bodies may have
+inline constexpr double overlap_of_drift = 0.5;    // [- 1e-2] of a step's displacement: least overlap of a fast group
 inline constexpr double overlap_falls = 0.9;       // by step, where displacements have converged
 inline constexpr double overlap_grows = 1.2;       // by step, where they have not
 inline constexpr int search_passes = 4;            // for contacts of bodies displaced farther than searched
@@ -144,10 +146,10 @@ inline constexpr double balance_slack = 1e-12;     // of a radius: what contacts
 
 // The choice of a step (step_choice.h).
 inline constexpr int instants = 64;           // of a run, at which two runs are compared
-inline constexpr double longest_choice = 64;  // of default_step (force.h): the first step that is tried
+inline constexpr double longest_choice = 64;  // [* -'] of default_step (force.h): the first step that is tried
 inline constexpr int most_halvings = 24;      // of it
 inline constexpr int few_halvings = 16;       // in which, at its rate, what runs gain must reach the end
-inline constexpr int most_vain_halvings = 5;  // without a gain: then runs differ for good
+inline constexpr int most_vain_halvings = 5;  // [* -'] without a gain: then runs differ for good
 inline constexpr double most_steps = 1e9;     // of all bodies together, in the longest run
 
 // The book simulator (book.h).
