@@ -68,7 +68,7 @@ class GroupStep {
   // that this leaves is as good as none.
   double overlap_ = stepped_tolerance::most_overlap;
   double froude_ = 1;      // the bodies' mean speed, by that of falling by a radius
-  bool converged_ = true;  // displacements are as exact as asked for
+  bool converged_ = true;  // the displacements found keep all contacts
 };
 
 }  // namespace carom

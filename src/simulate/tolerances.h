@@ -127,7 +127,7 @@ inline constexpr double most_gain = 1e-6;          // of kinetic energy, by what
 inline constexpr double least_overlap = 1e-8;      // of a radius: that bodies may have, where it is achieved
 inline constexpr double most_overlap = 1e-3;       // [3e-1 2e-2] of a radius: that bodies may have
 inline constexpr double overlap_of_drift = 0.5;    // [- 1e-2] of a step's displacement: least overlap of a fast group
-inline constexpr double overlap_falls = 0.9;       // by step, where displacements have converged
+inline constexpr double overlap_falls = 0.9;       // by step, where displacements keep all contacts
 inline constexpr double overlap_grows = 1.2;       // by step, where they have not
 inline constexpr int search_passes = 4;            // for contacts of bodies displaced farther than searched
 

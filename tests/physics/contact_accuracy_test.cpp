@@ -196,7 +196,7 @@ TEST(ContactAccuracy, RowsThatArePinchedAreInfeasibleAndThenExact) {
     u = free;
     EXPECT_TRUE(solve({inverse_mass, u, contacts, ContactAccuracy::contacts}).solved());
     EXPECT_TRUE(solve({inverse_mass, exact, contacts}).solved());
-    for (std::uint32_t k = 0; k < n; ++k) EXPECT_LT((u[k] - exact[k]).norm(), 3e-3);  // m/s; measured: 1e-3
+    for (std::uint32_t k = 0; k < n; ++k) EXPECT_LT((u[k] - exact[k]).norm(), 3e-3);  // m/s; measured: 1.1e-3
   }
 }
 
@@ -211,7 +211,7 @@ TEST(ContactAccuracy, GuessesThatDoNothingAreNone) {
       std::vector<ContactConstraint> contacts{{0, fixed, along, 0, 1e-3, guess}, {0, fixed, -along, 0, 1e-3, guess}};
       std::vector<Vec3> u{free};
       EXPECT_TRUE(solve({inverse_mass, u, contacts, accuracy}).solved());
-      EXPECT_LT((u[0] - (free - along.dot(free) * along)).norm(), 3e-3);  // m/s; measured: 1e-3
+      EXPECT_LT((u[0] - (free - along.dot(free) * along)).norm(), 3e-3);  // m/s; measured: 6e-4
     }
   }
 }
