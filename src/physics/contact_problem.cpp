@@ -18,7 +18,7 @@ namespace carom {
 namespace {
 
 /// Contacts that share bodies, islands one after the other; `fixed` things do not connect.
-struct Islands {
+struct ContactIslands {
   std::vector<std::uint32_t> contacts;  // by island, ascending
   std::vector<std::uint32_t> first;     // of each island among contacts; and their number
 
@@ -155,7 +155,7 @@ class ExactCost {
 struct ContactSolver::Workspace {
   std::map<std::uint32_t, Known> known;  // by the lowest body of an island
   Known unknown;                         // where nothing is remembered
-  Islands islands;
+  ContactIslands islands;
   ContactIsland island;
   ContactProjectedGradients gradients;
   ContactAnswer answer, attempt;

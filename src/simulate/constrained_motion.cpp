@@ -47,6 +47,7 @@ ConstrainedMotion::ConstrainedMotion(ExactBodies& bodies, ExactGroup& group, Fla
       collapses_(collapses),
       flights_(flights),
       predictor_(predictor),
+      arrival_time_(bodies.body.size()),
       arrival_v_(bodies.body.size(), Vec3::Zero()),
       arrival_version_(bodies.body.size()) {}
 
@@ -58,18 +59,47 @@ Vec3 ConstrainedMotion::rate(const std::vector<Vec3>& v, Entity e) const {
   return bodies_.world.is_body(e) ? v[group_.index[e]] : Vec3(Vec3::Zero());
 }
 
-void ConstrainedMotion::forget_index() const {
-  for (const Entity i : group_.members) group_.index.write(i) = ContactConstraint::fixed;
+void ConstrainedMotion::forget_index(const std::vector<Entity>& members) const {
+  for (const Entity i : members) group_.index.write(i) = ContactConstraint::fixed;
 }
 
-bool ConstrainedMotion::advance() {
-  if (group_.members.size() > 2 * tol::most_pairs) return false;
-  Step step = begin_step();
+bool ConstrainedMotion::advance(Entity i) {
+  std::vector<Entity>& members = bodies_.islands.of(i).members;
+  if (members.size() > 2 * tol::most_pairs) return false;
+  std::sort(members.begin(), members.end());
+  Step step = begin_step(members);
   find_contacts(step);
-  if (step.pairs.size() > tol::most_pairs) {
-    forget_index();
-    return false;
+  const std::vector<std::uint32_t> part = parts_of(step);
+  std::vector<std::size_t> pairs(part.size(), 0);  // by part
+  for (const ContactConstraint& p : step.pairs) ++pairs[part[p.a]];
+  const bool fits = *std::max_element(pairs.begin(), pairs.end()) <= tol::most_pairs;
+  forget_index(members);
+  if (!fits) return false;
+  for (const Entity first : bodies_.islands.split(i, part)) {
+    Step of_part = begin_step(bodies_.islands.of(first).members);
+    find_contacts(of_part);
+    advance_whole(of_part);
   }
+  return true;
+}
+
+/// By member: the first one of those that contacts connect with it.
+std::vector<std::uint32_t> ConstrainedMotion::parts_of(const Step& step) const {
+  const std::size_t n = step.members.size();
+  DisjointSets sets(n);
+  for (const ContactConstraint& p : step.pairs)
+    if (p.b != ContactConstraint::fixed) sets.join(p.a, p.b);
+  std::vector<std::uint32_t> part(n), first(n, ContactConstraint::fixed);
+  for (std::uint32_t k = 0; k < n; ++k) {
+    std::uint32_t& of_part = first[sets.root(k)];
+    of_part = std::min(of_part, k);
+    part[k] = of_part;
+  }
+  return part;
+}
+
+/// The next step of an island whose bodies contacts connect.
+void ConstrainedMotion::advance_whole(Step& step) {
   close_overlaps(step);
   take_approaches(step);
   drop_parting(step);
@@ -81,24 +111,24 @@ bool ConstrainedMotion::advance() {
   choose_length(step);
   integrate(step);
   note_contacts(step);
-  forget_index();
+  forget_index(step.members);
   begin_flights(step);
-  return true;
 }
 
 /// Where members are and how fast: at the end of a step they have the integrated velocities, not the parabolas'.
-ConstrainedMotion::Step ConstrainedMotion::begin_step() const {
-  const ExactGroupClock& clock = bodies_.clock;
+ConstrainedMotion::Step ConstrainedMotion::begin_step(std::vector<Entity> members) const {
+  const Islands& islands = bodies_.islands;
   Step step;
-  for (const Entity i : group_.members) {
+  step.members = std::move(members);
+  for (const Entity i : step.members) {
     group_.index.write(i) = static_cast<std::uint32_t>(step.x.size());
     step.x.push_back(bodies_.position(i));
-    step.before.push_back(bodies_.velocity(i));
+    const bool constrained = bodies_.is_constrained(i);
     const bool arrived =
-        clock.constrained && bodies_.body[i].version == arrival_version_[i] && bodies_.now == arrival_time_;
-    Vec3 v = arrived ? arrival_v_[i] : step.before.back();
-    if (!clock.constrained && bodies_.now < clock.kicked_until[i])
-      v -= (clock.kicked_until[i] - bodies_.now) * clock.kick[i];
+        constrained && bodies_.body[i].version == arrival_version_[i] && bodies_.now == arrival_time_[i];
+    Vec3 v = arrived ? arrival_v_[i] : bodies_.velocity(i);
+    if (!constrained && bodies_.now < islands.kicked_until[i])
+      v -= (islands.kicked_until[i] - bodies_.now) * islands.kick[i];
     step.v.push_back(v);
     step.inverse_mass.push_back(1 / bodies_.world.mass[i]);
     step.greatest = std::max(step.greatest, bodies_.load_on(i));
@@ -110,11 +140,11 @@ ConstrainedMotion::Step ConstrainedMotion::begin_step() const {
 /// The pairs in contact, but for those that are about to strike.
 void ConstrainedMotion::find_contacts(Step& step) const {
   const World& world = bodies_.world;
-  for (std::size_t k = 0; k < group_.members.size(); ++k) {
-    const Entity i = group_.members[k];
+  for (std::size_t k = 0; k < step.members.size(); ++k) {
+    const Entity i = step.members[k];
     for (const Entity e : bodies_.known_to(i)) {
       const bool body = world.is_body(e);
-      if (body && (e < i || !bodies_.in_group(e))) continue;
+      if (body && (e < i || group_.index[e] == ContactConstraint::fixed)) continue;
       // A thing that it has struck just now it touches there, and nowhere else.
       const bool struck = bodies_.flights[i].start == bodies_.now && bodies_.body[i].origin_partner == e;
       const Vec3 xe = at(step.x, e);
@@ -147,8 +177,8 @@ void ConstrainedMotion::take_approaches(Step& step) {
   for (ContactConstraint& p : step.pairs) p.target = p.force = 0;
   bodies_.log.note(solve({step.inverse_mass, step.v, step.pairs}));
   for (std::size_t k = 0; k < step.v.size(); ++k) {
-    const Entity i = group_.members[k];
-    const Vec3& before = step.before[k];
+    const Entity i = step.members[k];
+    const Vec3 before = bodies_.velocity(i);
     if (group_.needed[i] < bodies_.now || (step.v[k] - before).norm() <= tol::velocity_change * before.norm()) continue;
     collapses_.count_in_turn(i, 1);
   }
@@ -175,7 +205,7 @@ std::vector<Vec3> ConstrainedMotion::accelerate(Step& step, const std::vector<Ve
                                                 const std::vector<Vec3>& v) const {
   const World& world = bodies_.world;
   std::vector<Vec3> a;
-  for (const Entity i : group_.members) a.push_back(bodies_.applied[i]);
+  for (const Entity i : step.members) a.push_back(bodies_.applied[i]);
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
     const auto& [i, e, feature] = step.names[c];
     ContactConstraint& pair = step.pairs[c];
@@ -237,7 +267,7 @@ void ConstrainedMotion::choose_length(Step& step) const {
   find_unbound(step);
   for (std::size_t k = 0; k < step.x.size(); ++k)
     if (leaves(step, k))
-      h = std::min(h, std::max(step.grace - (bodies_.now - group_.needed[group_.members[k]]), 0.25 * step.grace));
+      h = std::min(h, std::max(step.grace - (bodies_.now - group_.needed[step.members[k]]), 0.25 * step.grace));
   step.length = h;
 }
 
@@ -340,7 +370,7 @@ void ConstrainedMotion::integrate(Step& step) const {
 }
 
 void ConstrainedMotion::note_contacts(const Step& step) {
-  for (const Entity i : group_.members) {
+  for (const Entity i : step.members) {
     group_.partners.write(i).clear();
     group_.pressing.write(i).clear();
   }
@@ -354,18 +384,21 @@ void ConstrainedMotion::note_contacts(const Step& step) {
 
 /// The members' flights until the step's end.
 void ConstrainedMotion::begin_flights(const Step& step) {
-  bodies_.clock.constrained = false;  // until all flights are new
-  const std::vector<Entity> members = group_.take_members();
-  for (std::size_t k = 0; k < members.size(); ++k) begin_flight(step, k, members[k]);
-  bodies_.clock.constrained = true;
-  bodies_.clock.end = group_.members.empty() ? Instant{never, 0} : bodies_.now + step.length;
-  arrival_time_ = bodies_.clock.end;
-  for (const Entity i : members) predictor_.predict(i);
+  Island& island = bodies_.islands.of(step.members.front());
+  island.constrained = false;  // until all flights are new
+  island.fresh = false;
+  island.end = bodies_.now + step.length;
+  std::vector<Entity> stay;
+  for (std::size_t k = 0; k < step.members.size(); ++k)
+    if (begin_flight(step, k, step.members[k])) stay.push_back(step.members[k]);
+  island.constrained = true;
+  bodies_.islands.retain(step.members.front(), std::move(stay));
+  for (const Entity i : step.members) predictor_.predict(i);
 }
 
-/// Body i, the step's member k, leaves the group, falls asleep, or goes on in it.
-void ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) {
-  const Vec3 &x = step.x[k], &v = step.v[k], &before = step.before[k];
+/// Body i, the step's member k, leaves its island, falls asleep, or goes on. Gives whether it stays.
+bool ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) {
+  const Vec3 &x = step.x[k], &v = step.v[k], before = bodies_.velocity(i);
   bodies_.log.lose(0.5 * bodies_.world.mass[i] * (before - v).dot(before + v));
   if (step.bound[k]) group_.needed.write(i) = bodies_.now;
   if (leaves(step, k) && bodies_.now - group_.needed[i] >= step.grace) {
@@ -373,30 +406,33 @@ void ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) 
     group_.set_carried(i, false);
     for (std::size_t c = 0; c < step.flats[k].count; ++c) flat_.add(i, step.flats[k].at[c]);
     flights_.begin(i, x + step.down[k], flat_.keep_at(i, v), {});
-  } else if (step.rests[k]) {
+    return false;
+  }
+  if (step.rests[k]) {
     bodies_.body[i].state = ContactState::asleep;
     group_.set_carried(i, true);
     flights_.begin(i, x, Vec3::Zero(), {});
-  } else {
-    group_.members.push_back(i);
-    group_.set_carried(i, step.held[k]);
-    bodies_.clock.kicked_until.write(i) = bodies_.now;
-    // What it has struck just now it has still just struck, if nothing has changed since.
-    const Flight f = bodies_.flights[i];
-    const bool same = f.start == bodies_.now && x == f.x && v == before;
-    flights_.begin(i, x, v, same ? bodies_.body[i].origin() : FlightOrigin{});
-    bodies_.flights.accelerate(i, step.path_a[k]);
-    arrival_v_.write(i) = step.end_v[k];
-    arrival_version_.write(i) = bodies_.body[i].version;
+    return false;
   }
+  group_.set_carried(i, step.held[k]);
+  bodies_.islands.kicked_until.write(i) = bodies_.now;
+  // What it has struck just now it has still just struck, if nothing has changed since.
+  const Flight f = bodies_.flights[i];
+  const bool same = f.start == bodies_.now && x == f.x && v == before;
+  flights_.begin(i, x, v, same ? bodies_.body[i].origin() : FlightOrigin{});
+  bodies_.flights.accelerate(i, step.path_a[k]);
+  arrival_v_.write(i) = step.end_v[k];
+  arrival_version_.write(i) = bodies_.body[i].version;
+  arrival_time_.write(i) = bodies_.islands.of(i).end;
+  return true;
 }
 
-void ConstrainedMotion::report(double time, std::vector<ContactForce>& forces) const {
+void ConstrainedMotion::report(const Island& island, double time, std::vector<ContactForce>& forces) const {
   const World& world = bodies_.world;
   const Instant now{time, 0};
   std::vector<Vec3> x, v, a;
   std::vector<double> inverse_mass;
-  for (const Entity i : group_.members) {
+  for (const Entity i : island.members) {
     const double t = now - bodies_.flights[i].start;
     group_.index.write(i) = static_cast<std::uint32_t>(x.size());
     x.push_back(bodies_.flights[i].position(t));
@@ -406,10 +442,10 @@ void ConstrainedMotion::report(double time, std::vector<ContactForce>& forces) c
   }
   std::vector<ContactConstraint> pairs;
   std::vector<std::pair<Entity, Entity>> names;
-  for (const Entity i : group_.members) {
+  for (const Entity i : island.members) {
     for (const Entity e : group_.partners[i]) {
       const bool body = world.is_body(e);
-      if (body && (e < i || !bodies_.in_group(e))) continue;
+      if (body && (e < i || group_.index[e] == ContactConstraint::fixed)) continue;
       const std::uint32_t k = group_.index[i], other = body ? group_.index[e] : ContactConstraint::fixed;
       const Vec3 xe = at(x, e);
       const Touch there = touch(world, i, x[k], e, xe);
@@ -421,7 +457,7 @@ void ConstrainedMotion::report(double time, std::vector<ContactForce>& forces) c
   solve({inverse_mass, a, pairs});
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (pairs[c].force > 0) forces.push_back({names[c].first, names[c].second, pairs[c].force});
-  forget_index();
+  forget_index(island.members);
 }
 
 }  // namespace carom

@@ -19,11 +19,12 @@ class ConstrainedMotion {
   ConstrainedMotion(ExactBodies& bodies, ExactGroup& group, FlatContacts& flat, CollapseDetector& collapses,
                     FlightChanges& flights, EventPredictor& predictor);
 
-  /// Takes the group's next step. False: it has too many contacts; nothing has changed.
-  bool advance();
+  /// Takes the next step of member i's island, or of the parts that it has come into. False: one of these has too many
+  /// contacts; nothing has changed.
+  bool advance(Entity i);
 
-  /// Appends the forces in the group at `time` (s): between two steps they change, and may turn to zero.
-  void report(double time, std::vector<ContactForce>& forces) const;
+  /// Appends the forces in an island at `time` (s): between two steps they change, and may turn to zero.
+  void report(const Island& island, double time, std::vector<ContactForce>& forces) const;
 
  private:
   struct PairName {
@@ -31,10 +32,11 @@ class ConstrainedMotion {
     std::uint8_t feature;
   };
 
-  /// A step, in numbers of its own: member k is body group.members[k].
+  /// A step, in numbers of its own.
   struct Step {
+    std::vector<Entity> members;            // ascending
     double greatest = 0, smallest = never;  // m/s^2, the greatest acceleration; m, the least radius
-    std::vector<Vec3> x, v, before;         // m, m/s, by member; before: v as its flight has it
+    std::vector<Vec3> x, v;                 // m, m/s, by member
     std::vector<double> inverse_mass;       // 1/kg
     std::vector<ContactConstraint> pairs;   // in contact,
     std::vector<PairName> names;            // and their names
@@ -49,8 +51,9 @@ class ConstrainedMotion {
     std::vector<Vec3> path_a, end_v;        // m/s^2, m/s: the parabolas, and the velocities at the step's end
   };
 
-  bool fits() const;
-  Step begin_step() const;
+  Step begin_step(std::vector<Entity> members) const;
+  std::vector<std::uint32_t> parts_of(const Step& step) const;
+  void advance_whole(Step& step);
   void find_contacts(Step& step) const;
   void close_overlaps(Step& step) const;
   void take_approaches(Step& step);
@@ -65,8 +68,8 @@ class ConstrainedMotion {
   void integrate(Step& step) const;
   void note_contacts(const Step& step);
   void begin_flights(const Step& step);
-  void begin_flight(const Step& step, std::size_t k, Entity i);
-  void forget_index() const;
+  bool begin_flight(const Step& step, std::size_t k, Entity i);
+  void forget_index(const std::vector<Entity>& members) const;
 
   Vec3 at(const std::vector<Vec3>& x, Entity e) const;  // m, of a member or a fixed thing
   Vec3 rate(const std::vector<Vec3>& v,
@@ -78,8 +81,8 @@ class ConstrainedMotion {
   CollapseDetector& collapses_;
   FlightChanges& flights_;
   EventPredictor& predictor_;
-  Instant arrival_time_;                      // when the step ends if nothing happens before
-  LazyArray<Vec3> arrival_v_;                 // m/s, by body: its velocity when the step ends,
+  LazyArray<Instant> arrival_time_;           // by body: when the step ends if nothing happens before,
+  LazyArray<Vec3> arrival_v_;                 // m/s, its velocity then,
   LazyArray<std::uint16_t> arrival_version_;  // if it is still on this flight
 };
 

@@ -22,7 +22,7 @@ void EventPredictor::predict_all() {
     return f[i].v.isZero(0) && f[j].v.isZero(0) && bodies_.flights.acceleration(i) == bodies_.flights.acceleration(j);
   };
   for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
-    if (!group_.members.empty()) {
+    if (bodies_.islands.any()) {
       predict(i);
       continue;
     }
@@ -42,7 +42,8 @@ void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
   if (!bodies_.world.forces.empty())
     offer(i, best,
           {{bodies_.merged.next_switch(i, bodies_.now.hi), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
-  if (bodies_.in_group(i)) offer(i, best, {bodies_.clock.end, no_entity, 0, ExactEvent::Kind::step, no_feature});
+  if (bodies_.in_group(i))
+    offer(i, best, {bodies_.islands.of(i).end, no_entity, 0, ExactEvent::Kind::step, no_feature});
   bodies_.body[i].event = best;
   queue_.schedule(i, region_exit(bodies_, i));
 }
@@ -65,7 +66,7 @@ void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
 
 /// Offers when body i meets each of the others.
 void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEvent& best) {
-  const bool constrained = bodies_.in_group(i) && bodies_.clock.constrained;
+  const bool constrained = bodies_.is_constrained(i);
   for (const Entity e : others) {
     if (constrained && group_.are_partners(i, e)) continue;  // they cannot meet
     std::uint8_t feature = no_feature;
@@ -86,7 +87,7 @@ void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEv
 void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, ExactEvent& best) {
   if (!bodies_.world.volume.empty() || bodies_.in_group(i)) return meet_each(i, others, best);
   const Vec3& a = bodies_.flights.acceleration(i);
-  if (!group_.members.empty() || !bodies_.flights.alike()) {
+  if (bodies_.islands.any() || !bodies_.flights.alike()) {
     alike_.clear();
     for (const Entity& e : others)
       if (bodies_.in_group(e) || bodies_.flights.acceleration(e) != a)

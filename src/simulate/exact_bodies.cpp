@@ -20,13 +20,12 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
       flights(given.body_count(), given.gravity),
       body(given.body_count()),
       neighbours(world),
-      clock(given.body_count()),
+      islands(given.body_count()),
       log(options.max_collisions, options.record_collisions) {}
 
 Vec3 ExactBodies::velocity_without_kick(Entity i, const Instant& at) const {
   const Vec3 v = flights[i].velocity(at - flights[i].start);
-  if (!in_group(i) || clock.constrained) return v;
-  return without_kick(v, at, clock.kicked_until[i], clock.kick[i]);
+  return is_stepped(i) ? without_kick(v, at, islands.kicked_until[i], islands.kick[i]) : v;
 }
 
 std::vector<Entity> ExactBodies::known_to(Entity i) const {

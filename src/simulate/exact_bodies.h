@@ -14,6 +14,7 @@
 #include "simulate/exact.h"
 #include "simulate/exact_event.h"
 #include "simulate/flight.h"
+#include "simulate/islands.h"
 #include "simulate/large_pages.h"
 #include "simulate/lazy_array.h"
 #include "simulate/merged_bodies.h"
@@ -21,16 +22,6 @@
 #include "simulate/tolerances.h"
 
 namespace carom {
-
-/// How the contact group moves until its next step.
-struct ExactGroupClock {
-  explicit ExactGroupClock(Entity bodies) : kicked_until(bodies), kick(bodies, Vec3::Zero()) {}
-
-  Instant end{never, 0};            // when the next step is due
-  bool constrained = false;         // by constrained motion (constrained_motion.h), else by time stepping
-  LazyArray<Instant> kicked_until;  // by member, in time stepping: forces are in its velocity up to this instant,
-  LazyArray<Vec3> kick;             // m/s^2, this on average, from the start
-};
 
 struct ExactBodies {
   /// `given` must outlive this.
@@ -47,7 +38,7 @@ struct ExactBodies {
   Flights flights;
   LargeVector<ExactBody> body;
   Neighbours neighbours;
-  ExactGroupClock clock;
+  Islands islands;
   EventLog log;
 
   static constexpr const char* too_fast =
@@ -63,6 +54,9 @@ struct ExactBodies {
   Vec3 position_of(Entity e) const { return world.is_body(e) ? position(e) : world.fixed_position(e); }
 
   bool in_group(Entity i) const { return body[i].state == ContactState::group; }
+  /// Whether body i's island moves by constrained motion, or by time stepping.
+  bool is_constrained(Entity i) const { return in_group(i) && islands.of(i).constrained; }
+  bool is_stepped(Entity i) const { return in_group(i) && !islands.of(i).constrained; }
   /// Whether e is a body of the contact group, or asleep.
   bool in_lasting_contact(Entity e) const { return world.is_body(e) && body[e].state != ContactState::free; }
 

@@ -17,10 +17,10 @@ double sum_of_speeds(const Vec3& v) {
 
 }  // namespace
 
-/// When flights end at the latest; those of the contact group at its next step.
-Instant ExactCollisionTimes::flights_end(bool step) const {
-  return step && bodies_.clock.end.hi < bodies_.options.duration ? bodies_.clock.end
-                                                                 : Instant{bodies_.options.duration, 0};
+/// When body i's flight ends at the latest: that of an island's member at its next step.
+Instant ExactCollisionTimes::flight_end(Entity i) const {
+  const Instant last{bodies_.options.duration, 0};
+  return bodies_.in_group(i) ? std::min(bodies_.islands.of(i).end, last) : last;
 }
 
 Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) const {
@@ -39,7 +39,8 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
   m.speeds = sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a);
   m.just_separated = p.start == q.start && bodies_.body[a].origin_partner == b && bodies_.body[b].origin_partner == a;
   const bool step = bodies_.in_group(a) || bodies_.in_group(b);
-  const double horizon = flights_end(step) - base;
+  const double horizon =
+      step ? std::min(flight_end(a), flight_end(b)) - base : Instant{bodies_.options.duration, 0} - base;
   const double s = world.radius[a] + world.radius[b];
   if (step) {
     const double greatest = std::max(bodies_.applied[a].norm(), bodies_.applied[b].norm());
@@ -62,8 +63,9 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
 Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, std::uint8_t& feature) const {
   const World& world = bodies_.world;
   const Flight& f = bodies_.flights[i];
-  const bool step = bodies_.in_group(i) && bodies_.clock.end.hi < bodies_.options.duration;
-  const double horizon = flights_end(step) - f.start;
+  const Instant end = flight_end(i);
+  const bool step = end.hi < bodies_.options.duration;
+  const double horizon = end - f.start;
   const bool left = bodies_.body[i].origin_partner == surface;
   double t;
   const bool ball = world.volume.empty() || world.volume[i].shape == Shape::sphere;

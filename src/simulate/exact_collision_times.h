@@ -15,7 +15,7 @@ class ExactCollisionTimes {
   Instant of_surface(Entity i, Entity surface, std::uint8_t& feature) const;
 
  private:
-  Instant flights_end(bool step) const;
+  Instant flight_end(Entity i) const;
 
   const ExactBodies& bodies_;
 };

@@ -30,30 +30,21 @@ void ExactGroup::set_carried(Entity i, bool carried) {
   carried ? bodies_.log.add_resting(1) : bodies_.log.remove_resting(1);
 }
 
-std::vector<Entity> ExactGroup::take_members() {
-  return std::exchange(members, {});
-}
-
 void ExactGroup::join(Entity i) {
-  ExactGroupClock& clock = bodies_.clock;
   if (bodies_.body[i].state == ContactState::asleep) wake(i);
   if (bodies_.in_group(i)) return;
   paths_.note_change(i);
   bodies_.body[i].state = ContactState::group;
-  clock.kicked_until.write(i) = bodies_.now;
-  clock.kick.write(i).setZero();
+  Islands& islands = bodies_.islands;
+  islands.kicked_until.write(i) = bodies_.now;
+  islands.kick.write(i).setZero();
   margin.write(i) = 0;
   impacts.write(i) = 0;
   flat_.clear(i);
-  if (members.empty()) {
-    clock.end = bodies_.now;
-    clock.constrained = false;
-    bodies_.log.count_collapse();
-  }
-  if (clock.constrained) clock.end = bodies_.now;
+  if (!islands.any()) bodies_.log.count_collapse();
+  islands.create(i, bodies_.now);
   idle.write(i) = 0;
   needed.write(i) = bodies_.now;
-  members.push_back(i);
 }
 
 void ExactGroup::wake(Entity i) {
@@ -64,6 +55,7 @@ void ExactGroup::wake(Entity i) {
     todo.pop_back();
     set_carried(k, false);
     join(k);
+    unite(i, k);
     const Vec3 x = bodies_.flights[k].x;
     for (const Entity e : bodies_.known_to(k)) {
       if (!bodies_.world.is_body(e) || bodies_.body[e].state != ContactState::asleep) continue;
@@ -108,6 +100,7 @@ void ExactGroup::join_initial(Entity first) {
         join_at_rest(k);
         todo.push_back(k);
       }
+      if (body) unite(i, e);
     }
   }
 }
@@ -115,14 +108,13 @@ void ExactGroup::join_initial(Entity first) {
 void ExactGroup::widen_margin(Entity i, double approach) {
   if (!bodies_.in_group(i)) return;
   needed.write(i) = bodies_.now;
-  margin.write(i) = std::max(
-      margin[i], std::min(0.5 * approach * step_length, exact_tolerance::widest_margin * bodies_.world.radius[i]));
+  margin.write(i) = std::max(margin[i], std::min(0.5 * approach * bodies_.islands.of(i).step_length,
+                                                 exact_tolerance::widest_margin * bodies_.world.radius[i]));
 }
 
 double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity i, Entity e) const {
   const bool body = bodies_.world.is_body(e);
-  if (bodies_.clock.constrained || approach == 0 || (!bodies_.in_group(i) && !(body && bodies_.in_group(e))))
-    return approach;
+  if (approach == 0 || !(bodies_.is_stepped(i) || (body && bodies_.is_stepped(e)))) return approach;
   const Instant& now = bodies_.now;
   const Vec3 vi = bodies_.velocity_without_kick(i, now);
   const Vec3 ve = body ? bodies_.velocity_without_kick(e, now) : Vec3(Vec3::Zero());
@@ -132,13 +124,15 @@ double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity 
 }
 
 void ExactGroup::kick(Entity i, const Vec3& dv) {
-  ExactGroupClock& clock = bodies_.clock;
-  if (clock.constrained || !bodies_.in_group(i) || dv.isZero(0) || !(bodies_.now < clock.end)) return;
-  if (!(bodies_.now < clock.kicked_until[i])) {
-    clock.kicked_until.write(i) = clock.end;
-    clock.kick.write(i).setZero();
+  if (!bodies_.is_stepped(i) || dv.isZero(0)) return;
+  Islands& islands = bodies_.islands;
+  const Instant& end = islands.of(i).end;
+  if (!(bodies_.now < end)) return;
+  if (!(bodies_.now < islands.kicked_until[i])) {
+    islands.kicked_until.write(i) = end;
+    islands.kick.write(i).setZero();
   }
-  clock.kick.write(i) += dv / (clock.kicked_until[i] - bodies_.now);
+  islands.kick.write(i) += dv / (islands.kicked_until[i] - bodies_.now);
 }
 
 bool ExactGroup::strikes(Entity i, Entity e, double approach, double greatest) const {
@@ -155,7 +149,7 @@ bool ExactGroup::are_partners(Entity i, Entity e) const {
 }
 
 void ExactGroup::report(Entity i, std::vector<ContactForce>& forces) const {
-  if (bodies_.body[i].state == ContactState::free || (bodies_.clock.constrained && bodies_.in_group(i))) return;
+  if (bodies_.body[i].state == ContactState::free || bodies_.is_constrained(i)) return;
   for (const PressingContact& p : pressing[i]) forces.push_back({i, p.partner, p.force});
 }
 

@@ -22,7 +22,6 @@ class ExactGroup {
  public:
   ExactGroup(ExactBodies& bodies, FlatContacts& flat, const CollapseDetector& collapses, PathLog& paths);
 
-  std::vector<Entity> members;                       // ascending after each step
   LazyArray<std::vector<PressingContact>> pressing;  // by the lower body: what the last step found pressing on it
   LazyArray<std::vector<Entity>> partners;           // by body: what constrained motion keeps it in contact with
   LazyArray<std::uint32_t> index;    // scratch of a step: a member's place in it, or ContactConstraint::fixed
@@ -30,21 +29,22 @@ class ExactGroup {
   LazyArray<std::uint8_t> idle;      // by member: steps since something pressed on it
   LazyArray<double> margin;          // m, by member: the gap that time stepping leaves about it
   LazyArray<Instant> needed;         // by member: when it was last struck or pressed on, but by flat surfaces alone
-  double step_length = 0;            // s, of the last step
-  std::size_t impact_pairs = 0;      // that simultaneous impacts have solved for since the last step
 
-  /// Body i belongs to the group from now on; if it sleeps, all that rest in contact with it wake too.
+  /// Body i is in an island from now on; if it sleeps, all that rest in contact with it wake too.
   void join(Entity i);
-  /// A sleeping body, and all that rest in contact with it, belong to the group from now on.
+  /// Members a and b are in one island from now on, whose next step is due.
+  void unite(Entity a, Entity b) { bodies_.islands.merge(a, b, bodies_.now); }
+  /// The same if one of them has only just joined: a time step of the other one goes on.
+  void unite_fresh(Entity a, Entity b) {
+    if (bodies_.islands.of(a).fresh || bodies_.islands.of(b).fresh) unite(a, b);
+  }
+  /// A sleeping body, and all that rest in contact with it, are an island from now on.
   void wake(Entity i);
   /// At the start: a body that touches others, or a curved surface, without speed along the normal and is pressed on
   /// joins the group, and so does all that it touches.
   void join_initial(Entity first);
   /// Whether body i, a member or asleep, rests on something: counted in the tally.
   void set_carried(Entity i, bool carried);
-  /// Takes all members out, for a step that puts back those that stay.
-  std::vector<Entity> take_members();
-
   /// Member i has been struck at this speed (m/s): for a while bodies are kept apart by about as much as they could
   /// move at that speed until the next step.
   void widen_margin(Entity i, double approach);

@@ -94,16 +94,19 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
     if (ends || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
     parts_.group.widen_margin(i, approach);
   }
+  if (ends) parts_.group.unite_fresh(a, b);
   parts_.flights.begin(a, xa, parts_.flat.keep_at(a, va - (impulse / ma) * n), {b, feature});
   parts_.flights.begin(b, xb, parts_.flat.keep_at(b, vb + (impulse / mb) * n), {a, feature});
-  if (ends)
+  if (ends) {
     for (const Entity i : {a, b}) bodies_.flights.accelerate(i, Vec3::Zero());
+    const double held = impact_impulse(ma, mb, approach - met, 0);
+    parts_.group.kick(a, -held / ma * n);
+    parts_.group.kick(b, held / mb * n);
+    parts_.group.unite(a, b);
+  }
   parts_.predictor.predict(a);
   parts_.predictor.predict(b);
   if (!ends) return;
-  const double held = impact_impulse(ma, mb, approach - met, 0);
-  parts_.group.kick(a, -held / ma * n);
-  parts_.group.kick(b, held / mb * n);
   parts_.simultaneous.count_impact(a);
   parts_.simultaneous.count_impact(b);
 }

@@ -60,7 +60,9 @@ void ExactSimulator::start(const State& initial) {
       for (Entity i = 0; i < n; ++i) group_.join_initial(i);
   }
   predictor_.predict_all();
-  if (!group_.members.empty()) step_group();
+  if (bodies_.islands.any())
+    for (Entity i = 0; i < n; ++i)
+      if (bodies_.in_group(i) && bodies_.islands.of(i).fresh) step_island(i);
   for (Entity i = 0; i < n; ++i) paths_.note_change(i);
   paths_.record_changes();
 }
@@ -131,8 +133,8 @@ void ExactSimulator::process(Entity i) {
       release(i, event.partner, event.feature);
       break;
     case Kind::step:
-      if (event.time == bodies_.clock.end)
-        step_group();
+      if (bodies_.in_group(i) && event.time == bodies_.islands.of(i).end)
+        step_island(i);
       else
         predictor_.predict(i);  // there has been a step since
       break;
@@ -145,7 +147,6 @@ void ExactSimulator::process(Entity i) {
 
 /// A force on body i sets in or ceases, now.
 void ExactSimulator::switch_forces(Entity i) {
-  ExactGroupClock& clock = bodies_.clock;
   const Vec3 x = bodies_.position(i);
   Vec3 v = bodies_.velocity(i);
   paths_.note_change(i);
@@ -157,8 +158,8 @@ void ExactSimulator::switch_forces(Entity i) {
     const Vec3 slower = bodies_.velocity_without_kick(i, bodies_.now);
     bodies_.log.lose(0.5 * bodies_.world.mass[i] * (v - slower).dot(v + slower));
     v = slower;
-    clock.kicked_until.write(i) = bodies_.now;
-    clock.end = bodies_.now;
+    bodies_.islands.kicked_until.write(i) = bodies_.now;
+    bodies_.islands.of(i).end = bodies_.now;
   }
   bodies_.applied.write(i) = applied.all;
   bodies_.working.write(i) = applied.working;
@@ -173,14 +174,10 @@ void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
   predictor_.predict(i);
 }
 
-/// The contact group's next step.
-void ExactSimulator::step_group() {
-  std::sort(group_.members.begin(), group_.members.end());
-  for (const Entity i : group_.members) paths_.note_change(i);
-  if (constrained_.advance()) return;
-  for (const Entity i : group_.members) group_.partners.write(i).clear();
-  bodies_.clock.constrained = false;
-  stepping_.advance();
+/// The next step of body i's island.
+void ExactSimulator::step_island(Entity i) {
+  for (const Entity k : bodies_.islands.of(i).members) paths_.note_change(k);
+  if (!constrained_.advance(i)) stepping_.advance(i);
 }
 
 Effort ExactSimulator::effort() const {
@@ -219,7 +216,9 @@ std::span<const ContactForce> ExactSimulator::contacts() {
     if (flat_.of(i).count > 0) flat_.report(i, contact_forces_);
     group_.report(i, contact_forces_);
   }
-  if (bodies_.clock.constrained && !group_.members.empty()) constrained_.report(time_, contact_forces_);
+  bodies_.islands.for_each([&](const Island& island) {
+    if (island.constrained) constrained_.report(island, time_, contact_forces_);
+  });
   std::sort(contact_forces_.begin(), contact_forces_.end(),
             [](const ContactForce& p, const ContactForce& q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
   return contact_forces_;

@@ -1,5 +1,6 @@
 #include "simulate/flight_changes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulate/tolerances.h"
@@ -13,9 +14,7 @@ void FlightChanges::begin(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   bodies_.log.note_speed(speed);
   book(i, x);
   ExactBody& body = bodies_.body[i];
-  const bool member = body.state == ContactState::group;
-  const bool falls =
-      member && !bodies_.clock.constrained && bodies_.flights.acceleration(i) != Vec3::Zero();  // through a time step
+  const bool falls = bodies_.is_stepped(i) && bodies_.flights.acceleration(i) != Vec3::Zero();  // through a time step
   const double negligible = bodies_.negligible_speed();
   const bool still = speed <= negligible ||
                      (flat_.of(i).count > 0 && speed * speed < exact_tolerance::negligible_hop *
@@ -27,7 +26,7 @@ void FlightChanges::begin(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   body.set_origin(origin);
   bodies_.neighbours.turned(i);
   count(i);
-  if (bodies_.clock.constrained && member && bodies_.now < bodies_.clock.end) bodies_.clock.end = bodies_.now;
+  if (bodies_.is_constrained(i)) bodies_.islands.of(i).end = std::min(bodies_.islands.of(i).end, bodies_.now);
 }
 
 /// When its count of flights begins anew, old events must not look fresh.

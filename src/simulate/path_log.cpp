@@ -41,11 +41,11 @@ PathPiece PathLog::piece_of(Entity i, double from) const {
   const Flight f = bodies_.flights[i];
   const World &world = bodies_.world, &given = bodies_.merged.given();
   PathPiece piece{i, from, {f.start.hi, f.start.lo}, f.x, f.v, f.a};
-  if (bodies_.in_group(i) && !bodies_.clock.constrained) {
-    const Instant until = bodies_.clock.kicked_until[i];
+  if (bodies_.is_stepped(i)) {
+    const Instant until = bodies_.islands.kicked_until[i];
     piece.kicked = true;
     piece.until = {until.hi, until.lo};
-    piece.kick = bodies_.clock.kick[i];
+    piece.kick = bodies_.islands.kick[i];
   }
   if (bodies_.merged.any()) {
     const Entity whole = bodies_.merged.whole_of()[i];

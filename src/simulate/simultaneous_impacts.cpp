@@ -8,17 +8,17 @@
 namespace carom {
 
 void SimultaneousImpacts::count_impact(Entity i) {
-  ExactGroupClock& clock = bodies_.clock;
-  if (clock.constrained || !bodies_.in_group(i) || ++group_.impacts.write(i) <= exact_tolerance::few_impacts) return;
+  if (!bodies_.is_stepped(i) || ++group_.impacts.write(i) <= exact_tolerance::few_impacts) return;
   Touching set = find_touching(i);
   const double open = exact_tolerance::open_margin * exact_tolerance::widest_margin * bodies_.world.radius[i];
   solve(set, group_.margin[i] > open);
   std::vector<Entity> changed = begin_flights(set);
   // These impacts have cost as much as a time step: the next one is due. This one was too long.
-  group_.impact_pairs += set.pairs.size();
-  if (group_.impact_pairs > exact_tolerance::pairs_of_a_step * group_.members.size() && bodies_.now < clock.end) {
-    group_.step_length -= clock.end - bodies_.now;
-    clock.end = bodies_.now;
+  Island& island = bodies_.islands.of(i);
+  island.impact_pairs += set.pairs.size();
+  if (island.impact_pairs > exact_tolerance::pairs_of_a_step * island.members.size() && bodies_.now < island.end) {
+    island.step_length -= island.end - bodies_.now;
+    island.end = bodies_.now;
     changed.push_back(i);
   }
   for (const Entity a : changed) predictor_.predict(a);
@@ -38,7 +38,7 @@ SimultaneousImpacts::Touching SimultaneousImpacts::find_touching(Entity first) c
     const Vec3 x = bodies_.position(a);
     for (const Entity e : bodies_.known_to(a)) {
       const bool body = world.is_body(e);
-      if (body && !bodies_.in_group(e)) continue;
+      if (body && !(bodies_.in_group(e) && bodies_.islands.same(e, first))) continue;
       const Vec3 xe = bodies_.position_of(e);
       const double far = world.radius[a] + (body ? world.radius[e] : never) + closed;
       if ((xe - x).squaredNorm() > 1.001 * far * far) continue;

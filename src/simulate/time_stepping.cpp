@@ -28,33 +28,49 @@ bool approaching(const std::vector<Vec3>& v, const std::vector<ContactConstraint
 
 }  // namespace
 
-void TimeStepping::advance() {
-  Step step = begin_step();
-  const double shortest = step.greatest == 0 ? 0 : tol::shortest_step * std::sqrt(2 * step.smallest / step.greatest);
-  short_steps_ = group_.step_length < 0.01 * shortest ? short_steps_ + 1 : 0;
-  double fastest = 0;
-  for (const double speed : step.expected) fastest = std::max(fastest, speed);
-  step.length = tol::step_displacement * step.smallest / std::max(fastest, 0x1p-900);
-  if (step.greatest > 0) {
-    const double longest = std::clamp(2 * group_.step_length, shortest, tol::longest_step * shortest);
-    step.length = std::clamp(step.length, shortest, longest);
+void TimeStepping::advance(Entity i) {
+  Step step = begin_step(i);
+  while (!solve_step(step)) {
+    for (const Entity e : step.near) group_.unite(i, e);
+    step = begin_step(i);
   }
-  do solve(step);
-  while (shorten(step, shortest));
-  find_islands(step);
+  find_parts(step);
   put_to_rest(step);
   begin_flights(step);
 }
 
+/// Solves the step, as long as speeds allow. False: bodies of other islands are near.
+bool TimeStepping::solve_step(Step& step) const {
+  const Island& island = bodies_.islands.of(step.members.front());
+  const double shortest = step.greatest == 0 ? 0 : tol::shortest_step * std::sqrt(2 * step.smallest / step.greatest);
+  step.short_steps = island.step_length < 0.01 * shortest ? island.short_steps + 1 : 0;
+  double fastest = 0;
+  for (const double speed : step.expected) fastest = std::max(fastest, speed);
+  step.length = tol::step_displacement * step.smallest / std::max(fastest, 0x1p-900);
+  if (step.greatest > 0) {
+    const double longest = std::clamp(2 * island.step_length, shortest, tol::longest_step * shortest);
+    step.length = std::clamp(step.length, shortest, longest);
+  }
+  do {
+    find_pairs(step);
+    if (!step.near.empty()) return false;
+    take_slow_impacts(step);
+    keep_apart(step);
+  } while (shorten(step, shortest));
+  return true;
+}
+
 /// Where members are and how fast, without what the last step's kick gave them for a time that is to come.
-TimeStepping::Step TimeStepping::begin_step() {
+TimeStepping::Step TimeStepping::begin_step(Entity one) const {
+  const Islands& islands = bodies_.islands;
   Step step;
-  for (const Entity i : group_.members) {
+  step.members = islands.of(one).members;
+  std::sort(step.members.begin(), step.members.end());
+  for (const Entity i : step.members) {
     group_.index.write(i) = static_cast<std::uint32_t>(step.x.size());
     Vec3 v = bodies_.velocity(i);
-    const Instant& until = bodies_.clock.kicked_until[i];
-    if (bodies_.now < until) v -= (until - bodies_.now) * bodies_.clock.kick[i];
-    bodies_.clock.kicked_until.write(i) = bodies_.now;
+    const Instant& until = islands.kicked_until[i];
+    if (bodies_.now < until) v -= (until - bodies_.now) * islands.kick[i];
     step.x.push_back(bodies_.position(i));
     step.v.push_back(v);
     step.expected.push_back(v.norm());
@@ -86,40 +102,43 @@ bool TimeStepping::shorten(Step& step, double shortest) const {
   return farther && !(displacements > tol::converged_displacement * step.smallest * static_cast<double>(step.x.size()));
 }
 
-void TimeStepping::solve(Step& step) const {
-  find_pairs(step);
-  take_slow_impacts(step);
-  keep_apart(step);
-}
-
 /// The pairs that may press on each other before the step ends, and how fast they must part, or may approach, for it.
 void TimeStepping::find_pairs(Step& step) const {
   const World& world = bodies_.world;
   const double h = step.length;
   const auto margin_of = [&](std::size_t k) {
-    return std::max({group_.margin[group_.members[k]], tol::margin_of_displacement * h * step.v[k].norm(),
+    return std::max({group_.margin[step.members[k]], tol::margin_of_displacement * h * step.v[k].norm(),
                      tol::least_margin * step.smallest});
   };
+  step.near.clear();
   step.pairs.clear();
   step.names.clear();
   step.gaps.clear();
-  for (std::size_t k = 0; k < group_.members.size(); ++k) {
-    const Entity i = group_.members[k];
+  for (std::size_t k = 0; k < step.members.size(); ++k) {
+    const Entity i = step.members[k];
     for (const Entity e : bodies_.known_to(i)) {
       // A sleeping body is as if fixed; if pressed on, it wakes.
       const bool asleep = world.is_body(e) && bodies_.body[e].state == ContactState::asleep;
       const bool body = world.is_body(e) && !asleep;
-      if (body && (e < i || !bodies_.in_group(e))) continue;
+      if (body && !bodies_.in_group(e)) continue;
       const std::uint32_t other = body ? group_.index[e] : ContactConstraint::fixed;
-      const Vec3 xe = body ? step.x[other] : asleep ? bodies_.flights[e].x : world.fixed_position(e);
+      const bool of_other_island = body && other == ContactConstraint::fixed;
+      if (body && !of_other_island && e < i) continue;
+      const Vec3 xe = asleep ? bodies_.flights[e].x : bodies_.position_of(e);
       const Touch there = touch(world, i, step.x[k], e, xe);
-      const double rate = there.normal.dot((body ? step.v[other] : Vec3(Vec3::Zero())) - step.v[k]);
+      const Vec3 ve = !body ? Vec3(Vec3::Zero()) : of_other_island ? bodies_.velocity(e) : step.v[other];
+      const double rate = there.normal.dot(ve - step.v[k]);
       if (group_.strikes(i, e, -rate / tol::fast_impact, step.greatest)) continue;
-      const double margin = body ? std::max(margin_of(k), margin_of(other)) : margin_of(k);
-      const double expected = step.expected[k] + (body ? step.expected[other] : 0);
+      const double margin_e = !body ? 0 : of_other_island ? group_.margin[e] : margin_of(other);
+      const double margin = std::max(margin_of(k), margin_e);
+      const double expected = step.expected[k] + (!body ? 0 : of_other_island ? ve.norm() : step.expected[other]);
       const double reach =
           std::min(4 * step.greatest * h * h, std::max(4 * h * expected, tol::pressing_gap * step.smallest));
       if (there.gap + h * std::min(rate, 0.0) > margin + reach) continue;
+      if (of_other_island) {
+        step.near.push_back(e);
+        continue;
+      }
       ContactConstraint pair{
           static_cast<std::uint32_t>(k),  other, there.normal, -std::max(there.gap - margin, 0.0) / h,
           tol::margin_slack * margin / h, 0};
@@ -154,7 +173,7 @@ void TimeStepping::take_slow_impacts(Step& step) const {
 /// do if that is possible and takes no more energy than slow impacts have lost.
 void TimeStepping::keep_apart(Step& step) const {
   std::vector<Vec3> free = step.after_impacts;
-  for (std::size_t k = 0; k < free.size(); ++k) free[k] += step.length * bodies_.applied[group_.members[k]];
+  for (std::size_t k = 0; k < free.size(); ++k) free[k] += step.length * bodies_.applied[step.members[k]];
   const auto press = [&] {
     step.solved = free;
     return carom::solve({step.inverse_mass, step.solved, step.pairs, ContactAccuracy::contacts});
@@ -186,7 +205,7 @@ bool TimeStepping::makes_energy(const Step& step, const std::vector<Vec3>& free)
 }
 
 /// Members that press on one another are an island. The faster one of its bodies is, the wider are its margins.
-void TimeStepping::find_islands(Step& step) {
+void TimeStepping::find_parts(Step& step) {
   const std::size_t n = step.x.size();
   DisjointSets sets(n);
   step.carried.assign(n, 0);
@@ -204,14 +223,14 @@ void TimeStepping::find_islands(Step& step) {
   std::vector<double> margin(n, tol::least_margin * step.smallest);  // m, by island
   const auto widen = [&](std::uint32_t k, double gap) { margin[island[k]] = std::max(margin[island[k]], gap); };
   for (std::uint32_t k = 0; k < n; ++k) {
-    widen(k, tol::margin_decay * group_.margin[group_.members[k]]);
+    widen(k, tol::margin_decay * group_.margin[step.members[k]]);
     widen(k, tol::margin_of_displacement * step.length * step.solved[k].norm());
   }
   for (const ContactConstraint& p : step.pairs) {
     const double missing = step.length * (p.target - p.normal.dot(relative_velocity(step.solved, p)));  // m
     if (missing > 0) widen(p.a, std::min(2 * missing, tol::widest_margin * step.smallest));
   }
-  for (std::uint32_t k = 0; k < n; ++k) group_.margin.write(group_.members[k]) = margin[island[k]];
+  for (std::uint32_t k = 0; k < n; ++k) group_.margin.write(step.members[k]) = margin[island[k]];
 }
 
 /// By island: whether all its bodies are carried and hardly move. Slow sliders stop, and in a jam all slow bodies.
@@ -226,7 +245,7 @@ std::vector<std::uint8_t> TimeStepping::stop_slow(Step& step) const {
   for (std::uint32_t k = 0; k < n; ++k) {
     Vec3& v = step.solved[k];
     const bool steady = (v - step.after_impacts[k]).norm() <= tol::steady_speed * step.length * step.greatest;
-    const bool stops = (steady && size[step.island[k]] == 1) || short_steps_ > tol::many_short_steps;
+    const bool stops = (steady && size[step.island[k]] == 1) || step.short_steps > tol::many_short_steps;
     if (stops && step.carried[k] && v.norm() <= tol::sliding_speed * unit) v.setZero();
     if (!step.carried[k] || v.norm() > slow) still[step.island[k]] = 0;
   }
@@ -242,7 +261,7 @@ TimeStepping::Holding TimeStepping::hold(const Step& step, const std::vector<std
     holding.pairs.push_back({p.a, p.b, p.normal, 0, tol::rest_slack * step.greatest, 0});
     holding.which.push_back(c);
   }
-  for (const Entity i : group_.members) holding.a.push_back(bodies_.applied[i]);
+  for (const Entity i : step.members) holding.a.push_back(bodies_.applied[i]);
   bodies_.log.note(carom::solve({step.inverse_mass, holding.a, holding.pairs, ContactAccuracy::contacts}));
   return holding;
 }
@@ -266,29 +285,55 @@ void TimeStepping::put_to_rest(Step& step) const {
 /// The members' flights until the step's end.
 void TimeStepping::begin_flights(const Step& step) {
   const double h = step.length;
-  for (const Entity i : group_.members) group_.pressing.write(i).clear();
+  for (const Entity i : step.members) group_.pressing.write(i).clear();
   for (std::size_t c = 0; c < step.pairs.size(); ++c)
     if (step.pairs[c].force > 0)
       group_.pressing.write(step.names[c].first).push_back({step.names[c].second, step.pairs[c].force / h});
-  group_.step_length = h;
-  group_.impact_pairs = 0;
-  bodies_.clock.end = bodies_.now + h;
-  const std::vector<Entity> members = group_.take_members();
-  for (std::size_t k = 0; k < members.size(); ++k) begin_flight(step, k, members[k]);
+  Island& island = bodies_.islands.of(step.members.front());
+  island.fresh = island.constrained = false;
+  island.step_length = h;
+  island.short_steps = step.short_steps;
+  island.impact_pairs = 0;
+  island.end = bodies_.now + h;
+  for (const Entity i : step.members) group_.partners.write(i).clear();
+  std::vector<Entity> stay;
+  for (std::size_t k = 0; k < step.members.size(); ++k)
+    if (begin_flight(step, k, step.members[k])) stay.push_back(step.members[k]);
+  bodies_.islands.retain(step.members.front(), std::move(stay));
+  split(step);
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
     const auto [i, e] = step.names[c];
     const bool asleep = bodies_.world.is_body(e) && bodies_.body[e].state == ContactState::asleep;
     if (step.pairs[c].b != ContactConstraint::fixed || !asleep) continue;
-    if (step.pairs[c].force > 0 && bodies_.in_group(i)) group_.wake(e);
+    if (!(step.pairs[c].force > 0 && bodies_.in_group(i))) continue;
+    group_.wake(e);
+    group_.unite(i, e);
   }
-  if (group_.members.empty()) bodies_.clock.end = {never, 0};
-  for (const Entity i : members) group_.index.write(i) = ContactConstraint::fixed;
-  for (const Entity i : members) predictor_.predict(i);
+  for (const Entity i : step.members) group_.index.write(i) = ContactConstraint::fixed;
+  for (const Entity i : step.members) predictor_.predict(i);
 }
 
-/// Body i, the step's member k, falls asleep, goes on in the group, or leaves it.
-void TimeStepping::begin_flight(const Step& step, std::size_t k, Entity i) {
-  ExactGroupClock& clock = bodies_.clock;
+/// Those that have stayed and that no pair connects any more are islands of their own.
+void TimeStepping::split(const Step& step) {
+  DisjointSets sets(step.members.size());
+  for (const ContactConstraint& p : step.pairs)
+    if (p.b != ContactConstraint::fixed && bodies_.in_group(step.members[p.a]) && bodies_.in_group(step.members[p.b]))
+      sets.join(p.a, p.b);
+  std::vector<std::uint32_t> label, first(step.members.size(), ContactConstraint::fixed);
+  Entity one = no_entity;
+  for (std::uint32_t k = 0; k < step.members.size(); ++k) {
+    if (!bodies_.in_group(step.members[k])) continue;
+    one = step.members[k];
+    std::uint32_t& of_part = first[sets.root(k)];
+    of_part = std::min(of_part, static_cast<std::uint32_t>(label.size()));
+    label.push_back(of_part);
+  }
+  if (one != no_entity) bodies_.islands.split(one, label);
+}
+
+/// Body i, the step's member k, falls asleep, leaves its island, or goes on. Gives whether it stays.
+bool TimeStepping::begin_flight(const Step& step, std::size_t k, Entity i) {
+  Islands& islands = bodies_.islands;
   const Vec3 &v = step.after_impacts[k], &solved = step.solved[k];
   const Vec3 before = bodies_.velocity(i);
   const auto begin = [&](const Vec3& velocity) {
@@ -298,28 +343,30 @@ void TimeStepping::begin_flight(const Step& step, std::size_t k, Entity i) {
   if (step.rests[k]) {
     bodies_.body[i].state = ContactState::asleep;
     group_.set_carried(i, true);
-    return begin(Vec3::Zero());
+    begin(Vec3::Zero());
+    return false;
   }
   const std::uint8_t idle = step.carried[k] ? std::uint8_t{0} : static_cast<std::uint8_t>(group_.idle[i] + 1);
   group_.idle.write(i) = idle;
   if (idle >= tol::idle_steps) {
     bodies_.body[i].state = ContactState::free;
     group_.set_carried(i, false);
-    return begin(v);
+    begin(v);
+    return false;
   }
-  group_.members.push_back(i);
   group_.set_carried(i, step.carried[k]);
   group_.impacts.write(i) = 0;
   if (step.carried[k]) {
-    clock.kicked_until.write(i) = clock.end;
-    clock.kick.write(i) = step.greatest > 0 ? Vec3((solved - v) / step.length) : Vec3(Vec3::Zero());
+    islands.kicked_until.write(i) = islands.of(i).end;
+    islands.kick.write(i) = step.greatest > 0 ? Vec3((solved - v) / step.length) : Vec3(Vec3::Zero());
     begin(solved);
   } else {  // flies as free bodies do
-    clock.kicked_until.write(i) = bodies_.now;
-    clock.kick.write(i).setZero();
+    islands.kicked_until.write(i) = bodies_.now;
+    islands.kick.write(i).setZero();
     begin(v);
     bodies_.flights.accelerate(i, bodies_.applied[i]);
   }
+  return true;
 }
 
 }  // namespace carom

@@ -27,19 +27,22 @@ class TimeStepping {
   TimeStepping(ExactBodies& bodies, ExactGroup& group, FlightChanges& flights, EventPredictor& predictor)
       : bodies_(bodies), group_(group), flights_(flights), predictor_(predictor) {}
 
-  /// Takes the group's next step.
-  void advance();
+  /// Takes the next step of member i's island, with those of other islands that it may press on before the step ends.
+  void advance(Entity i);
 
  private:
-  /// A step, in numbers of its own: member k is body group.members[k].
+  /// A step, in numbers of its own.
   struct Step {
+    std::vector<Entity> members;                   // ascending
     double length = 0;                             // s
+    std::uint32_t short_steps = 0;                 // on end, that simultaneous impacts ended at once
     double smallest = never, greatest = 0;         // m, the least radius; m/s^2, the greatest acceleration
     std::vector<Vec3> x, v;                        // m, m/s: now,
     std::vector<Vec3> after_impacts;               // m/s: without the approaches that contact takes at once,
     std::vector<Vec3> solved;                      // m/s: from now on
     std::vector<double> expected;                  // m/s: half of the speed that contacts are searched for
     std::vector<double> inverse_mass;              // 1/kg
+    std::vector<Entity> near;                      // bodies of other islands that members may press on
     std::vector<ContactConstraint> pairs;          // that may press on each other before the step ends,
     std::vector<std::pair<Entity, Entity>> names;  // their names,
     std::vector<double> gaps;                      // m, and how far they are apart now
@@ -54,25 +57,25 @@ class TimeStepping {
     std::vector<Vec3> a;             // m/s^2: what they leave of the members' accelerations
   };
 
-  Step begin_step();
+  Step begin_step(Entity one) const;
+  bool solve_step(Step& step) const;
   bool shorten(Step& step, double shortest) const;
-  void solve(Step& step) const;
   void find_pairs(Step& step) const;
   void take_slow_impacts(Step& step) const;
   void keep_apart(Step& step) const;
   bool makes_energy(const Step& step, const std::vector<Vec3>& free) const;
-  void find_islands(Step& step);
+  void find_parts(Step& step);
   void put_to_rest(Step& step) const;
   std::vector<std::uint8_t> stop_slow(Step& step) const;
   Holding hold(const Step& step, const std::vector<std::uint8_t>& still) const;
   void begin_flights(const Step& step);
-  void begin_flight(const Step& step, std::size_t k, Entity i);
+  void split(const Step& step);
+  bool begin_flight(const Step& step, std::size_t k, Entity i);
 
   ExactBodies& bodies_;
   ExactGroup& group_;
   FlightChanges& flights_;
   EventPredictor& predictor_;
-  std::uint32_t short_steps_ = 0;  // on end, that simultaneous impacts ended at once
 };
 
 }  // namespace carom

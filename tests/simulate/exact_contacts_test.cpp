@@ -116,14 +116,14 @@ TEST(ExactGroup, WakesAllThatTouch) {
   }
   EXPECT_EQ(parts.bodies.log.tally().resting, 3u);
   parts.group.join(0);
-  EXPECT_EQ(parts.group.members.size(), 3u);
+  EXPECT_EQ(parts.bodies.islands.of(0).members.size(), 3u);
   EXPECT_EQ(parts.bodies.log.tally().resting, 0u);
 }
 
 TEST(ExactGroup, TakesAKickOutOfAVelocity) {
   ExactParts parts(three_in_a_row(0.5));
   parts.group.join(0);
-  parts.bodies.clock.end = {2, 0};
+  parts.bodies.islands.of(0).end = {2, 0};
   parts.bodies.flights.set(0, {{}, Vec3::Zero(), Vec3(3, 0, 0), Vec3::Zero()});
   parts.group.kick(0, Vec3(3, 0, 0));  // in two seconds
   EXPECT_EQ(parts.bodies.velocity_without_kick(0, {0, 0}), Vec3::Zero());
@@ -134,10 +134,10 @@ TEST(ExactGroup, TakesAKickOutOfAVelocity) {
 TEST(ExactGroup, TakesWhatRoundingLeavesOfAKickedApproachForNone) {
   ExactParts parts(three_in_a_row(0.5));
   parts.group.join(0);
-  parts.bodies.clock.end = {3, 0};
+  parts.bodies.islands.of(0).end = {3, 0};
   const Vec3 n(1, 0, 0);
   const auto approach_beyond_kick = [&](double speed) {
-    parts.bodies.clock.kicked_until.write(0) = {0, 0};
+    parts.bodies.islands.kicked_until.write(0) = {0, 0};
     parts.bodies.flights.set(0, {{}, Vec3::Zero(), Vec3(0.1 + speed, 2, 0), Vec3::Zero()});
     parts.group.kick(0, Vec3(0.1, 0, 0));
     return parts.group.approach_without_kick(0.1 + speed, n, 0, 1);
@@ -153,14 +153,17 @@ TEST(ExactGroup, IsJoinedByBodiesThatPressOnEachOtherFromTheStart) {
   ExactParts parts(p);
   parts.flat.find_initial(0);
   parts.group.join_initial(1);
-  EXPECT_EQ(parts.group.members.size(), 2u);
+  EXPECT_EQ(parts.bodies.islands.of(1).members.size(), 2u);
 }
 
 TEST(SimultaneousImpacts, StrikeAllThatTouchAfterAFewImpacts) {
   Problem p = three_in_a_row(0.5);
   p.initial.velocity = {Vec3(1, 0, 0), Vec3::Zero(), Vec3(-1, 0, 0)};
   ExactParts parts(p);
-  for (Entity i = 0; i < 3; ++i) parts.group.join(i);
+  for (Entity i = 0; i < 3; ++i) {
+    parts.group.join(i);
+    parts.group.unite(0, i);
+  }
   for (int k = 0; k < 3; ++k) parts.simultaneous.count_impact(1);
   EXPECT_EQ(parts.bodies.flights[0].v, Vec3(1, 0, 0));
   parts.simultaneous.count_impact(1);
@@ -171,11 +174,11 @@ TEST(SimultaneousImpacts, StrikeAllThatTouchAfterAFewImpacts) {
 TEST(TimeStepping, PutsToRestWhatForcesHold) {
   ExactParts parts(ball_on_floor());
   parts.group.join(0);
-  parts.stepping.advance();
+  parts.stepping.advance(0);
   EXPECT_EQ(parts.bodies.body[0].state, ContactState::asleep);
   ASSERT_EQ(parts.group.pressing[0].size(), 1u);
   EXPECT_NEAR(parts.group.pressing[0][0].force, 2 * g, 1e-9);
-  EXPECT_TRUE(parts.group.members.empty());
+  EXPECT_FALSE(parts.bodies.islands.any());
 }
 
 TEST(TimeStepping, KeepsAMemberOutOfTheFloorUntilTheStepEnds) {
@@ -184,8 +187,8 @@ TEST(TimeStepping, KeepsAMemberOutOfTheFloorUntilTheStepEnds) {
   ExactParts parts(p);
   parts.group.join(0);
   parts.bodies.flights.accelerate(0, Vec3::Zero());
-  parts.stepping.advance();
-  const Instant end = parts.bodies.clock.end;
+  parts.stepping.advance(0);
+  const Instant end = parts.bodies.islands.of(0).end;
   ASSERT_GT(end.hi, 0);
   EXPECT_GE(parts.bodies.flights[0].position(end.hi).y(), 0.5 - 1e-12);
   EXPECT_EQ(parts.bodies.log.tally().resting, 1u);
@@ -198,24 +201,47 @@ TEST(ConstrainedMotion, KeepsToACurvedSurface) {
   p.ball(Vec3(0, 1.5, 0), Vec3(0.5, 0, 0));
   ExactParts parts(p);
   parts.group.join(0);
-  ASSERT_TRUE(parts.constrained.advance());
-  EXPECT_TRUE(parts.bodies.clock.constrained);
-  const double end = parts.bodies.clock.end.hi;
+  ASSERT_TRUE(parts.constrained.advance(0));
+  const Island& island = parts.bodies.islands.of(0);
+  EXPECT_TRUE(island.constrained);
+  const double end = island.end.hi;
   ASSERT_GT(end, 0);
   for (const double t : {0.5 * end, end}) EXPECT_NEAR(parts.bodies.flights[0].position(t).norm(), 1.5, 1e-10);
   std::vector<ContactForce> forces;
-  parts.constrained.report(0, forces);
+  parts.constrained.report(island, 0, forces);
   ASSERT_EQ(forces.size(), 1u);
   EXPECT_NEAR(forces[0].force, g - 0.25 / 1.5, 1e-12);  // m (g - v^2 / r)
 }
 
-TEST(ConstrainedMotion, LeavesALargeGroupToTimeStepping) {
+Problem touching_row(int balls) {
   Problem p;
-  for (int k = 0; k < 40; ++k) p.ball(Vec3(2.0 * k, 0, 0), Vec3::Zero());
+  p.world.gravity = Vec3(0, -g, 0);
+  p.plane(Vec3::Zero(), Vec3::UnitY());
+  for (int k = 0; k < balls; ++k) p.ball(Vec3(k, 0.5, 0), Vec3::Zero());
+  return p;
+}
+
+TEST(ConstrainedMotion, LeavesALargeIslandToTimeStepping) {
+  ExactParts parts(touching_row(40));
+  for (Entity i = 0; i < 40; ++i) {
+    parts.group.join(i);
+    parts.group.unite(0, i);
+  }
+  EXPECT_FALSE(parts.constrained.advance(0));
+  EXPECT_EQ(parts.bodies.islands.of(0).members.size(), 40u);
+}
+
+TEST(ConstrainedMotion, SplitsAnIslandThatNoContactConnects) {
+  Problem p;
+  for (int k = 0; k < 3; ++k) p.ball(Vec3(2.0 * k, 0, 0), Vec3(k, 0, 0));
   ExactParts parts(p);
-  for (Entity i = 0; i < 40; ++i) parts.group.join(i);
-  EXPECT_FALSE(parts.constrained.advance());
-  EXPECT_EQ(parts.group.members.size(), 40u);
+  for (Entity i = 0; i < 3; ++i) {
+    parts.group.join(i);
+    parts.group.unite(0, i);
+  }
+  ASSERT_TRUE(parts.constrained.advance(0));
+  EXPECT_FALSE(parts.bodies.islands.same(0, 1));
+  EXPECT_FALSE(parts.bodies.islands.same(1, 2));
 }
 
 Problem two_lumps() {

@@ -65,6 +65,39 @@ TEST(SlideOff, ABallLeavesAFixedBallAtTwoThirdsOfTheHeight) {
   }
 }
 
+/// Balls off fixed balls, 100 m apart along z, and a scene of another kind among them if `other`.
+Problem balls_off_balls(int balls, bool other) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -g, 0);
+  problem.options.duration = 0.8;
+  for (int k = 0; k < balls; ++k) {
+    problem.obstacle({0, 0, 100.0 * k}, Volume::sphere(0.5));
+    problem.ball({0, 0.75, 100.0 * k}, {0.1, 0, 0}, 1, 0.25, 0);
+  }
+  if (other) {  // a heap that is too large for constrained motion, and a heavy body that slides
+    problem.obstacle({1000, 0, 0}, Volume::box({5, 0.5, 5}));
+    for (int k = 0; k < 27; ++k)
+      problem.ball({999.0 + k % 3, 1 + 0.95 * (k / 9), k / 3 % 3 - 1.0 + 0.1 * (k / 9)}, {0, 0, 0}, 1 + k, 0.5, 0.3);
+    problem.obstacle({2000, 0, 0}, Volume::sphere(5));
+    problem.ball({2000, 15, 0}, {1, 0, 0}, 1e6, 10, 0);
+  }
+  return problem;
+}
+
+TEST(SlideOff, NeitherNumberNorWhatHappensFarAwayChangesAnyBit) {
+  const Outcome one = run_exact(balls_off_balls(1, false));
+  for (const int balls : {2, 17, 40}) {
+    for (const bool other : {false, true}) {
+      const Outcome many = run_exact(balls_off_balls(balls, other));
+      for (int k = 0; k < balls; ++k) {
+        const auto i = static_cast<std::size_t>(k);
+        EXPECT_EQ(many.end.position[i].head<2>(), one.end.position[0].head<2>()) << balls << ' ' << other << ' ' << k;
+        EXPECT_EQ(many.end.velocity[i], one.end.velocity[0]) << balls << ' ' << other << ' ' << k;
+      }
+    }
+  }
+}
+
 TEST(SlideOff, AFastBallLeavesTheTopAtOnce) {
   Problem problem;
   problem.world.gravity = Vec3(0, -g, 0);
