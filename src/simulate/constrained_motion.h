@@ -1,5 +1,5 @@
 #pragma once
-// Constrained motion of a small contact group: bodies that press on one another keep to each other's surfaces, with
+// Constrained motion of a small island: bodies that press on one another keep to each other's surfaces, with
 // forces from the complementarity conditions (0 <= force, 0 <= the gap's second derivative, one of them zero; the
 // surfaces' curvature in it). Their paths are integrated by the classical Runge-Kutta method of fourth order. Between
 // its steps a path is the parabola through both ends, which leaves the true one by less than `path_error` of a radius:

@@ -1,8 +1,8 @@
 #pragma once
-// The exact simulator's contact group: bodies in lasting contact with one another and with anything that is not flat,
-// where paths have no closed form. It moves in steps, all of it together: a small one by constrained motion
-// (constrained_motion.h), a large one by time stepping (time_stepping.h). Here: its members, and what impacts do to
-// them between steps.
+// The exact simulator's bodies in lasting contact with one another and with anything that is not flat, where paths have
+// no closed form. Each island of them moves in steps of its own: a small one by constrained motion
+// (constrained_motion.h), a large one by time stepping (time_stepping.h). Here: what is known of each of these bodies,
+// and what impacts do to them between steps.
 #include <vector>
 
 #include "simulate/collapse_detector.h"

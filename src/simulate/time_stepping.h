@@ -1,6 +1,6 @@
 #pragma once
-// Time stepping of a large contact group. Between two steps a member that is carried flies straight and the others fall
-// freely, so that impacts with and within the group are found and resolved as everywhere else. At a step contact takes
+// Time stepping of a large island. Between two steps a member that is carried flies straight and the others fall
+// freely, so that impacts with and within the island are found and resolved as everywhere else. At a step contact takes
 // slow approaches at once; fast ones are left to be impacts. Then the velocities are those nearest to what forces alone
 // would make of them that keep every pair apart until the next step (contact_problem.h): linearised at the closest
 // points, which for convex bodies on straight paths is on the safe side. (Stewart & Trinkle, Int. J. Numer. Meth. Eng.
