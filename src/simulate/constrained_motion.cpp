@@ -15,23 +15,6 @@ namespace tol = exact_tolerance;
 
 namespace {
 
-/// m, with what radius at least the Minkowski sum of two volumes is bent where it is round: a cylinder's rim is sharp,
-/// a sphere makes it as round as itself.
-double bend_radius(const World& world, Entity i, Entity e) {
-  const auto round = [&](Shape shape) {
-    double sum = 0;
-    for (const Entity k : {i, e}) {
-      if (world.is_plane(k) || world.is_wall(k)) continue;
-      const Volume volume = world.volume_of(k);
-      if (volume.shape == shape) sum += volume.half.x();
-    }
-    return sum;
-  };
-  if (const double r = round(Shape::sphere); r > 0) return r;
-  if (const double r = round(Shape::cylinder); r > 0) return r;
-  return world.radius[i];
-}
-
 /// A product with the speed `fastest` as a divisor must not be infinite.
 double at_least_tiny(double fastest) {
   return std::max(fastest, 0x1p-900);
@@ -47,9 +30,7 @@ ConstrainedMotion::ConstrainedMotion(ExactBodies& bodies, ExactGroup& group, Fla
       collapses_(collapses),
       flights_(flights),
       predictor_(predictor),
-      arrival_time_(bodies.body.size()),
-      arrival_v_(bodies.body.size(), Vec3::Zero()),
-      arrival_version_(bodies.body.size()) {}
+      following_(bodies.body.size()) {}
 
 Vec3 ConstrainedMotion::at(const std::vector<Vec3>& x, Entity e) const {
   return bodies_.world.is_body(e) ? x[group_.index[e]] : bodies_.world.fixed_position(e);
@@ -63,20 +44,60 @@ void ConstrainedMotion::forget_index(const std::vector<Entity>& members) const {
   for (const Entity i : members) group_.index.write(i) = ContactConstraint::fixed;
 }
 
+/// Whether body i follows a path that is not a parabola.
+bool ConstrainedMotion::follows(Entity i) const {
+  const Following& following = following_[i];
+  return following.path && following.version == bodies_.body[i].version;
+}
+
+/// m/s: that of its path at an instant of its flight.
+Vec3 ConstrainedMotion::velocity(Entity i, const Instant& at) const {
+  const Following& following = following_[i];
+  const double t = std::clamp(at - following.path->start, 0.0, following.path->motion->length());
+  return following.path->motion->velocity(following.place, t);
+}
+
+void ConstrainedMotion::settle(Entity i) {
+  if (follows(i)) flights_.correct(i, velocity(i, bodies_.now));
+}
+
+/// Counts a change of an island's contacts. Gives whether there are not too many in the time of a time step.
+bool ConstrainedMotion::count_change(Island& island) const {
+  double greatest = 0, smallest = never;  // m/s^2, m
+  for (const Entity i : island.members) {
+    greatest = std::max(greatest, bodies_.load_on(i));
+    smallest = std::min(smallest, bodies_.world.radius[i]);
+  }
+  if (greatest == 0 || island.changed == bodies_.now) return true;
+  if (bodies_.now - island.counted > tol::shortest_step * std::sqrt(2 * smallest / greatest)) {
+    island.counted = bodies_.now;
+    island.changes = 0;
+  }
+  island.changed = bodies_.now;
+  if (++island.changes <= tol::many_changes) return true;
+  island.busy = true;
+  island.changes = 0;
+  island.calm = 0;
+  island.calm_needed = island.calm_needed == 0 ? tol::calm_steps : 2 * island.calm_needed;
+  return false;
+}
+
 bool ConstrainedMotion::advance(Entity i) {
-  std::vector<Entity>& members = bodies_.islands.of(i).members;
-  if (members.size() > 2 * tol::most_pairs) return false;
-  std::sort(members.begin(), members.end());
+  Island& island = bodies_.islands.of(i);
+  std::sort(island.members.begin(), island.members.end());
+  const bool undisturbed = island.constrained && bodies_.now == island.planned;
+  if (!undisturbed && !count_change(island)) {
+    for (const Entity k : island.members) settle(k);
+    return false;
+  }
+  const std::vector<Entity> members = island.members;
   Step step = begin_step(members);
   find_contacts(step);
   const std::vector<std::uint32_t> part = parts_of(step);
-  std::vector<std::size_t> pairs(part.size(), 0);  // by part
-  for (const ContactConstraint& p : step.pairs) ++pairs[part[p.a]];
-  const bool fits = *std::max_element(pairs.begin(), pairs.end()) <= tol::most_pairs;
   forget_index(members);
-  if (!fits) return false;
   for (const Entity first : bodies_.islands.split(i, part)) {
     Step of_part = begin_step(bodies_.islands.of(first).members);
+    of_part.undisturbed = undisturbed;
     find_contacts(of_part);
     advance_whole(of_part);
   }
@@ -103,19 +124,15 @@ void ConstrainedMotion::advance_whole(Step& step) {
   close_overlaps(step);
   take_approaches(step);
   drop_parting(step);
-  for (ContactConstraint& p : step.pairs) p.force = p.target = 0;
-  step.a = accelerate(step, step.x, step.v);
-  for (const ContactConstraint& p : step.pairs) step.force.push_back(p.force);
-  stop_parting(step);
+  ConstrainedSystem system = find_forces(step);
   find_resting(step);
-  choose_length(step);
-  integrate(step);
+  choose_motion(step, system);
   note_contacts(step);
   forget_index(step.members);
   begin_flights(step);
 }
 
-/// Where members are and how fast: at the end of a step they have the integrated velocities, not the parabolas'.
+/// Where members are and how fast.
 ConstrainedMotion::Step ConstrainedMotion::begin_step(std::vector<Entity> members) const {
   const Islands& islands = bodies_.islands;
   Step step;
@@ -123,12 +140,16 @@ ConstrainedMotion::Step ConstrainedMotion::begin_step(std::vector<Entity> member
   for (const Entity i : step.members) {
     group_.index.write(i) = static_cast<std::uint32_t>(step.x.size());
     step.x.push_back(bodies_.position(i));
-    const bool constrained = bodies_.is_constrained(i);
-    const bool arrived =
-        constrained && bodies_.body[i].version == arrival_version_[i] && bodies_.now == arrival_time_[i];
-    Vec3 v = arrived ? arrival_v_[i] : bodies_.velocity(i);
-    if (!constrained && bodies_.now < islands.kicked_until[i])
+    Vec3 v = bodies_.velocity(i);
+    if (follows(i)) {
+      const Path& path = *following_[i].path;
+      const std::uint32_t place = following_[i].place;
+      const double t = bodies_.now - path.start;
+      step.x.back() = path.motion->start(place) + path.motion->displacement(place, t);
+      v = path.motion->velocity(place, t);
+    } else if (!bodies_.is_constrained(i) && bodies_.now < islands.kicked_until[i]) {
       v -= (islands.kicked_until[i] - bodies_.now) * islands.kick[i];
+    }
     step.v.push_back(v);
     step.inverse_mass.push_back(1 / bodies_.world.mass[i]);
     step.greatest = std::max(step.greatest, bodies_.load_on(i));
@@ -163,7 +184,7 @@ void ConstrainedMotion::find_contacts(Step& step) const {
 void ConstrainedMotion::close_overlaps(Step& step) const {
   bool overlap = false;
   for (std::size_t c = 0; c < step.pairs.size(); ++c)
-    overlap = overlap || step.pairs[c].target > tol::least_overlap * bodies_.world.radius[step.names[c].a];
+    overlap = overlap || step.pairs[c].target > tol::least_overlap * bodies_.world.radius[step.names[c].i];
   if (!overlap) return;
   std::vector<Vec3> displacement(step.x.size(), Vec3::Zero());  // m
   bodies_.log.note(solve({step.inverse_mass, displacement, step.pairs}));
@@ -190,7 +211,7 @@ void ConstrainedMotion::drop_parting(Step& step) const {
       std::sqrt(2 * step.greatest * tol::path_error * step.smallest) + tol::velocity_rounding * step.fastest;
   std::size_t kept = 0;
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const Vec3 w = rate(step.v, step.names[c].b) - step.v[step.pairs[c].a];
+    const Vec3 w = rate(step.v, step.names[c].e) - step.v[step.pairs[c].a];
     if (step.pairs[c].normal.dot(w) > parting) continue;
     step.pairs[kept] = step.pairs[c];
     step.names[kept++] = step.names[c];
@@ -199,38 +220,47 @@ void ConstrainedMotion::drop_parting(Step& step) const {
   step.names.resize(kept);
 }
 
-/// m/s^2, by member at x (m) and v (m/s): those nearest to the applied ones that keep pairs from nearing each other,
-/// n . (a_b - a_a) >= -bending. The forces are left in step.pairs.
-std::vector<Vec3> ConstrainedMotion::accelerate(Step& step, const std::vector<Vec3>& x,
-                                                const std::vector<Vec3>& v) const {
-  const World& world = bodies_.world;
-  std::vector<Vec3> a;
-  for (const Entity i : step.members) a.push_back(bodies_.applied[i]);
-  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const auto& [i, e, feature] = step.names[c];
-    ContactConstraint& pair = step.pairs[c];
-    if (is_flat(world, i, e, feature)) continue;
-    const Vec3 xe = at(x, e);
-    const Touch there = touch(world, i, x[pair.a], e, xe);
-    pair.normal = there.normal;
-    pair.target = -bending(world, i, x[pair.a], e, xe, there, rate(v, e) - v[pair.a]);
+/// The accelerations and forces at the step's start. Contacts on which nothing presses and that part are open: they
+/// are looked after until they are wide enough to meet again.
+ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
+  std::vector<Vec3> applied;
+  for (const Entity i : step.members) applied.push_back(bodies_.applied[i]);
+  ConstrainedSystem system(bodies_.world, step.members, std::move(applied));
+  for (std::size_t c = 0; c < step.pairs.size(); ++c)
+    system.add(step.names[c], step.pairs[c].a, step.pairs[c].b, step.pairs[c].normal);
+  step.a = system.accelerate(step.x, step.v);
+  for (std::size_t c = 0; c < step.pairs.size(); ++c) step.pairs[c].force = system.rows()[c].force;
+  if (stop_parting(step)) {
+    step.a = system.accelerate(step.x, step.v);
+    for (std::size_t c = 0; c < step.pairs.size(); ++c) step.pairs[c].force = system.rows()[c].force;
   }
-  bodies_.log.note(solve({step.inverse_mass, a, step.pairs}));
-  return a;
+  const ConstrainedSystem::Scales scales = system.scales(step.x, step.v);
+  std::vector<std::uint8_t> opens(step.pairs.size(), 0);
+  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
+    const ContactConstraint& p = step.pairs[c];
+    if (p.force > 0) continue;
+    const double parting = p.normal.dot(rate(step.v, step.names[c].e) - step.v[p.a]);
+    opens[c] = parting > tol::parting * scales.speed || system.gap_acceleration(c, step.a) > scales.opening;
+  }
+  system.open(opens);
+  bodies_.log.note(system.certificate());
+  return system;
 }
 
 /// What presses on does not part: the little speed that is left of parting goes too, and no pair comes to approach.
-void ConstrainedMotion::stop_parting(Step& step) const {
+/// Gives whether there was any.
+bool ConstrainedMotion::stop_parting(Step& step) const {
   std::vector<ContactConstraint> kept;
   bool parts = false;
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
     const ContactConstraint& p = step.pairs[c];
-    const double speed = p.normal.dot(rate(step.v, step.names[c].b) - step.v[p.a]);
+    const double speed = p.normal.dot(rate(step.v, step.names[c].e) - step.v[p.a]);
     parts = parts || (p.force > 0 && speed > tol::velocity_rounding * step.fastest);
     kept.push_back({p.a, p.b, p.normal});
     kept.back().bilateral = p.force > 0;
   }
   if (parts) bodies_.log.note(solve({step.inverse_mass, step.v, kept}));
+  return parts;
 }
 
 /// At rest are islands none of whose bodies moves or is accelerated.
@@ -254,53 +284,73 @@ void ConstrainedMotion::find_resting(Step& step) const {
   for (std::size_t k = 0; k < n; ++k) step.rests.push_back(!moves[island[k]]);
 }
 
-/// The step lasts as long as the parabolas are good, and not beyond when a body may leave the group.
-void ConstrainedMotion::choose_length(Step& step) const {
-  const double moment =  // s, in which hardly anything can happen
-      step.greatest > 0 ? tol::longest_constrained * std::sqrt(2 * step.smallest / step.greatest)
-                        : tol::short_time * step.smallest / at_least_tiny(step.fastest);
-  double h = 2 * (Instant{bodies_.options.duration, 0} - bodies_.now) + moment;  // beyond the end
-  for (std::size_t c = 0; c < step.pairs.size(); ++c)
-    if (!step.rests[step.pairs[c].a]) h = length_for(step, c, h, moment);
+/// s: a step is to end when a body may leave the group, and beyond the run's end otherwise.
+double ConstrainedMotion::longest(Step& step) const {
+  double h = 2 * (Instant{bodies_.options.duration, 0} - bodies_.now) +
+             (step.greatest > 0 ? tol::first_step * std::sqrt(step.smallest / step.greatest)
+                                : tol::first_step * step.smallest / at_least_tiny(step.fastest));
   step.grace = step.greatest > 0 ? 2 * bodies_.slow_speed(step.greatest, step.smallest) / step.greatest
                                  : tol::free_time * step.smallest / at_least_tiny(step.fastest);
   find_unbound(step);
   for (std::size_t k = 0; k < step.x.size(); ++k)
     if (leaves(step, k))
       h = std::min(h, std::max(step.grace - (bodies_.now - group_.needed[step.members[k]]), 0.25 * step.grace));
-  step.length = h;
+  return h;
 }
 
-/// s: the step, at most `length`, that a pair's curvature and rim allow.
-///
-/// The gap's third derivative is about 3 w . a / bend, its fourth 3 a . a / bend. A parabola through both ends leaves
-/// t^3 by 4/27 of h^3 at most and t^4 by 1/4 of h^4, so that h^3 might be 13.5 room / (w . a) and h^4 32 room / (a .
-/// a); steps are as short as the Runge-Kutta method asks for.
-double ConstrainedMotion::length_for(const Step& step, std::size_t pair, double length, double moment) const {
+/// Parabolas, for as long as they are the paths; or a step of the method.
+void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
+  const ConstrainedSystem::Scales scales = system.scales(step.x, step.v);
+  step.length = longest(step);
+  const bool all_rest = std::find(step.rests.begin(), step.rests.end(), 0) == step.rests.end();
+  const double straight = all_rest ? step.length : system.straight_time(step.v, step.a);
+  if (straight >= std::min(step.length, scales.time())) {
+    step.length = std::min(step.length, straight);
+    for (std::size_t c = 0; c < step.pairs.size(); ++c)
+      if (!step.rests[step.pairs[c].a])
+        step.length = std::min({step.length, rim_time(step, c, step.length), away_time(step, c)});
+    return;
+  }
+  if (!step.undisturbed) {
+    step.length = std::min(step.length, tol::moment * scales.time());
+    return;
+  }
+  Island& island = bodies_.islands.of(step.members.front());
+  ConstrainedSystem::Followed followed = system.follow(step.x, step.v, step.a, island.next_length, step.length);
+  step.length = followed.motion->length();
+  island.next_length = followed.next;
+  if (followed.changes) count_change(island);
+  step.path = std::make_shared<Path>(Path{bodies_.now, std::move(followed.motion)});
+}
+
+/// s: when the pair comes over its feature's rim, on parabolas: along a rim, not over it, but for rounding. Beyond it
+/// the surface bends otherwise: a step goes no farther over it than makes no difference.
+double ConstrainedMotion::rim_time(const Step& step, std::size_t pair, double length) const {
   const World& world = bodies_.world;
   const auto& [i, e, feature] = step.names[pair];
   const std::uint32_t k = step.pairs[pair].a;
   const Vec3 w = rate(step.v, e) - step.v[k], a = rate(step.a, e) - step.a[k];
-  const double smaller = world.is_body(e) ? std::min(world.radius[i], world.radius[e]) : world.radius[i];
-  const bool flat = is_flat(world, i, e, feature);
-  // Along a rim, not over it, but for rounding.
   RelativeMotion m{at(step.x, e) - step.x[k], w, a, w.norm(), true};
   const double speeds = step.v[k].norm() + rate(step.v, e).norm();
   for (int axis = 0; axis < 3; ++axis) {
     if (std::abs(w[axis]) <= tol::velocity_rounding * speeds) m.w[axis] = 0;
     if (std::abs(a[axis]) <= tol::velocity_rounding * step.greatest) m.a[axis] = 0;
   }
-  // Beyond the feature's rim the surface bends otherwise: a step goes no farther over it than makes no difference.
-  const double bend = flat ? smaller : bend_radius(world, i, e), room = tol::path_error * smaller * bend;
-  const double over = flat ? tol::rim_time * moment : std::sqrt(2 * room) / at_least_tiny(w.norm());
-  double h = std::min(length, std::max(leave_feature(world, i, e, feature, m, length).time, over));
-  if (flat) return h;
-  const double bent = m.a.norm() + m.w.squaredNorm() / bend;
-  if (bent == 0) return h;
-  h = std::min(h, moment);
-  h = std::min(h, std::sqrt(std::sqrt(8 * room) / bent));
-  if (w.norm() > 0) h = std::min(h, cube_root(2 * room / (w.norm() * bent)));
-  return h;
+  const double over = std::sqrt(2 * tol::step_error) * step.smallest / at_least_tiny(w.norm());
+  return std::max(leave_feature(world, i, e, feature, m, length).time, over);
+}
+
+/// s: when a pair that parts, or is about to, is so far apart that it may meet again.
+double ConstrainedMotion::away_time(const Step& step, std::size_t pair) const {
+  const ContactConstraint& p = step.pairs[pair];
+  if (p.force > 0) return never;
+  const Entity e = step.names[pair].e;
+  const double u = p.normal.dot(rate(step.v, e) - step.v[p.a]), w = p.normal.dot(rate(step.a, e) - step.a[p.a]);
+  const double far = 4 * tol::contact_gap * std::max(bodies_.world.radius[step.names[pair].i], step.smallest);  // m
+  double t = never;
+  if (u > 0) t = std::min(t, far / u);
+  if (w > 0) t = std::min(t, std::sqrt(2 * far / w));
+  return t;
 }
 
 /// What each member is pressed on by: flat surfaces alone, which it can rest on without the group, or something else.
@@ -313,7 +363,7 @@ void ConstrainedMotion::find_unbound(Step& step) const {
   step.down.assign(n, Vec3::Zero());
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
     const ContactConstraint& p = step.pairs[c];
-    if (!(step.force[c] > 0)) continue;
+    if (!(p.force > 0)) continue;
     const auto& [i, e, feature] = step.names[c];
     step.held[p.a] = 1;
     FlatContactList& flats = step.flats[p.a];
@@ -336,39 +386,6 @@ bool ConstrainedMotion::leaves(const Step& step, std::size_t k) const {
   return !step.bound[k] && !(step.held[k] && step.rests[k]);
 }
 
-/// x'' = accelerate(x, x') by the classical Runge-Kutta method: the mean acceleration that leads to the end positions,
-/// and the end velocities.
-void ConstrainedMotion::integrate(Step& step) const {
-  const std::size_t n = step.x.size();
-  const double h = step.length;
-  const std::vector<Vec3>&x = step.x, &v = step.v, &a0 = step.a;
-  step.path_a = a0;
-  step.end_v = v;
-  for (std::size_t k = 0; k < n; ++k) step.end_v[k] += h * a0[k];
-  const bool all_rest = std::find(step.rests.begin(), step.rests.end(), 0) == step.rests.end();
-  if (all_rest || step.pairs.empty()) return;
-  std::vector<Vec3> where(n), speed(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    where[k] = x[k] + 0.5 * h * v[k];
-    speed[k] = v[k] + 0.5 * h * a0[k];
-  }
-  const std::vector<Vec3> a1 = accelerate(step, where, speed);
-  for (std::size_t k = 0; k < n; ++k) {
-    where[k] = x[k] + 0.5 * h * (v[k] + 0.5 * h * a0[k]);
-    speed[k] = v[k] + 0.5 * h * a1[k];
-  }
-  const std::vector<Vec3> a2 = accelerate(step, where, speed);
-  for (std::size_t k = 0; k < n; ++k) {
-    where[k] = x[k] + h * (v[k] + 0.5 * h * a1[k]);
-    speed[k] = v[k] + h * a2[k];
-  }
-  const std::vector<Vec3> a3 = accelerate(step, where, speed);
-  for (std::size_t k = 0; k < n; ++k) {
-    step.path_a[k] = (a0[k] + a1[k] + a2[k]) / 3;
-    step.end_v[k] = v[k] + h / 6 * (a0[k] + 2 * a1[k] + 2 * a2[k] + a3[k]);
-  }
-}
-
 void ConstrainedMotion::note_contacts(const Step& step) {
   for (const Entity i : step.members) {
     group_.partners.write(i).clear();
@@ -378,20 +395,19 @@ void ConstrainedMotion::note_contacts(const Step& step) {
     const auto& [i, e, feature] = step.names[c];
     group_.partners.write(i).push_back(e);
     if (bodies_.world.is_body(e)) group_.partners.write(e).push_back(i);
-    if (step.force[c] > 0) group_.pressing.write(i).push_back({e, step.force[c]});
+    if (step.pairs[c].force > 0) group_.pressing.write(i).push_back({e, step.pairs[c].force});
   }
 }
 
 /// The members' flights until the step's end.
 void ConstrainedMotion::begin_flights(const Step& step) {
   Island& island = bodies_.islands.of(step.members.front());
-  island.constrained = false;  // until all flights are new
   island.fresh = false;
-  island.end = bodies_.now + step.length;
+  island.constrained = true;
+  island.end = island.planned = bodies_.now + step.length;
   std::vector<Entity> stay;
   for (std::size_t k = 0; k < step.members.size(); ++k)
     if (begin_flight(step, k, step.members[k])) stay.push_back(step.members[k]);
-  island.constrained = true;
   bodies_.islands.retain(step.members.front(), std::move(stay));
   for (const Entity i : step.members) predictor_.predict(i);
 }
@@ -419,12 +435,52 @@ bool ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) 
   // What it has struck just now it has still just struck, if nothing has changed since.
   const Flight f = bodies_.flights[i];
   const bool same = f.start == bodies_.now && x == f.x && v == before;
-  flights_.begin(i, x, v, same ? bodies_.body[i].origin() : FlightOrigin{});
-  bodies_.flights.accelerate(i, step.path_a[k]);
-  arrival_v_.write(i) = step.end_v[k];
-  arrival_version_.write(i) = bodies_.body[i].version;
-  arrival_time_.write(i) = bodies_.islands.of(i).end;
+  flights_.go_on(i, x, v, same ? bodies_.body[i].origin() : FlightOrigin{});
+  bodies_.islands.piece_end.write(i) = {never, 0};
+  following_.write(i).path = step.path;
+  if (step.path) {
+    following_.write(i).place = static_cast<std::uint32_t>(k);
+    begin_piece(i);
+  } else {
+    bodies_.flights.accelerate(i, step.a[k]);
+  }
   return true;
+}
+
+/// From now on body i flies along the parabola through two points of its path, and begins with the path's velocity:
+/// between them it is off by 4/27 of the third power of its length at most.
+void ConstrainedMotion::begin_piece(Entity i) {
+  Following& following = following_.write(i);
+  const DormandPrince& motion = *following.path->motion;
+  const std::uint32_t k = following.place;
+  const double from = bodies_.now - following.path->start, rest = motion.length() - from;
+  const double room = tol::path_error * bodies_.world.radius[i];
+  const Vec3 start = motion.displacement(k, from), v = motion.velocity(k, from);
+  const auto at_most = [rest](double h) { return h >= rest ? rest : std::min(h, 0.5 * rest); };  // the last is not short
+  double h = at_most(following.piece > 0 ? 2 * following.piece : tol::moment * motion.length());
+  Vec3 a;
+  for (;;) {
+    a = 2 / (h * h) * (motion.displacement(k, from + h) - start - h * v);
+    const double t = 2 * h / 3;
+    const double off = (motion.displacement(k, from + t) - start - t * (v + (0.5 * t) * a)).norm();
+    if (off <= room || h <= tol::moment * motion.length()) break;
+    h = at_most(h * std::clamp(0.9 * cube_root(room / off), 0.1, 0.9));
+  }
+  following.version = bodies_.body[i].version;
+  following.piece = h;
+  bodies_.flights.accelerate(i, a);
+  bodies_.islands.piece_end.write(i) = h < rest ? bodies_.now + h : Instant{never, 0};
+}
+
+void ConstrainedMotion::go_on(Entity i) {
+  const Path& path = *following_[i].path;
+  const std::uint32_t k = following_[i].place;
+  const Vec3 x = path.motion->start(k) + path.motion->displacement(k, bodies_.now - path.start);
+  const Vec3 v = velocity(i, bodies_.now), before = bodies_.velocity(i);
+  bodies_.log.lose(0.5 * bodies_.world.mass[i] * (before - v).dot(before + v));
+  flights_.go_on(i, x, v, {});
+  begin_piece(i);
+  predictor_.predict(i);
 }
 
 void ConstrainedMotion::report(const Island& island, double time, std::vector<ContactForce>& forces) const {
@@ -436,7 +492,7 @@ void ConstrainedMotion::report(const Island& island, double time, std::vector<Co
     const double t = now - bodies_.flights[i].start;
     group_.index.write(i) = static_cast<std::uint32_t>(x.size());
     x.push_back(bodies_.flights[i].position(t));
-    v.push_back(bodies_.flights[i].velocity(t));
+    v.push_back(follows(i) ? velocity(i, now) : bodies_.flights[i].velocity(t));
     a.push_back(bodies_.applied[i]);
     inverse_mass.push_back(1 / world.mass[i]);
   }

@@ -1,13 +1,15 @@
 #pragma once
-// Constrained motion of a small island: bodies that press on one another keep to each other's surfaces, with
-// forces from the complementarity conditions (0 <= force, 0 <= the gap's second derivative, one of them zero; the
-// surfaces' curvature in it). Their paths are integrated by the classical Runge-Kutta method of fourth order. Between
-// its steps a path is the parabola through both ends, which leaves the true one by less than `path_error` of a radius:
-// steps are as short as that asks for. Where all contacts are flat the parabola is the path, and a step lasts until a
-// contact comes to its rim. All bodies take part in impacts as everywhere else, only the pairs in contact do not.
+// Constrained motion of an island: bodies that press on one another keep to each other's surfaces. Where all contacts
+// are flat, or nothing slides, paths are parabolas, and a step lasts until a contact comes to its rim. Where surfaces
+// are curved a method of order 8 follows the motion (constrained_system.h), step by step; in each step a body flies
+// along parabolas that leave its path by less than `path_error` of a radius. All bodies take part in impacts as
+// everywhere else, only the pairs in contact do not. After a change the first step is a moment, too short for anything
+// but impacts at the same place; so many of them cost one step.
+#include <memory>
 #include <vector>
 
 #include "physics/contact_problem.h"
+#include "simulate/constrained_system.h"
 #include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
 #include "simulate/flight_changes.h"
@@ -19,38 +21,54 @@ class ConstrainedMotion {
   ConstrainedMotion(ExactBodies& bodies, ExactGroup& group, FlatContacts& flat, CollapseDetector& collapses,
                     FlightChanges& flights, EventPredictor& predictor);
 
-  /// Takes the next step of member i's island, or of the parts that it has come into. False: one of these has too many
-  /// contacts; nothing has changed.
+  /// Takes the next step of member i's island, or of the parts that it has come into. False: its contacts change too
+  /// often; nothing else has changed.
   bool advance(Entity i);
+
+  /// The next parabola of body i's path, from now on.
+  void go_on(Entity i);
+  /// Gives body i the velocity of its path, from now on. Its events stay as they are.
+  void settle(Entity i);
 
   /// Appends the forces in an island at `time` (s): between two steps they change, and may turn to zero.
   void report(const Island& island, double time, std::vector<ContactForce>& forces) const;
 
  private:
-  struct PairName {
-    Entity a, b;
-    std::uint8_t feature;
+  /// The path of an island's bodies in a step.
+  struct Path {
+    Instant start;
+    std::unique_ptr<DormandPrince> motion;
+  };
+  /// What a body follows, if it is still on this flight.
+  struct Following {
+    std::shared_ptr<const Path> path;
+    std::uint32_t place = 0;    // in the path
+    std::uint16_t version = 0;  // of the flight
+    double piece = 0;           // s, the last parabola's length
   };
 
   /// A step, in numbers of its own.
   struct Step {
-    std::vector<Entity> members;            // ascending
+    std::vector<Entity> members;           // ascending
     double greatest = 0, smallest = never;  // m/s^2, the greatest acceleration; m, the least radius
-    std::vector<Vec3> x, v;                 // m, m/s, by member
-    std::vector<double> inverse_mass;       // 1/kg
-    std::vector<ContactConstraint> pairs;   // in contact,
-    std::vector<PairName> names;            // and their names
-    std::vector<double> force;              // N, by pair, at the step's start
-    std::vector<Vec3> a;                    // m/s^2, at the step's start
-    double fastest = 0;                     // m/s
-    std::vector<std::uint8_t> rests;        // by member
+    std::vector<Vec3> x, v;                // m, m/s, by member
+    std::vector<double> inverse_mass;      // 1/kg
+    std::vector<ContactConstraint> pairs;  // in contact; force: N, at the step's start
+    std::vector<Contact> names;            // their names
+    std::vector<Vec3> a;                   // m/s^2, at the step's start
+    double fastest = 0;                    // m/s
+    std::vector<std::uint8_t> rests;       // by member
     std::vector<std::uint8_t> held, bound;  // by member: something presses on it; something that is not flat does
-    std::vector<FlatContactList> flats;     // by member: what it rests on if it leaves the group
-    std::vector<Vec3> down;                 // m, closes what is left of the gaps to these
-    double length = 0, grace = 0;           // s; grace: a body that nothing binds stays for it, to fall back
-    std::vector<Vec3> path_a, end_v;        // m/s^2, m/s: the parabolas, and the velocities at the step's end
+    std::vector<FlatContactList> flats;    // by member: what it rests on if it leaves the group
+    std::vector<Vec3> down;                // m, closes what is left of the gaps to these
+    double length = 0, grace = 0;          // s; grace: a body that nothing binds stays for it, to fall back
+    std::shared_ptr<Path> path;            // or none: parabolas
+    bool undisturbed = false;              // the step before has come to its end
   };
 
+  bool follows(Entity i) const;
+  Vec3 velocity(Entity i, const Instant& at) const;
+  bool count_change(Island& island) const;
   Step begin_step(std::vector<Entity> members) const;
   std::vector<std::uint32_t> parts_of(const Step& step) const;
   void advance_whole(Step& step);
@@ -58,17 +76,19 @@ class ConstrainedMotion {
   void close_overlaps(Step& step) const;
   void take_approaches(Step& step);
   void drop_parting(Step& step) const;
-  std::vector<Vec3> accelerate(Step& step, const std::vector<Vec3>& x, const std::vector<Vec3>& v) const;
-  void stop_parting(Step& step) const;
+  ConstrainedSystem find_forces(Step& step) const;
+  bool stop_parting(Step& step) const;
   void find_resting(Step& step) const;
-  void choose_length(Step& step) const;
-  double length_for(const Step& step, std::size_t pair, double length, double moment) const;
+  double longest(Step& step) const;
+  void choose_motion(Step& step, ConstrainedSystem& system);
+  double rim_time(const Step& step, std::size_t pair, double length) const;
+  double away_time(const Step& step, std::size_t pair) const;
   void find_unbound(Step& step) const;
   bool leaves(const Step& step, std::size_t k) const;
-  void integrate(Step& step) const;
   void note_contacts(const Step& step);
   void begin_flights(const Step& step);
   bool begin_flight(const Step& step, std::size_t k, Entity i);
+  void begin_piece(Entity i);
   void forget_index(const std::vector<Entity>& members) const;
 
   Vec3 at(const std::vector<Vec3>& x, Entity e) const;  // m, of a member or a fixed thing
@@ -81,9 +101,7 @@ class ConstrainedMotion {
   CollapseDetector& collapses_;
   FlightChanges& flights_;
   EventPredictor& predictor_;
-  LazyArray<Instant> arrival_time_;           // by body: when the step ends if nothing happens before,
-  LazyArray<Vec3> arrival_v_;                 // m/s, its velocity then,
-  LazyArray<std::uint16_t> arrival_version_;  // if it is still on this flight
+  LazyArray<Following> following_;  // by body
 };
 
 }  // namespace carom

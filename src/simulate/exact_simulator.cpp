@@ -112,6 +112,8 @@ void ExactSimulator::process(Entity i) {
   bodies_.neighbours.prefetch_list(i);
   if (event.kind == Kind::body_body) bodies_.neighbours.prefetch_list(event.partner);
   if (bodies_.now < event.time) bodies_.now = event.time;
+  if (event.kind != Kind::step) constrained_.settle(i);
+  if (event.kind == Kind::body_body) constrained_.settle(event.partner);
   switch (event.kind) {
     case Kind::body_body:
       if (bodies_.body[event.partner].version == event.partner_version)
@@ -135,6 +137,8 @@ void ExactSimulator::process(Entity i) {
     case Kind::step:
       if (bodies_.in_group(i) && event.time == bodies_.islands.of(i).end)
         step_island(i);
+      else if (bodies_.is_constrained(i) && event.time == bodies_.islands.piece_end[i])
+        constrained_.go_on(i);
       else
         predictor_.predict(i);  // there has been a step since
       break;
@@ -177,7 +181,7 @@ void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
 /// The next step of body i's island.
 void ExactSimulator::step_island(Entity i) {
   for (const Entity k : bodies_.islands.of(i).members) paths_.note_change(k);
-  if (!constrained_.advance(i)) stepping_.advance(i);
+  if (bodies_.islands.of(i).busy || !constrained_.advance(i)) stepping_.advance(i);
 }
 
 Effort ExactSimulator::effort() const {

@@ -8,6 +8,11 @@
 namespace carom {
 
 void FlightChanges::begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin) {
+  go_on(i, x, v, origin);
+  if (bodies_.is_constrained(i)) bodies_.islands.of(i).end = std::min(bodies_.islands.of(i).end, bodies_.now);
+}
+
+void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin) {
   paths_.note_change(i);
   const double speed = v.norm();
   hold_to(bodies_.bounds, i, bodies_.now.hi, x, v, ExactBodies::too_fast);
@@ -26,7 +31,15 @@ void FlightChanges::begin(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   body.set_origin(origin);
   bodies_.neighbours.turned(i);
   count(i);
-  if (bodies_.is_constrained(i)) bodies_.islands.of(i).end = std::min(bodies_.islands.of(i).end, bodies_.now);
+}
+
+void FlightChanges::correct(Entity i, const Vec3& v) {
+  const Vec3 x = bodies_.position(i), before = bodies_.velocity(i);
+  if (v == before) return;
+  paths_.note_change(i);
+  bodies_.log.lose(0.5 * bodies_.world.mass[i] * (before - v).dot(before + v));
+  book(i, x);
+  bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
 }
 
 /// When its count of flights begins anew, old events must not look fresh.

@@ -11,8 +11,12 @@ class FlightChanges {
   FlightChanges(ExactBodies& bodies, FlatContacts& flat, PathLog& paths)
       : bodies_(bodies), flat_(flat), paths_(paths) {}
 
-  /// Begins a new flight of body i, now, at x (m) with velocity v (m/s).
+  /// Begins a new flight of body i, now, at x (m) with velocity v (m/s). A step of constrained motion ends with it.
   void begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
+  /// The same within such a step.
+  void go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
+  /// Body i's flight goes on from now with velocity v (m/s), which it ought to have had. Its events stay.
+  void correct(Entity i, const Vec3& v);
   /// Books what forces did to body i on the flight that ends at x (m): the World's, and contact forces against them.
   void book(Entity i, const Vec3& x);
   /// Books all flights up to `time` (s), the run's end; only once. Between collisions a speed is greatest at a flight's

@@ -40,6 +40,12 @@ void Islands::merge(Entity a, Entity b, const Instant& now) {
   one.end = goes_on ? (one.fresh ? other.end : one.end) : now;
   one.constrained = (one.constrained || one.fresh) && (other.constrained || other.fresh) && !(one.fresh && other.fresh);
   one.fresh = one.fresh && other.fresh;
+  one.busy = one.busy || other.busy;
+  one.planned = {never, 0};
+  one.next_length = std::min(one.next_length, other.next_length);
+  one.changes = std::max(one.changes, other.changes);
+  one.calm = 0;
+  one.calm_needed = std::max(one.calm_needed, other.calm_needed);
   one.step_length = std::max(one.step_length, other.step_length);
   one.impact_pairs += other.impact_pairs;
   one.short_steps = std::max(one.short_steps, other.short_steps);

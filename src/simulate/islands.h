@@ -20,17 +20,26 @@ struct Island {
   Instant end{never, 0};          // when the next step is due
   bool fresh = true;              // has taken no step yet
   bool constrained = false;       // moves by constrained motion (constrained_motion.h), else by time stepping
-  double step_length = 0;         // s, of the last step
+  bool busy = false;              // its contacts change too often for constrained motion
+  Instant planned{never, 0};      // constrained: when the step ends if nothing happens before
+  double next_length = 0;         // s, a good length for the next step of constrained motion
+  Instant counted, changed;       // since when, and when at last, contacts have changed
+  std::uint32_t changes = 0;      // so often
+  std::uint32_t calm = 0;         // time steps on end in which the same pairs pressed
+  std::uint32_t calm_needed = 0;  // so many, and it is busy no more
+  std::uint64_t pressing = 0;     // a hash of those pairs
+  double step_length = 0;         // s, of the last time step
   std::size_t impact_pairs = 0;   // that simultaneous impacts have solved for since then
   std::uint32_t short_steps = 0;  // time steps on end that simultaneous impacts ended at once
 };
 
 class Islands {
  public:
-  explicit Islands(Entity bodies) : kicked_until(bodies), kick(bodies, Vec3::Zero()), island_(bodies, none) {}
+  explicit Islands(Entity bodies) : kicked_until(bodies), kick(bodies, Vec3::Zero()), piece_end(bodies, Instant{never, 0}), island_(bodies, none) {}
 
   LazyArray<Instant> kicked_until;  // by member, in time stepping: forces are in its velocity up to this instant,
   LazyArray<Vec3> kick;             // m/s^2, this on average, from the start
+  LazyArray<Instant> piece_end;     // by member, in constrained motion: when its flight is to follow its path anew
 
   /// That of a member. References stay valid until it is merged with another one.
   Island& of(Entity i) { return islands_[island_[i]]; }

@@ -275,6 +275,14 @@ void TimeStepping::put_to_rest(Step& step) const {
   const Holding holding = hold(step, still);
   for (std::uint32_t k = 0; k < n; ++k)
     if (!(holding.a[k].norm() <= tol::balance * step.greatest)) still[step.island[k]] = 0;
+  // What rests on a sleeping body wakes it first: they are in balance together, or not at all.
+  for (std::size_t c = 0; c < holding.pairs.size(); ++c) {
+    const Entity e = step.names[holding.which[c]].second;
+    if (holding.pairs[c].force > 0 && bodies_.world.is_body(e) && holding.pairs[c].b == ContactConstraint::fixed) {
+      still[step.island[holding.pairs[c].a]] = 0;
+      step.pairs[holding.which[c]].force = std::max(step.pairs[holding.which[c]].force, step.length * holding.pairs[c].force);
+    }
+  }
   for (std::uint32_t k = 0; k < n; ++k) step.rests[k] = still[step.island[k]];
   for (ContactConstraint& p : step.pairs)
     if (step.rests[p.a]) p.force = 0;
@@ -295,6 +303,7 @@ void TimeStepping::begin_flights(const Step& step) {
   island.short_steps = step.short_steps;
   island.impact_pairs = 0;
   island.end = bodies_.now + h;
+  count_calm(step, island);
   for (const Entity i : step.members) group_.partners.write(i).clear();
   std::vector<Entity> stay;
   for (std::size_t k = 0; k < step.members.size(); ++k)
@@ -311,6 +320,21 @@ void TimeStepping::begin_flights(const Step& step) {
   }
   for (const Entity i : step.members) group_.index.write(i) = ContactConstraint::fixed;
   for (const Entity i : step.members) predictor_.predict(i);
+}
+
+/// Steps in which the same pairs press: after some of them constrained motion can follow the island again.
+void TimeStepping::count_calm(const Step& step, Island& island) {
+  std::uint64_t hash = 0;
+  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
+    if (!(step.pairs[c].force > 0)) continue;
+    const auto [i, e] = step.names[c];
+    hash += (std::uint64_t{i} << 32 | e) * 0x9e3779b97f4a7c15u;
+  }
+  island.calm = hash == island.pressing ? island.calm + 1 : 0;
+  island.pressing = hash;
+  if (island.calm < island.calm_needed) return;
+  island.busy = false;
+  island.calm = 0;
 }
 
 /// Those that have stayed and that no pair connects any more are islands of their own.

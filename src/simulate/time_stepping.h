@@ -69,6 +69,7 @@ class TimeStepping {
   std::vector<std::uint8_t> stop_slow(Step& step) const;
   Holding hold(const Step& step, const std::vector<std::uint8_t>& still) const;
   void begin_flights(const Step& step);
+  static void count_calm(const Step& step, Island& island);
   void split(const Step& step);
   bool begin_flight(const Step& step, std::size_t k, Entity i);
 

@@ -46,14 +46,20 @@ inline constexpr double open_margin = 0.5;            // of the widest margin: w
 inline constexpr std::size_t pairs_of_a_step = 16;    // by member: solving for so many costs as much as a step
 
 // Constrained motion (constrained_motion.h).
-inline constexpr std::size_t most_pairs = 16;        // [* 5e-2] in contact; a larger group moves by time stepping
 inline constexpr double contact_gap = 1e-9;          // [5e-16 4e-16] of a radius: a gap that counts as contact
 inline constexpr double contact_rounding = 0x1p-51;  // of coordinates: the same
 inline constexpr double least_overlap = 0x1p-50;     // [5e-15 2e-14] of a radius: a deeper overlap is closed
-inline constexpr double path_error = 1e-11;          // [1e-7 6e-8] of a radius: a parabola's distance from the path
-inline constexpr double longest_constrained = 0.02;  // [2e-9 1e-9] of the time of falling by a radius: a step
-inline constexpr double short_time = 1e-3;  // of a radius over the greatest speed: the same, where nothing falls
-inline constexpr double rim_time = 1e-7;    // of the longest step: that a body may go beyond a flat face's rim
+inline constexpr double path_error = 1e-11;  // of a radius: a parabola's distance from the path
+inline constexpr double step_error = 1e-12;  // of the least radius, and of speeds: a step's error
+inline constexpr double first_step = 0.05;   // of the time in which bodies move by a radius: the first step
+inline constexpr double moment = 0x1p-22;    // of that time: nothing happens in it but impacts at one place
+inline constexpr double time_precision = 0x1p-40;  // of a step: to which the time of a change is found
+inline constexpr double opening = 1e-12;     // of the greatest acceleration: of a gap, that is more than rounding,
+inline constexpr double opened = 10;         // so often: the contact has opened,
+inline constexpr double wide_open = 1000;    // at last
+inline constexpr double parting = 16e-12;    // of speeds: that of a contact on which nothing presses, and which opens
+inline constexpr std::uint32_t many_changes = 64;  // of contacts in the time of a time step: then it moves by those
+inline constexpr std::uint32_t calm_steps = 8;     // time steps in which no contact changes: then it moves by them no more
 inline constexpr double constrained_balance = 1e-11;  // of the greatest acceleration: forces in balance
 inline constexpr double velocity_change = 0x1p-40;    // of a speed: a contact has changed it
 inline constexpr double free_time = 1e-6;             // of a radius over the greatest speed: to come back in, unloaded

@@ -1,0 +1,282 @@
+#include "simulate/constrained_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "physics/cube_root.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+namespace tol = exact_tolerance;
+
+namespace {
+
+constexpr int samples = 6;  // of a step, at which rims and opened contacts are looked at
+
+/// m, with what radius at least the Minkowski sum of two volumes is bent where it is round: a cylinder's rim is sharp,
+/// a sphere makes it as round as itself.
+double bend_radius(const World& world, Entity i, Entity e) {
+  const auto round = [&](Shape shape) {
+    double sum = 0;
+    for (const Entity k : {i, e}) {
+      if (world.is_plane(k) || world.is_wall(k)) continue;
+      const Volume volume = world.volume_of(k);
+      if (volume.shape == shape) sum += volume.half.x();
+    }
+    return sum;
+  };
+  if (const double r = round(Shape::sphere); r > 0) return r;
+  if (const double r = round(Shape::cylinder); r > 0) return r;
+  return world.radius[i];
+}
+
+double smaller_radius(const World& world, const Contact& c) {
+  return world.is_body(c.e) ? std::min(world.radius[c.i], world.radius[c.e]) : world.radius[c.i];
+}
+
+Vec3 relative(const std::vector<Vec3>& v, const ContactConstraint& p) {
+  return (p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : v[p.b]) - v[p.a];
+}
+
+double greatest_norm(const std::vector<Vec3>& v) {
+  double greatest = 0;
+  for (const Vec3& of : v) greatest = std::max(greatest, of.norm());
+  return greatest;
+}
+
+}  // namespace
+
+ConstrainedSystem::ConstrainedSystem(const World& world, std::vector<Entity> members, std::vector<Vec3> applied)
+    : world_(world), members_(std::move(members)), applied_(std::move(applied)) {
+  for (const Entity i : members_) inverse_mass_.push_back(1 / world.mass[i]);
+}
+
+void ConstrainedSystem::add(const Contact& contact, std::uint32_t a, std::uint32_t b, const Vec3& normal) {
+  closed_.push_back(contact);
+  rows_.push_back({a, b, normal});
+}
+
+void ConstrainedSystem::open(const std::vector<std::uint8_t>& which) {
+  std::size_t kept = 0;
+  for (std::size_t c = 0; c < closed_.size(); ++c) {
+    if (which[c]) {
+      opened_.push_back(closed_[c]);
+      opened_rows_.push_back(rows_[c]);
+    } else {
+      closed_[kept] = closed_[c];
+      rows_[kept++] = rows_[c];
+    }
+  }
+  closed_.resize(kept);
+  rows_.resize(kept);
+}
+
+Vec3 ConstrainedSystem::place_of(const std::vector<Vec3>& x, std::uint32_t b, Entity e) const {
+  return b == ContactConstraint::fixed ? world_.fixed_position(e) : x[b];
+}
+
+std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                                std::vector<ContactConstraint>& rows, Certificate& certificate) const {
+  std::vector<Vec3> a = applied_;
+  for (std::size_t c = 0; c < rows.size(); ++c) {
+    const auto& [i, e, feature] = closed_[c];
+    if (is_flat(world_, i, e, feature)) continue;
+    ContactConstraint& row = rows[c];
+    const Vec3 xe = place_of(x, row.b, e);
+    const Touch there = touch(world_, i, x[row.a], e, xe);
+    row.normal = there.normal;
+    row.target = -bending(world_, i, x[row.a], e, xe, there, relative(v, row));
+  }
+  certificate.merge(solve({inverse_mass_, a, rows}));
+  return a;
+}
+
+std::vector<Vec3> ConstrainedSystem::accelerate(const std::vector<Vec3>& x, const std::vector<Vec3>& v) {
+  return solve_rows(x, v, rows_, certificate_);
+}
+
+double ConstrainedSystem::gap_acceleration(std::size_t c, const std::vector<Vec3>& a) const {
+  return rows_[c].normal.dot(relative(a, rows_[c])) - rows_[c].target;
+}
+
+ConstrainedSystem::Scales ConstrainedSystem::scales(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const {
+  Scales s;
+  double farthest = 0;
+  for (const Entity i : members_) s.length = std::min(s.length, world_.radius[i]);
+  for (const Vec3& at : x) farthest = std::max(farthest, at.cwiseAbs().maxCoeff());
+  s.acceleration = greatest_norm(applied_);
+  for (const ContactConstraint& row : rows_) s.acceleration = std::max(s.acceleration, std::abs(row.target));
+  s.speed = std::max(greatest_norm(v), std::sqrt(s.acceleration * s.length));
+  s.opening = s.acceleration * std::max(tol::opening, tol::contact_rounding * farthest / s.length);
+  return s;
+}
+
+/// For as long as parabolas keep to closed contacts, and open ones cannot come back unseen.
+///
+/// The gap's third derivative is about 3 w . a / bend, its fourth 3 a . a / bend: so much leaves the parabola by less
+/// than the method's error.
+double ConstrainedSystem::straight_time(const std::vector<Vec3>& v, const std::vector<Vec3>& a) const {
+  double h = never;
+  const auto keep = [&](const std::vector<Contact>& contacts, const std::vector<ContactConstraint>& rows) {
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const auto& [i, e, feature] = contacts[c];
+      if (is_flat(world_, i, e, feature)) continue;
+      const double bend = bend_radius(world_, i, e), room = tol::step_error * smaller_radius(world_, contacts[c]) * bend;
+      const double w = relative(v, rows[c]).norm(), bent = relative(a, rows[c]).norm() + w * w / bend;
+      if (bent > 0) h = std::min(h, std::sqrt(std::sqrt(8 * room) / bent));
+      if (w * bent > 0) h = std::min(h, cube_root(2 * room / (w * bent)));
+    }
+  };
+  keep(closed_, rows_);
+  keep(opened_, opened_rows_);
+  return h;
+}
+
+ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                                      const std::vector<Vec3>& a, double first, double longest) {
+  scales_ = scales(x, v);
+  // What presses keeps to its surface, and would pull rather than part: so the motion is smooth beyond an opening too.
+  std::vector<ContactConstraint> rows = rows_;
+  for (ContactConstraint& row : rows) row.bilateral = row.force > 0;
+  const auto smooth = [&](const std::vector<Vec3>& at, const std::vector<Vec3>& speed) {
+    Certificate of_stage;
+    return solve_rows(at, speed, rows, of_stage);
+  };
+  Followed followed;
+  followed.motion = std::make_unique<DormandPrince>(x, v, a);
+  DormandPrince& motion = *followed.motion;
+  const auto step = [&](double h) {
+    return motion.step(h, smooth, tol::step_error * scales_.length, tol::step_error * scales_.speed);
+  };
+  double h = std::min(first > 0 ? first : tol::first_step * scales_.time(), longest);
+  for (;;) {
+    const double error = step(h);
+    followed.next = DormandPrince::next_length(h, error);
+    if (error <= 1) break;
+    h = followed.next;
+  }
+  motion.interpolate(smooth);
+  const double change = first_change(motion);
+  followed.changes = change < never;
+  if (change < h) {
+    step(change);
+    motion.interpolate(smooth);
+  }
+  return followed;
+}
+
+/// s: the first change in a step, or never.
+double ConstrainedSystem::first_change(const DormandPrince& motion) {
+  const double h = motion.length();
+  double first = never;
+  const double middle = opens(motion, 0.5 * h);
+  if (middle > tol::opened) {
+    first = find_opening(motion, 0, 0.5 * h, middle);
+  } else if (const double end = opens(motion, h); end > tol::opened) {
+    first = find_opening(motion, 0.5 * h, h, end);
+  }
+  std::vector<Vec3> x, v;
+  for (int k = 1; k <= samples; ++k) {
+    const double from = h * (k - 1) / samples, to = k == samples ? h : h * k / samples;
+    if (from >= first) break;
+    motion.at(to, x, v);
+    if (over_rim(motion, x)) first = std::min(first, find_rim(motion, from, to));
+    switch (look_at_opened(motion, x)) {
+      case Opened::near: break;
+      case Opened::away: first = std::min(first, to); break;
+      case Opened::back: first = std::min(first, find_closing(motion, from, to)); break;
+    }
+  }
+  return first;
+}
+
+/// The greatest acceleration of a gap at t (s), as a multiple of what is rounding.
+double ConstrainedSystem::opens(const DormandPrince& motion, double t) {
+  if (scales_.opening == 0) return 0;
+  std::vector<Vec3> x, v;
+  motion.at(t, x, v);
+  const std::vector<Vec3> a = accelerate(x, v);
+  double greatest = 0;
+  for (std::size_t c = 0; c < rows_.size(); ++c) greatest = std::max(greatest, gap_acceleration(c, a));
+  return greatest / scales_.opening;
+}
+
+/// s: where gaps accelerate clearly, but only just. They do at `to` (by at_end), not at `from`.
+double ConstrainedSystem::find_opening(const DormandPrince& motion, double from, double to, double at_end) {
+  const double aim = std::sqrt(tol::opened * tol::wide_open);
+  double beyond = to, at_beyond = at_end;  // a second point of those that are open
+  for (int pass = 0; pass < 100 && to - from > tol::time_precision * motion.length(); ++pass) {
+    if (at_end <= tol::wide_open) break;
+    double t = 0.5 * (from + to);
+    if (beyond > to && at_beyond > at_end) {
+      const double secant = to - (at_end - aim) * (beyond - to) / (at_beyond - at_end);
+      if (secant > from && secant < to) t = secant;
+    }
+    const double at_t = opens(motion, t);
+    if (at_t > tol::opened) {
+      beyond = std::exchange(to, t);
+      at_beyond = std::exchange(at_end, at_t);
+    } else {
+      from = t;
+    }
+  }
+  return to;
+}
+
+/// Whether some closed contact has come over its feature's rim, by so much that it makes a difference.
+bool ConstrainedSystem::over_rim(const DormandPrince& motion, const std::vector<Vec3>& x) const {
+  for (std::size_t c = 0; c < closed_.size(); ++c) {
+    const auto& [i, e, feature] = closed_[c];
+    const ContactConstraint& row = rows_[c];
+    if (touch(world_, i, x[row.a], e, place_of(x, row.b, e)).feature == feature) continue;
+    const double bend = is_flat(world_, i, e, feature) ? world_.radius[i] : bend_radius(world_, i, e);
+    const double over = 2 * tol::step_error * smaller_radius(world_, closed_[c]) * bend;  // m^2
+    const Vec3 xe = row.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : Vec3(x[row.b] - motion.start(row.b));
+    if ((xe - (x[row.a] - motion.start(row.a))).squaredNorm() > over) return true;
+  }
+  return false;
+}
+
+double ConstrainedSystem::find_rim(const DormandPrince& motion, double from, double to) const {
+  std::vector<Vec3> x, v;
+  while (to - from > tol::time_precision * motion.length()) {
+    const double t = 0.5 * (from + to);
+    motion.at(t, x, v);
+    (over_rim(motion, x) ? to : from) = t;
+  }
+  return to;
+}
+
+/// What has become of opened contacts: the first that comes back counts, then those far enough away to meet again.
+ConstrainedSystem::Opened ConstrainedSystem::look_at_opened(const DormandPrince& motion,
+                                                            const std::vector<Vec3>& x) const {
+  Opened all = Opened::near;
+  for (std::size_t c = 0; c < opened_.size(); ++c) {
+    const auto& [i, e, feature] = opened_[c];
+    const ContactConstraint& row = opened_rows_[c];
+    const double least = smaller_radius(world_, opened_[c]);
+    const Vec3 xe = place_of(x, row.b, e);
+    const double gap = touch(world_, i, x[row.a], e, xe).gap;
+    const Vec3 xe_first = row.b == ContactConstraint::fixed ? xe : motion.start(row.b);
+    const double rounding = tol::contact_rounding * (x[row.a].cwiseAbs().sum() + xe.cwiseAbs().sum());
+    if (gap < -std::max(tol::step_error * least, rounding) &&
+        gap < touch(world_, i, motion.start(row.a), e, xe_first).gap - tol::step_error * least)
+      return Opened::back;
+    if (gap > std::max(tol::contact_gap * least, rounding)) all = Opened::away;
+  }
+  return all;
+}
+
+double ConstrainedSystem::find_closing(const DormandPrince& motion, double from, double to) const {
+  std::vector<Vec3> x, v;
+  while (to - from > tol::time_precision * motion.length()) {
+    const double t = 0.5 * (from + to);
+    motion.at(t, x, v);
+    (look_at_opened(motion, x) == Opened::back ? to : from) = t;
+  }
+  return to;
+}
+
+}  // namespace carom
