@@ -84,13 +84,15 @@ bool ConstrainedMotion::count_change(Island& island) const {
 
 bool ConstrainedMotion::advance(Entity i) {
   Island& island = bodies_.islands.of(i);
-  std::sort(island.members.begin(), island.members.end());
   const bool undisturbed = island.constrained && bodies_.now == island.planned;
   if (!undisturbed && !count_change(island)) {
     for (const Entity k : island.members) settle(k);
     return false;
   }
-  const std::vector<Entity> members = island.members;
+  if (!undisturbed) take_in_touching(i);
+  std::vector<Entity>& all = bodies_.islands.of(i).members;
+  std::sort(all.begin(), all.end());
+  const std::vector<Entity> members = all;
   Step step = begin_step(members);
   find_contacts(step);
   const std::vector<std::uint32_t> part = parts_of(step);
@@ -102,6 +104,29 @@ bool ConstrainedMotion::advance(Entity i) {
     advance_whole(of_part);
   }
   return true;
+}
+
+/// Where nothing presses, what touches a member without approach or parting has a part in what it does: one after the
+/// other, impacts that end in contact would come to what rounding leaves of them.
+void ConstrainedMotion::take_in_touching(Entity i) {
+  const World& world = bodies_.world;
+  std::vector<Entity> todo = bodies_.islands.of(i).members;
+  while (!todo.empty()) {
+    const Entity k = todo.back();
+    todo.pop_back();
+    if (bodies_.load_on(k) > 0) continue;
+    const Vec3 x = bodies_.position(k), v = bodies_.velocity(k);
+    for (const Entity e : bodies_.known_to(k)) {
+      if (!world.is_body(e) || bodies_.body[e].state != ContactState::free) continue;
+      const Vec3 xe = bodies_.position(e), ve = bodies_.velocity(e);
+      const Touch there = touch(world, k, x, e, xe);
+      if (there.gap > contact_gap(k, x, xe)) continue;
+      if (std::abs(there.normal.dot(ve - v)) > tol::parting * (v.norm() + ve.norm())) continue;
+      group_.join(e);
+      group_.unite(i, e);
+      todo.push_back(e);
+    }
+  }
 }
 
 /// By member: the first one of those that contacts connect with it.
@@ -158,6 +183,12 @@ ConstrainedMotion::Step ConstrainedMotion::begin_step(std::vector<Entity> member
   return step;
 }
 
+/// m: a gap between body i, at x, and something at xe that counts as contact.
+double ConstrainedMotion::contact_gap(Entity i, const Vec3& x, const Vec3& xe) const {
+  return std::max(tol::contact_gap * bodies_.world.radius[i],
+                  tol::contact_rounding * (x.cwiseAbs().sum() + xe.cwiseAbs().sum()));
+}
+
 /// The pairs in contact, but for those that are about to strike.
 void ConstrainedMotion::find_contacts(Step& step) const {
   const World& world = bodies_.world;
@@ -170,8 +201,7 @@ void ConstrainedMotion::find_contacts(Step& step) const {
       const bool struck = bodies_.flights[i].start == bodies_.now && bodies_.body[i].origin_partner == e;
       const Vec3 xe = at(step.x, e);
       const Touch there = touch(world, i, step.x[k], e, xe, struck ? bodies_.body[i].origin_feature : no_feature);
-      const double rounding = tol::contact_rounding * (step.x[k].cwiseAbs().sum() + xe.cwiseAbs().sum());
-      if (there.gap > std::max(tol::contact_gap * world.radius[i], rounding)) continue;
+      if (there.gap > contact_gap(i, step.x[k], xe)) continue;
       const double approach = there.normal.dot(step.v[k] - rate(step.v, e));
       if (group_.strikes(i, e, approach, step.greatest)) continue;
       const std::uint32_t other = body ? group_.index[e] : ContactConstraint::fixed;
@@ -320,11 +350,10 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
   step.length = followed.motion->length();
   island.next_length = followed.next;
   if (followed.changes) count_change(island);
-  step.path = std::make_shared<Path>(Path{bodies_.now, std::move(followed.motion)});
+  step.path = std::make_shared<Path>(Path{bodies_.now, std::move(followed.motion), tol::path_error * step.smallest});
 }
 
-/// s: when the pair comes over its feature's rim, on parabolas: along a rim, not over it, but for rounding. Beyond it
-/// the surface bends otherwise: a step goes no farther over it than makes no difference.
+/// s: when the pair comes over its feature's rim, on parabolas: along a rim, not over it, but for rounding.
 double ConstrainedMotion::rim_time(const Step& step, std::size_t pair, double length) const {
   const World& world = bodies_.world;
   const auto& [i, e, feature] = step.names[pair];
@@ -336,7 +365,7 @@ double ConstrainedMotion::rim_time(const Step& step, std::size_t pair, double le
     if (std::abs(w[axis]) <= tol::velocity_rounding * speeds) m.w[axis] = 0;
     if (std::abs(a[axis]) <= tol::velocity_rounding * step.greatest) m.a[axis] = 0;
   }
-  const double over = std::sqrt(2 * tol::step_error) * step.smallest / at_least_tiny(w.norm());
+  const double over = tol::step_error * step.smallest / at_least_tiny(w.norm());
   return std::max(leave_feature(world, i, e, feature, m, length).time, over);
 }
 
@@ -454,7 +483,7 @@ void ConstrainedMotion::begin_piece(Entity i) {
   const DormandPrince& motion = *following.path->motion;
   const std::uint32_t k = following.place;
   const double from = bodies_.now - following.path->start, rest = motion.length() - from;
-  const double room = tol::path_error * bodies_.world.radius[i];
+  const double room = following.path->room;
   const Vec3 start = motion.displacement(k, from), v = motion.velocity(k, from);
   const auto at_most = [rest](double h) { return h >= rest ? rest : std::min(h, 0.5 * rest); };  // the last is not short
   double h = at_most(following.piece > 0 ? 2 * following.piece : tol::moment * motion.length());

@@ -38,6 +38,7 @@ class ConstrainedMotion {
   struct Path {
     Instant start;
     std::unique_ptr<DormandPrince> motion;
+    double room;  // m, that parabolas may leave it by
   };
   /// What a body follows, if it is still on this flight.
   struct Following {
@@ -69,6 +70,8 @@ class ConstrainedMotion {
   bool follows(Entity i) const;
   Vec3 velocity(Entity i, const Instant& at) const;
   bool count_change(Island& island) const;
+  void take_in_touching(Entity i);
+  double contact_gap(Entity i, const Vec3& x, const Vec3& xe) const;
   Step begin_step(std::vector<Entity> members) const;
   std::vector<std::uint32_t> parts_of(const Step& step) const;
   void advance_whole(Step& step);

@@ -85,7 +85,7 @@ std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, cons
     if (is_flat(world_, i, e, feature)) continue;
     ContactConstraint& row = rows[c];
     const Vec3 xe = place_of(x, row.b, e);
-    const Touch there = touch(world_, i, x[row.a], e, xe);
+    const Touch there = touch(world_, i, x[row.a], e, xe, feature);  // also beyond its rim
     row.normal = there.normal;
     row.target = -bending(world_, i, x[row.a], e, xe, there, relative(v, row));
   }
@@ -225,16 +225,17 @@ double ConstrainedSystem::find_opening(const DormandPrince& motion, double from,
   return to;
 }
 
-/// Whether some closed contact has come over its feature's rim, by so much that it makes a difference.
+/// Whether some closed contact has come over its feature's rim, by more than rounding.
 bool ConstrainedSystem::over_rim(const DormandPrince& motion, const std::vector<Vec3>& x) const {
   for (std::size_t c = 0; c < closed_.size(); ++c) {
     const auto& [i, e, feature] = closed_[c];
     const ContactConstraint& row = rows_[c];
-    if (touch(world_, i, x[row.a], e, place_of(x, row.b, e)).feature == feature) continue;
-    const double bend = is_flat(world_, i, e, feature) ? world_.radius[i] : bend_radius(world_, i, e);
-    const double over = 2 * tol::step_error * smaller_radius(world_, closed_[c]) * bend;  // m^2
-    const Vec3 xe = row.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : Vec3(x[row.b] - motion.start(row.b));
-    if ((xe - (x[row.a] - motion.start(row.a))).squaredNorm() > over) return true;
+    const Vec3 xe = place_of(x, row.b, e);
+    if (touch(world_, i, x[row.a], e, xe).feature == feature) continue;
+    const Vec3 moved_e = row.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : Vec3(xe - motion.start(row.b));
+    const double over = std::max(tol::step_error * smaller_radius(world_, closed_[c]),
+                                 tol::contact_rounding * (x[row.a].cwiseAbs().sum() + xe.cwiseAbs().sum()));  // m
+    if ((moved_e - (x[row.a] - motion.start(row.a))).norm() > over) return true;
   }
   return false;
 }
