@@ -44,7 +44,7 @@ std::string collisions_text(const Summary& summary) {
   if (summary.collisions == 0) return "none";
   std::string text = fmt::format("{} ({} body-body, {} body-fixed", grouped(summary.collisions),
                                  grouped(summary.body_body), grouped(summary.body_fixed));
-  text += summary.merges > 0 ? fmt::format(", {})", counted(summary.merges, "merge", "merges")) : ")";
+  text += summary.contact.merges > 0 ? fmt::format(", {})", counted(summary.contact.merges, "merge", "merges")) : ")";
   if (summary.collisions == 1) return text + fmt::format(", at {}", quantity(summary.first_collision, "s"));
   return text + fmt::format(", first at {}, last at {}", quantity(summary.first_collision, "s"),
                             quantity(summary.last_collision, "s"));
@@ -53,9 +53,9 @@ std::string collisions_text(const Summary& summary) {
 std::string rest_text(const Summary& summary) {
   std::string text = fmt::format("{} of {} in resting contact at the end", grouped(summary.resting),
                                  counted(summary.bodies, "body", "bodies"));
-  if (summary.collapses == 0) return text;
+  if (summary.contact.collapses == 0) return text;
   return text + fmt::format("; {} of ever faster collisions taken into contact",
-                            counted(summary.collapses, "cluster", "clusters"));
+                            counted(summary.contact.collapses, "cluster", "clusters"));
 }
 
 std::string energy_text(const Summary& summary) {
@@ -117,9 +117,12 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   block.line("engine", engine.why.empty() ? engine.name : fmt::format("{} ({})", engine.name, engine.why));
   block.line("collisions", collisions_text(summary));
   block.line("rest", rest_text(summary));
-  if (summary.doubtful > 0)
+  if (summary.stepped_contact > 0)
+    block.line("contact", fmt::format("{} of lasting contact, summed over bodies, by time stepping: right to first order",
+                                      quantity(summary.stepped_contact, "s")));
+  if (summary.contact.doubtful > 0)
     block.line("doubtful", fmt::format("{}: motion may be off by more than rounding; make masses less unequal",
-                                       counted(summary.doubtful, "contact problem", "contact problems")));
+                                       counted(summary.contact.doubtful, "contact problem", "contact problems")));
   block.line("energy", energy_text(summary));
   block.line("overlap", summary.max_overlap > 0 ? quantity(summary.max_overlap, "m at most") : "none");
   for (const LeftOut& file : result.facts.left_out)
@@ -152,14 +155,15 @@ Json summary_json(const Summary& s) {
           {"max_overlap_m", number_or_null(s.max_overlap)},
           {"max_speed_m_per_s", number_or_null(s.max_speed)},
           {"resting", s.resting},
-          {"frames", s.frames}};
+          {"frames", s.frames},
+          {"stepped_contact_s", s.stepped_contact}};
 }
 
 Json contact_json(const Summary& s) {
   return {{"resting", s.resting},
-          {"clusters_taken_into_contact", s.collapses},
-          {"merges", s.merges},
-          {"doubtful", s.doubtful}};
+          {"clusters_taken_into_contact", s.contact.collapses},
+          {"merges", s.contact.merges},
+          {"doubtful", s.contact.doubtful}};
 }
 
 Json facts_json(const RunResult& result) {

@@ -35,6 +35,13 @@ struct EnergyTotals {
   double residual = 0;  // what neither collisions nor work account for
 };
 
+/// For the report alone: no columns.
+struct ContactCounts {
+  std::uint64_t merges = 0;
+  std::uint64_t collapses = 0;  // clusters taken into contact
+  std::uint64_t doubtful = 0;   // contact problems whose answer may be off by more than rounding
+};
+
 /// summary.csv's row, in the order of its columns.
 struct Summary {
   std::string run, title, engine, status;
@@ -45,11 +52,9 @@ struct Summary {
   double momentum_drift = 0;  // kg m/s, |p(end) - p(start)|
   double max_overlap = 0, max_speed = 0;
   std::uint64_t resting = 0, frames = 0;
+  double stepped_contact = 0;  // s, summed over bodies: lasting contact that time stepping has told
 
-  // For the report alone: no columns.
-  std::uint64_t merges = 0;
-  std::uint64_t collapses = 0;  // clusters taken into contact
-  std::uint64_t doubtful = 0;   // contact problems whose answer may be off by more than rounding
+  ContactCounts contact;
 };
 
 /// A quantity of the run's end that was asked for; not finite: undefined.

@@ -20,10 +20,10 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view magic = "caromfly";
-constexpr std::uint32_t version = 1, byte_order = 0x01020304, last_entry = 0xffffffff;
+constexpr std::uint32_t version = 2, byte_order = 0x01020304, last_entry = 0xffffffff;
 enum Has : std::uint32_t { has_acceleration = 1, has_from = 2, has_kick = 4, has_whole = 8, has_joint = 16 };
 
-constexpr std::size_t header_size = 32, tail_size = 8 + 12 * 8;
+constexpr std::size_t header_size = 32, tail_size = 8 + 13 * 8;
 constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5) * 8;
 
 /// What from is where an entry does not say it.
@@ -118,7 +118,8 @@ void FlightsFile::end(const Tally& tally) {
        {entries_, tally.body_body, tally.body_fixed, tally.merges, tally.collapses, tally.resting})
     writer.put(count);
   for (const double value :
-       {tally.first_collision, tally.last_collision, tally.energy_lost, tally.work, tally.max_overlap, tally.max_speed})
+       {tally.first_collision, tally.last_collision, tally.energy_lost, tally.work, tally.max_overlap, tally.max_speed,
+        tally.stepped_contact})
     writer.put(value);
   file_->written(writer.end());
 }
@@ -153,7 +154,7 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
        {&tally_.body_body, &tally_.body_fixed, &tally_.merges, &tally_.collapses, &tally_.resting})
     *count = take<std::uint64_t>();
   for (double* value : {&tally_.first_collision, &tally_.last_collision, &tally_.energy_lost, &tally_.work,
-                        &tally_.max_overlap, &tally_.max_speed})
+                        &tally_.max_overlap, &tally_.max_speed, &tally_.stepped_contact})
     *value = take<double>();
 
   at_ = end_ = 0;

@@ -10,7 +10,7 @@ void BodyMerging::merge(Entity a, Entity b, const Touch& there) {
   const World& world = bodies_.world;
   const Entity whole = world.mass[b] > world.mass[a] ? b : a, part = whole == a ? b : a;
   for (const Entity i : {a, b}) paths_.note_change(i);
-  for (const Entity i : {a, b}) flights_.book(i, bodies_.position(i));
+  for (const Entity i : {a, b}) flights_.book(i, bodies_.position(i), bodies_.now);
   record(a, b, there);
   join(whole, part);
   predictor_.renew_region(whole);

@@ -121,7 +121,7 @@ void ConstrainedMotion::take_in_touching(Entity i) {
       const Vec3 xe = bodies_.position(e), ve = bodies_.velocity(e);
       const Touch there = touch(world, k, x, e, xe);
       if (there.gap > contact_gap(k, x, xe)) continue;
-      if (std::abs(there.normal.dot(ve - v)) > tol::parting * (v.norm() + ve.norm())) continue;
+      if (std::abs(there.normal.dot(ve - v)) > tol::drift * (v.norm() + ve.norm())) continue;
       group_.join(e);
       group_.unite(i, e);
       todo.push_back(e);
@@ -238,7 +238,7 @@ void ConstrainedMotion::take_approaches(Step& step) {
 /// Pairs that part by more than path errors are no contacts: if they come back, they meet.
 void ConstrainedMotion::drop_parting(Step& step) const {
   const double parting =
-      std::sqrt(2 * step.greatest * tol::path_error * step.smallest) + tol::velocity_rounding * step.fastest;
+      std::sqrt(2 * step.greatest * tol::step_error * step.smallest) + tol::velocity_rounding * step.fastest;
   std::size_t kept = 0;
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
     const Vec3 w = rate(step.v, step.names[c].e) - step.v[step.pairs[c].a];
@@ -270,7 +270,7 @@ ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
     const ContactConstraint& p = step.pairs[c];
     if (p.force > 0) continue;
     const double parting = p.normal.dot(rate(step.v, step.names[c].e) - step.v[p.a]);
-    opens[c] = parting > tol::parting * scales.speed || system.gap_acceleration(c, step.a) > scales.opening;
+    opens[c] = parting > tol::drift * scales.speed || system.gap_acceleration(c, step.a) > scales.opening;
   }
   system.open(opens);
   bodies_.log.note(system.certificate());
@@ -350,7 +350,7 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
   step.length = followed.motion->length();
   island.next_length = followed.next;
   if (followed.changes) count_change(island);
-  step.path = std::make_shared<Path>(Path{bodies_.now, std::move(followed.motion), tol::path_error * step.smallest});
+  step.path = std::make_shared<Path>(Path{bodies_.now, std::move(followed.motion), tol::step_error * step.smallest});
 }
 
 /// s: when the pair comes over its feature's rim, on parabolas: along a rim, not over it, but for rounding.
@@ -400,7 +400,7 @@ void ConstrainedMotion::find_unbound(Step& step) const {
       step.held[p.b] = step.bound[p.a] = step.bound[p.b] = 1;
     } else if (is_flat(world, i, e, feature) && flats.count < FlatContactList::most) {
       const double gap = touch(world, i, step.x[p.a] + step.down[p.a], e, at(step.x, e)).gap;
-      if (gap > tol::path_error * world.radius[i]) step.bound[p.a] = 1;
+      if (gap > tol::drift * world.radius[i]) step.bound[p.a] = 1;
       step.down[p.a] += gap * p.normal;
       flats.at[flats.count++] = {e, feature, -p.normal, false, bodies_.now, 0};
     } else {

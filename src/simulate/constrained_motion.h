@@ -2,7 +2,7 @@
 // Constrained motion of an island: bodies that press on one another keep to each other's surfaces. Where all contacts
 // are flat, or nothing slides, paths are parabolas, and a step lasts until a contact comes to its rim. Where surfaces
 // are curved a method of order 8 follows the motion (constrained_system.h), step by step; in each step a body flies
-// along parabolas that leave its path by less than `path_error` of a radius. All bodies take part in impacts as
+// along parabolas that leave its path by less than a step's error. All bodies take part in impacts as
 // everywhere else, only the pairs in contact do not. After a change the first step is a moment, too short for anything
 // but impacts at the same place; so many of them cost one step.
 #include <memory>

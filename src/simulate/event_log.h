@@ -42,6 +42,7 @@ class EventLog {
   /// Bodies that come to rest on something, and bodies that leave it.
   void add_resting(std::uint64_t bodies) { tally_.resting += bodies; }
   void remove_resting(std::uint64_t bodies) { tally_.resting -= bodies; }
+  void add_stepped_contact(double time) { tally_.stepped_contact += time; }  // s, of one body
   void count_collapse() { ++tally_.collapses; }
   /// Counts an answer that is not certified.
   void note(const Certificate& certificate) {

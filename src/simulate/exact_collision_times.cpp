@@ -17,10 +17,10 @@ double sum_of_speeds(const Vec3& v) {
 
 }  // namespace
 
-/// When body i's flight ends at the latest: that of an island's member at its next step.
+/// When body i's flight ends at the latest: that of an island's member when it takes its next step.
 Instant ExactCollisionTimes::flight_end(Entity i) const {
   const Instant last{bodies_.options.duration, 0};
-  return bodies_.in_group(i) ? std::min(bodies_.islands.of(i).end, last) : last;
+  return bodies_.in_group(i) ? std::min(bodies_.islands.due(i), last) : last;
 }
 
 Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) const {

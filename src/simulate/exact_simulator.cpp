@@ -154,7 +154,7 @@ void ExactSimulator::switch_forces(Entity i) {
   const Vec3 x = bodies_.position(i);
   Vec3 v = bodies_.velocity(i);
   paths_.note_change(i);
-  flights_.book(i, x);
+  flights_.book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
   const AppliedAcceleration applied = bodies_.merged.applied(i, bodies_.now.hi);
   if (bodies_.body[i].state == ContactState::asleep) group_.join(i);

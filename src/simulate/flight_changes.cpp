@@ -17,7 +17,9 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   const double speed = v.norm();
   hold_to(bodies_.bounds, i, bodies_.now.hi, x, v, ExactBodies::too_fast);
   bodies_.log.note_speed(speed);
-  book(i, x);
+  book(i, x, bodies_.now);
+  const bool stepped = bodies_.is_stepped(i) && !bodies_.islands.of(i).fresh;
+  if (stepped != (stepped_[i] != 0)) stepped_.write(i) = stepped;
   ExactBody& body = bodies_.body[i];
   const bool falls = bodies_.is_stepped(i) && bodies_.flights.acceleration(i) != Vec3::Zero();  // through a time step
   const double negligible = bodies_.negligible_speed();
@@ -38,7 +40,7 @@ void FlightChanges::correct(Entity i, const Vec3& v) {
   if (v == before) return;
   paths_.note_change(i);
   bodies_.log.lose(0.5 * bodies_.world.mass[i] * (before - v).dot(before + v));
-  book(i, x);
+  book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
 }
 
@@ -50,8 +52,9 @@ void FlightChanges::count(Entity i) {
     if (body.event.kind == ExactEvent::Kind::body_body && body.event.partner == i) body.event.partner_version = 0;
 }
 
-void FlightChanges::book(Entity i, const Vec3& x) {
+void FlightChanges::book(Entity i, const Vec3& x, const Instant& end) {
   const World& world = bodies_.world;
+  if (stepped_[i]) bodies_.log.add_stepped_contact(end - bodies_.flights[i].start);
   if (bodies_.flights.acceleration(i) == world.gravity && world.forces.empty()) return;
   const Vec3 displacement = x - bodies_.flights[i].x;
   bodies_.log.lose(world.mass[i] * (bodies_.applied[i] - bodies_.flights[i].a).dot(displacement));
@@ -68,7 +71,7 @@ void FlightChanges::book_last(double time) {
     const Vec3 v = bodies_.velocity_without_kick(i, at);
     hold_to(bodies_.bounds, i, time, x, v, ExactBodies::too_fast);
     bodies_.log.note_speed(v.norm());
-    book(i, x);
+    book(i, x, at);
     if (kicked != v) bodies_.log.lose(0.5 * bodies_.world.mass[i] * (kicked - v).dot(kicked + v));
   }
 }

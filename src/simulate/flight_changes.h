@@ -9,7 +9,7 @@ namespace carom {
 class FlightChanges {
  public:
   FlightChanges(ExactBodies& bodies, FlatContacts& flat, PathLog& paths)
-      : bodies_(bodies), flat_(flat), paths_(paths) {}
+      : bodies_(bodies), flat_(flat), paths_(paths), stepped_(bodies.body.size()) {}
 
   /// Begins a new flight of body i, now, at x (m) with velocity v (m/s). A step of constrained motion ends with it.
   void begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
@@ -17,8 +17,8 @@ class FlightChanges {
   void go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
   /// Body i's flight goes on from now with velocity v (m/s), which it ought to have had. Its events stay.
   void correct(Entity i, const Vec3& v);
-  /// Books what forces did to body i on the flight that ends at x (m): the World's, and contact forces against them.
-  void book(Entity i, const Vec3& x);
+  /// Books what forces did to body i on the flight that ends at x (m) then: the World's, and contact forces against them.
+  void book(Entity i, const Vec3& x, const Instant& end);
   /// Books all flights up to `time` (s), the run's end; only once. Between collisions a speed is greatest at a flight's
   /// ends.
   void book_last(double time);
@@ -29,7 +29,8 @@ class FlightChanges {
   ExactBodies& bodies_;
   FlatContacts& flat_;
   PathLog& paths_;
-  bool ended_ = false;  // the last flights are booked
+  LazyArray<std::uint8_t> stepped_;  // by body: this flight is one of time stepping
+  bool ended_ = false;               // the last flights are booked
 };
 
 }  // namespace carom

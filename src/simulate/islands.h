@@ -2,6 +2,7 @@
 // Islands of the exact simulator: awake bodies in lasting contact with one another. Fixed things and sleeping bodies do
 // not connect. Each island moves by itself, in steps of its own; what other islands do, or how many there are, is
 // nothing to it.
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <span>
@@ -44,6 +45,11 @@ class Islands {
   /// That of a member. References stay valid until it is merged with another one.
   Island& of(Entity i) { return islands_[island_[i]]; }
   const Island& of(Entity i) const { return islands_[island_[i]]; }
+  /// When a member's flight ends: with its island's step, or with its piece of a path.
+  Instant due(Entity i) const {
+    const Island& island = of(i);
+    return island.constrained ? std::min(island.end, piece_end[i]) : island.end;
+  }
   bool same(Entity a, Entity b) const { return island_[a] == island_[b]; }
   bool any() const { return count_ > 0; }
 

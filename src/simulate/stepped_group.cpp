@@ -161,6 +161,7 @@ void ContactGroup::count_resting() {
   }
   resting_ = static_cast<std::size_t>(std::count(rests.begin(), rests.end(), 1));
   shared_.log.add_resting(resting_);
+  shared_.log.add_stepped_contact(static_cast<double>(resting_) * shared_.clock.length());
 }
 
 /// What a group's step does to energy, other than by forces, contact has taken.

@@ -133,9 +133,8 @@ Summary summarize(const Scene& scene, const EngineChoice& engine, double energy_
   summary.max_overlap = tally.max_overlap;
   summary.max_speed = tally.max_speed;
   summary.resting = tally.resting;
-  summary.merges = tally.merges;
-  summary.collapses = tally.collapses;
-  summary.doubtful = tally.doubtful;
+  summary.stepped_contact = tally.stepped_contact;
+  summary.contact = {tally.merges, tally.collapses, tally.doubtful};
   return summary;
 }
 

@@ -16,7 +16,7 @@ double energy_of(const Summary& summary) {
   return summary.energy.*Member;
 }
 
-constexpr std::array<SummaryColumn, 21> columns = {{
+constexpr std::array<SummaryColumn, 22> columns = {{
     {"run", "the run's name"},
     {"title", "the scene's title"},
     {"engine", "the simulator: exact, stepped or book"},
@@ -40,6 +40,8 @@ constexpr std::array<SummaryColumn, 21> columns = {{
     {"max_speed_m_per_s", "greatest speed of a body", number_of<&Summary::max_speed>},
     {"resting", "bodies in resting contact at the end", number_of<&Summary::resting>},
     {"frames", "pictures drawn", number_of<&Summary::frames>},
+    {"stepped_contact_s", "lasting contact that time stepping has told, summed over bodies; 0: all of it is exact",
+     number_of<&Summary::stepped_contact>},
 }};
 
 }  // namespace

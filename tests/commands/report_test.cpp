@@ -12,8 +12,8 @@ RunResult result_with(std::uint64_t collapses, std::uint64_t merges) {
   s.bodies = 5;
   s.resting = 3;
   s.body_body = 2;
-  s.collapses = collapses;
-  s.merges = merges;
+  s.contact.collapses = collapses;
+  s.contact.merges = merges;
   s.collisions = s.body_body + merges;
   s.first_collision = 0.5;
   s.last_collision = 1;
@@ -42,7 +42,7 @@ TEST(Report, TellsOfMergesAndOfClustersTakenIntoContact) {
 TEST(Report, SaysHowManyContactProblemsAreDoubtful) {
   RunResult result = result_with(0, 0);
   EXPECT_EQ(lines_of(result).find("doubtful"), std::string::npos);
-  result.summary.doubtful = 2;
+  result.summary.contact.doubtful = 2;
   EXPECT_NE(lines_of(result).find("  doubtful    2 contact problems: motion may be off"), std::string::npos);
 }
 

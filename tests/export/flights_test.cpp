@@ -43,6 +43,7 @@ Tally some_tally() {
   tally.merges = 1;
   tally.last_collision = 0.1875;
   tally.max_speed = 12;
+  tally.stepped_contact = 0.5;
   return tally;
 }
 
@@ -103,12 +104,13 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
   EXPECT_TRUE(std::isnan(reader.tally().first_collision));
   EXPECT_EQ(reader.tally().last_collision, 0.1875);
   EXPECT_EQ(reader.tally().max_speed, 12);
+  EXPECT_EQ(reader.tally().stepped_contact, 0.5);
 }
 
 TEST(Flights, TakeSeventyTwoBytesAndMoreOnlyForWhatIsNew) {
   const TempFolder folder;
   store(folder, small_scene());
-  const std::uintmax_t ends = 32 + 104, first = 4 * 96, bounce = 96, late = 80, step = 136, part = 104, joint = 136;
+  const std::uintmax_t ends = 32 + 112, first = 4 * 96, bounce = 96, late = 80, step = 136, part = 104, joint = 136;
   EXPECT_EQ(fs::file_size(folder / "flights.bin"), ends + first + bounce + late + step + part + joint);
 }
 
@@ -139,7 +141,7 @@ TEST(Flights, OfAnotherSceneOrVersionAreRefused) {
     return refusal(folder, scene);
   };
   EXPECT_EQ(with(0, 'C'), "cannot use run/flights.bin: it is no record of flights");
-  EXPECT_EQ(with(8, 2), "cannot use run/flights.bin: another version of carom wrote it");
+  EXPECT_EQ(with(8, 1), "cannot use run/flights.bin: another version of carom wrote it");
   EXPECT_EQ(with(35, 1), "cannot use run/flights.bin: it is damaged");   // a body that is not there
   EXPECT_EQ(with(37, 1), "cannot use run/flights.bin: it is damaged");   // an entry of an unknown kind
   EXPECT_EQ(with(47, 64), "cannot use run/flights.bin: it is damaged");  // times that go back
@@ -153,7 +155,7 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
   store(folder, scene);
   const std::string whole = read(folder / "flights.bin");
   // Of the first entry: start, its lower part, x, vy, az; of the last one, of a joint body: mass, radius, half.
-  const std::size_t first = 32 + 8, end = whole.size() - 104;
+  const std::size_t first = 32 + 8, end = whole.size() - 112;
   for (const std::size_t at : {first, first + 8, first + 16, first + 48, first + 80, end - 40, end - 32, end - 8}) {
     std::string damaged = whole;
     damaged.replace(at, 8, std::string("\0\0\0\0\0\0\xF0\x7F", 8));  // infinity

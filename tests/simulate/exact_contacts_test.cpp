@@ -85,7 +85,7 @@ TEST(FlatContacts, TakeWhatTheLastBounceLeft) {
 TEST(FlightChanges, BookWhatContactTookFromAFlight) {
   ExactParts parts(ball_on_floor());
   parts.bodies.flights.accelerate(0, Vec3::Zero());  // carried
-  parts.flights.book(0, Vec3(0, 0.5 - 3, 0));
+  parts.flights.book(0, Vec3(0, 0.5 - 3, 0), parts.bodies.now);
   EXPECT_EQ(parts.bodies.log.tally().energy_lost, 2 * g * 3);
 }
 
