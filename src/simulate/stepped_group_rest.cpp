@@ -57,34 +57,35 @@ void GroupRest::try_part(const GroupBodies& group, const Places& places) {
     part.add(shared_.world, i, shared_.paths.end_x[i], Vec3::Zero(), group.free_acceleration[k]);
   }
   part.greatest_acceleration = group.greatest_acceleration;
-  const Balance balance = find_balance(part);
   std::uint32_t& failures = failures_[part.entity.front()];
-  failures = balance == Balance::none ? std::min(failures + 1, longest_wait) : 0;
-  if (balance == Balance::none) return;
+  if (!find_balance(part)) {
+    failures = std::min(failures + 1, longest_wait);
+    return;
+  }
+  failures = 0;
   stand(part);
-  if (balance == Balance::found) fall_asleep(part);
+  fall_asleep(part);
 }
 
 /// Whether and where forces hold a part of the group in balance, close to where it is. It sinks by a little at a time,
-/// as far as its contacts let it, until it sinks no more. part.x is where it begins; then where it stands, or has sunk
-/// to. The impulses of its contacts become forces (N).
-GroupRest::Balance GroupRest::find_balance(GroupBodies& part) {
+/// as far as its contacts let it, until it sinks no more. part.x is where it begins; then where it stands. The impulses of its contacts become forces (N).
+bool GroupRest::find_balance(GroupBodies& part) {
   const std::vector<Vec3> from = part.x;
   std::vector<ContactConstraint> pairs;
   double drive = first_sink;
   for (int pass = 0; pass < balance_passes; ++pass) {
     const double farthest = sink(part, drive, pairs);
-    if (farthest == never) return Balance::none;
+    if (farthest == never) return false;
     for (std::size_t k = 0; k < part.size(); ++k)
-      if ((part.x[k] - from[k]).norm() > farthest_sink * part.smallest_radius) return Balance::none;
+      if ((part.x[k] - from[k]).norm() > farthest_sink * part.smallest_radius) return false;
     if (farthest <= group_balance * drive * part.smallest_radius) {
       const double per_displacement = part.greatest_acceleration / (drive * part.smallest_radius);  // 1/s^2
       for (std::size_t p = 0; p < pairs.size(); ++p) contacts_.list()[p].impulse = per_displacement * pairs[p].force;
-      return Balance::found;
+      return true;
     }
     if (farthest < small_sink * first_sink * part.smallest_radius) drive = std::min(sink_grows * drive, last_sink);
   }
-  return Balance::sinking;
+  return false;  // it slides
 }
 
 /// Lets a part sink to where its contacts let it; without them it would by `drive` (of a radius). pairs becomes its

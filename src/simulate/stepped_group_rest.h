@@ -23,13 +23,12 @@ class GroupRest {
   void put_to_rest(const GroupBodies& group, const std::vector<GroupContact>& contacts);
 
  private:
-  enum class Balance : std::uint8_t { found, sinking, none };
   using Places = std::vector<std::uint32_t>;
 
   std::vector<Places> parts_of(const GroupBodies& group, const std::vector<GroupContact>& contacts) const;
   bool due(const GroupBodies& group, const Places& part) const;
   void try_part(const GroupBodies& group, const Places& places);
-  Balance find_balance(GroupBodies& part);
+  bool find_balance(GroupBodies& part);
   double sink(GroupBodies& part, double drive, std::vector<ContactConstraint>& pairs);
   void stand(const GroupBodies& part);
   void fall_asleep(const GroupBodies& part);

@@ -1,6 +1,8 @@
 // The stepped simulator's contact group: piles that fall, settle and lie.
 #include <gtest/gtest.h>
 
+#include "physics/force_law.h"
+#include "physics/polynomial.h"
 #include "simulate/pile.h"
 #include "simulate/random.h"
 #include "simulate/stepped.h"
@@ -26,6 +28,25 @@ TEST(ContactGroup, OfEverySizeComesToRestByEveryMethodAtEveryStep) {
         const Problem problem = loose_pile(side, layers, 200);
         expect_pile_at_rest(problem, *stepped(problem, step, method), {190, 195, 200}, 2e-3, 1e-6);
       }
+}
+
+TEST(ContactGroup, OfARowThatIsPushedIsNotPutToRest) {
+  for (const int n : {25, 60})
+    for (const double step : {1 / 256.0, 1 / 512.0}) {
+      Problem problem;
+      problem.world.gravity = Vec3(0, -9.80665, 0);
+      problem.options.duration = 1;
+      for (int k = 0; k < n; ++k) problem.ball({1.0 * k, 0.5, 0}, {0, 0, 0}, 1, 0.5, 0.5);
+      problem.plane({0, 0, 0}, {0, 1, 0});
+      problem.world.forces.push_back({UniformForce{Vec3(3, 0, 0)}, 0, never, {0}});
+      const auto simulator = stepped(problem, step);
+      go_to(*simulator, 1);
+      const double way = 0.5 * 3 / n;  // m
+      for (int k = 0; k < n; ++k)
+        EXPECT_NEAR(simulator->state().position[static_cast<std::size_t>(k)].x() - k, way, 2e-3 * way)
+            << n << ", " << step;  // measured: 1e-3
+      EXPECT_NEAR(simulator->tally().stepped_contact, n, step * n);
+    }
 }
 
 TEST(ContactGroup, GainsNoEnergyAsItSettles) {

@@ -1,0 +1,145 @@
+// Islands in lasting contact against closed forms and against solutions in coordinates of their own.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "physics/force_law.h"
+#include "physics/polynomial.h"
+#include "simulate/build.h"
+
+namespace carom {
+namespace {
+
+constexpr double g = 9.80665;
+
+/// n balls (1 kg, radius 0.5 m) side by side on a floor; a force (N) acts on the first. reversed: named from the end.
+Problem pushed_row(int n, double force, bool reversed, double duration) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -g, 0);
+  problem.options.duration = duration;
+  for (int k = 0; k < n; ++k) problem.ball({reversed ? n - 1.0 - k : k, 0.5, 0}, {0, 0, 0}, 1, 0.5, 0.5);
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  problem.world.forces.push_back(
+      {UniformForce{Vec3(force, 0, 0)}, 0, never, {reversed ? static_cast<Entity>(n - 1) : Entity{0}}});
+  return problem;
+}
+
+TEST(ConstrainedMotion, ARowOfAnyNumberIsPushedAsOneBody) {
+  for (const int n : {2, 8, 9, 17, 60, 300, 1000})
+    for (const bool reversed : {false, true}) {
+      const Problem problem = pushed_row(n, 3, reversed, 1);
+      const Outcome run = run_exact(problem);
+      const double way = 0.5 * 3 / n;  // m
+      for (Entity i = 0; i < problem.world.body_count(); ++i)
+        EXPECT_LT((run.end.position[i] - problem.initial.position[i] - Vec3(way, 0, 0)).norm(), 1e-12 * n)
+            << n << ": " << i;  // measured: 0
+      EXPECT_TRUE(run.collisions.empty()) << n;
+      EXPECT_EQ(run.tally.stepped_contact, 0) << n;
+      EXPECT_EQ(run.tally.doubtful, 0u) << n;
+    }
+}
+
+TEST(ConstrainedMotion, AStackOfAnyNumberStandsAndEachBallCarriesThoseAboveIt) {
+  for (const int n : {2, 8, 9, 40, 200}) {
+    Problem problem;
+    problem.world.gravity = Vec3(0, -g, 0);
+    problem.options.duration = 10;
+    for (int k = 0; k < n; ++k) problem.ball({0, 0.5 + k, 0}, {0, 0, 0}, 1, 0.5, 0.5);
+    problem.plane({0, 0, 0}, {0, 1, 0});
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+    for (const double t : {0.0, 10.0}) {
+      go_to(*simulator, t);
+      EXPECT_EQ(simulator->state().position, problem.initial.position) << n;
+      const auto contacts = simulator->contacts();
+      ASSERT_EQ(contacts.size(), static_cast<std::size_t>(n));
+      for (const ContactForce& c : contacts) {
+        const int above = c.b == static_cast<Entity>(n) ? n : n - 1 - static_cast<int>(c.a);
+        EXPECT_NEAR(c.force, above * g, 1e-13 * n * g) << n << ": " << c.a << " on " << c.b;
+      }
+    }
+  }
+}
+
+/// A ball of M kg falls between n balls of m kg that it pushes apart over a floor; all of radius r, from rest. The line
+/// of centres makes the angle q with the vertical: I(q) q'' + I'(q)/2 q'^2 = 2 M g r sin q. The angle at `time`.
+double angle_of_roof(double q, double top, double base, int n, double r, double time) {
+  const auto curve = [&](double at, double rate) {
+    const double s = std::sin(at), c = std::cos(at), length = 2 * r;
+    const double inertia = length * length * (top * s * s + n * base * c * c);
+    const double slope = 2 * length * length * s * c * (top - n * base);
+    return (top * g * length * s - 0.5 * slope * rate * rate) / inertia;
+  };
+  const int steps = 20000;
+  const double h = time / steps;
+  double rate = 0;
+  for (int k = 0; k < steps; ++k) {
+    const double a1 = curve(q, rate), a2 = curve(q + h / 2 * rate, rate + h / 2 * a1);
+    const double a3 = curve(q + h / 2 * (rate + h / 2 * a1), rate + h / 2 * a2);
+    const double a4 = curve(q + h * (rate + h / 2 * a2), rate + h * a3);
+    q += h * rate + h * h / 6 * (a1 + a2 + a3);
+    rate += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+  }
+  return q;
+}
+
+/// `copies` of them, 5 m apart.
+Problem roofs(int bases, int copies, double angle, double top, double r) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -g, 0);
+  problem.options.duration = 0.2;
+  for (int c = 0; c < copies; ++c) {
+    const double z = 5.0 * c;
+    for (int b = 0; b < bases; ++b) {
+      const double turn = 2 * M_PI * b / bases, out = 2 * r * std::sin(angle);
+      problem.ball({out * std::cos(turn), r, z + out * std::sin(turn)}, {0, 0, 0}, 1, r, 0);
+    }
+    problem.ball({0, r + 2 * r * std::cos(angle), z}, {0, 0, 0}, top, r, 0);
+  }
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  return problem;
+}
+
+TEST(ConstrainedMotion, RoofsAndPyramidsComeDownAsTheirOneCoordinateSays) {
+  for (const int bases : {2, 3, 4})
+    for (const int copies : {1, 5})
+      for (const double top : {0.5, 2.0}) {
+        const double r = 0.5, angle = 0.8;
+        const Problem problem = roofs(bases, copies, angle, top, r);
+        const Outcome run = run_exact(problem);
+        const double q = angle_of_roof(angle, top, 1, bases, r, problem.options.duration);
+        ASSERT_GT(q, angle + 0.03);
+        for (int c = 0; c < copies; ++c) {
+          const std::size_t first = static_cast<std::size_t>(c * (bases + 1)), last = first + static_cast<std::size_t>(bases);
+          EXPECT_NEAR(run.end.position[last].y(), r + 2 * r * std::cos(q), 5e-12);  // measured: 2e-12
+          for (std::size_t b = first; b < last; ++b) {
+            const Vec3 out = run.end.position[b] - Vec3(0, 0, 5.0 * c);
+            EXPECT_NEAR(std::hypot(out.x(), out.z()), 2 * r * std::sin(q), 5e-12);
+            EXPECT_NEAR(out.y(), r, 1e-15);
+          }
+        }
+        EXPECT_TRUE(run.collisions.empty());
+        EXPECT_EQ(run.tally.stepped_contact, 0);
+        EXPECT_LT(run.tally.max_overlap, 1e-11);
+        EXPECT_LT(std::abs(residual(problem, run)), 1e-10);
+      }
+}
+
+TEST(ConstrainedMotion, InOtherUnitsAPyramidHasTheSameBits) {
+  const Problem one = roofs(4, 1, 0.8, 2, 0.5);
+  const double length = 0x1p10, time = 0x1p-4, mass = 0x1p6;
+  Problem other = one;
+  other.world.gravity *= length / (time * time);
+  other.options.duration *= time;
+  for (double& m : other.world.mass) m *= mass;
+  for (double& r : other.world.radius) r *= length;
+  for (Vec3& x : other.initial.position) x *= length;
+  for (Plane& plane : other.world.planes) plane.point *= length;
+  const Outcome a = run_exact(one), b = run_exact(other);
+  for (std::size_t i = 0; i < a.end.position.size(); ++i) {
+    EXPECT_EQ(length * a.end.position[i], b.end.position[i]);
+    EXPECT_EQ(length / time * a.end.velocity[i], b.end.velocity[i]);
+  }
+}
+
+}  // namespace
+}  // namespace carom
