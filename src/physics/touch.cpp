@@ -146,7 +146,25 @@ Touch touch_at_an_angle(const Sum& sum, const Volume& volume, const Wall& wall, 
   return {s.gap, s.normal, closest_points(volume, xa, wall, xb + apart).on_a, s.feature};
 }
 
+/// m: max of n . p over the points p of something fixed.
+double reach_along(const World& world, Entity fixed, const Vec3& n) {
+  if (world.is_plane(fixed)) {
+    const Plane& plane = world.plane(fixed);
+    return (plane.normal - n).norm() <= 0x1p-50 ? n.dot(plane.point) : never;
+  }
+  const Vec3& center = world.fixed_position(fixed);
+  if (!world.is_wall(fixed)) return n.dot(center) + world.volume_of(fixed).support(n);
+  const Wall& wall = world.wall(fixed);
+  return n.dot(center) + wall.half_width * std::abs(n.dot(wall.right)) + wall.half_height * std::abs(n.dot(wall.up));
+}
+
 }  // namespace
+
+bool lies_behind(const World& world, Entity a, const Vec3& xa, Entity fixed, const Vec3& n) {
+  const Volume volume = world.volume_of(a);
+  const double rounding = rounding_of_gap(xa, world.fixed_position(fixed), volume.reach());
+  return reach_along(world, fixed, n) <= n.dot(xa) - volume.support(n) + rounding;
+}
 
 Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) {
   switch (pair_kind(world, a, b)) {

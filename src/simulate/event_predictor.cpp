@@ -75,7 +75,7 @@ void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEv
       ++pair_tests_;
       const Instant time = times_.of_pair(i, e, feature);
       offer(i, best, {time, e, bodies_.body[e].version, ExactEvent::Kind::body_body, feature});
-    } else if (!flat_.carry(i, e)) {
+    } else if (!flat_.carry(i, e) && !flat_.hide(i, e)) {
       ++surface_tests_;
       const Instant time = times_.of_surface(i, e, feature);
       offer(i, best, {time, e, 0, ExactEvent::Kind::body_fixed, feature});

@@ -141,8 +141,17 @@ bool ExactImpacts::comes_to_rest(const FixedImpact& impact, FlatContact& contact
   const auto& [i, surface, feature, flat, began_now, x, v, there, e, approach, unkicked, press] = impact;
   const double separation = e * unkicked;
   contact = {surface, feature, -there.normal, false, bodies_.now, separation};
-  const bool ends = e < 1 || approach == 0 || (e == 1 && bodies_.too_low(x, approach, press));
   const std::size_t carrying = parts_.flat.of(i).count;
+  // A surface nearly level with one that carries the body takes over from it: hops too low to tell are none.
+  const double weight = bodies_.applied[i].dot(there.normal);
+  if (carrying > 0 && flat && carrying < FlatContactList::most && !bodies_.in_lasting_contact(i) && e <= 1 &&
+      weight > 0 && approach * approach < weight * exact_tolerance::position_rounding *
+                                              (x.cwiseAbs().sum() + bodies_.world.radius[i])) {
+    contact.residual_speed = 0;
+    contact.rest_time = bodies_.now;
+    return true;
+  }
+  const bool ends = e < 1 || approach == 0 || (e == 1 && bodies_.too_low(x, approach, press));
   if (!(press > 0) || !flat || bodies_.in_lasting_contact(i) || carrying >= FlatContactList::most || !ends)
     return false;
   const double left = separation == 0 || e == 1 ? 0 : 2 * separation / (press * (1 - e));
@@ -174,9 +183,10 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   bodies_.log.note_speed(v.norm());
   FlatContact contact;
   const bool rests = comes_to_rest(impact, contact);
-  const bool ends = !rests && ends_in_contact(impact);
+  const bool taken_over = rests && !contact.settling;
+  const bool ends = taken_over || (!rests && ends_in_contact(impact));
   const double separation = ends ? 0 : impact.e * met;
-  if (ends || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
+  if ((ends && !rests) || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
   parts_.group.widen_margin(i, approach);
   if (approach > 0 || separation > 0) {
     bodies_.log.lose(impact_loss(mass, ExactBodies::immovable, approach,
@@ -185,6 +195,7 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
       bodies_.log.record(make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, surface,
                                         impact.there.point, n, met, separation, impact.e));
   }
+  if (taken_over) parts_.flat.remove_level(i, contact.normal);
   if (rests) {
     parts_.flat.add(i, contact);
     parts_.flights.begin(i, x + impact.there.gap * n, parts_.flat.keep_at(i, v - approach * n), {surface, feature});
@@ -192,9 +203,9 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
     const double change = (ends ? approach : met) + separation;
     parts_.flights.begin(i, x, parts_.flat.keep_at(i, v - change * n), {surface, feature});
   }
-  if (ends) bodies_.flights.accelerate(i, Vec3::Zero());
+  if (ends && !rests) bodies_.flights.accelerate(i, Vec3::Zero());
   parts_.predictor.predict(i);
-  if (!ends) return;
+  if (!ends || rests) return;
   parts_.group.kick(i, (met - approach) * n);
   parts_.simultaneous.count_impact(i);
 }

@@ -32,6 +32,56 @@ bool FlatContacts::carry(Entity i, Entity surface) const {
   return false;
 }
 
+bool FlatContacts::hide(Entity i, Entity fixed) const {
+  const FlatContactList& contacts = contacts_[i];
+  for (std::size_t k = 0; k < contacts.count; ++k)
+    if (lies_behind(bodies_.world, i, bodies_.position(i), fixed, contacts.at[k].normal)) return true;
+  return false;
+}
+
+void FlatContacts::remove_level(Entity i, const Vec3& normal) {
+  const FlatContactList contacts = contacts_[i];
+  for (std::size_t k = 0; k < contacts.count; ++k)
+    if ((contacts.at[k].normal - normal).norm() <= exact_tolerance::level) remove(i, contacts.at[k].surface);
+}
+
+Entity FlatContacts::hand_over(Entity i, Entity surface) {
+  const World& world = bodies_.world;
+  const FlatContactList contacts = contacts_[i];
+  Vec3 normal = Vec3::Zero();
+  for (std::size_t k = 0; k < contacts.count; ++k)
+    if (contacts.at[k].surface == surface) normal = contacts.at[k].normal;
+  remove(i, surface);
+  const Vec3 x = bodies_.position(i), v = bodies_.velocity(i), a = bodies_.flights.acceleration(i);
+  // A little ahead it is over the other one's face, if rims are no farther apart than rounding.
+  const double ahead = std::max(exact_tolerance::rim_gap * world.radius[i],
+                                exact_tolerance::initial_rounding * x.cwiseAbs().sum());
+  const double speed = v.norm();
+  if (speed == 0) return no_entity;
+  const Vec3 there = x + ahead / speed * v;
+  FlatContact next{no_entity, 0, normal, false, bodies_.now, 0};
+  double longest = -1;
+  for (const Entity e : bodies_.known_to(i)) {
+    if (world.is_body(e) || e == surface || carry(i, e)) continue;
+    const Vec3& point = world.fixed_position(e);
+    const Touch level = touch(world, i, there, e, point);
+    const double rounding =
+        exact_tolerance::initial_rounding * (x.cwiseAbs().sum() + point.cwiseAbs().sum() + world.radius[i]);
+    if (!is_flat(world, i, e, level.feature) || std::abs(level.gap) > rounding ||
+        (level.normal + normal).norm() > velocity_rounding)
+      continue;
+    const RelativeMotion m{point - there, -v, -a, speed, true};
+    const double stay = leave_feature(world, i, e, level.feature, m, bodies_.options.duration).time;
+    if (!(stay > longest)) continue;
+    longest = stay;
+    next.surface = e;
+    next.feature = level.feature;
+    next.normal = -level.normal;
+  }
+  if (next.surface != no_entity) add(i, next);
+  return next.surface;
+}
+
 void FlatContacts::add(Entity i, const FlatContact& contact) {
   bodies_.log.lose(impact_loss(bodies_.world.mass[i], ExactBodies::immovable, contact.residual_speed, 0));
   FlatContactList& contacts = contacts_.write(i);

@@ -38,10 +38,17 @@ class FlatContacts {
 
   const FlatContactList& of(Entity i) const { return contacts_[i]; }
   bool carry(Entity i, Entity surface) const;
+  /// Whether body i cannot strike this fixed thing: it lies behind a surface that carries the body.
+  bool hide(Entity i, Entity fixed) const;
 
   /// Adds a surface to those that carry body i.
   void add(Entity i, const FlatContact& contact);
   void remove(Entity i, Entity surface);
+  /// Removes those that are level, or nearly so, with a surface of this normal, which carries the body from now on.
+  void remove_level(Entity i, const Vec3& normal);
+  /// The same at the surface's rim, over which body i slides. Where another one lies level with it, that one carries
+  /// the body on. Gives it, or no_entity.
+  Entity hand_over(Entity i, Entity surface);
   void clear(Entity i);
   /// At the start: a body that touches a flat surface (but for rounding of the scene's numbers), does not move along
   /// its normal and is pressed on rests there from the first.
