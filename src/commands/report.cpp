@@ -118,8 +118,9 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   block.line("collisions", collisions_text(summary));
   block.line("rest", rest_text(summary));
   if (summary.stepped_contact > 0)
-    block.line("contact", fmt::format("{} of lasting contact, summed over bodies, by time stepping: right to first order",
-                                      quantity(summary.stepped_contact, "s")));
+    block.line("contact",
+               fmt::format("{} of lasting contact, summed over bodies, by time stepping: right to first order",
+                           quantity(summary.stepped_contact, "s")));
   if (summary.contact.doubtful > 0)
     block.line("doubtful", fmt::format("{}: motion may be off by more than rounding; make masses less unequal",
                                        counted(summary.contact.doubtful, "contact problem", "contact problems")));

@@ -117,9 +117,8 @@ void FlightsFile::end(const Tally& tally) {
   for (const std::uint64_t count :
        {entries_, tally.body_body, tally.body_fixed, tally.merges, tally.collapses, tally.resting})
     writer.put(count);
-  for (const double value :
-       {tally.first_collision, tally.last_collision, tally.energy_lost, tally.work, tally.max_overlap, tally.max_speed,
-        tally.stepped_contact})
+  for (const double value : {tally.first_collision, tally.last_collision, tally.energy_lost, tally.work,
+                             tally.max_overlap, tally.max_speed, tally.stepped_contact})
     writer.put(value);
   file_->written(writer.end());
 }

@@ -32,7 +32,7 @@ class DormandPrince {
   /// All points' positions (m) and velocities (m/s) at t (s).
   void at(double t, std::vector<Vec3>& x, std::vector<Vec3>& v) const;
 
-  double length() const { return length_; }           // s
+  double length() const { return length_; }                 // s
   const Vec3& start(std::size_t k) const { return x_[k]; }  // m
   std::size_t size() const { return x_.size(); }
 
@@ -42,10 +42,10 @@ class DormandPrince {
   void evaluate(std::size_t stage, const Acceleration& acceleration);
   static Vec3 polynomial(const std::vector<Vec3>& coefficients, std::size_t k, double s);
 
-  std::vector<Vec3> x_, v_;                                // m, m/s: at the start
-  std::vector<Vec3> velocity_[stages], rate_[stages];      // m/s, m/s^2: of each stage
-  std::vector<Vec3> of_displacement_, of_velocity_;        // coefficients of the dense output, `terms` by point
-  double length_ = 0;                                      // s
+  std::vector<Vec3> x_, v_;                            // m, m/s: at the start
+  std::vector<Vec3> velocity_[stages], rate_[stages];  // m/s, m/s^2: of each stage
+  std::vector<Vec3> of_displacement_, of_velocity_;    // coefficients of the dense output, `terms` by point
+  double length_ = 0;                                  // s
 };
 
 }  // namespace carom

@@ -33,9 +33,9 @@ double bending(const World& world, Entity a, const Vec3& xa, Entity b, const Vec
 /// Whether a pair meets at this feature in a plane for as long as it does, so that motion along it is straight.
 bool is_flat(const World& world, Entity a, Entity b, std::uint8_t feature);
 
-/// Whether a fixed thing lies wholly behind the plane that body a, at xa (m), touches on the far side of the unit vector
-/// n: no farther along n than the body's own surface reaches against it, but for rounding. A body that slides in that
-/// plane cannot strike it.
+/// Whether a fixed thing lies wholly behind the plane that body a, at xa (m), touches on the far side of the unit
+/// vector n: no farther along n than the body's own surface reaches against it, but for rounding. A body that slides in
+/// that plane cannot strike it.
 bool lies_behind(const World& world, Entity a, const Vec3& xa, Entity fixed, const Vec3& n);
 
 /// An instant, and where two things touch then.

@@ -17,9 +17,9 @@ class CollapseDetector {
       : bodies_(bodies), burst_(bodies.body.size()), collapse_(bodies.body.size()) {}
 
   /// Counts an impact of a on b at `approach` (m/s). Gives whether it ends in contact: nothing is left of the approach.
-  /// press: m/s^2, drives the two together; length: m, of the two; alone: on a flat surface, not among bodies. An
-  /// inelastic collapse ends bouncing at any speed. Under load it also ends when an impact is slow and one of very many
-  /// within the time of a hop at that speed, or is slow and meets bodies in lasting contact.
+  /// press: m/s^2, drives the two together; length: m, the diameter of the smaller one; alone: on a flat surface, not
+  /// among bodies. An inelastic collapse ends bouncing at any speed. Under load it also ends when an impact is slow and
+  /// one of very many within the time of a hop at that speed, or is slow and meets bodies in lasting contact.
   bool count_impact(Entity a, Entity b, double e, double approach, double press, double length, bool alone);
   /// Counts an impact of body i in turn with the one that caused it; lost: its 1 - e.
   void count_in_turn(Entity i, double lost);

@@ -485,7 +485,9 @@ void ConstrainedMotion::begin_piece(Entity i) {
   const double from = bodies_.now - following.path->start, rest = motion.length() - from;
   const double room = following.path->room;
   const Vec3 start = motion.displacement(k, from), v = motion.velocity(k, from);
-  const auto at_most = [rest](double h) { return h >= rest ? rest : std::min(h, 0.5 * rest); };  // the last is not short
+  const auto at_most = [rest](double h) {
+    return h >= rest ? rest : std::min(h, 0.5 * rest);
+  };  // the last is not short
   double h = at_most(following.piece > 0 ? 2 * following.piece : tol::moment * motion.length());
   Vec3 a;
   for (;;) {

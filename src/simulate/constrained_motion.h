@@ -50,21 +50,21 @@ class ConstrainedMotion {
 
   /// A step, in numbers of its own.
   struct Step {
-    std::vector<Entity> members;           // ascending
+    std::vector<Entity> members;            // ascending
     double greatest = 0, smallest = never;  // m/s^2, the greatest acceleration; m, the least radius
-    std::vector<Vec3> x, v;                // m, m/s, by member
-    std::vector<double> inverse_mass;      // 1/kg
-    std::vector<ContactConstraint> pairs;  // in contact; force: N, at the step's start
-    std::vector<Contact> names;            // their names
-    std::vector<Vec3> a;                   // m/s^2, at the step's start
-    double fastest = 0;                    // m/s
-    std::vector<std::uint8_t> rests;       // by member
+    std::vector<Vec3> x, v;                 // m, m/s, by member
+    std::vector<double> inverse_mass;       // 1/kg
+    std::vector<ContactConstraint> pairs;   // in contact; force: N, at the step's start
+    std::vector<Contact> names;             // their names
+    std::vector<Vec3> a;                    // m/s^2, at the step's start
+    double fastest = 0;                     // m/s
+    std::vector<std::uint8_t> rests;        // by member
     std::vector<std::uint8_t> held, bound;  // by member: something presses on it; something that is not flat does
-    std::vector<FlatContactList> flats;    // by member: what it rests on if it leaves the group
-    std::vector<Vec3> down;                // m, closes what is left of the gaps to these
-    double length = 0, grace = 0;          // s; grace: a body that nothing binds stays for it, to fall back
-    std::shared_ptr<Path> path;            // or none: parabolas
-    bool undisturbed = false;              // the step before has come to its end
+    std::vector<FlatContactList> flats;     // by member: what it rests on if it leaves the group
+    std::vector<Vec3> down;                 // m, closes what is left of the gaps to these
+    double length = 0, grace = 0;           // s; grace: a body that nothing binds stays for it, to fall back
+    std::shared_ptr<Path> path;             // or none: parabolas
+    bool undisturbed = false;               // the step before has come to its end
   };
 
   bool follows(Entity i) const;

@@ -123,7 +123,8 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& v, const std::v
     for (std::size_t c = 0; c < contacts.size(); ++c) {
       const auto& [i, e, feature] = contacts[c];
       if (is_flat(world_, i, e, feature)) continue;
-      const double bend = bend_radius(world_, i, e), room = tol::step_error * smaller_radius(world_, contacts[c]) * bend;
+      const double bend = bend_radius(world_, i, e),
+                   room = tol::step_error * smaller_radius(world_, contacts[c]) * bend;
       const double w = relative(v, rows[c]).norm(), bent = relative(a, rows[c]).norm() + w * w / bend;
       if (bent > 0) h = std::min(h, std::sqrt(std::sqrt(8 * room) / bent));
       if (w * bent > 0) h = std::min(h, cube_root(2 * room / (w * bent)));
@@ -184,9 +185,14 @@ double ConstrainedSystem::first_change(const DormandPrince& motion) {
     motion.at(to, x, v);
     if (over_rim(motion, x)) first = std::min(first, find_rim(motion, from, to));
     switch (look_at_opened(motion, x)) {
-      case Opened::near: break;
-      case Opened::away: first = std::min(first, to); break;
-      case Opened::back: first = std::min(first, find_closing(motion, from, to)); break;
+      case Opened::near:
+        break;
+      case Opened::away:
+        first = std::min(first, to);
+        break;
+      case Opened::back:
+        first = std::min(first, find_closing(motion, from, to));
+        break;
     }
   }
   return first;

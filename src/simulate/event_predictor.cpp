@@ -42,8 +42,7 @@ void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
   if (!bodies_.world.forces.empty())
     offer(i, best,
           {{bodies_.merged.next_switch(i, bodies_.now.hi), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
-  if (bodies_.in_group(i))
-    offer(i, best, {bodies_.islands.due(i), no_entity, 0, ExactEvent::Kind::step, no_feature});
+  if (bodies_.in_group(i)) offer(i, best, {bodies_.islands.due(i), no_entity, 0, ExactEvent::Kind::step, no_feature});
   bodies_.body[i].event = best;
   queue_.schedule(i, region_exit(bodies_, i));
 }

@@ -71,7 +71,7 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const double e = pair_restitution(world, a, b);
   parts_.guard.note_restitution(e);
   const double met = parts_.group.approach_without_kick(approach, n, a, b);
-  const double length = world.radius[a] + world.radius[b];
+  const double length = 2 * std::min(world.radius[a], world.radius[b]);
   double press = 0;
   if (p.a != q.a) press = -(n.dot(q.a - p.a) + bending(world, a, xa, b, xb, there, w));
   if (press <= 0)
@@ -145,8 +145,9 @@ bool ExactImpacts::comes_to_rest(const FixedImpact& impact, FlatContact& contact
   // A surface nearly level with one that carries the body takes over from it: hops too low to tell are none.
   const double weight = bodies_.applied[i].dot(there.normal);
   if (carrying > 0 && flat && carrying < FlatContactList::most && !bodies_.in_lasting_contact(i) && e <= 1 &&
-      weight > 0 && approach * approach < weight * exact_tolerance::position_rounding *
-                                              (x.cwiseAbs().sum() + bodies_.world.radius[i])) {
+      weight > 0 &&
+      approach * approach <
+          weight * exact_tolerance::position_rounding * (x.cwiseAbs().sum() + bodies_.world.radius[i])) {
     contact.residual_speed = 0;
     contact.rest_time = bodies_.now;
     return true;

@@ -175,7 +175,8 @@ void ExactSimulator::switch_forces(Entity i) {
 /// is what it has last touched.
 void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
   const Entity next = flat_.hand_over(i, surface);
-  const FlightOrigin off{surface, edge}, on{next, flat_.of(i).count > 0 ? flat_.of(i).at[flat_.of(i).count - 1].feature : edge};
+  const FlightOrigin off{surface, edge},
+      on{next, flat_.of(i).count > 0 ? flat_.of(i).at[flat_.of(i).count - 1].feature : edge};
   flights_.begin(i, bodies_.position(i), bodies_.velocity(i), next == no_entity ? off : on);
   predictor_.predict(i);
 }

@@ -54,8 +54,8 @@ Entity FlatContacts::hand_over(Entity i, Entity surface) {
   remove(i, surface);
   const Vec3 x = bodies_.position(i), v = bodies_.velocity(i), a = bodies_.flights.acceleration(i);
   // A little ahead it is over the other one's face, if rims are no farther apart than rounding.
-  const double ahead = std::max(exact_tolerance::rim_gap * world.radius[i],
-                                exact_tolerance::initial_rounding * x.cwiseAbs().sum());
+  const double ahead =
+      std::max(exact_tolerance::rim_gap * world.radius[i], exact_tolerance::initial_rounding * x.cwiseAbs().sum());
   const double speed = v.norm();
   if (speed == 0) return no_entity;
   const Vec3 there = x + ahead / speed * v;

@@ -17,7 +17,8 @@ class FlightChanges {
   void go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
   /// Body i's flight goes on from now with velocity v (m/s), which it ought to have had. Its events stay.
   void correct(Entity i, const Vec3& v);
-  /// Books what forces did to body i on the flight that ends at x (m) then: the World's, and contact forces against them.
+  /// Books what forces did to body i on the flight that ends at x (m) then: the World's, and contact forces against
+  /// them.
   void book(Entity i, const Vec3& x, const Instant& end);
   /// Books all flights up to `time` (s), the run's end; only once. Between collisions a speed is greatest at a flight's
   /// ends.

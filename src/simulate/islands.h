@@ -36,7 +36,8 @@ struct Island {
 
 class Islands {
  public:
-  explicit Islands(Entity bodies) : kicked_until(bodies), kick(bodies, Vec3::Zero()), piece_end(bodies, Instant{never, 0}), island_(bodies, none) {}
+  explicit Islands(Entity bodies)
+      : kicked_until(bodies), kick(bodies, Vec3::Zero()), piece_end(bodies, Instant{never, 0}), island_(bodies, none) {}
 
   LazyArray<Instant> kicked_until;  // by member, in time stepping: forces are in its velocity up to this instant,
   LazyArray<Vec3> kick;             // m/s^2, this on average, from the start

@@ -68,7 +68,8 @@ void GroupRest::try_part(const GroupBodies& group, const Places& places) {
 }
 
 /// Whether and where forces hold a part of the group in balance, close to where it is. It sinks by a little at a time,
-/// as far as its contacts let it, until it sinks no more. part.x is where it begins; then where it stands. The impulses of its contacts become forces (N).
+/// as far as its contacts let it, until it sinks no more. part.x is where it begins; then where it stands. The impulses
+/// of its contacts become forces (N).
 bool GroupRest::find_balance(GroupBodies& part) {
   const std::vector<Vec3> from = part.x;
   std::vector<ContactConstraint> pairs;

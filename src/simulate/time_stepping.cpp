@@ -280,7 +280,8 @@ void TimeStepping::put_to_rest(Step& step) const {
     const Entity e = step.names[holding.which[c]].second;
     if (holding.pairs[c].force > 0 && bodies_.world.is_body(e) && holding.pairs[c].b == ContactConstraint::fixed) {
       still[step.island[holding.pairs[c].a]] = 0;
-      step.pairs[holding.which[c]].force = std::max(step.pairs[holding.which[c]].force, step.length * holding.pairs[c].force);
+      step.pairs[holding.which[c]].force =
+          std::max(step.pairs[holding.which[c]].force, step.length * holding.pairs[c].force);
     }
   }
   for (std::uint32_t k = 0; k < n; ++k) step.rests[k] = still[step.island[k]];

@@ -39,8 +39,10 @@ TEST(CompareCommand, FindsWhatVariedAndWritesTableWorkbookAndManifest) {
   const auto files = here.files("output/comparison");
   ASSERT_EQ(files.size(), 3u);
   const std::string& table = files.at("summary.csv");
-  EXPECT_NE(table.find(",resting,frames,stepped_contact_s,balls.red.restitution,balls.red.speed_m_per_s\na,Two balls,exact,done,1,"),
-            std::string::npos)
+  EXPECT_NE(
+      table.find(
+          ",resting,frames,stepped_contact_s,balls.red.restitution,balls.red.speed_m_per_s\na,Two balls,exact,done,1,"),
+      std::string::npos)
       << table;
   EXPECT_NE(table.find("\nc,"), std::string::npos);
   EXPECT_TRUE(files.at("comparison.xlsx").starts_with("PK"));

@@ -77,7 +77,9 @@ TEST(DormandPrince, ChoosesLongerStepsWhereTheErrorIsSmall) {
   // A motion without error in the estimate: parabolas.
   const std::vector<Vec3> x{Vec3::Zero()}, v{Vec3(1, 2, 3)}, a{Vec3(0, -10, 0)};
   DormandPrince fall(x, v, a);
-  EXPECT_LT(fall.step(1, [&](const auto&, const auto&) { return a; }, 1, 1), 1e-13);  // measured: 2e-14
+  EXPECT_LT(fall.step(
+                1, [&](const auto&, const auto&) { return a; }, 1, 1),
+            1e-13);  // measured: 2e-14
 }
 
 TEST(DormandPrince, InOtherUnitsHasTheSameBits) {

@@ -109,7 +109,8 @@ TEST(ConstrainedMotion, RoofsAndPyramidsComeDownAsTheirOneCoordinateSays) {
         const double q = angle_of_roof(angle, top, 1, bases, r, problem.options.duration);
         ASSERT_GT(q, angle + 0.03);
         for (int c = 0; c < copies; ++c) {
-          const std::size_t first = static_cast<std::size_t>(c * (bases + 1)), last = first + static_cast<std::size_t>(bases);
+          const std::size_t first = static_cast<std::size_t>(c * (bases + 1)),
+                            last = first + static_cast<std::size_t>(bases);
           EXPECT_NEAR(run.end.position[last].y(), r + 2 * r * std::cos(q), 5e-12);  // measured: 2e-12
           for (std::size_t b = first; b < last; ++b) {
             const Vec3 out = run.end.position[b] - Vec3(0, 0, 5.0 * c);

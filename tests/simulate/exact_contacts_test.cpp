@@ -213,7 +213,6 @@ TEST(ConstrainedMotion, KeepsToACurvedSurface) {
   EXPECT_NEAR(forces[0].force, g - 0.25 / 1.5, 1e-12);  // m (g - v^2 / r)
 }
 
-
 TEST(ConstrainedMotion, LeavesAnIslandWhoseContactsChangeTooOftenToTimeStepping) {
   Problem p;
   p.world.gravity = Vec3(0, -g, 0);

@@ -115,6 +115,24 @@ TEST(Rest, APyramidOfFourPressesOnFloorAndWalls) {
   expect_rest_and_landing(pyramid(), forces, "pyramid");
 }
 
+TEST(Rest, ASmallBodyBouncesOnALargeOneInContactAsByItself) {
+  for (const double r : {2e-5, 1e-3}) {
+    Problem problem;
+    problem.world.gravity = Vec3(0, -g, 0);
+    problem.options.duration = 0.9 * std::sqrt(2 * 30 * r / g) * 2;
+    problem.plane({0, 0, 0}, {0, 1, 0});
+    problem.body(Volume::box({2, 1, 2}), {0, 0.5, 0}, {0, 0, 0}, 1000, 0);
+    problem.ball({0.5, 1 + r, 0}, {0, 0, 0}, 1e-3, r, 0);
+    problem.ball({-0.5, 1 + 31 * r, 0}, {0, 0, 0}, 1e-3, r, 0.5);
+    problem.world.restitution[0] = 0.5;
+    const Outcome run = run_exact(problem);
+    ASSERT_FALSE(run.collisions.empty()) << r;
+    const Collision& first = run.collisions.front();
+    EXPECT_NEAR(first.approach_speed, std::sqrt(2 * g * 30 * r), 1e-9) << r;
+    EXPECT_NEAR(first.separation_speed, 0.5 * first.approach_speed, 1e-9) << r;
+  }
+}
+
 TEST(Rest, ABoxOnABoxOnTheFloor) {
   Problem problem;
   problem.world.gravity = Vec3(0, -g, 0);
