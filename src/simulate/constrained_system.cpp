@@ -40,6 +40,19 @@ Vec3 relative(const std::vector<Vec3>& v, const ContactConstraint& p) {
   return (p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : v[p.b]) - v[p.a];
 }
 
+/// s: the first time in a step at which `happens` is true of all positions (m), between one when it is not and one when
+/// it is.
+template <typename Happens>
+double first_time(const DormandPrince& motion, double from, double to, Happens happens) {
+  std::vector<Vec3> x, v;
+  while (to - from > tol::time_precision * motion.length()) {
+    const double t = 0.5 * (from + to);
+    motion.at(t, x, v);
+    (happens(x) ? to : from) = t;
+  }
+  return to;
+}
+
 double greatest_norm(const std::vector<Vec3>& v) {
   double greatest = 0;
   for (const Vec3& of : v) greatest = std::max(greatest, of.norm());
@@ -178,22 +191,17 @@ double ConstrainedSystem::first_change(const DormandPrince& motion) {
   } else if (const double end = opens(motion, h); end > tol::opened) {
     first = find_opening(motion, 0.5 * h, h, end);
   }
+  const auto rim = [&](const std::vector<Vec3>& at) { return over_rim(motion, at); };
+  const auto back = [&](const std::vector<Vec3>& at) { return look_at_opened(motion, at) == Opened::back; };
   std::vector<Vec3> x, v;
   for (int k = 1; k <= samples; ++k) {
     const double from = h * (k - 1) / samples, to = k == samples ? h : h * k / samples;
     if (from >= first) break;
     motion.at(to, x, v);
-    if (over_rim(motion, x)) first = std::min(first, find_rim(motion, from, to));
-    switch (look_at_opened(motion, x)) {
-      case Opened::near:
-        break;
-      case Opened::away:
-        first = std::min(first, to);
-        break;
-      case Opened::back:
-        first = std::min(first, find_closing(motion, from, to));
-        break;
-    }
+    if (rim(x)) first = std::min(first, first_time(motion, from, to, rim));
+    const Opened opened = look_at_opened(motion, x);
+    if (opened == Opened::away) first = std::min(first, to);
+    if (opened == Opened::back) first = std::min(first, first_time(motion, from, to, back));
   }
   return first;
 }
@@ -246,16 +254,6 @@ bool ConstrainedSystem::over_rim(const DormandPrince& motion, const std::vector<
   return false;
 }
 
-double ConstrainedSystem::find_rim(const DormandPrince& motion, double from, double to) const {
-  std::vector<Vec3> x, v;
-  while (to - from > tol::time_precision * motion.length()) {
-    const double t = 0.5 * (from + to);
-    motion.at(t, x, v);
-    (over_rim(motion, x) ? to : from) = t;
-  }
-  return to;
-}
-
 /// What has become of opened contacts: the first that comes back counts, then those far enough away to meet again.
 ConstrainedSystem::Opened ConstrainedSystem::look_at_opened(const DormandPrince& motion,
                                                             const std::vector<Vec3>& x) const {
@@ -274,16 +272,6 @@ ConstrainedSystem::Opened ConstrainedSystem::look_at_opened(const DormandPrince&
     if (gap > std::max(tol::contact_gap * least, rounding)) all = Opened::away;
   }
   return all;
-}
-
-double ConstrainedSystem::find_closing(const DormandPrince& motion, double from, double to) const {
-  std::vector<Vec3> x, v;
-  while (to - from > tol::time_precision * motion.length()) {
-    const double t = 0.5 * (from + to);
-    motion.at(t, x, v);
-    (look_at_opened(motion, x) == Opened::back ? to : from) = t;
-  }
-  return to;
 }
 
 }  // namespace carom

@@ -60,10 +60,7 @@ class ConstrainedSystem {
   Followed follow(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a, double first,
                   double longest);
 
-  const std::vector<Contact>& closed() const { return closed_; }
   const std::vector<ContactConstraint>& rows() const { return rows_; }  // of closed contacts
-  const std::vector<Entity>& members() const { return members_; }
-  const std::vector<double>& inverse_mass() const { return inverse_mass_; }
   const Certificate& certificate() const { return certificate_; }
 
  private:
@@ -72,8 +69,6 @@ class ConstrainedSystem {
                                std::vector<ContactConstraint>& rows, Certificate& certificate) const;
   double opens(const DormandPrince& motion, double t);
   double find_opening(const DormandPrince& motion, double from, double to, double at_end);
-  double find_rim(const DormandPrince& motion, double from, double to) const;
-  double find_closing(const DormandPrince& motion, double from, double to) const;
   double first_change(const DormandPrince& motion);
   bool over_rim(const DormandPrince& motion, const std::vector<Vec3>& x) const;
   enum class Opened { near, away, back };
