@@ -65,7 +65,7 @@ void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
 
 /// Offers when body i meets each of the others.
 void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEvent& best) {
-  const bool constrained = bodies_.is_constrained(i);
+  const bool constrained = bodies_.is_constrained(i), carried = flat_.of(i).count > 0;
   for (const Entity e : others) {
     if (constrained && group_.are_partners(i, e)) continue;  // they cannot meet
     std::uint8_t feature = no_feature;
@@ -74,7 +74,7 @@ void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEv
       ++pair_tests_;
       const Instant time = times_.of_pair(i, e, feature);
       offer(i, best, {time, e, bodies_.body[e].version, ExactEvent::Kind::body_body, feature});
-    } else if (!flat_.carry(i, e) && !flat_.hide(i, e)) {
+    } else if (!carried || (!flat_.carry(i, e) && !flat_.hide(i, e))) {
       ++surface_tests_;
       const Instant time = times_.of_surface(i, e, feature);
       offer(i, best, {time, e, 0, ExactEvent::Kind::body_fixed, feature});

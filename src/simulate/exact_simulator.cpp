@@ -112,8 +112,10 @@ void ExactSimulator::process(Entity i) {
   bodies_.neighbours.prefetch_list(i);
   if (event.kind == Kind::body_body) bodies_.neighbours.prefetch_list(event.partner);
   if (bodies_.now < event.time) bodies_.now = event.time;
-  if (event.kind != Kind::step) constrained_.settle(i);
-  if (event.kind == Kind::body_body) constrained_.settle(event.partner);
+  if (bodies_.islands.any() && event.kind != Kind::step) {
+    constrained_.settle(i);
+    if (event.kind == Kind::body_body) constrained_.settle(event.partner);
+  }
   switch (event.kind) {
     case Kind::body_body:
       if (bodies_.body[event.partner].version == event.partner_version)
