@@ -3,7 +3,6 @@
 // output of order 7 (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, II.5 and II.6;
 // the coefficients are those of their program). Twelve accelerations a step, and three more for the dense output.
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "physics/vec3.h"

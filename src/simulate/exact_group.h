@@ -1,8 +1,8 @@
 #pragma once
 // The exact simulator's bodies in lasting contact with one another and with anything that is not flat, where paths have
-// no closed form. Each island of them moves in steps of its own: a small one by constrained motion
-// (constrained_motion.h), a large one by time stepping (time_stepping.h). Here: what is known of each of these bodies,
-// and what impacts do to them between steps.
+// no closed form. Each island of them moves in steps of its own: by constrained motion (constrained_motion.h), or by
+// time stepping (time_stepping.h) where its contacts change too often. Here: what is known of each of these bodies, and
+// what impacts do to them between steps.
 #include <vector>
 
 #include "simulate/collapse_detector.h"

@@ -185,14 +185,14 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   FlatContact contact;
   const bool rests = comes_to_rest(impact, contact);
   const bool taken_over = rests && !contact.settling;
-  const bool ends = taken_over || (!rests && ends_in_contact(impact));
-  const double separation = ends ? 0 : impact.e * met;
-  if ((ends && !rests) || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
+  const bool ends = !rests && ends_in_contact(impact), leaves_nothing = ends || taken_over;
+  const double separation = leaves_nothing ? 0 : impact.e * met;
+  if (ends || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
   parts_.group.widen_margin(i, approach);
   if (approach > 0 || separation > 0) {
     bodies_.log.lose(impact_loss(mass, ExactBodies::immovable, approach,
-                                 ends || met == approach ? separation : met + separation - approach));
-    if (!ends)
+                                 leaves_nothing || met == approach ? separation : met + separation - approach));
+    if (!leaves_nothing)
       bodies_.log.record(make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, surface,
                                         impact.there.point, n, met, separation, impact.e));
   }
@@ -204,9 +204,9 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
     const double change = (ends ? approach : met) + separation;
     parts_.flights.begin(i, x, parts_.flat.keep_at(i, v - change * n), {surface, feature});
   }
-  if (ends && !rests) bodies_.flights.accelerate(i, Vec3::Zero());
+  if (ends) bodies_.flights.accelerate(i, Vec3::Zero());
   parts_.predictor.predict(i);
-  if (!ends || rests) return;
+  if (!ends) return;
   parts_.group.kick(i, (met - approach) * n);
   parts_.simultaneous.count_impact(i);
 }

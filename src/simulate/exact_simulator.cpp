@@ -176,10 +176,9 @@ void ExactSimulator::switch_forces(Entity i) {
 /// Body i slides over the rim of the face that carried it: onto one that is level with it, or off; then the rim's edge
 /// is what it has last touched.
 void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
-  const Entity next = flat_.hand_over(i, surface);
-  const FlightOrigin off{surface, edge},
-      on{next, flat_.of(i).count > 0 ? flat_.of(i).at[flat_.of(i).count - 1].feature : edge};
-  flights_.begin(i, bodies_.position(i), bodies_.velocity(i), next == no_entity ? off : on);
+  const FlightOrigin next = flat_.hand_over(i, surface);
+  flights_.begin(i, bodies_.position(i), bodies_.velocity(i),
+                 next.partner == no_entity ? FlightOrigin{surface, edge} : next);
   predictor_.predict(i);
 }
 

@@ -45,7 +45,7 @@ void FlatContacts::remove_level(Entity i, const Vec3& normal) {
     if ((contacts.at[k].normal - normal).norm() <= exact_tolerance::level) remove(i, contacts.at[k].surface);
 }
 
-Entity FlatContacts::hand_over(Entity i, Entity surface) {
+FlightOrigin FlatContacts::hand_over(Entity i, Entity surface) {
   const World& world = bodies_.world;
   const FlatContactList contacts = contacts_[i];
   Vec3 normal = Vec3::Zero();
@@ -57,7 +57,7 @@ Entity FlatContacts::hand_over(Entity i, Entity surface) {
   const double ahead =
       std::max(exact_tolerance::rim_gap * world.radius[i], exact_tolerance::initial_rounding * x.cwiseAbs().sum());
   const double speed = v.norm();
-  if (speed == 0) return no_entity;
+  if (speed == 0) return {};
   const Vec3 there = x + ahead / speed * v;
   FlatContact next{no_entity, 0, normal, false, bodies_.now, 0};
   double longest = -1;
@@ -79,7 +79,7 @@ Entity FlatContacts::hand_over(Entity i, Entity surface) {
     next.normal = -level.normal;
   }
   if (next.surface != no_entity) add(i, next);
-  return next.surface;
+  return {next.surface, next.feature};
 }
 
 void FlatContacts::add(Entity i, const FlatContact& contact) {

@@ -47,8 +47,8 @@ class FlatContacts {
   /// Removes those that are level, or nearly so, with a surface of this normal, which carries the body from now on.
   void remove_level(Entity i, const Vec3& normal);
   /// The same at the surface's rim, over which body i slides. Where another one lies level with it, that one carries
-  /// the body on. Gives it, or no_entity.
-  Entity hand_over(Entity i, Entity surface);
+  /// the body on. Gives it and where they touch, or no_entity.
+  FlightOrigin hand_over(Entity i, Entity surface);
   void clear(Entity i);
   /// At the start: a body that touches a flat surface (but for rounding of the scene's numbers), does not move along
   /// its normal and is pressed on rests there from the first.

@@ -1,12 +1,12 @@
 #pragma once
-// Time stepping of a large island. Between two steps a member that is carried flies straight and the others fall
-// freely, so that impacts with and within the island are found and resolved as everywhere else. At a step contact takes
-// slow approaches at once; fast ones are left to be impacts. Then the velocities are those nearest to what forces alone
-// would make of them that keep every pair apart until the next step (contact_problem.h): linearised at the closest
-// points, which for convex bodies on straight paths is on the safe side. (Stewart & Trinkle, Int. J. Numer. Meth. Eng.
-// 39 (1996) 2673, without friction and with exact impacts.) An impact meets the velocities that bodies have by then,
-// not those that the step's kick has given them for its end. A step that ends early takes back what forces would have
-// done in its rest.
+// Time stepping of an island whose contacts change too often to be followed. Between two steps a member that is carried
+// flies straight and the others fall freely, so that impacts with and within the island are found and resolved as
+// everywhere else. At a step contact takes slow approaches at once; fast ones are left to be impacts. Then the
+// velocities are those nearest to what forces alone would make of them that keep every pair apart until the next step
+// (contact_problem.h): linearised at the closest points, which for convex bodies on straight paths is on the safe side.
+// (Stewart & Trinkle, Int. J. Numer. Meth. Eng. 39 (1996) 2673, without friction and with exact impacts.) An impact
+// meets the velocities that bodies have by then, not those that the step's kick has given them for its end. A step that
+// ends early takes back what forces would have done in its rest.
 //
 // Members that have just been struck are kept apart by a margin, so that the small motions that a strike causes wait
 // for the next step instead of making thousands of impacts at one instant. The margin shrinks as the group slows down.
