@@ -74,15 +74,14 @@ const Force* force_without_closed_form(const World& world) {
   return nullptr;
 }
 
-LinearFlight linear_flight(const World& world, Entity body, double time) {
-  LinearFlight flight{world.gravity, 0};
+double fade_of(const World& world, Entity body, double time) {
+  double fade = 0;
   for (const Force& force : world.forces) {
-    if (time < force.from || time >= force.until || !acts_on(force, body)) continue;
-    const Particle still{Vec3::Zero(), Vec3::Zero(), world.mass[body]};
-    flight.pull += std::visit([&](const auto& law) { return law.acceleration(still); }, force.law);
-    if (const Drag* drag = std::get_if<Drag>(&force.law)) flight.fade += drag->linear / world.mass[body];
+    const Drag* drag = std::get_if<Drag>(&force.law);
+    if (drag == nullptr || time < force.from || time >= force.until || !acts_on(force, body)) continue;
+    fade += drag->linear / world.mass[body];
   }
-  return flight;
+  return fade;
 }
 
 const char* name_of(const ForceLaw& law) {

@@ -3,7 +3,6 @@
 //
 // In the energy books a force that acts for ever has its potential, like gravity; one that sets in or ceases, and what
 // has no potential, does work.
-#include "physics/linear_flight.h"
 #include "physics/state.h"
 #include "physics/world.h"
 
@@ -31,8 +30,9 @@ const Force* varying_force(const World& world);
 /// there is none.
 const Force* force_without_closed_form(const World& world);
 
-/// How the body flies from `time` (s) on under forces of that kind; others are left out.
-LinearFlight linear_flight(const World& world, Entity body, double time);
+/// 1/s: how fast linear drag takes a body's velocity at `time` (s), by the velocity; free_acceleration at no velocity,
+/// less this times the velocity, is what forces do that have a closed form.
+double fade_of(const World& world, Entity body, double time);
 
 /// Its key in a scene.
 const char* name_of(const ForceLaw& law);

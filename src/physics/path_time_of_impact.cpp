@@ -2,42 +2,90 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "physics/cube_root.h"
+#include "physics/fading_descent.h"
 
 namespace carom {
 
 namespace {
 
-FeatureTime cubic_time_of_impact(const World& world, Entity a, const Path& pa, Entity b, const Path& pb, double speeds,
-                                 std::uint8_t left, double horizon) {
-  const Path relative{Vec3::Zero(), pb.v - pa.v, pb.a - pa.a, pb.j - pa.j};
-  const double far = pa.x.cwiseAbs().sum() + pb.x.cwiseAbs().sum() + world.radius[a];
+/// The way of b as seen from a on the paths of a time step.
+class CubicWay {
+ public:
+  CubicWay(const Path& pa, const Path& pb) : relative_{Vec3::Zero(), pb.v - pa.v, pb.a - pa.a, pb.j - pa.j} {}
+
+  Vec3 displacement(double t) const { return relative_.position(t); }
+  Vec3 velocity(double t) const { return relative_.velocity(t); }
+  Vec3 acceleration(double t) const { return relative_.a + t * relative_.j; }
+  /// s, after t: when the distance along n, which is `gap` (m) and changes at `rate` (m/s), comes down through zero.
+  double descent(const Vec3& n, double t, double gap, double rate, double horizon) const {
+    Polynomial distance;
+    distance.degree = 3;
+    distance.c = {gap, rate, 0.5 * n.dot(acceleration(t)), n.dot(relative_.j) / 6};
+    return first_descent(distance, horizon);
+  }
+
+ private:
+  Path relative_;
+};
+
+/// The same on paths that drag bends.
+class FadingWay {
+ public:
+  FadingWay(const FadingPath& pa, const FadingPath& pb) : pa_(pa), pb_(pb) {
+    pa_.x = pb_.x = Vec3::Zero();
+    if (pa.fade != pb.fade) return;
+    pb_.v -= std::exchange(pa_.v, Vec3::Zero());  // what they have in common takes no digits
+    pb_.a -= std::exchange(pa_.a, Vec3::Zero());
+  }
+
+  Vec3 displacement(double t) const { return pb_.position(t) - pa_.position(t); }
+  Vec3 velocity(double t) const { return pb_.velocity(t) - pa_.velocity(t); }
+  Vec3 acceleration(double t) const { return pb_.acceleration(t) - pa_.acceleration(t); }
+  /// m/s^3, how fast, at most, the acceleration changes from t on.
+  double jerk(double t) const {
+    return pa_.fade * pa_.acceleration(t).norm() + pb_.fade * pb_.acceleration(t).norm();
+  }
+  double descent(const Vec3& n, double t, double gap, double rate, double horizon) const {
+    const FadingDistance distance{
+        gap, rate, {{{-n.dot(pa_.acceleration(t)), pa_.fade}, {n.dot(pb_.acceleration(t)), pb_.fade}}}};
+    return first_descent(distance, horizon);
+  }
+
+ private:
+  FadingPath pa_, pb_;
+};
+
+/// speeds: m/s, what velocities are rounded by.
+template <typename Way>
+FeatureTime time_of_impact_along(const Way& way, const World& world, Entity a, const Vec3& from_a, Entity b,
+                                 const Vec3& xb, double speeds, std::uint8_t left, double horizon) {
+  const double far = from_a.cwiseAbs().sum() + xb.cwiseAbs().sum() + world.radius[a];
   const double closed = 0x1p-49 * far, noise = 0x1p-48 * speeds;
   double t = 0;
   for (int look = 0; look < 500 && t <= horizon; ++look) {
-    const Vec3 xa = pa.x - relative.position(t);  // b stands still
+    const Vec3 xa = from_a - way.displacement(t);  // b stands still
     const bool leaving = t == 0 && left != no_feature;
-    const Touch there = touch(world, a, xa, b, pb.x, leaving ? left : no_feature);
-    const Vec3 w = relative.velocity(t);
+    const Touch there = touch(world, a, xa, b, xb, leaving ? left : no_feature);
+    const Vec3 w = way.velocity(t);
     const Vec3& n = there.normal;
-    double rate = n.dot(w);
-    const double acceleration = n.dot(relative.a + t * relative.j), jerk = n.dot(relative.j);
-    Polynomial gap;
-    gap.degree = 3;
+    double gap = there.gap, rate = n.dot(w);
     double least = 0;  // s, that the path is surely outside for
-    if (there.gap > closed && !leaving) {
-      gap.c = {there.gap, rate, 0.5 * acceleration, jerk / 6};
-    } else {
+    if (!(gap > closed) || leaving) {
+      const double acceleration = n.dot(way.acceleration(t));
       if (std::abs(rate) <= noise) rate = 0;
       if (rate < 0) return {t, there.feature};
       if (rate == 0 && acceleration < 0) {
-        if (acceleration + bending(world, a, xa, b, pb.x, there, w) <= 0) return {t, there.feature};
+        if (acceleration + bending(world, a, xa, b, xb, there, w) <= 0) return {t, there.feature};
         // The surface turns away faster than the path bends towards it.
         const double size = world.radius[a];
         least = 0x1p-26 * std::min(size / w.norm(), std::sqrt(size / -acceleration));
       }
-      gap.c = {0, rate, 0.5 * acceleration, jerk / 6};
+      gap = 0;
     }
-    const double on = std::max(first_descent(gap, std::max(horizon - t, least)), least);
+    const double on = std::max(way.descent(n, t, gap, rate, std::max(horizon - t, least)), least);
     if (on == never) return {never, no_feature};
     if (t + on == t && there.gap > closed) return {t, there.feature};  // the clock is too coarse to come nearer
     t += on;
@@ -53,7 +101,40 @@ FeatureTime time_of_impact(const World& world, Entity a, const Path& pa, Entity 
   if (pa.j == pb.j)
     return time_of_impact(
         world, a, b, RelativeMotion{pb.x - pa.x, pb.v - pa.v, pb.a - pa.a, speeds, left != no_feature}, left, horizon);
-  return cubic_time_of_impact(world, a, pa, b, pb, speeds, left, horizon);
+  return time_of_impact_along(CubicWay(pa, pb), world, a, pa.x, b, pb.x, speeds, left, horizon);
+}
+
+FeatureTime time_of_impact(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,
+                           double speeds, std::uint8_t left, double horizon) {
+  return time_of_impact_along(FadingWay(pa, pb), world, a, pa.x, b, pb.x, speeds, left, horizon);
+}
+
+FeatureTime leave_feature(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,
+                          std::uint8_t feature, double horizon) {
+  const FadingWay way(pa, pb);
+  const double least = 0x1p-50 * world.radius[a];
+  double room = 0x1p-20 * world.radius[a];  // m, that a parabola may leave the path by
+  double t = 0, before = 0;
+  while (t < horizon) {
+    const Vec3 w = way.velocity(t);
+    const double jerk = way.jerk(t);
+    const double length = jerk > 0 ? std::min(horizon - t, cube_root(6 * room / jerk)) : horizon - t;
+    const RelativeMotion m{pb.x - pa.x + way.displacement(t), w, way.acceleration(t), w.cwiseAbs().sum(), true};
+    const FeatureTime rim = leave_feature(world, a, b, feature, m, length);
+    if (rim.time == never) {
+      before = t;
+      t += length;
+    } else if (rim.time == 0 && before < t && room > least) {  // it was within the last parabola's error
+      t = before;
+      room *= 0x1p-9;
+    } else if (jerk * rim.time * rim.time * rim.time <= 6 * least) {
+      return {t + rim.time, rim.feature};
+    } else {
+      before = t;
+      t += 0.75 * rim.time;
+    }
+  }
+  return {never, no_feature};
 }
 
 }  // namespace carom

@@ -1,5 +1,6 @@
 #pragma once
-// When two things meet on the paths of a time step.
+// When two things meet on paths that are no parabolas.
+#include "physics/fading_path.h"
 #include "physics/path.h"
 #include "physics/touch.h"
 
@@ -11,5 +12,13 @@ namespace carom {
 /// (a cubic's root) there is no contact, so that none is jumped over.
 FeatureTime time_of_impact(const World& world, Entity a, const Path& pa, Entity b, const Path& pb, std::uint8_t left,
                            double horizon);
+
+/// The same on paths that linear drag bends, followed in the same way. speeds: m/s, what velocities are rounded by.
+FeatureTime time_of_impact(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,
+                           double speeds, std::uint8_t left, double horizon);
+
+/// When a pair in lasting contact at this feature comes to its rim (touch.h), on such paths.
+FeatureTime leave_feature(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,
+                          std::uint8_t feature, double horizon);
 
 }  // namespace carom

@@ -17,13 +17,12 @@ Budget Budget::without_outputs() const {
 
 std::optional<double> steps_of(const Scene& scene) {
   const Simulate& simulate = scene.simulate;
-  const bool varying = varying_force(scene.world) != nullptr;
   const bool exact = simulate.engine == Engine::exact ||
                      (simulate.engine == Engine::automatic && force_without_closed_form(scene.world) == nullptr);
-  if ((exact && !varying) || simulate.duration == 0) return std::nullopt;
-  if (simulate.step && !exact) return std::ceil(simulate.duration / *simulate.step);
+  if (exact || simulate.duration == 0) return std::nullopt;
+  if (simulate.step) return std::ceil(simulate.duration / *simulate.step);
   const double fine = default_step(scene.world, scene.initial);
-  return std::ceil(simulate.duration / (simulate.tolerance && !exact ? 64 * fine : fine));
+  return std::ceil(simulate.duration / (simulate.tolerance ? 64 * fine : fine));
 }
 
 std::vector<Excess> excesses(const Output& output, double duration, double bodies, const Budget& budget) {

@@ -12,17 +12,18 @@ bool goes_along_parabolas(const World& world, const Simulate& simulate) {
 
 std::vector<Unsupported> unsupported(const World& world, const Simulate& simulate) {
   std::vector<Unsupported> lacks;
-  const Force* varying = varying_force(world);
-  if (const Force* open = force_without_closed_form(world); simulate.engine == Engine::exact && open != nullptr)
+  const Force *varying = varying_force(world), *open = force_without_closed_form(world);
+  if (simulate.engine == Engine::exact && open != nullptr)
     lacks.push_back({"engine",
                      fmt::format("under {}`{}` paths have no closed form, which `engine: exact` follows",
                                  std::holds_alternative<Drag>(open->law) ? "quadratic " : "", name_of(open->law)),
                      "expected `engine: stepped`, or `auto`"});
-  if (simulate.merge && simulate.engine != Engine::book && !goes_along_parabolas(world, simulate))
+  const bool in_steps = simulate.engine == Engine::stepped || open != nullptr;
+  if (simulate.merge && simulate.engine != Engine::book && in_steps)
     lacks.push_back({"contact",
                      simulate.engine == Engine::stepped
                          ? "`engine: stepped` has no `contact: merge`"
-                         : fmt::format("`contact: merge` is for parabolas, not for `{}`", name_of(varying->law)),
+                         : fmt::format("`contact: merge` is for paths in closed form, not for `{}`", name_of(open->law)),
                      "expected `contact: bounce`"});
   if (simulate.engine != Engine::book) return lacks;
   // The chapter's listings know spheres, planes and walls, gravity and the impulses of the first frame.

@@ -47,8 +47,8 @@ void BodyMerging::join(Entity whole, Entity part) {
   const double before = bodies_.merged.potential(whole, xw) + bodies_.merged.potential(part, xp);  // J
   bodies_.merged.join(whole, part);
   if (!bodies_.world.forces.empty()) {
-    bodies_.applied.write(whole) += share * (bodies_.applied[part] - bodies_.applied[whole]);
-    bodies_.working.write(whole) += share * (bodies_.working[part] - bodies_.working[whole]);
+    const auto mean = [&]<typename T>(const LazyArray<T>& of) { return T(of[whole] + share * (of[part] - of[whole])); };
+    bodies_.apply(whole, {mean(bodies_.applied), mean(bodies_.working), mean(bodies_.fade)});
   }
   for (const Entity i : {whole, part}) flat_.clear(i);
   bodies_.neighbours.remove(part);
@@ -57,7 +57,7 @@ void BodyMerging::join(Entity whole, Entity part) {
   queue_.remove(part);
   bodies_.flights.set(part, {bodies_.now, x, Vec3::Zero(), Vec3::Zero()});
   if (!bodies_.world.forces.empty()) bodies_.log.lose(before - bodies_.merged.potential(whole, x));
-  bodies_.flights.set(whole, {bodies_.now, x, v, bodies_.applied[whole]});
+  bodies_.flights.set(whole, {bodies_.now, x, v, bodies_.force_at(whole, v), bodies_.fade[whole]});
   flights_.count(whole);
   bodies_.body[whole].set_origin({});
 }

@@ -7,6 +7,7 @@
 #include "physics/contact_problem.h"
 #include "physics/cube_root.h"
 #include "physics/disjoint_sets.h"
+#include "physics/path_time_of_impact.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -253,8 +254,8 @@ void ConstrainedMotion::drop_parting(Step& step) const {
 /// The accelerations and forces at the step's start. Contacts on which nothing presses and that part are open: they
 /// are looked after until they are wide enough to meet again.
 ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
-  std::vector<Vec3> applied;
-  for (const Entity i : step.members) applied.push_back(bodies_.applied[i]);
+  std::vector<ConstrainedSystem::Applied> applied;
+  for (const Entity i : step.members) applied.push_back({bodies_.applied[i], bodies_.fade[i]});
   ConstrainedSystem system(bodies_.world, step.members, std::move(applied));
   for (std::size_t c = 0; c < step.pairs.size(); ++c)
     system.add(step.names[c], step.pairs[c].a, step.pairs[c].b, step.pairs[c].normal);
@@ -336,6 +337,7 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
   const double straight = all_rest ? step.length : system.straight_time(step.v, step.a);
   if (straight >= std::min(step.length, scales.time())) {
     step.length = std::min(step.length, straight);
+    step.fade = all_rest ? 0 : std::max(system.common_fade(), 0.0);
     for (std::size_t c = 0; c < step.pairs.size(); ++c)
       if (!step.rests[step.pairs[c].a])
         step.length = std::min({step.length, rim_time(step, c, step.length), away_time(step, c)});
@@ -366,7 +368,10 @@ double ConstrainedMotion::rim_time(const Step& step, std::size_t pair, double le
     if (std::abs(a[axis]) <= tol::velocity_rounding * step.greatest) m.a[axis] = 0;
   }
   const double over = tol::step_error * step.smallest / at_least_tiny(w.norm());
-  return std::max(leave_feature(world, i, e, feature, m, length).time, over);
+  const FadingPath of_i{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), 0}, of_e{m.d, m.w, m.a, step.fade};
+  const double leaves = step.fade == 0 ? leave_feature(world, i, e, feature, m, length).time
+                                       : leave_feature(world, i, of_i, e, of_e, feature, length).time;
+  return std::max(leaves, over);
 }
 
 /// s: when a pair that parts, or is about to, is so far apart that it may meet again.
@@ -471,7 +476,7 @@ bool ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) 
     following_.write(i).place = static_cast<std::uint32_t>(k);
     begin_piece(i);
   } else {
-    bodies_.flights.accelerate(i, step.a[k]);
+    bodies_.flights.accelerate(i, step.a[k], step.fade);
   }
   return true;
 }
@@ -524,7 +529,7 @@ void ConstrainedMotion::report(const Island& island, double time, std::vector<Co
     group_.index.write(i) = static_cast<std::uint32_t>(x.size());
     x.push_back(bodies_.flights[i].position(t));
     v.push_back(follows(i) ? velocity(i, now) : bodies_.flights[i].velocity(t));
-    a.push_back(bodies_.applied[i]);
+    a.push_back(bodies_.force_at(i, v.back()));
     inverse_mass.push_back(1 / world.mass[i]);
   }
   std::vector<ContactConstraint> pairs;

@@ -63,6 +63,7 @@ class ConstrainedMotion {
     std::vector<FlatContactList> flats;     // by member: what it rests on if it leaves the group
     std::vector<Vec3> down;                 // m, closes what is left of the gaps to these
     double length = 0, grace = 0;           // s; grace: a body that nothing binds stays for it, to fall back
+    double fade = 0;                        // 1/s, of all members' accelerations
     std::shared_ptr<Path> path;             // or none: parabolas
     bool undisturbed = false;               // the step before has come to its end
   };

@@ -61,7 +61,7 @@ double greatest_norm(const std::vector<Vec3>& v) {
 
 }  // namespace
 
-ConstrainedSystem::ConstrainedSystem(const World& world, std::vector<Entity> members, std::vector<Vec3> applied)
+ConstrainedSystem::ConstrainedSystem(const World& world, std::vector<Entity> members, std::vector<Applied> applied)
     : world_(world), members_(std::move(members)), applied_(std::move(applied)) {
   for (const Entity i : members_) inverse_mass_.push_back(1 / world.mass[i]);
 }
@@ -86,13 +86,30 @@ void ConstrainedSystem::open(const std::vector<std::uint8_t>& which) {
   rows_.resize(kept);
 }
 
+/// m/s^2, by member.
+std::vector<Vec3> ConstrainedSystem::forces_at(const std::vector<Vec3>& v) const {
+  std::vector<Vec3> a;
+  a.reserve(v.size());
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    const auto& [at_rest, fade] = applied_[k];
+    a.push_back(fade == 0 ? at_rest : Vec3(at_rest - fade * v[k]));
+  }
+  return a;
+}
+
+double ConstrainedSystem::common_fade() const {
+  const double fade = applied_.front().fade;
+  const bool same = std::all_of(applied_.begin(), applied_.end(), [&](const Applied& of) { return of.fade == fade; });
+  return same ? fade : -1;
+}
+
 Vec3 ConstrainedSystem::place_of(const std::vector<Vec3>& x, std::uint32_t b, Entity e) const {
   return b == ContactConstraint::fixed ? world_.fixed_position(e) : x[b];
 }
 
 std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                                 std::vector<ContactConstraint>& rows, Certificate& certificate) const {
-  std::vector<Vec3> a = applied_;
+  std::vector<Vec3> a = forces_at(v);
   for (std::size_t c = 0; c < rows.size(); ++c) {
     const auto& [i, e, feature] = closed_[c];
     if (is_flat(world_, i, e, feature)) continue;
@@ -119,7 +136,7 @@ ConstrainedSystem::Scales ConstrainedSystem::scales(const std::vector<Vec3>& x, 
   double farthest = 0;
   for (const Entity i : members_) s.length = std::min(s.length, world_.radius[i]);
   for (const Vec3& at : x) farthest = std::max(farthest, at.cwiseAbs().maxCoeff());
-  s.acceleration = greatest_norm(applied_);
+  s.acceleration = greatest_norm(forces_at(v));
   for (const ContactConstraint& row : rows_) s.acceleration = std::max(s.acceleration, std::abs(row.target));
   s.speed = std::max(greatest_norm(v), std::sqrt(s.acceleration * s.length));
   s.opening = s.acceleration * std::max(tol::opening, tol::contact_rounding * farthest / s.length);
@@ -145,7 +162,12 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& v, const std::v
   };
   keep(closed_, rows_);
   keep(opened_, opened_rows_);
-  return h;
+  if (common_fade() >= 0) return h;
+  double fade = 0, length = never;  // forces in flat contacts change with the members' drag
+  for (const Applied& of : applied_) fade = std::max(fade, of.fade);
+  for (const Entity i : members_) length = std::min(length, world_.radius[i]);
+  const double jerk = fade * greatest_norm(a);  // m/s^3, at most
+  return jerk > 0 ? std::min(h, cube_root(6 * tol::step_error * length / jerk)) : h;
 }
 
 ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x, const std::vector<Vec3>& v,

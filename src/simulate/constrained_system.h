@@ -23,8 +23,13 @@ struct Contact {
 
 class ConstrainedSystem {
  public:
-  /// members: bodies, ascending; applied: m/s^2, by member, constant. `world` must outlive this.
-  ConstrainedSystem(const World& world, std::vector<Entity> members, std::vector<Vec3> applied);
+  /// What forces do to a member: m/s^2, where it stands; 1/s, how fast linear drag takes its velocity.
+  struct Applied {
+    Vec3 at_rest;
+    double fade;
+  };
+  /// members: bodies, ascending; applied: by member. `world` must outlive this.
+  ConstrainedSystem(const World& world, std::vector<Entity> members, std::vector<Applied> applied);
 
   /// A contact of members number a and b, or of a and something fixed. normal: from a to b.
   void add(const Contact& contact, std::uint32_t a, std::uint32_t b, const Vec3& normal);
@@ -47,7 +52,10 @@ class ConstrainedSystem {
   };
   Scales scales(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const;
 
-  /// s: for how long all members move along parabolas, from velocities v on with accelerations a.
+  /// 1/s: linear drag takes the velocities of all members equally fast. -1: it does not.
+  double common_fade() const;
+  /// s: for how long all members move along parabolas, or along paths that a common drag bends, from velocities v on
+  /// with accelerations a.
   double straight_time(const std::vector<Vec3>& v, const std::vector<Vec3>& a) const;
 
   /// The motion from there on until something changes, or for `longest` (s).
@@ -64,6 +72,7 @@ class ConstrainedSystem {
   const Certificate& certificate() const { return certificate_; }
 
  private:
+  std::vector<Vec3> forces_at(const std::vector<Vec3>& v) const;
   Vec3 place_of(const std::vector<Vec3>& x, std::uint32_t b, Entity e) const;
   std::vector<Vec3> solve_rows(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                std::vector<ContactConstraint>& rows, Certificate& certificate) const;
@@ -76,7 +85,7 @@ class ConstrainedSystem {
 
   const World& world_;
   std::vector<Entity> members_;
-  std::vector<Vec3> applied_;
+  std::vector<Applied> applied_;
   std::vector<double> inverse_mass_;  // 1/kg
   std::vector<Contact> closed_, opened_;
   std::vector<ContactConstraint> rows_, opened_rows_;

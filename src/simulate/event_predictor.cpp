@@ -5,6 +5,7 @@
 #include <iterator>
 #include <utility>
 
+#include "physics/path_time_of_impact.h"
 #include "simulate/region_exit.h"
 
 namespace carom {
@@ -19,7 +20,8 @@ void EventPredictor::predict_all() {
   std::vector<Entity> others;
   const auto together = [&](Entity i, Entity j) {
     const Flights::Core* const f = bodies_.flights.cores();
-    return f[i].v.isZero(0) && f[j].v.isZero(0) && bodies_.flights.acceleration(i) == bodies_.flights.acceleration(j);
+    return f[i].v.isZero(0) && f[j].v.isZero(0) && bodies_.flights.acceleration(i) == bodies_.flights.acceleration(j) &&
+           bodies_.fade[i] == bodies_.fade[j];
   };
   for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
     if (bodies_.islands.any()) {
@@ -55,8 +57,8 @@ void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
       offer(i, best, {contact.rest_time, contact.surface, 0, ExactEvent::Kind::rest, contact.feature});
     if (bodies_.world.is_plane(contact.surface)) continue;
     const Flight& f = bodies_.flights[i];
-    RelativeMotion m{bodies_.world.fixed_position(contact.surface) - f.x, -f.v, -f.a, f.v.cwiseAbs().sum(), true};
-    const FeatureTime rim = leave_feature(bodies_.world, i, contact.surface, contact.feature, m,
+    const FadingPath fixed{bodies_.world.fixed_position(contact.surface), Vec3::Zero(), Vec3::Zero(), 0};
+    const FeatureTime rim = leave_feature(bodies_.world, i, f.path(), contact.surface, fixed, contact.feature,
                                           Instant{bodies_.options.duration, 0} - f.start);
     if (rim.time < never)
       offer(i, best, {f.start + rim.time, contact.surface, 0, ExactEvent::Kind::release, rim.feature});
@@ -84,7 +86,7 @@ void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEv
 
 /// The same of bodies, many at a time where all are balls and fall alike.
 void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, ExactEvent& best) {
-  if (!bodies_.world.volume.empty() || bodies_.in_group(i)) return meet_each(i, others, best);
+  if (!bodies_.world.volume.empty() || bodies_.in_group(i) || bodies_.flights.any_fades()) return meet_each(i, others, best);
   const Vec3& a = bodies_.flights.acceleration(i);
   if (bodies_.islands.any() || !bodies_.flights.alike()) {
     alike_.clear();
@@ -141,12 +143,13 @@ void EventPredictor::renew_region(Entity i) {
   const double since = bodies_.now - f.start, until = std::min(bodies_.body[i].event.time.hi, bodies_.options.duration);
   // Half way to what comes next, or to where the acceleration has reversed the motion.
   double half = 0.5 * std::max(until - bodies_.now.hi, 0.0);
-  if (const double a2 = f.a.squaredNorm(); a2 > 0) {
+  if (const double a2 = f.acceleration(since).squaredNorm(); a2 > 0) {
     const Vec3 v = f.velocity(since);
     const double size = std::sqrt(a2);
     half = std::min(half, (v.norm() + std::sqrt(v.squaredNorm() + 2 * size * bodies_.neighbours.room(i))) / size);
   }
-  const Vec3 ahead = half * (f.velocity(since) + (0.5 * half) * f.a), here = f.position(since);
+  const Vec3 here = f.position(since);
+  const Vec3 ahead = f.fade == 0 ? Vec3(half * (f.velocity(since) + (0.5 * half) * f.a)) : Vec3(f.position(since + half) - here);
   hold_to(bodies_.bounds, i, bodies_.now.hi, here, f.velocity(since), ExactBodies::too_fast);
   const std::span<const Entity> came = bodies_.neighbours.renew(i, here, ahead);
   ExactEvent best = bodies_.body[i].event;

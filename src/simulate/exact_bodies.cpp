@@ -17,6 +17,7 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
                                         given.radius.end()),
       applied(given.body_count(), given.gravity),
       working(given.body_count(), Vec3::Zero()),
+      fade(given.body_count()),
       flights(given.body_count(), given.gravity),
       body(given.body_count()),
       neighbours(world),
@@ -26,6 +27,22 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
 Vec3 ExactBodies::velocity_without_kick(Entity i, const Instant& at) const {
   const Vec3 v = flights[i].velocity(at - flights[i].start);
   return is_stepped(i) ? without_kick(v, at, islands.kicked_until[i], islands.kick[i]) : v;
+}
+
+ExactBodies::PairState ExactBodies::in_frame_of(Entity a, const Vec3& xa, Entity b) const {
+  const Flight p = flights[a], q = flights[b];
+  const Instant base = std::max(p.start, q.start);
+  const FadingPath a_now = p.path().from(base - p.start), b_now = q.path().from(base - q.start);
+  const double t = now - base;
+  if (p.fade != q.fade) return {a_now.position(t), a_now.velocity(t), b_now.position(t), b_now.velocity(t), Vec3::Zero()};
+  const FadingPath relative{b_now.x - a_now.x, b_now.v - a_now.v, b_now.a - a_now.a, p.fade};
+  return {Vec3::Zero(), Vec3::Zero(), relative.position(t), relative.velocity(t), xa};
+}
+
+void ExactBodies::apply(Entity i, const AppliedAcceleration& forces) {
+  applied.write(i) = forces.all;
+  working.write(i) = forces.working;
+  if (forces.fade != fade[i]) fade.write(i) = forces.fade;
 }
 
 std::vector<Entity> ExactBodies::known_to(Entity i) const {
@@ -48,7 +65,8 @@ Touch ExactBodies::touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, 
 }
 
 double ExactBodies::load_on(Entity i) const {
-  return world.fixed_count() == 0 && world.forces.empty() ? 0 : applied[i].norm();
+  if (world.fixed_count() == 0 && world.forces.empty()) return 0;
+  return fade[i] == 0 ? applied[i].norm() : force_at(i, velocity(i)).norm();
 }
 
 double ExactBodies::slow_speed(double press, double length) const {

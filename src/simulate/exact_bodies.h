@@ -33,8 +33,9 @@ struct ExactBodies {
   const Bounds bounds;
   const bool same_radius;  // of all bodies, for good
   Instant now;
-  LazyArray<Vec3> applied;  // m/s^2, by body: gravity and the forces of now,
-  LazyArray<Vec3> working;  // and the part of it that does work (force.h)
+  LazyArray<Vec3> applied;  // m/s^2, by body: gravity and the forces of now, on a body that stands,
+  LazyArray<Vec3> working;  // and the part of it that does work (force.h);
+  LazyArray<double> fade;   // 1/s: this, times its velocity, linear drag takes from both
   Flights flights;
   LargeVector<ExactBody> body;
   Neighbours neighbours;
@@ -50,6 +51,10 @@ struct ExactBodies {
   Vec3 velocity(Entity i) const { return flights[i].velocity(now - flights[i].start); }
   /// m/s, at an instant of its flight, without what forces do later.
   Vec3 velocity_without_kick(Entity i, const Instant& at) const;
+  /// m/s^2, what forces do to body i at velocity v (m/s).
+  Vec3 force_at(Entity i, const Vec3& v) const { return fade[i] == 0 ? applied[i] : Vec3(applied[i] - fade[i] * v); }
+  /// Body i's forces are these from now on.
+  void apply(Entity i, const AppliedAcceleration& forces);
   /// m: where a body is now, or a fixed thing.
   Vec3 position_of(Entity e) const { return world.is_body(e) ? position(e) : world.fixed_position(e); }
 
@@ -59,6 +64,20 @@ struct ExactBodies {
   bool is_stepped(Entity i) const { return in_group(i) && !islands.of(i).constrained; }
   /// Whether e is a body of the contact group, or asleep.
   bool in_lasting_contact(Entity e) const { return world.is_body(e) && body[e].state != ContactState::free; }
+
+  /// Two bodies now, in a frame of their own.
+  struct PairState {
+    Vec3 xa, va, xb, vb;  // m, m/s
+    Vec3 origin;          // m, of the frame
+  };
+  /// Whether a body at x (m) is so far from the origin that its place tells less of what lies beside it than relative
+  /// paths do.
+  bool far_from_origin(Entity i, const Vec3& x) const {
+    return x.cwiseAbs().maxCoeff() > exact_tolerance::far_from_origin * world.radius[i];
+  }
+  /// Bodies a, at xa (m), and b in the frame of a: by their relative path, from which what they have in common takes no
+  /// digits.
+  PairState in_frame_of(Entity a, const Vec3& xa, Entity b) const;
 
   /// Bodies and fixed things near body i, ascending: what is summed up in this order is the same for any lists.
   std::vector<Entity> known_to(Entity i) const;

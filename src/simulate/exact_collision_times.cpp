@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/contact_time.h"
+#include "physics/path_time_of_impact.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -33,9 +34,9 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
   RelativeMotion m;
   m.w = q.velocity(tq) - p.velocity(tp);
   m.d = q.position(tq) - p.position(tp);
-  m.a = q.a - p.a;
+  m.a = q.acceleration(tq) - p.acceleration(tp);
   const bool balls = world.volume.empty();
-  if (balls && m.a.isZero(0) && m.d.dot(m.w) >= 0) return {never, 0};
+  if (balls && m.a.isZero(0) && p.fade == q.fade && m.d.dot(m.w) >= 0) return {never, 0};
   m.speeds = sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a);
   m.just_separated = p.start == q.start && bodies_.body[a].origin_partner == b && bodies_.body[b].origin_partner == a;
   const bool step = bodies_.in_group(a) || bodies_.in_group(b);
@@ -49,7 +50,13 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
     if (m.d.squaredNorm() > reach * reach) return {never, 0};
   }
   double t;
-  if (balls) {
+  if (p.fade != 0 || q.fade != 0) {
+    const FeatureTime first =
+        time_of_impact(world, a, p.path().from(tp), b, q.path().from(tq), m.speeds,
+                       m.just_separated ? bodies_.body[a].origin_feature : no_feature, horizon);
+    t = first.time;
+    feature = first.feature;
+  } else if (balls) {
     t = sphere_contact_time(m, s, horizon);
   } else {
     const FeatureTime first =
@@ -72,7 +79,13 @@ Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, std::uint8_t& 
   const double steps = bodies_.in_lasting_contact(i)
                            ? exact_tolerance::step_rounding * std::sqrt(bodies_.applied[i].norm() * world.radius[i])
                            : 0;
-  if (ball && world.is_plane(surface)) {
+  if (f.fade != 0) {
+    const FadingPath fixed{world.fixed_position(surface), Vec3::Zero(), Vec3::Zero(), 0};
+    const FeatureTime first = time_of_impact(world, i, f.path(), surface, fixed, sum_of_speeds(f.v) + steps,
+                                             left ? bodies_.body[i].origin_feature : no_feature, horizon);
+    t = first.time;
+    feature = first.feature;
+  } else if (ball && world.is_plane(surface)) {
     const Plane& plane = world.plane(surface);
     const double noise = exact_tolerance::plane_rounding * (sum_of_speeds(f.v) + steps);
     t = plane_contact_time(plane_gap(f.x, plane.point, plane.normal, world.radius[i]), plane.normal.dot(f.v),

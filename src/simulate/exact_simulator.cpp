@@ -43,12 +43,8 @@ void ExactSimulator::start(const State& initial) {
   for (Entity i = 0; i < n; ++i) {
     Vec3 v = initial.velocity[i];
     if (!world.impulse.empty()) v += world.impulse[i] / world.mass[i];
-    if (!world.forces.empty()) {
-      const AppliedAcceleration applied = bodies_.merged.applied(i, 0);
-      bodies_.applied.write(i) = applied.all;
-      bodies_.working.write(i) = applied.working;
-    }
-    bodies_.flights.set(i, {{}, initial.position[i], v, bodies_.applied[i]});
+    if (!world.forces.empty()) bodies_.apply(i, bodies_.merged.applied(i, 0));
+    bodies_.flights.set(i, {{}, initial.position[i], v, bodies_.force_at(i, v), bodies_.fade[i]});
     bodies_.log.note_speed(v.norm());
   }
   bodies_.neighbours.start(initial.position);
@@ -158,7 +154,7 @@ void ExactSimulator::switch_forces(Entity i) {
   paths_.note_change(i);
   flights_.book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
-  const AppliedAcceleration applied = bodies_.merged.applied(i, bodies_.now.hi);
+  const AppliedAcceleration forces = bodies_.merged.applied(i, bodies_.now.hi);
   if (bodies_.body[i].state == ContactState::asleep) group_.join(i);
   if (bodies_.in_group(i)) {  // the last step had the old forces in it until its end
     const Vec3 slower = bodies_.velocity_without_kick(i, bodies_.now);
@@ -167,8 +163,7 @@ void ExactSimulator::switch_forces(Entity i) {
     bodies_.islands.kicked_until.write(i) = bodies_.now;
     bodies_.islands.of(i).end = bodies_.now;
   }
-  bodies_.applied.write(i) = applied.all;
-  bodies_.working.write(i) = applied.working;
+  bodies_.apply(i, forces);
   flights_.begin(i, x, flat_.keep_at(i, v), {});
   predictor_.predict(i);
 }

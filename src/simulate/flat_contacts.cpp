@@ -52,7 +52,8 @@ FlightOrigin FlatContacts::hand_over(Entity i, Entity surface) {
   for (std::size_t k = 0; k < contacts.count; ++k)
     if (contacts.at[k].surface == surface) normal = contacts.at[k].normal;
   remove(i, surface);
-  const Vec3 x = bodies_.position(i), v = bodies_.velocity(i), a = bodies_.flights.acceleration(i);
+  const Flight f = bodies_.flights[i];
+  const Vec3 x = bodies_.position(i), v = bodies_.velocity(i), a = f.acceleration(bodies_.now - f.start);
   // A little ahead it is over the other one's face, if rims are no farther apart than rounding.
   const double ahead =
       std::max(exact_tolerance::rim_gap * world.radius[i], exact_tolerance::initial_rounding * x.cwiseAbs().sum());
@@ -122,7 +123,7 @@ void FlatContacts::find_initial(Entity i) {
     f.x += there.gap * there.normal;
     bodies_.body[i].set_origin({e, there.feature});
   }
-  f.a = keep_pressing(i);
+  f.a = keep_pressing(i, f.v);
   bodies_.flights.set(i, f);
 }
 
@@ -203,9 +204,9 @@ Vec3 FlatContacts::keep_at(Entity i, const Vec3& v) {
   return allowed;
 }
 
-Vec3 FlatContacts::keep_pressing(Entity i) {
+Vec3 FlatContacts::keep_pressing(Entity i, const Vec3& v) {
   if (bodies_.in_lasting_contact(i)) return Vec3::Zero();
-  if (contacts_[i].count == 0) return bodies_.applied[i];
+  if (contacts_[i].count == 0) return bodies_.force_at(i, v);
   FlatContactList& contacts = contacts_.write(i);
   std::array<Vec3, most> normals;
   const std::size_t n = normals_of(contacts, no_entity, normals);
@@ -215,7 +216,7 @@ Vec3 FlatContacts::keep_pressing(Entity i) {
   for (std::size_t k = 0; k < most; ++k) presses[k] = solution.active >> k & 1u;
   keep(contacts, presses);
   if (contacts.count == 0) bodies_.log.remove_resting(1);
-  return solution.u;
+  return bodies_.fade[i] == 0 ? solution.u : Vec3(solution.u - bodies_.fade[i] * v);
 }
 
 Vec3 FlatContacts::acceleration_without(Entity i, Entity surface) const {

@@ -1,13 +1,15 @@
 #pragma once
-// A body's path since its last change: x + v t + a t^2/2 from its start on.
+// A body's path since its last change: x + v t + a t^2/2 from its start on, or what linear drag makes of that.
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "physics/fading_path.h"
 #include "physics/vec3.h"
 #include "physics/world.h"
 #include "simulate/instant.h"
 #include "simulate/large_pages.h"
+#include "simulate/lazy_array.h"
 
 namespace carom {
 
@@ -15,10 +17,21 @@ struct Flight {
   Instant start;
   Vec3 x;  // m, at start
   Vec3 v;  // m/s, at start
-  Vec3 a;  // m/s^2
+  Vec3 a;  // m/s^2, at start
+  double fade = 0;  // 1/s: a dies away as exp(-fade t)
 
-  Vec3 position(double t) const { return x + t * (v + (0.5 * t) * a); }  // t: s since start
-  Vec3 velocity(double t) const { return v + t * a; }
+  FadingPath path() const { return {x, v, a, fade}; }
+  Vec3 position(double t) const {  // t: s since start
+    if (fade != 0) [[unlikely]]
+      return path().position(t);
+    return x + t * (v + (0.5 * t) * a);
+  }
+  Vec3 velocity(double t) const {
+    if (fade != 0) [[unlikely]]
+      return path().velocity(t);
+    return v + t * a;
+  }
+  Vec3 acceleration(double t) const { return fade == 0 ? a : path().acceleration(t); }
 };
 
 /// m/s: a velocity v that has been kicked by what forces do until `until`, `kick` (m/s^2) on average, without what they
@@ -38,20 +51,23 @@ class Flights {
   static_assert(sizeof(Core) == 8 * sizeof(double));
 
   /// `common`: m/s^2, the acceleration of all until `set` or `accelerate` gives another.
-  Flights(Entity bodies, const Vec3& common) : core_(bodies), common_(common) {}
+  Flights(Entity bodies, const Vec3& common) : core_(bodies), common_(common), fade_(bodies) {}
 
-  Flight operator[](Entity i) const { return {core_[i].start, core_[i].x, core_[i].v, acceleration(i)}; }
-  const Vec3& acceleration(Entity i) const { return acceleration_.empty() ? common_ : acceleration_[i]; }
+  Flight operator[](Entity i) const { return {core_[i].start, core_[i].x, core_[i].v, acceleration(i), fade_[i]}; }
+  const Vec3& acceleration(Entity i) const { return acceleration_.empty() ? common_ : acceleration_[i]; }  // at start
   const Core* cores() const { return core_.data(); }
   /// Whether all have the same acceleration.
   bool alike() const { return acceleration_.empty(); }
+  /// Whether drag has bent the path of any.
+  bool any_fades() const { return !fade_.empty(); }
 
   void set(Entity i, const Flight& flight) {
     core_[i] = {flight.x, flight.v, flight.start};
-    accelerate(i, flight.a);
+    accelerate(i, flight.a, flight.fade);
   }
   /// Another acceleration, from its start on.
-  void accelerate(Entity i, const Vec3& a) {
+  void accelerate(Entity i, const Vec3& a, double fade = 0) {
+    if (fade != fade_[i]) fade_.write(i) = fade;
     if (acceleration_.empty()) {
       if (a == common_) return;
       acceleration_.assign(core_.size(), common_);
@@ -63,6 +79,7 @@ class Flights {
   LargeVector<Core> core_;
   Vec3 common_;
   LargeVector<Vec3> acceleration_;  // empty: all have the common one
+  LazyArray<double> fade_;          // 1/s
 };
 
 }  // namespace carom

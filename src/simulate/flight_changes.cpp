@@ -29,7 +29,9 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   Vec3 kept = v;
   for (int k = 0; k < 3; ++k)
     if (still || std::abs(v[k]) <= negligible) kept[k] = 0;
-  bodies_.flights.set(i, {bodies_.now, x, kept, falls ? bodies_.applied[i] : flat_.keep_pressing(i)});
+  const bool by_force = falls || !bodies_.in_lasting_contact(i);
+  bodies_.flights.set(i, {bodies_.now, x, kept, falls ? bodies_.force_at(i, kept) : flat_.keep_pressing(i, kept),
+                          by_force ? bodies_.fade[i] : 0});
   body.set_origin(origin);
   bodies_.neighbours.turned(i);
   count(i);
@@ -56,9 +58,14 @@ void FlightChanges::book(Entity i, const Vec3& x, const Instant& end) {
   const World& world = bodies_.world;
   if (stepped_[i]) bodies_.log.add_stepped_contact(end - bodies_.flights[i].start);
   if (bodies_.flights.acceleration(i) == world.gravity && world.forces.empty()) return;
-  const Vec3 displacement = x - bodies_.flights[i].x;
-  bodies_.log.lose(world.mass[i] * (bodies_.applied[i] - bodies_.flights[i].a).dot(displacement));
-  if (!world.forces.empty()) bodies_.log.add_work(world.mass[i] * bodies_.working[i].dot(displacement));
+  const Flight f = bodies_.flights[i];
+  const Vec3 displacement = x - f.x;
+  const double fade = bodies_.fade[i], mass = world.mass[i];
+  const double dragged = fade == 0 ? 0 : fade * f.path().squared_speed(end - f.start);  // m^2/s^2
+  // On a path that fades with its drag contact forces stay the same.
+  const Vec3 held = f.fade == 0 ? Vec3(bodies_.applied[i] - f.a) : Vec3(bodies_.force_at(i, f.v) - f.a);
+  bodies_.log.lose(mass * (held.dot(displacement) - (f.fade == 0 ? dragged : 0)));
+  if (!world.forces.empty()) bodies_.log.add_work(mass * (bodies_.working[i].dot(displacement) - dragged));
 }
 
 void FlightChanges::book_last(double time) {

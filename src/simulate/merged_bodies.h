@@ -8,9 +8,11 @@
 
 namespace carom {
 
-/// m/s^2: what forces do to a body, and the part of it that does work (force.h).
+/// What forces do to a body that stands, and the part of it that does work (force.h). Where it moves at v, both are
+/// less by fade v.
 struct AppliedAcceleration {
-  Vec3 all, working;
+  Vec3 all, working;  // m/s^2
+  double fade;        // 1/s
 };
 
 class MergedBodies {

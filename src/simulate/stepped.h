@@ -12,9 +12,6 @@ struct SteppedOptions {
   double duration = 0;  // s; the last step ends there
   double step = 0.001;  // s
   Integrator integrator = Integrator::rk4;
-  // Bodies that touch nothing fly in closed form, and bounces are resolved until they are too short to matter. For
-  // scenes without force_without_closed_form (force.h), and a step no longer than default_step (force.h).
-  bool closed_form = false;
   double rest_speed = 0;             // m/s; slower impacts under load end in resting contact; 0: by the step alone
   std::uint64_t max_collisions = 0;  // stop with an error after so many; 0: no limit
   bool record_collisions = true;     // false: no buffer is made and collisions() stays empty

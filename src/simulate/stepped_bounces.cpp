@@ -12,9 +12,7 @@ BounceLimits::BounceLimits(const World& world, const SteppedOptions& options, bo
     : world_(world),
       loaded_(loaded),
       rest_speed_(options.rest_speed),
-      shortest_bounce_(options.closed_form ? shortest_bounce * options.step : options.step),
-      group_impacts_(options.closed_form ? resolved_impacts : group_impacts),
-      many_impacts_(options.closed_form ? resolved_impacts : many_impacts),
+      shortest_bounce_(options.step),
       impacts_(world.body_count()),
       contacts_(world.body_count()) {}
 
@@ -31,7 +29,7 @@ bool BounceLimits::slow(double e, double approach, double press) const {
 bool BounceLimits::ends_in_contact(Entity a, Entity b, double e, double approach, double press, double noise) const {
   if (approach <= noise || slow(e, approach, press)) return true;
   const std::uint32_t impacts = std::max(impacts_[a], world_.is_body(b) ? impacts_[b] : 0);
-  return e < 1 && impacts > many_impacts_;
+  return e < 1 && impacts > many_impacts;
 }
 
 bool BounceLimits::jammed(Entity a) const {

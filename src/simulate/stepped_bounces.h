@@ -5,6 +5,7 @@
 
 #include "physics/world.h"
 #include "simulate/stepped.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 
@@ -31,14 +32,13 @@ class BounceLimits {
   /// Whether body a has met so many that it waits for the next step.
   bool jammed(Entity a) const;
   /// Whether body i has collided so often that it joins the contact group.
-  bool joins_group(Entity i) const { return loaded_ && impacts_[i] >= group_impacts_; }
+  bool joins_group(Entity i) const { return loaded_ && impacts_[i] >= stepped_tolerance::group_impacts; }
 
  private:
   const World& world_;
   const bool loaded_;
   const double rest_speed_;  // m/s
   double shortest_bounce_;   // s
-  std::uint32_t group_impacts_, many_impacts_;
   std::vector<std::uint32_t> impacts_;   // by body, in this step, with e < 1,
   std::vector<std::uint32_t> contacts_;  // and of whatever kind under load
 };

@@ -10,7 +10,6 @@ FreeMotion::FreeMotion(const World& world, const SteppedOptions& options, const 
     : world_(world),
       clock_(clock),
       integrator_(options.integrator),
-      closed_form_(options.closed_form),
       loaded_(!world.gravity.isZero(0) || !world.forces.empty()) {
   for (const Force& force : world.forces) {
     constant_ = constant_ && is_constant(force.law);
@@ -19,7 +18,6 @@ FreeMotion::FreeMotion(const World& world, const SteppedOptions& options, const 
 }
 
 void FreeMotion::carry(Entity i, double length, Vec3& x, Vec3& v, Path& path) const {
-  if (closed_form_) return carry_in_closed_form(i, length, x, v, path);
   if (!constant_) return carry_by_method(i, length, x, v, path);
   // The methods under constant forces, in closed form.
   const Vec3 a = acceleration(i, x, v);
@@ -27,19 +25,6 @@ void FreeMotion::carry(Entity i, double length, Vec3& x, Vec3& v, Path& path) co
   path = {x, v, euler ? Vec3(2 * a) : a, Vec3::Zero()};
   x = path.position(length);
   v += length * a;
-}
-
-void FreeMotion::carry_in_closed_form(Entity i, double length, Vec3& x, Vec3& v, Path& path) const {
-  const LinearFlight flight = linear_flight(world_, i, clock_.from());
-  Vec3 displacement = Vec3::Zero(), end = v;
-  flight.carry(length, displacement, end);
-  path = {x, v, flight.pull - flight.fade * v, Vec3::Zero()};
-  if (flight.fade > 0 && length > 0) {  // Hermite's polynomial through both ends
-    path.a = (6 / length * displacement - 4 * v - 2 * end) / length;
-    path.j = (6 * (v + end) - 12 / length * displacement) / (length * length);
-  }
-  x += displacement;
-  v = end;
 }
 
 void FreeMotion::carry_by_method(Entity i, double length, Vec3& x, Vec3& v, Path& path) const {

@@ -30,13 +30,11 @@ class FreeMotion {
   bool works() const { return works_; }        // some force does work (force.h)
 
  private:
-  void carry_in_closed_form(Entity i, double length, Vec3& x, Vec3& v, Path& path) const;
   void carry_by_method(Entity i, double length, Vec3& x, Vec3& v, Path& path) const;
 
   const World& world_;
   const StepClock& clock_;
   const Integrator integrator_;
-  const bool closed_form_;  // as in SteppedOptions
   const bool loaded_;
   bool constant_ = true, works_ = false;
 };

@@ -76,7 +76,7 @@ TimeStepping::Step TimeStepping::begin_step(Entity one) const {
     step.expected.push_back(v.norm());
     step.inverse_mass.push_back(1 / bodies_.world.mass[i]);
     step.smallest = std::min(step.smallest, bodies_.world.radius[i]);
-    step.greatest = std::max(step.greatest, bodies_.applied[i].norm());
+    step.greatest = std::max(step.greatest, bodies_.force_at(i, v).norm());
   }
   return step;
 }
@@ -173,10 +173,18 @@ void TimeStepping::take_slow_impacts(Step& step) const {
 /// do if that is possible and takes no more energy than slow impacts have lost.
 void TimeStepping::keep_apart(Step& step) const {
   std::vector<Vec3> free = step.after_impacts;
-  for (std::size_t k = 0; k < free.size(); ++k) free[k] += step.length * bodies_.applied[step.members[k]];
+  std::vector<double> inverse_mass = step.inverse_mass;  // 1/kg: linear drag is implicit, as if bodies were heavier
+  for (std::size_t k = 0; k < free.size(); ++k) {
+    const Entity i = step.members[k];
+    free[k] += step.length * bodies_.applied[i];
+    if (bodies_.fade[i] == 0) continue;
+    const double heavier = 1 + step.length * bodies_.fade[i];
+    free[k] /= heavier;
+    inverse_mass[k] /= heavier;
+  }
   const auto press = [&] {
     step.solved = free;
-    return carom::solve({step.inverse_mass, step.solved, step.pairs, ContactAccuracy::contacts});
+    return carom::solve({inverse_mass, step.solved, step.pairs, ContactAccuracy::contacts});
   };
   Certificate certificate = press();
   const bool part =
@@ -196,7 +204,9 @@ bool TimeStepping::makes_energy(const Step& step, const std::vector<Vec3>& free)
   double made = 0, lost = 0;  // J, J: now, and by slow impacts
   for (std::size_t k = 0; k < free.size(); ++k) {
     const Vec3 &v = step.after_impacts[k], &solved = step.solved[k];
-    made += (0.5 * (solved - v).dot(solved + v) - (free[k] - v).dot(solved)) / step.inverse_mass[k];
+    const double drag = step.length * bodies_.fade[step.members[k]];
+    const Vec3 forced = free[k] - v + drag * (free[k] - solved);  // m/s
+    made += (0.5 * (solved - v).dot(solved + v) - forced.dot(solved)) / step.inverse_mass[k];
     lost += 0.5 * (step.v[k] - v).dot(step.v[k] + v) / step.inverse_mass[k];
   }
   double parting = 0;  // J
@@ -389,7 +399,7 @@ bool TimeStepping::begin_flight(const Step& step, std::size_t k, Entity i) {
     islands.kicked_until.write(i) = bodies_.now;
     islands.kick.write(i).setZero();
     begin(v);
-    bodies_.flights.accelerate(i, bodies_.applied[i]);
+    bodies_.flights.accelerate(i, bodies_.force_at(i, v), bodies_.fade[i]);
   }
   return true;
 }

@@ -13,6 +13,7 @@ inline constexpr double velocity_rounding = 0x1p-48;  // [9e-20 1e-14] of speeds
 inline constexpr double position_rounding = 0x1p-48;  // of coordinates: a displacement that is rounding
 inline constexpr double flat_rounding = 0x1p-50;      // of coordinates: a gap to a flat surface, in a scene's numbers
 inline constexpr double initial_rounding = 0x1p-46;   // of coordinates: a gap to anything else, in a scene's numbers
+inline constexpr double far_from_origin = 0x1p13;     // of a radius: beyond, bodies meet by their relative paths
 inline constexpr double rim_gap = 0x1p-40;            // of a radius: rims no farther apart adjoin
 inline constexpr double level = 1e-6;                 // rad: between surfaces that take over from one another
 inline constexpr double clock_rounding = 0x1p-46;  // of the clock: in a million events it stands still (stall_guard.h)
@@ -90,9 +91,7 @@ inline constexpr std::uint32_t many_short_steps = 8;    // ended at once by simu
 namespace carom::stepped_tolerance {
 
 // Bounces (stepped_bounces.h).
-inline constexpr double shortest_bounce = 1e-6;  // of a step: where bounces are resolved, the shortest that is one
-inline constexpr std::uint32_t resolved_impacts = 4096;  // with e < 1, of a body in a step, where bounces are resolved;
-inline constexpr std::uint32_t many_impacts = 256;    // and where they are not: more of them accumulate, contact begins
+inline constexpr std::uint32_t many_impacts = 256;  // with e < 1, of a body in a step: more accumulate, contact begins
 inline constexpr std::uint32_t group_impacts = 16;    // [1 1'] of a body under load in a step: then it joins the group
 inline constexpr std::uint32_t most_contacts = 2000;  // under load, of a body in a step: it is jammed and waits
 

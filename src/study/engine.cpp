@@ -23,16 +23,9 @@ SteppedOptions stepped_options(const Simulate& simulate, bool record_collisions)
   return options;
 }
 
-/// Along parabolas from event to event; flights that are exponentials the stepped simulator has in closed form.
+/// Along paths in closed form, from event to event.
 std::unique_ptr<Simulator> make_exact(const World& world, const State& initial, const Simulate& simulate,
                                       bool record_collisions, bool record_paths) {
-  if (varying_force(world) != nullptr) {
-    SteppedOptions options = stepped_options(simulate, record_collisions);
-    options.integrator = Integrator::rk4;
-    options.closed_form = true;
-    options.step = default_step(world, initial);
-    return make_stepped_simulator(world, initial, options);
-  }
   ExactOptions options;
   options.duration = simulate.duration;
   options.rest_speed = simulate.rest_speed.value_or(options.rest_speed);

@@ -11,17 +11,8 @@
 namespace carom {
 namespace {
 
-SteppedOptions options_of(const Problem& problem) {
-  SteppedOptions options;
-  options.duration = problem.options.duration;
-  options.step = default_step(problem.world, problem.initial);
-  options.closed_form = true;
-  return options;
-}
-
 Outcome run(const Problem& problem) {
-  const auto simulator = make_stepped_simulator(problem.world, problem.initial, options_of(problem));
-  return run_to_end(*simulator, problem.options.duration);
+  return run_exact(problem);
 }
 
 /// Where a flight x'' = a - k x' is at t (s).
