@@ -166,7 +166,7 @@ double error_of(double h, double e5, double e3) {
 }  // namespace
 
 DormandPrince::DormandPrince(std::vector<Vec3> x, std::vector<Vec3> v, std::vector<Vec3> a)
-    : x_(std::move(x)), v_(std::move(v)) {
+    : DenseMotion(std::move(x), std::move(v)) {
   velocity_[0] = v_;
   rate_[0] = std::move(a);
 }
@@ -237,15 +237,6 @@ Vec3 DormandPrince::displacement(std::size_t k, double t) const {
 
 Vec3 DormandPrince::velocity(std::size_t k, double t) const {
   return v_[k] + polynomial(of_velocity_, k, t / length_);
-}
-
-void DormandPrince::at(double t, std::vector<Vec3>& x, std::vector<Vec3>& v) const {
-  x.resize(size());
-  v.resize(size());
-  for (std::size_t k = 0; k < size(); ++k) {
-    x[k] = x_[k] + displacement(k, t);
-    v[k] = velocity(k, t);
-  }
 }
 
 }  // namespace carom

@@ -5,11 +5,11 @@
 #include <functional>
 #include <vector>
 
-#include "physics/vec3.h"
+#include "physics/dense_motion.h"
 
 namespace carom {
 
-class DormandPrince {
+class DormandPrince final : public DenseMotion {
  public:
   /// m/s^2, by point, at these positions (m) and velocities (m/s).
   using Acceleration = std::function<std::vector<Vec3>(const std::vector<Vec3>& x, const std::vector<Vec3>& v)>;
@@ -25,15 +25,8 @@ class DormandPrince {
 
   /// Prepares displacement() and velocity() for the last step. Before its end they are exact to order 7.
   void interpolate(const Acceleration& acceleration);
-  /// m, from the start, and m/s: point k's at t (s) after it, 0 <= t <= length().
-  Vec3 displacement(std::size_t k, double t) const;
-  Vec3 velocity(std::size_t k, double t) const;
-  /// All points' positions (m) and velocities (m/s) at t (s).
-  void at(double t, std::vector<Vec3>& x, std::vector<Vec3>& v) const;
-
-  double length() const { return length_; }                 // s
-  const Vec3& start(std::size_t k) const { return x_[k]; }  // m
-  std::size_t size() const { return x_.size(); }
+  Vec3 displacement(std::size_t k, double t) const override;
+  Vec3 velocity(std::size_t k, double t) const override;
 
  private:
   static constexpr std::size_t stages = 16, terms = 7;
@@ -41,10 +34,8 @@ class DormandPrince {
   void evaluate(std::size_t stage, const Acceleration& acceleration);
   static Vec3 polynomial(const std::vector<Vec3>& coefficients, std::size_t k, double s);
 
-  std::vector<Vec3> x_, v_;                            // m, m/s: at the start
   std::vector<Vec3> velocity_[stages], rate_[stages];  // m/s, m/s^2: of each stage
   std::vector<Vec3> of_displacement_, of_velocity_;    // coefficients of the dense output, `terms` by point
-  double length_ = 0;                                  // s
 };
 
 }  // namespace carom

@@ -35,13 +35,15 @@ double descent_on(const FadingDistance& f, double from, double to) {
     if (f(to) > 0) return never;
     double top = from;  // f falls from there on
     if (slope_from > 0)
-      top = fall_between(slope, [&](double t) { return f.curve(t); }, from, to, middle);
+      top = fall_between(
+          slope, [&](double t) { return f.curve(t); }, from, to, middle);
     return f(top) > 0 ? fall_between(value, slope, top, to, to) : top;
   }
   if (slope_from >= 0) return never;
   double bottom = to;  // f falls up to there
   if (f.slope(to) > 0)
-    bottom = fall_between([&](double t) { return -f.slope(t); }, [&](double t) { return -f.curve(t); }, from, to, middle);
+    bottom =
+        fall_between([&](double t) { return -f.slope(t); }, [&](double t) { return -f.curve(t); }, from, to, middle);
   return f(bottom) <= 0 ? fall_between(value, slope, from, bottom, from) : never;
 }
 

@@ -1,29 +1,33 @@
 #pragma once
 // Flight under constant forces and linear drag: x'' = pull - fade x', a line that bends towards the velocity
 // pull / fade. Its acceleration dies away as exp(-fade t). Of arithmetic, only + - * / reach the result.
+#include <algorithm>
+
 #include "physics/vec3.h"
 
 namespace carom {
 
 /// Of z = fade t >= 0.
 struct Fading {
-  double gone;  // 1 - exp(-z)
-  double bend;  // (z - gone) / z^2 = 1/2! - z/3! + z^2/4! - ...
+  double gone;   // 1 - exp(-z)
+  double bend;   // (z - gone) / z^2 = 1/2! - z/3! + z^2/4! - ...
+  double third;  // (1/2 - bend) / z = 1/3! - z/4! + ...
 };
 
 inline Fading fading(double z) {
   constexpr double all = 64;  // exp(-z) is less than rounding of 1
-  constexpr int terms = 14;   // of the series up to 1/2: to rounding
-  if (z > all) return {1, (z - 1) / (z * z)};
+  constexpr int terms = 13;   // of the series up to 1/2: to rounding
+  double part = std::min(z, all);
   int doublings = 0;
-  double part = z;
   for (; part > 0.5; part *= 0.5) ++doublings;
-  double bend = 0;
-  for (int n = terms; n >= 0; --n) bend = (1 - part * bend) / (n + 2);
-  double gone = part * (1 - part * bend);
-  if (doublings == 0) return {gone, bend};
+  double third = 0;
+  for (int n = terms; n >= 0; --n) third = (1 - part * third) / (n + 3);
+  third *= 0.5;
+  double bend = 0.5 - part * third, gone = part * (1 - part * bend);
+  if (doublings == 0) return {gone, bend, third};
   for (int k = 0; k < doublings; ++k) gone *= 2 - gone;
-  return {gone, (z - gone) / (z * z)};
+  bend = (z - gone) / (z * z);
+  return {gone, bend, (0.5 - bend) / z};
 }
 
 /// A path from its start on; with fade = 0 a parabola.
@@ -37,16 +41,19 @@ struct FadingPath {
   Vec3 velocity(double t) const { return v + (fade == 0 ? t : fading(fade * t).gone / fade) * a; }
   Vec3 acceleration(double t) const { return fade == 0 ? a : Vec3((1 - fading(fade * t).gone) * a); }
   /// The same path seen from time t on.
-  FadingPath from(double t) const { return t == 0 ? *this : FadingPath{position(t), velocity(t), acceleration(t), fade}; }
+  FadingPath from(double t) const {
+    return t == 0 ? *this : FadingPath{position(t), velocity(t), acceleration(t), fade};
+  }
   /// m^2/s: the integral of the squared speed over [0, t].
   double squared_speed(double t) const {
-    // With s, the integral of velocity's share of a: s' = 1 - fade s, so that fade times that of s^2 is t^2 bend - s^2/2.
+    // With s, the integral of velocity's share of a: s' = 1 - fade s, so that fade times that of s^2 is t^2 bend -
+    // s^2/2.
     double once = 0.5 * t * t, twice = t * t * t / 3;  // s^2, s^3
     if (fade > 0) {
-      const Fading f = fading(fade * t);
-      const double s = f.gone / fade;
+      const double z = fade * t;
+      const Fading f = fading(z);
       once = t * t * f.bend;
-      twice = (once - 0.5 * s * s) / fade;
+      twice = t * t * t * (f.bend - f.third - 0.5 * z * f.bend * f.bend);
     }
     return t * v.squaredNorm() + 2 * once * v.dot(a) + twice * a.squaredNorm();
   }

@@ -45,9 +45,7 @@ class FadingWay {
   Vec3 velocity(double t) const { return pb_.velocity(t) - pa_.velocity(t); }
   Vec3 acceleration(double t) const { return pb_.acceleration(t) - pa_.acceleration(t); }
   /// m/s^3, how fast, at most, the acceleration changes from t on.
-  double jerk(double t) const {
-    return pa_.fade * pa_.acceleration(t).norm() + pb_.fade * pb_.acceleration(t).norm();
-  }
+  double jerk(double t) const { return pa_.fade * pa_.acceleration(t).norm() + pb_.fade * pb_.acceleration(t).norm(); }
   double descent(const Vec3& n, double t, double gap, double rate, double horizon) const {
     const FadingDistance distance{
         gap, rate, {{{-n.dot(pa_.acceleration(t)), pa_.fade}, {n.dot(pb_.acceleration(t)), pb_.fade}}}};

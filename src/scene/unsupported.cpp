@@ -20,11 +20,12 @@ std::vector<Unsupported> unsupported(const World& world, const Simulate& simulat
                      "expected `engine: stepped`, or `auto`"});
   const bool in_steps = simulate.engine == Engine::stepped || open != nullptr;
   if (simulate.merge && simulate.engine != Engine::book && in_steps)
-    lacks.push_back({"contact",
-                     simulate.engine == Engine::stepped
-                         ? "`engine: stepped` has no `contact: merge`"
-                         : fmt::format("`contact: merge` is for paths in closed form, not for `{}`", name_of(open->law)),
-                     "expected `contact: bounce`"});
+    lacks.push_back(
+        {"contact",
+         simulate.engine == Engine::stepped
+             ? "`engine: stepped` has no `contact: merge`"
+             : fmt::format("`contact: merge` is for paths in closed form, not for `{}`", name_of(open->law)),
+         "expected `contact: bounce`"});
   if (simulate.engine != Engine::book) return lacks;
   // The chapter's listings know spheres, planes and walls, gravity and the impulses of the first frame.
   const auto lack = [&](const char* at, const char* what, const char* instead) {

@@ -485,7 +485,7 @@ bool ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) 
 /// between them it is off by 4/27 of the third power of its length at most.
 void ConstrainedMotion::begin_piece(Entity i) {
   Following& following = following_.write(i);
-  const DormandPrince& motion = *following.path->motion;
+  const DenseMotion& motion = *following.path->motion;
   const std::uint32_t k = following.place;
   const double from = bodies_.now - following.path->start, rest = motion.length() - from;
   const double room = following.path->room;

@@ -37,7 +37,7 @@ class ConstrainedMotion {
   /// The path of an island's bodies in a step.
   struct Path {
     Instant start;
-    std::unique_ptr<DormandPrince> motion;
+    std::unique_ptr<DenseMotion> motion;
     double room;  // m, that parabolas may leave it by
   };
   /// What a body follows, if it is still on this flight.

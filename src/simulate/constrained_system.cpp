@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "physics/cube_root.h"
+#include "physics/dormand_prince.h"
+#include "physics/radau_collocation.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -43,7 +45,7 @@ Vec3 relative(const std::vector<Vec3>& v, const ContactConstraint& p) {
 /// s: the first time in a step at which `happens` is true of all positions (m), between one when it is not and one when
 /// it is.
 template <typename Happens>
-double first_time(const DormandPrince& motion, double from, double to, Happens happens) {
+double first_time(const DenseMotion& motion, double from, double to, Happens happens) {
   std::vector<Vec3> x, v;
   while (to - from > tol::time_precision * motion.length()) {
     const double t = 0.5 * (from + to);
@@ -139,7 +141,11 @@ ConstrainedSystem::Scales ConstrainedSystem::scales(const std::vector<Vec3>& x, 
   s.acceleration = greatest_norm(forces_at(v));
   for (const ContactConstraint& row : rows_) s.acceleration = std::max(s.acceleration, std::abs(row.target));
   s.speed = std::max(greatest_norm(v), std::sqrt(s.acceleration * s.length));
-  s.opening = s.acceleration * std::max(tol::opening, tol::contact_rounding * farthest / s.length);
+  double strongest = s.acceleration;  // of what forces are the sum of
+  for (std::size_t k = 0; k < v.size(); ++k)
+    if (applied_[k].fade > 0)
+      strongest = std::max({strongest, applied_[k].at_rest.norm(), applied_[k].fade * v[k].norm()});
+  s.opening = strongest * std::max(tol::opening, tol::contact_rounding * farthest / s.length);
   return s;
 }
 
@@ -163,16 +169,25 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& v, const std::v
   keep(closed_, rows_);
   keep(opened_, opened_rows_);
   if (common_fade() >= 0) return h;
-  double fade = 0, length = never;  // forces in flat contacts change with the members' drag
-  for (const Applied& of : applied_) fade = std::max(fade, of.fade);
+  double length = never;
   for (const Entity i : members_) length = std::min(length, world_.radius[i]);
-  const double jerk = fade * greatest_norm(a);  // m/s^3, at most
+  const double jerk = greatest_fade() * greatest_norm(a);  // m/s^3, at most: what drag does to forces in flat contacts
   return jerk > 0 ? std::min(h, cube_root(6 * tol::step_error * length / jerk)) : h;
 }
 
 ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                                       const std::vector<Vec3>& a, double first, double longest) {
   scales_ = scales(x, v);
+  const double h = std::min(first > 0 ? first : tol::first_step * scales_.time(), longest);
+  // Where drag is over within the step that its stability allows, an implicit method takes longer ones.
+  if (greatest_fade() * h > 1)
+    if (Followed followed = follow_stiff(x, v, h); followed.motion) return followed;
+  return follow_smooth(x, v, a, h);
+}
+
+/// By the method of order 8, with a first step of h (s).
+ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                                             const std::vector<Vec3>& a, double h) {
   // What presses keeps to its surface, and would pull rather than part: so the motion is smooth beyond an opening too.
   std::vector<ContactConstraint> rows = rows_;
   for (ContactConstraint& row : rows) row.bilateral = row.force > 0;
@@ -181,30 +196,72 @@ ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x
     return solve_rows(at, speed, rows, of_stage);
   };
   Followed followed;
-  followed.motion = std::make_unique<DormandPrince>(x, v, a);
-  DormandPrince& motion = *followed.motion;
-  const auto step = [&](double h) {
-    return motion.step(h, smooth, tol::step_error * scales_.length, tol::step_error * scales_.speed);
+  auto motion = std::make_unique<DormandPrince>(x, v, a);
+  const auto step = [&](double length) {
+    return motion->step(length, smooth, tol::step_error * scales_.length, tol::step_error * scales_.speed);
   };
-  double h = std::min(first > 0 ? first : tol::first_step * scales_.time(), longest);
   for (;;) {
     const double error = step(h);
     followed.next = DormandPrince::next_length(h, error);
     if (error <= 1) break;
     h = followed.next;
   }
-  motion.interpolate(smooth);
-  const double change = first_change(motion);
+  motion->interpolate(smooth);
+  const double change = first_change(*motion);
   followed.changes = change < never;
   if (change < h) {
     step(change);
-    motion.interpolate(smooth);
+    motion->interpolate(smooth);
   }
+  followed.motion = std::move(motion);
   return followed;
 }
 
+/// By collocation. No motion: drag is not over within the steps that it takes.
+ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
+                                                            double h) {
+  std::vector<RadauCollocation::Forces> forces;
+  for (const Applied& of : applied_) forces.push_back({of.at_rest, of.fade});
+  std::vector<ContactConstraint> rows = rows_;
+  for (ContactConstraint& row : rows) row.bilateral = row.force > 0;
+  std::vector<double> inverse_mass(members_.size());
+  const auto hold = [&](const std::vector<Vec3>& at, double s, std::vector<Vec3>& u) {
+    for (std::size_t k = 0; k < members_.size(); ++k) inverse_mass[k] = inverse_mass_[k] / (1 + s * applied_[k].fade);
+    for (std::size_t c = 0; c < rows.size(); ++c) {
+      const auto& [i, e, feature] = closed_[c];
+      rows[c].target = 0;
+      if (!is_flat(world_, i, e, feature))
+        rows[c].normal = touch(world_, i, at[rows[c].a], e, place_of(at, rows[c].b, e), feature).normal;
+    }
+    solve({inverse_mass, u, rows});
+  };
+  Followed followed;
+  auto motion = std::make_unique<RadauCollocation>(x, v);
+  const auto step = [&](double length) {
+    return motion->step(length, forces, hold, tol::step_error * scales_.length, tol::step_error * scales_.speed);
+  };
+  for (;;) {
+    const double error = step(h);
+    followed.next = DormandPrince::next_length(h, error);
+    if (error <= 1) break;
+    h = followed.next;
+    if (greatest_fade() * h < 1) return {};
+  }
+  const double change = first_change(*motion);
+  followed.changes = change < never;
+  if (change < h) step(change);
+  followed.motion = std::move(motion);
+  return followed;
+}
+
+double ConstrainedSystem::greatest_fade() const {
+  double fade = 0;
+  for (const Applied& of : applied_) fade = std::max(fade, of.fade);
+  return fade;
+}
+
 /// s: the first change in a step, or never.
-double ConstrainedSystem::first_change(const DormandPrince& motion) {
+double ConstrainedSystem::first_change(const DenseMotion& motion) {
   const double h = motion.length();
   double first = never;
   const double middle = opens(motion, 0.5 * h);
@@ -229,7 +286,7 @@ double ConstrainedSystem::first_change(const DormandPrince& motion) {
 }
 
 /// The greatest acceleration of a gap at t (s), as a multiple of what is rounding.
-double ConstrainedSystem::opens(const DormandPrince& motion, double t) {
+double ConstrainedSystem::opens(const DenseMotion& motion, double t) {
   if (scales_.opening == 0) return 0;
   std::vector<Vec3> x, v;
   motion.at(t, x, v);
@@ -240,7 +297,7 @@ double ConstrainedSystem::opens(const DormandPrince& motion, double t) {
 }
 
 /// s: where gaps accelerate clearly, but only just. They do at `to` (by at_end), not at `from`.
-double ConstrainedSystem::find_opening(const DormandPrince& motion, double from, double to, double at_end) {
+double ConstrainedSystem::find_opening(const DenseMotion& motion, double from, double to, double at_end) {
   const double aim = std::sqrt(tol::opened * tol::wide_open);
   double beyond = to, at_beyond = at_end;  // a second point of those that are open
   for (int pass = 0; pass < 100 && to - from > tol::time_precision * motion.length(); ++pass) {
@@ -262,7 +319,7 @@ double ConstrainedSystem::find_opening(const DormandPrince& motion, double from,
 }
 
 /// Whether some closed contact has come over its feature's rim, by more than rounding.
-bool ConstrainedSystem::over_rim(const DormandPrince& motion, const std::vector<Vec3>& x) const {
+bool ConstrainedSystem::over_rim(const DenseMotion& motion, const std::vector<Vec3>& x) const {
   for (std::size_t c = 0; c < closed_.size(); ++c) {
     const auto& [i, e, feature] = closed_[c];
     const ContactConstraint& row = rows_[c];
@@ -277,7 +334,7 @@ bool ConstrainedSystem::over_rim(const DormandPrince& motion, const std::vector<
 }
 
 /// What has become of opened contacts: the first that comes back counts, then those far enough away to meet again.
-ConstrainedSystem::Opened ConstrainedSystem::look_at_opened(const DormandPrince& motion,
+ConstrainedSystem::Opened ConstrainedSystem::look_at_opened(const DenseMotion& motion,
                                                             const std::vector<Vec3>& x) const {
   Opened all = Opened::near;
   for (std::size_t c = 0; c < opened_.size(); ++c) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "physics/contact_problem.h"
-#include "physics/dormand_prince.h"
+#include "physics/dense_motion.h"
 #include "physics/touch.h"
 
 namespace carom {
@@ -60,7 +60,7 @@ class ConstrainedSystem {
 
   /// The motion from there on until something changes, or for `longest` (s).
   struct Followed {
-    std::unique_ptr<DormandPrince> motion;
+    std::unique_ptr<DenseMotion> motion;
     double next = 0;       // s, a good length of the next step
     bool changes = false;  // it ends where a contact opens, closes or comes to a rim
   };
@@ -74,14 +74,17 @@ class ConstrainedSystem {
  private:
   std::vector<Vec3> forces_at(const std::vector<Vec3>& v) const;
   Vec3 place_of(const std::vector<Vec3>& x, std::uint32_t b, Entity e) const;
+  Followed follow_smooth(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a, double h);
+  Followed follow_stiff(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h);
+  double greatest_fade() const;
   std::vector<Vec3> solve_rows(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                std::vector<ContactConstraint>& rows, Certificate& certificate) const;
-  double opens(const DormandPrince& motion, double t);
-  double find_opening(const DormandPrince& motion, double from, double to, double at_end);
-  double first_change(const DormandPrince& motion);
-  bool over_rim(const DormandPrince& motion, const std::vector<Vec3>& x) const;
+  double opens(const DenseMotion& motion, double t);
+  double find_opening(const DenseMotion& motion, double from, double to, double at_end);
+  double first_change(const DenseMotion& motion);
+  bool over_rim(const DenseMotion& motion, const std::vector<Vec3>& x) const;
   enum class Opened { near, away, back };
-  Opened look_at_opened(const DormandPrince& motion, const std::vector<Vec3>& x) const;
+  Opened look_at_opened(const DenseMotion& motion, const std::vector<Vec3>& x) const;
 
   const World& world_;
   std::vector<Entity> members_;

@@ -86,7 +86,8 @@ void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEv
 
 /// The same of bodies, many at a time where all are balls and fall alike.
 void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, ExactEvent& best) {
-  if (!bodies_.world.volume.empty() || bodies_.in_group(i) || bodies_.flights.any_fades()) return meet_each(i, others, best);
+  if (!bodies_.world.volume.empty() || bodies_.in_group(i) || bodies_.flights.any_fades())
+    return meet_each(i, others, best);
   const Vec3& a = bodies_.flights.acceleration(i);
   if (bodies_.islands.any() || !bodies_.flights.alike()) {
     alike_.clear();
@@ -149,7 +150,8 @@ void EventPredictor::renew_region(Entity i) {
     half = std::min(half, (v.norm() + std::sqrt(v.squaredNorm() + 2 * size * bodies_.neighbours.room(i))) / size);
   }
   const Vec3 here = f.position(since);
-  const Vec3 ahead = f.fade == 0 ? Vec3(half * (f.velocity(since) + (0.5 * half) * f.a)) : Vec3(f.position(since + half) - here);
+  const Vec3 ahead =
+      f.fade == 0 ? Vec3(half * (f.velocity(since) + (0.5 * half) * f.a)) : Vec3(f.position(since + half) - here);
   hold_to(bodies_.bounds, i, bodies_.now.hi, here, f.velocity(since), ExactBodies::too_fast);
   const std::span<const Entity> came = bodies_.neighbours.renew(i, here, ahead);
   ExactEvent best = bodies_.body[i].event;

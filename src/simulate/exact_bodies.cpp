@@ -34,7 +34,8 @@ ExactBodies::PairState ExactBodies::in_frame_of(Entity a, const Vec3& xa, Entity
   const Instant base = std::max(p.start, q.start);
   const FadingPath a_now = p.path().from(base - p.start), b_now = q.path().from(base - q.start);
   const double t = now - base;
-  if (p.fade != q.fade) return {a_now.position(t), a_now.velocity(t), b_now.position(t), b_now.velocity(t), Vec3::Zero()};
+  if (p.fade != q.fade)
+    return {a_now.position(t), a_now.velocity(t), b_now.position(t), b_now.velocity(t), Vec3::Zero()};
   const FadingPath relative{b_now.x - a_now.x, b_now.v - a_now.v, b_now.a - a_now.a, p.fade};
   return {Vec3::Zero(), Vec3::Zero(), relative.position(t), relative.velocity(t), xa};
 }

@@ -51,9 +51,8 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
   }
   double t;
   if (p.fade != 0 || q.fade != 0) {
-    const FeatureTime first =
-        time_of_impact(world, a, p.path().from(tp), b, q.path().from(tq), m.speeds,
-                       m.just_separated ? bodies_.body[a].origin_feature : no_feature, horizon);
+    const FeatureTime first = time_of_impact(world, a, p.path().from(tp), b, q.path().from(tq), m.speeds,
+                                             m.just_separated ? bodies_.body[a].origin_feature : no_feature, horizon);
     t = first.time;
     feature = first.feature;
   } else if (balls) {

@@ -61,8 +61,8 @@ class FlatContacts {
   /// the others allow.
   Vec3 keep_at(Entity i, const Vec3& v);
   /// Gives up contacts that do not press. Gives the acceleration (m/s^2) that forces and the contacts' reactions leave
-  /// to body i at velocity v (m/s), which is along the surfaces; zero in lasting contact, where steps have the forces in
-  /// them.
+  /// to body i at velocity v (m/s), which is along the surfaces; zero in lasting contact, where steps have the forces
+  /// in them.
   Vec3 keep_pressing(Entity i, const Vec3& v);
   /// m/s^2, the same without one surface, changing nothing: what would press body i against that surface.
   Vec3 acceleration_without(Entity i, Entity surface) const;

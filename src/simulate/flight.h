@@ -15,9 +15,9 @@ namespace carom {
 
 struct Flight {
   Instant start;
-  Vec3 x;  // m, at start
-  Vec3 v;  // m/s, at start
-  Vec3 a;  // m/s^2, at start
+  Vec3 x;           // m, at start
+  Vec3 v;           // m/s, at start
+  Vec3 a;           // m/s^2, at start
   double fade = 0;  // 1/s: a dies away as exp(-fade t)
 
   FadingPath path() const { return {x, v, a, fade}; }

@@ -37,8 +37,8 @@ class BounceLimits {
  private:
   const World& world_;
   const bool loaded_;
-  const double rest_speed_;  // m/s
-  double shortest_bounce_;   // s
+  const double rest_speed_;              // m/s
+  double shortest_bounce_;               // s
   std::vector<std::uint32_t> impacts_;   // by body, in this step, with e < 1,
   std::vector<std::uint32_t> contacts_;  // and of whatever kind under load
 };

@@ -92,7 +92,7 @@ namespace carom::stepped_tolerance {
 
 // Bounces (stepped_bounces.h).
 inline constexpr std::uint32_t many_impacts = 256;  // with e < 1, of a body in a step: more accumulate, contact begins
-inline constexpr std::uint32_t group_impacts = 16;    // [1 1'] of a body under load in a step: then it joins the group
+inline constexpr std::uint32_t group_impacts = 16;  // [1 1'] of a body under load in a step: then it joins the group
 inline constexpr std::uint32_t most_contacts = 2000;  // under load, of a body in a step: it is jammed and waits
 
 // Impacts of paths (stepped_impact_predictor.h).

@@ -32,7 +32,7 @@ std::unique_ptr<Simulator> make_exact(const World& world, const State& initial, 
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
   options.merge = simulate.merge;
   options.record_collisions = record_collisions;
-  options.record_paths = record_paths;
+  options.record_paths = record_paths && varying_force(world) == nullptr;
   return make_exact_simulator(world, initial, options);
 }
 

@@ -103,7 +103,6 @@ const std::vector<Beyond>& beyond_schemas() {
       {"paths have no closed form", "what an engine can do depends on forces, volumes and obstacles together"},
       {"`engine: book` has no", "what an engine can do depends on forces, volumes and obstacles together"},
       {"parabolas from impact to impact", "what an engine can do depends on forces, volumes and obstacles together"},
-      {"is for parabolas", "what an engine can do depends on forces, volumes and obstacles together"},
   };
   return all;
 }

@@ -6,6 +6,7 @@
 
 #include "physics/force.h"
 #include "simulate/build.h"
+#include "simulate/random.h"
 #include "simulate/stepped.h"
 
 namespace carom {
@@ -142,6 +143,137 @@ TEST(LinearFlight, IsWhatRungeAndKuttaComeTo) {
     last = error;
   }
   EXPECT_LT(last, 1e-9);
+}
+
+TEST(LinearDrag, AHeavyBodyPushesALightOneThatDragHoldsBack) {
+  for (const double linear : {0.01, 2.0, 500.0, 1e6}) {
+    Problem problem;
+    problem.ball({0, 0, 0}, {1, 0, 0}, 9, 0.5, 0);
+    problem.ball({1, 0, 0}, {1, 0, 0}, 1, 0.5, 0);
+    problem.ball({2, 0, 0}, {1, 0, 0}, 0.25, 0.5, 0);
+    problem.world.forces = {{Drag{linear, 0, Vec3::Zero()}}};
+    problem.options.duration = 3;
+    const Outcome got = run(problem);
+    const double k = 3 * linear / 10.25;
+    for (Entity i = 0; i < 3; ++i) EXPECT_NEAR(got.end.position[i].x(), i - std::expm1(-3 * k) / k, 1e-12) << linear;
+    EXPECT_LT(got.tally.max_overlap, 1e-12);
+    EXPECT_EQ(got.tally.stepped_contact, 0);
+    EXPECT_NEAR(residual(problem, got), 0, 1e-10);
+  }
+}
+
+TEST(LinearDrag, TheWindBlowsABoxOffATable) {
+  Problem problem;
+  problem.world.gravity = {0, -9.80665, 0};
+  problem.body(Volume::box({0.4, 0.4, 0.4}), {0, 1.2, 0}, {0, 0, 0}, 2, 0);
+  problem.obstacle({0, 0.5, 0}, Volume::box({2, 1, 2}));
+  problem.world.forces = {{Drag{3, 0, {2, 0, 0}}}};
+  const double k = 1.5;
+  const auto x = [&](double t) { return 2 * (t + std::expm1(-k * t) / k); };
+  double early = 0, late = 2;  // its trailing edge comes to the rim at 1.2 m
+  for (int pass = 0; pass < 60; ++pass) {
+    const double t = 0.5 * (early + late);
+    (x(t) < 1.2 ? early : late) = t;
+  }
+  problem.options.duration = late + 0.3;
+  const Outcome got = run(problem);
+  const double s = -std::expm1(-k * 0.3) / k;
+  EXPECT_NEAR(got.end.position[0].x(), x(late + 0.3), 1e-13);
+  EXPECT_NEAR(got.end.position[0].y(), 1.2 - 9.80665 * (0.3 - s) / k, 1e-13);
+  EXPECT_TRUE(got.collisions.empty());
+}
+
+/// A ball slides off a globe: angle'' = g/R sin - k angle' until the surface would have to pull.
+struct OffAGlobe {
+  double k, angle = 0.1, rate = 0, time = 0;
+  static constexpr double g = 9.80665, R = 1.5;
+
+  bool presses() const { return g * std::cos(angle) > R * rate * rate; }
+  void step(double h) {
+    const auto f = [&](double at, double speed) { return g / R * std::sin(at) - k * speed; };
+    const double a1 = f(angle, rate), v1 = rate;
+    const double v2 = rate + h / 2 * a1, a2 = f(angle + h / 2 * v1, v2);
+    const double v3 = rate + h / 2 * a2, a3 = f(angle + h / 2 * v2, v3);
+    const double v4 = rate + h * a3, a4 = f(angle + h * v3, v4);
+    angle += h / 6 * (v1 + 2 * v2 + 2 * v3 + v4);
+    rate += h / 6 * (a1 + 2 * a2 + 2 * a3 + a4);
+    time += h;
+  }
+};
+
+TEST(LinearDrag, ABallSlidesOffAGlobeAsItsOneAngleSays) {
+  for (const double linear : {0.3, 4.0, 200.0}) {
+    Problem problem;
+    problem.world.gravity = {0, -OffAGlobe::g, 0};
+    OffAGlobe reference{linear / 2};
+    problem.ball(OffAGlobe::R * Vec3(std::sin(0.1), std::cos(0.1), 0), Vec3::Zero(), 2, 0.5, 0);
+    problem.obstacle({0, 0, 0}, Volume::sphere(1));
+    problem.world.forces = {{Drag{linear, 0, Vec3::Zero()}}};
+    double h = 2e-5;
+    while (reference.presses()) {
+      const OffAGlobe before = reference;
+      reference.step(h);
+      if (reference.presses() || h < 1e-12) continue;
+      reference = before;
+      h /= 10;
+    }
+    problem.options.duration = reference.time + 0.1;
+    const Outcome got = run(problem);
+    const Vec3 out(std::sin(reference.angle), std::cos(reference.angle), 0), along(out.y(), -out.x(), 0);
+    const Way way{OffAGlobe::R * out, OffAGlobe::R * reference.rate * along, problem.world.gravity, linear / 2};
+    EXPECT_LT((got.end.position[0] - way.position(0.1)).norm(), 2e-10) << linear;
+    EXPECT_LT(got.tally.max_overlap, 1e-12);
+    EXPECT_NEAR(residual(problem, got), 0, 1e-9);
+  }
+}
+
+/// Balls of many sizes in a closed box, in units of length, time and mass: some of them come to rest on each other.
+Problem in_units(double length, double time, double mass, double linear, int seed) {
+  Random random(seed);
+  Problem problem;
+  problem.world.gravity = Vec3(0, -9.80665 * length / (time * time), 0);
+  for (int i = 0; i < 12; ++i) {
+    const Vec3 x(i % 2 + 0.5, i / 4 * 0.67 + 0.33, i / 2 % 2 + 0.5), v(random(-2, 2), random(-2, 2), random(-2, 2));
+    const double radius = random(0.17, 0.3), m = random(0.3, 3);
+    problem.ball(length * x, length / time * v, m * mass, length * radius, random(0, 0.9));
+  }
+  problem.room(Vec3::Zero(), length * Vec3(2, 4, 2));
+  problem.world.forces = {{Drag{linear * mass / time, 0, length / time * Vec3(0.5, 0, -0.25)}}};
+  problem.options.duration = 3 * time;
+  return problem;
+}
+
+TEST(LinearDrag, InOtherUnitsAllIsTheSameToTheLastBit) {
+  for (const double linear : {0.5, 50.0}) {
+    const Problem problem = in_units(1, 1, 1, linear, 7);
+    const Outcome first = run(problem);
+    EXPECT_GE(first.tally.resting, 8u);
+    EXPECT_NEAR(residual(problem, first), 0, 1e-9);
+    EXPECT_LT(first.tally.max_overlap, 1e-12);
+    for (const auto& [length, time, mass] :
+         {std::tuple(256.0, 1.0, 1.0), {1.0, 256.0, 1.0}, {1.0, 0x1p-10, 1.0}, {0x1p-20, 0x1p10, 0x1p-30}}) {
+      const Outcome again = run(in_units(length, time, mass, linear, 7));
+      ASSERT_EQ(again.collisions.size(), first.collisions.size());
+      for (std::size_t i = 0; i < 12; ++i) {
+        EXPECT_EQ(again.end.position[i], length * first.end.position[i]);
+        EXPECT_EQ(again.end.velocity[i], length / time * first.end.velocity[i]);
+      }
+    }
+  }
+}
+
+TEST(LinearDrag, MergedBodiesHaveTheDragOfTheirParts) {
+  Problem problem;
+  problem.ball({0, 0, 0}, {2, 0, 0}, 1, 0.5, 0);
+  problem.ball({2, 0, 0}, {0, 0, 0}, 3, 0.5, 0);
+  problem.world.forces = {{Drag{0.5, 0, Vec3::Zero()}, 0, std::numeric_limits<double>::infinity(), {0}}};
+  problem.options.merge = true;
+  problem.options.duration = 2;
+  const Outcome got = run(problem);
+  ASSERT_EQ(got.collisions.size(), 1u);
+  const double met = -std::log(1 - 0.5 * 1 / 2) / 0.5, speed = 2 * std::exp(-0.5 * met) / 4, k = 0.125;
+  EXPECT_NEAR(got.collisions[0].time, met, 1e-14);
+  EXPECT_NEAR(got.end.position[1].x(), 1 + 0.75 - speed * std::expm1(-k * (2 - met)) / k, 1e-13);
 }
 
 }  // namespace
