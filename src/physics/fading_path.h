@@ -1,8 +1,6 @@
 #pragma once
 // Flight under constant forces and linear drag: x'' = pull - fade x', a line that bends towards the velocity
 // pull / fade. Its acceleration dies away as exp(-fade t). Of arithmetic, only + - * / reach the result.
-#include <algorithm>
-
 #include "physics/vec3.h"
 
 namespace carom {
@@ -14,20 +12,14 @@ struct Fading {
   double third;  // (1/2 - bend) / z = 1/3! - z/4! + ...
 };
 
-inline Fading fading(double z) {
-  constexpr double all = 64;  // exp(-z) is less than rounding of 1
-  constexpr int terms = 13;   // of the series up to 1/2: to rounding
-  double part = std::min(z, all);
-  int doublings = 0;
-  for (; part > 0.5; part *= 0.5) ++doublings;
-  double third = 0;
-  for (int n = terms; n >= 0; --n) third = (1 - part * third) / (n + 3);
-  third *= 0.5;
-  double bend = 0.5 - part * third, gone = part * (1 - part * bend);
-  if (doublings == 0) return {gone, bend, third};
-  for (int k = 0; k < doublings; ++k) gone *= 2 - gone;
-  bend = (z - gone) / (z * z);
-  return {gone, bend, (0.5 - bend) / z};
+Fading fading(double z);
+
+/// s: how much of an acceleration at t = 0 has become displacement, by t (s), and velocity after t.
+inline double displaced(double fade, double t) {
+  return (fade == 0 ? 0.5 : fading(fade * t).bend) * t;
+}
+inline double gained(double fade, double t) {
+  return fade == 0 ? t : fading(fade * t).gone / fade;
 }
 
 /// A path from its start on; with fade = 0 a parabola.
@@ -37,26 +29,13 @@ struct FadingPath {
   Vec3 a = Vec3::Zero();  // m/s^2, at t = 0
   double fade = 0;        // 1/s
 
-  Vec3 position(double t) const { return x + t * (v + (t * (fade == 0 ? 0.5 : fading(fade * t).bend)) * a); }
-  Vec3 velocity(double t) const { return v + (fade == 0 ? t : fading(fade * t).gone / fade) * a; }
-  Vec3 acceleration(double t) const { return fade == 0 ? a : Vec3((1 - fading(fade * t).gone) * a); }
+  Vec3 position(double t) const { return x + t * (v + displaced(fade, t) * a); }
+  Vec3 velocity(double t) const { return v + gained(fade, t) * a; }
+  Vec3 acceleration(double t) const;
   /// The same path seen from time t on.
-  FadingPath from(double t) const {
-    return t == 0 ? *this : FadingPath{position(t), velocity(t), acceleration(t), fade};
-  }
+  FadingPath from(double t) const;
   /// m^2/s: the integral of the squared speed over [0, t].
-  double squared_speed(double t) const {
-    // With s, the integral of velocity's share of a: s' = 1 - fade s, so that fade times that of s^2 is t^2 bend -
-    // s^2/2.
-    double once = 0.5 * t * t, twice = t * t * t / 3;  // s^2, s^3
-    if (fade > 0) {
-      const double z = fade * t;
-      const Fading f = fading(z);
-      once = t * t * f.bend;
-      twice = t * t * t * (f.bend - f.third - 0.5 * z * f.bend * f.bend);
-    }
-    return t * v.squaredNorm() + 2 * once * v.dot(a) + twice * a.squaredNorm();
-  }
+  double squared_speed(double t) const;
 };
 
 }  // namespace carom

@@ -144,14 +144,13 @@ void EventPredictor::renew_region(Entity i) {
   const double since = bodies_.now - f.start, until = std::min(bodies_.body[i].event.time.hi, bodies_.options.duration);
   // Half way to what comes next, or to where the acceleration has reversed the motion.
   double half = 0.5 * std::max(until - bodies_.now.hi, 0.0);
-  if (const double a2 = f.acceleration(since).squaredNorm(); a2 > 0) {
+  if (const double a2 = f.a.squaredNorm(); a2 > 0) {
     const Vec3 v = f.velocity(since);
     const double size = std::sqrt(a2);
     half = std::min(half, (v.norm() + std::sqrt(v.squaredNorm() + 2 * size * bodies_.neighbours.room(i))) / size);
   }
   const Vec3 here = f.position(since);
-  const Vec3 ahead =
-      f.fade == 0 ? Vec3(half * (f.velocity(since) + (0.5 * half) * f.a)) : Vec3(f.position(since + half) - here);
+  const Vec3 ahead = half * (f.velocity(since) + displaced(f.fade, half) * f.acceleration(since));
   hold_to(bodies_.bounds, i, bodies_.now.hi, here, f.velocity(since), ExactBodies::too_fast);
   const std::span<const Entity> came = bodies_.neighbours.renew(i, here, ahead);
   ExactEvent best = bodies_.body[i].event;

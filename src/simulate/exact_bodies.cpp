@@ -29,15 +29,15 @@ Vec3 ExactBodies::velocity_without_kick(Entity i, const Instant& at) const {
   return is_stepped(i) ? without_kick(v, at, islands.kicked_until[i], islands.kick[i]) : v;
 }
 
-ExactBodies::PairState ExactBodies::in_frame_of(Entity a, const Vec3& xa, Entity b) const {
+ExactBodies::PairState ExactBodies::in_frame_of(Entity a, Entity b) const {
   const Flight p = flights[a], q = flights[b];
   const Instant base = std::max(p.start, q.start);
-  const FadingPath a_now = p.path().from(base - p.start), b_now = q.path().from(base - q.start);
   const double t = now - base;
-  if (p.fade != q.fade)
-    return {a_now.position(t), a_now.velocity(t), b_now.position(t), b_now.velocity(t), Vec3::Zero()};
-  const FadingPath relative{b_now.x - a_now.x, b_now.v - a_now.v, b_now.a - a_now.a, p.fade};
-  return {Vec3::Zero(), Vec3::Zero(), relative.position(t), relative.velocity(t), xa};
+  const FadingPath of_a = p.path().from(base - p.start), of_b = q.path().from(base - q.start);
+  if (of_a.fade != of_b.fade)
+    return {Vec3::Zero(), Vec3::Zero(), of_b.position(t) - of_a.position(t), of_b.velocity(t) - of_a.velocity(t)};
+  const FadingPath relative{of_b.x - of_a.x, of_b.v - of_a.v, of_b.a - of_a.a, of_a.fade};
+  return {Vec3::Zero(), Vec3::Zero(), relative.position(t), relative.velocity(t)};
 }
 
 void ExactBodies::apply(Entity i, const AppliedAcceleration& forces) {

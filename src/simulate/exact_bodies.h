@@ -65,19 +65,18 @@ struct ExactBodies {
   /// Whether e is a body of the contact group, or asleep.
   bool in_lasting_contact(Entity e) const { return world.is_body(e) && body[e].state != ContactState::free; }
 
-  /// Two bodies now, in a frame of their own.
+  /// Two bodies now.
   struct PairState {
     Vec3 xa, va, xb, vb;  // m, m/s
-    Vec3 origin;          // m, of the frame
   };
   /// Whether a body at x (m) is so far from the origin that its place tells less of what lies beside it than relative
   /// paths do.
   bool far_from_origin(Entity i, const Vec3& x) const {
     return x.cwiseAbs().maxCoeff() > exact_tolerance::far_from_origin * world.radius[i];
   }
-  /// Bodies a, at xa (m), and b in the frame of a: by their relative path, from which what they have in common takes no
+  /// Bodies a and b now, in the frame of a: by their relative path, from which what they have in common takes no
   /// digits.
-  PairState in_frame_of(Entity a, const Vec3& xa, Entity b) const;
+  PairState in_frame_of(Entity a, Entity b) const;
 
   /// Bodies and fixed things near body i, ascending: what is summed up in this order is the same for any lists.
   std::vector<Entity> known_to(Entity i) const;

@@ -53,18 +53,18 @@ void ExactImpacts::stop_at(Entity striker, Entity struck, std::uint8_t feature, 
   parts_.predictor.predict(striker);
 }
 
-/// m/s^2: what drives two bodies together that have met and whose approach is over; 0 where they fall alike.
-double ExactImpacts::press_of(Entity a, Entity b, const ExactBodies::PairState& pair, const Touch& there) const {
+/// m/s^2: what drives two bodies together that have met here at the relative velocity w, once their approach is over.
+double ExactImpacts::press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb, const Touch& there,
+                              const Vec3& w) const {
   const Flight p = bodies_.flights[a], q = bodies_.flights[b];
-  if (p.a == q.a && p.fade == q.fade) return 0;
-  const Vec3 w = pair.vb - pair.va;
-  double forces = there.normal.dot(q.a - p.a);
+  const Vec3& n = there.normal;
+  double forces = n.dot(q.a - p.a);
   if (p.fade != 0 || q.fade != 0) {  // drag acts on what velocities the impact leaves
-    const double ma = bodies_.world.mass[a], mb = bodies_.world.mass[b], parts = -there.normal.dot(w) / (ma + mb);
-    forces = there.normal.dot(q.acceleration(bodies_.now - q.start) - p.acceleration(bodies_.now - p.start)) -
-             (q.fade * ma + p.fade * mb) * parts;
+    const double ma = bodies_.world.mass[a], mb = bodies_.world.mass[b], share = -n.dot(w) / (ma + mb);
+    forces = n.dot(q.acceleration(bodies_.now - q.start) - p.acceleration(bodies_.now - p.start)) -
+             (q.fade * ma + p.fade * mb) * share;
   }
-  return -(forces + bending(bodies_.world, a, pair.xa, b, pair.xb, there, w));
+  return -(forces + bending(bodies_.world, a, xa, b, xb, there, w));
 }
 
 void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
@@ -73,24 +73,26 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const double ta = bodies_.now - p.start, tb = bodies_.now - q.start;
   const Vec3 xa = p.position(ta), xb = q.position(tb);
   const Vec3 va = p.velocity(ta), vb = q.velocity(tb);
-  const ExactBodies::PairState pair = bodies_.far_from_origin(a, xa)
-                                          ? bodies_.in_frame_of(a, xa, b)
-                                          : ExactBodies::PairState{xa, va, xb, vb, Vec3::Zero()};
-  Touch there = bodies_.touch_at(a, pair.xa, b, pair.xb, feature);
-  there.point += pair.origin;
+  Touch there = bodies_.touch_at(a, xa, b, xb, feature);
+  Vec3 w = vb - va;
+  if (bodies_.far_from_origin(a, xa)) [[unlikely]] {
+    const ExactBodies::PairState pair = bodies_.in_frame_of(a, b);
+    there = bodies_.touch_at(a, pair.xa, b, pair.xb, feature);
+    there.point += xa;
+    w = pair.vb - pair.va;
+  }
   bodies_.log.note_overlap(-there.gap);
   bodies_.log.note_speed(va.norm());
   bodies_.log.note_speed(vb.norm());
   if (bodies_.options.merge) return parts_.merging.merge(a, b, there);
   const double ma = world.mass[a], mb = world.mass[b];
-  const Vec3 w = pair.vb - pair.va;
   const Vec3& n = there.normal;
   const double approach = -w.dot(n) > bodies_.negligible_speed() ? -w.dot(n) : 0;
   const double e = pair_restitution(world, a, b);
   parts_.guard.note_restitution(e);
   const double met = parts_.group.approach_without_kick(approach, n, a, b);
   const double length = 2 * std::min(world.radius[a], world.radius[b]);
-  const double press = press_of(a, b, pair, there);
+  const double press = p.a == q.a && p.fade == q.fade ? 0 : press_of(a, xa, b, xb, there, w);
   if (press <= 0)
     for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})
       if (bodies_.body[struck].state == ContactState::asleep && too_slow_to_wake(striker, struck, w.norm()))

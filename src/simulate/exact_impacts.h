@@ -46,7 +46,7 @@ class ExactImpacts {
     double press;     // m/s^2, drives the two together
   };
 
-  double press_of(Entity a, Entity b, const ExactBodies::PairState& pair, const Touch& there) const;
+  double press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb, const Touch& there, const Vec3& w) const;
   bool too_slow_to_wake(Entity striker, Entity struck, double speed) const;
   void stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach);
   FixedImpact find_fixed(Entity i, Entity surface, std::uint8_t feature) const;

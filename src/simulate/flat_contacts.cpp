@@ -123,7 +123,7 @@ void FlatContacts::find_initial(Entity i) {
     f.x += there.gap * there.normal;
     bodies_.body[i].set_origin({e, there.feature});
   }
-  f.a = keep_pressing(i, f.v);
+  f.a = keep_pressing(i) - f.fade * f.v;
   bodies_.flights.set(i, f);
 }
 
@@ -162,8 +162,7 @@ void FlatContacts::keep(FlatContactList& contacts, const std::array<bool, most>&
   contacts.count = kept;
 }
 
-Vec3 FlatContacts::keep_at(Entity i, const Vec3& v) {
-  if (contacts_[i].count == 0) return v;
+Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
   FlatContactList& contacts = contacts_.write(i);
   const double now = bodies_.now.hi;
   const Vec3 x = bodies_.position(i);
@@ -204,9 +203,7 @@ Vec3 FlatContacts::keep_at(Entity i, const Vec3& v) {
   return allowed;
 }
 
-Vec3 FlatContacts::keep_pressing(Entity i, const Vec3& v) {
-  if (bodies_.in_lasting_contact(i)) return Vec3::Zero();
-  if (contacts_[i].count == 0) return bodies_.force_at(i, v);
+Vec3 FlatContacts::keep_pressing_surfaces(Entity i) {
   FlatContactList& contacts = contacts_.write(i);
   std::array<Vec3, most> normals;
   const std::size_t n = normals_of(contacts, no_entity, normals);
@@ -216,7 +213,7 @@ Vec3 FlatContacts::keep_pressing(Entity i, const Vec3& v) {
   for (std::size_t k = 0; k < most; ++k) presses[k] = solution.active >> k & 1u;
   keep(contacts, presses);
   if (contacts.count == 0) bodies_.log.remove_resting(1);
-  return bodies_.fade[i] == 0 ? solution.u : Vec3(solution.u - bodies_.fade[i] * v);
+  return solution.u;
 }
 
 Vec3 FlatContacts::acceleration_without(Entity i, Entity surface) const {

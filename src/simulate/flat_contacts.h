@@ -59,11 +59,13 @@ class FlatContacts {
   /// Body i's velocity has become v (m/s). Gives up the contacts that it leaves or strikes (the strike comes next, as
   /// an event), unless the hop or the bounce would be one that numbers cannot tell from none. Gives the velocity that
   /// the others allow.
-  Vec3 keep_at(Entity i, const Vec3& v);
+  Vec3 keep_at(Entity i, const Vec3& v) { return contacts_[i].count == 0 ? v : keep_at_surfaces(i, v); }
   /// Gives up contacts that do not press. Gives the acceleration (m/s^2) that forces and the contacts' reactions leave
-  /// to body i at velocity v (m/s), which is along the surfaces; zero in lasting contact, where steps have the forces
-  /// in them.
-  Vec3 keep_pressing(Entity i, const Vec3& v);
+  /// to body i, but for drag; zero in lasting contact, where steps have the forces in them.
+  Vec3 keep_pressing(Entity i) {
+    if (bodies_.in_lasting_contact(i)) return Vec3::Zero();
+    return contacts_[i].count == 0 ? bodies_.applied[i] : keep_pressing_surfaces(i);
+  }
   /// m/s^2, the same without one surface, changing nothing: what would press body i against that surface.
   Vec3 acceleration_without(Entity i, Entity surface) const;
 
@@ -71,6 +73,8 @@ class FlatContacts {
   void report(Entity i, std::vector<ContactForce>& forces) const;
 
  private:
+  Vec3 keep_at_surfaces(Entity i, const Vec3& v);
+  Vec3 keep_pressing_surfaces(Entity i);
   void record_bounce(Entity i, const FlatContact& contact, double approach, double e);
   static void keep(FlatContactList& contacts, const std::array<bool, FlatContactList::most>& which);
 

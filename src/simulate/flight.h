@@ -21,16 +21,8 @@ struct Flight {
   double fade = 0;  // 1/s: a dies away as exp(-fade t)
 
   FadingPath path() const { return {x, v, a, fade}; }
-  Vec3 position(double t) const {  // t: s since start
-    if (fade != 0) [[unlikely]]
-      return path().position(t);
-    return x + t * (v + (0.5 * t) * a);
-  }
-  Vec3 velocity(double t) const {
-    if (fade != 0) [[unlikely]]
-      return path().velocity(t);
-    return v + t * a;
-  }
+  Vec3 position(double t) const { return x + t * (v + displaced(fade, t) * a); }  // t: s since start
+  Vec3 velocity(double t) const { return v + gained(fade, t) * a; }
   Vec3 acceleration(double t) const { return fade == 0 ? a : path().acceleration(t); }
 };
 
@@ -53,7 +45,8 @@ class Flights {
   /// `common`: m/s^2, the acceleration of all until `set` or `accelerate` gives another.
   Flights(Entity bodies, const Vec3& common) : core_(bodies), common_(common), fade_(bodies) {}
 
-  Flight operator[](Entity i) const { return {core_[i].start, core_[i].x, core_[i].v, acceleration(i), fade_[i]}; }
+  Flight operator[](Entity i) const { return {core_[i].start, core_[i].x, core_[i].v, acceleration(i), fade(i)}; }
+  double fade(Entity i) const { return fade_[i]; }                                                         // 1/s
   const Vec3& acceleration(Entity i) const { return acceleration_.empty() ? common_ : acceleration_[i]; }  // at start
   const Core* cores() const { return core_.data(); }
   /// Whether all have the same acceleration.
@@ -61,13 +54,14 @@ class Flights {
   /// Whether drag has bent the path of any.
   bool any_fades() const { return !fade_.empty(); }
 
-  void set(Entity i, const Flight& flight) {
+  [[gnu::always_inline]] void set(Entity i, const Flight& flight) {
     core_[i] = {flight.x, flight.v, flight.start};
     accelerate(i, flight.a, flight.fade);
   }
   /// Another acceleration, from its start on.
-  void accelerate(Entity i, const Vec3& a, double fade = 0) {
-    if (fade != fade_[i]) fade_.write(i) = fade;
+  void accelerate(Entity i, const Vec3& a, double new_fade = 0) {
+    if (new_fade != 0 || any_fades()) [[unlikely]]
+      set_fade(i, new_fade);
     if (acceleration_.empty()) {
       if (a == common_) return;
       acceleration_.assign(core_.size(), common_);
@@ -76,6 +70,8 @@ class Flights {
   }
 
  private:
+  [[gnu::noinline]] void set_fade(Entity i, double fade) { fade_.write(i) = fade; }
+
   LargeVector<Core> core_;
   Vec3 common_;
   LargeVector<Vec3> acceleration_;  // empty: all have the common one

@@ -29,9 +29,11 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   Vec3 kept = v;
   for (int k = 0; k < 3; ++k)
     if (still || std::abs(v[k]) <= negligible) kept[k] = 0;
-  const bool by_force = falls || !bodies_.in_lasting_contact(i);
-  bodies_.flights.set(i, {bodies_.now, x, kept, falls ? bodies_.force_at(i, kept) : flat_.keep_pressing(i, kept),
-                          by_force ? bodies_.fade[i] : 0});
+  const Vec3 pull = falls ? bodies_.applied[i] : flat_.keep_pressing(i);
+  if (bodies_.fade.empty() || (!falls && bodies_.in_lasting_contact(i))) [[likely]]
+    bodies_.flights.set(i, {bodies_.now, x, kept, pull});
+  else
+    bodies_.flights.set(i, {bodies_.now, x, kept, pull - bodies_.fade[i] * kept, bodies_.fade[i]});
   body.set_origin(origin);
   bodies_.neighbours.turned(i);
   count(i);
@@ -54,10 +56,8 @@ void FlightChanges::count(Entity i) {
     if (body.event.kind == ExactEvent::Kind::body_body && body.event.partner == i) body.event.partner_version = 0;
 }
 
-void FlightChanges::book(Entity i, const Vec3& x, const Instant& end) {
+void FlightChanges::book_forces(Entity i, const Vec3& x, const Instant& end) {
   const World& world = bodies_.world;
-  if (stepped_[i]) bodies_.log.add_stepped_contact(end - bodies_.flights[i].start);
-  if (bodies_.flights.acceleration(i) == world.gravity && world.forces.empty()) return;
   const Flight f = bodies_.flights[i];
   const Vec3 displacement = x - f.x;
   const double fade = bodies_.fade[i], mass = world.mass[i];

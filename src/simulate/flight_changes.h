@@ -19,7 +19,11 @@ class FlightChanges {
   void correct(Entity i, const Vec3& v);
   /// Books what forces did to body i on the flight that ends at x (m) then: the World's, and contact forces against
   /// them.
-  void book(Entity i, const Vec3& x, const Instant& end);
+  void book(Entity i, const Vec3& x, const Instant& end) {
+    const World& world = bodies_.world;
+    if (stepped_[i]) bodies_.log.add_stepped_contact(end - bodies_.flights[i].start);
+    if (bodies_.flights.acceleration(i) != world.gravity || !world.forces.empty()) book_forces(i, x, end);
+  }
   /// Books all flights up to `time` (s), the run's end; only once. Between collisions a speed is greatest at a flight's
   /// ends.
   void book_last(double time);
@@ -27,6 +31,8 @@ class FlightChanges {
   void count(Entity i);
 
  private:
+  void book_forces(Entity i, const Vec3& x, const Instant& end);
+
   ExactBodies& bodies_;
   FlatContacts& flat_;
   PathLog& paths_;

@@ -6,7 +6,9 @@
 namespace carom {
 
 double region_exit(const ExactBodies& bodies, Entity i) {
-  const Flight f = bodies.flights[i];
+  const Flights::Core& f = bodies.flights.cores()[i];
+  const Vec3& a = bodies.flights.acceleration(i);
+  const double fade = bodies.flights.fade(i);
   const double since = bodies.now - f.start, room = bodies.neighbours.room(i);
   const Vec3 center = bodies.neighbours.center(i);
   // From `off` (m, from the region's middle) on along a straight path at v (m/s), until it is `radius` (m) from there.
@@ -17,13 +19,19 @@ double region_exit(const ExactBodies& bodies, Entity i) {
     return outward > 0 ? left / (root + outward) : speed2 > 0 ? (root - outward) / speed2 : never;
   };
   const auto start_of = [&](double t, Vec3& off, Vec3& v) {
-    v = f.velocity(t);
-    off = f.position(t) - center;
+    if (fade != 0) [[unlikely]] {
+      const FadingPath now = FadingPath{f.x - center, f.v, a, fade}.from(t);
+      v = now.v;
+      off = now.x;
+      return;
+    }
+    v = f.v + t * a;
+    off = f.x + t * (f.v + (0.5 * t) * a) - center;
   };
   Vec3 off, v;
   start_of(since, off, v);
   double t = straight_exit(off, v, room);
-  if (const double a2 = f.acceleration(since).squaredNorm(); a2 > 0) {  // it grows no more
+  if (const double a2 = a.squaredNorm(); a2 > 0) {  // drag makes it no greater
     // As far as a straight path within what the acceleration does not take from the room until then, or by the greatest
     // possible speed; and on from there, while that leads on.
     const double size = std::sqrt(a2), end = bodies.body[i].event.time.hi - bodies.now.hi;

@@ -51,6 +51,37 @@ TEST(TwoBalls, UniformGravityLeavesTimeAndNormalUnchanged) {
   expect_case(all["case_A_gravity"], all["case_A"]["params"], Vec3(0, 0, -9.8125));
 }
 
+// They meet obliquely after 1e7 s, 5e10 m below or 1e11 m beside where they began.
+TEST(TwoBalls, WhatTheyHaveInCommonTakesNoDigitsOfTheirNormal) {
+  for (const bool boxes : {false, true}) {
+    const auto meet = [&](const Vec3& gravity, const Vec3& common) {
+      Problem problem;
+      problem.world.gravity = gravity;
+      const Vec3 x(1000.75, 0.375, 0.25), w(-0x1p-13, 0, 0);
+      if (boxes) {
+        problem.body(Volume::sphere(0.5), {0, 0, 0}, common, 2, 0.5);
+        problem.body(Volume::box({1, 0.5, 0.25}), x, common + w, 3, 0.5);
+      } else {
+        problem.ball({0, 0, 0}, common, 2, 0.5, 0.5);
+        problem.ball(x, common + w, 3, 0.5, 0.5);
+      }
+      problem.options.duration = 1.2e7;
+      const Outcome run = run_exact(problem);
+      EXPECT_EQ(run.collisions.size(), 1u);
+      return run.collisions.empty() ? Collision{} : run.collisions[0];
+    };
+    const Collision alone = meet(Vec3::Zero(), Vec3::Zero());
+    for (const auto& [gravity, common] : {std::pair(Vec3(0, -1e-3, 0), Vec3(0, 0, 0)),
+                                          {Vec3(0, 0, 0), Vec3(8192, 0, 1024)},
+                                          {Vec3(1e-4, 2e-4, -1e-3), Vec3(-512, 64, 1024)}}) {
+      const Collision there = meet(gravity, common);
+      EXPECT_NEAR(there.time / alone.time, 1, 1e-15);
+      EXPECT_LT((there.normal - alone.normal).norm(), 1e-12);
+      EXPECT_NEAR(there.approach_speed / alone.approach_speed, 1, 1e-12);
+    }
+  }
+}
+
 TEST(TwoBalls, IntegerDataGiveTheExactTime) {
   const auto all = reference("two_ball_oblique");
   expect_case(all["case_B_exact"], all["case_B_exact"]["params"], Vec3::Zero());

@@ -1,0 +1,43 @@
+#include "physics/fading_path.h"
+
+#include <algorithm>
+
+namespace carom {
+
+Fading fading(double z) {
+  constexpr double all = 64;  // exp(-z) is less than rounding of 1
+  constexpr int terms = 13;   // of the series up to 1/2: to rounding
+  double part = std::min(z, all);
+  int doublings = 0;
+  for (; part > 0.5; part *= 0.5) ++doublings;
+  double third = 0;
+  for (int n = terms; n >= 0; --n) third = (1 - part * third) / (n + 3);
+  third *= 0.5;
+  double bend = 0.5 - part * third, gone = part * (1 - part * bend);
+  if (doublings == 0) return {gone, bend, third};
+  for (int k = 0; k < doublings; ++k) gone *= 2 - gone;
+  bend = (z - gone) / (z * z);
+  return {gone, bend, (0.5 - bend) / z};
+}
+
+Vec3 FadingPath::acceleration(double t) const {
+  return fade == 0 ? a : Vec3((1 - fading(fade * t).gone) * a);
+}
+
+FadingPath FadingPath::from(double t) const {
+  return t == 0 ? *this : FadingPath{position(t), velocity(t), acceleration(t), fade};
+}
+
+double FadingPath::squared_speed(double t) const {
+  // With s, the integral of velocity's share of a: s' = 1 - fade s, so that fade times that of s^2 is t^2 bend - s^2/2.
+  double once = 0.5 * t * t, twice = t * t * t / 3;  // s^2, s^3
+  if (fade > 0) {
+    const double z = fade * t;
+    const Fading f = fading(z);
+    once = t * t * f.bend;
+    twice = t * t * t * (f.bend - f.third - 0.5 * z * f.bend * f.bend);
+  }
+  return t * v.squaredNorm() + 2 * once * v.dot(a) + twice * a.squaredNorm();
+}
+
+}  // namespace carom
