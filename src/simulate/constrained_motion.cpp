@@ -195,6 +195,7 @@ void ConstrainedMotion::find_contacts(Step& step) const {
   const World& world = bodies_.world;
   for (std::size_t k = 0; k < step.members.size(); ++k) {
     const Entity i = step.members[k];
+    const std::size_t first = step.pairs.size();
     for (const Entity e : bodies_.known_to(i)) {
       const bool body = world.is_body(e);
       if (body && (e < i || group_.index[e] == ContactConstraint::fixed)) continue;
@@ -209,7 +210,35 @@ void ConstrainedMotion::find_contacts(Step& step) const {
       step.pairs.push_back({static_cast<std::uint32_t>(k), other, there.normal, -there.gap, 0, 0});
       step.names.push_back({i, e, there.feature});
     }
+    drop_hidden(step, first);
   }
+}
+
+/// Of one member's contacts, from `first` on: one with what lies behind a flat fixed surface that it touches is none, but
+/// for a surface level with that.
+void ConstrainedMotion::drop_hidden(Step& step, std::size_t first) const {
+  const World& world = bodies_.world;
+  const auto flat = [&](std::size_t c) {
+    return step.pairs[c].b == ContactConstraint::fixed &&
+           is_flat(world, step.names[c].i, step.names[c].e, step.names[c].feature);
+  };
+  const auto hides = [&](std::size_t floor, std::size_t c) {
+    const Vec3& n = step.pairs[floor].normal;
+    if (floor == c || !flat(floor) || (flat(c) && (step.pairs[c].normal - n).norm() <= tol::level)) return false;
+    return lies_behind(world, step.names[c].i, step.x[step.pairs[c].a], step.names[c].e, -n);
+  };
+  std::vector<std::uint8_t> hidden(step.pairs.size(), 0);
+  for (std::size_t c = first; c < step.pairs.size(); ++c)
+    for (std::size_t floor = first; floor < step.pairs.size() && step.pairs[c].b == ContactConstraint::fixed; ++floor)
+      if (hides(floor, c)) hidden[c] = 1;
+  std::size_t kept = first;
+  for (std::size_t c = first; c < step.pairs.size(); ++c) {
+    if (hidden[c]) continue;
+    step.pairs[kept] = step.pairs[c];
+    step.names[kept++] = step.names[c];
+  }
+  step.pairs.resize(kept);
+  step.names.resize(kept);
 }
 
 void ConstrainedMotion::close_overlaps(Step& step) const {
@@ -424,12 +453,16 @@ void ConstrainedMotion::note_contacts(const Step& step) {
   for (const Entity i : step.members) {
     group_.partners.write(i).clear();
     group_.pressing.write(i).clear();
+    group_.floors.write(i).clear();
   }
   for (std::size_t c = 0; c < step.names.size(); ++c) {
     const auto& [i, e, feature] = step.names[c];
     group_.partners.write(i).push_back(e);
     if (bodies_.world.is_body(e)) group_.partners.write(e).push_back(i);
-    if (step.pairs[c].force > 0) group_.pressing.write(i).push_back({e, step.pairs[c].force});
+    if (!(step.pairs[c].force > 0)) continue;
+    group_.pressing.write(i).push_back({e, step.pairs[c].force});
+    if (!bodies_.world.is_body(e) && is_flat(bodies_.world, i, e, feature))
+      group_.floors.write(i).push_back(-step.pairs[c].normal);
   }
 }
 

@@ -77,6 +77,7 @@ class ConstrainedMotion {
   std::vector<std::uint32_t> parts_of(const Step& step) const;
   void advance_whole(Step& step);
   void find_contacts(Step& step) const;
+  void drop_hidden(Step& step, std::size_t first) const;
   void close_overlaps(Step& step) const;
   void take_approaches(Step& step);
   void drop_parting(Step& step) const;

@@ -76,7 +76,7 @@ void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEv
       ++pair_tests_;
       const Instant time = times_.of_pair(i, e, feature);
       offer(i, best, {time, e, bodies_.body[e].version, ExactEvent::Kind::body_body, feature});
-    } else if (!carried || (!flat_.carry(i, e) && !flat_.hide(i, e))) {
+    } else if (!(carried && (flat_.carry(i, e) || flat_.hide(i, e))) && !(constrained && group_.hides(i, e))) {
       ++surface_tests_;
       const Instant time = times_.of_surface(i, e, feature);
       offer(i, best, {time, e, 0, ExactEvent::Kind::body_fixed, feature});

@@ -13,6 +13,7 @@ namespace carom {
 ExactGroup::ExactGroup(ExactBodies& bodies, FlatContacts& flat, const CollapseDetector& collapses, PathLog& paths)
     : pressing(bodies.body.size()),
       partners(bodies.body.size()),
+      floors(bodies.body.size()),
       index(bodies.body.size(), ContactConstraint::fixed),
       impacts(bodies.body.size()),
       idle(bodies.body.size()),
@@ -146,6 +147,12 @@ bool ExactGroup::strikes(Entity i, Entity e, double approach, double greatest) c
 
 bool ExactGroup::are_partners(Entity i, Entity e) const {
   return std::find(partners[i].begin(), partners[i].end(), e) != partners[i].end();
+}
+
+bool ExactGroup::hides(Entity i, Entity fixed) const {
+  return std::any_of(floors[i].begin(), floors[i].end(), [&](const Vec3& n) {
+    return lies_behind(bodies_.world, i, bodies_.position(i), fixed, n);
+  });
 }
 
 void ExactGroup::report(Entity i, std::vector<ContactForce>& forces) const {

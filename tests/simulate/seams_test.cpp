@@ -82,5 +82,43 @@ TEST(Seams, OfPlanesThatAreNearlyLevelDoNothing) {
     }
 }
 
+// Bodies on top of one another press on the floor together.
+TEST(Seams, OfTilesAndWallsDoNothingToAStack) {
+  for (const bool walls : {false, true})
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+      Random random(seed);
+      const double e = 0.5 * static_cast<double>(seed % 3), r = random(0.05, 0.5);
+      const double top = seed % 4 == 0 ? 0 : random(-2, 2), width = random(0.3, 2), height = random(0.1, 1);
+      Crossing crossing;
+      Problem& problem = crossing.problem;
+      problem.world.gravity = Vec3(0, -g, 0);
+      for (int k = 0; k < pieces; ++k) {
+        const double x = width * k + width / 2;
+        if (walls)
+          problem.wall({x, top, 0}, {0, 1, 0}, width, 4, {0, 0, 1});
+        else
+          problem.obstacle({x, top - height / 2, 0}, Volume::box({width, height, 4}));
+      }
+      const double speed = random(0.5, 3), start = 0.4 * width;
+      problem.options.duration = (width * (pieces - 0.5) - start) / speed;
+      const double time = problem.options.duration, aside = 1.5 / time;
+      const Vec3 velocity(speed, 0, random(-aside, aside));
+      const int bodies = 2 + static_cast<int>(seed % 3);
+      std::vector<Vec3> first;
+      for (int k = 0; k < bodies; ++k) {
+        first.emplace_back(start, top + (2 * k + 1) * r, 0);
+        const auto pick = static_cast<int>(seed / 3) + k;
+        const int kind = k + 1 < bodies ? 1 + pick % 2 : pick % 3;  // nothing stands on a ball for long
+        add_body(crossing, static_cast<Sliding>(kind), e, r, first.back(), velocity);
+      }
+      const Outcome run = run_exact(problem);
+      const std::string what = std::to_string(seed) + (walls ? " walls" : " tiles");
+      for (int k = 0; k < bodies; ++k)
+        EXPECT_LT((run.end.position[k] - first[k] - time * velocity).norm(), 1e-12) << what;
+      EXPECT_TRUE(run.collisions.empty()) << what;
+      EXPECT_EQ(run.tally.stepped_contact, 0) << what;
+    }
+}
+
 }  // namespace
 }  // namespace carom
