@@ -1,27 +1,36 @@
 #pragma once
 // The first contact of a point with a convex set, by separating planes. The set lies wholly beyond the plane through
-// its nearest point; until the path comes to that plane (a quadratic) there is no contact, so the search goes there and
-// looks again. No contact can be jumped over. Straight on this is Newton's method on a convex gap; where the path only
-// grazes, each step halves what is left. At the end the time is found once more from the feature's own equation.
+// its nearest point; until the path comes to that plane (on a parabola: a quadratic's root) there is no contact, so the
+// search goes there and looks again. No contact can be jumped over. Straight on this is Newton's method on a convex
+// gap; where the path only grazes, each step halves what is left. At the end the time is found once more from the
+// feature's own equation.
 #include <algorithm>
 #include <cmath>
 
 #include "physics/contact_time.h"
+#include "physics/relative_way.h"
 #include "physics/separation.h"
 #include "physics/touch.h"
 
 namespace carom {
 
-template <typename Set>
+inline RelativeMotion in_frame(const auto& frame, const RelativeMotion& m) {
+  return {frame.to(m.d), frame.to(m.w), frame.to(m.a), m.speeds, m.just_separated};
+}
+
+template <typename Set, typename Way = ParabolicWay>
 class ConservativeAdvancement {
  public:
   /// far: m, the size of the positions that motion.d is the difference of.
   ConservativeAdvancement(const Set& set, const RelativeMotion& motion, double far, double horizon)
-      : set_(set), m_(motion), far_(far), horizon_(horizon) {}
+      : ConservativeAdvancement(set, motion, ParabolicWay(motion), far, horizon) {}
+  /// On a way of another kind, which `motion` begins.
+  ConservativeAdvancement(const Set& set, const RelativeMotion& motion, const Way& way, double far, double horizon)
+      : set_(set), m_(motion), way_(way), far_(far), horizon_(horizon) {}
 
   FeatureTime run(std::uint8_t left) {
     left_ = left;
-    if (left != no_feature && set_.sharp(left)) left_ = face_left(left, m_.d, m_.w);
+    if (left != no_feature && set_.sharp(left)) left_ = face_left(left, m_.d, m_.w, m_.a);
     if (left_ != no_feature) m_.d = set_.within(m_.d, left_);
     Separation s = left_ != no_feature ? set_.at(m_.d, left_) : set_.nearest(m_.d);
     if (left_ != no_feature) s.gap = 0;
@@ -38,11 +47,11 @@ class ConservativeAdvancement {
     }
     for (int step = 0; step < 1000 && t <= horizon_; ++step) {
       s = look(t);
-      const Vec3 v = m_.w + t * m_.a;
+      const Vec3 v = way_.velocity(t);
       const double speed = s.normal.dot(v);
       double on;
       if (s.gap > 0) {
-        on = plane_contact_time(s.gap, speed, s.normal.dot(m_.a), 0, false, never);
+        on = way_.descent(s.normal, t, s.gap, speed, horizon_ - t);
       } else {
         const double out = std::abs(speed) <= noise(s.feature) ? 0 : speed;
         on = out < 0 ? 0 : leaves_until(s, t, v, out);
@@ -53,7 +62,7 @@ class ConservativeAdvancement {
       const bool unresolved =
           s.gap <= 2 * rounding * s.normal.cwiseAbs().dot(p.cwiseAbs()) || p == m_.d + displacement(t + on);
       if (s.gap > 0 && unresolved) {  // positions are too coarse to resolve this gap: it is closed
-        if (set_.sharp(s.feature)) s = set_.at(p, face_left(s.feature, p, v));
+        if (set_.sharp(s.feature)) s = set_.at(p, face_left(s.feature, p, v, way_.acceleration(t)));
         double out = s.normal.dot(v);
         if (std::abs(out) <= noise(s.feature)) out = 0;
         if (out < 0) return contact(t + on, s.feature);
@@ -72,7 +81,7 @@ class ConservativeAdvancement {
     const double turn = set_.flat(feature) ? 0 : far_ / set_.curvature_radius(m_.d, feature);
     return 16 * rounding * m_.speeds * (1 + turn);
   }
-  Vec3 displacement(double t) const { return t * (m_.w + 0.5 * t * m_.a); }
+  Vec3 displacement(double t) const { return way_.displacement(t); }
 
   Separation look(double t) const {
     const Vec3 p = m_.d + displacement(t);
@@ -88,24 +97,24 @@ class ConservativeAdvancement {
 
   /// How long a path that leaves a closed gap at time t is surely outside: 0 if it presses on instead.
   double leaves_until(const Separation& s, double t, const Vec3& v, double speed) const {
-    const double acceleration = s.normal.dot(m_.a);
-    if (acceleration >= 0) return never;
-    if (speed > 0) return 2 * speed / -acceleration;
+    const Vec3 relative_acceleration = way_.acceleration(t);
+    const double acceleration = s.normal.dot(relative_acceleration);
+    if (acceleration >= 0 || speed > 0) return way_.back(s.normal, t, speed, horizon_ - t);
     const Vec3 p = m_.d + displacement(t);
     if (!(acceleration + set_.bending(p, s.feature, v) > 0)) return 0;
     // It flies off along a curved surface that turns away faster than the path does. The plane tells nothing; a short
     // step, as the surface's size goes, lifts it off.
     constexpr double step = 0x1p-26;
-    return step * std::min(set_.size() / v.norm(), std::sqrt(set_.size() / m_.a.norm()));
+    return step * std::min(set_.size() / v.norm(), std::sqrt(set_.size() / relative_acceleration.norm()));
   }
 
   /// Of the faces that make a sharp edge: that over which the point gets away.
-  std::uint8_t face_left(std::uint8_t edge, const Vec3& p, const Vec3& v) const {
+  std::uint8_t face_left(std::uint8_t edge, const Vec3& p, const Vec3& v, const Vec3& a) const {
     std::uint8_t best = no_feature;
     double best_speed = 0, best_acceleration = 0;
     set_.for_each_face(edge, [&](std::uint8_t face) {
       const Vec3 n = set_.at(p, face).normal;
-      const double speed = n.dot(v), acceleration = n.dot(m_.a);
+      const double speed = n.dot(v), acceleration = n.dot(a);
       const bool equal = std::abs(speed - best_speed) <= noise(face);
       if (best == no_feature || (equal ? acceleration > best_acceleration : speed > best_speed)) {
         best = face;
@@ -126,14 +135,17 @@ class ConservativeAdvancement {
     double closed = never;
     RelativeMotion reduced;
     double radius;
-    if (set_.flat(feature)) {
+    if constexpr (!Way::parabola) {
+      closed = never;
+    } else if (set_.flat(feature)) {
       closed = plane_contact_time(gap, start.normal.dot(m_.w), start.normal.dot(m_.a), 0, is_left, horizon_);
     } else if (set_.as_spheres(feature, m_, reduced, radius)) {
       reduced.just_separated = is_left;
       closed = sphere_contact_time(reduced, radius, horizon_);
     }
     const auto tolerance = [&](double time) {
-      const double reach = m_.d.cwiseAbs().sum() + time * (m_.w.cwiseAbs().sum() + time * m_.a.cwiseAbs().sum());
+      double reach = m_.d.cwiseAbs().sum() + time * (m_.w.cwiseAbs().sum() + time * m_.a.cwiseAbs().sum());
+      if constexpr (!Way::parabola) reach = m_.d.cwiseAbs().sum() + displacement(time).cwiseAbs().sum();
       return 64 * rounding * (reach + set_.size());
     };
     if (closed < never && std::abs(look(closed).gap) <= tolerance(closed) &&
@@ -144,10 +156,10 @@ class ConservativeAdvancement {
     const double found = t;
     double last = never;
     for (int k = 0; k < 8; ++k) {
-      const double slope = set_.at(m_.d + displacement(t), feature).normal.dot(m_.w + t * m_.a);
+      const double slope = set_.at(m_.d + displacement(t), feature).normal.dot(way_.velocity(t));
       if (!(slope < 0)) break;
       double rest;
-      if (is_left || !set_.rim_gap(feature, m_, t, rest))
+      if (is_left || !Way::parabola || !set_.rim_gap(feature, m_, t, rest))
         rest = set_.displaced_gap(m_.d, feature, gap, displacement(t));
       const double step = -rest / slope;
       if (!(std::abs(step) < 0.5 * last) || !(t + step >= 0) || t + step == t) break;
@@ -161,6 +173,7 @@ class ConservativeAdvancement {
 
   const Set& set_;
   RelativeMotion m_;
+  Way way_;
   double far_, horizon_;
   std::uint8_t left_ = no_feature;
 };

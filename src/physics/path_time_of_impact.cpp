@@ -4,62 +4,19 @@
 #include <cmath>
 #include <utility>
 
+#include "physics/conservative_advancement.h"
 #include "physics/cube_root.h"
-#include "physics/fading_descent.h"
+#include "physics/pair.h"
+#include "physics/relative_way.h"
 
 namespace carom {
 
 namespace {
 
-/// The way of b as seen from a on the paths of a time step.
-class CubicWay {
- public:
-  CubicWay(const Path& pa, const Path& pb) : relative_{Vec3::Zero(), pb.v - pa.v, pb.a - pa.a, pb.j - pa.j} {}
-
-  Vec3 displacement(double t) const { return relative_.position(t); }
-  Vec3 velocity(double t) const { return relative_.velocity(t); }
-  Vec3 acceleration(double t) const { return relative_.a + t * relative_.j; }
-  /// s, after t: when the distance along n, which is `gap` (m) and changes at `rate` (m/s), comes down through zero.
-  double descent(const Vec3& n, double t, double gap, double rate, double horizon) const {
-    Polynomial distance;
-    distance.degree = 3;
-    distance.c = {gap, rate, 0.5 * n.dot(acceleration(t)), n.dot(relative_.j) / 6};
-    return first_descent(distance, horizon);
-  }
-
- private:
-  Path relative_;
-};
-
-/// The same on paths that drag bends.
-class FadingWay {
- public:
-  FadingWay(const FadingPath& pa, const FadingPath& pb) : pa_(pa), pb_(pb) {
-    pa_.x = pb_.x = Vec3::Zero();
-    if (pa.fade != pb.fade) return;
-    pb_.v -= std::exchange(pa_.v, Vec3::Zero());  // what they have in common takes no digits
-    pb_.a -= std::exchange(pa_.a, Vec3::Zero());
-  }
-
-  Vec3 displacement(double t) const { return pb_.position(t) - pa_.position(t); }
-  Vec3 velocity(double t) const { return pb_.velocity(t) - pa_.velocity(t); }
-  Vec3 acceleration(double t) const { return pb_.acceleration(t) - pa_.acceleration(t); }
-  /// m/s^3, how fast, at most, the acceleration changes from t on.
-  double jerk(double t) const { return pa_.fade * pa_.acceleration(t).norm() + pb_.fade * pb_.acceleration(t).norm(); }
-  double descent(const Vec3& n, double t, double gap, double rate, double horizon) const {
-    const FadingDistance distance{
-        gap, rate, {{{-n.dot(pa_.acceleration(t)), pa_.fade}, {n.dot(pb_.acceleration(t)), pb_.fade}}}};
-    return first_descent(distance, horizon);
-  }
-
- private:
-  FadingPath pa_, pb_;
-};
-
-/// speeds: m/s, what velocities are rounded by.
+/// Of volumes that are round or flat where they meet. speeds: m/s, what velocities are rounded by.
 template <typename Way>
-FeatureTime time_of_impact_along(const Way& way, const World& world, Entity a, const Vec3& from_a, Entity b,
-                                 const Vec3& xb, double speeds, std::uint8_t left, double horizon) {
+FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3& from_a, Entity b, const Vec3& xb,
+                       double speeds, std::uint8_t left, double horizon) {
   const double far = from_a.cwiseAbs().sum() + xb.cwiseAbs().sum() + world.radius[a];
   const double closed = 0x1p-49 * far, noise = 0x1p-48 * speeds;
   double t = 0;
@@ -87,6 +44,32 @@ FeatureTime time_of_impact_along(const Way& way, const World& world, Entity a, c
     if (on == never) return {never, no_feature};
     if (t + on == t && there.gap > closed) return {t, there.feature};  // the clock is too coarse to come nearer
     t += on;
+  }
+  return {never, no_feature};
+}
+
+template <typename Way>
+FeatureTime time_of_impact_along(const Way& way, const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb,
+                                 double speeds, std::uint8_t left, double horizon) {
+  const RelativeMotion start{xb - xa, way.velocity(0), way.acceleration(0), speeds, left != no_feature};
+  const double far = xa.cwiseAbs().sum() + xb.cwiseAbs().sum();
+  switch (pair_kind(world, a, b)) {
+    case PairKind::spheres:
+    case PairKind::half_space:
+    case PairKind::sphere_wall:
+      return meet_round(way, world, a, xa, b, xb, speeds, left, horizon);
+    case PairKind::prism: {
+      const PairPrism pair = pair_prism(world, a, b);
+      return ConservativeAdvancement(pair.sum, in_frame(pair.frame, start), way.in(pair.frame), far, horizon).run(left);
+    }
+    case PairKind::box_wall: {
+      const SlabSum sum = slab_sum(world, a, b);
+      return ConservativeAdvancement(sum, start, way, far, horizon).run(left);
+    }
+    case PairKind::cylinder_wall: {
+      const TiltedSum sum = tilted_sum(world, a, b);
+      return ConservativeAdvancement(sum, start, way, far, horizon).run(left);
+    }
   }
   return {never, no_feature};
 }

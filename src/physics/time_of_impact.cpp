@@ -5,10 +5,6 @@ namespace carom {
 
 namespace {
 
-RelativeMotion in_frame(const Frame& frame, const RelativeMotion& m) {
-  return {frame.to(m.d), frame.to(m.w), frame.to(m.a), m.speeds, m.just_separated};
-}
-
 /// How large the positions are that d, from a to b, is the difference of, as far as that is known.
 double size_of_positions(const World& world, Entity b, const Vec3& d) {
   if (world.is_body(b)) return d.cwiseAbs().sum();

@@ -276,5 +276,19 @@ TEST(LinearDrag, MergedBodiesHaveTheDragOfTheirParts) {
   EXPECT_NEAR(got.end.position[1].x(), 1 + 0.75 - speed * std::expm1(-k * (2 - met)) / k, 1e-13);
 }
 
+// Their faces lie in one plane: the path runs in the face of the Minkowski sum, and enters it nowhere.
+TEST(LinearDrag, BodiesThatPassWithTheirFacesFlushDoNotMeet) {
+  Problem problem;
+  problem.body(Volume::box({0.4, 0.4, 0.4}), {-2, 0, 0}, {3, 0, 0});
+  problem.body(Volume::box({0.4, 0.6, 0.2}), {0, 0, 0.3}, {0, 0, 0});
+  problem.body(Volume::cylinder(0.2, 0.4), {1, 0.4, 0}, {0, 0, 0}, 3);
+  problem.obstacle({-1, -0.4, 0}, Volume::box({0.4, 0.4, 0.4}));
+  problem.world.forces = {{Drag{0.5, 0, Vec3::Zero()}}};
+  problem.options.duration = 1.2;
+  const Outcome got = run(problem);
+  EXPECT_TRUE(got.collisions.empty());
+  EXPECT_NEAR(got.end.position[0].x(), -2 - 6 * std::expm1(-0.6), 1e-14);
+}
+
 }  // namespace
 }  // namespace carom
