@@ -53,7 +53,9 @@ class ConservativeAdvancement {
       if (s.gap > 0) {
         on = way_.descent(s.normal, t, s.gap, speed, horizon_ - t);
       } else {
-        const double out = std::abs(speed) <= noise(s.feature) ? 0 : speed;
+        if (s.feature != left_) s = over_the_edge(s, t, v);
+        double out = s.normal.dot(v);
+        if (std::abs(out) <= noise(s.feature)) out = 0;
         on = out < 0 ? 0 : leaves_until(s, t, v, out);
         if (on == 0) return contact(t, s.feature);
       }
@@ -63,6 +65,7 @@ class ConservativeAdvancement {
           s.gap <= 2 * rounding * s.normal.cwiseAbs().dot(p.cwiseAbs()) || p == m_.d + displacement(t + on);
       if (s.gap > 0 && unresolved) {  // positions are too coarse to resolve this gap: it is closed
         if (set_.sharp(s.feature)) s = set_.at(p, face_left(s.feature, p, v, way_.acceleration(t)));
+        if (s.feature != left_) s = over_the_edge(s, t, v);
         double out = s.normal.dot(v);
         if (std::abs(out) <= noise(s.feature)) out = 0;
         if (out < 0) return contact(t + on, s.feature);
@@ -92,6 +95,22 @@ class ConservativeAdvancement {
     const double gap = set_.displaced_gap(m_.d, left_, 0, displacement(t));
     const double seam = 16 * rounding * (set_.size() + m_.d.cwiseAbs().sum());
     if (s.feature == left_ || (gap > s.gap && gap - s.gap <= seam)) return {gap, set_.at(p, left_).normal, left_};
+    return s;
+  }
+
+  /// Of a point within rounding of a sharp edge: the face over which it gets away or along which it slides, if there is
+  /// one. Faces that lie in one plane, but for rounding, do not meet.
+  Separation over_the_edge(const Separation& s, double t, const Vec3& v) const {
+    const Vec3 p = m_.d + displacement(t);
+    const double ahead = 8 * rounding * (set_.size() + far_);
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 beyond = p + ahead * s.normal;
+      beyond[axis] += std::copysign(ahead, p[axis]);
+      const std::uint8_t edge = set_.nearest(beyond).feature;
+      if (!set_.sharp(edge)) continue;
+      const Separation other = set_.at(p, face_left(edge, p, v, way_.acceleration(t)));
+      if (other.normal.dot(v) >= -noise(other.feature)) return other;
+    }
     return s;
   }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "physics/force_law.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
 
@@ -118,6 +119,48 @@ TEST(Seams, OfTilesAndWallsDoNothingToAStack) {
       EXPECT_TRUE(run.collisions.empty()) << what;
       EXPECT_EQ(run.tally.stepped_contact, 0) << what;
     }
+}
+
+/// Boxes and upright cylinders, with half extents a and b, in decimals as a scene has them: one passes the other with
+/// their faces in one plane, but for rounding.
+Problem passing(std::uint64_t seed) {
+  Random random(seed);
+  const auto decimal = [&](double low, double high) { return std::round(random(low, high) * 20) / 20; };
+  const auto three = [&](double low, double high) {
+    const double x = decimal(low, high), y = decimal(low, high);
+    return Vec3(x, y, decimal(low, high));
+  };
+  const bool round_a = seed / 6 % 2 == 1, round_b = seed / 12 % 2 == 1;
+  auto along = static_cast<int>(seed % 3), across = (along + 1 + static_cast<int>(seed / 3 % 2)) % 3;
+  if (round_a || round_b) {
+    along = along == 1 ? 0 : along;
+    across = 1;
+  }
+  const Vec3 a = three(0.1, 0.6), b = three(0.1, 0.6), center = three(-3, 3);
+  const auto volume = [](bool round, const Vec3& half) {
+    return round ? Volume::cylinder(half.x(), 2 * half.y()) : Volume::box(2 * half);
+  };
+  Vec3 start = center, other = center, velocity = Vec3::Zero();
+  other[across] += (random(0, 1) < 0.5 ? -1 : 1) * (a[across] + b[across]);
+  start[along] -= 2;
+  velocity[along] = decimal(0.5, 4);
+  Problem problem;
+  problem.body(volume(round_a, a), start, velocity);
+  if (seed % 2 == 0)
+    problem.body(volume(round_b, b), other, Vec3::Zero());
+  else
+    problem.obstacle(other, volume(round_b, b));
+  problem.options.duration = 3;
+  return problem;
+}
+
+TEST(FlushFaces, DoNotMeet) {
+  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+    Problem problem = passing(seed);
+    EXPECT_TRUE(run_exact(problem).collisions.empty()) << seed;
+    problem.world.forces = {{Drag{0.2, 0, Vec3::Zero()}}};
+    EXPECT_TRUE(run_exact(problem).collisions.empty()) << seed << " with drag";
+  }
 }
 
 }  // namespace
