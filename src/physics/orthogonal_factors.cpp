@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace carom {
 
@@ -90,6 +91,14 @@ void OrthogonalFactors::append(double* d) {
   const std::size_t rest = n_ - rank_;
   double* h = reflector_.data();
   std::copy(d + rank_, d + n_, h);
+  // What begins with 0 says nothing of the reflection's sign, which a mirror would have to turn: begin with what does.
+  if (h[0] == 0 && rest > 1) {
+    std::size_t k = 1;
+    for (std::size_t j = 2; j < rest; ++j)
+      if (std::abs(h[j]) > std::abs(h[k])) k = j;
+    std::swap(h[0], h[k]);
+    for (std::size_t i = 0; i < n_; ++i) std::swap(q_[i * stride_ + rank_], q_[i * stride_ + rank_ + k]);
+  }
   const double length = std::sqrt(dot(h, h, rest)), head = h[0] > 0 ? -length : length;
   h[0] -= head;  // no cancellation
   // 1 - 2 h h^T / |h|^2 takes the tail of d to (head, 0, ...).
