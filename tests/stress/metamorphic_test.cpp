@@ -12,17 +12,10 @@
 #include "simulate/random.h"
 #include "simulate/stepped.h"
 #include "stress/scene.h"
+#include "stress/seen_otherwise.h"
 
 namespace carom::stress {
 namespace {
-
-struct Motion {
-  World world;
-  State initial;
-  double duration = 0;    // s
-  double rest_speed = 0;  // m/s
-  bool merge = false;
-};
 
 enum class Way { exact, euler, verlet, rk4 };
 
@@ -77,81 +70,6 @@ Motion driven(Drive drive, std::uint64_t seed) {
   return motion;
 }
 
-/// The scene as a mirror across this axis shows it.
-Motion mirrored(Motion m, int axis) {
-  const auto flip = [&](Vec3& v) { v[axis] = -v[axis]; };
-  World& world = m.world;
-  for (auto* list : {&m.initial.position, &m.initial.velocity, &world.impulse})
-    for (Vec3& v : *list) flip(v);
-  flip(world.gravity);
-  for (Plane& p : world.planes) flip(p.point), flip(p.normal);
-  for (Obstacle& o : world.obstacles) flip(o.center);
-  for (Wall& w : world.walls) {
-    for (Vec3* v : {&w.center, &w.normal, &w.up, &w.right}) flip(*v);
-    w.right = -w.right;  // right x up = normal
-  }
-  for (Force& f : world.forces) {
-    if (auto* uniform = std::get_if<UniformForce>(&f.law)) flip(uniform->force);
-    if (auto* even = std::get_if<UniformAcceleration>(&f.law)) flip(even->value);
-    if (auto* drag = std::get_if<Drag>(&f.law)) flip(drag->wind);
-    if (auto* spring = std::get_if<Spring>(&f.law)) flip(spring->anchor);
-    if (auto* attractor = std::get_if<Attractor>(&f.law)) flip(attractor->center);
-  }
-  return m;
-}
-
-/// 2^these: the new units' sizes.
-struct Units {
-  int length, time, mass;
-};
-
-Motion scaled(Motion m, const Units& units) {
-  const double l = std::ldexp(1, units.length), t = std::ldexp(1, units.time), kg = std::ldexp(1, units.mass);
-  World& world = m.world;
-  for (Vec3& x : m.initial.position) x *= l;
-  for (Vec3& v : m.initial.velocity) v *= l / t;
-  for (Vec3& p : world.impulse) p *= kg * l / t;
-  for (double& x : world.mass) x *= kg;
-  for (double& r : world.radius) r *= l;
-  for (Volume& v : world.volume) v.half *= l;
-  world.gravity *= l / (t * t);
-  for (Plane& p : world.planes) p.point *= l;
-  for (Obstacle& o : world.obstacles) o.center *= l, o.volume.half *= l;
-  for (Wall& w : world.walls) w.center *= l, w.half_width *= l, w.half_height *= l;
-  for (Force& f : world.forces) {
-    f.from *= t;
-    f.until *= t;
-    if (auto* uniform = std::get_if<UniformForce>(&f.law)) uniform->force *= kg * l / (t * t);
-    if (auto* even = std::get_if<UniformAcceleration>(&f.law)) even->value *= l / (t * t);
-    if (auto* drag = std::get_if<Drag>(&f.law)) {
-      drag->linear *= kg / t;
-      drag->quadratic *= kg / l;
-      drag->wind *= l / t;
-    }
-    if (auto* spring = std::get_if<Spring>(&f.law)) {
-      spring->anchor *= l;
-      spring->stiffness *= kg / (t * t);
-      spring->rest_length *= l;
-      spring->damping *= kg / t;
-    }
-    if (auto* attractor = std::get_if<Attractor>(&f.law)) {
-      attractor->center *= l;
-      attractor->strength *= l * l * l / (t * t);
-      attractor->softening *= l;
-    }
-  }
-  m.duration *= t;
-  m.rest_speed *= l / t;
-  return m;
-}
-
-struct Seen {
-  State end;
-  std::uint64_t collisions = 0;
-  double energy_lost = 0;  // J
-  std::string error;
-};
-
 Seen run(const Motion& motion, Way way) {
   Seen seen;
   try {
@@ -183,27 +101,6 @@ Seen run(const Motion& motion, Way way) {
     seen.error = error.what();
   }
   return seen;
-}
-
-/// -0 is 0, and so is what has fallen so low, impact by impact, that doubles lose its digits: 1e-290 and less.
-bool same(const Vec3& a, const Vec3& b) {
-  constexpr double none = 1e-290;
-  for (int k = 0; k < 3; ++k)
-    if (a[k] != b[k] && !(std::abs(a[k]) < none && std::abs(b[k]) < none)) return false;
-  return true;
-}
-
-/// Where two runs differ in a bit; empty: nowhere. `back` takes b's vectors to where a has them.
-template <typename Position, typename Velocity>
-std::string difference(const Seen& a, const Seen& b, double lost, const Position& back_x, const Velocity& back_v) {
-  if (a.error.empty() != b.error.empty()) return "one ends with an error: " + a.error + b.error;
-  if (!a.error.empty()) return {};
-  if (a.collisions != b.collisions)
-    return std::to_string(a.collisions) + " and " + std::to_string(b.collisions) + " collisions";
-  for (std::size_t i = 0; i < a.end.position.size(); ++i)
-    if (!same(a.end.position[i], back_x(b.end.position[i])) || !same(a.end.velocity[i], back_v(b.end.velocity[i])))
-      return "body " + std::to_string(i);
-  return a.energy_lost == b.energy_lost * lost ? "" : "energy lost";
 }
 
 std::string mirror_difference(const Motion& motion, Way way, int axis) {
@@ -260,8 +157,9 @@ TEST_P(Metamorphic, ForcesThatVaryAreMirroredToTheBit) {
 TEST_P(Metamorphic, ForcesThatVaryHaveTheSameBitsInOtherUnits) {
   for (int drive = 0; drive < drives; ++drive)
     for (const Units& units : all_units)
-      EXPECT_EQ(follows(GetParam(), drive) ? unit_difference(driven(static_cast<Drive>(drive), 1), GetParam(), units) : "",
-                "")
+      EXPECT_EQ(
+          follows(GetParam(), drive) ? unit_difference(driven(static_cast<Drive>(drive), 1), GetParam(), units) : "",
+          "")
           << "force " << drive << ", units 2^" << units.length << " m, 2^" << units.time << " s, 2^" << units.mass
           << " kg";
 }
@@ -271,31 +169,6 @@ std::string name_of(const ::testing::TestParamInfo<Way>& way) {
   return names[static_cast<std::size_t>(way.param)];
 }
 INSTANTIATE_TEST_SUITE_P(Ways, Metamorphic, ::testing::ValuesIn(ways), name_of);
-
-/// Both scenes in one world, the other one a kilometre and more away. They share gravity, and have no planes.
-Motion together(const Motion& motion, Motion other, bool first) {
-  const Vec3 away(1024, 512, -2048);
-  for (Vec3& x : other.initial.position) x += away;
-  for (Obstacle& o : other.world.obstacles) o.center += away;
-  for (Wall& w : other.world.walls) w.center += away;
-  const Motion &one = first ? motion : other, &two = first ? other : motion;
-  Motion both = one;
-  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
-  const bool shapes = !one.world.volume.empty() || !two.world.volume.empty();
-  both.world.volume.clear();
-  for (const Motion* m : {&one, &two})
-    for (Entity i = 0; i < m->world.body_count() && shapes; ++i) both.world.volume.push_back(m->world.volume_of(i));
-  append(both.world.mass, two.world.mass);
-  append(both.world.radius, two.world.radius);
-  append(both.world.restitution, two.world.restitution);
-  append(both.initial.position, two.initial.position);
-  append(both.initial.velocity, two.initial.velocity);
-  append(both.world.obstacles, two.world.obstacles);
-  append(both.world.walls, two.world.walls);
-  both.duration = motion.duration;
-  both.rest_speed = motion.rest_speed;
-  return both;
-}
 
 // Of scenes without planes, which reach everywhere, and without forces and pairs that go by number.
 TEST(FarAway, AnotherSceneChangesNoBit) {

@@ -1,0 +1,134 @@
+// The scenes of scenes/ that the exact engine follows, seen otherwise: mirrored, in other units, and with another scene
+// a kilometre away. They move the same, to the last bit.
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "scenes/play.h"
+#include "stress/seen_otherwise.h"
+
+namespace carom::testing {
+namespace {
+
+using stress::Motion;
+using stress::Seen;
+
+Motion motion_of(const std::string& name) {
+  const Scene scene = load(name);
+  // Of long runs of many the beginning tells as much.
+  const double most = scene.world.body_count() > 150 ? 0.25 : 3;
+  return {scene.world, scene.initial, std::min(scene.simulate.duration, most), scene.simulate.rest_speed.value_or(0),
+          scene.simulate.merge};
+}
+
+Seen run(const Motion& motion) {
+  ExactOptions options;
+  options.duration = motion.duration;
+  options.rest_speed = motion.rest_speed;
+  options.merge = motion.merge;
+  options.record_collisions = false;
+  Seen seen;
+  try {
+    const auto simulator = make_exact_simulator(motion.world, motion.initial, options);
+    do simulator->advance_to(motion.duration);
+    while (simulator->time() < motion.duration);
+    seen.end = simulator->state();
+    seen.collisions = simulator->tally().collisions();
+    seen.energy_lost = simulator->tally().energy_lost;
+  } catch (const SimulationError& error) {
+    seen.error = error.what();
+  }
+  return seen;
+}
+
+std::vector<std::string> exact_scenes() {
+  std::vector<std::string> names;
+  for (const std::string& name : scene_names()) {
+    const Scene scene = load(name);
+    if (scene.simulate.engine != Engine::book && force_without_closed_form(scene.world) == nullptr)
+      names.push_back(name);
+  }
+  return names;
+}
+
+class Otherwise : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Otherwise, MirroredItMovesMirrored) {
+  const Motion motion = motion_of(GetParam());
+  const Seen seen = run(motion);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto flip = [&](Vec3 v) {
+      v[axis] = -v[axis];
+      return v;
+    };
+    EXPECT_EQ(stress::difference(seen, run(stress::mirrored(motion, axis)), 1, flip, flip), "") << axis;
+  }
+}
+
+TEST_P(Otherwise, InOtherUnitsItHasTheSameBits) {
+  const Motion motion = motion_of(GetParam());
+  const Seen seen = run(motion);
+  for (const stress::Units& units : {stress::Units{20, 0, 0}, {0, -12, 0}, {0, 0, 30}, {-30, 7, -24}}) {
+    const double l = std::ldexp(1, -units.length), t = std::ldexp(1, -units.time), m = std::ldexp(1, -units.mass);
+    EXPECT_EQ(stress::difference(
+                  seen, run(stress::scaled(motion, units)), m * l * l / (t * t),
+                  [&](const Vec3& x) { return Vec3(x * l); }, [&](const Vec3& v) { return Vec3(v * (l / t)); }),
+              "")
+        << units.length << units.time << units.mass;
+  }
+}
+
+/// A ball that slides off a globe, and a pair that meets and one that rests on it, in boxes without planes.
+Motion neighbour() {
+  Motion other;
+  World& world = other.world;
+  const auto ball = [&](const Vec3& x, const Vec3& v, double radius) {
+    world.mass.push_back(1.5);
+    world.radius.push_back(radius);
+    world.restitution.push_back(0.5);
+    other.initial.position.push_back(x);
+    other.initial.velocity.push_back(v);
+  };
+  ball({0.01, 1.5, 0}, Vec3::Zero(), 0.5);
+  ball({3, 0.25, 0}, {0.5, 0, 0}, 0.25);
+  ball({4, 0.25, 0.125}, {-0.25, 0, 0}, 0.25);
+  ball({4, 1.5, 0}, Vec3::Zero(), 0.25);
+  world.obstacles.push_back({Vec3::Zero(), Volume::sphere(1), std::nullopt});
+  world.obstacles.push_back({{4, -0.5, 0}, Volume::box({4, 1, 4}), std::nullopt});
+  return other;
+}
+
+TEST_P(Otherwise, WithAnotherSceneFarAwayItHasTheSameBits) {
+  const Motion motion = motion_of(GetParam());
+  if (!motion.world.pairs.empty() || motion.merge) return;  // these go by number, and by what there is
+  const Vec3 away(1024, 512, -2048);
+  for (const Plane& plane : motion.world.planes)
+    if ((away - plane.point).dot(plane.normal) < 50) return;  // it would be behind this plane
+  for (const bool first : {true, false}) {
+    if (!first && std::any_of(motion.world.forces.begin(), motion.world.forces.end(),
+                              [](const Force& force) { return !force.on.empty(); }))
+      continue;
+    Motion other = neighbour();
+    other.world.gravity = motion.world.gravity;
+    other.world.combine = motion.world.combine;
+    const Motion both = stress::together(motion, other, first);
+    const Seen alone = run(motion), seen = run(both);
+    ASSERT_EQ(alone.error, "");
+    ASSERT_EQ(seen.error, "");
+    const std::size_t from = first ? 0 : other.initial.position.size();
+    for (std::size_t i = 0; i < motion.initial.position.size(); ++i) {
+      ASSERT_EQ(alone.end.position[i], seen.end.position[from + i]) << i;
+      ASSERT_EQ(alone.end.velocity[i], seen.end.velocity[from + i]) << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Otherwise, ::testing::ValuesIn(exact_scenes()), [](const auto& parameter) {
+  std::string name = parameter.param;
+  for (char& c : name)
+    if (c == '/') c = '_';
+  return name;
+});
+
+}  // namespace
+}  // namespace carom::testing

@@ -1,0 +1,152 @@
+#pragma once
+// A scene seen otherwise: mirrored, in other units, with another scene far away. It must move the same, to the bit.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "physics/force.h"
+#include "simulate/exact.h"
+#include "simulate/simulation_error.h"
+
+namespace carom::stress {
+
+struct Motion {
+  World world;
+  State initial;
+  double duration = 0;    // s
+  double rest_speed = 0;  // m/s
+  bool merge = false;
+};
+
+/// The scene as a mirror across this axis shows it.
+inline Motion mirrored(Motion m, int axis) {
+  const auto flip = [&](Vec3& v) { v[axis] = -v[axis]; };
+  World& world = m.world;
+  for (auto* list : {&m.initial.position, &m.initial.velocity, &world.impulse})
+    for (Vec3& v : *list) flip(v);
+  flip(world.gravity);
+  for (Plane& p : world.planes) flip(p.point), flip(p.normal);
+  for (Obstacle& o : world.obstacles) flip(o.center);
+  for (Wall& w : world.walls) {
+    for (Vec3* v : {&w.center, &w.normal, &w.up, &w.right}) flip(*v);
+    w.right = -w.right;  // right x up = normal
+  }
+  for (Force& f : world.forces) {
+    if (auto* uniform = std::get_if<UniformForce>(&f.law)) flip(uniform->force);
+    if (auto* even = std::get_if<UniformAcceleration>(&f.law)) flip(even->value);
+    if (auto* drag = std::get_if<Drag>(&f.law)) flip(drag->wind);
+    if (auto* spring = std::get_if<Spring>(&f.law)) flip(spring->anchor);
+    if (auto* attractor = std::get_if<Attractor>(&f.law)) flip(attractor->center);
+  }
+  return m;
+}
+
+/// 2^these: the new units' sizes.
+struct Units {
+  int length, time, mass;
+};
+
+inline Motion scaled(Motion m, const Units& units) {
+  const double l = std::ldexp(1, units.length), t = std::ldexp(1, units.time), kg = std::ldexp(1, units.mass);
+  World& world = m.world;
+  for (Vec3& x : m.initial.position) x *= l;
+  for (Vec3& v : m.initial.velocity) v *= l / t;
+  for (Vec3& p : world.impulse) p *= kg * l / t;
+  for (double& x : world.mass) x *= kg;
+  for (double& r : world.radius) r *= l;
+  for (Volume& v : world.volume) v.half *= l;
+  world.gravity *= l / (t * t);
+  for (Plane& p : world.planes) p.point *= l;
+  for (Obstacle& o : world.obstacles) o.center *= l, o.volume.half *= l;
+  for (Wall& w : world.walls) w.center *= l, w.half_width *= l, w.half_height *= l;
+  for (Force& f : world.forces) {
+    f.from *= t;
+    f.until *= t;
+    if (auto* uniform = std::get_if<UniformForce>(&f.law)) uniform->force *= kg * l / (t * t);
+    if (auto* even = std::get_if<UniformAcceleration>(&f.law)) even->value *= l / (t * t);
+    if (auto* drag = std::get_if<Drag>(&f.law)) {
+      drag->linear *= kg / t;
+      drag->quadratic *= kg / l;
+      drag->wind *= l / t;
+    }
+    if (auto* spring = std::get_if<Spring>(&f.law)) {
+      spring->anchor *= l;
+      spring->stiffness *= kg / (t * t);
+      spring->rest_length *= l;
+      spring->damping *= kg / t;
+    }
+    if (auto* attractor = std::get_if<Attractor>(&f.law)) {
+      attractor->center *= l;
+      attractor->strength *= l * l * l / (t * t);
+      attractor->softening *= l;
+    }
+  }
+  m.duration *= t;
+  m.rest_speed *= l / t;
+  return m;
+}
+
+struct Seen {
+  State end;
+  std::uint64_t collisions = 0;
+  double energy_lost = 0;  // J
+  std::string error;
+};
+
+/// -0 is 0, and so is what has fallen so low, impact by impact, that doubles lose its digits: 1e-290 and less.
+inline bool same(const Vec3& a, const Vec3& b) {
+  constexpr double none = 1e-290;
+  for (int k = 0; k < 3; ++k)
+    if (a[k] != b[k] && !(std::abs(a[k]) < none && std::abs(b[k]) < none)) return false;
+  return true;
+}
+
+/// Where two runs differ in a bit; empty: nowhere. `back` takes b's vectors to where a has them.
+template <typename Position, typename Velocity>
+inline std::string difference(const Seen& a, const Seen& b, double lost, const Position& back_x,
+                              const Velocity& back_v) {
+  if (a.error.empty() != b.error.empty()) return "one ends with an error: " + a.error + b.error;
+  if (!a.error.empty()) return {};
+  if (a.collisions != b.collisions)
+    return std::to_string(a.collisions) + " and " + std::to_string(b.collisions) + " collisions";
+  for (std::size_t i = 0; i < a.end.position.size(); ++i)
+    if (!same(a.end.position[i], back_x(b.end.position[i])) || !same(a.end.velocity[i], back_v(b.end.velocity[i])))
+      return "body " + std::to_string(i);
+  return a.energy_lost == b.energy_lost * lost ? "" : "energy lost";
+}
+
+/// Both scenes in one world, the other one more than a kilometre away and without planes; they share gravity. first:
+/// whether this one's bodies come first.
+inline Motion together(const Motion& motion, Motion other, bool first) {
+  const Vec3 away(1024, 512, -2048);
+  for (Vec3& x : other.initial.position) x += away;
+  for (Obstacle& o : other.world.obstacles) o.center += away;
+  for (Wall& w : other.world.walls) w.center += away;
+  const Motion &one = first ? motion : other, &two = first ? other : motion;
+  Motion both = motion;
+  World& world = both.world;
+  const auto join = [](auto& to, const auto& a, const auto& b) {
+    to = a;
+    to.insert(to.end(), b.begin(), b.end());
+  };
+  join(world.mass, one.world.mass, two.world.mass);
+  join(world.radius, one.world.radius, two.world.radius);
+  join(world.restitution, one.world.restitution, two.world.restitution);
+  join(both.initial.position, one.initial.position, two.initial.position);
+  join(both.initial.velocity, one.initial.velocity, two.initial.velocity);
+  join(world.obstacles, one.world.obstacles, two.world.obstacles);
+  join(world.walls, one.world.walls, two.world.walls);
+  const bool shapes = !one.world.volume.empty() || !two.world.volume.empty();
+  const bool impulses = !one.world.impulse.empty() || !two.world.impulse.empty();
+  world.volume.clear();
+  world.impulse.clear();
+  for (const Motion* m : {&one, &two})
+    for (Entity i = 0; i < m->world.body_count(); ++i) {
+      if (shapes) world.volume.push_back(m->world.volume_of(i));
+      if (impulses) world.impulse.push_back(m->world.impulse.empty() ? Vec3(Vec3::Zero()) : m->world.impulse[i]);
+    }
+  return both;
+}
+
+}  // namespace carom::stress
