@@ -337,7 +337,7 @@ void ConstrainedMotion::find_resting(Step& step) const {
   for (std::size_t k = 0; k < n; ++k) {
     const double speed = step.v[k].norm();
     step.fastest = std::max(step.fastest, speed);
-    if (!(speed <= tol::standstill * std::sqrt(step.greatest * step.smallest) &&
+    if (!(speed <= tol::drift * std::sqrt(step.greatest * step.smallest) &&
           step.a[k].norm() <= tol::constrained_balance * step.greatest))
       moves[island[k]] = 1;
   }
