@@ -38,7 +38,6 @@ inline constexpr double least_volume = 1e-3;   // of three unit normals: they ho
 // The contact group (exact_group.h).
 inline constexpr double waking_gap = 1e-6;     // of a radius: what touches a body that wakes, wakes
 inline constexpr double widest_margin = 2e-2;  // of a radius: what bodies that were just struck are kept apart
-inline constexpr double standstill = 1e-5;     // of the speed of falling by a radius: as good as at rest
 
 // Simultaneous impacts (simultaneous_impacts.h).
 inline constexpr std::uint32_t few_impacts = 3;       // [2e-11 1e-10] of a member between steps are one by one
@@ -82,6 +81,7 @@ inline constexpr std::uint8_t idle_steps = 8;           // without a force, then
 inline constexpr double resting_gap = 3e-8;             // of a radius: bodies at rest no farther apart may press
 inline constexpr double rest_slack = 1e-13;             // of the greatest acceleration: of their forces
 inline constexpr double balance = 1e-11;                // of gravity: forces whose sum is less hold a body
+inline constexpr double standstill = 1e-5;              // of the speed of falling by a radius: as good as at rest
 inline constexpr double steady_speed = 1e-3;            // of a step's fall: a velocity that a step leaves as it is
 inline constexpr double sliding_speed = 1e-3;           // of the speed of falling by a radius: slower bodies stop
 inline constexpr std::uint32_t many_short_steps = 8;    // ended at once by simultaneous impacts: a jam

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/contact_time.h"
+#include "physics/force_law.h"
 #include "simulate/build.h"
 
 namespace carom {
@@ -227,6 +229,46 @@ void expect_wakes(Problem problem, Entity target, const Vec3& from, const Vec3& 
   // Free to go where it is struck to: as two masses that meet in the open.
   EXPECT_GT(simulator->state().velocity[target].norm(), 0.1 * v.norm()) << what;
   EXPECT_GE(simulator->tally().body_body, 1u) << what;
+}
+
+/// Three kinds of things that lie on one another or side by side, gliding along x at `speed` (m/s).
+Problem gliding(int kind, double speed, bool forced_far_away) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -g, 0);
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  const Vec3 v(speed, 0, 0);
+  const double e = 0.5;
+  if (kind == 0) {
+    problem.body(Volume::box({1, 1, 1}), {0, 0.5, 0}, v, 2, e);
+    problem.body(Volume::box({0.5, 0.5, 0.5}), {0, 1.25, 0}, v, 1, e);
+  } else if (kind == 1) {
+    problem.body(Volume::box({1, 1, 1}), {0, 0.5, 0}, v, 1, e);
+    problem.body(Volume::box({1, 1, 1}), {1, 0.5, 0}, v, 1, e);
+  } else {
+    problem.body(Volume::box({1, 1, 1}), {0, 0.5, 0}, v, 1, e);
+    problem.ball({0, 1.5, 0}, v, 1, 0.5, e);
+    problem.body(Volume::box({1, 1, 1}), {0, 2.5, 0}, v, 1, e);
+  }
+  if (forced_far_away) {
+    const Entity far = problem.ball({0, 0.5, 100}, Vec3::Zero(), 1, 0.5, e);
+    problem.world.forces.push_back({UniformForce{Vec3(0, 0, 1e6)}, 0, never, {far}});
+  }
+  problem.options.duration = 2;
+  return problem;
+}
+
+TEST(Rest, WhatGlidesHoweverSlowlyGlidesOn) {
+  for (int kind = 0; kind < 3; ++kind)
+    for (const bool forced_far_away : {false, true})
+      for (double speed = 1; speed > 0.9e-10; speed /= 10) {
+        const Problem problem = gliding(kind, speed, forced_far_away);
+        const Outcome run = run_exact(problem);
+        for (Entity i = 0; i < (kind == 2 ? 3u : 2u); ++i) {
+          const Vec3 moved = run.end.position[i] - problem.initial.position[i];
+          EXPECT_NEAR(moved.x(), 2 * speed, 1e-12 * speed + 1e-15) << kind << ' ' << speed << ' ' << forced_far_away;
+          EXPECT_LE(std::abs(moved.y()), 1e-14) << kind << ' ' << speed;
+        }
+      }
 }
 
 TEST(Rest, WhoIsStruckWakes) {
