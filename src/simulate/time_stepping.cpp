@@ -243,20 +243,17 @@ void TimeStepping::find_parts(Step& step) {
   for (std::uint32_t k = 0; k < n; ++k) group_.margin.write(step.members[k]) = margin[island[k]];
 }
 
-/// By island: whether all its bodies are carried and hardly move. Slow sliders stop, and in a jam all slow bodies.
+/// By island: whether all its bodies are carried and hardly move. In a jam slow bodies stop.
 std::vector<std::uint8_t> TimeStepping::stop_slow(Step& step) const {
   const std::size_t n = step.x.size();
-  std::vector<std::uint32_t> size(n, 0);  // by island
-  for (const std::uint32_t k : step.island) ++size[k];
   std::vector<std::uint8_t> still(n);
   for (std::uint32_t k = 0; k < n; ++k) still[k] = step.island[k] == k;
   const double unit = std::sqrt(step.greatest * step.smallest);  // m/s
   const double slow = std::max(tol::standstill * unit, 16 * tol::least_margin * step.smallest / step.length);
   for (std::uint32_t k = 0; k < n; ++k) {
     Vec3& v = step.solved[k];
-    const bool steady = (v - step.after_impacts[k]).norm() <= tol::steady_speed * step.length * step.greatest;
-    const bool stops = (steady && size[step.island[k]] == 1) || step.short_steps > tol::many_short_steps;
-    if (stops && step.carried[k] && v.norm() <= tol::sliding_speed * unit) v.setZero();
+    const bool jammed = step.short_steps > tol::many_short_steps;
+    if (jammed && step.carried[k] && v.norm() <= tol::jammed_speed * unit) v.setZero();
     if (!step.carried[k] || v.norm() > slow) still[step.island[k]] = 0;
   }
   return still;

@@ -82,8 +82,7 @@ inline constexpr double resting_gap = 3e-8;             // of a radius: bodies a
 inline constexpr double rest_slack = 1e-13;             // of the greatest acceleration: of their forces
 inline constexpr double balance = 1e-11;                // of gravity: forces whose sum is less hold a body
 inline constexpr double standstill = 1e-5;              // of the speed of falling by a radius: as good as at rest
-inline constexpr double steady_speed = 1e-3;            // of a step's fall: a velocity that a step leaves as it is
-inline constexpr double sliding_speed = 1e-3;           // of the speed of falling by a radius: slower bodies stop
+inline constexpr double jammed_speed = 1e-3;            // of the speed of falling by a radius: slower bodies stop
 inline constexpr std::uint32_t many_short_steps = 8;    // ended at once by simultaneous impacts: a jam
 
 }  // namespace carom::exact_tolerance
