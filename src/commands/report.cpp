@@ -121,6 +121,10 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
     block.line("contact",
                fmt::format("{} of lasting contact, summed over bodies, by time stepping: right to first order",
                            quantity(summary.stepped_contact, "s")));
+  if (const TakenUp& all = summary.contact.taken_up; all.impacts > 0)
+    block.line("taken up", fmt::format("{} by lasting contact, at {} at most, {} of the energy lost",
+                                       counted(all.impacts, "impact", "impacts"), quantity(all.fastest, "m/s"),
+                                       quantity(all.energy, "J")));
   if (summary.contact.doubtful > 0)
     block.line("doubtful", fmt::format("{}: motion may be off by more than rounding; make masses less unequal",
                                        counted(summary.contact.doubtful, "contact problem", "contact problems")));
@@ -164,7 +168,11 @@ Json contact_json(const Summary& s) {
   return {{"resting", s.resting},
           {"clusters_taken_into_contact", s.contact.collapses},
           {"merges", s.contact.merges},
-          {"doubtful", s.contact.doubtful}};
+          {"doubtful", s.contact.doubtful},
+          {"impacts_taken_up",
+           {{"impacts", s.contact.taken_up.impacts},
+            {"fastest_m_per_s", s.contact.taken_up.fastest},
+            {"energy_J", s.contact.taken_up.energy}}}};
 }
 
 Json facts_json(const RunResult& result) {

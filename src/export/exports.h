@@ -40,6 +40,7 @@ struct ContactCounts {
   std::uint64_t merges = 0;
   std::uint64_t collapses = 0;  // clusters taken into contact
   std::uint64_t doubtful = 0;   // contact problems whose answer may be off by more than rounding
+  TakenUp taken_up;
 };
 
 /// summary.csv's row, in the order of its columns.

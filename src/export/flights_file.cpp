@@ -20,10 +20,10 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view magic = "caromfly";
-constexpr std::uint32_t version = 2, byte_order = 0x01020304, last_entry = 0xffffffff;
+constexpr std::uint32_t version = 3, byte_order = 0x01020304, last_entry = 0xffffffff;
 enum Has : std::uint32_t { has_acceleration = 1, has_from = 2, has_kick = 4, has_whole = 8, has_joint = 16 };
 
-constexpr std::size_t header_size = 32, tail_size = 8 + 13 * 8;
+constexpr std::size_t header_size = 32, tail_size = 8 + 16 * 8;
 constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5) * 8;
 
 /// What from is where an entry does not say it.
@@ -114,11 +114,12 @@ void FlightsFile::end(const Tally& tally) {
   InPlace writer(file_->room(tail_size));
   writer.put(last_entry);
   writer.put(std::uint32_t{0});
-  for (const std::uint64_t count :
-       {entries_, tally.body_body, tally.body_fixed, tally.merges, tally.collapses, tally.resting})
+  for (const std::uint64_t count : {entries_, tally.body_body, tally.body_fixed, tally.merges, tally.collapses,
+                                    tally.resting, tally.taken_up.impacts})
     writer.put(count);
-  for (const double value : {tally.first_collision, tally.last_collision, tally.energy_lost, tally.work,
-                             tally.max_overlap, tally.max_speed, tally.stepped_contact})
+  for (const double value :
+       {tally.first_collision, tally.last_collision, tally.energy_lost, tally.work, tally.max_overlap, tally.max_speed,
+        tally.stepped_contact, tally.taken_up.fastest, tally.taken_up.energy})
     writer.put(value);
   file_->written(writer.end());
 }
@@ -149,11 +150,12 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
   end_ = tail_size;
   if (take<std::uint32_t>() != last_entry || take<std::uint32_t>() != 0) refuse("it is cut off");
   entries_ = take<std::uint64_t>();
-  for (std::uint64_t* count :
-       {&tally_.body_body, &tally_.body_fixed, &tally_.merges, &tally_.collapses, &tally_.resting})
+  for (std::uint64_t* count : {&tally_.body_body, &tally_.body_fixed, &tally_.merges, &tally_.collapses,
+                               &tally_.resting, &tally_.taken_up.impacts})
     *count = take<std::uint64_t>();
-  for (double* value : {&tally_.first_collision, &tally_.last_collision, &tally_.energy_lost, &tally_.work,
-                        &tally_.max_overlap, &tally_.max_speed, &tally_.stepped_contact})
+  for (double* value :
+       {&tally_.first_collision, &tally_.last_collision, &tally_.energy_lost, &tally_.work, &tally_.max_overlap,
+        &tally_.max_speed, &tally_.stepped_contact, &tally_.taken_up.fastest, &tally_.taken_up.energy})
     *value = take<double>();
 
   at_ = end_ = 0;

@@ -8,6 +8,13 @@
 
 namespace carom {
 
+/// Impacts that lasting contact took up: they leave no approach and are not recorded.
+struct TakenUp {
+  std::uint64_t impacts = 0;
+  double fastest = 0;  // m/s, of approach
+  double energy = 0;   // J, a part of the energy lost
+};
+
 struct Tally {
   std::uint64_t body_body = 0;   // collisions
   std::uint64_t body_fixed = 0;  // collisions
@@ -22,6 +29,7 @@ struct Tally {
   double max_speed = 0;        // m/s, greatest seen
   std::uint64_t resting = 0;   // bodies in resting contact now
   double stepped_contact = 0;  // s, summed over bodies: lasting contact that time stepping has told
+  TakenUp taken_up;            // of impacts that were found one by one: those within time steps are not counted
 
   /// Takes a record into the counts; the end of bounces is no collision.
   void count(CollisionKind kind, double time) {

@@ -214,8 +214,8 @@ void ConstrainedMotion::find_contacts(Step& step) const {
   }
 }
 
-/// Of one member's contacts, from `first` on: one with what lies behind a flat fixed surface that it touches is none, but
-/// for a surface level with that.
+/// Of one member's contacts, from `first` on: one with what lies behind a flat fixed surface that it touches is none,
+/// but for a surface level with that.
 void ConstrainedMotion::drop_hidden(Step& step, std::size_t first) const {
   const World& world = bodies_.world;
   const auto flat = [&](std::size_t c) {
@@ -256,13 +256,30 @@ void ConstrainedMotion::close_overlaps(Step& step) const {
 void ConstrainedMotion::take_approaches(Step& step) {
   for (const Vec3& v : step.v) step.fastest = std::max(step.fastest, v.norm());
   for (ContactConstraint& p : step.pairs) p.target = p.force = 0;
+  const std::vector<Vec3> met = step.v;
   bodies_.log.note(solve({step.inverse_mass, step.v, step.pairs}));
+  note_taken_up(step, met);
   for (std::size_t k = 0; k < step.v.size(); ++k) {
     const Entity i = step.members[k];
     const Vec3 before = bodies_.velocity(i);
     if (group_.needed[i] < bodies_.now || (step.v[k] - before).norm() <= tol::velocity_change * before.norm()) continue;
     collapses_.count_in_turn(i, 1);
   }
+}
+
+/// Approaches at these velocities (m/s) that are no errors of paths, and what energy all of them took.
+void ConstrainedMotion::note_taken_up(const Step& step, const std::vector<Vec3>& met) const {
+  bool any = false;
+  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
+    const ContactConstraint& p = step.pairs[c];
+    const double approach = -p.normal.dot(rate(met, step.names[c].e) - met[p.a]);
+    if (!(p.force > 0 && approach > tol::drift * step.fastest)) continue;
+    bodies_.log.take_up(approach);
+    any = true;
+  }
+  if (!any) return;
+  for (std::size_t k = 0; k < met.size(); ++k)
+    bodies_.log.add_taken_up(0.5 / step.inverse_mass[k] * (met[k] - step.v[k]).dot(met[k] + step.v[k]));
 }
 
 /// Pairs that part by more than path errors are no contacts: if they come back, they meet.

@@ -43,6 +43,13 @@ class EventLog {
   void add_resting(std::uint64_t bodies) { tally_.resting += bodies; }
   void remove_resting(std::uint64_t bodies) { tally_.resting -= bodies; }
   void add_stepped_contact(double time) { tally_.stepped_contact += time; }  // s, of one body
+  /// An impact with this approach (m/s) that contact takes up, and energy (J) that such impacts took, booked elsewhere.
+  void take_up(double approach) {
+    TakenUp& all = tally_.taken_up;
+    ++all.impacts;
+    all.fastest = all.fastest < approach ? approach : all.fastest;
+  }
+  void add_taken_up(double energy) { tally_.taken_up.energy += energy; }
   void count_collapse() { ++tally_.collapses; }
   /// Counts an answer that is not certified.
   void note(const Certificate& certificate) {

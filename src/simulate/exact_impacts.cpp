@@ -106,9 +106,12 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const double separation = ends ? 0 : e * met;
   const double impulse = impact_impulse(ma, mb, ends ? approach : met, separation);
   bodies_.log.lose(impact_loss(ma, mb, approach, ends || met == approach ? separation : met + separation - approach));
-  if (!ends)
-    bodies_.log.record(
-        make_collision(world, CollisionKind::body_body, bodies_.now.hi, a, b, there.point, n, met, separation, e));
+  const Collision collision =
+      make_collision(world, CollisionKind::body_body, bodies_.now.hi, a, b, there.point, n, met, separation, e);
+  if (!ends || is_plastic(collision, press, length))
+    bodies_.log.record(collision);
+  else if (met > 0)
+    take_up(collision);
   for (const Entity i : {a, b}) {
     if (ends || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
     parts_.group.widen_margin(i, approach);
@@ -128,6 +131,17 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   if (!ends) return;
   parts_.simultaneous.count_impact(a);
   parts_.simultaneous.count_impact(b);
+}
+
+/// Whether an impact that ends in contact does so because nothing is given back, however fast it is.
+bool ExactImpacts::is_plastic(const Collision& met, double press, double length) const {
+  return met.restitution == 0 && press > 0 && met.approach_speed > bodies_.slow_speed(press, length);
+}
+
+/// It ends in contact, and nobody is told but the sums.
+void ExactImpacts::take_up(const Collision& met) {
+  bodies_.log.take_up(met.approach_speed);
+  bodies_.log.add_taken_up(met.energy_lost);
 }
 
 ExactImpacts::FixedImpact ExactImpacts::find_fixed(Entity i, Entity surface, std::uint8_t feature) const {
@@ -211,9 +225,12 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   if (approach > 0 || separation > 0) {
     bodies_.log.lose(impact_loss(mass, ExactBodies::immovable, approach,
                                  leaves_nothing || met == approach ? separation : met + separation - approach));
-    if (!leaves_nothing)
-      bodies_.log.record(make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, surface,
-                                        impact.there.point, n, met, separation, impact.e));
+    const Collision collision = make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, surface,
+                                               impact.there.point, n, met, separation, impact.e);
+    if (!leaves_nothing || (ends && is_plastic(collision, impact.press, world.radius[i])))
+      bodies_.log.record(collision);
+    else if (met > 0)
+      take_up(collision);
   }
   if (taken_over) parts_.flat.remove_level(i, contact.normal);
   if (rests) {

@@ -134,7 +134,7 @@ Summary summarize(const Scene& scene, const EngineChoice& engine, double energy_
   summary.max_speed = tally.max_speed;
   summary.resting = tally.resting;
   summary.stepped_contact = tally.stepped_contact;
-  summary.contact = {tally.merges, tally.collapses, tally.doubtful};
+  summary.contact = {tally.merges, tally.collapses, tally.doubtful, tally.taken_up};
   return summary;
 }
 

@@ -46,9 +46,18 @@ TEST(Report, SaysHowManyContactProblemsAreDoubtful) {
   EXPECT_NE(lines_of(result).find("  doubtful    2 contact problems: motion may be off"), std::string::npos);
 }
 
+TEST(Report, SaysWhichImpactsContactHasTakenUp) {
+  RunResult result = result_with(0, 0);
+  EXPECT_EQ(lines_of(result).find("taken up"), std::string::npos);
+  result.summary.contact.taken_up = {3, 0.25, 0.5};
+  EXPECT_NE(lines_of(result).find("  taken up    3 impacts by lasting contact, at 0.25 m/s at most, 0.5 J of"),
+            std::string::npos);
+}
+
 TEST(Report, JsonHasThemBesideTheSummary) {
-  EXPECT_EQ(contact_json(result_with(2, 1).summary).dump(),
-            R"({"resting":3,"clusters_taken_into_contact":2,"merges":1,"doubtful":0})");
+  EXPECT_EQ(
+      contact_json(result_with(2, 1).summary).dump(),
+      R"({"resting":3,"clusters_taken_into_contact":2,"merges":1,"doubtful":0,"impacts_taken_up":{"impacts":0,"fastest_m_per_s":0.0,"energy_J":0.0}})");
 }
 
 }  // namespace

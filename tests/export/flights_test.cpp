@@ -44,6 +44,7 @@ Tally some_tally() {
   tally.last_collision = 0.1875;
   tally.max_speed = 12;
   tally.stepped_contact = 0.5;
+  tally.taken_up = {4, 0.125, 0.375};
   return tally;
 }
 
@@ -105,6 +106,9 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
   EXPECT_EQ(reader.tally().last_collision, 0.1875);
   EXPECT_EQ(reader.tally().max_speed, 12);
   EXPECT_EQ(reader.tally().stepped_contact, 0.5);
+  EXPECT_EQ(reader.tally().taken_up.impacts, 4u);
+  EXPECT_EQ(reader.tally().taken_up.fastest, 0.125);
+  EXPECT_EQ(reader.tally().taken_up.energy, 0.375);
 }
 
 TEST(Flights, TakeSeventyTwoBytesAndMoreOnlyForWhatIsNew) {

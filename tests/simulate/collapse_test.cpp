@@ -216,5 +216,39 @@ TEST(Collapse, ComesWhereABallIsHammeredAgainstJammedOnes) {
   EXPECT_LT(run.end.velocity[2].norm(), 1e-14);
 }
 
+constexpr double g = 9.80665;
+
+/// A ball that falls by h (m) on one of the same size that is fixed, with restitution e.
+Problem falling_on_a_fixed_ball(double h, double e) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -g, 0);
+  problem.obstacle({0, 0, 0}, Volume::sphere(0.5));
+  problem.ball({0, 1 + h, 0}, Vec3::Zero(), 2, 0.5, e);
+  problem.options.duration = 4;
+  return problem;
+}
+
+TEST(Collapse, ABallThatGivesNothingBackIsRecordedWhereItStrikes) {
+  const Outcome run = run_exact(falling_on_a_fixed_ball(0.2, 0));
+  ASSERT_EQ(run.collisions.size(), 1u);
+  EXPECT_NEAR(run.collisions[0].approach_speed, std::sqrt(2 * g * 0.2), 1e-13);
+  EXPECT_EQ(run.collisions[0].separation_speed, 0);
+  EXPECT_EQ(run.tally.taken_up.impacts, 0u);
+  EXPECT_NEAR(run.tally.energy_lost, 2 * g * 0.2, 1e-13);
+}
+
+TEST(Collapse, ImpactsThatContactTakesUpAreTold) {
+  const double e = 0.5, h = 0.2;
+  const Outcome run = run_exact(falling_on_a_fixed_ball(h, e));
+  EXPECT_EQ(run.tally.taken_up.impacts, 1u);
+  // The first that is slow: all before it are recorded, each by e slower than the one before.
+  const double last = run.collisions.back().approach_speed;
+  EXPECT_NEAR(run.tally.taken_up.fastest, e * last, 1e-13);
+  EXPECT_NEAR(run.tally.taken_up.energy, 0.5 * 2 * e * last * e * last, 1e-13);
+  double recorded = 0;  // J
+  for (const Collision& met : run.collisions) recorded += met.energy_lost;
+  EXPECT_NEAR(run.tally.energy_lost, recorded + run.tally.taken_up.energy, 1e-13);
+}
+
 }  // namespace
 }  // namespace carom
