@@ -114,7 +114,7 @@ TEST(Flights, AreReadAsTheyWereRecorded) {
 TEST(Flights, TakeSeventyTwoBytesAndMoreOnlyForWhatIsNew) {
   const TempFolder folder;
   store(folder, small_scene());
-  const std::uintmax_t ends = 32 + 112, first = 4 * 96, bounce = 96, late = 80, step = 136, part = 104, joint = 136;
+  const std::uintmax_t ends = 32 + 136, first = 4 * 96, bounce = 96, late = 80, step = 136, part = 104, joint = 136;
   EXPECT_EQ(fs::file_size(folder / "flights.bin"), ends + first + bounce + late + step + part + joint);
 }
 
@@ -159,7 +159,7 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
   store(folder, scene);
   const std::string whole = read(folder / "flights.bin");
   // Of the first entry: start, its lower part, x, vy, az; of the last one, of a joint body: mass, radius, half.
-  const std::size_t first = 32 + 8, end = whole.size() - 112;
+  const std::size_t first = 32 + 8, end = whole.size() - 136;
   for (const std::size_t at : {first, first + 8, first + 16, first + 48, first + 80, end - 40, end - 32, end - 8}) {
     std::string damaged = whole;
     damaged.replace(at, 8, std::string("\0\0\0\0\0\0\xF0\x7F", 8));  // infinity

@@ -8,7 +8,7 @@ import sys
 
 data, time, at = open(sys.argv[1], "rb").read(), float(sys.argv[2]), 32
 magic, version, order, bodies, duration = struct.unpack_from("<8sIIQd", data)
-assert (magic, version, order) == (b"caromfly", 2, 0x01020304)
+assert (magic, version, order) == (b"caromfly", 3, 0x01020304)
 path, whole, a = [None] * bodies, list(range(bodies)), [None] * bodies
 while (entry := struct.unpack_from("<II", data, at))[0] != 0xFFFFFFFF:
     (body, has), at = entry, at + 8
