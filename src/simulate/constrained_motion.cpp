@@ -258,28 +258,13 @@ void ConstrainedMotion::take_approaches(Step& step) {
   for (ContactConstraint& p : step.pairs) p.target = p.force = 0;
   const std::vector<Vec3> met = step.v;
   bodies_.log.note(solve({step.inverse_mass, step.v, step.pairs}));
-  note_taken_up(step, met);
+  bodies_.log.take_up(step.inverse_mass, met, step.v, step.pairs);
   for (std::size_t k = 0; k < step.v.size(); ++k) {
     const Entity i = step.members[k];
     const Vec3 before = bodies_.velocity(i);
     if (group_.needed[i] < bodies_.now || (step.v[k] - before).norm() <= tol::velocity_change * before.norm()) continue;
     collapses_.count_in_turn(i, 1);
   }
-}
-
-/// Approaches at these velocities (m/s) that are no errors of paths, and what energy all of them took.
-void ConstrainedMotion::note_taken_up(const Step& step, const std::vector<Vec3>& met) const {
-  bool any = false;
-  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const ContactConstraint& p = step.pairs[c];
-    const double approach = -p.normal.dot(rate(met, step.names[c].e) - met[p.a]);
-    if (!(p.force > 0 && approach > tol::drift * step.fastest)) continue;
-    bodies_.log.take_up(approach);
-    any = true;
-  }
-  if (!any) return;
-  for (std::size_t k = 0; k < met.size(); ++k)
-    bodies_.log.add_taken_up(0.5 / step.inverse_mass[k] * (met[k] - step.v[k]).dot(met[k] + step.v[k]));
 }
 
 /// Pairs that part by more than path errors are no contacts: if they come back, they meet.

@@ -80,7 +80,6 @@ class ConstrainedMotion {
   void drop_hidden(Step& step, std::size_t first) const;
   void close_overlaps(Step& step) const;
   void take_approaches(Step& step);
-  void note_taken_up(const Step& step, const std::vector<Vec3>& met) const;
   void drop_parting(Step& step) const;
   ConstrainedSystem find_forces(Step& step) const;
   bool stop_parting(Step& step) const;

@@ -43,13 +43,12 @@ class EventLog {
   void add_resting(std::uint64_t bodies) { tally_.resting += bodies; }
   void remove_resting(std::uint64_t bodies) { tally_.resting -= bodies; }
   void add_stepped_contact(double time) { tally_.stepped_contact += time; }  // s, of one body
-  /// An impact with this approach (m/s) that contact takes up, and energy (J) that such impacts took, booked elsewhere.
-  void take_up(double approach) {
-    TakenUp& all = tally_.taken_up;
-    ++all.impacts;
-    all.fastest = all.fastest < approach ? approach : all.fastest;
-  }
-  void add_taken_up(double energy) { tally_.taken_up.energy += energy; }
+  /// Counts an impact with this approach (m/s) that contact takes up, and the energy (J) it takes: booked elsewhere.
+  void take_up(double approach, double energy);
+  /// The same of all that pressed when these velocities (m/s) were solved for from those before: `inverse_mass` (1/kg)
+  /// by body. Approaches that are errors of paths are none.
+  void take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
+               std::span<const ContactConstraint> pairs);
   void count_collapse() { ++tally_.collapses; }
   /// Counts an answer that is not certified.
   void note(const Certificate& certificate) {

@@ -111,7 +111,7 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   if (!ends || is_plastic(collision, press, length))
     bodies_.log.record(collision);
   else if (met > 0)
-    take_up(collision);
+    bodies_.log.take_up(met, collision.energy_lost);
   for (const Entity i : {a, b}) {
     if (ends || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
     parts_.group.widen_margin(i, approach);
@@ -136,12 +136,6 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
 /// Whether an impact that ends in contact does so because nothing is given back, however fast it is.
 bool ExactImpacts::is_plastic(const Collision& met, double press, double length) const {
   return met.restitution == 0 && press > 0 && met.approach_speed > bodies_.slow_speed(press, length);
-}
-
-/// It ends in contact, and nobody is told but the sums.
-void ExactImpacts::take_up(const Collision& met) {
-  bodies_.log.take_up(met.approach_speed);
-  bodies_.log.add_taken_up(met.energy_lost);
 }
 
 ExactImpacts::FixedImpact ExactImpacts::find_fixed(Entity i, Entity surface, std::uint8_t feature) const {
@@ -230,7 +224,7 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
     if (!leaves_nothing || (ends && is_plastic(collision, impact.press, world.radius[i])))
       bodies_.log.record(collision);
     else if (met > 0)
-      take_up(collision);
+      bodies_.log.take_up(met, collision.energy_lost);
   }
   if (taken_over) parts_.flat.remove_level(i, contact.normal);
   if (rests) {

@@ -49,7 +49,6 @@ class ExactImpacts {
   double press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb, const Touch& there, const Vec3& w) const;
   bool too_slow_to_wake(Entity striker, Entity struck, double speed) const;
   bool is_plastic(const Collision& met, double press, double length) const;
-  void take_up(const Collision& met);
   void stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach);
   FixedImpact find_fixed(Entity i, Entity surface, std::uint8_t feature) const;
   bool comes_to_rest(const FixedImpact& impact, FlatContact& contact) const;

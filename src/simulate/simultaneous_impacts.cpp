@@ -89,20 +89,14 @@ void SimultaneousImpacts::solve(Touching& set, bool part) const {
 /// Gives those whose velocities have changed.
 std::vector<Entity> SimultaneousImpacts::begin_flights(const Touching& set) {
   std::vector<Entity> changed;
-  for (const ContactConstraint& p : set.pairs) {
-    const Vec3 vb = p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : set.before[p.b];
-    if (const double approach = p.normal.dot(set.before[p.a] - vb); p.force > 0 && approach > 0)
-      bodies_.log.take_up(approach);
-  }
+  bodies_.log.take_up(set.inverse_mass, set.before, set.after, set.pairs);
   for (std::size_t k = 0; k < set.members.size(); ++k) {
     const Entity a = set.members[k];
     const Vec3 &before = set.before[k], &after = set.after[k];
     group_.impacts.write(a) = 1;
     if (after == before) continue;
     changed.push_back(a);
-    const double lost = 0.5 * bodies_.world.mass[a] * (before - after).dot(before + after);
-    bodies_.log.lose(lost);
-    bodies_.log.add_taken_up(lost);
+    bodies_.log.lose(0.5 * bodies_.world.mass[a] * (before - after).dot(before + after));
     flights_.begin(a, bodies_.position(a), after, {});
     bodies_.flights.accelerate(a, Vec3::Zero());
   }

@@ -250,9 +250,9 @@ std::vector<std::uint8_t> TimeStepping::stop_slow(Step& step) const {
   for (std::uint32_t k = 0; k < n; ++k) still[k] = step.island[k] == k;
   const double unit = std::sqrt(step.greatest * step.smallest);  // m/s
   const double slow = std::max(tol::standstill * unit, 16 * tol::least_margin * step.smallest / step.length);
+  const bool jammed = step.short_steps > tol::many_short_steps;
   for (std::uint32_t k = 0; k < n; ++k) {
     Vec3& v = step.solved[k];
-    const bool jammed = step.short_steps > tol::many_short_steps;
     if (jammed && step.carried[k] && v.norm() <= tol::jammed_speed * unit) v.setZero();
     if (!step.carried[k] || v.norm() > slow) still[step.island[k]] = 0;
   }
