@@ -1,6 +1,7 @@
 #include "physics/dormand_prince.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -237,6 +238,26 @@ Vec3 DormandPrince::displacement(std::size_t k, double t) const {
 
 Vec3 DormandPrince::velocity(std::size_t k, double t) const {
   return v_[k] + polynomial(of_velocity_, k, t / length_);
+}
+
+PolynomialPath DormandPrince::path(std::size_t k) const {
+  // The velocity's polynomial by powers of s: times s, the terms stand for one power more; times 1 - s, each is less
+  // what the one before was.
+  std::array<Vec3, terms> change;
+  change.fill(Vec3::Zero());
+  for (std::size_t term = terms; term-- > 0;) {
+    change[0] += of_velocity_[terms * k + term];
+    if (term == 0) break;
+    for (std::size_t power = terms - 1; power > 0; --power)
+      change[power] = term % 2 == 0 ? change[power - 1] : Vec3(change[power] - change[power - 1]);
+    if (term % 2 == 0) change[0].setZero();
+  }
+  PolynomialPath path;
+  path.length = length_;
+  path.displacement[0] = length_ * v_[k];
+  for (std::size_t power = 0; power < terms; ++power)
+    path.displacement[power + 1] = length_ / static_cast<double>(power + 2) * change[power];
+  return path;
 }
 
 }  // namespace carom

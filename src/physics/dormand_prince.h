@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "physics/dense_motion.h"
+#include "physics/polynomial_path.h"
 
 namespace carom {
 
@@ -27,6 +28,8 @@ class DormandPrince final : public DenseMotion {
   void interpolate(const Acceleration& acceleration);
   Vec3 displacement(std::size_t k, double t) const override;
   Vec3 velocity(std::size_t k, double t) const override;
+  /// Point k's way through the step.
+  PolynomialPath path(std::size_t k) const;
 
  private:
   static constexpr std::size_t stages = 16, terms = 7;

@@ -84,6 +84,12 @@ double fade_of(const World& world, Entity body, double time) {
   return fade;
 }
 
+bool varies(const World& world, Entity body, double time) {
+  return std::any_of(world.forces.begin(), world.forces.end(), [&](const Force& force) {
+    return !is_constant(force.law) && time >= force.from && time < force.until && acts_on(force, body);
+  });
+}
+
 const char* name_of(const ForceLaw& law) {
   return std::visit([](const auto& l) { return l.name; }, law);
 }

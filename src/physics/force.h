@@ -34,6 +34,9 @@ const Force* force_without_closed_form(const World& world);
 /// less this times the velocity, is what forces do that have a closed form.
 double fade_of(const World& world, Entity body, double time);
 
+/// Whether a force that is not constant acts on this body at `time` (s).
+bool varies(const World& world, Entity body, double time);
+
 /// Its key in a scene.
 const char* name_of(const ForceLaw& law);
 

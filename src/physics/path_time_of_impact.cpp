@@ -90,6 +90,12 @@ FeatureTime time_of_impact(const World& world, Entity a, const FadingPath& pa, E
   return time_of_impact_along(FadingWay(pa, pb), world, a, pa.x, b, pb.x, speeds, left, horizon);
 }
 
+FeatureTime time_of_impact(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb,
+                           const PolynomialPath::Terms& displacement, double length, double speeds, std::uint8_t left,
+                           double horizon) {
+  return time_of_impact_along(PolynomialWay(displacement, length), world, a, xa, b, xb, speeds, left, horizon);
+}
+
 FeatureTime leave_feature(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,
                           std::uint8_t feature, double horizon) {
   const FadingWay way(pa, pb);

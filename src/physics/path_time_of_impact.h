@@ -2,6 +2,7 @@
 // When two things meet on paths that are no parabolas.
 #include "physics/fading_path.h"
 #include "physics/path.h"
+#include "physics/polynomial_path.h"
 #include "physics/touch.h"
 
 namespace carom {
@@ -16,6 +17,11 @@ FeatureTime time_of_impact(const World& world, Entity a, const Path& pa, Entity 
 /// The same on paths that linear drag bends, followed in the same way. speeds: m/s, what velocities are rounded by.
 FeatureTime time_of_impact(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,
                            double speeds, std::uint8_t left, double horizon);
+
+/// The same of things at xa and xb (m) on polynomial paths; displacement: m, of b less that of a, by t / length (s).
+FeatureTime time_of_impact(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb,
+                           const PolynomialPath::Terms& displacement, double length, double speeds, std::uint8_t left,
+                           double horizon);
 
 /// When a pair in lasting contact at this feature comes to its rim (touch.h), on such paths.
 FeatureTime leave_feature(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,

@@ -1,5 +1,5 @@
 #pragma once
-// Roots of the polynomials that paths of degree two make: degree 4 at most. By the derivative cascade: the roots of f'
+// Roots of the polynomials that paths make: of parabolas degree 4 at most, of steps 8. By the derivative cascade: the roots of f'
 // part the line into pieces on which f is monotone, each with one root or none, so that no root can be missed.
 #include <array>
 #include <limits>
@@ -8,7 +8,7 @@ namespace carom {
 
 /// c[0] + c[1] t + ... + c[degree] t^degree.
 struct Polynomial {
-  static constexpr int max_degree = 4;
+  static constexpr int max_degree = 8;
   std::array<double, max_degree + 1> c{};
   int degree = 0;
 

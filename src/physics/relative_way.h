@@ -6,6 +6,7 @@
 #include "physics/contact_time.h"
 #include "physics/fading_descent.h"
 #include "physics/path.h"
+#include "physics/polynomial_path.h"
 
 namespace carom {
 
@@ -90,6 +91,38 @@ class FadingWay {
 
  private:
   FadingPath pa_, pb_;
+};
+
+/// Of polynomial paths.
+class PolynomialWay {
+ public:
+  static constexpr bool parabola = false;
+  /// displacement: m, of s = t / length (s).
+  PolynomialWay(const PolynomialPath::Terms& displacement, double length) : terms_(displacement), length_(length) {}
+
+  Vec3 displacement(double t) const { return PolynomialPath::value(terms_, t / length_); }
+  Vec3 velocity(double t) const { return PolynomialPath::slope(terms_, t / length_) / length_; }
+  Vec3 acceleration(double t) const { return PolynomialPath::bend(terms_, t / length_) / (length_ * length_); }
+  double descent(const Vec3& n, double t, double gap, double rate, double horizon) const {
+    const PolynomialPath::Terms on = PolynomialPath::shifted(terms_, t / length_, 1);
+    Polynomial distance;
+    distance.degree = PolynomialPath::terms;
+    distance.c[0] = gap;
+    distance.c[1] = rate * length_;
+    for (std::size_t k = 1; k < PolynomialPath::terms; ++k) distance.c[k + 1] = n.dot(on[k]);
+    const double s = first_descent(distance, horizon / length_);
+    return s == never ? never : s * length_;
+  }
+  double back(const Vec3& n, double t, double rate, double horizon) const { return descent(n, t, 0, rate, horizon); }
+  PolynomialWay in(const auto& frame) const {
+    PolynomialWay way = *this;
+    for (Vec3& term : way.terms_) term = frame.to(term);
+    return way;
+  }
+
+ private:
+  PolynomialPath::Terms terms_;  // m
+  double length_;                // s
 };
 
 }  // namespace carom

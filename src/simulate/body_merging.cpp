@@ -57,7 +57,7 @@ void BodyMerging::join(Entity whole, Entity part) {
   queue_.remove(part);
   bodies_.flights.set(part, {bodies_.now, x, Vec3::Zero(), Vec3::Zero()});
   if (!bodies_.world.forces.empty()) bodies_.log.lose(before - bodies_.merged.potential(whole, x));
-  bodies_.flights.set(whole, {bodies_.now, x, v, bodies_.force_at(whole, v), bodies_.fade[whole]});
+  bodies_.flights.set(whole, {bodies_.now, x, v, bodies_.force_at(whole, x, v), bodies_.fade[whole]});
   flights_.count(whole);
   bodies_.body[whole].set_origin({});
 }

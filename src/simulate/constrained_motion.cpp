@@ -178,6 +178,7 @@ ConstrainedMotion::Step ConstrainedMotion::begin_step(std::vector<Entity> member
     }
     step.v.push_back(v);
     step.inverse_mass.push_back(1 / bodies_.world.mass[i]);
+    bodies_.refresh(i, step.x.back(), step.v.back());
     step.greatest = std::max(step.greatest, bodies_.load_on(i));
     step.smallest = std::min(step.smallest, bodies_.world.radius[i]);
   }
@@ -286,8 +287,8 @@ void ConstrainedMotion::drop_parting(Step& step) const {
 /// are looked after until they are wide enough to meet again.
 ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
   std::vector<ConstrainedSystem::Applied> applied;
-  for (const Entity i : step.members) applied.push_back({bodies_.applied[i], bodies_.fade[i]});
-  ConstrainedSystem system(bodies_.world, step.members, std::move(applied));
+  for (const Entity i : step.members) applied.push_back({bodies_.applied[i], bodies_.fade[i], bodies_.bent[i] != 0});
+  ConstrainedSystem system(bodies_.world, bodies_.now.hi, step.members, std::move(applied));
   for (std::size_t c = 0; c < step.pairs.size(); ++c)
     system.add(step.names[c], step.pairs[c].a, step.pairs[c].b, step.pairs[c].normal);
   step.a = system.accelerate(step.x, step.v);
@@ -434,7 +435,7 @@ void ConstrainedMotion::find_unbound(Step& step) const {
     FlatContactList& flats = step.flats[p.a];
     if (p.b != ContactConstraint::fixed) {
       step.held[p.b] = step.bound[p.a] = step.bound[p.b] = 1;
-    } else if (is_flat(world, i, e, feature) && flats.count < FlatContactList::most) {
+    } else if (is_flat(world, i, e, feature) && !bodies_.bent[i] && flats.count < FlatContactList::most) {
       const double gap = touch(world, i, step.x[p.a] + step.down[p.a], e, at(step.x, e)).gap;
       if (gap > tol::drift * world.radius[i]) step.bound[p.a] = 1;
       step.down[p.a] += gap * p.normal;
@@ -564,7 +565,7 @@ void ConstrainedMotion::report(const Island& island, double time, std::vector<Co
     group_.index.write(i) = static_cast<std::uint32_t>(x.size());
     x.push_back(bodies_.flights[i].position(t));
     v.push_back(follows(i) ? velocity(i, now) : bodies_.flights[i].velocity(t));
-    a.push_back(bodies_.force_at(i, v.back()));
+    a.push_back(bodies_.force_at(i, x.back(), v.back()));
     inverse_mass.push_back(1 / world.mass[i]);
   }
   std::vector<ContactConstraint> pairs;

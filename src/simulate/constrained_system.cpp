@@ -6,6 +6,7 @@
 
 #include "physics/cube_root.h"
 #include "physics/dormand_prince.h"
+#include "physics/force.h"
 #include "physics/radau_collocation.h"
 #include "simulate/tolerances.h"
 
@@ -63,8 +64,9 @@ double greatest_norm(const std::vector<Vec3>& v) {
 
 }  // namespace
 
-ConstrainedSystem::ConstrainedSystem(const World& world, std::vector<Entity> members, std::vector<Applied> applied)
-    : world_(world), members_(std::move(members)), applied_(std::move(applied)) {
+ConstrainedSystem::ConstrainedSystem(const World& world, double time, std::vector<Entity> members,
+                                     std::vector<Applied> applied)
+    : world_(world), time_(time), members_(std::move(members)), applied_(std::move(applied)) {
   for (const Entity i : members_) inverse_mass_.push_back(1 / world.mass[i]);
 }
 
@@ -89,14 +91,21 @@ void ConstrainedSystem::open(const std::vector<std::uint8_t>& which) {
 }
 
 /// m/s^2, by member.
-std::vector<Vec3> ConstrainedSystem::forces_at(const std::vector<Vec3>& v) const {
+std::vector<Vec3> ConstrainedSystem::forces_at(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const {
   std::vector<Vec3> a;
   a.reserve(v.size());
   for (std::size_t k = 0; k < v.size(); ++k) {
-    const auto& [at_rest, fade] = applied_[k];
-    a.push_back(fade == 0 ? at_rest : Vec3(at_rest - fade * v[k]));
+    const auto& [at_rest, fade, bent] = applied_[k];
+    if (bent)
+      a.push_back(free_acceleration(world_, members_[k], time_, x[k], v[k]));
+    else
+      a.push_back(fade == 0 ? at_rest : Vec3(at_rest - fade * v[k]));
   }
   return a;
+}
+
+bool ConstrainedSystem::any_bent() const {
+  return std::any_of(applied_.begin(), applied_.end(), [](const Applied& of) { return of.bent; });
 }
 
 double ConstrainedSystem::common_fade() const {
@@ -111,7 +120,7 @@ Vec3 ConstrainedSystem::place_of(const std::vector<Vec3>& x, std::uint32_t b, En
 
 std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                                 std::vector<ContactConstraint>& rows, Certificate& certificate) const {
-  std::vector<Vec3> a = forces_at(v);
+  std::vector<Vec3> a = forces_at(x, v);
   for (std::size_t c = 0; c < rows.size(); ++c) {
     const auto& [i, e, feature] = closed_[c];
     if (is_flat(world_, i, e, feature)) continue;
@@ -138,7 +147,7 @@ ConstrainedSystem::Scales ConstrainedSystem::scales(const std::vector<Vec3>& x, 
   double farthest = 0;
   for (const Entity i : members_) s.length = std::min(s.length, world_.radius[i]);
   for (const Vec3& at : x) farthest = std::max(farthest, at.cwiseAbs().maxCoeff());
-  s.acceleration = greatest_norm(forces_at(v));
+  s.acceleration = greatest_norm(forces_at(x, v));
   for (const ContactConstraint& row : rows_) s.acceleration = std::max(s.acceleration, std::abs(row.target));
   s.speed = std::max(greatest_norm(v), std::sqrt(s.acceleration * s.length));
   double strongest = s.acceleration;  // of what forces are the sum of
@@ -168,6 +177,7 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& v, const std::v
   };
   keep(closed_, rows_);
   keep(opened_, opened_rows_);
+  if (any_bent()) return 0;
   if (common_fade() >= 0) return h;
   double length = never;
   for (const Entity i : members_) length = std::min(length, world_.radius[i]);
@@ -180,7 +190,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x
   scales_ = scales(x, v);
   const double h = std::min(first > 0 ? first : tol::first_step * scales_.time(), longest);
   // Where drag is over within the step that its stability allows, an implicit method takes longer ones.
-  if (greatest_fade() * h > 1)
+  if (greatest_fade() * h > 1 && !any_bent())
     if (Followed followed = follow_stiff(x, v, h); followed.motion) return followed;
   return follow_smooth(x, v, a, h);
 }

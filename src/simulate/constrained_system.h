@@ -27,9 +27,10 @@ class ConstrainedSystem {
   struct Applied {
     Vec3 at_rest;
     double fade;
+    bool bent;  // they have no closed form
   };
-  /// members: bodies, ascending; applied: by member. `world` must outlive this.
-  ConstrainedSystem(const World& world, std::vector<Entity> members, std::vector<Applied> applied);
+  /// members: bodies, ascending; applied: by member, from `time` (s) on. `world` must outlive this.
+  ConstrainedSystem(const World& world, double time, std::vector<Entity> members, std::vector<Applied> applied);
 
   /// A contact of members number a and b, or of a and something fixed. normal: from a to b.
   void add(const Contact& contact, std::uint32_t a, std::uint32_t b, const Vec3& normal);
@@ -72,7 +73,8 @@ class ConstrainedSystem {
   const Certificate& certificate() const { return certificate_; }
 
  private:
-  std::vector<Vec3> forces_at(const std::vector<Vec3>& v) const;
+  std::vector<Vec3> forces_at(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const;
+  bool any_bent() const;
   Vec3 place_of(const std::vector<Vec3>& x, std::uint32_t b, Entity e) const;
   Followed follow_smooth(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a, double h);
   Followed follow_stiff(const std::vector<Vec3>& x, const std::vector<Vec3>& v, double h);
@@ -87,6 +89,7 @@ class ConstrainedSystem {
   Opened look_at_opened(const DenseMotion& motion, const std::vector<Vec3>& x) const;
 
   const World& world_;
+  const double time_;  // s
   std::vector<Entity> members_;
   std::vector<Applied> applied_;
   std::vector<double> inverse_mass_;  // 1/kg

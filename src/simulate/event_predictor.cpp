@@ -44,7 +44,8 @@ void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
   if (!bodies_.world.forces.empty())
     offer(i, best,
           {{bodies_.merged.next_switch(i, bodies_.now.hi), 0}, no_entity, 0, ExactEvent::Kind::force, no_feature});
-  if (bodies_.in_group(i)) offer(i, best, {bodies_.islands.due(i), no_entity, 0, ExactEvent::Kind::step, no_feature});
+  if (bodies_.in_group(i) || bodies_.flights.curve(i) != nullptr)
+    offer(i, best, {bodies_.flight_end(i), no_entity, 0, ExactEvent::Kind::step, no_feature});
   bodies_.body[i].event = best;
   queue_.schedule(i, region_exit(bodies_, i));
 }
@@ -150,7 +151,8 @@ void EventPredictor::renew_region(Entity i) {
     half = std::min(half, (v.norm() + std::sqrt(v.squaredNorm() + 2 * size * bodies_.neighbours.room(i))) / size);
   }
   const Vec3 here = f.position(since);
-  const Vec3 ahead = half * (f.velocity(since) + displaced(f.fade, half) * f.acceleration(since));
+  const Vec3 ahead = f.is_straight() ? Vec3(half * (f.velocity(since) + (0.5 * half) * f.a))
+                                     : Vec3(f.position(since + half) - here);
   hold_to(bodies_.bounds, i, bodies_.now.hi, here, f.velocity(since), ExactBodies::too_fast);
   const std::span<const Entity> came = bodies_.neighbours.renew(i, here, ahead);
   ExactEvent best = bodies_.body[i].event;

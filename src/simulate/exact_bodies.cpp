@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "physics/force.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -15,9 +16,11 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
       bounds(bounds_of(given)),
       same_radius(!options.merge && std::adjacent_find(given.radius.begin(), given.radius.end(), std::not_equal_to{}) ==
                                         given.radius.end()),
+      varying(force_without_closed_form(given) != nullptr),
       applied(given.body_count(), given.gravity),
       working(given.body_count(), Vec3::Zero()),
       fade(given.body_count()),
+      bent(given.body_count()),
       flights(given.body_count(), given.gravity),
       body(given.body_count()),
       neighbours(world),
@@ -33,6 +36,15 @@ ExactBodies::PairState ExactBodies::in_frame_of(Entity a, Entity b) const {
   const Flight p = flights[a], q = flights[b];
   const Instant base = std::max(p.start, q.start);
   const double t = now - base;
+  if (p.curve != nullptr || q.curve != nullptr) {
+    const double tp = base - p.start, tq = base - q.start;
+    const double length = std::max(flight_end(a) - base, flight_end(b) - base);
+    PolynomialPath::Terms relative = q.displacement_from(tq, length);
+    const PolynomialPath::Terms of_p = p.displacement_from(tp, length);
+    for (std::size_t k = 0; k < relative.size(); ++k) relative[k] -= of_p[k];
+    const Vec3 from = q.position(tq) - p.position(tp);
+    return {Vec3::Zero(), Vec3::Zero(), from + PolynomialPath::value(relative, t / length), q.velocity(now - q.start) - p.velocity(now - p.start)};
+  }
   const FadingPath of_a = p.path().from(base - p.start), of_b = q.path().from(base - q.start);
   if (of_a.fade != of_b.fade)
     return {Vec3::Zero(), Vec3::Zero(), of_b.position(t) - of_a.position(t), of_b.velocity(t) - of_a.velocity(t)};
@@ -44,6 +56,24 @@ void ExactBodies::apply(Entity i, const AppliedAcceleration& forces) {
   applied.write(i) = forces.all;
   working.write(i) = forces.working;
   if (forces.fade != fade[i]) fade.write(i) = forces.fade;
+}
+
+void ExactBodies::apply_forces(Entity i, const Vec3& x, const Vec3& v) {
+  const bool bends = varying && varies(world, i, now.hi);
+  if (bends != (bent[i] != 0)) bent.write(i) = bends;
+  if (!bends) return apply(i, merged.applied(i, now.hi));
+  apply(i, {free_acceleration(world, i, now.hi, x, v), working_acceleration(world, i, now.hi, x, v), 0});
+}
+
+Vec3 ExactBodies::bent_force_at(Entity i, const Vec3& x, const Vec3& v) const {
+  return free_acceleration(world, i, now.hi, x, v);
+}
+
+Instant ExactBodies::flight_end(Entity i) const {
+  Instant end{never, 0};
+  if (in_group(i)) end = islands.due(i);
+  if (const PolynomialPath* curve = flights.curve(i)) end = std::min(end, flights[i].start + curve->length);
+  return end;
 }
 
 std::vector<Entity> ExactBodies::known_to(Entity i) const {
@@ -67,7 +97,7 @@ Touch ExactBodies::touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, 
 
 double ExactBodies::load_on(Entity i) const {
   if (world.fixed_count() == 0 && world.forces.empty()) return 0;
-  return fade[i] == 0 ? applied[i].norm() : force_at(i, velocity(i)).norm();
+  return fade[i] == 0 ? applied[i].norm() : force_at(i, position(i), velocity(i)).norm();
 }
 
 double ExactBodies::slow_speed(double press, double length) const {

@@ -32,10 +32,12 @@ struct ExactBodies {
   const World& world;  // with the joint bodies' masses and volumes
   const Bounds bounds;
   const bool same_radius;  // of all bodies, for good
+  const bool varying;      // some force has no closed form
   Instant now;
   LazyArray<Vec3> applied;  // m/s^2, by body: gravity and the forces of now, on a body that stands,
   LazyArray<Vec3> working;  // and the part of it that does work (force.h);
   LazyArray<double> fade;   // 1/s: this, times its velocity, linear drag takes from both
+  LazyArray<std::uint8_t> bent;  // forces without a closed form act on it: all of these are as they were last looked at
   Flights flights;
   LargeVector<ExactBody> body;
   Neighbours neighbours;
@@ -51,10 +53,23 @@ struct ExactBodies {
   Vec3 velocity(Entity i) const { return flights[i].velocity(now - flights[i].start); }
   /// m/s, at an instant of its flight, without what forces do later.
   Vec3 velocity_without_kick(Entity i, const Instant& at) const;
-  /// m/s^2, what forces do to body i at velocity v (m/s).
-  Vec3 force_at(Entity i, const Vec3& v) const { return fade[i] == 0 ? applied[i] : Vec3(applied[i] - fade[i] * v); }
+  /// m/s^2, what forces do to body i at x (m) and v (m/s).
+  Vec3 force_at(Entity i, const Vec3& x, const Vec3& v) const {
+    if (bent[i]) [[unlikely]]
+      return bent_force_at(i, x, v);
+    return fade[i] == 0 ? applied[i] : Vec3(applied[i] - fade[i] * v);
+  }
   /// Body i's forces are these from now on.
   void apply(Entity i, const AppliedAcceleration& forces);
+  /// Those that act now, on body i at x (m) and v (m/s).
+  void apply_forces(Entity i, const Vec3& x, const Vec3& v);
+  /// Looks at them again, if they vary with these.
+  void refresh(Entity i, const Vec3& x, const Vec3& v) {
+    if (bent[i]) [[unlikely]]
+      apply_forces(i, x, v);
+  }
+  /// When body i's flight ends at the latest: at the end of a step, its own or its island's.
+  Instant flight_end(Entity i) const;
   /// m: where a body is now, or a fixed thing.
   Vec3 position_of(Entity e) const { return world.is_body(e) ? position(e) : world.fixed_position(e); }
 
@@ -96,6 +111,9 @@ struct ExactBodies {
   static bool too_low(const Vec3& x, double speed, double press) {
     return speed * speed < press * exact_tolerance::position_rounding * x.cwiseAbs().sum();
   }
+
+ private:
+  Vec3 bent_force_at(Entity i, const Vec3& x, const Vec3& v) const;
 };
 
 }  // namespace carom

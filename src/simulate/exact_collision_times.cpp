@@ -18,12 +18,6 @@ double sum_of_speeds(const Vec3& v) {
 
 }  // namespace
 
-/// When body i's flight ends at the latest: that of an island's member when it takes its next step.
-Instant ExactCollisionTimes::flight_end(Entity i) const {
-  const Instant last{bodies_.options.duration, 0};
-  return bodies_.in_group(i) ? std::min(bodies_.islands.due(i), last) : last;
-}
-
 Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) const {
   const World& world = bodies_.world;
   const Entity a = std::min(i, j), b = std::max(i, j);
@@ -39,10 +33,11 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
   if (balls && m.a.isZero(0) && p.fade == q.fade && m.d.dot(m.w) >= 0) return {never, 0};
   m.speeds = sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a);
   m.just_separated = p.start == q.start && bodies_.body[a].origin_partner == b && bodies_.body[b].origin_partner == a;
-  const bool step = bodies_.in_group(a) || bodies_.in_group(b);
-  const double horizon =
-      step ? std::min(flight_end(a), flight_end(b)) - base : Instant{bodies_.options.duration, 0} - base;
   const double s = world.radius[a] + world.radius[b];
+  if (p.curve != nullptr || q.curve != nullptr) [[unlikely]]
+    return of_curves(a, p, b, q, m, feature);
+  const bool step = bodies_.in_group(a) || bodies_.in_group(b);
+  const double horizon = (step ? std::min(end_of(a), end_of(b)) : Instant{bodies_.options.duration, 0}) - base;
   if (step) {
     const double greatest = std::max(bodies_.applied[a].norm(), bodies_.applied[b].norm());
     m.speeds += exact_tolerance::step_rounding * std::sqrt(greatest * s);
@@ -66,19 +61,63 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
   return t == never ? Instant{never, 0} : base + t;
 }
 
+/// Of bodies at least one of which is on a curve.
+Instant ExactCollisionTimes::of_curves(Entity a, const Flight& p, Entity b, const Flight& q, const RelativeMotion& m,
+                                       std::uint8_t& feature) const {
+  const Instant base = std::max(p.start, q.start);
+  const double horizon = std::min(end_of(a), end_of(b)) - base, tp = base - p.start, tq = base - q.start;
+  if (!(horizon > 0)) return {never, 0};
+  PolynomialPath::Terms displacement = q.displacement_from(tq, horizon);
+  const PolynomialPath::Terms of_p = p.displacement_from(tp, horizon);
+  double reach = bodies_.world.radius[a] + bodies_.world.radius[b];  // m
+  // What is left of accelerations that the two have in common is none.
+  const double noise = exact_tolerance::curve_rounding * horizon * horizon *
+                       (p.greatest_acceleration() + q.greatest_acceleration());  // m
+  for (std::size_t k = 0; k < displacement.size(); ++k) {
+    displacement[k] -= of_p[k];
+    if (k > 0 && displacement[k].norm() <= noise) displacement[k].setZero();
+    reach += displacement[k].norm();
+  }
+  if (m.d.squaredNorm() > reach * reach) return {never, 0};
+  const Vec3 xa = p.position(tp), xb = q.position(tq);
+  const double speeds = m.speeds + noise_in_contact(a) + noise_in_contact(b);
+  const FeatureTime first = time_of_impact(bodies_.world, a, xa, b, xb, displacement, horizon, speeds,
+                                           m.just_separated ? bodies_.body[a].origin_feature : no_feature, horizon);
+  feature = first.feature;
+  return first.time == never ? Instant{never, 0} : base + first.time;
+}
+
+/// When body i's flight ends at the latest.
+Instant ExactCollisionTimes::end_of(Entity i) const {
+  return std::min(bodies_.flight_end(i), Instant{bodies_.options.duration, 0});
+}
+
+/// m/s: what steps in contact leave of body i's speed.
+double ExactCollisionTimes::noise_in_contact(Entity i) const {
+  return bodies_.in_lasting_contact(i)
+             ? exact_tolerance::step_rounding * std::sqrt(bodies_.applied[i].norm() * bodies_.world.radius[i])
+             : 0;
+}
+
 Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, std::uint8_t& feature) const {
   const World& world = bodies_.world;
   const Flight& f = bodies_.flights[i];
-  const Instant end = flight_end(i);
+  const Instant end = end_of(i);
   const bool step = end.hi < bodies_.options.duration;
   const double horizon = end - f.start;
   const bool left = bodies_.body[i].origin_partner == surface;
   double t;
   const bool ball = world.volume.empty() || world.volume[i].shape == Shape::sphere;
-  const double steps = bodies_.in_lasting_contact(i)
-                           ? exact_tolerance::step_rounding * std::sqrt(bodies_.applied[i].norm() * world.radius[i])
-                           : 0;
-  if (f.fade != 0) {
+  const double steps = noise_in_contact(i);
+  if (f.curve != nullptr) {
+    PolynomialPath::Terms displacement = f.displacement_from(0, horizon);
+    for (Vec3& term : displacement) term = -term;
+    const FeatureTime first =
+        time_of_impact(world, i, f.x, surface, world.fixed_position(surface), displacement, horizon,
+                       sum_of_speeds(f.v) + steps, left ? bodies_.body[i].origin_feature : no_feature, horizon);
+    t = first.time;
+    feature = first.feature;
+  } else if (f.fade != 0) {
     const FadingPath fixed{world.fixed_position(surface), Vec3::Zero(), Vec3::Zero(), 0};
     const FeatureTime first = time_of_impact(world, i, f.path(), surface, fixed, sum_of_speeds(f.v) + steps,
                                              left ? bodies_.body[i].origin_feature : no_feature, horizon);

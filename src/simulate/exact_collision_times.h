@@ -15,7 +15,11 @@ class ExactCollisionTimes {
   Instant of_surface(Entity i, Entity surface, std::uint8_t& feature) const;
 
  private:
-  Instant flight_end(Entity i) const;
+  Instant of_curves(Entity a, const Flight& p, Entity b, const Flight& q, const RelativeMotion& m,
+                    std::uint8_t& feature) const;
+  Instant end_of(Entity i) const;
+  double noise_in_contact(Entity i) const;
+
 
   const ExactBodies& bodies_;
 };

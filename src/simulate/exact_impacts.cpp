@@ -59,12 +59,24 @@ double ExactImpacts::press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb
   const Flight p = bodies_.flights[a], q = bodies_.flights[b];
   const Vec3& n = there.normal;
   double forces = n.dot(q.a - p.a);
-  if (p.fade != 0 || q.fade != 0) {  // drag acts on what velocities the impact leaves
+  if (p.curve != nullptr || q.curve != nullptr) {
+    forces = n.dot(pull_after(b, xb, q, a, there, w) - pull_after(a, xa, p, b, there, w));
+  } else if (p.fade != 0 || q.fade != 0) {  // drag acts on what velocities the impact leaves
     const double ma = bodies_.world.mass[a], mb = bodies_.world.mass[b], share = -n.dot(w) / (ma + mb);
     forces = n.dot(q.acceleration(bodies_.now - q.start) - p.acceleration(bodies_.now - p.start)) -
              (q.fade * ma + p.fade * mb) * share;
   }
   return -(forces + bending(bodies_.world, a, xa, b, xb, there, w));
+}
+
+/// m/s^2: what acts on body i at x (m) once an impact at w (m/s, of the second body against the first) has left no
+/// approach.
+Vec3 ExactImpacts::pull_after(Entity i, const Vec3& x, const Flight& f, Entity other, const Touch& there,
+                              const Vec3& w) const {
+  const double mi = bodies_.world.mass[i], mo = bodies_.world.mass[other], share = mo / (mi + mo);
+  const Vec3 towards = there.normal.dot(w) * there.normal;  // m/s
+  const Vec3 v = f.velocity(bodies_.now - f.start) + (i < other ? share : -share) * towards;
+  return f.curve != nullptr ? bodies_.force_at(i, x, v) : f.acceleration(bodies_.now - f.start);
 }
 
 void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
@@ -138,7 +150,7 @@ bool ExactImpacts::is_plastic(const Collision& met, double press, double length)
   return met.restitution == 0 && press > 0 && met.approach_speed > bodies_.slow_speed(press, length);
 }
 
-ExactImpacts::FixedImpact ExactImpacts::find_fixed(Entity i, Entity surface, std::uint8_t feature) const {
+ExactImpacts::FixedImpact ExactImpacts::find_fixed(Entity i, Entity surface, std::uint8_t feature) {
   const World& world = bodies_.world;
   const Flight f = bodies_.flights[i];
   const double t = bodies_.now - f.start;
@@ -148,6 +160,7 @@ ExactImpacts::FixedImpact ExactImpacts::find_fixed(Entity i, Entity surface, std
   const Touch there = bodies_.touch_at(i, x, surface, point, feature);
   const Vec3& n = there.normal;
   const double approach = v.dot(n) > bodies_.negligible_speed() ? v.dot(n) : 0;
+  bodies_.refresh(i, x, v - approach * n);
   const double bend = flat ? 0 : bending(world, i, x, surface, point, there, -v);
   return {i,
           surface,
@@ -179,16 +192,22 @@ bool ExactImpacts::comes_to_rest(const FixedImpact& impact, FlatContact& contact
     contact.rest_time = bodies_.now;
     return true;
   }
+  if (bodies_.bent[i]) return false;  // on which no parabola goes on
   const bool ends = e < 1 || approach == 0 || (e == 1 && bodies_.too_low(x, approach, press));
   if (!(press > 0) || !flat || bodies_.in_lasting_contact(i) || carrying >= FlatContactList::most || !ends)
     return false;
   const double left = separation == 0 || e == 1 ? 0 : 2 * separation / (press * (1 - e));
   // Not by hops on this surface alone: thrown back at it by others in between, or by those that carry it, at once.
   const bool carried = carrying > 0 && (bodies_.body[i].origin_partner != surface || began_now);
-  contact.settling = bodies_.now.hi + left == bodies_.now.hi || approach < bodies_.options.rest_speed ||
+  contact.settling = over_at_once(impact, left) ||
                      (carried && bodies_.too_low(x, approach, press));
   contact.rest_time = bodies_.now + left;
   return contact.settling;
+}
+
+/// Whether bounces on a flat surface that end `left` (s) from now are over.
+bool ExactImpacts::over_at_once(const FixedImpact& impact, double left) const {
+  return bodies_.now.hi + left == bodies_.now.hi || impact.approach < bodies_.options.rest_speed;
 }
 
 bool ExactImpacts::ends_in_contact(const FixedImpact& impact) {
@@ -197,8 +216,10 @@ bool ExactImpacts::ends_in_contact(const FixedImpact& impact) {
   const bool alone = flat && !parts_.collapses.among_bodies(i);
   if (parts_.collapses.count_impact(i, surface, e, unkicked, press, bodies_.world.radius[i], alone)) return true;
   const double separation = e * unkicked;
-  return press > 0 && (!flat || bodies_.in_lasting_contact(i)) &&
-         (separation == 0 || bodies_.too_low(x, separation, press));
+  if (!(press > 0)) return false;
+  if (flat && bodies_.bent[i] && !bodies_.in_lasting_contact(i) && e < 1)
+    return over_at_once(impact, 2 * separation / (press * (1 - e)));
+  return (!flat || bodies_.in_lasting_contact(i)) && (separation == 0 || bodies_.too_low(x, separation, press));
 }
 
 void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature) {

@@ -43,14 +43,16 @@ void ExactSimulator::start(const State& initial) {
   for (Entity i = 0; i < n; ++i) {
     Vec3 v = initial.velocity[i];
     if (!world.impulse.empty()) v += world.impulse[i] / world.mass[i];
-    if (!world.forces.empty()) bodies_.apply(i, bodies_.merged.applied(i, 0));
-    bodies_.flights.set(i, {{}, initial.position[i], v, bodies_.force_at(i, v), bodies_.fade[i]});
+    const Vec3& x = initial.position[i];
+    if (!world.forces.empty()) bodies_.apply_forces(i, x, v);
+    bodies_.flights.set(i, {{}, x, v, bodies_.force_at(i, x, v), bodies_.fade[i]});
+    if (bodies_.bent[i]) flights_.let_fall(i);
     bodies_.log.note_speed(v.norm());
   }
   bodies_.neighbours.start(initial.position);
   if (!bodies_.options.merge) {
     for (Entity i = 0; i < n; ++i)
-      if (!bodies_.applied[i].isZero(0)) flat_.find_initial(i);
+      if (!bodies_.applied[i].isZero(0) && !bodies_.bent[i]) flat_.find_initial(i);
     // Where no force acts, nothing presses.
     if (!(world.gravity.isZero(0) && world.forces.empty()))
       for (Entity i = 0; i < n; ++i) group_.join_initial(i);
@@ -138,7 +140,7 @@ void ExactSimulator::process(Entity i) {
       else if (bodies_.is_constrained(i) && event.time == bodies_.islands.piece_end[i])
         constrained_.go_on(i);
       else
-        predictor_.predict(i);  // there has been a step since
+        end_flight(i);
       break;
     case Kind::none:
       break;
@@ -154,7 +156,6 @@ void ExactSimulator::switch_forces(Entity i) {
   paths_.note_change(i);
   flights_.book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
-  const AppliedAcceleration forces = bodies_.merged.applied(i, bodies_.now.hi);
   if (bodies_.body[i].state == ContactState::asleep) group_.join(i);
   if (bodies_.in_group(i)) {  // the last step had the old forces in it until its end
     const Vec3 slower = bodies_.velocity_without_kick(i, bodies_.now);
@@ -163,7 +164,8 @@ void ExactSimulator::switch_forces(Entity i) {
     bodies_.islands.kicked_until.write(i) = bodies_.now;
     bodies_.islands.of(i).end = bodies_.now;
   }
-  bodies_.apply(i, forces);
+  bodies_.apply_forces(i, x, v);
+  if (bodies_.bent[i]) flat_.clear(i);
   flights_.begin(i, x, flat_.keep_at(i, v), {});
   predictor_.predict(i);
 }
@@ -174,6 +176,13 @@ void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
   const FlightOrigin next = flat_.hand_over(i, surface);
   flights_.begin(i, bodies_.position(i), bodies_.velocity(i),
                  next.partner == no_entity ? FlightOrigin{surface, edge} : next);
+  predictor_.predict(i);
+}
+
+/// A step has come to its end: of body i's own flight, or there has been another one since.
+void ExactSimulator::end_flight(Entity i) {
+  const PolynomialPath* const curve = bodies_.flights.curve(i);
+  if (curve != nullptr && bodies_.flights[i].start + curve->length <= bodies_.now) flights_.take_step(i);
   predictor_.predict(i);
 }
 

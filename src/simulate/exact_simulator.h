@@ -39,6 +39,7 @@ class ExactSimulator final : public Simulator {
   void process(Entity i);
   void switch_forces(Entity i);
   void release(Entity i, Entity surface, std::uint8_t edge);
+  void end_flight(Entity i);
   void step_island(Entity i);
 
   ExactBodies bodies_;

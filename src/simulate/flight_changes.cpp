@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/force.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -20,8 +21,8 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   book(i, x, bodies_.now);
   const bool stepped = bodies_.is_stepped(i) && !bodies_.islands.of(i).fresh;
   if (stepped != (stepped_[i] != 0)) stepped_.write(i) = stepped;
-  ExactBody& body = bodies_.body[i];
-  const bool falls = bodies_.is_stepped(i) && bodies_.flights.acceleration(i) != Vec3::Zero();  // through a time step
+  const bool falls = bodies_.is_stepped(i) && (bodies_.flights.acceleration(i) != Vec3::Zero() ||
+                                               bodies_.flights.curve(i) != nullptr);  // through a time step
   const double negligible = bodies_.negligible_speed();
   const bool still = speed <= negligible ||
                      (flat_.of(i).count > 0 && speed * speed < exact_tolerance::negligible_hop *
@@ -29,14 +30,36 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   Vec3 kept = v;
   for (int k = 0; k < 3; ++k)
     if (still || std::abs(v[k]) <= negligible) kept[k] = 0;
+  bodies_.refresh(i, x, kept);
+  if (bodies_.bent[i] && (falls || !bodies_.in_lasting_contact(i))) [[unlikely]] {
+    bodies_.flights.set(i, {bodies_.now, x, kept, bodies_.applied[i]}, curved_.follow(i, x, kept));
+    return end_change(i, origin);
+  }
   const Vec3 pull = falls ? bodies_.applied[i] : flat_.keep_pressing(i);
   if (bodies_.fade.empty() || (!falls && bodies_.in_lasting_contact(i))) [[likely]]
     bodies_.flights.set(i, {bodies_.now, x, kept, pull});
   else
     bodies_.flights.set(i, {bodies_.now, x, kept, pull - bodies_.fade[i] * kept, bodies_.fade[i]});
-  body.set_origin(origin);
+  end_change(i, origin);
+}
+
+void FlightChanges::end_change(Entity i, const FlightOrigin& origin) {
+  bodies_.body[i].set_origin(origin);
   bodies_.neighbours.turned(i);
   count(i);
+}
+
+void FlightChanges::take_step(Entity i) {
+  go_on(i, bodies_.position(i), bodies_.velocity(i), {});
+}
+
+void FlightChanges::let_fall(Entity i) {
+  const Flight f = bodies_.flights[i];
+  bodies_.refresh(i, f.x, f.v);
+  if (bodies_.bent[i])
+    bodies_.flights.set(i, {f.start, f.x, f.v, bodies_.applied[i]}, curved_.follow(i, f.x, f.v));
+  else
+    bodies_.flights.accelerate(i, bodies_.force_at(i, f.x, f.v), bodies_.fade[i]);
 }
 
 void FlightChanges::correct(Entity i, const Vec3& v) {
@@ -63,9 +86,22 @@ void FlightChanges::book_forces(Entity i, const Vec3& x, const Instant& end) {
   const double fade = bodies_.fade[i], mass = world.mass[i];
   const double dragged = fade == 0 ? 0 : fade * f.path().squared_speed(end - f.start);  // m^2/s^2
   // On a path that fades with its drag contact forces stay the same.
-  const Vec3 held = f.fade == 0 ? Vec3(bodies_.applied[i] - f.a) : Vec3(bodies_.force_at(i, f.v) - f.a);
+  const Vec3 held = f.fade == 0 ? Vec3(bodies_.applied[i] - f.a) : Vec3(bodies_.force_at(i, f.x, f.v) - f.a);
   bodies_.log.lose(mass * (held.dot(displacement) - (f.fade == 0 ? dragged : 0)));
   if (!world.forces.empty()) bodies_.log.add_work(mass * (bodies_.working[i].dot(displacement) - dragged));
+}
+
+/// Of a free flight what forces do shows in the potential and in their work. Else contact has done the rest.
+void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
+  const Flight f = bodies_.flights[i];
+  const double length = end - f.start, mass = bodies_.world.mass[i];
+  if (!(length > 0)) return;
+  const double work = mass * curved_.work(i, f, length);
+  bodies_.log.add_work(work);
+  if (f.curve != nullptr) return;
+  const Vec3 v = f.velocity(length);
+  bodies_.log.lose(0.5 * mass * (f.v - v).dot(f.v + v) + potential(bodies_.world, i, f.x) -
+                   potential(bodies_.world, i, x) + work);
 }
 
 void FlightChanges::book_last(double time) {

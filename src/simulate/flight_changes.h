@@ -1,5 +1,6 @@
 #pragma once
 // Begins flights, and books what forces did on those that end.
+#include "simulate/curved_flights.h"
 #include "simulate/exact_bodies.h"
 #include "simulate/flat_contacts.h"
 #include "simulate/path_log.h"
@@ -9,12 +10,16 @@ namespace carom {
 class FlightChanges {
  public:
   FlightChanges(ExactBodies& bodies, FlatContacts& flat, PathLog& paths)
-      : bodies_(bodies), flat_(flat), paths_(paths), stepped_(bodies.body.size()) {}
+      : bodies_(bodies), flat_(flat), paths_(paths), curved_(bodies), stepped_(bodies.body.size()) {}
 
   /// Begins a new flight of body i, now, at x (m) with velocity v (m/s). A step of constrained motion ends with it.
   void begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
   /// The same within such a step.
   void go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
+  /// Body i, free as far as its own step goes, has come to its end.
+  void take_step(Entity i);
+  /// Body i's flight, which has just begun, goes on as if it were free.
+  void let_fall(Entity i);
   /// Body i's flight goes on from now with velocity v (m/s), which it ought to have had. Its events stay.
   void correct(Entity i, const Vec3& v);
   /// Books what forces did to body i on the flight that ends at x (m) then: the World's, and contact forces against
@@ -22,6 +27,8 @@ class FlightChanges {
   void book(Entity i, const Vec3& x, const Instant& end) {
     const World& world = bodies_.world;
     if (stepped_[i]) bodies_.log.add_stepped_contact(end - bodies_.flights[i].start);
+    if (bodies_.bent[i]) [[unlikely]]
+      return book_varying(i, x, end);
     if (bodies_.flights.acceleration(i) != world.gravity || !world.forces.empty()) book_forces(i, x, end);
   }
   /// Books all flights up to `time` (s), the run's end; only once. Between collisions a speed is greatest at a flight's
@@ -31,11 +38,14 @@ class FlightChanges {
   void count(Entity i);
 
  private:
+  void end_change(Entity i, const FlightOrigin& origin);
   void book_forces(Entity i, const Vec3& x, const Instant& end);
+  void book_varying(Entity i, const Vec3& x, const Instant& end);
 
   ExactBodies& bodies_;
   FlatContacts& flat_;
   PathLog& paths_;
+  CurvedFlights curved_;
   LazyArray<std::uint8_t> stepped_;  // by body: this flight is one of time stepping
   bool ended_ = false;               // the last flights are booked
 };

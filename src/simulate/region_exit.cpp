@@ -9,6 +9,7 @@ double region_exit(const ExactBodies& bodies, Entity i) {
   const Flights::Core& f = bodies.flights.cores()[i];
   const Vec3& a = bodies.flights.acceleration(i);
   const double fade = bodies.flights.fade(i);
+  const PolynomialPath* const curve = bodies.flights.curve(i);
   const double since = bodies.now - f.start, room = bodies.neighbours.room(i);
   const Vec3 center = bodies.neighbours.center(i);
   // From `off` (m, from the region's middle) on along a straight path at v (m/s), until it is `radius` (m) from there.
@@ -19,6 +20,11 @@ double region_exit(const ExactBodies& bodies, Entity i) {
     return outward > 0 ? left / (root + outward) : speed2 > 0 ? (root - outward) / speed2 : never;
   };
   const auto start_of = [&](double t, Vec3& off, Vec3& v) {
+    if (curve != nullptr) [[unlikely]] {
+      v = f.v + curve->change_at(t);
+      off = f.x + curve->displacement_at(t) - center;
+      return;
+    }
     if (fade != 0) [[unlikely]] {
       const FadingPath now = FadingPath{f.x - center, f.v, a, fade}.from(t);
       v = now.v;
@@ -31,10 +37,11 @@ double region_exit(const ExactBodies& bodies, Entity i) {
   Vec3 off, v;
   start_of(since, off, v);
   double t = straight_exit(off, v, room);
-  if (const double a2 = a.squaredNorm(); a2 > 0) {  // drag makes it no greater
+  // Drag makes an acceleration no greater.
+  if (const double size = curve == nullptr ? a.norm() : curve->greatest_acceleration(); size > 0) {
     // As far as a straight path within what the acceleration does not take from the room until then, or by the greatest
     // possible speed; and on from there, while that leads on.
-    const double size = std::sqrt(a2), end = bodies.body[i].event.time.hi - bodies.now.hi;
+    const double end = bodies.body[i].event.time.hi - bodies.now.hi;
     const auto bound = [&](double straight) {
       const double narrowed = room - 0.5 * size * straight * straight, left = room - off.norm();
       if (!(left > 0)) return 0.0;

@@ -5,6 +5,7 @@
 
 #include "physics/contact_problem.h"
 #include "physics/disjoint_sets.h"
+#include "physics/force.h"
 #include "physics/restitution.h"
 #include "simulate/tolerances.h"
 
@@ -42,7 +43,7 @@ void TimeStepping::advance(Entity i) {
 /// Solves the step, as long as speeds allow. False: bodies of other islands are near.
 bool TimeStepping::solve_step(Step& step) const {
   const Island& island = bodies_.islands.of(step.members.front());
-  const double shortest = step.greatest == 0 ? 0 : tol::shortest_step * std::sqrt(2 * step.smallest / step.greatest);
+  const double shortest = shortest_step(step);
   step.short_steps = island.step_length < 0.01 * shortest ? island.short_steps + 1 : 0;
   double fastest = 0;
   for (const double speed : step.expected) fastest = std::max(fastest, speed);
@@ -60,6 +61,17 @@ bool TimeStepping::solve_step(Step& step) const {
   return true;
 }
 
+/// s: in a share of the time of falling by a radius, and of that in which forces change.
+double TimeStepping::shortest_step(const Step& step) const {
+  if (step.greatest == 0) return 0;
+  double rate = 0;  // 1/s
+  for (std::size_t k = 0; k < step.members.size(); ++k)
+    if (bodies_.bent[step.members[k]])
+      rate = std::max(rate, force_rate(bodies_.world, step.members[k], step.x[k], step.v[k]));
+  const double shortest = tol::shortest_step * std::sqrt(2 * step.smallest / step.greatest);
+  return rate > 0 ? std::min(shortest, tol::shortest_step / rate) : shortest;
+}
+
 /// Where members are and how fast, without what the last step's kick gave them for a time that is to come.
 TimeStepping::Step TimeStepping::begin_step(Entity one) const {
   const Islands& islands = bodies_.islands;
@@ -73,10 +85,11 @@ TimeStepping::Step TimeStepping::begin_step(Entity one) const {
     if (bodies_.now < until) v -= (until - bodies_.now) * islands.kick[i];
     step.x.push_back(bodies_.position(i));
     step.v.push_back(v);
+    bodies_.refresh(i, step.x.back(), v);
     step.expected.push_back(v.norm());
     step.inverse_mass.push_back(1 / bodies_.world.mass[i]);
     step.smallest = std::min(step.smallest, bodies_.world.radius[i]);
-    step.greatest = std::max(step.greatest, bodies_.force_at(i, v).norm());
+    step.greatest = std::max(step.greatest, bodies_.force_at(i, step.x.back(), v).norm());
   }
   return step;
 }
@@ -396,7 +409,7 @@ bool TimeStepping::begin_flight(const Step& step, std::size_t k, Entity i) {
     islands.kicked_until.write(i) = bodies_.now;
     islands.kick.write(i).setZero();
     begin(v);
-    bodies_.flights.accelerate(i, bodies_.force_at(i, v), bodies_.fade[i]);
+    flights_.let_fall(i);
   }
   return true;
 }

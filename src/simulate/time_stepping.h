@@ -59,6 +59,7 @@ class TimeStepping {
 
   Step begin_step(Entity one) const;
   bool solve_step(Step& step) const;
+  double shortest_step(const Step& step) const;
   bool shorten(Step& step, double shortest) const;
   void find_pairs(Step& step) const;
   void take_slow_impacts(Step& step) const;

@@ -20,6 +20,7 @@ inline constexpr double clock_rounding = 0x1p-46;  // of the clock: in a million
 inline constexpr double least_progress = 0x1p-30;  // of the duration: in fewer, a run would never end
 inline constexpr double step_rounding = 512;       // [3e-10 2e-10] of the speed of falling by a radius: rounding
 inline constexpr double plane_rounding = 0x1p-49;  // [3e-10 2e-10] of speeds: an approach to a plane that is rounding
+inline constexpr double curve_rounding = 0x1p-43;  // of accelerations: a difference on curves that is rounding
 inline constexpr double negligible_speed = 0x1p-200;  // of the greatest speed so far: products with itself underflow
 inline constexpr double negligible_hop = 0x1p-120;    // of the squared speed of falling by a radius: a body at rest
 inline constexpr double approach_rounding = 0x1p-50;  // of speeds: an approach that is rounding: unpressed, or kicked

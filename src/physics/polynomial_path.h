@@ -1,0 +1,32 @@
+#pragma once
+// A path through a step as a polynomial of degree 8 in s = t / length: the dense output of a method of order 8. It is
+// the integral of that of the velocity, so that place, velocity and the acceleration at both ends are of one motion.
+#include <array>
+#include <cstddef>
+
+#include "physics/vec3.h"
+
+namespace carom {
+
+struct PolynomialPath {
+  static constexpr std::size_t terms = 8;
+  using Terms = std::array<Vec3, terms>;  // by s, s^2, ...
+
+  double length = 0;   // s
+  Terms displacement;  // m, since the start
+
+  Vec3 displacement_at(double t) const { return value(displacement, t / length); }
+  Vec3 change_at(double t) const { return slope_change(displacement, t / length) / length; }  // m/s, of the velocity
+  Vec3 acceleration(double t) const { return bend(displacement, t / length) / (length * length); }  // m/s^2
+  /// m/s^2: at least the greatest acceleration on the way.
+  double greatest_acceleration() const;
+
+  static Vec3 value(const Terms& of, double s);
+  static Vec3 slope(const Terms& of, double s) { return of[0] + slope_change(of, s); }
+  static Vec3 slope_change(const Terms& of, double s);  // of the slope since s = 0
+  static Vec3 bend(const Terms& of, double s);          // the second derivative
+  /// What a path's displacement is from s = `from` on, in parts of `length` (as s).
+  static Terms shifted(const Terms& of, double from, double length);
+};
+
+}  // namespace carom

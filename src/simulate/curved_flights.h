@@ -1,0 +1,27 @@
+#pragma once
+// Flights under forces that bend them in no closed form: steps of a method of order 8 (dormand_prince.h), each body's
+// own, as long as their error allows.
+#include "simulate/exact_bodies.h"
+
+namespace carom {
+
+class CurvedFlights {
+ public:
+  explicit CurvedFlights(const ExactBodies& bodies) : bodies_(bodies), next_(bodies.body.size()) {}
+
+  /// The next step of body i, free, from x (m) and v (m/s) on, now. Throws SimulationError where forces change faster
+  /// than the clock can tell.
+  PolynomialPath follow(Entity i, const Vec3& x, const Vec3& v);
+
+  /// m^2/s^2: what forces without a potential do to a unit of body i's mass in `length` (s) of its flight from x (m)
+  /// and v (m/s) on.
+  double work(Entity i, const Flight& flight, double length) const;
+
+ private:
+  double first_length(Entity i, const Vec3& x, const Vec3& v) const;
+
+  const ExactBodies& bodies_;
+  LazyArray<double> next_;  // s, by body: a good length of the next step; 0: not known
+};
+
+}  // namespace carom

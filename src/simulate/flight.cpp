@@ -1,0 +1,30 @@
+#include "simulate/flight.h"
+
+namespace carom {
+
+Vec3 Flight::bent_position(double t) const {
+  return curve == nullptr ? path().position(t) : Vec3(x + curve->displacement_at(t));
+}
+
+Vec3 Flight::bent_velocity(double t) const {
+  return curve == nullptr ? path().velocity(t) : Vec3(v + curve->change_at(t));
+}
+
+PolynomialPath::Terms Flight::displacement_from(double t, double length) const {
+  if (curve != nullptr) return PolynomialPath::shifted(curve->displacement, t / curve->length, length / curve->length);
+  PolynomialPath::Terms terms;
+  terms.fill(Vec3::Zero());
+  terms[0] = length * (v + t * a);
+  terms[1] = (0.5 * length * length) * a;
+  return terms;
+}
+
+void Flights::set(Entity i, const Flight& flight, const PolynomialPath& curve) {
+  if (curves_.empty()) curves_.resize(core_.size());
+  Curves& of = curves_[i];
+  of.present ^= 1u;
+  of.of[of.present] = curve;
+  set(i, {flight.start, flight.x, flight.v, flight.a, Flight::curved});
+}
+
+}  // namespace carom

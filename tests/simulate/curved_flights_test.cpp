@@ -1,0 +1,116 @@
+// The exact simulator under forces that bend paths in no closed form: against Kepler's equation, oscillations, and the
+// books of energy.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simulate/build.h"
+
+namespace carom {
+namespace {
+
+Force spring(Entity on, const Vec3& anchor, double stiffness, double rest_length, double damping) {
+  Force force;
+  force.law = Spring{anchor, stiffness, rest_length, damping};
+  force.on = {on};
+  return force;
+}
+
+TEST(CurvedFlights, KeepToKeplersEllipses) {
+  Problem problem;
+  problem.ball({1, 0, 0}, {0, std::sqrt(0.5), 0}, 1, 0.01);  // from the far end of an ellipse of eccentricity 1/2
+  Force attractor;
+  attractor.law = Attractor{Vec3::Zero(), 1, 0};
+  problem.world.forces.push_back(attractor);
+  const double period = 2 * std::acos(-1.0) * std::pow(2.0 / 3, 1.5);
+  problem.options.duration = 10 * period;
+  const Outcome outcome = run_exact(problem);
+  EXPECT_LT((outcome.end.position[0] - Vec3(1, 0, 0)).norm(), 5e-11);  // measured: 1.9e-11 m
+  EXPECT_NEAR(energy(problem, outcome.end), -0.75, 1e-12);
+}
+
+TEST(CurvedFlights, MeetWhenTwoOscillationsDo) {
+  // Mirror images: each strikes where its spring is slack, so that they swing half periods, back and forth.
+  Problem problem;
+  for (const double side : {-1.0, 1.0}) {
+    const Entity i = problem.ball({side, 0, 0}, Vec3::Zero(), 1, 0.1);
+    problem.world.forces.push_back(spring(i, {0.1 * side, 0, 0}, 100, 0, 0));
+  }
+  const Outcome outcome = run_exact(problem);
+  const double half = std::acos(-1.0) / 10;
+  ASSERT_EQ(outcome.collisions.size(), 32u);
+  for (std::size_t k = 0; k < 32; ++k)
+    EXPECT_NEAR(outcome.collisions[k].time, (static_cast<double>(k) + 0.5) * half, 1e-12) << k;  // measured: 1.3e-13 s
+}
+
+TEST(CurvedFlights, MeetWhateverElseFlies) {
+  // A ball far away, on another spring, changes no bit.
+  Problem problem;
+  problem.world.gravity = Vec3(0, -9.81, 0);
+  for (const double side : {-1.0, 1.0}) {
+    const Entity i = problem.ball({side, 0, 0}, Vec3::Zero(), 1, 0.1);
+    problem.world.forces.push_back(spring(i, {0.1 * side, 0, 0}, 100, 0.3, 0.01));
+  }
+  const Outcome alone = run_exact(problem);
+  const Entity far = problem.ball({100, 0, 0}, {1, 2, 3}, 1, 0.1);
+  problem.world.forces.push_back(spring(far, {101, 0, 0}, 1e4, 0, 1));
+  const Outcome both = run_exact(problem);
+  ASSERT_GT(alone.collisions.size(), 10u);
+  ASSERT_EQ(alone.collisions.size(), both.collisions.size());
+  for (Entity i = 0; i < 2; ++i) EXPECT_EQ(alone.end.position[i], both.end.position[i]);
+}
+
+TEST(CurvedFlights, ComeToRestOnAFloorUnderDrag) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -10, 0);
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  problem.ball({0, 10, 0}, Vec3::Zero(), 1, 0.1, 0.5);
+  Force drag;
+  drag.law = Drag{0, 0.5, Vec3::Zero()};
+  problem.world.forces.push_back(drag);
+  const Outcome outcome = run_exact(problem);
+  // It strikes at sqrt(g / k) tanh, with v^2 = (g / k) (1 - exp(-2 k h)), k the drag by the mass.
+  EXPECT_NEAR(outcome.collisions.front().approach_speed, std::sqrt(20 * (1 - std::exp(-9.9))), 1e-11);
+  EXPECT_EQ(outcome.end.position[0], Vec3(0, 0.1, 0));
+  EXPECT_EQ(outcome.end.velocity[0], Vec3(Vec3::Zero()));
+  EXPECT_EQ(outcome.tally.resting, 1u);
+  EXPECT_NEAR(energy(problem, outcome.end) - 100, outcome.tally.work - outcome.tally.energy_lost, 1e-11);
+}
+
+/// Balls side by side on stiff springs, the first lifted by 30 degrees.
+Problem cradle(int balls, double stiffness, double damping) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -9.81, 0);
+  const double length = 1 + 9.81 / stiffness;
+  for (int k = 0; k < balls; ++k) {
+    const Vec3 anchor(0.1 * k, 1, 0);
+    const double angle = k == 0 ? std::acos(-1.0) / 6 : 0;
+    const Entity i =
+        problem.ball(anchor + length * Vec3(-std::sin(angle), -std::cos(angle), 0), Vec3::Zero(), 1, 0.05);
+    problem.world.forces.push_back(spring(i, anchor, stiffness, 1, damping));
+  }
+  problem.options.duration = 1;
+  return problem;
+}
+
+TEST(CurvedFlights, OfACradleOnSpringsMakeNoEnergy) {
+  for (const int balls : {3, 7, 12})
+    for (const double stiffness : {1e3, 1e5})
+      for (const double damping : {0.0, 100.0}) {
+        const Problem problem = cradle(balls, stiffness, damping);
+        const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+        const double before = energy(problem, simulator->state());
+        for (int k = 1; k <= 10000; ++k) {
+          while (simulator->time() < 1e-4 * k) simulator->advance_to(1e-4 * k);
+          ASSERT_LT(energy(problem, simulator->state()) - before, 1e-9) << balls << " " << stiffness << " " << damping;
+        }
+        const Tally& tally = simulator->tally();
+        EXPECT_GE(tally.energy_lost, -1e-9);
+        EXPECT_LT(tally.max_overlap, 1e-12);
+        EXPECT_LT(tally.max_speed, 1.64);  // of the first, where it strikes
+        EXPECT_NEAR(energy(problem, simulator->state()) - before, tally.work - tally.energy_lost, 1e-10);
+      }
+}
+
+}  // namespace
+}  // namespace carom
