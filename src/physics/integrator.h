@@ -12,7 +12,8 @@ namespace carom {
 enum class Integrator : std::uint8_t {
   euler,   // semi-implicit: v' = v + h a(x, v), x' = x + h v', a kick, then a drift; order 1
   verlet,  // velocity Verlet (Swope et al., J. Chem. Phys. 76 (1982) 637), v' guessed where a depends on it; order 2
-  rk4      // the classical method of Runge and Kutta; order 4
+  rk4,     // the classical method of Runge and Kutta; order 4
+  dop853   // of Dormand and Prince, with steps of its own (dormand_prince.h); order 8; not by take_step
 };
 
 /// One step of length h (s) of the particles at x (m) with velocities v (m/s). `accelerate(x, v, a)` fills a (m/s^2).

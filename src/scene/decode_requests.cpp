@@ -50,13 +50,14 @@ class Requests {
                : engine == "stepped" ? Engine::stepped
                : engine == "book"    ? Engine::book
                                      : Engine::automatic;
-    const std::string integrator = view.text("integrator").value_or("rk4");
-    s.integrator = integrator == "euler"    ? Integrator::euler
-                   : integrator == "verlet" ? Integrator::verlet
-                                            : Integrator::rk4;
     s.step = view.number("step");
     if (s.engine == Engine::book && view.given("step") == nullptr) s.step = 1.0 / 60;
     s.tolerance = view.number("tolerance");
+    const std::string integrator = view.text("integrator").value_or(s.step || s.tolerance ? "rk4" : "dop853");
+    s.integrator = integrator == "euler"    ? Integrator::euler
+                   : integrator == "verlet" ? Integrator::verlet
+                   : integrator == "dop853" ? Integrator::dop853
+                                            : Integrator::rk4;
     s.rest_speed = view.number("rest_speed");
     s.max_collisions = view.whole("max_collisions");
     s.as_printed = view.flag("as_printed").value_or(false);

@@ -174,13 +174,13 @@ constexpr Field simulate_fields[] = {
     {.key = "duration", .type = Type::number, .unit = "s", .range = from_0, .needed = true, .doc = "How much time passes in the scene.", .example = "2"},
     {.key = "engine", .type = Type::choice, .initial = "auto", .of = "auto|exact|stepped|book",
      .doc = "exact: from collision to collision; stepped: in time steps, for any force; book: the source chapter's frame loop; auto: exact where the forces allow it, else stepped.", .example = "exact"},
-    {.key = "step", .type = Type::number, .unit = "s", .range = above_0, .one_of = "step|tolerance", .doc = "Time step of engines that step. Default of stepped: 1/1000, or shorter where forces change faster; of book: 1/60.", .example = "0.001"},
+    {.key = "step", .type = Type::number, .unit = "s", .range = above_0, .one_of = "step|tolerance", .doc = "Time step of engines that step; with dop853 the longest. Default of euler, verlet and rk4: 1/1000, or shorter where forces change faster; of book: 1/60.", .example = "0.001"},
     {.key = "as_printed", .type = Type::flag, .initial = "false", .doc = "book only: the chapter's listings with their slips.", .example = "true", .engines = "book"},
     {.key = "rest_speed", .type = Type::number, .unit = "m/s", .range = from_0, .doc = "Slower impacts under load end in resting contact. Default: on a flat surface as slow as the clock resolves, among bodies in contact 0.03 sqrt(p L).", .example = "0.01"},
     {.key = "max_collisions", .type = Type::whole, .range = from_1, .doc = "A run with more stops with an error.", .example = "1000000", .title = "Most collisions"},
-    {.key = "integrator", .type = Type::choice, .of = "euler|verlet|rk4", .doc = "Of engine stepped: semi-implicit Euler, velocity Verlet or Runge-Kutta, of order 1, 2 and 4. Default: rk4.", .example = "verlet"},
+    {.key = "integrator", .type = Type::choice, .of = "dop853|euler|verlet|rk4", .doc = "Of engine stepped: Dormand and Prince's method of order 8, which chooses its steps; semi-implicit Euler, velocity Verlet or Runge-Kutta, of order 1, 2 and 4. Default: dop853; with a step or a tolerance: rk4.", .example = "verlet"},
     {.key = "contact", .type = Type::choice, .initial = "bounce", .of = "bounce|merge", .doc = "Whether bodies that meet bounce or become one; merge is engine exact's.", .example = "merge", .engines = "auto|exact"},
-    {.key = "tolerance", .type = Type::number, .unit = "m", .range = above_0, .one_of = "step|tolerance", .doc = "stepped only, instead of step: the step is halved until positions change by less than this.", .example = "0.000001", .engines = "auto|exact|stepped"},
+    {.key = "tolerance", .type = Type::number, .unit = "m", .range = above_0, .one_of = "step|tolerance", .doc = "stepped only, instead of step, not with dop853: the step is halved until positions change by less than this.", .example = "0.000001", .engines = "auto|exact|stepped"},
 };
 
 constexpr Field camera_fields[] = {

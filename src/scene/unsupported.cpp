@@ -26,6 +26,9 @@ std::vector<Unsupported> unsupported(const World& world, const Simulate& simulat
              ? "`engine: stepped` has no `contact: merge`"
              : fmt::format("`contact: merge` is for paths in closed form, not for `{}`", name_of(open->law)),
          "expected `contact: bounce`"});
+  if (simulate.tolerance && simulate.integrator == Integrator::dop853)
+    lacks.push_back({"tolerance", "`integrator: dop853` has no `tolerance`: its steps are as exact as numbers allow",
+                     "expected no `tolerance`, or another integrator"});
   if (simulate.engine != Engine::book) return lacks;
   // The chapter's listings know spheres, planes and walls, gravity and the impulses of the first frame.
   const auto lack = [&](const char* at, const char* what, const char* instead) {

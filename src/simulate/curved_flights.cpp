@@ -21,10 +21,10 @@ struct GaussPoint {
   double at, weight;
 };
 constexpr GaussPoint gauss[] = {{0.04691007703066800, 0.11846344252809454},
-                          {0.23076534494715845, 0.23931433524968324},
-                          {0.5, 0.28444444444444444},
-                          {0.76923465505284155, 0.23931433524968324},
-                          {0.95308992296933200, 0.11846344252809454}};
+                                {0.23076534494715845, 0.23931433524968324},
+                                {0.5, 0.28444444444444444},
+                                {0.76923465505284155, 0.23931433524968324},
+                                {0.95308992296933200, 0.11846344252809454}};
 
 }  // namespace
 
@@ -46,9 +46,11 @@ PolynomialPath CurvedFlights::follow(Entity i, const Vec3& x, const Vec3& v) {
   DormandPrince motion({x}, {v}, {a});
   // A step's error, and no less than what rounding makes of a place.
   const double place = std::max(tol::step_error * radius, tol::position_rounding * x.cwiseAbs().maxCoeff());
-  const double speed = std::max({v.norm(), std::sqrt(a.norm() * radius), radius * force_rate(world, i, x, v), 0x1p-900});
+  const double speed =
+      std::max({v.norm(), std::sqrt(a.norm() * radius), radius * force_rate(world, i, x, v), 0x1p-900});
   double h = next_[i] > 0 ? next_[i] : first_length(i, x, v);
-  h = std::min(h, std::max(2 * (bodies_.options.duration - now), tol::clock_rounding * now));
+  h = std::min(
+      {h, bodies_.options.longest_step, std::max(2 * (bodies_.options.duration - now), tol::clock_rounding * now)});
   for (;;) {
     if (!(now + h > now))
       throw SimulationError(fmt::format("at t = {} s the forces on ", now), i,

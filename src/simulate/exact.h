@@ -1,6 +1,7 @@
 #pragma once
 // The exact simulator: from event to event along closed-form paths. See exact_simulator.h.
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 #include "simulate/simulator.h"
@@ -11,10 +12,11 @@ struct ExactOptions {
   double duration = 0;  // s; nothing later is scheduled
   double rest_speed =
       0;  // m/s; slower impacts under load end in resting contact; 0: chosen by the case (exact_bodies.h)
-  std::uint64_t max_collisions = 0;  // stop with an error after so many; 0: no limit
-  bool merge = false;                // bodies that meet become one
-  bool record_collisions = true;     // false: no buffer is made and collisions() stays empty
-  bool record_paths = false;         // false: nor is one for paths()
+  std::uint64_t max_collisions = 0;                               // stop with an error after so many; 0: no limit
+  double longest_step = std::numeric_limits<double>::infinity();  // s, under forces without a closed form
+  bool merge = false;                                             // bodies that meet become one
+  bool record_collisions = true;  // false: no buffer is made and collisions() stays empty
+  bool record_paths = false;      // false: nor is one for paths()
 };
 
 /// `world` must outlive the simulator. `initial` is at time 0, before the world's impulses; the

@@ -43,7 +43,8 @@ ExactBodies::PairState ExactBodies::in_frame_of(Entity a, Entity b) const {
     const PolynomialPath::Terms of_p = p.displacement_from(tp, length);
     for (std::size_t k = 0; k < relative.size(); ++k) relative[k] -= of_p[k];
     const Vec3 from = q.position(tq) - p.position(tp);
-    return {Vec3::Zero(), Vec3::Zero(), from + PolynomialPath::value(relative, t / length), q.velocity(now - q.start) - p.velocity(now - p.start)};
+    return {Vec3::Zero(), Vec3::Zero(), from + PolynomialPath::value(relative, t / length),
+            q.velocity(now - q.start) - p.velocity(now - p.start)};
   }
   const FadingPath of_a = p.path().from(base - p.start), of_b = q.path().from(base - q.start);
   if (of_a.fade != of_b.fade)

@@ -34,9 +34,9 @@ struct ExactBodies {
   const bool same_radius;  // of all bodies, for good
   const bool varying;      // some force has no closed form
   Instant now;
-  LazyArray<Vec3> applied;  // m/s^2, by body: gravity and the forces of now, on a body that stands,
-  LazyArray<Vec3> working;  // and the part of it that does work (force.h);
-  LazyArray<double> fade;   // 1/s: this, times its velocity, linear drag takes from both
+  LazyArray<Vec3> applied;       // m/s^2, by body: gravity and the forces of now, on a body that stands,
+  LazyArray<Vec3> working;       // and the part of it that does work (force.h);
+  LazyArray<double> fade;        // 1/s: this, times its velocity, linear drag takes from both
   LazyArray<std::uint8_t> bent;  // forces without a closed form act on it: all of these are as they were last looked at
   Flights flights;
   LargeVector<ExactBody> body;

@@ -20,7 +20,6 @@ class ExactCollisionTimes {
   Instant end_of(Entity i) const;
   double noise_in_contact(Entity i) const;
 
-
   const ExactBodies& bodies_;
 };
 

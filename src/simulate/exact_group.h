@@ -24,7 +24,8 @@ class ExactGroup {
 
   LazyArray<std::vector<PressingContact>> pressing;  // by the lower body: what the last step found pressing on it
   LazyArray<std::vector<Entity>> partners;           // by body: what constrained motion keeps it in contact with
-  LazyArray<std::vector<Vec3>> floors;  // by body: normals, to it, of flat fixed things that constrained motion has it on
+  LazyArray<std::vector<Vec3>>
+      floors;                        // by body: normals, to it, of flat fixed things that constrained motion has it on
   LazyArray<std::uint32_t> index;    // scratch of a step: a member's place in it, or ContactConstraint::fixed
   LazyArray<std::uint32_t> impacts;  // by member: impacts that ended in contact since the last step
   LazyArray<std::uint8_t> idle;      // by member: steps since something pressed on it

@@ -199,8 +199,7 @@ bool ExactImpacts::comes_to_rest(const FixedImpact& impact, FlatContact& contact
   const double left = separation == 0 || e == 1 ? 0 : 2 * separation / (press * (1 - e));
   // Not by hops on this surface alone: thrown back at it by others in between, or by those that carry it, at once.
   const bool carried = carrying > 0 && (bodies_.body[i].origin_partner != surface || began_now);
-  contact.settling = over_at_once(impact, left) ||
-                     (carried && bodies_.too_low(x, approach, press));
+  contact.settling = over_at_once(impact, left) || (carried && bodies_.too_low(x, approach, press));
   contact.rest_time = bodies_.now + left;
   return contact.settling;
 }

@@ -67,7 +67,7 @@ class Flights {
   Flight operator[](Entity i) const {
     return {core_[i].start, core_[i].x, core_[i].v, acceleration(i), fade(i), curve(i)};
   }
-  double fade(Entity i) const { return fade_[i]; }                                                         // 1/s
+  double fade(Entity i) const { return fade_[i]; }  // 1/s
   const PolynomialPath* curve(Entity i) const { return curves_.empty() ? nullptr : curve_of(i); }
   const Vec3& acceleration(Entity i) const { return acceleration_.empty() ? common_ : acceleration_[i]; }  // at start
   const Core* cores() const { return core_.data(); }

@@ -30,6 +30,7 @@ std::unique_ptr<Simulator> make_exact(const World& world, const State& initial, 
   options.duration = simulate.duration;
   options.rest_speed = simulate.rest_speed.value_or(options.rest_speed);
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
+  if (simulate.step) options.longest_step = *simulate.step;
   options.merge = simulate.merge;
   options.record_collisions = record_collisions;
   options.record_paths = record_paths && varying_force(world) == nullptr;
@@ -38,6 +39,7 @@ std::unique_ptr<Simulator> make_exact(const World& world, const State& initial, 
 
 std::unique_ptr<Simulator> make_stepped(const World& world, const State& initial, const Simulate& simulate,
                                         bool record_collisions) {
+  if (simulate.integrator == Integrator::dop853) return make_exact(world, initial, simulate, record_collisions, false);
   SteppedOptions options = stepped_options(simulate, record_collisions);
   options.step = simulate.step ? *simulate.step : default_step(world, initial);
   return make_stepped_simulator(world, initial, options);
@@ -51,6 +53,11 @@ std::unique_ptr<Simulator> make_book(const World& world, const State& initial, c
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
   options.record_collisions = record_collisions;
   return make_book_simulator(world, initial, options);
+}
+
+/// Whether the engine chooses its steps as it goes.
+bool chooses_steps(const Simulate& simulate) {
+  return simulate.integrator == Integrator::dop853;
 }
 
 std::string joined(const std::string& why, const std::string& more) {
@@ -87,6 +94,8 @@ const char* name_of(Integrator integrator) {
       return "euler";
     case Integrator::verlet:
       return "verlet";
+    case Integrator::dop853:
+      return "dop853";
     case Integrator::rk4:
       break;
   }
@@ -111,7 +120,10 @@ EngineChoice choose_engine(const Scene& scene) {
       choice.name = "book";
       break;
   }
-  if (choice.name == "stepped" && !scene.simulate.tolerance) {
+  if (choice.name == "stepped" && chooses_steps(scene.simulate)) {
+    const std::string limit = scene.simulate.step ? fmt::format(", {:.4g} s at most", *scene.simulate.step) : "";
+    choice.why = joined(choice.why, "dop853, steps of its own" + limit);
+  } else if (choice.name == "stepped" && !scene.simulate.tolerance) {
     choice.step = scene.simulate.step.value_or(default_step(scene.world, scene.initial));
     choice.why =
         joined(choice.why, fmt::format("{}, steps of {:.4g} s", name_of(scene.simulate.integrator), *choice.step));
@@ -120,7 +132,7 @@ EngineChoice choose_engine(const Scene& scene) {
 }
 
 void settle_step(const Scene& scene, EngineChoice& engine, const std::function<void()>& look) {
-  if (engine.name != "stepped" || engine.step) return;
+  if (engine.name != "stepped" || engine.step || chooses_steps(scene.simulate)) return;
   const Simulate& simulate = scene.simulate;
   const StepChoice choice =
       choose_step(scene.world, scene.initial, stepped_options(simulate, false), *simulate.tolerance, look);
@@ -157,6 +169,7 @@ void check_flights(const Scene& scene) {
 std::unique_ptr<Simulator> make_oracle(const Scene& scene) {
   Simulate simulate = scene.simulate;
   simulate.engine = force_without_closed_form(scene.world) == nullptr ? Engine::exact : Engine::stepped;
+  if (simulate.engine == Engine::stepped) simulate = with_engine(simulate, Engine::stepped, Integrator::dop853);
   return make_simulator(scene.world, scene.initial, simulate, true);
 }
 

@@ -11,15 +11,16 @@
 namespace carom {
 
 struct EngineChoice {
-  std::string name;              // "exact", "stepped", "book"; as in summary.csv
-  std::string why;               // one line: why this one, and with which steps
-  std::optional<double> step{};  // s, of engine stepped; none: the scene's tolerance is to tell, by settle_step
+  std::string name;  // "exact", "stepped", "book"; as in summary.csv
+  std::string why;   // one line: why this one, and with which steps
+  // s, of engine stepped; none: the scene's tolerance is to tell, by settle_step, or steps are chosen as the run goes
+  std::optional<double> step{};
 };
 
 EngineChoice choose_engine(const Scene& scene);
 
 const char* name_of(Engine engine);          // as in scene files
-const char* name_of(Integrator integrator);  // "euler", "verlet", "rk4"; as in scene files
+const char* name_of(Integrator integrator);  // "euler", "verlet", "rk4", "dop853"; as in scene files
 
 /// A scene's settings with another engine, integrator and step (s; none: the default).
 Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator = Integrator::rk4,

@@ -85,8 +85,7 @@ Problem cradle(int balls, double stiffness, double damping) {
   for (int k = 0; k < balls; ++k) {
     const Vec3 anchor(0.1 * k, 1, 0);
     const double angle = k == 0 ? std::acos(-1.0) / 6 : 0;
-    const Entity i =
-        problem.ball(anchor + length * Vec3(-std::sin(angle), -std::cos(angle), 0), Vec3::Zero(), 1, 0.05);
+    const Entity i = problem.ball(anchor + length * Vec3(-std::sin(angle), -std::cos(angle), 0), Vec3::Zero(), 1, 0.05);
     problem.world.forces.push_back(spring(i, anchor, stiffness, 1, damping));
   }
   problem.options.duration = 1;
