@@ -110,6 +110,7 @@ Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, std::uint8_t& 
   const bool ball = world.volume.empty() || world.volume[i].shape == Shape::sphere;
   const double steps = noise_in_contact(i);
   if (f.curve != nullptr) {
+    if (!(horizon > 0)) return {never, 0};
     PolynomialPath::Terms displacement = f.displacement_from(0, horizon);
     for (Vec3& term : displacement) term = -term;
     const FeatureTime first =
