@@ -1,5 +1,6 @@
 #pragma once
-// The exact simulator: from event to event along closed-form paths. See exact_simulator.h.
+// The exact simulator: from event to event along paths in closed form, or of a method of order 8. See
+// exact_simulator.h.
 #include <cstdint>
 #include <limits>
 #include <memory>
