@@ -1,6 +1,7 @@
 #pragma once
-// Roots of the polynomials that paths make: of parabolas degree 4 at most, of steps 8. By the derivative cascade: the roots of f'
-// part the line into pieces on which f is monotone, each with one root or none, so that no root can be missed.
+// Roots of the polynomials that paths make: of parabolas degree 4 at most, of steps 8. By the derivative cascade: the
+// roots of f' part the line into pieces on which f is monotone, each with one root or none, so that no root can be
+// missed.
 #include <array>
 #include <limits>
 

@@ -24,13 +24,12 @@ class ExactGroup {
 
   LazyArray<std::vector<PressingContact>> pressing;  // by the lower body: what the last step found pressing on it
   LazyArray<std::vector<Entity>> partners;           // by body: what constrained motion keeps it in contact with
-  LazyArray<std::vector<Vec3>>
-      floors;                        // by body: normals, to it, of flat fixed things that constrained motion has it on
-  LazyArray<std::uint32_t> index;    // scratch of a step: a member's place in it, or ContactConstraint::fixed
-  LazyArray<std::uint32_t> impacts;  // by member: impacts that ended in contact since the last step
-  LazyArray<std::uint8_t> idle;      // by member: steps since something pressed on it
-  LazyArray<double> margin;          // m, by member: the gap that time stepping leaves about it
-  LazyArray<Instant> needed;         // by member: when it was last struck or pressed on, but by flat surfaces alone
+  LazyArray<std::vector<Vec3>> floors;  // by body: normals, to it, of the flat fixed things that it is kept on
+  LazyArray<std::uint32_t> index;       // scratch of a step: a member's place in it, or ContactConstraint::fixed
+  LazyArray<std::uint32_t> impacts;     // by member: impacts that ended in contact since the last step
+  LazyArray<std::uint8_t> idle;         // by member: steps since something pressed on it
+  LazyArray<double> margin;             // m, by member: the gap that time stepping leaves about it
+  LazyArray<Instant> needed;            // by member: when it was last struck or pressed on, but by flat surfaces alone
 
   /// Body i is in an island from now on; if it sleeps, all that rest in contact with it wake too.
   void join(Entity i);

@@ -1,6 +1,6 @@
 #pragma once
 // A body's path since its last change: x + v t + a t^2/2 from its start on, or what linear drag makes of that; under
-// other forces that vary a step of a method, as polynomials.
+// other forces that vary a step of a method, as a polynomial.
 #include <cstddef>
 #include <cstdint>
 #include <limits>
