@@ -76,15 +76,6 @@ FeatureTime time_of_impact_along(const Way& way, const World& world, Entity a, c
 
 }  // namespace
 
-FeatureTime time_of_impact(const World& world, Entity a, const Path& pa, Entity b, const Path& pb, std::uint8_t left,
-                           double horizon) {
-  const double speeds = pa.v.cwiseAbs().sum() + pb.v.cwiseAbs().sum();
-  if (pa.j == pb.j)
-    return time_of_impact(
-        world, a, b, RelativeMotion{pb.x - pa.x, pb.v - pa.v, pb.a - pa.a, speeds, left != no_feature}, left, horizon);
-  return time_of_impact_along(CubicWay(pa, pb), world, a, pa.x, b, pb.x, speeds, left, horizon);
-}
-
 FeatureTime time_of_impact(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,
                            double speeds, std::uint8_t left, double horizon) {
   return time_of_impact_along(FadingWay(pa, pb), world, a, pa.x, b, pb.x, speeds, left, horizon);

@@ -1,20 +1,15 @@
 #pragma once
 // When two things meet on paths that are no parabolas.
 #include "physics/fading_path.h"
-#include "physics/path.h"
 #include "physics/polynomial_path.h"
 #include "physics/touch.h"
 
 namespace carom {
 
-/// First t in [0, horizon] at which a and b touch and approach; pa and pb from the same instant on (b fixed: a path
-/// that stands at its position). `left`: as in touch.h. Quadratic relative paths go to touch.h's function; cubic ones
-/// are followed from separating plane to separating plane: until the path comes to the plane through the closest points
-/// (a cubic's root) there is no contact, so that none is jumped over.
-FeatureTime time_of_impact(const World& world, Entity a, const Path& pa, Entity b, const Path& pb, std::uint8_t left,
-                           double horizon);
-
-/// The same on paths that linear drag bends, followed in the same way. speeds: m/s, what velocities are rounded by.
+/// First t in [0, horizon] at which a and b touch and approach, on paths that linear drag bends; pa and pb from the same
+/// instant on (b fixed: a path that stands at its position). `left`: as in touch.h. speeds: m/s, what velocities are
+/// rounded by. They are followed from separating plane to separating plane: until the path comes to the plane through
+/// the closest points there is no contact, so that none is jumped over.
 FeatureTime time_of_impact(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,
                            double speeds, std::uint8_t left, double horizon);
 

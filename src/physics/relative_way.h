@@ -5,7 +5,6 @@
 
 #include "physics/contact_time.h"
 #include "physics/fading_descent.h"
-#include "physics/path.h"
 #include "physics/polynomial_path.h"
 
 namespace carom {
@@ -34,32 +33,6 @@ class ParabolicWay {
 
  private:
   Vec3 w_, a_;  // m/s, m/s^2
-};
-
-/// Of the paths of a time step.
-class CubicWay {
- public:
-  static constexpr bool parabola = false;
-  CubicWay(const Path& pa, const Path& pb) : relative_{Vec3::Zero(), pb.v - pa.v, pb.a - pa.a, pb.j - pa.j} {}
-
-  Vec3 displacement(double t) const { return relative_.position(t); }
-  Vec3 velocity(double t) const { return relative_.velocity(t); }
-  Vec3 acceleration(double t) const { return relative_.a + t * relative_.j; }
-  double descent(const Vec3& n, double t, double gap, double rate, double horizon) const {
-    Polynomial distance;
-    distance.degree = 3;
-    distance.c = {gap, rate, 0.5 * n.dot(acceleration(t)), n.dot(relative_.j) / 6};
-    return first_descent(distance, horizon);
-  }
-  double back(const Vec3& n, double t, double rate, double horizon) const { return descent(n, t, 0, rate, horizon); }
-  CubicWay in(const auto& frame) const {
-    CubicWay way = *this;
-    for (Vec3* v : {&way.relative_.v, &way.relative_.a, &way.relative_.j}) *v = frame.to(*v);
-    return way;
-  }
-
- private:
-  Path relative_;
 };
 
 /// Of paths that linear drag bends.

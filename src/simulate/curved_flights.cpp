@@ -7,6 +7,8 @@
 
 #include "physics/dormand_prince.h"
 #include "physics/force.h"
+#include "physics/integrator.h"
+#include "physics/whole.h"
 #include "simulate/simulation_error.h"
 #include "simulate/tolerances.h"
 
@@ -36,7 +38,7 @@ double CurvedFlights::first_length(Entity i, const Vec3& x, const Vec3& v) const
   return rate > 0 ? tol::first_step / rate : tol::first_step * fall;
 }
 
-PolynomialPath CurvedFlights::follow(Entity i, const Vec3& x, const Vec3& v) {
+PolynomialPath CurvedFlights::step_of_its_own(Entity i, const Vec3& x, const Vec3& v) {
   const World& world = bodies_.world;
   const double now = bodies_.now.hi, radius = world.radius[i];
   const auto acceleration = [&](const std::vector<Vec3>& at, const std::vector<Vec3>& speed) {
@@ -50,7 +52,7 @@ PolynomialPath CurvedFlights::follow(Entity i, const Vec3& x, const Vec3& v) {
       std::max({v.norm(), std::sqrt(a.norm() * radius), radius * force_rate(world, i, x, v), 0x1p-900});
   double h = next_[i] > 0 ? next_[i] : first_length(i, x, v);
   h = std::min(
-      {h, bodies_.options.longest_step, std::max(2 * (bodies_.options.duration - now), tol::clock_rounding * now)});
+      {h, bodies_.options.step, std::max(2 * (bodies_.options.duration - now), tol::clock_rounding * now)});
   for (;;) {
     if (!(now + h > now))
       throw SimulationError(fmt::format("at t = {} s the forces on ", now), i,
@@ -65,6 +67,34 @@ PolynomialPath CurvedFlights::follow(Entity i, const Vec3& x, const Vec3& v) {
   }
   motion.interpolate(acceleration);
   return motion.path(0);
+}
+
+/// s: to the next multiple of the step, or the run's end. Multiples are computed, not summed up, so that a long run
+/// loses no digits.
+double CurvedFlights::step_length() const {
+  const double step = bodies_.options.step, duration = bodies_.options.duration;
+  const Instant& now = bodies_.now;
+  if (!(now.hi + step > now.hi))
+    throw SimulationError(
+        fmt::format("at t = {} s steps of {} s no longer move the clock: use a longer simulate.step", now.hi, step));
+  auto steps = static_cast<double>(whole_below(now.hi / step));
+  while (!(now < Instant{steps * step, 0})) ++steps;
+  const double next = steps * step;
+  return Instant{next < duration || !(now.hi < duration) ? next : duration, 0} - now;
+}
+
+PolynomialPath CurvedFlights::step(Entity i, const Vec3& x, const Vec3& v) {
+  const Integrator method = bodies_.options.integrator;
+  if (method == Integrator::dop853) return step_of_its_own(i, x, v);
+  const double h = step_length();
+  const auto acceleration = [&](const Vec3& at, const Vec3& speed) {
+    return free_acceleration(bodies_.world, i, bodies_.now.hi, at, speed);
+  };
+  const Vec3 a = acceleration(x, v);
+  const auto [bend, change] = take_step(method, h, x, v, a, acceleration);
+  if (method == Integrator::euler) return PolynomialPath::of_euler(h, v, bend);
+  if (method == Integrator::verlet) return PolynomialPath::cubic(h, v, bend, change);
+  return PolynomialPath::quintic(h, v, a, bend, change, acceleration(Vec3(x + (h * v + bend)), Vec3(v + change)));
 }
 
 double CurvedFlights::work(Entity i, const Flight& flight, double length) const {

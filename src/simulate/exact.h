@@ -1,10 +1,10 @@
 #pragma once
-// The exact simulator: from event to event along paths in closed form, or of a method of order 8. See
-// exact_simulator.h.
+// The exact simulator: from event to event along paths in closed form, or of a method in steps. See exact_simulator.h.
 #include <cstdint>
 #include <limits>
 #include <memory>
 
+#include "physics/integrator.h"
 #include "simulate/simulator.h"
 
 namespace carom {
@@ -14,7 +14,8 @@ struct ExactOptions {
   double rest_speed =
       0;  // m/s; slower impacts under load end in resting contact; 0: chosen by the case (exact_bodies.h)
   std::uint64_t max_collisions = 0;                               // stop with an error after so many; 0: no limit
-  double longest_step = std::numeric_limits<double>::infinity();  // s, under forces without a closed form
+  Integrator integrator = Integrator::dop853;             // of free flights without a closed form, or that are to have none
+  double step = std::numeric_limits<double>::infinity();  // s: of dop853 the longest; others' end at its multiples
   bool merge = false;                                             // bodies that meet become one
   bool record_collisions = true;  // false: no buffer is made and collisions() stays empty
   bool record_paths = false;      // false: nor is one for paths()

@@ -66,6 +66,12 @@ void ExactBodies::apply_forces(Entity i, const Vec3& x, const Vec3& v) {
   apply(i, {free_acceleration(world, i, now.hi, x, v), working_acceleration(world, i, now.hi, x, v), 0});
 }
 
+/// Whether the method's steps under forces with a closed form differ from that: but for Euler's they do not where the
+/// acceleration stays the same.
+bool ExactBodies::method_bends(Entity i) const {
+  return fade[i] != 0 || (options.integrator == Integrator::euler && !applied[i].isZero(0));
+}
+
 Vec3 ExactBodies::bent_force_at(Entity i, const Vec3& x, const Vec3& v) const {
   return free_acceleration(world, i, now.hi, x, v);
 }

@@ -63,6 +63,10 @@ struct ExactBodies {
   void apply(Entity i, const AppliedAcceleration& forces);
   /// Those that act now, on body i at x (m) and v (m/s).
   void apply_forces(Entity i, const Vec3& x, const Vec3& v);
+  /// Whether body i's flights, when free, are steps of a method.
+  bool flies_in_steps(Entity i) const {
+    return bent[i] != 0 || (options.integrator != Integrator::dop853 && method_bends(i));
+  }
   /// Looks at them again, if they vary with these.
   void refresh(Entity i, const Vec3& x, const Vec3& v) {
     if (bent[i]) [[unlikely]]
@@ -113,6 +117,7 @@ struct ExactBodies {
   }
 
  private:
+  bool method_bends(Entity i) const;
   Vec3 bent_force_at(Entity i, const Vec3& x, const Vec3& v) const;
 };
 

@@ -46,7 +46,7 @@ void ExactSimulator::start(const State& initial) {
     const Vec3& x = initial.position[i];
     if (!world.forces.empty()) bodies_.apply_forces(i, x, v);
     bodies_.flights.set(i, {{}, x, v, bodies_.force_at(i, x, v), bodies_.fade[i]});
-    if (bodies_.bent[i]) flights_.let_fall(i);
+    if (bodies_.flies_in_steps(i)) flights_.let_fall(i);
     bodies_.log.note_speed(v.norm());
   }
   bodies_.neighbours.start(initial.position);

@@ -31,8 +31,9 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   for (int k = 0; k < 3; ++k)
     if (still || std::abs(v[k]) <= negligible) kept[k] = 0;
   bodies_.refresh(i, x, kept);
-  if (bodies_.bent[i] && (falls || !bodies_.in_lasting_contact(i))) [[unlikely]] {
-    bodies_.flights.set(i, {bodies_.now, x, kept, bodies_.applied[i]}, curved_.follow(i, x, kept));
+  const bool free = !bodies_.in_lasting_contact(i) && flat_.of(i).count == 0;
+  if ((free || falls) && bodies_.flies_in_steps(i)) [[unlikely]] {
+    bodies_.flights.set(i, {bodies_.now, x, kept, bodies_.force_at(i, x, kept)}, curved_.step(i, x, kept));
     return end_change(i, origin);
   }
   const Vec3 pull = falls ? bodies_.applied[i] : flat_.keep_pressing(i);
@@ -56,8 +57,8 @@ void FlightChanges::take_step(Entity i) {
 void FlightChanges::let_fall(Entity i) {
   const Flight f = bodies_.flights[i];
   bodies_.refresh(i, f.x, f.v);
-  if (bodies_.bent[i])
-    bodies_.flights.set(i, {f.start, f.x, f.v, bodies_.applied[i]}, curved_.follow(i, f.x, f.v));
+  if (bodies_.flies_in_steps(i))
+    bodies_.flights.set(i, {f.start, f.x, f.v, bodies_.force_at(i, f.x, f.v)}, curved_.step(i, f.x, f.v));
   else
     bodies_.flights.accelerate(i, bodies_.force_at(i, f.x, f.v), bodies_.fade[i]);
 }

@@ -27,7 +27,7 @@ class FlightChanges {
   void book(Entity i, const Vec3& x, const Instant& end) {
     const World& world = bodies_.world;
     if (stepped_[i]) bodies_.log.add_stepped_contact(end - bodies_.flights[i].start);
-    if (bodies_.bent[i]) [[unlikely]]
+    if (bodies_.bent[i] || bodies_.flights.curve(i) != nullptr) [[unlikely]]
       return book_varying(i, x, end);
     if (bodies_.flights.acceleration(i) != world.gravity || !world.forces.empty()) book_forces(i, x, end);
   }

@@ -17,8 +17,8 @@ namespace {
 
 using Track = std::vector<std::vector<Vec3>>;  // m, by instant, by body
 
-Track run(const World& world, const State& initial, const SteppedOptions& options, const std::function<void()>& look) {
-  const auto simulator = make_stepped_simulator(world, initial, options);
+Track run(const World& world, const State& initial, const ExactOptions& options, const std::function<void()>& look) {
+  const auto simulator = make_exact_simulator(world, initial, options);
   Track track;
   for (int k = 1; k <= instants; ++k) {
     const double time = k == instants ? options.duration : options.duration * k / instants;
@@ -39,7 +39,7 @@ double difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 
 }  // namespace
 
-StepChoice choose_step(const World& world, const State& initial, SteppedOptions options, double tolerance,
+StepChoice choose_step(const World& world, const State& initial, ExactOptions options, double tolerance,
                        const std::function<void()>& look) {
   options.record_collisions = false;
   const double fine = default_step(world, initial);

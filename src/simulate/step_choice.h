@@ -3,7 +3,7 @@
 #include <functional>
 #include <limits>
 
-#include "simulate/stepped.h"
+#include "simulate/exact.h"
 
 namespace carom {
 
@@ -19,7 +19,7 @@ struct StepChoice {
 /// before, and gives the shorter one. Where that does not come about, or no longer as steps get shorter, the scene is
 /// chaotic: then the step with which it agrees the longest. options.step counts for nothing. `look` is called between
 /// slices of the runs, and may throw. Throws SimulationError if no step gives a run.
-StepChoice choose_step(const World& world, const State& initial, SteppedOptions options, double tolerance,
+StepChoice choose_step(const World& world, const State& initial, ExactOptions options, double tolerance,
                        const std::function<void()>& look);
 
 }  // namespace carom

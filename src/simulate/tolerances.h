@@ -90,66 +90,6 @@ inline constexpr std::uint32_t many_short_steps = 8;    // ended at once by simu
 
 namespace carom::stepped_tolerance {
 
-// Bounces (stepped_bounces.h).
-inline constexpr std::uint32_t many_impacts = 256;  // with e < 1, of a body in a step: more accumulate, contact begins
-inline constexpr std::uint32_t group_impacts = 16;  // [1 1'] of a body under load in a step: then it joins the group
-inline constexpr std::uint32_t most_contacts = 2000;  // under load, of a body in a step: it is jammed and waits
-
-// Impacts of paths (stepped_impact_predictor.h).
-inline constexpr double path_rounding = 0x1p-48;  // of a coordinate: by how much a path may be off by rounding
-inline constexpr double region_steps = 32;        // steps for which a body's region is to last
-
-// Impacts (stepped_impacts.h).
-inline constexpr int refinements = 4;               // of an impact's time by steps of its length: Newton's method
-inline constexpr double farthest_refinement = 0.1;  // of a step: beyond, the path's own time is kept
-inline constexpr double impact_rounding = 0x1p-46;  // of a speed: an approach no faster is rounding
-
-// Lasting contact (stepped_binding.h).
-inline constexpr double contact_gap = 1e-9;           // of a radius: a gap that counts as contact
-inline constexpr double position_rounding = 0x1p-50;  // of coordinates: a gap that is rounding
-inline constexpr double far_apart = 1.001;  // [- *] of two radii: farther along an axis, no contact is looked for
-inline constexpr double contact_rounding = 0x1p-44;     // of speeds: an approach or separation that is rounding
-inline constexpr double opening_acceleration = 1e-12;   // of the greatest acceleration: more opens a contact
-inline constexpr double standstill = 1e-9;              // of the speed of falling by a radius: at rest, if in balance
-inline constexpr double cluster_balance = 1e-9;         // of the greatest acceleration: forces in balance
-inline constexpr std::size_t most_cluster_bodies = 24;  // [- 3e-3] more are a contact group
-
-// Constrained motion (stepped_cluster_motion.h) and its end (stepped_releases.h).
-inline constexpr int projections = 2;           // [4e-17 2e-8] on the surfaces: the second finds what curvature left
-inline constexpr double penetration = 1e-12;    // of a radius: a deeper contact becomes active
-inline constexpr double force_rounding = 1e-9;  // [6e-16 4e-16] of a weight: a force that is rounding
-inline constexpr double release_precision = 0x1p-40;  // [- 3e-14] of a step: to which the time of a zero force is found
-inline constexpr int release_passes = 60;             // [- 9e-16] of regula falsi, at most
-inline constexpr double rim_precision = 0x1p-48;      // of a step: to which the time at a feature's rim is found
-
-// The contact group (stepped_group*.h).
-inline constexpr std::uint8_t group_steps = 8;     // without contact, then a body leaves the group
-inline constexpr double impact_gap = 1e-3;         // [4e-4 2] of a radius: across it fast bodies collide in this step
-inline constexpr double slack_of_approach = 1e-2;  // [3e-3 -] of an approach: what a contact may be off by
-inline constexpr double velocity_accuracy = 0.1;   // [1e-2 4e-3] of the Froude number: slack, by a step's fall,
-inline constexpr double least_accuracy = 1e-5;     // at least,
-inline constexpr double most_accuracy = 0.05;      // [8e-4 5e-3] at most
-inline constexpr double most_gain = 1e-6;          // of kinetic energy, by what the solver leaves
-inline constexpr double least_overlap = 1e-8;      // of a radius: that bodies may have, where it is achieved
-inline constexpr double most_overlap = 1e-3;       // [3e-1 2e-2] of a radius: that bodies may have
-inline constexpr double overlap_of_drift = 0.5;    // [- 1e-2] of a step's displacement: least overlap of a fast group
-inline constexpr double overlap_falls = 0.9;       // by step, where displacements keep all contacts
-inline constexpr double overlap_grows = 1.2;       // by step, where they have not
-inline constexpr int search_passes = 4;            // for contacts of bodies displaced farther than searched
-
-// How a contact group comes to rest (stepped_group_rest.h).
-inline constexpr double slow_body = 1e-3;          // of the speed of falling by a radius: it may be at rest
-inline constexpr std::uint32_t slow_steps = 8;     // for which a part has been slow before it is looked at
-inline constexpr std::uint32_t longest_wait = 10;  // doublings of that for a part that is in no balance
-inline constexpr double first_sink = 1e-3;         // of a radius: how far free bodies would sink, at first
-inline constexpr double last_sink = 1;             // of a radius: and at last
-inline constexpr double small_sink = 0.1;          // of the first: a part that sinks less may be driven farther
-inline constexpr double sink_grows = 10;           // by pass
-inline constexpr double farthest_sink = 2e-2;      // of a radius: a part that sinks farther is in no balance
-inline constexpr int balance_passes = 12;          // of sinking
-inline constexpr double group_balance = 1e-7;      // of what free bodies would sink: then forces balance
-inline constexpr double balance_slack = 1e-12;     // of a radius: what contacts may be off by
-
 // The choice of a step (step_choice.h).
 inline constexpr int instants = 64;           // of a run, at which two runs are compared
 inline constexpr double longest_choice = 64;  // [* -'] of default_step (force.h): the first step that is tried

@@ -16,7 +16,6 @@
 #include "physics/force.h"
 #include "physics/whole.h"
 #include "scene/unsupported.h"
-#include "simulate/stepped.h"
 #include "study/engine.h"
 #include "study/reference.h"
 #include "study/shifted.h"

@@ -7,16 +7,14 @@
 #include "simulate/book.h"
 #include "simulate/exact.h"
 #include "simulate/step_choice.h"
-#include "simulate/stepped.h"
 
 namespace carom {
 
 namespace {
 
-SteppedOptions stepped_options(const Simulate& simulate, bool record_collisions) {
-  SteppedOptions options;
+ExactOptions exact_options(const Simulate& simulate, bool record_collisions) {
+  ExactOptions options;
   options.duration = simulate.duration;
-  options.integrator = simulate.integrator;
   options.rest_speed = simulate.rest_speed.value_or(options.rest_speed);
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
   options.record_collisions = record_collisions;
@@ -26,23 +24,27 @@ SteppedOptions stepped_options(const Simulate& simulate, bool record_collisions)
 /// Along paths in closed form, from event to event.
 std::unique_ptr<Simulator> make_exact(const World& world, const State& initial, const Simulate& simulate,
                                       bool record_collisions, bool record_paths) {
-  ExactOptions options;
-  options.duration = simulate.duration;
-  options.rest_speed = simulate.rest_speed.value_or(options.rest_speed);
-  options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
-  if (simulate.step) options.longest_step = *simulate.step;
+  ExactOptions options = exact_options(simulate, record_collisions);
   options.merge = simulate.merge;
-  options.record_collisions = record_collisions;
   options.record_paths = record_paths && varying_force(world) == nullptr;
   return make_exact_simulator(world, initial, options);
 }
 
+/// Whether the engine chooses its steps as it goes.
+bool chooses_steps(const Simulate& simulate) {
+  return simulate.integrator == Integrator::dop853;
+}
+
+/// The same, with free flights in steps.
 std::unique_ptr<Simulator> make_stepped(const World& world, const State& initial, const Simulate& simulate,
                                         bool record_collisions) {
-  if (simulate.integrator == Integrator::dop853) return make_exact(world, initial, simulate, record_collisions, false);
-  SteppedOptions options = stepped_options(simulate, record_collisions);
-  options.step = simulate.step ? *simulate.step : default_step(world, initial);
-  return make_stepped_simulator(world, initial, options);
+  ExactOptions options = exact_options(simulate, record_collisions);
+  options.integrator = simulate.integrator;
+  if (simulate.step)
+    options.step = *simulate.step;
+  else if (!chooses_steps(simulate))
+    options.step = default_step(world, initial);
+  return make_exact_simulator(world, initial, options);
 }
 
 std::unique_ptr<Simulator> make_book(const World& world, const State& initial, const Simulate& simulate,
@@ -53,11 +55,6 @@ std::unique_ptr<Simulator> make_book(const World& world, const State& initial, c
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
   options.record_collisions = record_collisions;
   return make_book_simulator(world, initial, options);
-}
-
-/// Whether the engine chooses its steps as it goes.
-bool chooses_steps(const Simulate& simulate) {
-  return simulate.integrator == Integrator::dop853;
 }
 
 std::string joined(const std::string& why, const std::string& more) {
@@ -134,8 +131,9 @@ EngineChoice choose_engine(const Scene& scene) {
 void settle_step(const Scene& scene, EngineChoice& engine, const std::function<void()>& look) {
   if (engine.name != "stepped" || engine.step || chooses_steps(scene.simulate)) return;
   const Simulate& simulate = scene.simulate;
-  const StepChoice choice =
-      choose_step(scene.world, scene.initial, stepped_options(simulate, false), *simulate.tolerance, look);
+  ExactOptions way = exact_options(simulate, false);
+  way.integrator = simulate.integrator;
+  const StepChoice choice = choose_step(scene.world, scene.initial, way, *simulate.tolerance, look);
   engine.step = choice.step;
   engine.why = joined(engine.why, fmt::format("{}, steps of {:.4g} s, ", name_of(simulate.integrator), choice.step));
   engine.why +=

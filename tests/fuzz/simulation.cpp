@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "physics/force.h"
-#include "simulate/stepped.h"
+#include "simulate/exact.h"
 #include "study/engine.h"
 
 namespace carom::fuzz {

@@ -9,7 +9,7 @@
 #include "study/engine.h"
 #include "physics/force.h"
 #include "scenes/play.h"
-#include "simulate/stepped.h"
+#include "simulate/exact.h"
 
 namespace carom::testing {
 namespace {
@@ -29,13 +29,13 @@ State exact_end(Scene scene) {
 }
 
 State stepped_end(const Scene& scene, Integrator integrator, double step) {
-  SteppedOptions options;
+  ExactOptions options;
   options.duration = scene.simulate.duration;
   options.step = step;
   options.integrator = integrator;
   options.rest_speed = scene.simulate.rest_speed.value_or(0);
   options.record_collisions = false;
-  return end_of(*make_stepped_simulator(scene.world, scene.initial, options), options.duration);
+  return end_of(*make_exact_simulator(scene.world, scene.initial, options), options.duration);
 }
 
 Far far(const State& a, const State& b) {

@@ -6,7 +6,7 @@
 #include "physics/force.h"
 #include "physics/whole.h"
 #include "simulate/build.h"
-#include "simulate/stepped.h"
+#include "simulate/exact.h"
 
 namespace carom {
 namespace {
@@ -25,10 +25,11 @@ std::string error_of(const Make& make, double duration) {
   }
 }
 
-SteppedOptions steps_of(double duration, double step) {
-  SteppedOptions options;
+ExactOptions steps_of(double duration, double step) {
+  ExactOptions options;
   options.duration = duration;
   options.step = step;
+  options.integrator = Integrator::rk4;
   return options;
 }
 
@@ -70,7 +71,7 @@ TEST(Bounds, ABodyThatFallsOutOfThemEndsTheRunByNameInEveryEngine) {
     EXPECT_GE(std::stod(error.substr(std::string("at t = ").size())), 44'700) << error;
   };
   fails([&] { return make_exact_simulator(problem.world, problem.initial, problem.options); });
-  fails([&] { return make_stepped_simulator(problem.world, problem.initial, steps_of(problem.options.duration, 10)); });
+  fails([&] { return make_exact_simulator(problem.world, problem.initial, steps_of(problem.options.duration, 10)); });
   fails([&] { return make_book_simulator(problem.world, problem.initial, {10, false, 0, false}); });
 }
 
@@ -115,7 +116,7 @@ TEST(Bounds, StepsThatDoNotMoveTheClockEndTheRun) {
   problem.world.forces = {{Attractor{{0, 0, 0}, 1, 0}}};
   const double step = default_step(problem.world, problem.initial);
   EXPECT_EQ(step, 0);
-  EXPECT_EQ(error_of([&] { return make_stepped_simulator(problem.world, problem.initial, steps_of(1, step)); }, 1),
+  EXPECT_EQ(error_of([&] { return make_exact_simulator(problem.world, problem.initial, steps_of(1, step)); }, 1),
             "at t = 0 s steps of 0 s no longer move the clock: use a longer simulate.step");
 }
 

@@ -5,7 +5,7 @@
 
 #include "simulate/build.h"
 #include "simulate/random.h"
-#include "simulate/stepped.h"
+#include "simulate/exact.h"
 
 namespace carom {
 namespace {
@@ -55,10 +55,11 @@ TEST(Determinism, TheBooksLoopHasTheSameBitsInEveryBuild) {
 TEST(Determinism, ACrowdInStepsHasTheSameBitsInEveryBuild) {
   Problem problem = lattice(0.5, 9);
   problem.world.forces = {{Drag{0.1, 0.05, {0.5, 0, 0}}}};
-  SteppedOptions options;
+  ExactOptions options;
   options.duration = 3;
   options.step = 0.005;
-  const auto simulator = make_stepped_simulator(problem.world, problem.initial, options);
+  options.integrator = Integrator::rk4;
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, options);
   EXPECT_EQ(hash_of(run_to_end(*simulator, 3)), 10809475980498727986u);
 }
 

@@ -7,7 +7,7 @@
 #include "physics/force.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
-#include "simulate/stepped.h"
+#include "simulate/exact.h"
 
 namespace carom {
 namespace {
@@ -130,10 +130,11 @@ TEST(LinearFlight, IsWhatRungeAndKuttaComeTo) {
   EXPECT_GE(exact.collisions.size(), 4u);
   double last = 0;
   for (const double step : {0.02, 0.01, 0.005}) {
-    SteppedOptions options;
+    ExactOptions options;
     options.duration = problem.options.duration;
     options.step = step;
-    const auto simulator = make_stepped_simulator(problem.world, problem.initial, options);
+    options.integrator = Integrator::rk4;
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, options);
     const Outcome got = run_to_end(*simulator, options.duration);
     double error = 0;
     for (std::size_t i = 0; i < 2; ++i) error = std::max(error, (got.end.position[i] - exact.end.position[i]).norm());

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "simulate/build.h"
-#include "simulate/stepped.h"
+#include "simulate/exact.h"
 
 namespace carom {
 namespace {
@@ -20,11 +20,11 @@ struct Answer {
 };
 
 Answer run(const Problem& problem, Integrator method, double step) {
-  SteppedOptions options;
+  ExactOptions options;
   options.duration = problem.options.duration;
   options.step = step;
   options.integrator = method;
-  const auto simulator = make_stepped_simulator(problem.world, problem.initial, options);
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, options);
   const Outcome outcome = run_to_end(*simulator, options.duration);
   return {outcome.end.position[0], outcome.end.velocity[0]};
 }

@@ -11,8 +11,9 @@ namespace carom {
 namespace {
 
 StepChoice choose(const Problem& problem, double tolerance) {
-  SteppedOptions options;
+  ExactOptions options;
   options.duration = problem.options.duration;
+  options.integrator = Integrator::rk4;
   return choose_step(problem.world, problem.initial, options, tolerance, [] {});
 }
 
@@ -28,10 +29,11 @@ TEST(StepChoice, IsWithinTheToleranceOfTheClosedForm) {
     EXPECT_GT(choice.chaotic_from, problem.options.duration);
     EXPECT_LT(choice.step, last);
     last = choice.step;
-    SteppedOptions options;
+    ExactOptions options;
     options.duration = 10;
     options.step = choice.step;
-    const auto simulator = make_stepped_simulator(problem.world, problem.initial, options);
+    options.integrator = Integrator::rk4;
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, options);
     go_to(*simulator, 10);
     EXPECT_NEAR(simulator->state().position[0].x(), std::cos(20), tolerance);
   }

@@ -1,5 +1,5 @@
 // The stepped simulator: forces against their closed forms, nothing jumped over, rest, and what may not matter.
-#include "simulate/stepped.h"
+#include "simulate/exact.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 namespace carom {
 namespace {
 
-SteppedOptions options_of(const Problem& problem, double step, Integrator method = Integrator::rk4) {
-  SteppedOptions options;
+ExactOptions options_of(const Problem& problem, double step, Integrator method = Integrator::rk4) {
+  ExactOptions options;
   options.duration = problem.options.duration;
   options.step = step;
   options.integrator = method;
@@ -21,7 +21,7 @@ SteppedOptions options_of(const Problem& problem, double step, Integrator method
 }
 
 Outcome run(const Problem& problem, double step, Integrator method = Integrator::rk4) {
-  const auto simulator = make_stepped_simulator(problem.world, problem.initial, options_of(problem, step, method));
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, options_of(problem, step, method));
   return run_to_end(*simulator, problem.options.duration);
 }
 
@@ -155,7 +155,7 @@ TEST(Paths, ABallIsNotJumpedOverUnderAForceEither) {
 /// At the end nothing moves, to the last bit, and nothing overlaps by a millionth of a diameter.
 void expect_quiet(const Problem& problem, double step, const char* what) {
   for (const Integrator method : {Integrator::euler, Integrator::verlet, Integrator::rk4}) {
-    const auto simulator = make_stepped_simulator(problem.world, problem.initial, options_of(problem, step, method));
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, options_of(problem, step, method));
     go_to(*simulator, problem.options.duration);
     const State& end = simulator->state();
     EXPECT_LT(kinetic_energy(problem.world, end), 1e-20) << what << " " << step;
@@ -208,9 +208,9 @@ TEST(Rest, ABallIsPressedIntoACornerByASpringOrByTheWind) {
 
 TEST(Outputs, ChangeNothing) {
   const Problem problem = loose_pile(3, 3, 2);
-  const auto once = make_stepped_simulator(problem.world, problem.initial, options_of(problem, 0.005));
+  const auto once = make_exact_simulator(problem.world, problem.initial, options_of(problem, 0.005));
   go_to(*once, 2);
-  const auto often = make_stepped_simulator(problem.world, problem.initial, options_of(problem, 0.005));
+  const auto often = make_exact_simulator(problem.world, problem.initial, options_of(problem, 0.005));
   for (int k = 0; k <= 777; ++k) {
     go_to(*often, 2.0 * k / 777);
     often->state();
@@ -228,7 +228,7 @@ TEST(Outputs, AskedForTwiceAreTheSame) {
   Problem problem = loose_pile(3, 3, 2);
   problem.ball({-3, 0.5, 0}, {1, 0, 0}, 1, 0.5, 0.5);
   problem.world.forces = {{Drag{0.1, 0.01, Vec3::Zero()}, 0.1}};
-  const auto simulator = make_stepped_simulator(problem.world, problem.initial, options_of(problem, 0.005));
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, options_of(problem, 0.005));
   for (const double time : {0.0, 0.123, 0.777, 1.5, 2.0}) {
     go_to(*simulator, time);
     const Tally before = simulator->tally();
@@ -253,7 +253,7 @@ TEST(Looks, ABodyThatLiesStillDoesUntilItIsStruck) {
   problem.ball({1, 0.5, 0}, {0, 0, 0}, 1, 0.5);
   problem.plane({0, 0, 0}, {0, 1, 0});
   problem.options.duration = 2;
-  const auto simulator = make_stepped_simulator(problem.world, problem.initial, options_of(problem, 1));
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, options_of(problem, 1));
   simulator->advance_to(0.25);
   for (const double time : {0.3, 0.4, 0.49}) {  // they meet at 0.5 s, each ball moves at 2 m/s for half of the step
     simulator->advance_to(time);

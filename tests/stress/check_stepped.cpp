@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "simulate/stepped.h"
+#include "simulate/exact.h"
 #include "stress/check.h"
 #include "stress/gaps.h"
 
@@ -22,8 +22,8 @@ struct Seen {
   Tally tally;
 };
 
-Seen run(const RandomScene& scene, const SteppedOptions& options, int looks) {
-  const auto simulator = make_stepped_simulator(scene.world, scene.initial, options);
+Seen run(const RandomScene& scene, const ExactOptions& options, int looks) {
+  const auto simulator = make_exact_simulator(scene.world, scene.initial, options);
   Seen seen;
   simulator->advance_to(0);
   seen.states.push_back(simulator->state());
@@ -78,7 +78,7 @@ double fall_in_a_step(const World& world, double h) {
 Verdict check_stepped(const RandomScene& scene) {
   Verdict verdict;
   const World& world = scene.world;
-  SteppedOptions options;
+  ExactOptions options;
   options.integrator = static_cast<Integrator>(scene.seed / 13 % 3);
   options.duration = scene.options.duration;
   const int steps = std::array{50, 100, 300}[scene.seed / 39 % 3];

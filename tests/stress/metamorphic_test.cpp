@@ -10,7 +10,7 @@
 
 #include "physics/force.h"
 #include "simulate/random.h"
-#include "simulate/stepped.h"
+#include "simulate/exact.h"
 #include "stress/scene.h"
 #include "stress/seen_otherwise.h"
 
@@ -82,7 +82,7 @@ Seen run(const Motion& motion, Way way) {
       options.max_collisions = 5000;
       simulator = make_exact_simulator(motion.world, motion.initial, options);
     } else {
-      SteppedOptions options;
+      ExactOptions options;
       options.duration = motion.duration;
       options.rest_speed = motion.rest_speed;
       options.integrator = way == Way::euler    ? Integrator::euler
@@ -90,7 +90,7 @@ Seen run(const Motion& motion, Way way) {
                                                 : Integrator::rk4;
       options.step = motion.duration / 64;
       options.max_collisions = 5000;
-      simulator = make_stepped_simulator(motion.world, motion.initial, options);
+      simulator = make_exact_simulator(motion.world, motion.initial, options);
     }
     do simulator->advance_to(motion.duration);
     while (simulator->time() < motion.duration);

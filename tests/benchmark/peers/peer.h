@@ -35,7 +35,6 @@ struct Peer {
 };
 
 Peer carom_exact();
-Peer carom_stepped();
 Peer bullet();
 Peer ode();
 Peer mujoco();

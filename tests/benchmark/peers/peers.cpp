@@ -6,7 +6,7 @@ namespace carom {
 
 std::vector<Peer> all_peers() {
   return {
-      carom_exact(), carom_stepped(),
+      carom_exact(),
 #ifdef CAROM_PEER_BULLET
       bullet(),
 #else

@@ -15,7 +15,7 @@
 #include "benchmark/tolerances/varied.h"
 #include "simulate/pile.h"
 #include "simulate/step_choice.h"
-#include "simulate/stepped.h"
+#include "simulate/exact.h"
 
 namespace carom {
 namespace {
@@ -106,8 +106,8 @@ std::vector<Problem> problems() {
           ball_off_a_box(), column(20),       pushed_row(),        row_that_slides_to_a_wall()};
 }
 
-SteppedOptions steps(const Problem& p, double step) {
-  SteppedOptions options;
+ExactOptions steps(const Problem& p, double step) {
+  ExactOptions options;
   options.duration = p.options.duration;
   options.step = step;
   options.integrator = Integrator::rk4;
@@ -117,7 +117,7 @@ SteppedOptions steps(const Problem& p, double step) {
 
 std::unique_ptr<Simulator> simulator_of(const Problem& p, bool exact, double step) {
   if (exact) return make_exact_simulator(p.world, p.initial, p.options);
-  return make_stepped_simulator(p.world, p.initial, steps(p, step));
+  return make_exact_simulator(p.world, p.initial, steps(p, step));
 }
 
 /// Prints where bodies are at three times (m), when piles rest (s), and which steps are chosen (s): one thing a line.
