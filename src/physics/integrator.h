@@ -8,10 +8,10 @@
 namespace carom {
 
 enum class Integrator : std::uint8_t {
-  euler,   // semi-implicit: v' = v + h a(x, v), x' = x + h v', a kick, then a drift; order 1
+  euler,   // semi-implicit: v' = v + h a(x, v), x' = x + h v': a parabola under a, h a/2 faster than v; order 1
   verlet,  // velocity Verlet (Swope et al., J. Chem. Phys. 76 (1982) 637), v' guessed where a depends on it; order 2
   rk4,     // the classical method of Runge and Kutta; order 4
-  dop853   // of Dormand and Prince, with steps of its own (dormand_prince.h); order 8; not by take_step
+  dop853   // of Dormand and Prince, with steps of its own (dormand_prince.h); order 8
 };
 
 /// What a step does to a particle: `bend` (m), how far it is off the straight line at its end, and `change` (m/s), of its
@@ -20,12 +20,11 @@ struct StepChange {
   Vec3 bend, change;
 };
 
-/// A step of length h (s) of a particle at x (m) with velocity v (m/s) and acceleration a (m/s^2) there.
+/// A step, by verlet or rk4, of length h (s) of a particle at x (m) with velocity v (m/s) and acceleration a (m/s^2) there.
 /// `acceleration(x, v)` gives that of other places and velocities.
 template <typename Acceleration>
 StepChange take_step(Integrator method, double h, const Vec3& x, const Vec3& v, const Vec3& a,
                      const Acceleration& acceleration) {
-  if (method == Integrator::euler) return {h * h * a, h * a};
   if (method == Integrator::verlet) {
     const Vec3 bend = (0.5 * h * h) * a;
     return {bend, (0.5 * h) * (a + acceleration(Vec3(x + (h * v + bend)), Vec3(v + h * a)))};

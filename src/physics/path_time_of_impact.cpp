@@ -32,11 +32,11 @@ FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3&
       const double acceleration = n.dot(way.acceleration(t));
       if (std::abs(rate) <= noise) rate = 0;
       if (rate < 0) return {t, there.feature};
-      if (rate == 0 && acceleration < 0) {
+      if (rate == 0 && (acceleration < 0 || way.descent(n, t, 0, 0, horizon - t) == 0)) {
         if (acceleration + bending(world, a, xa, b, xb, there, w) <= 0) return {t, there.feature};
         // The surface turns away faster than the path bends towards it.
         const double size = world.radius[a];
-        least = 0x1p-26 * std::min(size / w.norm(), std::sqrt(size / -acceleration));
+        least = 0x1p-26 * std::min(size / w.norm(), std::sqrt(size / std::abs(acceleration)));
       }
       gap = 0;
     }

@@ -17,20 +17,19 @@ PolynomialPath path_of(double length, std::initializer_list<Vec3> first) {
 
 }  // namespace
 
-PolynomialPath PolynomialPath::of_euler(double length, const Vec3& v, const Vec3& bend) {
-  PolynomialPath path = path_of(length, {length * v, bend});
-  path.share = 0.5;
-  return path;
+PolynomialPath PolynomialPath::parabola(double length, const Vec3& v, const Vec3& a) {
+  return path_of(length, {length * v, (0.5 * length * length) * a});
 }
 
-PolynomialPath PolynomialPath::cubic(double length, const Vec3& v, const Vec3& bend, const Vec3& change) {
-  const Vec3 turn = length * change;
-  return path_of(length, {length * v, 3 * bend - turn, turn - 2 * bend});
+PolynomialPath PolynomialPath::through(double length, const Vec3& v, const Vec3& a, const Vec3& bend,
+                                       const Vec3& change) {
+  const Vec3 a0 = length * length * a, turn = length * change;
+  return path_of(length, {length * v, 0.5 * a0, 4 * bend - turn - a0, turn - 3 * bend + 0.5 * a0});
 }
 
-PolynomialPath PolynomialPath::quintic(double length, const Vec3& v, const Vec3& a, const Vec3& bend,
+PolynomialPath PolynomialPath::through(double length, const Vec3& v, const Vec3& a, const Vec3& bend,
                                        const Vec3& change, const Vec3& end_a) {
-  const Vec3 turn = length * change, a0 = length * length * a, a1 = length * length * end_a;
+  const Vec3 a0 = length * length * a, a1 = length * length * end_a, turn = length * change;
   return path_of(length, {length * v, 0.5 * a0, 10 * bend - 4 * turn - 1.5 * a0 + 0.5 * a1,
                           7 * turn - 15 * bend + 1.5 * a0 - a1, 6 * bend - 3 * turn - 0.5 * a0 + 0.5 * a1});
 }

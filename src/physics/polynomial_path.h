@@ -1,7 +1,6 @@
 #pragma once
-// A path through a step as a polynomial of degree 8 in s = t / length: the dense output of a method of order 8, or less.
-// It is the integral of that of the velocity, so that place, velocity and the acceleration at both ends are of one
-// motion. Semi-implicit Euler's has two: in a step of any length a kick of h a goes with a drift of h^2 a.
+// A path through a step as a polynomial of degree 8 in s = t / length: the dense output of a method. It is the integral
+// of that of the velocity, so that place, velocity and the acceleration at the start are of one motion.
 #include <array>
 #include <cstddef>
 
@@ -13,26 +12,22 @@ struct PolynomialPath {
   static constexpr std::size_t terms = 8;
   using Terms = std::array<Vec3, terms>;  // by s, s^2, ...
 
-  double length = 0;   // s
-  Terms displacement;  // m, since the start
-  double share = 1;    // of the change of the path's slope that the velocity has
+  double length = 0;          // s
+  Terms displacement;         // m, since the start
+  Vec3 ahead = Vec3::Zero();  // m/s: what a method's velocities are behind the path's
 
   Vec3 displacement_at(double t) const { return value(displacement, t / length); }
-  Vec3 slope_at(double t) const { return slope(displacement, t / length) / length; }  // m/s, of the path
-  Vec3 change_at(double t) const {                                                     // m/s, of the velocity
-    return share / length * slope_change(displacement, t / length);
-  }
-  Vec3 acceleration(double t) const { return bend(displacement, t / length) / (length * length); }  // m/s^2, the path's
-  /// m/s^2: at least the greatest of the path's accelerations.
+  Vec3 change_at(double t) const { return slope_change(displacement, t / length) / length; }  // m/s, of the velocity
+  Vec3 acceleration(double t) const { return bend(displacement, t / length) / (length * length); }  // m/s^2
+  /// m/s^2: at least the greatest acceleration on the way.
   double greatest_acceleration() const;
 
-  /// Paths through a step of `length` (s) from velocity v (m/s) on that end `bend` (m) off the straight line:
-  /// by semi-implicit Euler,
-  static PolynomialPath of_euler(double length, const Vec3& v, const Vec3& bend);
-  /// with a velocity that has changed by `change` (m/s): Hermite's cubic,
-  static PolynomialPath cubic(double length, const Vec3& v, const Vec3& bend, const Vec3& change);
-  /// from acceleration a to end_a (m/s^2) besides: Hermite's quintic.
-  static PolynomialPath quintic(double length, const Vec3& v, const Vec3& a, const Vec3& bend, const Vec3& change,
+  /// Through a step of `length` (s) from velocity v (m/s) and acceleration a (m/s^2) on: the parabola,
+  static PolynomialPath parabola(double length, const Vec3& v, const Vec3& a);
+  /// or Hermite's polynomials, of degree 4 and 5. At its end the path is `bend` (m) off the straight line, the velocity has changed by `change` (m/s),
+  static PolynomialPath through(double length, const Vec3& v, const Vec3& a, const Vec3& bend, const Vec3& change);
+  /// and the acceleration is end_a (m/s^2).
+  static PolynomialPath through(double length, const Vec3& v, const Vec3& a, const Vec3& bend, const Vec3& change,
                                 const Vec3& end_a);
 
   static Vec3 value(const Terms& of, double s);

@@ -490,6 +490,7 @@ bool ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) 
   if (leaves(step, k) && bodies_.now - group_.needed[i] >= step.grace) {
     bodies_.body[i].state = ContactState::free;
     group_.set_carried(i, false);
+    group_.part(i);
     for (std::size_t c = 0; c < step.flats[k].count; ++c) flat_.add(i, step.flats[k].at[c]);
     flights_.begin(i, x + step.down[k], flat_.keep_at(i, v), {});
     return false;

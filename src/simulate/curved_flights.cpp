@@ -83,18 +83,29 @@ double CurvedFlights::step_length() const {
   return Instant{next < duration || !(now.hi < duration) ? next : duration, 0} - now;
 }
 
-PolynomialPath CurvedFlights::step(Entity i, const Vec3& x, const Vec3& v) {
+PolynomialPath CurvedFlights::step(Entity i, const Vec3& x, Vec3& v, bool next) {
   const Integrator method = bodies_.options.integrator;
   if (method == Integrator::dop853) return step_of_its_own(i, x, v);
   const double h = step_length();
   const auto acceleration = [&](const Vec3& at, const Vec3& speed) {
     return free_acceleration(bodies_.world, i, bodies_.now.hi, at, speed);
   };
+  if (method == Integrator::euler) {
+    const PolynomialPath* const last = bodies_.flights.curve(i);
+    Vec3 ahead = last == nullptr ? Vec3(Vec3::Zero()) : last->ahead;
+    const Vec3 own = v - ahead, a = acceleration(x, own);
+    if (next) {
+      ahead = (0.5 * h) * a;
+      v = own + ahead;
+    }
+    PolynomialPath path = PolynomialPath::parabola(h, v, a);
+    path.ahead = ahead;
+    return path;
+  }
   const Vec3 a = acceleration(x, v);
   const auto [bend, change] = take_step(method, h, x, v, a, acceleration);
-  if (method == Integrator::euler) return PolynomialPath::of_euler(h, v, bend);
-  if (method == Integrator::verlet) return PolynomialPath::cubic(h, v, bend, change);
-  return PolynomialPath::quintic(h, v, a, bend, change, acceleration(Vec3(x + (h * v + bend)), Vec3(v + change)));
+  if (method == Integrator::verlet) return PolynomialPath::through(h, v, a, bend, change);
+  return PolynomialPath::through(h, v, a, bend, change, acceleration(Vec3(x + (h * v + bend)), Vec3(v + change)));
 }
 
 double CurvedFlights::work(Entity i, const Flight& flight, double length) const {

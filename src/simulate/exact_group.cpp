@@ -145,6 +145,12 @@ bool ExactGroup::strikes(Entity i, Entity e, double approach, double greatest) c
          pair_restitution(world, i, e) > 0;
 }
 
+void ExactGroup::part(Entity i) {
+  for (const Entity e : partners[i])
+    if (bodies_.world.is_body(e)) std::erase(partners.write(e), i);
+  partners.write(i).clear();
+}
+
 bool ExactGroup::are_partners(Entity i, Entity e) const {
   return std::find(partners[i].begin(), partners[i].end(), e) != partners[i].end();
 }

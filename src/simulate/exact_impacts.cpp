@@ -10,15 +10,6 @@
 
 namespace carom {
 
-namespace {
-
-/// Whether it may meet what its velocity takes it away from: where the path bends more than the velocity turns.
-bool on_eulers_path(const Flight& f) {
-  return f.curve != nullptr && f.curve->share != 1;
-}
-
-}  // namespace
-
 /// Whether a body that lies on flat surfaces strikes one at rest that forces hold on all sides at a speed (m/s) so low
 /// that it would hardly lift it.
 bool ExactImpacts::too_slow_to_wake(Entity striker, Entity struck, double speed) const {
@@ -66,13 +57,10 @@ void ExactImpacts::stop_at(Entity striker, Entity struck, std::uint8_t feature, 
 double ExactImpacts::press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb, const Touch& there,
                               const Vec3& w) const {
   const Flight p = bodies_.flights[a], q = bodies_.flights[b];
-  if (p.a == q.a && p.fade == q.fade) return 0;
   const Vec3& n = there.normal;
   double forces = n.dot(q.a - p.a);
   if (p.curve != nullptr || q.curve != nullptr) {
     forces = n.dot(pull_after(b, xb, q, a, there, w) - pull_after(a, xa, p, b, there, w));
-    if (on_eulers_path(p) || on_eulers_path(q))  // paths may bend together where nothing presses
-      forces = std::min(forces, n.dot(q.acceleration(bodies_.now - q.start) - p.acceleration(bodies_.now - p.start)));
   } else if (p.fade != 0 || q.fade != 0) {  // drag acts on what velocities the impact leaves
     const double ma = bodies_.world.mass[a], mb = bodies_.world.mass[b], share = -n.dot(w) / (ma + mb);
     forces = n.dot(q.acceleration(bodies_.now - q.start) - p.acceleration(bodies_.now - p.start)) -
@@ -89,15 +77,6 @@ Vec3 ExactImpacts::pull_after(Entity i, const Vec3& x, const Flight& f, Entity o
   const Vec3 towards = there.normal.dot(w) * there.normal;  // m/s
   const Vec3 v = f.velocity(bodies_.now - f.start) + (i < other ? share : -share) * towards;
   return f.curve != nullptr ? bodies_.force_at(i, x, v) : f.acceleration(bodies_.now - f.start);
-}
-
-/// Paths have met, but not velocities: both go on from here by these.
-void ExactImpacts::part(Entity a, Entity b, std::uint8_t feature) {
-  for (const auto& [i, other] : {std::pair(a, b), std::pair(b, a)})
-    if (bodies_.world.is_body(i) && bodies_.body[i].state != ContactState::asleep)
-      parts_.flights.begin(i, bodies_.position(i), bodies_.velocity(i), {other, feature});
-  for (const Entity i : {a, b})
-    if (bodies_.world.is_body(i)) parts_.predictor.predict(i);
 }
 
 void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
@@ -120,14 +99,12 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   if (bodies_.options.merge) return parts_.merging.merge(a, b, there);
   const double ma = world.mass[a], mb = world.mass[b];
   const Vec3& n = there.normal;
-  const double press = press_of(a, xa, b, xb, there, w);
-  if (w.dot(n) > 0 && (on_eulers_path(p) || on_eulers_path(q)) && !bodies_.too_low(xa, w.dot(n), press))
-    return part(a, b, feature);
   const double approach = -w.dot(n) > bodies_.negligible_speed() ? -w.dot(n) : 0;
   const double e = pair_restitution(world, a, b);
   parts_.guard.note_restitution(e);
   const double met = parts_.group.approach_without_kick(approach, n, a, b);
   const double length = 2 * std::min(world.radius[a], world.radius[b]);
+  const double press = p.a == q.a && p.fade == q.fade ? 0 : press_of(a, xa, b, xb, there, w);
   if (press <= 0)
     for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})
       if (bodies_.body[struck].state == ContactState::asleep && too_slow_to_wake(striker, struck, w.norm()))
@@ -135,7 +112,8 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   // Where nothing presses, an approach that is but rounding is over with this impact.
   const bool real = approach > exact_tolerance::approach_rounding * (va.norm() + vb.norm()) || bodies_.load_on(a) > 0 ||
                     bodies_.load_on(b) > 0;
-  const bool ends = (approach > 0 && met == 0) ||
+  const bool enters = met == 0 && (p.curve != nullptr || q.curve != nullptr);  // by how forces change
+  const bool ends = (approach > 0 && met == 0) || enters ||
                     (real && parts_.collapses.count_impact(a, b, e, met, press, length, false)) ||
                     (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press)));
   const double separation = ends ? 0 : e * met;
@@ -234,7 +212,7 @@ bool ExactImpacts::over_at_once(const FixedImpact& impact, double left) const {
 
 bool ExactImpacts::ends_in_contact(const FixedImpact& impact) {
   const auto& [i, surface, feature, flat, began_now, x, v, there, e, approach, unkicked, press] = impact;
-  if (approach > 0 && unkicked == 0) return true;
+  if (unkicked == 0 && (approach > 0 || bodies_.flights.curve(i) != nullptr)) return true;
   const bool alone = flat && !parts_.collapses.among_bodies(i);
   if (parts_.collapses.count_impact(i, surface, e, unkicked, press, bodies_.world.radius[i], alone)) return true;
   const double separation = e * unkicked;
@@ -252,8 +230,6 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   parts_.guard.note_restitution(impact.e);
   bodies_.log.note_overlap(-impact.there.gap);
   bodies_.log.note_speed(v.norm());
-  if (v.dot(n) < 0 && on_eulers_path(bodies_.flights[i]) && !bodies_.too_low(x, v.dot(n), impact.press))
-    return part(i, surface, feature);
   FlatContact contact;
   const bool rests = comes_to_rest(impact, contact);
   const bool taken_over = rests && !contact.settling;

@@ -51,7 +51,6 @@ class ExactImpacts {
   bool too_slow_to_wake(Entity striker, Entity struck, double speed) const;
   bool is_plastic(const Collision& met, double press, double length) const;
   void stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach);
-  void part(Entity a, Entity b, std::uint8_t feature);
   FixedImpact find_fixed(Entity i, Entity surface, std::uint8_t feature);
   bool comes_to_rest(const FixedImpact& impact, FlatContact& contact) const;
   bool over_at_once(const FixedImpact& impact, double left) const;

@@ -46,7 +46,6 @@ void ExactSimulator::start(const State& initial) {
     const Vec3& x = initial.position[i];
     if (!world.forces.empty()) bodies_.apply_forces(i, x, v);
     bodies_.flights.set(i, {{}, x, v, bodies_.force_at(i, x, v), bodies_.fade[i]});
-    if (bodies_.flies_in_steps(i)) flights_.let_fall(i);
     bodies_.log.note_speed(v.norm());
   }
   bodies_.neighbours.start(initial.position);
@@ -57,6 +56,8 @@ void ExactSimulator::start(const State& initial) {
     if (!(world.gravity.isZero(0) && world.forces.empty()))
       for (Entity i = 0; i < n; ++i) group_.join_initial(i);
   }
+  for (Entity i = 0; i < n; ++i)
+    if (bodies_.flies_in_steps(i) && !bodies_.in_lasting_contact(i) && flat_.of(i).count == 0) flights_.let_fall(i);
   predictor_.predict_all();
   if (bodies_.islands.any())
     for (Entity i = 0; i < n; ++i)
@@ -210,6 +211,7 @@ const State& ExactSimulator::state() {
   for (Entity i = 0; i < world.body_count(); ++i) {
     state_.position[i] = bodies_.flights[i].position(at - bodies_.flights[i].start);
     state_.velocity[i] = bodies_.velocity_without_kick(i, at);
+    if (const PolynomialPath* curve = bodies_.flights.curve(i)) state_.velocity[i] -= curve->ahead;
   }
   if (bodies_.merged.any()) {
     state_.mass = world.mass;

@@ -32,8 +32,8 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
     if (still || std::abs(v[k]) <= negligible) kept[k] = 0;
   bodies_.refresh(i, x, kept);
   const bool free = !bodies_.in_lasting_contact(i) && flat_.of(i).count == 0;
-  if ((free || falls) && bodies_.flies_in_steps(i)) [[unlikely]] {
-    bodies_.flights.set(i, {bodies_.now, x, kept, bodies_.force_at(i, x, kept)}, curved_.step(i, x, kept));
+  if (free ? bodies_.flies_in_steps(i) : falls && bodies_.bent[i]) [[unlikely]] {
+    curve(i, {bodies_.now, x, kept, bodies_.force_at(i, x, kept)}, free);
     return end_change(i, origin);
   }
   const Vec3 pull = falls ? bodies_.applied[i] : flat_.keep_pressing(i);
@@ -50,6 +50,16 @@ void FlightChanges::end_change(Entity i, const FlightOrigin& origin) {
   count(i);
 }
 
+/// A step of body i's flight: by the method that is asked for, if free, else by that of contact.
+void FlightChanges::curve(Entity i, Flight from, bool free) {
+  if (!free) return bodies_.flights.set(i, from, curved_.step_of_its_own(i, from.x, from.v));
+  const PolynomialPath* const last = bodies_.flights.curve(i);
+  const Instant& now = bodies_.now;
+  const bool next = last == nullptr ? now == Instant{} : bodies_.flights[i].start + last->length <= now;
+  const PolynomialPath path = curved_.step(i, from.x, from.v, next);
+  bodies_.flights.set(i, from, path);
+}
+
 void FlightChanges::take_step(Entity i) {
   go_on(i, bodies_.position(i), bodies_.velocity(i), {});
 }
@@ -57,8 +67,9 @@ void FlightChanges::take_step(Entity i) {
 void FlightChanges::let_fall(Entity i) {
   const Flight f = bodies_.flights[i];
   bodies_.refresh(i, f.x, f.v);
-  if (bodies_.flies_in_steps(i))
-    bodies_.flights.set(i, {f.start, f.x, f.v, bodies_.force_at(i, f.x, f.v)}, curved_.step(i, f.x, f.v));
+  const bool free = !bodies_.in_lasting_contact(i);
+  if (free ? bodies_.flies_in_steps(i) : bodies_.bent[i] != 0)
+    curve(i, {f.start, f.x, f.v, bodies_.force_at(i, f.x, f.v)}, free);
   else
     bodies_.flights.accelerate(i, bodies_.force_at(i, f.x, f.v), bodies_.fade[i]);
 }

@@ -38,6 +38,7 @@ class FlightChanges {
   void count(Entity i);
 
  private:
+  void curve(Entity i, Flight from, bool free);
   void end_change(Entity i, const FlightOrigin& origin);
   void book_forces(Entity i, const Vec3& x, const Instant& end);
   void book_varying(Entity i, const Vec3& x, const Instant& end);

@@ -21,7 +21,7 @@ double region_exit(const ExactBodies& bodies, Entity i) {
   };
   const auto start_of = [&](double t, Vec3& off, Vec3& v) {
     if (curve != nullptr) [[unlikely]] {
-      v = curve->slope_at(t);
+      v = f.v + curve->change_at(t);
       off = f.x + curve->displacement_at(t) - center;
       return;
     }
