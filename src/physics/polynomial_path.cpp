@@ -18,7 +18,9 @@ PolynomialPath path_of(double length, std::initializer_list<Vec3> first) {
 }  // namespace
 
 PolynomialPath PolynomialPath::parabola(double length, const Vec3& v, const Vec3& a) {
-  return path_of(length, {length * v, (0.5 * length * length) * a});
+  PolynomialPath path = path_of(length, {length * v, (0.5 * length * length) * a});
+  path.is_parabola = true;
+  return path;
 }
 
 PolynomialPath PolynomialPath::through(double length, const Vec3& v, const Vec3& a, const Vec3& bend,

@@ -13,6 +13,7 @@ struct PolynomialPath {
   using Terms = std::array<Vec3, terms>;  // by s, s^2, ...
 
   double length = 0;          // s
+  bool is_parabola = false;   // no term beyond the second
   Terms displacement;         // m, since the start
   Vec3 ahead = Vec3::Zero();  // m/s: what a method's velocities are behind the path's
 

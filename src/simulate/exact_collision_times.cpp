@@ -34,18 +34,22 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
   m.speeds = sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a);
   m.just_separated = p.start == q.start && bodies_.body[a].origin_partner == b && bodies_.body[b].origin_partner == a;
   const double s = world.radius[a] + world.radius[b];
-  if (p.curve != nullptr || q.curve != nullptr) [[unlikely]]
+  const bool curved = p.curve != nullptr || q.curve != nullptr, parabolas = p.is_parabola() && q.is_parabola();
+  if (curved && !parabolas) [[unlikely]]
     return of_curves(a, p, b, q, m, feature);
   const bool step = bodies_.in_group(a) || bodies_.in_group(b);
-  const double horizon = (step ? std::min(end_of(a), end_of(b)) : Instant{bodies_.options.duration, 0}) - base;
+  const double horizon = (step || curved ? std::min(end_of(a), end_of(b)) : Instant{bodies_.options.duration, 0}) - base;
   if (step) {
     const double greatest = std::max(bodies_.applied[a].norm(), bodies_.applied[b].norm());
     m.speeds += exact_tolerance::step_rounding * std::sqrt(greatest * s);
+  }
+  if (step || curved) {
+    if (curved && !(horizon > 0)) return {never, 0};
     const double reach = s + horizon * (sum_of_speeds(m.w) + horizon * sum_of_speeds(m.a));
     if (m.d.squaredNorm() > reach * reach) return {never, 0};
   }
   double t;
-  if (p.fade != 0 || q.fade != 0) {
+  if (!parabolas) {
     const FeatureTime first = time_of_impact(world, a, p.path().from(tp), b, q.path().from(tq), m.speeds,
                                              m.just_separated ? bodies_.body[a].origin_feature : no_feature, horizon);
     t = first.time;
@@ -109,8 +113,8 @@ Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, std::uint8_t& 
   double t;
   const bool ball = world.volume.empty() || world.volume[i].shape == Shape::sphere;
   const double steps = noise_in_contact(i);
-  if (f.curve != nullptr) {
-    if (!(horizon > 0)) return {never, 0};
+  if (f.curve != nullptr && !(horizon > 0)) return {never, 0};
+  if (f.curve != nullptr && !f.curve->is_parabola) {
     PolynomialPath::Terms displacement = f.displacement_from(0, horizon);
     for (Vec3& term : displacement) term = -term;
     const FeatureTime first =
@@ -118,7 +122,7 @@ Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, std::uint8_t& 
                        sum_of_speeds(f.v) + steps, left ? bodies_.body[i].origin_feature : no_feature, horizon);
     t = first.time;
     feature = first.feature;
-  } else if (f.fade != 0) {
+  } else if (!f.is_parabola()) {
     const FadingPath fixed{world.fixed_position(surface), Vec3::Zero(), Vec3::Zero(), 0};
     const FeatureTime first = time_of_impact(world, i, f.path(), surface, fixed, sum_of_speeds(f.v) + steps,
                                              left ? bodies_.body[i].origin_feature : no_feature, horizon);

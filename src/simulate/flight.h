@@ -27,6 +27,7 @@ struct Flight {
   static constexpr double curved = std::numeric_limits<double>::quiet_NaN();  // no two fade alike
 
   bool is_straight() const { return fade == 0; }  // but for a constant acceleration
+  bool is_parabola() const { return is_straight() || (curve != nullptr && curve->is_parabola); }
   FadingPath path() const { return {x, v, a, fade}; }
   Vec3 position(double t) const {  // t: s since start
     return is_straight() ? Vec3(x + t * (v + (0.5 * t) * a)) : bent_position(t);

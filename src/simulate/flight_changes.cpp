@@ -57,6 +57,7 @@ void FlightChanges::curve(Entity i, Flight from, bool free) {
   const Instant& now = bodies_.now;
   const bool next = last == nullptr ? now == Instant{} : bodies_.flights[i].start + last->length <= now;
   const PolynomialPath path = curved_.step(i, from.x, from.v, next);
+  from.a = path.acceleration(0);
   bodies_.flights.set(i, from, path);
 }
 
