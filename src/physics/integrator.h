@@ -1,6 +1,6 @@
 #pragma once
-// Methods that carry particles through a step in time, whatever accelerates them. Each gives the state at the step's
-// end; polynomial_path.h has the path between.
+// Methods that carry particles through a step in time, whatever accelerates them. Two are parabolas, from step to step
+// with another acceleration: curved_flights.h has them.
 #include <cstdint>
 
 #include "physics/vec3.h"
@@ -8,8 +8,9 @@
 namespace carom {
 
 enum class Integrator : std::uint8_t {
-  euler,   // semi-implicit: v' = v + h a(x, v), x' = x + h v': a parabola under a, h a/2 faster than v; order 1
-  verlet,  // velocity Verlet (Swope et al., J. Chem. Phys. 76 (1982) 637), v' guessed where a depends on it; order 2
+  euler,   // semi-implicit: v' = v + h a(x, v), x' = x + h v': a parabola, as fast as v + h a/2 at first; order 1
+  verlet,  // velocity Verlet (Swope et al., J. Chem. Phys. 76 (1982) 637): at the end of a parabola from v, the velocity
+           // goes over to v + h (a + a')/2, a' with the parabola's velocity; order 2
   rk4,     // the classical method of Runge and Kutta; order 4
   dop853   // of Dormand and Prince, with steps of its own (dormand_prince.h); order 8
 };
@@ -20,15 +21,10 @@ struct StepChange {
   Vec3 bend, change;
 };
 
-/// A step, by verlet or rk4, of length h (s) of a particle at x (m) with velocity v (m/s) and acceleration a (m/s^2) there.
-/// `acceleration(x, v)` gives that of other places and velocities.
+/// A step by the classical method of length h (s) of a particle at x (m) with velocity v (m/s) and acceleration a
+/// (m/s^2) there. `acceleration(x, v)` gives that of other places and velocities.
 template <typename Acceleration>
-StepChange take_step(Integrator method, double h, const Vec3& x, const Vec3& v, const Vec3& a,
-                     const Acceleration& acceleration) {
-  if (method == Integrator::verlet) {
-    const Vec3 bend = (0.5 * h * h) * a;
-    return {bend, (0.5 * h) * (a + acceleration(Vec3(x + (h * v + bend)), Vec3(v + h * a)))};
-  }
+StepChange runge_kutta(double h, const Vec3& x, const Vec3& v, const Vec3& a, const Acceleration& acceleration) {
   const Vec3 v1 = v + (0.5 * h) * a;
   const Vec3 a1 = acceleration(Vec3(x + (0.5 * h) * v), v1);
   const Vec3 v2 = v + (0.5 * h) * a1;

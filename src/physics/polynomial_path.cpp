@@ -24,12 +24,6 @@ PolynomialPath PolynomialPath::parabola(double length, const Vec3& v, const Vec3
 }
 
 PolynomialPath PolynomialPath::through(double length, const Vec3& v, const Vec3& a, const Vec3& bend,
-                                       const Vec3& change) {
-  const Vec3 a0 = length * length * a, turn = length * change;
-  return path_of(length, {length * v, 0.5 * a0, 4 * bend - turn - a0, turn - 3 * bend + 0.5 * a0});
-}
-
-PolynomialPath PolynomialPath::through(double length, const Vec3& v, const Vec3& a, const Vec3& bend,
                                        const Vec3& change, const Vec3& end_a) {
   const Vec3 a0 = length * length * a, a1 = length * length * end_a, turn = length * change;
   return path_of(length, {length * v, 0.5 * a0, 10 * bend - 4 * turn - 1.5 * a0 + 0.5 * a1,

@@ -25,9 +25,8 @@ struct PolynomialPath {
 
   /// Through a step of `length` (s) from velocity v (m/s) and acceleration a (m/s^2) on: the parabola,
   static PolynomialPath parabola(double length, const Vec3& v, const Vec3& a);
-  /// or Hermite's polynomials, of degree 4 and 5. At its end the path is `bend` (m) off the straight line, the velocity has changed by `change` (m/s),
-  static PolynomialPath through(double length, const Vec3& v, const Vec3& a, const Vec3& bend, const Vec3& change);
-  /// and the acceleration is end_a (m/s^2).
+  /// or Hermite's polynomial of degree 5, that ends `bend` (m) off the straight line, with a velocity that has changed
+  /// by `change` (m/s) and acceleration end_a (m/s^2).
   static PolynomialPath through(double length, const Vec3& v, const Vec3& a, const Vec3& bend, const Vec3& change,
                                 const Vec3& end_a);
 

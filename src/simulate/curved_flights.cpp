@@ -90,22 +90,22 @@ PolynomialPath CurvedFlights::step(Entity i, const Vec3& x, Vec3& v, bool next) 
   const auto acceleration = [&](const Vec3& at, const Vec3& speed) {
     return free_acceleration(bodies_.world, i, bodies_.now.hi, at, speed);
   };
-  if (method == Integrator::euler) {
-    const PolynomialPath* const last = bodies_.flights.curve(i);
-    Vec3 ahead = last == nullptr ? Vec3(Vec3::Zero()) : last->ahead;
-    const Vec3 own = v - ahead, a = acceleration(x, own);
-    if (next) {
-      ahead = (0.5 * h) * a;
-      v = own + ahead;
-    }
-    PolynomialPath path = PolynomialPath::parabola(h, v, a);
-    path.ahead = ahead;
-    return path;
+  const PolynomialPath* const last = bodies_.flights.curve(i);
+  Vec3 ahead = last == nullptr ? Vec3(Vec3::Zero()) : last->ahead;
+  const Vec3 own = v - ahead, a = acceleration(x, own);
+  if (method == Integrator::rk4) {
+    const auto [bend, change] = runge_kutta(h, x, v, a, acceleration);
+    return PolynomialPath::through(h, v, a, bend, change, acceleration(Vec3(x + (h * v + bend)), Vec3(v + change)));
   }
-  const Vec3 a = acceleration(x, v);
-  const auto [bend, change] = take_step(method, h, x, v, a, acceleration);
-  if (method == Integrator::verlet) return PolynomialPath::through(h, v, a, bend, change);
-  return PolynomialPath::through(h, v, a, bend, change, acceleration(Vec3(x + (h * v + bend)), Vec3(v + change)));
+  if (next && method == Integrator::euler) {
+    ahead = (0.5 * h) * a;
+    v = own + ahead;
+  } else if (next && last != nullptr) {
+    v += (0.5 * last->length) * (a - bodies_.flights[i].a);
+  }
+  PolynomialPath path = PolynomialPath::parabola(h, v, a);
+  path.ahead = ahead;
+  return path;
 }
 
 double CurvedFlights::work(Entity i, const Flight& flight, double length) const {
