@@ -100,8 +100,6 @@ PolynomialPath CurvedFlights::step(Entity i, const Vec3& x, Vec3& v, bool next) 
   if (next && method == Integrator::euler) {
     ahead = (0.5 * h) * a;
     v = own + ahead;
-  } else if (next && last != nullptr) {
-    v += (0.5 * last->length) * (a - bodies_.flights[i].a);
   }
   PolynomialPath path = PolynomialPath::parabola(h, v, a);
   path.ahead = ahead;

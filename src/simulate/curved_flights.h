@@ -13,7 +13,7 @@ class CurvedFlights {
   /// faster than the clock can tell.
   PolynomialPath step_of_its_own(Entity i, const Vec3& x, const Vec3& v);
   /// By the method that is asked for; but for dop853's it ends at the next multiple of options.step. `next`: it begins
-  /// where the last one ends, or at the run's start; then Euler's and Verlet's methods change v. Throws SimulationError where the
+  /// where the last one ends, or at the run's start; then Euler's method changes v. Throws SimulationError where the
   /// clock can tell no such steps.
   PolynomialPath step(Entity i, const Vec3& x, Vec3& v, bool next);
 

@@ -112,7 +112,7 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   // Where nothing presses, an approach that is but rounding is over with this impact.
   const bool real = approach > exact_tolerance::approach_rounding * (va.norm() + vb.norm()) || bodies_.load_on(a) > 0 ||
                     bodies_.load_on(b) > 0;
-  const bool enters = met == 0 && (p.curve != nullptr || q.curve != nullptr);  // by how forces change
+  const bool enters = met == 0 && w.dot(n) <= 0 && (p.curve != nullptr || q.curve != nullptr);  // by how forces change
   const bool ends = (approach > 0 && met == 0) || enters ||
                     (real && parts_.collapses.count_impact(a, b, e, met, press, length, false)) ||
                     (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press)));

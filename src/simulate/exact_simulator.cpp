@@ -117,15 +117,19 @@ void ExactSimulator::process(Entity i) {
   }
   switch (event.kind) {
     case Kind::body_body:
-      if (bodies_.body[event.partner].version == event.partner_version)
+      if (bodies_.body[event.partner].version == event.partner_version) {
+        for (const Entity k : {i, event.partner}) flights_.end_step(k);
         impacts_.collide_pair(std::min(i, event.partner), std::max(i, event.partner), event.feature);
-      else
+      } else {
         predictor_.predict(i);  // the other one has changed its path since
+      }
       break;
     case Kind::body_fixed:
+      flights_.end_step(i);
       impacts_.collide_fixed(i, event.partner, event.feature);
       break;
     case Kind::force:
+      flights_.end_step(i);
       switch_forces(i);
       break;
     case Kind::rest:
@@ -210,8 +214,7 @@ const State& ExactSimulator::state() {
   state_.velocity.resize(world.body_count());
   for (Entity i = 0; i < world.body_count(); ++i) {
     state_.position[i] = bodies_.flights[i].position(at - bodies_.flights[i].start);
-    state_.velocity[i] = bodies_.velocity_without_kick(i, at);
-    if (const PolynomialPath* curve = bodies_.flights.curve(i)) state_.velocity[i] -= curve->ahead;
+    state_.velocity[i] = flights_.velocity_of_method(i, at);
   }
   if (bodies_.merged.any()) {
     state_.mass = world.mass;

@@ -61,7 +61,26 @@ void FlightChanges::curve(Entity i, Flight from, bool free) {
   bodies_.flights.set(i, from, path);
 }
 
+Vec3 FlightChanges::velocity_of_method(Entity i, const Instant& at) const {
+  const Vec3 v = bodies_.velocity_without_kick(i, at);
+  const Flight f = bodies_.flights[i];
+  if (f.curve == nullptr || bodies_.in_lasting_contact(i)) return v;
+  if (bodies_.options.integrator != Integrator::verlet) return v - f.curve->ahead;
+  const double t = at - f.start;
+  return v + (0.5 * t) * (bodies_.force_at(i, f.position(t), v) - f.a);
+}
+
+void FlightChanges::end_step(Entity i) {
+  if (bodies_.options.integrator != Integrator::verlet || bodies_.in_lasting_contact(i) ||
+      bodies_.flights.curve(i) == nullptr)
+    return;
+  const Vec3 x = bodies_.position(i), v = velocity_of_method(i, bodies_.now);
+  book(i, x, bodies_.now);
+  bodies_.flights.set(i, {bodies_.now, x, v, bodies_.force_at(i, x, v)});
+}
+
 void FlightChanges::take_step(Entity i) {
+  end_step(i);
   go_on(i, bodies_.position(i), bodies_.velocity(i), {});
 }
 

@@ -16,6 +16,10 @@ class FlightChanges {
   void begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
   /// The same within such a step.
   void go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
+  /// m/s: body i's at an instant of its flight, by the method that is asked for, without what forces do later.
+  Vec3 velocity_of_method(Entity i, const Instant& at) const;
+  /// Verlet's method changes body i's velocity where its step ends, now, at an impact or by itself.
+  void end_step(Entity i);
   /// Body i, free as far as its own step goes, has come to its end.
   void take_step(Entity i);
   /// Body i's flight, which has just begun, goes on as if it were free.

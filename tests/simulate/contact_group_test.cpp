@@ -22,9 +22,10 @@ std::unique_ptr<Simulator> stepped(const Problem& problem, double step, Integrat
 TEST(ContactGroup, OfEverySizeComesToRestByEveryMethodAtEveryStep) {
   for (const auto& [side, layers] : {std::pair(2, 8), std::pair(3, 10), std::pair(4, 4), std::pair(5, 5)})
     for (const auto& [method, step] :
-         {std::pair(Integrator::euler, 0.01), std::pair(Integrator::euler, 0.004), std::pair(Integrator::rk4, 0.01)}) {
+         {std::pair(Integrator::euler, 0.01), std::pair(Integrator::verlet, 0.01), std::pair(Integrator::rk4, 0.01)}) {
       SCOPED_TRACE(testing::Message() << side << " by " << layers << ", " << static_cast<int>(method) << ", " << step);
-      const Problem problem = loose_pile(side, layers, 200);
+      Problem problem = loose_pile(side, layers, 200);
+      problem.world.forces = {{Drag{0.2, 0, Vec3::Zero()}}};  // else balls that are free may slide on and on
       expect_pile_at_rest(problem, *stepped(problem, step, method), {190, 195, 200}, 1e-9, 1e-9);
     }
 }
