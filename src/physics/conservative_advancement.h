@@ -119,6 +119,9 @@ class ConservativeAdvancement {
     const Vec3 relative_acceleration = way_.acceleration(t);
     const double acceleration = s.normal.dot(relative_acceleration);
     if (acceleration >= 0 || speed > 0) return way_.back(s.normal, t, speed, horizon_ - t);
+    const double unsure = 16 * rounding * relative_acceleration.cwiseAbs().sum();
+    if (!Way::parabola && -acceleration <= unsure)  // what is rounding takes it no deeper than rounding
+      return std::sqrt(rounding * (far_ + set_.size()) / unsure);
     const Vec3 p = m_.d + displacement(t);
     if (!(acceleration + set_.bending(p, s.feature, v) > 0)) return 0;
     // It flies off along a curved surface that turns away faster than the path does. The plane tells nothing; a short

@@ -29,10 +29,13 @@ FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3&
     double gap = there.gap, rate = n.dot(w);
     double least = 0;  // s, that the path is surely outside for
     if (!(gap > closed) || leaving) {
-      const double acceleration = n.dot(way.acceleration(t));
+      const Vec3 bend = way.acceleration(t);
+      const double acceleration = n.dot(bend), unsure = 0x1p-48 * bend.cwiseAbs().sum();
       if (std::abs(rate) <= noise) rate = 0;
       if (rate < 0) return {t, there.feature};
-      if (rate == 0 && (acceleration < 0 || way.descent(n, t, 0, 0, horizon - t) == 0)) {
+      if (rate == 0 && acceleration < 0 && -acceleration <= unsure) {
+        least = std::sqrt(closed / unsure);  // what is rounding takes it no deeper than rounding
+      } else if (rate == 0 && (acceleration < 0 || way.descent(n, t, 0, 0, horizon - t) == 0)) {
         if (acceleration + bending(world, a, xa, b, xb, there, w) <= 0) return {t, there.feature};
         // The surface turns away faster than the path bends towards it.
         const double size = world.radius[a];
