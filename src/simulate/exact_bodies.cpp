@@ -38,13 +38,8 @@ ExactBodies::PairState ExactBodies::in_frame_of(Entity a, Entity b) const {
   const double t = now - base;
   if (p.curve != nullptr || q.curve != nullptr) {
     const double tp = base - p.start, tq = base - q.start;
-    const double length = std::max(flight_end(a) - base, flight_end(b) - base);
-    PolynomialPath::Terms relative = q.displacement_from(tq, length);
-    const PolynomialPath::Terms of_p = p.displacement_from(tp, length);
-    for (std::size_t k = 0; k < relative.size(); ++k) relative[k] -= of_p[k];
-    const Vec3 from = q.position(tq) - p.position(tp);
-    return {Vec3::Zero(), Vec3::Zero(), from + PolynomialPath::value(relative, t / length),
-            q.velocity(now - q.start) - p.velocity(now - p.start)};
+    const Vec3 way = (q.displacement(tq + t) - q.displacement(tq)) - (p.displacement(tp + t) - p.displacement(tp));
+    return {Vec3::Zero(), Vec3::Zero(), q.position(tq) - p.position(tp) + way, q.velocity(tq + t) - p.velocity(tp + t)};
   }
   const FadingPath of_a = p.path().from(base - p.start), of_b = q.path().from(base - q.start);
   if (of_a.fade != of_b.fade)

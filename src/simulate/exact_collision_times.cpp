@@ -71,24 +71,39 @@ Instant ExactCollisionTimes::of_curves(Entity a, const Flight& p, Entity b, cons
   const Instant base = std::max(p.start, q.start);
   const double horizon = std::min(end_of(a), end_of(b)) - base, tp = base - p.start, tq = base - q.start;
   if (!(horizon > 0)) return {never, 0};
-  PolynomialPath::Terms displacement = q.displacement_from(tq, horizon);
-  const PolynomialPath::Terms of_p = p.displacement_from(tp, horizon);
+  const double speeds = m.speeds + noise_in_contact(a) + noise_in_contact(b);
+  std::uint8_t left = m.just_separated ? bodies_.body[a].origin_feature : no_feature;
+  for (double t = 0; t < horizon;) {
+    const double length = std::min({horizon - t, p.span_of_fade(tp + t), q.span_of_fade(tq + t)});
+    const FeatureTime first = of_piece(a, p, tp + t, b, q, tq + t, length, speeds, left);
+    if (first.time < never) {
+      feature = first.feature;
+      return base + (t + first.time);
+    }
+    if (!(t + length > t)) break;
+    t += length;
+    left = no_feature;
+  }
+  return {never, 0};
+}
+
+/// s, after tp and tq of their flights: in a piece of that length, in which polynomials tell the paths.
+FeatureTime ExactCollisionTimes::of_piece(Entity a, const Flight& p, double tp, Entity b, const Flight& q, double tq,
+                                          double length, double speeds, std::uint8_t left) const {
+  PolynomialPath::Terms displacement = q.displacement_from(tq, length);
+  const PolynomialPath::Terms of_p = p.displacement_from(tp, length);
   double reach = bodies_.world.radius[a] + bodies_.world.radius[b];  // m
   // What is left of accelerations that the two have in common is none.
-  const double noise = exact_tolerance::curve_rounding * horizon * horizon *
+  const double noise = exact_tolerance::curve_rounding * length * length *
                        (p.greatest_acceleration() + q.greatest_acceleration());  // m
   for (std::size_t k = 0; k < displacement.size(); ++k) {
     displacement[k] -= of_p[k];
     if (k > 0 && displacement[k].norm() <= noise) displacement[k].setZero();
     reach += displacement[k].norm();
   }
-  if (m.d.squaredNorm() > reach * reach) return {never, 0};
   const Vec3 xa = p.position(tp), xb = q.position(tq);
-  const double speeds = m.speeds + noise_in_contact(a) + noise_in_contact(b);
-  const FeatureTime first = time_of_impact(bodies_.world, a, xa, b, xb, displacement, horizon, speeds,
-                                           m.just_separated ? bodies_.body[a].origin_feature : no_feature, horizon);
-  feature = first.feature;
-  return first.time == never ? Instant{never, 0} : base + first.time;
+  if ((xb - xa).squaredNorm() > reach * reach) return {never, no_feature};
+  return time_of_impact(bodies_.world, a, xa, b, xb, displacement, length, speeds, left, length);
 }
 
 /// When body i's flight ends at the latest.

@@ -14,8 +14,10 @@ PolynomialPath::Terms Flight::displacement_from(double t, double length) const {
   if (curve != nullptr) return PolynomialPath::shifted(curve->displacement, t / curve->length, length / curve->length);
   PolynomialPath::Terms terms;
   terms.fill(Vec3::Zero());
-  terms[0] = length * (v + t * a);
-  terms[1] = (0.5 * length * length) * a;
+  terms[0] = length * velocity(t);
+  terms[1] = (0.5 * length * length) * acceleration(t);
+  if (is_straight() || !(fade * length < 1)) return terms;  // or all has faded
+  for (std::size_t k = 2; k < terms.size(); ++k) terms[k] = (-fade * length / static_cast<double>(k + 1)) * terms[k - 1];
   return terms;
 }
 

@@ -32,14 +32,24 @@ struct Flight {
   Vec3 position(double t) const {  // t: s since start
     return is_straight() ? Vec3(x + t * (v + (0.5 * t) * a)) : bent_position(t);
   }
+  /// m, since start.
+  Vec3 displacement(double t) const {
+    return curve != nullptr ? curve->displacement_at(t) : Vec3(t * (v + displaced(fade, t) * a));
+  }
   Vec3 velocity(double t) const { return is_straight() ? Vec3(v + t * a) : bent_velocity(t); }
   Vec3 acceleration(double t) const {
     return is_straight() ? a : curve == nullptr ? path().acceleration(t) : curve->acceleration(t);
   }
   /// m/s^2, from start on; at least that.
   double greatest_acceleration() const { return curve == nullptr ? a.norm() : curve->greatest_acceleration(); }
-  /// m, since start: from t on, for `length` (s).
+  /// m, since start: from t on, for `length` (s), of a path that fades at most span_of_fade() (s).
   PolynomialPath::Terms displacement_from(double t, double length) const;
+
+  /// s, from t on, for which displacement_from() is right: once it has died away, a path is straight.
+  double span_of_fade(double t) const {
+    constexpr double part = 0x1p-4, gone = 64;
+    return curve != nullptr || is_straight() || fade * t >= gone ? std::numeric_limits<double>::infinity() : part / fade;
+  }
 
  private:
   Vec3 bent_position(double t) const;
