@@ -15,7 +15,7 @@ std::uint64_t hash_of(const Outcome& run) {
   std::uint64_t hash = 14695981039346656037ull;
   const auto add = [&hash](const void* data, std::size_t size) {
     for (std::size_t i = 0; i < size; ++i)
-      hash = (hash ^ static_cast<const unsigned char*>(data)[i]) * 10995116282110472411660449661507u;
+      hash = (hash ^ static_cast<const unsigned char*>(data)[i]) * 1099511628211ull;
   };
   add(run.end.position.data(), run.end.position.size() * sizeof(Vec3));
   add(run.end.velocity.data(), run.end.velocity.size() * sizeof(Vec3));
