@@ -6,10 +6,10 @@
 
 namespace carom {
 
-/// First t in [0, horizon] at which a and b touch and approach, on paths that linear drag bends; pa and pb from the same
-/// instant on (b fixed: a path that stands at its position). `left`: as in touch.h. speeds: m/s, what velocities are
-/// rounded by. They are followed from separating plane to separating plane: until the path comes to the plane through
-/// the closest points there is no contact, so that none is jumped over.
+/// First t in [0, horizon] at which a and b touch and approach, on paths that linear drag bends; pa and pb from the
+/// same instant on (b fixed: a path that stands at its position). `left`: as in touch.h. speeds: m/s, what velocities
+/// are rounded by. They are followed from separating plane to separating plane: until the path comes to the plane
+/// through the closest points there is no contact, so that none is jumped over.
 FeatureTime time_of_impact(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,
                            double speeds, std::uint8_t left, double horizon);
 

@@ -51,8 +51,7 @@ PolynomialPath CurvedFlights::step_of_its_own(Entity i, const Vec3& x, const Vec
   const double speed =
       std::max({v.norm(), std::sqrt(a.norm() * radius), radius * force_rate(world, i, x, v), 0x1p-900});
   double h = next_[i] > 0 ? next_[i] : first_length(i, x, v);
-  h = std::min(
-      {h, bodies_.options.step, std::max(2 * (bodies_.options.duration - now), tol::clock_rounding * now)});
+  h = std::min({h, bodies_.options.step, std::max(2 * (bodies_.options.duration - now), tol::clock_rounding * now)});
   for (;;) {
     if (!(now + h > now))
       throw SimulationError(fmt::format("at t = {} s the forces on ", now), i,

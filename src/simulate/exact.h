@@ -13,12 +13,12 @@ struct ExactOptions {
   double duration = 0;  // s; nothing later is scheduled
   double rest_speed =
       0;  // m/s; slower impacts under load end in resting contact; 0: chosen by the case (exact_bodies.h)
-  std::uint64_t max_collisions = 0;                               // stop with an error after so many; 0: no limit
-  Integrator integrator = Integrator::dop853;             // of free flights without a closed form, or that are to have none
+  std::uint64_t max_collisions = 0;            // stop with an error after so many; 0: no limit
+  Integrator integrator = Integrator::dop853;  // of free flights without a closed form, or that are to have none
   double step = std::numeric_limits<double>::infinity();  // s: of dop853 the longest; others' end at its multiples
-  bool merge = false;                                             // bodies that meet become one
-  bool record_collisions = true;  // false: no buffer is made and collisions() stays empty
-  bool record_paths = false;      // false: nor is one for paths()
+  bool merge = false;                                     // bodies that meet become one
+  bool record_collisions = true;                          // false: no buffer is made and collisions() stays empty
+  bool record_paths = false;                              // false: nor is one for paths()
 };
 
 /// `world` must outlive the simulator. `initial` is at time 0, before the world's impulses; the

@@ -38,7 +38,8 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
   if (curved && !parabolas) [[unlikely]]
     return of_curves(a, p, b, q, m, feature);
   const bool step = bodies_.in_group(a) || bodies_.in_group(b);
-  const double horizon = (step || curved ? std::min(end_of(a), end_of(b)) : Instant{bodies_.options.duration, 0}) - base;
+  const double horizon =
+      (step || curved ? std::min(end_of(a), end_of(b)) : Instant{bodies_.options.duration, 0}) - base;
   if (step) {
     const double greatest = std::max(bodies_.applied[a].norm(), bodies_.applied[b].norm());
     m.speeds += exact_tolerance::step_rounding * std::sqrt(greatest * s);
@@ -94,8 +95,8 @@ FeatureTime ExactCollisionTimes::of_piece(Entity a, const Flight& p, double tp, 
   const PolynomialPath::Terms of_p = p.displacement_from(tp, length);
   double reach = bodies_.world.radius[a] + bodies_.world.radius[b];  // m
   // What is left of accelerations that the two have in common is none.
-  const double noise = exact_tolerance::curve_rounding * length * length *
-                       (p.greatest_acceleration() + q.greatest_acceleration());  // m
+  const double noise =
+      exact_tolerance::curve_rounding * length * length * (p.greatest_acceleration() + q.greatest_acceleration());  // m
   for (std::size_t k = 0; k < displacement.size(); ++k) {
     displacement[k] -= of_p[k];
     if (k > 0 && displacement[k].norm() <= noise) displacement[k].setZero();

@@ -156,9 +156,8 @@ bool ExactGroup::are_partners(Entity i, Entity e) const {
 }
 
 bool ExactGroup::hides(Entity i, Entity fixed) const {
-  return std::any_of(floors[i].begin(), floors[i].end(), [&](const Vec3& n) {
-    return lies_behind(bodies_.world, i, bodies_.position(i), fixed, n);
-  });
+  return std::any_of(floors[i].begin(), floors[i].end(),
+                     [&](const Vec3& n) { return lies_behind(bodies_.world, i, bodies_.position(i), fixed, n); });
 }
 
 void ExactGroup::report(Entity i, std::vector<ContactForce>& forces) const {

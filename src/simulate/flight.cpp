@@ -17,7 +17,8 @@ PolynomialPath::Terms Flight::displacement_from(double t, double length) const {
   terms[0] = length * velocity(t);
   terms[1] = (0.5 * length * length) * acceleration(t);
   if (is_straight() || !(fade * length < 1)) return terms;  // or all has faded
-  for (std::size_t k = 2; k < terms.size(); ++k) terms[k] = (-fade * length / static_cast<double>(k + 1)) * terms[k - 1];
+  for (std::size_t k = 2; k < terms.size(); ++k)
+    terms[k] = (-fade * length / static_cast<double>(k + 1)) * terms[k - 1];
   return terms;
 }
 

@@ -48,7 +48,8 @@ struct Flight {
   /// s, from t on, for which displacement_from() is right: once it has died away, a path is straight.
   double span_of_fade(double t) const {
     constexpr double part = 0x1p-4, gone = 64;
-    return curve != nullptr || is_straight() || fade * t >= gone ? std::numeric_limits<double>::infinity() : part / fade;
+    return curve != nullptr || is_straight() || fade * t >= gone ? std::numeric_limits<double>::infinity()
+                                                                 : part / fade;
   }
 
  private:

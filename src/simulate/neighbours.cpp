@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulate/touching.h"
 
@@ -104,7 +105,6 @@ void Neighbours::add(Entity j, Entity i) {
     std::uint32_t* const of = pool_.data(list);
     std::swap(of[list.count - 1 - surfaces], of[list.count - 1]);
   }
-  known_[j].news = 1;
 }
 
 /// Body j's list has i no more.
@@ -131,22 +131,21 @@ void Neighbours::settle(Entity i, const Region& region, int level) {
   region_[i] = region;
   grid_.move(i, old, known_[i].level, region_, level);
   known_[i].level = static_cast<std::int16_t>(level);
-  known_[i].news = 1;
   write(i);
 }
 
-/// The widest region from this level down that has not too many in it, with `reach` (m) of room and more.
-void Neighbours::settle_down(Entity i, const Vec3& x, const Vec3& ahead, double reach, int level) {
-  const double enough = std::max({1.5 * reach, least_room * world_.radius[i], rounding_at(i, x)});
+/// The widest region from this level down that has not too many in it.
+void Neighbours::settle_down(Entity i, const Vec3& x, const Vec3& ahead, int level) {
+  const double enough = std::max(least_room * world_.radius[i], rounding_at(i, x));
   const double far = ahead.norm();
   for (;; level -= wider) {
     double room = unit_ * sure(half_of_level(level)) - world_.radius[i];
     const bool least = !(room >= enough);
     if (least) {
-      level = level_for(i, x, 1.5 * reach);
+      level = level_for(i, x, 0);
       room = unit_ * sure(half_of_level(level)) - world_.radius[i];
     }
-    const double share = far > 0 && room > reach ? std::min(1.0, 0.9 * (room - reach) / far) : 0;
+    const double share = far > 0 && room > 0 ? std::min(1.0, 0.9 * room / far) : 0;
     const Region region = around(x + share * ahead, level);
     find(i, region);
     if (found_count_ <= 2 * many_neighbours || least) return settle(i, region, level);
@@ -161,20 +160,12 @@ std::span<const Entity> Neighbours::renew(Entity i, const Vec3& x, const Vec3& a
   int level = known_[i].level;
   if (known < few_neighbours || (often && known < many_on_the_way)) level += wider;
   if (known > (often ? 2 * many_neighbours : many_neighbours)) level -= wider;
-  settle_down(i, x, ahead, 0, level);
+  settle_down(i, x, ahead, level);
   return {came_.data(), came_count_};
 }
 
-void Neighbours::cover(Entity i, const Vec3& x, double reach, const Vec3& drift) {
-  const std::size_t known = bodies(i).size();
-  int level = known_[i].level;
-  if (known < few_neighbours) level += wider;
-  if (known > many_neighbours) level -= wider;
-  settle_down(i, x, drift, reach, level);
-}
-
 void Neighbours::shrink(Entity i, const Vec3& x) {
-  settle_down(i, x, Vec3::Zero(), 0, known_[i].level - wider);
+  settle_down(i, x, Vec3::Zero(), known_[i].level - wider);
 }
 
 void Neighbours::remove(Entity i) {

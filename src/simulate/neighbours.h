@@ -6,7 +6,6 @@
 // those that meet, nor on the lists' order.
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "physics/prefetch.h"
@@ -48,19 +47,12 @@ class Neighbours {
   }
   void prefetch_region(Entity i) const { prefetch(&region_[i]); }
 
-  /// Whether a body has come to body i's list since this was asked last.
-  bool has_news(Entity i) { return std::exchange(known_[i].news, 0) != 0; }
-
   /// A new region for a body at x (m), wider where few are near and narrower where many are. `ahead`: m, the path on
   /// which its middle may be. One that has left several on one path gets a wider one. Gives who has come to the list,
   /// valid until regions change.
   std::span<const Entity> renew(Entity i, const Vec3& x, const Vec3& ahead);
   /// Body i goes another path from now on.
   void turned(Entity i) { known_[i].left = 0; }
-
-  /// A new region for a body at x (m) that may go as far as `reach` (m), and whose path later leads along `drift` (m):
-  /// it lies ahead, as far as drift goes, so that it is left late.
-  void cover(Entity i, const Vec3& x, double reach, const Vec3& drift);
 
   /// A narrower region, about x.
   void shrink(Entity i, const Vec3& x);
@@ -74,7 +66,6 @@ class Neighbours {
  private:
   /// Who is near a body: bodies, then surfaces.
   struct Known : ListPool::List {
-    std::uint8_t news = 1;
     std::int16_t level = 0;           // of its region's half width
     std::uint32_t surfaces : 24 = 0;  // at the list's end
     std::uint32_t left : 8 = 0;       // regions on its path, up to many
@@ -89,7 +80,7 @@ class Neighbours {
   void add(Entity j, Entity i);
   void drop(Entity j, Entity i);
   void settle(Entity i, const Region& region, int level);
-  void settle_down(Entity i, const Vec3& x, const Vec3& ahead, double reach, int level);
+  void settle_down(Entity i, const Vec3& x, const Vec3& ahead, int level);
 
   const World& world_;
   Vec3 origin_ = Vec3::Zero();  // m

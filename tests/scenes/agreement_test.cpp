@@ -5,10 +5,10 @@
 #include <memory>
 #include <set>
 
-#include "study/engine.h"
 #include "physics/force.h"
 #include "scenes/play.h"
 #include "simulate/exact.h"
+#include "study/engine.h"
 
 namespace carom::testing {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "physics/force.h"
 #include "simulate/build.h"
-#include "simulate/random.h"
 #include "simulate/exact.h"
+#include "simulate/random.h"
 
 namespace carom {
 namespace {

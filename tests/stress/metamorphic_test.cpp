@@ -9,8 +9,8 @@
 #include <numeric>
 
 #include "physics/force.h"
-#include "simulate/random.h"
 #include "simulate/exact.h"
+#include "simulate/random.h"
 #include "stress/scene.h"
 #include "stress/seen_otherwise.h"
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "benchmark/tolerances/varied.h"
+#include "simulate/exact.h"
 #include "simulate/pile.h"
 #include "simulate/step_choice.h"
-#include "simulate/exact.h"
 
 namespace carom {
 namespace {
