@@ -17,6 +17,7 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
       same_radius(!options.merge && std::adjacent_find(given.radius.begin(), given.radius.end(), std::not_equal_to{}) ==
                                         given.radius.end()),
       varying(force_without_closed_form(given) != nullptr),
+      in_steps(varying || options.integrator != Integrator::dop853),
       applied(given.body_count(), given.gravity),
       working(given.body_count(), Vec3::Zero()),
       fade(given.body_count()),

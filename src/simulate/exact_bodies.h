@@ -33,6 +33,7 @@ struct ExactBodies {
   const Bounds bounds;
   const bool same_radius;  // of all bodies, for good
   const bool varying;      // some force has no closed form
+  const bool in_steps;     // or a method is asked for: some flight may be curved
   Instant now;
   LazyArray<Vec3> applied;       // m/s^2, by body: gravity and the forces of now, on a body that stands,
   LazyArray<Vec3> working;       // and the part of it that does work (force.h);

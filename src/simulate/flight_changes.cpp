@@ -31,8 +31,8 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   for (int k = 0; k < 3; ++k)
     if (still || std::abs(v[k]) <= negligible) kept[k] = 0;
   bodies_.refresh(i, x, kept);
-  const bool free = !bodies_.in_lasting_contact(i) && flat_.of(i).count == 0;
-  if (free ? bodies_.flies_in_steps(i) : falls && bodies_.bent[i]) [[unlikely]] {
+  if (const bool free = !bodies_.in_lasting_contact(i) && flat_.of(i).count == 0;
+      bodies_.in_steps && (free ? bodies_.flies_in_steps(i) : falls && bodies_.bent[i])) [[unlikely]] {
     curve(i, {bodies_.now, x, kept, bodies_.force_at(i, x, kept)}, free);
     return end_change(i, origin);
   }
@@ -70,10 +70,8 @@ Vec3 FlightChanges::velocity_of_method(Entity i, const Instant& at) const {
   return v + (0.5 * t) * (bodies_.force_at(i, f.position(t), v) - f.a);
 }
 
-void FlightChanges::end_step(Entity i) {
-  if (bodies_.options.integrator != Integrator::verlet || bodies_.in_lasting_contact(i) ||
-      bodies_.flights.curve(i) == nullptr)
-    return;
+void FlightChanges::end_verlets(Entity i) {
+  if (bodies_.in_lasting_contact(i) || bodies_.flights.curve(i) == nullptr) return;
   const Vec3 x = bodies_.position(i), v = velocity_of_method(i, bodies_.now);
   book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.force_at(i, x, v)});

@@ -19,7 +19,10 @@ class FlightChanges {
   /// m/s: body i's at an instant of its flight, by the method that is asked for, without what forces do later.
   Vec3 velocity_of_method(Entity i, const Instant& at) const;
   /// Verlet's method changes body i's velocity where its step ends, now, at an impact or by itself.
-  void end_step(Entity i);
+  void end_step(Entity i) {
+    if (bodies_.options.integrator == Integrator::verlet) [[unlikely]]
+      end_verlets(i);
+  }
   /// Body i, free as far as its own step goes, has come to its end.
   void take_step(Entity i);
   /// Body i's flight, which has just begun, goes on as if it were free.
@@ -31,7 +34,7 @@ class FlightChanges {
   void book(Entity i, const Vec3& x, const Instant& end) {
     const World& world = bodies_.world;
     if (stepped_[i]) bodies_.log.add_stepped_contact(end - bodies_.flights[i].start);
-    if (bodies_.bent[i] || bodies_.flights.curve(i) != nullptr) [[unlikely]]
+    if (bodies_.in_steps && (bodies_.bent[i] || bodies_.flights.curve(i) != nullptr)) [[unlikely]]
       return book_varying(i, x, end);
     if (bodies_.flights.acceleration(i) != world.gravity || !world.forces.empty()) book_forces(i, x, end);
   }
@@ -42,6 +45,7 @@ class FlightChanges {
   void count(Entity i);
 
  private:
+  void end_verlets(Entity i);
   void curve(Entity i, Flight from, bool free);
   void end_change(Entity i, const FlightOrigin& origin);
   void book_forces(Entity i, const Vec3& x, const Instant& end);

@@ -111,5 +111,25 @@ TEST(CurvedFlights, OfACradleOnSpringsMakeNoEnergy) {
       }
 }
 
+TEST(CurvedFlights, OfACradleInStepsOfAMethodMakeNoEnergyEither) {
+  for (const int balls : {3, 7})
+    for (const double stiffness : {1e3, 1e5})
+      for (const double damping : {0.0, 100.0})
+        for (const auto& [method, step] : {std::pair(Integrator::rk4, 1e-3), std::pair(Integrator::verlet, 1e-4)}) {
+          Problem problem = cradle(balls, stiffness, damping);
+          problem.options.integrator = method;
+          problem.options.step = step;
+          const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+          const double before = energy(problem, simulator->state());
+          for (int k = 1; k <= 1000; ++k) {
+            while (simulator->time() < 1e-3 * k) simulator->advance_to(1e-3 * k);
+            ASSERT_LT(energy(problem, simulator->state()) - before, 1e-8)
+                << balls << " " << stiffness << " " << damping;
+          }
+          EXPECT_LT(simulator->tally().max_overlap, 1e-12);
+          EXPECT_LT(simulator->tally().max_speed, 1.64);
+        }
+}
+
 }  // namespace
 }  // namespace carom
