@@ -14,8 +14,9 @@ namespace carom::stress {
 
 namespace {
 
-constexpr double deepest = 0.1;     // of the smaller radius, and
-constexpr double most_gain = 2e-3;  // of the energy; of 100,000 scenes none has more
+constexpr double deepest = 1e-9;  // of the smaller radius, and
+constexpr double most_gain =
+    5e-4;  // of the energy, where time stepping tells contact; measured: 2.4e-5 in 2,000 scenes
 
 struct Seen {
   std::vector<State> states;
@@ -64,15 +65,6 @@ std::string text(double x) {
   return digits;
 }
 
-/// m, that a body falls in a step of length h (s), at most.
-double fall_in_a_step(const World& world, double h) {
-  if (world.body_count() == 0) return 0;
-  double most = world.gravity.norm();
-  const double lightest = *std::min_element(world.mass.begin(), world.mass.end());
-  for (const Force& f : world.forces) most += value(f).norm() / (per_mass(f) ? 1 : lightest);
-  return 0.5 * most * h * h;
-}
-
 }  // namespace
 
 Verdict check_stepped(const RandomScene& scene) {
@@ -105,9 +97,6 @@ Verdict check_stepped(const RandomScene& scene) {
   if (end.position != often.states.back().position || end.velocity != often.states.back().velocity)
     fail("outputs change where it ends");
   const bool lively = std::any_of(world.restitution.begin(), world.restitution.end(), [](double e) { return e > 1; });
-  const double fall = fall_in_a_step(world, options.step);
-  // Euler's steps lead bodies off surfaces, onto which they are set again, by as much as they fall in one.
-  const double falls = options.integrator == Integrator::euler ? 2 * fall : 0;
   for (const State& s : often.states)
     for (Entity a = 0; a < world.body_count(); ++a) {
       if (!s.position[a].allFinite() || !s.velocity[a].allFinite()) {
@@ -119,13 +108,12 @@ Verdict check_stepped(const RandomScene& scene) {
         const Long3 xb = body ? Long3(s.position[b].cast<long double>()) : Long3(Long3::Zero());
         const double depth = -static_cast<double>(gap(world, a, s.position[a].cast<long double>(), b, xb));
         const double size = body ? std::min(world.radius[a], world.radius[b]) : world.radius[a];
-        if (!lively && depth > deepest * size + falls + 1e-12 * s.position[a].norm())
+        if (!lively && depth > deepest * size + 1e-12 * s.position[a].norm())
           fail(std::to_string(a) + " and " + std::to_string(b) + " overlap by " + text(depth / size) +
                " of a radius at t = " + text(s.time));
       }
     }
-  const bool coarse = world.body_count() > 0 && fall > *std::min_element(world.radius.begin(), world.radius.end());
-  if (lively || coarse || options.integrator == Integrator::euler) return verdict;
+  if (lively || options.integrator == Integrator::euler) return verdict;
   long double before, after;
   const long double first = energy(world, start, before), last = energy(world, end, after);
   const double size = static_cast<double>(before + after) + once.tally.energy_lost + std::abs(once.tally.work);
