@@ -1,4 +1,5 @@
-// Flights in steps of a given length: forces against their closed forms, nothing jumped over, rest, and what may not matter.
+// Flights in steps of a given length: forces against their closed forms, nothing jumped over, rest, and what may not
+// matter.
 #include "simulate/exact.h"
 
 #include <gtest/gtest.h>
