@@ -7,6 +7,7 @@
 #include "physics/force.h"
 #include "simulate/build.h"
 #include "simulate/exact.h"
+#include "simulate/pile.h"
 #include "simulate/random.h"
 
 namespace carom {
@@ -289,6 +290,16 @@ TEST(LinearDrag, BodiesThatPassWithTheirFacesFlushDoNotMeet) {
   const Outcome got = run(problem);
   EXPECT_TRUE(got.collisions.empty());
   EXPECT_NEAR(got.end.position[0].x(), -2 - 6 * std::expm1(-0.6), 1e-14);
+}
+
+// Where a ball leaves a wall that nothing presses it to, drag on what rounding has left of its speed is no pressure.
+TEST(LinearDrag, LetsAPileSettle) {
+  Problem problem = loose_pile(3, 10, 10);
+  problem.world.forces = {{Drag{0.2, 0, Vec3::Zero()}}};
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  go_to(*simulator, 10);
+  EXPECT_LT(kinetic_energy(problem.world, simulator->state()), 1e-3);
+  EXPECT_LT(simulator->tally().max_overlap, 1e-12);
 }
 
 }  // namespace
