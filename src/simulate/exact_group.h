@@ -58,9 +58,9 @@ class ExactGroup {
   /// `greatest` is the greatest acceleration in the group (m/s^2).
   bool strikes(Entity i, Entity e, double approach, double greatest) const;
 
-  /// Whether constrained motion keeps bodies i and e in contact, so that they cannot meet.
   /// Body i, which leaves its island, may meet all that it was in contact with.
   void part(Entity i);
+  /// Whether constrained motion keeps bodies i and e in contact, so that they cannot meet.
   bool are_partners(Entity i, Entity e) const;
 
   /// Whether body i cannot strike this fixed thing: it lies behind one that constrained motion has it on.

@@ -13,6 +13,7 @@
 #include "simulate/instant.h"
 #include "simulate/large_pages.h"
 #include "simulate/lazy_array.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 
@@ -47,9 +48,9 @@ struct Flight {
 
   /// s, from t on, for which displacement_from() is right: once it has died away, a path is straight.
   double span_of_fade(double t) const {
-    constexpr double part = 0x1p-4, gone = 64;
-    return curve != nullptr || is_straight() || fade * t >= gone ? std::numeric_limits<double>::infinity()
-                                                                 : part / fade;
+    using namespace exact_tolerance;
+    const bool straight = is_straight() || fade * t >= faded;
+    return curve != nullptr || straight ? std::numeric_limits<double>::infinity() : told_fade / fade;
   }
 
  private:

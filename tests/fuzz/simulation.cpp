@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <limits>
 #include <memory>
 
 #include "physics/force.h"
-#include "simulate/exact.h"
 #include "study/engine.h"
 
 namespace carom::fuzz {

@@ -50,32 +50,29 @@ TEST(ContactGroup, OfARowThatIsPushedIsNotPutToRest) {
 }
 
 TEST(ContactGroup, GainsNoEnergyAsItSettles) {
-  for (const int side : {3, 5})
-    for (const double step : {0.01, 0.002}) {
-      const Problem problem = loose_pile(side, 6, 10);
-      const auto simulator = stepped(problem, step);
-      double least = energy(problem, problem.initial);
-      for (int k = 0; k <= 333; ++k) {
-        const double t = k * 0.03;  // where steps end: in between energy is known to first order
-        go_to(*simulator, t);
-        const double now = energy(problem, simulator->state());
-        EXPECT_LT(now, 1.0003 * least) << side << " at " << t << " by " << step;
-        least = std::min(least, now);
-      }
-      go_to(*simulator, 10);
-      const Tally& tally = simulator->tally();
-      const double first = energy(problem, problem.initial);
-      EXPECT_NEAR((energy(problem, simulator->state()) + tally.energy_lost) / first, 1, 1e-9);  // measured: 3e-10
+  for (const int side : {3, 5}) {
+    const Problem problem = loose_pile(side, 6, 10);
+    const auto simulator = stepped(problem, 0.01);
+    double least = energy(problem, problem.initial);
+    for (int k = 0; k <= 333; ++k) {
+      const double t = k * 0.03;  // the energy of the moment is known to first order
+      go_to(*simulator, t);
+      const double now = energy(problem, simulator->state());
+      EXPECT_LT(now, 1.0003 * least) << side << " at " << t;
+      least = std::min(least, now);
     }
+    go_to(*simulator, 10);
+    const Tally& tally = simulator->tally();
+    const double first = energy(problem, problem.initial);
+    EXPECT_NEAR((energy(problem, simulator->state()) + tally.energy_lost) / first, 1, 1e-9);  // measured: 3e-10
+  }
 }
 
 TEST(ContactGroup, HardlyOverlapsWhileItFalls) {
   const Problem problem = loose_pile(7, 7, 3);
-  for (const double step : {0.02, 0.01, 0.001}) {
-    const auto simulator = stepped(problem, step);
-    go_to(*simulator, 3);
-    EXPECT_LT(simulator->tally().max_overlap, 5e-3) << step;
-  }
+  const auto simulator = stepped(problem, 0.01);
+  go_to(*simulator, 3);
+  EXPECT_LT(simulator->tally().max_overlap, 1e-9);
 }
 
 TEST(ContactGroup, GivesItsForcesWhileItStillMoves) {
