@@ -20,11 +20,19 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view magic = "caromfly";
-constexpr std::uint32_t version = 3, byte_order = 0x01020304, last_entry = 0xffffffff;
-enum Has : std::uint32_t { has_acceleration = 1, has_from = 2, has_kick = 4, has_whole = 8, has_joint = 16 };
+constexpr std::uint32_t version = 4, byte_order = 0x01020304, last_entry = 0xffffffff;
+enum Has : std::uint32_t {
+  has_acceleration = 1,
+  has_from = 2,
+  has_kick = 4,
+  has_whole = 8,
+  has_joint = 16,
+  has_bend = 32,
+  has_all = 63
+};
 
 constexpr std::size_t header_size = 32, tail_size = 8 + 16 * 8;
-constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5) * 8;
+constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5 + 3) * 8;
 
 /// What from is where an entry does not say it.
 double first_double(const DoubleDouble& start) {
@@ -83,6 +91,7 @@ void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
     if (piece.kicked) has |= has_kick;
     if (piece.part_of != no_entity) has |= has_whole;
     if (piece.joint) has |= has_joint;
+    if (!piece.bend.isZero(0)) has |= has_bend;
     char* const begin = file_->room(largest_entry);
     InPlace writer(begin);
     writer.put(piece.body);
@@ -102,6 +111,7 @@ void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
       writer.put(piece.radius);
       writer.put(piece.half);
     }
+    if (has & has_bend) writer.put(piece.bend);
     file_->written(writer.end());
     ++entries_;
     bytes_ += static_cast<std::uint64_t>(writer.end() - begin);
@@ -179,7 +189,7 @@ bool FlightsReader::next(PathPiece& piece) {
   piece = {};
   piece.body = take<std::uint32_t>();
   const auto has = take<std::uint32_t>();
-  if (piece.body >= acceleration_.size() || has >= 2 * has_joint) refuse("it is damaged");
+  if (piece.body >= acceleration_.size() || has > has_all) refuse("it is damaged");
   const auto take_time = [&] {
     const double hi = take<double>();
     return DoubleDouble{hi, take<double>()};
@@ -206,11 +216,12 @@ bool FlightsReader::next(PathPiece& piece) {
     piece.radius = take<double>();
     piece.half = take_vector();
   }
+  if (has & has_bend) piece.bend = take_vector();
   const auto finite = [](const DoubleDouble& t) { return std::isfinite(t.hi) && std::isfinite(t.lo); };
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
   if (!(piece.from >= last_) || !std::isfinite(piece.from) || !finite(piece.start) || !finite(piece.until))
     refuse("it is damaged");
-  for (const Vec3* v : {&piece.x, &piece.v, &piece.a, &piece.kick})
+  for (const Vec3* v : {&piece.x, &piece.v, &piece.a, &piece.kick, &piece.bend})
     if (!v->allFinite()) refuse("it is damaged");
   if (piece.joint &&
       !(positive(piece.mass) && positive(piece.radius) && piece.half.allFinite() && piece.half.minCoeff() > 0))

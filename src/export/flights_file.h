@@ -2,7 +2,7 @@
 // flights.bin: the paths of a run's bodies, from which the state at any instant is known again, bit for bit.
 //
 // Little-endian, doubles as IEEE 754 has them. A header of 32 bytes:
-//   8 bytes "caromfly", u32 version (2), u32 0x01020304, u64 number of bodies, f64 duration (s)
+//   8 bytes "caromfly", u32 version (4), u32 0x01020304, u64 number of bodies, f64 duration (s)
 // then entries, by the time from which on they hold. Each is u32 body (by the order of the scene file), u32 what it
 // has, and of these what it has, in this order:
 //   always   start: f64 hi, f64 lo (s, their sum); x, y, z (m) and vx, vy, vz (m/s) at start
@@ -11,10 +11,13 @@
 //   4        until: f64 hi, f64 lo (s); hx, hy, hz (m/s^2)
 //   8        the body has become part of another: u64 which; that one's entries are its own from now on
 //   16       others have become part of it; it is now of: f64 mass (kg), f64 radius (m), 3 f64 half extents (m)
-// At a time T, with s = (T - hi) - lo: position x + s (v + (s/2) a), velocity v + s a, less (until - T) h if it has 4.
+//   32       bx, by, bz (m/s^3)
+// At a time T, with s = (T - hi) - lo: position x + s (v + (s/2) a), velocity v + s a, less (until - T) h if it has 4,
+// and s^2 b more if it has 32.
 // Last: u32 0xffffffff, u32 0; u64 entries, body-body and body-fixed collisions, merges, clusters taken into contact,
 // bodies at rest at the end; f64 first and last collision (s, NaN: none), energy lost and work (J), deepest overlap
-// (m), greatest speed (m/s), lasting contact told by time stepping (s, summed over bodies).
+// (m), greatest speed (m/s), lasting contact told by time stepping (s, summed over bodies), and of the impacts that
+// contact took up, which are the last of the u64, the fastest (m/s) and their energy (J).
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -59,7 +59,20 @@ Vec3 ConstrainedMotion::velocity(Entity i, const Instant& at) const {
 }
 
 void ConstrainedMotion::settle(Entity i) {
-  if (follows(i)) flights_.correct(i, velocity(i, bodies_.now));
+  if (!follows(i)) return;
+  flights_.correct(i, velocity(i, bodies_.now));
+  const Instant start = bodies_.flights[i].start;
+  bend(i, std::min(bodies_.islands.piece_end[i] - start, following_[i].path->end() - start));
+}
+
+/// Until `length` (s) after its start body i's flight has the velocity that its path has there: in between it is off by
+/// the third power of that, as its place is.
+void ConstrainedMotion::bend(Entity i, double length) {
+  Vec3& bend = bodies_.islands.bend.write(i);
+  bend.setZero();
+  if (!(length > 0)) return;
+  const Flight f = bodies_.flights[i];
+  bend = (velocity(i, f.start + length) - f.velocity(length)) / (length * length);
 }
 
 /// Counts a change of an island's contacts. Gives whether there are not too many in the time of a time step.
@@ -543,6 +556,7 @@ void ConstrainedMotion::begin_piece(Entity i) {
   following.piece = h;
   bodies_.flights.accelerate(i, a);
   bodies_.islands.piece_end.write(i) = h < rest ? bodies_.now + h : Instant{never, 0};
+  bend(i, h);
 }
 
 void ConstrainedMotion::go_on(Entity i) {

@@ -39,6 +39,7 @@ class ConstrainedMotion {
     Instant start;
     std::unique_ptr<DenseMotion> motion;
     double room;  // m, that parabolas may leave it by
+    Instant end() const { return start + motion->length(); }
   };
   /// What a body follows, if it is still on this flight.
   struct Following {
@@ -94,6 +95,7 @@ class ConstrainedMotion {
   void begin_flights(const Step& step);
   bool begin_flight(const Step& step, std::size_t k, Entity i);
   void begin_piece(Entity i);
+  void bend(Entity i, double length);
   void forget_index(const std::vector<Entity>& members) const;
 
   Vec3 at(const std::vector<Vec3>& x, Entity e) const;  // m, of a member or a fixed thing

@@ -29,8 +29,11 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
       log(options.max_collisions, options.record_collisions) {}
 
 Vec3 ExactBodies::velocity_without_kick(Entity i, const Instant& at) const {
-  const Vec3 v = flights[i].velocity(at - flights[i].start);
-  return is_stepped(i) ? without_kick(v, at, islands.kicked_until[i], islands.kick[i]) : v;
+  const double t = at - flights[i].start;
+  const Vec3 v = flights[i].velocity(t);
+  if (!in_group(i)) return v;
+  if (is_constrained(i)) return with_bend(v, t, islands.bend[i]);
+  return without_kick(v, at, islands.kicked_until[i], islands.kick[i]);
 }
 
 ExactBodies::PairState ExactBodies::in_frame_of(Entity a, Entity b) const {

@@ -52,7 +52,7 @@ struct ExactBodies {
   Vec3 position(Entity i) const { return flights[i].position(now - flights[i].start); }  // m, now
   /// m/s, now, as in its flight: with what time stepping has kicked it by.
   Vec3 velocity(Entity i) const { return flights[i].velocity(now - flights[i].start); }
-  /// m/s, at an instant of its flight, without what forces do later.
+  /// m/s, at an instant of its flight, without what forces do later, and with what curved surfaces have done since.
   Vec3 velocity_without_kick(Entity i, const Instant& at) const;
   /// m/s^2, what forces do to body i at x (m) and v (m/s).
   Vec3 force_at(Entity i, const Vec3& x, const Vec3& v) const {

@@ -168,6 +168,15 @@ void Neighbours::shrink(Entity i, const Vec3& x) {
   settle_down(i, x, Vec3::Zero(), known_[i].level - wider);
 }
 
+void Neighbours::hold(Entity i, const Vec3& x, double reach) {
+  const int level = level_for(i, x, 2 * reach);
+  const double left = room(i) - (x - center(i)).norm();
+  if (left >= reach && known_[i].level <= level + wider) return;
+  const Region region = around(x, level);
+  find(i, region);
+  settle(i, region, level);
+}
+
 void Neighbours::remove(Entity i) {
   for (const Entity j : bodies(i)) drop(j, i);
   known_[i].count = 0;

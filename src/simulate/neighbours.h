@@ -57,6 +57,10 @@ class Neighbours {
   /// A narrower region, about x.
   void shrink(Entity i, const Vec3& x);
 
+  /// A region for a body that stays about x (m): it reaches `reach` (m) from there at least, and not much farther.
+  /// Bodies that both reach half of a gap know each other. Who comes to the list is for the caller to look at.
+  void hold(Entity i, const Vec3& x, double reach);
+
   /// Now and then, when no list is being read: what lists have left behind is given back.
   void tidy();
 

@@ -123,6 +123,13 @@ void TimeStepping::find_pairs(Step& step) const {
     return std::max({group_.margin[step.members[k]], tol::margin_of_displacement * h * step.v[k].norm(),
                      tol::least_margin * step.smallest});
   };
+  const auto reach_of = [&](double expected) {  // m
+    return std::min(4 * step.greatest * h * h, std::max(4 * h * expected, tol::pressing_gap * step.smallest));
+  };
+  for (std::size_t k = 0; k < step.members.size(); ++k) {
+    const double reach = margin_of(k) + h * step.v[k].norm() + reach_of(step.expected[k]);
+    bodies_.neighbours.hold(step.members[k], step.x[k], reach);
+  }
   step.near.clear();
   step.pairs.clear();
   step.names.clear();
@@ -145,9 +152,7 @@ void TimeStepping::find_pairs(Step& step) const {
       const double margin_e = !body ? 0 : of_other_island ? group_.margin[e] : margin_of(other);
       const double margin = std::max(margin_of(k), margin_e);
       const double expected = step.expected[k] + (!body ? 0 : of_other_island ? ve.norm() : step.expected[other]);
-      const double reach =
-          std::min(4 * step.greatest * h * h, std::max(4 * h * expected, tol::pressing_gap * step.smallest));
-      if (there.gap + h * std::min(rate, 0.0) > margin + reach) continue;
+      if (there.gap + h * std::min(rate, 0.0) > margin + reach_of(expected)) continue;
       if (of_other_island) {
         step.near.push_back(e);
         continue;

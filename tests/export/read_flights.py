@@ -8,7 +8,7 @@ import sys
 
 data, time, at = open(sys.argv[1], "rb").read(), float(sys.argv[2]), 32
 magic, version, order, bodies, duration = struct.unpack_from("<8sIIQd", data)
-assert (magic, version, order) == (b"caromfly", 3, 0x01020304)
+assert (magic, version, order) == (b"caromfly", 4, 0x01020304)
 path, whole, a = [None] * bodies, list(range(bodies)), [None] * bodies
 while (entry := struct.unpack_from("<II", data, at))[0] != 0xFFFFFFFF:
     (body, has), at = entry, at + 8
@@ -26,14 +26,17 @@ while (entry := struct.unpack_from("<II", data, at))[0] != 0xFFFFFFFF:
         break
     whole[body] = take(1, "Q")[0] if has & 8 else whole[body]
     joint = take(5) if has & 16 else None  # mass, radius, half extents
-    path[body] = hi, lo, x, v, a[body], until, kick
+    bend = take(3) if has & 32 else None
+    path[body] = hi, lo, x, v, a[body], until, kick, bend
 for body in range(bodies):
     while whole[body] != body:
         body = whole[body]
-    hi, lo, x, v, acceleration, until, kick = path[body]
+    hi, lo, x, v, acceleration, until, kick, bend = path[body]
     s = (time - hi) + (0 - lo)
     x = [p + s * (u + (0.5 * s) * g) for p, u, g in zip(x, v, acceleration)]
     v = [u + s * g for u, g in zip(v, acceleration)]
     if kick:
         v = [u - ((until[0] - time) + until[1]) * k for u, k in zip(v, kick)]
+    if bend:
+        v = [u + (s * s) * b for u, b in zip(v, bend)]
     print(*(number.hex() for number in x + v))

@@ -1,0 +1,295 @@
+#pragma once
+// Balls in lasting contact without friction, by a method of its own: Lagrange multipliers for the contacts that press,
+// dense, in 64-bit mantissas, followed by extrapolated midpoint steps of order 16 (Hairer, Norsett & Wanner, Solving
+// Ordinary Differential Equations I, 1993, II.9). A contact opens where its multiplier vanishes. Ends before one closes.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "physics/vec3.h"
+
+namespace carom {
+
+class ConstrainedReference {
+ public:
+  using Real = long double;
+  using Vec = Eigen::Matrix<Real, 3, 1>;
+  static constexpr int floor = -1;  // y >= 0; -2 - k: fixed globe k
+
+  struct Globe {
+    Vec3 center;    // m
+    double radius;  // m
+  };
+  std::vector<double> mass, radius;  // kg, m
+  std::vector<Vec3> start, force;    // m; m/s^2, what acts on each, gravity included
+  std::vector<Globe> globes;
+  bool has_floor = true;
+
+  struct Motion {
+    std::vector<Vec3> x, v;    // m, m/s, at `time`
+    double time = 0;           // s
+    std::size_t openings = 0;  // until then
+  };
+
+  /// From rest on for `duration` (s), or until shortly before a contact closes, in steps of `step` (s).
+  Motion follow(double duration, double step) {
+    const std::size_t n = mass.size();
+    x_.clear();
+    for (const Vec3& at : start) x_.push_back(at.cast<Real>());
+    v_.assign(n, Vec::Zero());
+    find_rows();
+    press();
+    Motion motion;
+    Real time = 0;
+    while (time < duration) {
+      const auto [x, v] = std::pair(x_, v_);
+      Real h = std::min<Real>(step, duration - time);
+      advance(h);
+      if (const auto worst = pull(); worst < -tiny) {
+        h = find_opening(x, v, h);
+        motion.openings += open();
+      }
+      if (closes()) {
+        x_ = x;
+        v_ = v;
+        break;
+      }
+      time += h;
+    }
+    motion.time = static_cast<double>(time);
+    for (std::size_t k = 0; k < n; ++k) {
+      motion.x.push_back(x_[k].cast<double>());
+      motion.v.push_back(v_[k].cast<double>());
+    }
+    return motion;
+  }
+
+ private:
+  static constexpr Real tiny = 1e-13L;  // of the greatest force
+  struct Row {
+    std::size_t a;
+    int b;
+    bool presses = false;
+  };
+  struct Bend {
+    Vec n;           // from a to b
+    Real gap, bend;  // m; m/s^2, of the gap
+  };
+
+  Bend look(const Row& row, const std::vector<Vec>& x, const std::vector<Vec>& v) const {
+    if (row.b == floor) return {Vec(0, -1, 0), x[row.a].y() - radius[row.a], 0};
+    const bool body = row.b >= 0;
+    const auto b = static_cast<std::size_t>(body ? row.b : -2 - row.b);
+    const Vec d = (body ? x[b] : Vec(globes[b].center.cast<Real>())) - x[row.a];
+    const Vec w = body ? Vec(v[b] - v[row.a]) : Vec(-v[row.a]);
+    const Real size = d.norm(), along = d.dot(w) / size;
+    const Real sum = static_cast<Real>(radius[row.a]) + (body ? radius[b] : globes[b].radius);
+    return {d / size, size - sum, (w.squaredNorm() - along * along) / size};
+  }
+
+  void find_rows() {
+    rows_.clear();
+    const auto n = static_cast<int>(mass.size());
+    for (int a = 0; a < n; ++a) {
+      const auto i = static_cast<std::size_t>(a);
+      for (int b = a + 1; b < n; ++b) rows_.push_back({i, b});
+      if (has_floor) rows_.push_back({i, floor});
+      for (int k = 0; k < static_cast<int>(globes.size()); ++k) rows_.push_back({i, -2 - k});
+    }
+  }
+
+  /// The multipliers (N) of these rows that leave their gaps' rates as they are; solve() by Cholesky.
+  std::vector<Real> multipliers(const std::vector<std::size_t>& set, const std::vector<Vec>& x,
+                                const std::vector<Vec>& v) const {
+    const std::size_t n = set.size();
+    std::vector<Bend> at;
+    for (const std::size_t c : set) at.push_back(look(rows_[c], x, v));
+    std::vector<std::vector<Real>> m(n, std::vector<Real>(n));
+    std::vector<Real> y(n);
+    for (std::size_t c = 0; c < n; ++c) {
+      const Row& p = rows_[set[c]];
+      Vec f = -force[p.a].cast<Real>();
+      if (p.b >= 0) f += force[static_cast<std::size_t>(p.b)].cast<Real>();
+      y[c] = -(at[c].n.dot(f) + at[c].bend);
+      for (std::size_t d = 0; d <= c; ++d) {
+        const Row& q = rows_[set[d]];
+        const Real cosine = at[c].n.dot(at[d].n);
+        Real sum = 0;
+        if (p.a == q.a) sum += cosine / mass[p.a];
+        if (p.b >= 0 && p.b == q.b) sum += cosine / mass[static_cast<std::size_t>(p.b)];
+        if (p.b >= 0 && p.b == static_cast<int>(q.a)) sum -= cosine / mass[q.a];
+        if (q.b >= 0 && q.b == static_cast<int>(p.a)) sum -= cosine / mass[p.a];
+        m[c][d] = sum;
+      }
+    }
+    for (std::size_t c = 0; c < n; ++c) {
+      for (std::size_t d = 0; d <= c; ++d) {
+        for (std::size_t k = 0; k < d; ++k) m[c][d] -= m[c][k] * m[d][k];
+        m[c][d] = c == d ? std::sqrt(m[c][c]) : m[c][d] / m[d][d];
+      }
+      for (std::size_t k = 0; k < c; ++k) y[c] -= m[c][k] * y[k];
+      y[c] /= m[c][c];
+    }
+    for (std::size_t c = n; c-- > 0;) {
+      for (std::size_t k = c + 1; k < n; ++k) y[c] -= m[k][c] * y[k];
+      y[c] /= m[c][c];
+    }
+    return y;
+  }
+
+  std::vector<std::size_t> pressing() const {
+    std::vector<std::size_t> set;
+    for (std::size_t c = 0; c < rows_.size(); ++c)
+      if (rows_[c].presses) set.push_back(c);
+    return set;
+  }
+
+  std::vector<Vec> accelerate(const std::vector<Vec>& x, const std::vector<Vec>& v) const {
+    std::vector<Vec> a;
+    for (const Vec3& f : force) a.push_back(f.cast<Real>());
+    const std::vector<std::size_t> set = pressing();
+    const std::vector<Real> y = multipliers(set, x, v);
+    for (std::size_t c = 0; c < set.size(); ++c) {
+      const Row& row = rows_[set[c]];
+      const Vec n = look(row, x, v).n;
+      a[row.a] -= y[c] / mass[row.a] * n;
+      if (row.b >= 0) a[static_cast<std::size_t>(row.b)] += y[c] / mass[static_cast<std::size_t>(row.b)] * n;
+    }
+    return a;
+  }
+
+  /// m/s^2: of a row's gap.
+  Real parting(const Row& row, const std::vector<Vec>& a) const {
+    const Bend at = look(row, x_, v_);
+    const Vec w = row.b >= 0 ? Vec(a[static_cast<std::size_t>(row.b)] - a[row.a]) : Vec(-a[row.a]);
+    return at.n.dot(w) + at.bend;
+  }
+
+  /// Which of the contacts press, now: Lawson & Hanson's active set (Solving Least Squares Problems, 1974, ch. 23).
+  void press() {
+    std::vector<std::size_t> closed;
+    for (std::size_t c = 0; c < rows_.size(); ++c)
+      if (std::abs(look(rows_[c], x_, v_).gap) < 1e-12L) closed.push_back(c);
+    std::vector<Real> y(rows_.size(), 0);
+    for (;;) {
+      const std::vector<Vec> a = accelerate(x_, v_);
+      std::size_t next = rows_.size();
+      Real least = -1e-12L;
+      for (const std::size_t c : closed)
+        if (!rows_[c].presses && parting(rows_[c], a) < least) {
+          least = parting(rows_[c], a);
+          next = c;
+        }
+      if (next == rows_.size()) return;
+      rows_[next].presses = true;
+      for (;;) {
+        const std::vector<std::size_t> set = pressing();
+        const std::vector<Real> z = multipliers(set, x_, v_);
+        Real share = 1;
+        for (std::size_t k = 0; k < set.size(); ++k)
+          if (z[k] <= 0) share = std::min(share, y[set[k]] / (y[set[k]] - z[k]));
+        for (std::size_t k = 0; k < set.size(); ++k) {
+          y[set[k]] += share * (z[k] - y[set[k]]);
+          if (share < 1 && y[set[k]] <= 1e-18L) {
+            rows_[set[k]].presses = false;
+            y[set[k]] = 0;
+          }
+        }
+        if (share == 1) break;
+      }
+    }
+  }
+
+  /// One step of h (s): the midpoint rule with 2, 4 .. 16 parts, extrapolated to none.
+  void advance(Real h) {
+    constexpr int columns = 8;
+    const std::size_t n = x_.size();
+    std::vector<std::vector<Vec>> xs, vs;
+    for (int j = 0; j < columns; ++j) {
+      const int parts = 2 * (j + 1);
+      const Real s = h / parts;
+      std::vector<Vec> x0 = x_, v0 = v_, a = accelerate(x_, v_), x1 = x0, v1 = v0;
+      for (std::size_t k = 0; k < n; ++k) {
+        x1[k] += s * v0[k];
+        v1[k] += s * a[k];
+      }
+      for (int part = 1; part < parts; ++part) {
+        a = accelerate(x1, v1);
+        for (std::size_t k = 0; k < n; ++k) {
+          const Vec x2 = x0[k] + 2 * s * v1[k], v2 = v0[k] + 2 * s * a[k];
+          x0[k] = std::exchange(x1[k], x2);
+          v0[k] = std::exchange(v1[k], v2);
+        }
+      }
+      xs.push_back(x1);
+      vs.push_back(v1);
+    }
+    for (int order = 1; order < columns; ++order)
+      for (int j = columns - 1; j >= order; --j) {
+        const Real ratio = static_cast<Real>(j + 1) / (j + 1 - order);
+        const Real f = 1 / (ratio * ratio - 1);
+        const auto to = static_cast<std::size_t>(j);
+        for (std::size_t k = 0; k < n; ++k) {
+          xs[to][k] += f * (xs[to][k] - xs[to - 1][k]);
+          vs[to][k] += f * (vs[to][k] - vs[to - 1][k]);
+        }
+      }
+    x_ = xs.back();
+    v_ = vs.back();
+  }
+
+  /// Of the greatest multiplier, the least one: below 0 a contact pulls.
+  Real pull() const {
+    const std::vector<Real> y = multipliers(pressing(), x_, v_);
+    Real least = 0, greatest = 0;
+    for (const Real of : y) {
+      least = std::min(least, of);
+      greatest = std::max(greatest, std::abs(of));
+    }
+    return greatest > 0 ? least / greatest : 0;
+  }
+
+  /// s: the step from there after which the first contact begins to pull.
+  Real find_opening(const std::vector<Vec>& x, const std::vector<Vec>& v, Real h) {
+    Real low = 0, high = h;
+    for (int pass = 0; pass < 60; ++pass) {
+      const Real middle = (low + high) / 2;
+      x_ = x;
+      v_ = v;
+      advance(middle);
+      (pull() < -tiny ? high : low) = middle;
+    }
+    x_ = x;
+    v_ = v;
+    advance(high);
+    return high;
+  }
+
+  std::size_t open() {
+    const std::vector<std::size_t> set = pressing();
+    const std::vector<Real> y = multipliers(set, x_, v_);
+    const Real greatest = std::abs(*std::max_element(y.begin(), y.end(), [](Real p, Real q) {
+      return std::abs(p) < std::abs(q);
+    }));
+    std::size_t opened = 0;
+    for (std::size_t c = 0; c < set.size(); ++c)
+      if (y[c] < 0.5L * tiny * greatest) {
+        rows_[set[c]].presses = false;
+        ++opened;
+      }
+    return opened;
+  }
+
+  /// Whether something has come together that does not press.
+  bool closes() const {
+    return std::any_of(rows_.begin(), rows_.end(),
+                       [&](const Row& row) { return !row.presses && look(row, x_, v_).gap < -1e-13L; });
+  }
+
+  std::vector<Vec> x_, v_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace carom
