@@ -32,7 +32,7 @@ enum Has : std::uint32_t {
 };
 
 constexpr std::size_t header_size = 32, tail_size = 8 + 16 * 8;
-constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5 + 3) * 8;
+constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5 + 6) * 8;
 
 /// What from is where an entry does not say it.
 double first_double(const DoubleDouble& start) {
@@ -91,7 +91,7 @@ void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
     if (piece.kicked) has |= has_kick;
     if (piece.part_of != no_entity) has |= has_whole;
     if (piece.joint) has |= has_joint;
-    if (!piece.bend.isZero(0)) has |= has_bend;
+    if (!piece.bend.none()) has |= has_bend;
     char* const begin = file_->room(largest_entry);
     InPlace writer(begin);
     writer.put(piece.body);
@@ -111,7 +111,10 @@ void FlightsFile::record_paths(std::span<const PathPiece> pieces) {
       writer.put(piece.radius);
       writer.put(piece.half);
     }
-    if (has & has_bend) writer.put(piece.bend);
+    if (has & has_bend) {
+      writer.put(piece.bend.linear);
+      writer.put(piece.bend.quadratic);
+    }
     file_->written(writer.end());
     ++entries_;
     bytes_ += static_cast<std::uint64_t>(writer.end() - begin);
@@ -216,12 +219,15 @@ bool FlightsReader::next(PathPiece& piece) {
     piece.radius = take<double>();
     piece.half = take_vector();
   }
-  if (has & has_bend) piece.bend = take_vector();
+  if (has & has_bend) {
+    piece.bend.linear = take_vector();
+    piece.bend.quadratic = take_vector();
+  }
   const auto finite = [](const DoubleDouble& t) { return std::isfinite(t.hi) && std::isfinite(t.lo); };
   const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
   if (!(piece.from >= last_) || !std::isfinite(piece.from) || !finite(piece.start) || !finite(piece.until))
     refuse("it is damaged");
-  for (const Vec3* v : {&piece.x, &piece.v, &piece.a, &piece.kick, &piece.bend})
+  for (const Vec3* v : {&piece.x, &piece.v, &piece.a, &piece.kick, &piece.bend.linear, &piece.bend.quadratic})
     if (!v->allFinite()) refuse("it is damaged");
   if (piece.joint &&
       !(positive(piece.mass) && positive(piece.radius) && piece.half.allFinite() && piece.half.minCoeff() > 0))

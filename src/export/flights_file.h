@@ -11,9 +11,9 @@
 //   4        until: f64 hi, f64 lo (s); hx, hy, hz (m/s^2)
 //   8        the body has become part of another: u64 which; that one's entries are its own from now on
 //   16       others have become part of it; it is now of: f64 mass (kg), f64 radius (m), 3 f64 half extents (m)
-//   32       bx, by, bz (m/s^3)
+//   32       bx, by, bz (m/s^2), cx, cy, cz (m/s^3)
 // At a time T, with s = (T - hi) - lo: position x + s (v + (s/2) a), velocity v + s a, less (until - T) h if it has 4,
-// and s^2 b more if it has 32.
+// and s (b + s c) more if it has 32.
 // Last: u32 0xffffffff, u32 0; u64 entries, body-body and body-fixed collisions, merges, clusters taken into contact,
 // bodies at rest at the end; f64 first and last collision (s, NaN: none), energy lost and work (J), deepest overlap
 // (m), greatest speed (m/s), lasting contact told by time stepping (s, summed over bodies), and of the impacts that

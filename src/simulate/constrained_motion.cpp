@@ -65,14 +65,16 @@ void ConstrainedMotion::settle(Entity i) {
   bend(i, std::min(bodies_.islands.piece_end[i] - start, following_[i].path->end() - start));
 }
 
-/// Until `length` (s) after its start body i's flight has the velocity that its path has there: in between it is off by
-/// the third power of that, as its place is.
+/// What is left between the velocities of body i's path and of the parabola that meets it at its flight's start, with
+/// its velocity, and `length` (s) later: that of a cubic, 3 t^2 - 2 t length times the same, but for the fourth power
+/// of the length.
 void ConstrainedMotion::bend(Entity i, double length) {
-  Vec3& bend = bodies_.islands.bend.write(i);
-  bend.setZero();
-  if (!(length > 0)) return;
+  PathBend& bend = bodies_.islands.bend.write(i);
+  bend = {};
+  if (!(length * length > 0)) return;
   const Flight f = bodies_.flights[i];
-  bend = (velocity(i, f.start + length) - f.velocity(length)) / (length * length);
+  const Vec3 off = velocity(i, f.start + length) - f.velocity(length);
+  bend = {-2 / length * off, 3 / (length * length) * off};
 }
 
 /// Counts a change of an island's contacts. Gives whether there are not too many in the time of a time step.

@@ -32,7 +32,7 @@ Vec3 ExactBodies::velocity_without_kick(Entity i, const Instant& at) const {
   const double t = at - flights[i].start;
   const Vec3 v = flights[i].velocity(t);
   if (!in_group(i)) return v;
-  if (is_constrained(i)) return with_bend(v, t, islands.bend[i]);
+  if (is_constrained(i)) return v + islands.bend[i].at(t);
   return without_kick(v, at, islands.kicked_until[i], islands.kick[i]);
 }
 

@@ -39,7 +39,7 @@ void ExactGroup::join(Entity i) {
   Islands& islands = bodies_.islands;
   islands.kicked_until.write(i) = bodies_.now;
   islands.kick.write(i).setZero();
-  islands.bend.write(i).setZero();
+  islands.bend.write(i) = {};
   margin.write(i) = 0;
   impacts.write(i) = 0;
   flat_.clear(i);

@@ -64,11 +64,6 @@ inline Vec3 without_kick(const Vec3& v, const Instant& at, const Instant& until,
   return v - (until - at) * kick;
 }
 
-/// m/s: a velocity v that a flight has at t (s since its start), on a path that bends away from it.
-inline Vec3 with_bend(const Vec3& v, double t, const Vec3& bend) {
-  return v + (t * t) * bend;
-}
-
 /// The flights of all bodies. What pairs are tested by is a cache line a body; accelerations are kept only once bodies
 /// differ in them.
 class Flights {

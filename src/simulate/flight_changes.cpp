@@ -19,7 +19,7 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   hold_to(bodies_.bounds, i, bodies_.now.hi, x, v, ExactBodies::too_fast);
   bodies_.log.note_speed(speed);
   book(i, x, bodies_.now);
-  if (bodies_.in_group(i)) bodies_.islands.bend.write(i).setZero();
+  if (bodies_.in_group(i)) bodies_.islands.bend.write(i) = {};
   const bool stepped = bodies_.is_stepped(i) && !bodies_.islands.of(i).fresh;
   if (stepped != (stepped_[i] != 0)) stepped_.write(i) = stepped;
   const bool falls = bodies_.is_stepped(i) && (bodies_.flights.acceleration(i) != Vec3::Zero() ||

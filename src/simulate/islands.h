@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "physics/contact_time.h"
+#include "physics/path_piece.h"
 #include "physics/vec3.h"
 #include "physics/world.h"
 #include "simulate/instant.h"
@@ -37,12 +38,16 @@ struct Island {
 class Islands {
  public:
   explicit Islands(Entity bodies)
-      : kicked_until(bodies), kick(bodies, Vec3::Zero()), piece_end(bodies, Instant{never, 0}), bend(bodies, Vec3::Zero()), island_(bodies, none) {}
+      : kicked_until(bodies),
+        kick(bodies, Vec3::Zero()),
+        piece_end(bodies, Instant{never, 0}),
+        bend(bodies),
+        island_(bodies, none) {}
 
   LazyArray<Instant> kicked_until;  // by member, in time stepping: forces are in its velocity up to this instant,
   LazyArray<Vec3> kick;             // m/s^2, this on average, from the start
   LazyArray<Instant> piece_end;     // by member, in constrained motion: when its flight is to follow its path anew,
-  LazyArray<Vec3> bend;             // m/s^3: with t^2 of it, t after its start, the flight has its path's velocity
+  LazyArray<PathBend> bend;         // and by how much its path's velocity is another one until then
 
   /// That of a member. References stay valid until it is merged with another one.
   Island& of(Entity i) { return islands_[island_[i]]; }

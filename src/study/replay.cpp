@@ -76,7 +76,7 @@ const State& Replay::state() {
     state_.position[i] = flight.position(t);
     state_.velocity[i] = flight.velocity(t);
     if (piece.kicked) state_.velocity[i] = without_kick(state_.velocity[i], at, instant(piece.until), piece.kick);
-    state_.velocity[i] = with_bend(state_.velocity[i], t, piece.bend);
+    state_.velocity[i] += piece.bend.at(t);
   }
   if (!part_of_.empty()) {
     state_.mass = mass_;

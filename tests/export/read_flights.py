@@ -26,7 +26,7 @@ while (entry := struct.unpack_from("<II", data, at))[0] != 0xFFFFFFFF:
         break
     whole[body] = take(1, "Q")[0] if has & 8 else whole[body]
     joint = take(5) if has & 16 else None  # mass, radius, half extents
-    bend = take(3) if has & 32 else None
+    bend = (take(3), take(3)) if has & 32 else None
     path[body] = hi, lo, x, v, a[body], until, kick, bend
 for body in range(bodies):
     while whole[body] != body:
@@ -38,5 +38,5 @@ for body in range(bodies):
     if kick:
         v = [u - ((until[0] - time) + until[1]) * k for u, k in zip(v, kick)]
     if bend:
-        v = [u + (s * s) * b for u, b in zip(v, bend)]
+        v = [u + s * (b + s * c) for u, b, c in zip(v, *bend)]
     print(*(number.hex() for number in x + v))

@@ -60,7 +60,7 @@ std::string flights() {
   step.kicked = true;
   step.until = {0.175, 1e-19};
   step.kick = Vec3(0, -1, 0);
-  step.bend = Vec3(0.25, 0, -3);
+  step.bend = {Vec3(0.25, 0, -3), Vec3(0, 2, 0)};
   PathPiece part{0, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3::Zero(), Vec3::Zero()};
   part.part_of = 1;
   PathPiece joint{1, 0.1875, {0.1875, 0}, Vec3(1, 1, 1), Vec3(3, 0, 0), Vec3(0, -10, 0)};
@@ -161,7 +161,8 @@ void read_flights_bytes(std::string_view bytes) {
       if (piece.body >= scene.world.body_count()) throw Finding("a path of no body");
       if (piece.part_of != no_entity && piece.part_of >= scene.world.body_count()) throw Finding("part of no body");
       if (!(piece.from >= last)) throw Finding("paths that go back in time");
-      if (!piece.x.allFinite() || !piece.v.allFinite() || !piece.a.allFinite() || !piece.kick.allFinite() || !piece.bend.allFinite() ||
+      if (!piece.x.allFinite() || !piece.v.allFinite() || !piece.a.allFinite() || !piece.kick.allFinite() ||
+          !piece.bend.linear.allFinite() || !piece.bend.quadratic.allFinite() ||
           !std::isfinite(piece.start.hi + piece.start.lo) || !std::isfinite(piece.until.hi + piece.until.lo))
         throw Finding("a path that is not finite");
       if (piece.joint && !(piece.mass > 0 && piece.radius > 0 && piece.half.allFinite() && std::isfinite(piece.mass) &&

@@ -1,7 +1,8 @@
 #pragma once
 // Balls in lasting contact without friction, by a method of its own: Lagrange multipliers for the contacts that press,
 // dense, in 64-bit mantissas, followed by extrapolated midpoint steps of order 16 (Hairer, Norsett & Wanner, Solving
-// Ordinary Differential Equations I, 1993, II.9). A contact opens where its multiplier vanishes. Ends before one closes.
+// Ordinary Differential Equations I, 1993, II.9). A contact opens where its multiplier vanishes. Ends before one
+// closes.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -270,9 +271,8 @@ class ConstrainedReference {
   std::size_t open() {
     const std::vector<std::size_t> set = pressing();
     const std::vector<Real> y = multipliers(set, x_, v_);
-    const Real greatest = std::abs(*std::max_element(y.begin(), y.end(), [](Real p, Real q) {
-      return std::abs(p) < std::abs(q);
-    }));
+    const Real greatest =
+        std::abs(*std::max_element(y.begin(), y.end(), [](Real p, Real q) { return std::abs(p) < std::abs(q); }));
     std::size_t opened = 0;
     for (std::size_t c = 0; c < set.size(); ++c)
       if (y[c] < 0.5L * tiny * greatest) {

@@ -23,7 +23,8 @@ Problem same(const ConstrainedReference& reference, const std::vector<std::size_
   for (const auto& [center, radius] : reference.globes) problem.obstacle(center, Volume::sphere(radius));
   for (const std::size_t k : order) {
     const Entity i = problem.ball(reference.start[k], Vec3::Zero(), reference.mass[k], reference.radius[k], e);
-    problem.world.forces.push_back({UniformForce{reference.mass[k] * reference.force[k]}, 0, std::numeric_limits<double>::infinity(), {i}});
+    problem.world.forces.push_back(
+        {UniformForce{reference.mass[k] * reference.force[k]}, 0, std::numeric_limits<double>::infinity(), {i}});
   }
   return problem;
 }
@@ -104,15 +105,15 @@ TEST(ConstrainedReference, RandomIslandsOfUpTo60BallsMoveAsItSays) {
   Errors worst;
   std::size_t openings = 0, islands = 0;
   for (const std::size_t n : {2, 3, 5, 8, 12, 16, 17, 24, 40, 60}) {
-    for (std::uint64_t seed = 1; seed <= (n <= 17 ? 12u : 2u); ++seed) {
+    for (std::uint64_t seed = 1; seed <= (n <= 17 ? 10u : 2u); ++seed) {
       ConstrainedReference island = random_island(n, 1000 * n + seed);
       const ConstrainedReference::Motion want = island.follow(0.15, 1.0 / 128);
       if (want.time == 0) continue;
       ++islands;
       openings += want.openings;
       const Errors errors = compare(island, want, seed % 2 == 0 ? 0 : 0.5);
-      EXPECT_LT(errors.position, 1e-9) << n << " balls, seed " << seed << ", " << want.time << " s";
-      EXPECT_LT(errors.velocity, 1e-8) << n << " balls, seed " << seed << ", " << want.time << " s";
+      EXPECT_LT(errors.position, 1e-10) << n << " balls, seed " << seed << ", " << want.time << " s";
+      EXPECT_LT(errors.velocity, 1e-9) << n << " balls, seed " << seed << ", " << want.time << " s";
       worst = {std::max(worst.position, errors.position), std::max(worst.velocity, errors.velocity)};
     }
   }
@@ -143,12 +144,11 @@ TEST(ConstrainedReference, TrainsArePushedOverAHumpAndComeApartOnTheFarSide) {
     for (const double push : {4.0, 10.0}) {
       ConstrainedReference cars = train(n, push);
       const ConstrainedReference::Motion want = cars.follow(1.2, 1.0 / 64);
-      EXPECT_GT(want.x[0].x(), 0) << n;
+      if (push == 10 && n <= 9) EXPECT_GT(want.x[0].x(), 1) << n;  // m, beyond the top; longer ones slide back
       const Errors errors = compare(cars, want, 0.5);
-      EXPECT_LT(errors.position, 1e-9) << n << ' ' << push << ' ' << want.time;
-      EXPECT_LT(errors.velocity, 1e-8) << n << ' ' << push;
+      EXPECT_LT(errors.position, 1e-10) << n << ' ' << push << ' ' << want.time;
+      EXPECT_LT(errors.velocity, 1e-9) << n << ' ' << push;
       worst = {std::max(worst.position, errors.position), std::max(worst.velocity, errors.velocity)};
-      std::printf("%zu cars, push %g: %g s, %zu openings, front at %g, off by %.2g\n", n, push, want.time, want.openings, want.x[0].x(), errors.position);
     }
   }
 }
