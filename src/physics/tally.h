@@ -29,7 +29,7 @@ struct Tally {
   double max_speed = 0;        // m/s, greatest seen
   std::uint64_t resting = 0;   // bodies in resting contact now
   double stepped_contact = 0;  // s, summed over bodies: lasting contact that time stepping has told
-  TakenUp taken_up;            // without those that time stepping takes up at its steps
+  TakenUp taken_up;
 
   /// Takes a record into the counts; the end of bounces is no collision.
   void count(CollisionKind kind, double time) {

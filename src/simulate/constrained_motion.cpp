@@ -7,7 +7,9 @@
 #include "physics/contact_problem.h"
 #include "physics/cube_root.h"
 #include "physics/disjoint_sets.h"
+#include "physics/impact.h"
 #include "physics/path_time_of_impact.h"
+#include "physics/restitution.h"
 #include "simulate/tolerances.h"
 
 namespace carom {
@@ -274,13 +276,36 @@ void ConstrainedMotion::take_approaches(Step& step) {
   for (ContactConstraint& p : step.pairs) p.target = p.force = 0;
   const std::vector<Vec3> met = step.v;
   bodies_.log.note(solve({step.inverse_mass, step.v, step.pairs}));
-  bodies_.log.take_up(step.inverse_mass, met, step.v, step.pairs);
+  bodies_.log.take_up(step.inverse_mass, met, step.v, step.pairs, record_fast(step, met));
   for (std::size_t k = 0; k < step.v.size(); ++k) {
     const Entity i = step.members[k];
     const Vec3 before = bodies_.velocity(i);
     if (group_.needed[i] < bodies_.now || (step.v[k] - before).norm() <= tol::velocity_change * before.norm()) continue;
     collapses_.count_in_turn(i, 1);
   }
+}
+
+/// Records the impacts, of velocities `met` (m/s), that contact took although they were not slow: what the struck ones
+/// handed on at once. By pair, whether it is recorded.
+std::vector<std::uint8_t> ConstrainedMotion::record_fast(const Step& step, const std::vector<Vec3>& met) const {
+  const World& world = bodies_.world;
+  std::vector<std::uint8_t> recorded(step.pairs.size(), 0);
+  if (step.greatest == 0) return recorded;
+  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
+    const ContactConstraint& p = step.pairs[c];
+    const auto& [i, e, feature] = step.names[c];
+    const double approach = p.normal.dot(met[p.a] - rate(met, e));
+    if (!(p.force > 0 && approach > bodies_.slow_speed(step.greatest, bodies_.smaller_length(i, e)))) continue;
+    const CollisionKind kind = world.is_body(e) ? CollisionKind::body_body : CollisionKind::body_fixed;
+    const Touch there = touch(world, i, step.x[p.a], e, at(step.x, e), feature);
+    Collision met_now = make_collision(world, kind, bodies_.now.hi, i, e, there.point, p.normal, approach,
+                                       p.normal.dot(rate(step.v, e) - step.v[p.a]), pair_restitution(world, i, e));
+    met_now.impulse = p.force;
+    met_now.energy_lost = 0.5 * p.force * (approach - met_now.separation_speed);
+    bodies_.log.record(met_now);
+    recorded[c] = 1;
+  }
+  return recorded;
 }
 
 /// Pairs that part by more than path errors are no contacts: if they come back, they meet.

@@ -81,6 +81,7 @@ class ConstrainedMotion {
   void drop_hidden(Step& step, std::size_t first) const;
   void close_overlaps(Step& step) const;
   void take_approaches(Step& step);
+  std::vector<std::uint8_t> record_fast(const Step& step, const std::vector<Vec3>& met) const;
   void drop_parting(Step& step) const;
   ConstrainedSystem find_forces(Step& step) const;
   bool stop_parting(Step& step) const;

@@ -30,19 +30,29 @@ void EventLog::take_up(double approach, double energy) {
 }
 
 void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
-                       std::span<const ContactConstraint> pairs) {
-  TakenUp& all = tally_.taken_up;
+                       std::span<const ContactConstraint> pairs, std::span<const std::uint8_t> recorded) {
   double fastest = 0;
   for (const Vec3& v : before) fastest = std::max(fastest, v.norm());
-  const std::uint64_t impacts = all.impacts;
-  for (const ContactConstraint& p : pairs) {
-    const Vec3 vb = p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : before[p.b];
-    const double approach = p.normal.dot(before[p.a] - vb);
-    if (p.force > 0 && approach > exact_tolerance::drift * fastest) take_up(approach, 0);
+  const auto parting = [&](const ContactConstraint& p, std::span<const Vec3> v) {  // m/s
+    return p.normal.dot((p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : v[p.b]) - v[p.a]);
+  };
+  bool any = false;
+  double of_recorded = 0;  // J
+  for (std::size_t c = 0; c < pairs.size(); ++c) {
+    const ContactConstraint& p = pairs[c];
+    if (!(p.force > 0)) continue;
+    const double approach = -parting(p, before);
+    if (!recorded.empty() && recorded[c]) {
+      of_recorded += 0.5 * p.force * (approach - parting(p, after));
+    } else if (approach > std::max(exact_tolerance::drift * fastest, p.slack)) {
+      take_up(approach, 0);
+      any = true;
+    }
   }
-  if (all.impacts == impacts) return;
+  if (!any) return;
+  tally_.taken_up.energy -= of_recorded;
   for (std::size_t k = 0; k < before.size(); ++k)
-    all.energy += 0.5 / inverse_mass[k] * (before[k] - after[k]).dot(before[k] + after[k]);
+    tally_.taken_up.energy += 0.5 / inverse_mass[k] * (before[k] - after[k]).dot(before[k] + after[k]);
 }
 
 }  // namespace carom

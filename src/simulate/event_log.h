@@ -46,9 +46,10 @@ class EventLog {
   /// Counts an impact with this approach (m/s) that contact takes up, and the energy (J) it takes: booked elsewhere.
   void take_up(double approach, double energy);
   /// The same of all that pressed when these velocities (m/s) were solved for from those before: `inverse_mass` (1/kg)
-  /// by body. Approaches that are errors of paths are none.
+  /// by body. Approaches within a pair's slack, or that are errors of paths, are none; `recorded`: by pair, an impact
+  /// that is recorded, or empty.
   void take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
-               std::span<const ContactConstraint> pairs);
+               std::span<const ContactConstraint> pairs, std::span<const std::uint8_t> recorded = {});
   void count_collapse() { ++tally_.collapses; }
   /// Counts an answer that is not certified.
   void note(const Certificate& certificate) {

@@ -109,6 +109,10 @@ struct ExactBodies {
   /// The speed (m/s) under which impacts in lasting contact no longer count one by one: rest_speed, or by default a
   /// share of the speed gained over `length` (m) at the pressing acceleration (m/s^2).
   double slow_speed(double press, double length) const;
+  /// m, by which two things are slow: the diameter of the smaller one, the radius of a body on something fixed.
+  double smaller_length(Entity i, Entity e) const {
+    return world.is_body(e) ? 2 * std::min(world.radius[i], world.radius[e]) : world.radius[i];
+  }
   /// m/s: a speed as good as none, for products of it with itself underflow.
   double negligible_speed() const { return exact_tolerance::negligible_speed * log.tally().max_speed; }
   /// Whether a speed (m/s) against a pressing acceleration (m/s^2) lifts a body by less than its position x (m) is

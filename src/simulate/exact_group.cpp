@@ -141,8 +141,7 @@ bool ExactGroup::strikes(Entity i, Entity e, double approach, double greatest) c
   const World& world = bodies_.world;
   const bool body = world.is_body(e);
   const bool collapse = collapses_.ended_now(i) || (body && collapses_.ended_now(e));
-  const double length = body ? 2 * std::min(world.radius[i], world.radius[e]) : world.radius[i];
-  return !collapse && greatest > 0 && approach >= bodies_.slow_speed(greatest, length) &&
+  return !collapse && greatest > 0 && approach >= bodies_.slow_speed(greatest, bodies_.smaller_length(i, e)) &&
          pair_restitution(world, i, e) > 0;
 }
 

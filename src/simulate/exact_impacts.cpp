@@ -103,7 +103,7 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const double e = pair_restitution(world, a, b);
   parts_.guard.note_restitution(e);
   const double met = parts_.group.approach_without_kick(approach, n, a, b);
-  const double length = 2 * std::min(world.radius[a], world.radius[b]);
+  const double length = bodies_.smaller_length(a, b);
   const double press = p.a == q.a && p.fade == q.fade ? 0 : press_of(a, xa, b, xb, there, w);
   if (press <= 0)
     for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})

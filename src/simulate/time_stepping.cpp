@@ -176,15 +176,14 @@ void TimeStepping::find_pairs(Step& step) const {
 /// What is left of the velocities once contact has taken slow approaches.
 void TimeStepping::take_slow_impacts(Step& step) const {
   step.after_impacts = step.v;
-  step.struck.assign(step.pairs.size(), 0);
+  step.impacts.clear();
   if (step.greatest <= 0 || !approaching(step.v, step.pairs)) return;
-  std::vector<ContactConstraint> impacts = step.pairs;
-  for (ContactConstraint& p : impacts) {
+  step.impacts = step.pairs;
+  for (ContactConstraint& p : step.impacts) {
     p.target = std::min(p.target, 0.0);
     p.force = 0;
   }
-  bodies_.log.note(carom::solve({step.inverse_mass, step.after_impacts, impacts, ContactAccuracy::energy}));
-  for (std::size_t c = 0; c < impacts.size(); ++c) step.struck[c] = impacts[c].force > 0;
+  bodies_.log.note(carom::solve({step.inverse_mass, step.after_impacts, step.impacts, ContactAccuracy::energy}));
 }
 
 /// The velocities that keep every pair apart until the step ends. Where margins are wide some pairs are to part. They
@@ -239,7 +238,7 @@ void TimeStepping::find_parts(Step& step) {
   step.carried.assign(n, 0);
   for (std::size_t c = 0; c < step.pairs.size(); ++c) {
     const ContactConstraint& p = step.pairs[c];
-    if (p.force <= 0 && !step.struck[c]) continue;
+    if (p.force <= 0 && (step.impacts.empty() || step.impacts[c].force <= 0)) continue;
     step.carried[p.a] = 1;
     if (p.b == ContactConstraint::fixed) continue;
     step.carried[p.b] = 1;
@@ -319,6 +318,7 @@ void TimeStepping::put_to_rest(Step& step) const {
 /// The members' flights until the step's end.
 void TimeStepping::begin_flights(const Step& step) {
   const double h = step.length;
+  bodies_.log.take_up(step.inverse_mass, step.v, step.after_impacts, step.impacts);
   for (const Entity i : step.members) group_.pressing.write(i).clear();
   for (std::size_t c = 0; c < step.pairs.size(); ++c)
     if (step.pairs[c].force > 0)

@@ -46,7 +46,7 @@ class TimeStepping {
     std::vector<ContactConstraint> pairs;          // that may press on each other before the step ends,
     std::vector<std::pair<Entity, Entity>> names;  // their names,
     std::vector<double> gaps;                      // m, and how far they are apart now
-    std::vector<std::uint8_t> struck;              // by pair: contact takes an approach of theirs at once
+    std::vector<ContactConstraint> impacts;        // by pair: what contact takes at once, or none
     std::vector<std::uint32_t> island;             // by member: one of those that press on one another with it
     std::vector<std::uint8_t> carried, rests;      // by member: something presses on it; it is at rest
   };
