@@ -142,5 +142,61 @@ TEST(ConstrainedMotion, InOtherUnitsAPyramidHasTheSameBits) {
   }
 }
 
+/// n boxes of edge b (m) in a row on a slope that falls by `angle` (rad) towards x, all at rest on its plane.
+Problem boxes_on_a_slope(int n, double b, double angle, double mass) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -g, 0);
+  const Vec3 down(std::cos(angle), -std::sin(angle), 0), up(std::sin(angle), std::cos(angle), 0);
+  problem.plane({0, 0, 0}, up);
+  const double support = 0.5 * b * (std::sin(angle) + std::cos(angle));  // m, from the plane to a box's middle
+  for (int k = 0; k < n; ++k) {
+    const double x = k * b;  // their faces touch: x by x
+    const Vec3 at = support * up + x / std::cos(angle) * down;
+    problem.body(Volume::box({b, b, b}), at, {0, 0, 0}, mass, 0.5);
+  }
+  return problem;
+}
+
+TEST(ConstrainedMotion, BoxesInARowSlideDownASlopeAsOneWhicheverIsPushed) {
+  for (const int n : {1, 2, 5, 9, 17, 40})
+    for (const double angle : {0.1, 0.3, 0.6})  // tan < 1: their faces touch
+      for (const double push : {0.0, 3.0}) {  // N, down the slope, on the last
+        Problem problem = boxes_on_a_slope(n, 0.5, angle, 2);
+        const Vec3 down(std::cos(angle), -std::sin(angle), 0);
+        if (push > 0) problem.world.forces.push_back({UniformForce{push * down}, 0, never, {0}});
+        problem.options.duration = 1;
+        const Outcome run = run_exact(problem);
+        const double way = 0.5 * (g * std::sin(angle) + push / (2 * n));  // m
+        for (Entity i = 0; i < problem.world.body_count(); ++i)
+          EXPECT_LT((run.end.position[i] - problem.initial.position[i] - way * down).norm(), 1e-12 * (1 + n))
+              << n << ' ' << angle << ' ' << push << ": " << i;
+        EXPECT_TRUE(run.collisions.empty()) << n << ' ' << angle << ' ' << push;
+        EXPECT_EQ(run.tally.stepped_contact, 0);
+      }
+}
+
+// The upper one only sinks: M and m, a = (M + m) g sin q / (M + m sin^2 q) along the slope.
+TEST(ConstrainedMotion, ABoxOnABoxOnASlopeSinksWhileTheLowerOneSlidesAway) {
+  for (const double angle : {0.1, 0.5, 1.0})
+    for (const double upper : {0.01, 1.0, 100.0})
+      for (const bool round : {false, true}) {
+        Problem problem = boxes_on_a_slope(1, 2, angle, 3);
+        const Vec3 below = problem.initial.position[0], down(std::cos(angle), -std::sin(angle), 0);
+        const Vec3 start = below + Vec3(0.25, 1.25, 0);
+        if (round)
+          problem.body(Volume::cylinder(0.25, 0.5), start, {0, 0, 0}, upper, 0);
+        else
+          problem.body(Volume::box({0.5, 0.5, 0.5}), start, {0, 0, 0}, upper, 0);
+        const double sine = std::sin(angle), a = (3 + upper) * g * sine / (3 + upper * sine * sine);
+        const double time = 0.25, way = 0.5 * a * time * time;
+        ASSERT_LT(way * std::cos(angle), 1.2);  // m: still under it
+        problem.options.duration = time;
+        const Outcome run = run_exact(problem);
+        EXPECT_LT((run.end.position[0] - below - way * down).norm(), 1e-13) << angle << ' ' << upper;
+        EXPECT_LT((run.end.position[1] - start - Vec3(0, -way * sine, 0)).norm(), 1e-13) << angle << ' ' << upper;
+        EXPECT_TRUE(run.collisions.empty());
+      }
+}
+
 }  // namespace
 }  // namespace carom
