@@ -151,7 +151,7 @@ void ConstrainedMotion::take_in_touching(Entity i) {
 std::vector<std::uint32_t> ConstrainedMotion::parts_of(const Step& step) const {
   const std::size_t n = step.members.size();
   DisjointSets sets(n);
-  for (const ContactConstraint& p : step.pairs)
+  for (const ContactConstraint& p : step.contacts.pairs)
     if (p.b != ContactConstraint::fixed) sets.join(p.a, p.b);
   std::vector<std::uint32_t> part(n), first(n, ContactConstraint::fixed);
   for (std::uint32_t k = 0; k < n; ++k) {
@@ -213,7 +213,7 @@ void ConstrainedMotion::find_contacts(Step& step) const {
   const World& world = bodies_.world;
   for (std::size_t k = 0; k < step.members.size(); ++k) {
     const Entity i = step.members[k];
-    const std::size_t first = step.pairs.size();
+    const std::size_t first = step.contacts.pairs.size();
     for (const Entity e : bodies_.known_to(i)) {
       const bool body = world.is_body(e);
       if (body && (e < i || group_.index[e] == ContactConstraint::fixed)) continue;
@@ -223,49 +223,24 @@ void ConstrainedMotion::find_contacts(Step& step) const {
       const Touch there = touch(world, i, step.x[k], e, xe, struck ? bodies_.body[i].origin_feature : no_feature);
       if (there.gap > contact_gap(i, step.x[k], xe)) continue;
       const double approach = there.normal.dot(step.v[k] - rate(step.v, e));
-      if (group_.strikes(i, e, approach, step.greatest)) continue;
+      const bool apart = there.gap > tol::contact_rounding * (step.x[k].cwiseAbs().sum() + xe.cwiseAbs().sum());
+      if (group_.strikes(i, e, approach, step.greatest, apart)) continue;
       const std::uint32_t other = body ? group_.index[e] : ContactConstraint::fixed;
-      step.pairs.push_back({static_cast<std::uint32_t>(k), other, there.normal, -there.gap, 0, 0});
-      step.names.push_back({i, e, there.feature});
+      step.contacts.add({static_cast<std::uint32_t>(k), other, there.normal, -there.gap, 0, 0}, {i, e, there.feature},
+                        there.gap);
     }
-    drop_hidden(step, first);
+    step.contacts.drop_hidden(world, step.x[k], first);
   }
-}
-
-/// Of one member's contacts, from `first` on: one with what lies behind a flat fixed surface that it touches is none,
-/// but for a surface level with that.
-void ConstrainedMotion::drop_hidden(Step& step, std::size_t first) const {
-  const World& world = bodies_.world;
-  const auto flat = [&](std::size_t c) {
-    return step.pairs[c].b == ContactConstraint::fixed &&
-           is_flat(world, step.names[c].i, step.names[c].e, step.names[c].feature);
-  };
-  const auto hides = [&](std::size_t floor, std::size_t c) {
-    const Vec3& n = step.pairs[floor].normal;
-    if (floor == c || !flat(floor) || (flat(c) && (step.pairs[c].normal - n).norm() <= tol::level)) return false;
-    return lies_behind(world, step.names[c].i, step.x[step.pairs[c].a], step.names[c].e, -n);
-  };
-  std::vector<std::uint8_t> hidden(step.pairs.size(), 0);
-  for (std::size_t c = first; c < step.pairs.size(); ++c)
-    for (std::size_t floor = first; floor < step.pairs.size() && step.pairs[c].b == ContactConstraint::fixed; ++floor)
-      if (hides(floor, c)) hidden[c] = 1;
-  std::size_t kept = first;
-  for (std::size_t c = first; c < step.pairs.size(); ++c) {
-    if (hidden[c]) continue;
-    step.pairs[kept] = step.pairs[c];
-    step.names[kept++] = step.names[c];
-  }
-  step.pairs.resize(kept);
-  step.names.resize(kept);
 }
 
 void ConstrainedMotion::close_overlaps(Step& step) const {
   bool overlap = false;
-  for (std::size_t c = 0; c < step.pairs.size(); ++c)
-    overlap = overlap || step.pairs[c].target > tol::least_overlap * bodies_.world.radius[step.names[c].i];
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c)
+    overlap =
+        overlap || step.contacts.pairs[c].target > tol::least_overlap * bodies_.world.radius[step.contacts.names[c].i];
   if (!overlap) return;
   std::vector<Vec3> displacement(step.x.size(), Vec3::Zero());  // m
-  bodies_.log.note(solve({step.inverse_mass, displacement, step.pairs}));
+  bodies_.log.note(solve({step.inverse_mass, displacement, step.contacts.pairs}));
   for (std::size_t k = 0; k < step.x.size(); ++k) step.x[k] += displacement[k];
 }
 
@@ -273,10 +248,10 @@ void ConstrainedMotion::close_overlaps(Step& step) const {
 /// turn with the strike, as by e = 0.
 void ConstrainedMotion::take_approaches(Step& step) {
   for (const Vec3& v : step.v) step.fastest = std::max(step.fastest, v.norm());
-  for (ContactConstraint& p : step.pairs) p.target = p.force = 0;
+  for (ContactConstraint& p : step.contacts.pairs) p.target = p.force = 0;
   const std::vector<Vec3> met = step.v;
-  bodies_.log.note(solve({step.inverse_mass, step.v, step.pairs}));
-  bodies_.log.take_up(step.inverse_mass, met, step.v, step.pairs, record_fast(step, met));
+  bodies_.log.note(solve({step.inverse_mass, step.v, step.contacts.pairs}));
+  bodies_.log.take_up(step.inverse_mass, met, step.v, step.contacts.pairs, record_fast(step, met));
   for (std::size_t k = 0; k < step.v.size(); ++k) {
     const Entity i = step.members[k];
     const Vec3 before = bodies_.velocity(i);
@@ -289,20 +264,20 @@ void ConstrainedMotion::take_approaches(Step& step) {
 /// handed on at once. By pair, whether it is recorded.
 std::vector<std::uint8_t> ConstrainedMotion::record_fast(const Step& step, const std::vector<Vec3>& met) const {
   const World& world = bodies_.world;
-  std::vector<std::uint8_t> recorded(step.pairs.size(), 0);
+  std::vector<std::uint8_t> recorded(step.contacts.pairs.size(), 0);
   if (step.greatest == 0) return recorded;
-  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const ContactConstraint& p = step.pairs[c];
-    const auto& [i, e, feature] = step.names[c];
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+    const ContactConstraint& p = step.contacts.pairs[c];
+    const auto& [i, e, feature] = step.contacts.names[c];
     const double approach = p.normal.dot(met[p.a] - rate(met, e));
     if (!(p.force > 0 && approach > bodies_.slow_speed(step.greatest, bodies_.smaller_length(i, e)))) continue;
     const CollisionKind kind = world.is_body(e) ? CollisionKind::body_body : CollisionKind::body_fixed;
     const Touch there = touch(world, i, step.x[p.a], e, at(step.x, e), feature);
-    Collision met_now = make_collision(world, kind, bodies_.now.hi, i, e, there.point, p.normal, approach,
-                                       p.normal.dot(rate(step.v, e) - step.v[p.a]), pair_restitution(world, i, e));
-    met_now.impulse = p.force;
-    met_now.energy_lost = 0.5 * p.force * (approach - met_now.separation_speed);
-    bodies_.log.record(met_now);
+    Collision taken = make_collision(world, kind, bodies_.now.hi, i, e, there.point, p.normal, approach, 0,
+                                     pair_restitution(world, i, e));
+    taken.impulse = p.force;  // among all that are struck
+    taken.energy_lost = 0.5 * p.force * approach;
+    bodies_.log.record(taken);
     recorded[c] = 1;
   }
   return recorded;
@@ -312,15 +287,10 @@ std::vector<std::uint8_t> ConstrainedMotion::record_fast(const Step& step, const
 void ConstrainedMotion::drop_parting(Step& step) const {
   const double parting =
       std::sqrt(2 * step.greatest * tol::step_error * step.smallest) + tol::velocity_rounding * step.fastest;
-  std::size_t kept = 0;
-  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const Vec3 w = rate(step.v, step.names[c].e) - step.v[step.pairs[c].a];
-    if (step.pairs[c].normal.dot(w) > parting) continue;
-    step.pairs[kept] = step.pairs[c];
-    step.names[kept++] = step.names[c];
-  }
-  step.pairs.resize(kept);
-  step.names.resize(kept);
+  step.contacts.drop_if(0, [&](std::size_t c) {
+    const Vec3 w = rate(step.v, step.contacts.names[c].e) - step.v[step.contacts.pairs[c].a];
+    return step.contacts.pairs[c].normal.dot(w) > parting;
+  });
 }
 
 /// The accelerations and forces at the step's start. Contacts on which nothing presses and that part are open: they
@@ -329,20 +299,21 @@ ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
   std::vector<ConstrainedSystem::Applied> applied;
   for (const Entity i : step.members) applied.push_back({bodies_.applied[i], bodies_.fade[i], bodies_.bent[i] != 0});
   ConstrainedSystem system(bodies_.world, bodies_.now.hi, step.members, std::move(applied));
-  for (std::size_t c = 0; c < step.pairs.size(); ++c)
-    system.add(step.names[c], step.pairs[c].a, step.pairs[c].b, step.pairs[c].normal);
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c)
+    system.add(step.contacts.names[c], step.contacts.pairs[c].a, step.contacts.pairs[c].b,
+               step.contacts.pairs[c].normal);
   step.a = system.accelerate(step.x, step.v);
-  for (std::size_t c = 0; c < step.pairs.size(); ++c) step.pairs[c].force = system.rows()[c].force;
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) step.contacts.pairs[c].force = system.rows()[c].force;
   if (stop_parting(step)) {
     step.a = system.accelerate(step.x, step.v);
-    for (std::size_t c = 0; c < step.pairs.size(); ++c) step.pairs[c].force = system.rows()[c].force;
+    for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) step.contacts.pairs[c].force = system.rows()[c].force;
   }
   const ConstrainedSystem::Scales scales = system.scales(step.x, step.v);
-  std::vector<std::uint8_t> opens(step.pairs.size(), 0);
-  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const ContactConstraint& p = step.pairs[c];
+  std::vector<std::uint8_t> opens(step.contacts.pairs.size(), 0);
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+    const ContactConstraint& p = step.contacts.pairs[c];
     if (p.force > 0) continue;
-    const double parting = p.normal.dot(rate(step.v, step.names[c].e) - step.v[p.a]);
+    const double parting = p.normal.dot(rate(step.v, step.contacts.names[c].e) - step.v[p.a]);
     opens[c] = parting > tol::drift * scales.speed || system.gap_acceleration(c, step.a) > scales.opening;
   }
   system.open(opens);
@@ -355,9 +326,9 @@ ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
 bool ConstrainedMotion::stop_parting(Step& step) const {
   std::vector<ContactConstraint> kept;
   bool parts = false;
-  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const ContactConstraint& p = step.pairs[c];
-    const double speed = p.normal.dot(rate(step.v, step.names[c].e) - step.v[p.a]);
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+    const ContactConstraint& p = step.contacts.pairs[c];
+    const double speed = p.normal.dot(rate(step.v, step.contacts.names[c].e) - step.v[p.a]);
     parts = parts || (p.force > 0 && speed > tol::velocity_rounding * step.fastest);
     kept.push_back({p.a, p.b, p.normal});
     kept.back().bilateral = p.force > 0;
@@ -370,12 +341,12 @@ bool ConstrainedMotion::stop_parting(Step& step) const {
 void ConstrainedMotion::find_resting(Step& step) const {
   const std::size_t n = step.x.size();
   DisjointSets islands(n);
-  for (const ContactConstraint& p : step.pairs)
+  for (const ContactConstraint& p : step.contacts.pairs)
     if (p.b != ContactConstraint::fixed) islands.join(p.a, p.b);
   std::vector<std::uint32_t> island(n);
   for (std::uint32_t k = 0; k < n; ++k) island[k] = islands.root(k);
   std::vector<std::uint8_t> moves(n, 1);  // by island
-  for (const ContactConstraint& p : step.pairs) moves[island[p.a]] = 0;
+  for (const ContactConstraint& p : step.contacts.pairs) moves[island[p.a]] = 0;
   step.fastest = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const double speed = step.v[k].norm();
@@ -410,8 +381,8 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
   if (straight >= std::min(step.length, scales.time())) {
     step.length = std::min(step.length, straight);
     step.fade = all_rest ? 0 : std::max(system.common_fade(), 0.0);
-    for (std::size_t c = 0; c < step.pairs.size(); ++c)
-      if (!step.rests[step.pairs[c].a])
+    for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c)
+      if (!step.rests[step.contacts.pairs[c].a])
         step.length = std::min({step.length, rim_time(step, c, step.length), away_time(step, c)});
     return;
   }
@@ -430,8 +401,8 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
 /// s: when the pair comes over its feature's rim, on parabolas: along a rim, not over it, but for rounding.
 double ConstrainedMotion::rim_time(const Step& step, std::size_t pair, double length) const {
   const World& world = bodies_.world;
-  const auto& [i, e, feature] = step.names[pair];
-  const std::uint32_t k = step.pairs[pair].a;
+  const auto& [i, e, feature] = step.contacts.names[pair];
+  const std::uint32_t k = step.contacts.pairs[pair].a;
   const Vec3 w = rate(step.v, e) - step.v[k], a = rate(step.a, e) - step.a[k];
   RelativeMotion m{at(step.x, e) - step.x[k], w, a, w.norm(), true};
   const double speeds = step.v[k].norm() + rate(step.v, e).norm();
@@ -448,11 +419,12 @@ double ConstrainedMotion::rim_time(const Step& step, std::size_t pair, double le
 
 /// s: when a pair that parts, or is about to, is so far apart that it may meet again.
 double ConstrainedMotion::away_time(const Step& step, std::size_t pair) const {
-  const ContactConstraint& p = step.pairs[pair];
+  const ContactConstraint& p = step.contacts.pairs[pair];
   if (p.force > 0) return never;
-  const Entity e = step.names[pair].e;
+  const Entity e = step.contacts.names[pair].e;
   const double u = p.normal.dot(rate(step.v, e) - step.v[p.a]), w = p.normal.dot(rate(step.a, e) - step.a[p.a]);
-  const double far = 4 * tol::contact_gap * std::max(bodies_.world.radius[step.names[pair].i], step.smallest);  // m
+  const double far =
+      4 * tol::contact_gap * std::max(bodies_.world.radius[step.contacts.names[pair].i], step.smallest);  // m
   double t = never;
   if (u > 0) t = std::min(t, far / u);
   if (w > 0) t = std::min(t, std::sqrt(2 * far / w));
@@ -467,10 +439,10 @@ void ConstrainedMotion::find_unbound(Step& step) const {
   step.bound.assign(n, 0);
   step.flats.resize(n);
   step.down.assign(n, Vec3::Zero());
-  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const ContactConstraint& p = step.pairs[c];
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+    const ContactConstraint& p = step.contacts.pairs[c];
     if (!(p.force > 0)) continue;
-    const auto& [i, e, feature] = step.names[c];
+    const auto& [i, e, feature] = step.contacts.names[c];
     step.held[p.a] = 1;
     FlatContactList& flats = step.flats[p.a];
     if (p.b != ContactConstraint::fixed) {
@@ -498,14 +470,14 @@ void ConstrainedMotion::note_contacts(const Step& step) {
     group_.pressing.write(i).clear();
     group_.floors.write(i).clear();
   }
-  for (std::size_t c = 0; c < step.names.size(); ++c) {
-    const auto& [i, e, feature] = step.names[c];
+  for (std::size_t c = 0; c < step.contacts.names.size(); ++c) {
+    const auto& [i, e, feature] = step.contacts.names[c];
     group_.partners.write(i).push_back(e);
     if (bodies_.world.is_body(e)) group_.partners.write(e).push_back(i);
-    if (!(step.pairs[c].force > 0)) continue;
-    group_.pressing.write(i).push_back({e, step.pairs[c].force});
+    if (!(step.contacts.pairs[c].force > 0)) continue;
+    group_.pressing.write(i).push_back({e, step.contacts.pairs[c].force});
     if (!bodies_.world.is_body(e) && is_flat(bodies_.world, i, e, feature))
-      group_.floors.write(i).push_back(-step.pairs[c].normal);
+      group_.floors.write(i).push_back(-step.contacts.pairs[c].normal);
   }
 }
 

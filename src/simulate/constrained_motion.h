@@ -55,8 +55,7 @@ class ConstrainedMotion {
     double greatest = 0, smallest = never;  // m/s^2, the greatest acceleration; m, the least radius
     std::vector<Vec3> x, v;                 // m, m/s, by member
     std::vector<double> inverse_mass;       // 1/kg
-    std::vector<ContactConstraint> pairs;   // in contact; force: N, at the step's start
-    std::vector<Contact> names;             // their names
+    ContactList contacts;                   // force: N, at the step's start
     std::vector<Vec3> a;                    // m/s^2, at the step's start
     double fastest = 0;                     // m/s
     std::vector<std::uint8_t> rests;        // by member
@@ -78,7 +77,6 @@ class ConstrainedMotion {
   std::vector<std::uint32_t> parts_of(const Step& step) const;
   void advance_whole(Step& step);
   void find_contacts(Step& step) const;
-  void drop_hidden(Step& step, std::size_t first) const;
   void close_overlaps(Step& step) const;
   void take_approaches(Step& step);
   std::vector<std::uint8_t> record_fast(const Step& step, const std::vector<Vec3>& met) const;

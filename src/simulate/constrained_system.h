@@ -12,14 +12,9 @@
 #include "physics/contact_problem.h"
 #include "physics/dense_motion.h"
 #include "physics/touch.h"
+#include "simulate/contact_list.h"
 
 namespace carom {
-
-/// Two things in contact.
-struct Contact {
-  Entity i, e;           // i < e; i a body
-  std::uint8_t feature;  // as in Touch
-};
 
 class ConstrainedSystem {
  public:

@@ -33,17 +33,15 @@ void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec
                        std::span<const ContactConstraint> pairs, std::span<const std::uint8_t> recorded) {
   double fastest = 0;
   for (const Vec3& v : before) fastest = std::max(fastest, v.norm());
-  const auto parting = [&](const ContactConstraint& p, std::span<const Vec3> v) {  // m/s
-    return p.normal.dot((p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : v[p.b]) - v[p.a]);
-  };
   bool any = false;
   double of_recorded = 0;  // J
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const ContactConstraint& p = pairs[c];
     if (!(p.force > 0)) continue;
-    const double approach = -parting(p, before);
+    const Vec3 vb = p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : before[p.b];
+    const double approach = p.normal.dot(before[p.a] - vb);
     if (!recorded.empty() && recorded[c]) {
-      of_recorded += 0.5 * p.force * (approach - parting(p, after));
+      of_recorded += 0.5 * p.force * approach;
     } else if (approach > std::max(exact_tolerance::drift * fastest, p.slack)) {
       take_up(approach, 0);
       any = true;

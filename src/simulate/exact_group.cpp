@@ -137,12 +137,12 @@ void ExactGroup::kick(Entity i, const Vec3& dv) {
   islands.kick.write(i) += dv / (islands.kicked_until[i] - bodies_.now);
 }
 
-bool ExactGroup::strikes(Entity i, Entity e, double approach, double greatest) const {
+bool ExactGroup::strikes(Entity i, Entity e, double approach, double greatest, bool apart) const {
   const World& world = bodies_.world;
   const bool body = world.is_body(e);
   const bool collapse = collapses_.ended_now(i) || (body && collapses_.ended_now(e));
   return !collapse && greatest > 0 && approach >= bodies_.slow_speed(greatest, bodies_.smaller_length(i, e)) &&
-         pair_restitution(world, i, e) > 0;
+         (apart || pair_restitution(world, i, e) > 0);
 }
 
 void ExactGroup::part(Entity i) {

@@ -54,9 +54,9 @@ class ExactGroup {
   double approach_without_kick(double approach, const Vec3& n, Entity i, Entity e) const;
   /// A force in what is left of a time step changes body i's velocity by dv (m/s), which is in its flight from now on.
   void kick(Entity i, const Vec3& dv);
-  /// Whether member i and e approach each other (m/s) for an impact that bounces: contact must not take that speed.
-  /// `greatest` is the greatest acceleration in the group (m/s^2).
-  bool strikes(Entity i, Entity e, double approach, double greatest) const;
+  /// Whether member i and e approach each other (m/s) for an impact of its own: one that bounces, or if they are
+  /// `apart`. Contact must not take that speed. `greatest` is the greatest acceleration in the group (m/s^2).
+  bool strikes(Entity i, Entity e, double approach, double greatest, bool apart = false) const;
 
   /// Body i, which leaves its island, may meet all that it was in contact with.
   void part(Entity i);

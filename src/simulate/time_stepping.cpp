@@ -131,11 +131,10 @@ void TimeStepping::find_pairs(Step& step) const {
     bodies_.neighbours.hold(step.members[k], step.x[k], reach);
   }
   step.near.clear();
-  step.pairs.clear();
-  step.names.clear();
-  step.gaps.clear();
+  step.contacts.clear();
   for (std::size_t k = 0; k < step.members.size(); ++k) {
     const Entity i = step.members[k];
+    const std::size_t first = step.contacts.pairs.size();
     for (const Entity e : bodies_.known_to(i)) {
       // A sleeping body is as if fixed; if pressed on, it wakes.
       const bool asleep = world.is_body(e) && bodies_.body[e].state == ContactState::asleep;
@@ -166,10 +165,9 @@ void TimeStepping::find_pairs(Step& step) const {
         pair.target = (tol::margin_slack * margin - std::max(there.gap, 0.0)) / h;
       for (const PressingContact& p : group_.pressing[i])
         if (p.partner == e) pair.force = p.force * h;
-      step.pairs.push_back(pair);
-      step.names.emplace_back(i, e);
-      step.gaps.push_back(there.gap);
+      step.contacts.add(pair, {i, e, there.feature}, there.gap);
     }
+    step.contacts.drop_hidden(world, step.x[k], first);
   }
 }
 
@@ -177,8 +175,8 @@ void TimeStepping::find_pairs(Step& step) const {
 void TimeStepping::take_slow_impacts(Step& step) const {
   step.after_impacts = step.v;
   step.impacts.clear();
-  if (step.greatest <= 0 || !approaching(step.v, step.pairs)) return;
-  step.impacts = step.pairs;
+  if (step.greatest <= 0 || !approaching(step.v, step.contacts.pairs)) return;
+  step.impacts = step.contacts.pairs;
   for (ContactConstraint& p : step.impacts) {
     p.target = std::min(p.target, 0.0);
     p.force = 0;
@@ -201,13 +199,13 @@ void TimeStepping::keep_apart(Step& step) const {
   }
   const auto press = [&] {
     step.solved = free;
-    return carom::solve({inverse_mass, step.solved, step.pairs, ContactAccuracy::contacts});
+    return carom::solve({inverse_mass, step.solved, step.contacts.pairs, ContactAccuracy::contacts});
   };
   Certificate certificate = press();
-  const bool part =
-      std::any_of(step.pairs.begin(), step.pairs.end(), [](const ContactConstraint& p) { return p.target > 0; });
+  const bool part = std::any_of(step.contacts.pairs.begin(), step.contacts.pairs.end(),
+                                [](const ContactConstraint& p) { return p.target > 0; });
   if (part && (!certificate.solved() || makes_energy(step, free))) {
-    for (ContactConstraint& p : step.pairs) {
+    for (ContactConstraint& p : step.contacts.pairs) {
       p.target = std::min(p.target, 0.0);
       p.force = 0;
     }
@@ -227,7 +225,7 @@ bool TimeStepping::makes_energy(const Step& step, const std::vector<Vec3>& free)
     lost += 0.5 * (step.v[k] - v).dot(step.v[k] + v) / step.inverse_mass[k];
   }
   double parting = 0;  // J
-  for (const ContactConstraint& p : step.pairs) parting += p.force * std::max(p.target, 0.0);
+  for (const ContactConstraint& p : step.contacts.pairs) parting += p.force * std::max(p.target, 0.0);
   return made > 0 || parting > lost;
 }
 
@@ -236,8 +234,8 @@ void TimeStepping::find_parts(Step& step) {
   const std::size_t n = step.x.size();
   DisjointSets sets(n);
   step.carried.assign(n, 0);
-  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const ContactConstraint& p = step.pairs[c];
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+    const ContactConstraint& p = step.contacts.pairs[c];
     if (p.force <= 0 && (step.impacts.empty() || step.impacts[c].force <= 0)) continue;
     step.carried[p.a] = 1;
     if (p.b == ContactConstraint::fixed) continue;
@@ -253,7 +251,7 @@ void TimeStepping::find_parts(Step& step) {
     widen(k, tol::margin_decay * group_.margin[step.members[k]]);
     widen(k, tol::margin_of_displacement * step.length * step.solved[k].norm());
   }
-  for (const ContactConstraint& p : step.pairs) {
+  for (const ContactConstraint& p : step.contacts.pairs) {
     const double missing = step.length * (p.target - p.normal.dot(relative_velocity(step.solved, p)));  // m
     if (missing > 0) widen(p.a, std::min(2 * missing, tol::widest_margin * step.smallest));
   }
@@ -279,9 +277,9 @@ std::vector<std::uint8_t> TimeStepping::stop_slow(Step& step) const {
 /// The forces among the bodies of still islands, from none: where these are not unique, no more than needed.
 TimeStepping::Holding TimeStepping::hold(const Step& step, const std::vector<std::uint8_t>& still) const {
   Holding holding;
-  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const ContactConstraint& p = step.pairs[c];
-    if (!still[step.island[p.a]] || step.gaps[c] > tol::resting_gap * step.smallest) continue;
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+    const ContactConstraint& p = step.contacts.pairs[c];
+    if (!still[step.island[p.a]] || step.contacts.gaps[c] > tol::resting_gap * step.smallest) continue;
     holding.pairs.push_back({p.a, p.b, p.normal, 0, tol::rest_slack * step.greatest, 0});
     holding.which.push_back(c);
   }
@@ -301,18 +299,19 @@ void TimeStepping::put_to_rest(Step& step) const {
     if (!(holding.a[k].norm() <= tol::balance * step.greatest)) still[step.island[k]] = 0;
   // What rests on a sleeping body wakes it first: they are in balance together, or not at all.
   for (std::size_t c = 0; c < holding.pairs.size(); ++c) {
-    const Entity e = step.names[holding.which[c]].second;
+    const Entity e = step.contacts.names[holding.which[c]].e;
     if (holding.pairs[c].force > 0 && bodies_.world.is_body(e) && holding.pairs[c].b == ContactConstraint::fixed) {
       still[step.island[holding.pairs[c].a]] = 0;
-      step.pairs[holding.which[c]].force =
-          std::max(step.pairs[holding.which[c]].force, step.length * holding.pairs[c].force);
+      step.contacts.pairs[holding.which[c]].force =
+          std::max(step.contacts.pairs[holding.which[c]].force, step.length * holding.pairs[c].force);
     }
   }
   for (std::uint32_t k = 0; k < n; ++k) step.rests[k] = still[step.island[k]];
-  for (ContactConstraint& p : step.pairs)
+  for (ContactConstraint& p : step.contacts.pairs)
     if (step.rests[p.a]) p.force = 0;
   for (std::size_t c = 0; c < holding.pairs.size(); ++c)
-    if (step.rests[holding.pairs[c].a]) step.pairs[holding.which[c]].force = step.length * holding.pairs[c].force;
+    if (step.rests[holding.pairs[c].a])
+      step.contacts.pairs[holding.which[c]].force = step.length * holding.pairs[c].force;
 }
 
 /// The members' flights until the step's end.
@@ -320,9 +319,10 @@ void TimeStepping::begin_flights(const Step& step) {
   const double h = step.length;
   bodies_.log.take_up(step.inverse_mass, step.v, step.after_impacts, step.impacts);
   for (const Entity i : step.members) group_.pressing.write(i).clear();
-  for (std::size_t c = 0; c < step.pairs.size(); ++c)
-    if (step.pairs[c].force > 0)
-      group_.pressing.write(step.names[c].first).push_back({step.names[c].second, step.pairs[c].force / h});
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c)
+    if (step.contacts.pairs[c].force > 0)
+      group_.pressing.write(step.contacts.names[c].i)
+          .push_back({step.contacts.names[c].e, step.contacts.pairs[c].force / h});
   Island& island = bodies_.islands.of(step.members.front());
   island.fresh = island.constrained = false;
   island.step_length = h;
@@ -336,11 +336,11 @@ void TimeStepping::begin_flights(const Step& step) {
     if (begin_flight(step, k, step.members[k])) stay.push_back(step.members[k]);
   bodies_.islands.retain(step.members.front(), std::move(stay));
   split(step);
-  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    const auto [i, e] = step.names[c];
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+    const auto& [i, e, feature] = step.contacts.names[c];
     const bool asleep = bodies_.world.is_body(e) && bodies_.body[e].state == ContactState::asleep;
-    if (step.pairs[c].b != ContactConstraint::fixed || !asleep) continue;
-    if (!(step.pairs[c].force > 0 && bodies_.in_group(i))) continue;
+    if (step.contacts.pairs[c].b != ContactConstraint::fixed || !asleep) continue;
+    if (!(step.contacts.pairs[c].force > 0 && bodies_.in_group(i))) continue;
     group_.wake(e);
     group_.unite(i, e);
   }
@@ -351,9 +351,9 @@ void TimeStepping::begin_flights(const Step& step) {
 /// Steps in which the same pairs press: after some of them constrained motion can follow the island again.
 void TimeStepping::count_calm(const Step& step, Island& island) {
   std::uint64_t hash = 0;
-  for (std::size_t c = 0; c < step.pairs.size(); ++c) {
-    if (!(step.pairs[c].force > 0)) continue;
-    const auto [i, e] = step.names[c];
+  for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
+    if (!(step.contacts.pairs[c].force > 0)) continue;
+    const auto& [i, e, feature] = step.contacts.names[c];
     hash += (std::uint64_t{i} << 32 | e) * 0x9e3779b97f4a7c15u;
   }
   island.calm = hash == island.pressing ? island.calm + 1 : 0;
@@ -366,7 +366,7 @@ void TimeStepping::count_calm(const Step& step, Island& island) {
 /// Those that have stayed and that no pair connects any more are islands of their own.
 void TimeStepping::split(const Step& step) {
   DisjointSets sets(step.members.size());
-  for (const ContactConstraint& p : step.pairs)
+  for (const ContactConstraint& p : step.contacts.pairs)
     if (p.b != ContactConstraint::fixed && bodies_.in_group(step.members[p.a]) && bodies_.in_group(step.members[p.b]))
       sets.join(p.a, p.b);
   std::vector<std::uint32_t> label, first(step.members.size(), ContactConstraint::fixed);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "physics/contact_problem.h"
+#include "simulate/contact_list.h"
 #include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
 #include "simulate/flight_changes.h"
@@ -33,22 +34,20 @@ class TimeStepping {
  private:
   /// A step, in numbers of its own.
   struct Step {
-    std::vector<Entity> members;                   // ascending
-    double length = 0;                             // s
-    std::uint32_t short_steps = 0;                 // on end, that simultaneous impacts ended at once
-    double smallest = never, greatest = 0;         // m, the least radius; m/s^2, the greatest acceleration
-    std::vector<Vec3> x, v;                        // m, m/s: now,
-    std::vector<Vec3> after_impacts;               // m/s: without the approaches that contact takes at once,
-    std::vector<Vec3> solved;                      // m/s: from now on
-    std::vector<double> expected;                  // m/s: half of the speed that contacts are searched for
-    std::vector<double> inverse_mass;              // 1/kg
-    std::vector<Entity> near;                      // bodies of other islands that members may press on
-    std::vector<ContactConstraint> pairs;          // that may press on each other before the step ends,
-    std::vector<std::pair<Entity, Entity>> names;  // their names,
-    std::vector<double> gaps;                      // m, and how far they are apart now
-    std::vector<ContactConstraint> impacts;        // by pair: what contact takes at once, or none
-    std::vector<std::uint32_t> island;             // by member: one of those that press on one another with it
-    std::vector<std::uint8_t> carried, rests;      // by member: something presses on it; it is at rest
+    std::vector<Entity> members;               // ascending
+    double length = 0;                         // s
+    std::uint32_t short_steps = 0;             // on end, that simultaneous impacts ended at once
+    double smallest = never, greatest = 0;     // m, the least radius; m/s^2, the greatest acceleration
+    std::vector<Vec3> x, v;                    // m, m/s: now,
+    std::vector<Vec3> after_impacts;           // m/s: without the approaches that contact takes at once,
+    std::vector<Vec3> solved;                  // m/s: from now on
+    std::vector<double> expected;              // m/s: half of the speed that contacts are searched for
+    std::vector<double> inverse_mass;          // 1/kg
+    std::vector<Entity> near;                  // bodies of other islands that members may press on
+    ContactList contacts;                      // that may press before the step ends
+    std::vector<ContactConstraint> impacts;    // by pair: what contact takes at once, or none
+    std::vector<std::uint32_t> island;         // by member: one of those that press on one another with it
+    std::vector<std::uint8_t> carried, rests;  // by member: something presses on it; it is at rest
   };
   /// The forces among bodies that may be at rest.
   struct Holding {

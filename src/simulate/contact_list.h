@@ -1,0 +1,44 @@
+#pragma once
+// Contacts of an island: which things touch, beside the constraints that they are to the solver.
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "physics/contact_problem.h"
+#include "physics/touch.h"
+
+namespace carom {
+
+/// Two things in contact.
+struct Contact {
+  Entity i, e;           // i < e; i a body
+  std::uint8_t feature;  // as in Touch
+};
+
+struct ContactList {
+  std::vector<ContactConstraint> pairs;
+  std::vector<Contact> names;  // of the pairs
+  std::vector<double> gaps;    // m, of the pairs, now
+
+  void clear();
+  void add(const ContactConstraint& pair, const Contact& name, double gap);
+  /// Drops those of a body at x (m), from number `first` on, with what lies behind a flat fixed surface beside it, but
+  /// for surfaces level with that.
+  void drop_hidden(const World& world, const Vec3& x, std::size_t first);
+  /// Drops those from number `first` on for which drops(number).
+  template <typename Drops>
+  void drop_if(std::size_t first, Drops drops) {
+    std::size_t kept = first;
+    for (std::size_t c = first; c < pairs.size(); ++c) {
+      if (drops(c)) continue;
+      pairs[kept] = pairs[c];
+      names[kept] = names[c];
+      gaps[kept++] = gaps[c];
+    }
+    pairs.resize(kept);
+    names.resize(kept);
+    gaps.resize(kept);
+  }
+};
+
+}  // namespace carom
