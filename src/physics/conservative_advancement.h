@@ -45,7 +45,8 @@ class ConservativeAdvancement {
       t = leaves_until(s, 0, m_.w, speed);
       if (t == 0) return {0, s.feature};
     }
-    for (int step = 0; step < 1000 && t <= horizon_; ++step) {
+    // A path that leaves a curved surface with its curvature, or nearly, takes thousands of steps to come clear of it.
+    while (t <= horizon_) {
       s = look(t);
       const Vec3 v = way_.velocity(t);
       const double speed = s.normal.dot(v);
@@ -72,7 +73,7 @@ class ConservativeAdvancement {
         on = std::max(on, leaves_until(s, t, v, out));
         if (on == never) return {never, no_feature};
       }
-      t += on;
+      t = std::max(t + on, std::nextafter(t, never));
     }
     return {never, no_feature};
   }

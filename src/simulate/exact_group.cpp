@@ -141,8 +141,8 @@ bool ExactGroup::strikes(Entity i, Entity e, double approach, double greatest, b
   const World& world = bodies_.world;
   const bool body = world.is_body(e);
   const bool collapse = collapses_.ended_now(i) || (body && collapses_.ended_now(e));
-  return !collapse && greatest > 0 && approach >= bodies_.slow_speed(greatest, bodies_.smaller_length(i, e)) &&
-         (apart || pair_restitution(world, i, e) > 0);
+  return greatest > 0 && approach >= bodies_.slow_speed(greatest, bodies_.smaller_length(i, e)) &&
+         (pair_restitution(world, i, e) > 0 ? !collapse : apart);
 }
 
 void ExactGroup::part(Entity i) {

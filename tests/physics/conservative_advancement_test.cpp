@@ -179,5 +179,26 @@ TEST(ConservativeAdvancement, AGapSmallerThanThePositionsCanTellIsMet) {
   EXPECT_LT(time_of_impact(world, 0, 1, {d, w, a, 20, false}, no_feature, 1).time, 1e-15);
 }
 
+TEST(ConservativeAdvancement, APathThatLeavesARoundedEdgeAsItBendsIsFollowedToTheFaceBeyond) {
+  // A ball that touches a box's edge leaves it with the edge's own curvature, so that the gap grows with the third
+  // power of time, dips below the box and comes back to its bottom.
+  for (const double pull : {0.5, 1.0, 3.0})
+    for (const double push : {0.0, 1e-12, 1e-9}) {
+      const double r = 0.15, half = 0.1, out = r * std::sqrt(0.5), speed = 1;
+      const Vec3 along = Vec3(1, -1, 0) * std::sqrt(0.5), normal = Vec3(-1, -1, 0) * std::sqrt(0.5);
+      World world;
+      world.mass = {1, 1};
+      world.restitution = {1, 1};
+      world.volume = {Volume::box({8, 2 * half, 2 * half}), Volume::sphere(r)};
+      for (const Volume& v : world.volume) world.radius.push_back(v.reach());
+      const Vec3 d(-4 - out, -half - out, 0), w = speed * along;
+      const Vec3 a = pull * along - (1 - push) * speed * speed / r * normal;
+      const double room = d.y() + half + r;  // m, above the plane of the bottom
+      const double time = (-w.y() + std::sqrt(w.y() * w.y() - 2 * a.y() * room)) / a.y();
+      const FeatureTime found = time_of_impact(world, 0, 1, {d, w, a, 4, false}, no_feature, 10);
+      EXPECT_NEAR(found.time, time, 1e-13) << pull << ' ' << push;
+    }
+}
+
 }  // namespace
 }  // namespace carom
