@@ -329,5 +329,30 @@ TEST(ExactSimulator, TallyAtTheEndHasTheLastFlights) {
   EXPECT_EQ(simulator->tally().max_speed, 2 * g);
 }
 
+TEST(TimeStepping, CarriesABodyThatFellWithoutLettingItFallOn) {
+  ExactParts parts(ball_on_floor());
+  parts.group.join(0);
+  EXPECT_EQ(parts.bodies.flights[0].a, Vec3(0, -g, 0));
+  parts.stepping.advance(0);
+  EXPECT_TRUE(parts.bodies.is_stepped(0) || parts.bodies.body[0].state == ContactState::asleep);
+  EXPECT_TRUE(parts.bodies.flights[0].a.isZero(0));
+  EXPECT_TRUE(parts.bodies.flights[0].v.isZero(1e-12));
+}
+
+TEST(TimeStepping, SlidesABodyOverTilesAsOverOneFloor) {
+  for (const double speed : {0.1, 1.0, 10.0}) {
+    Problem p;
+    p.world.gravity = Vec3(0, -g, 0);
+    for (int k = -4; k < 4; ++k) p.obstacle(Vec3(k + 0.5, -0.25, 0), Volume::box({1, 0.5, 4}));
+    p.ball(Vec3(-0.01, 0.5, 0), Vec3(speed, 0, 0), 2, 0.5, 0.5);
+    ExactParts parts(p);
+    parts.group.join(0);
+    parts.stepping.advance(0);
+    EXPECT_TRUE(parts.bodies.is_stepped(0));
+    EXPECT_EQ(parts.bodies.flights[0].v.x(), speed);
+    EXPECT_NEAR(parts.bodies.flights[0].v.y(), 0, 1e-3 * speed);
+  }
+}
+
 }  // namespace
 }  // namespace carom
