@@ -43,7 +43,7 @@ TEST(Determinism, AGasHasTheSameBitsInEveryBuild) {
 }
 
 TEST(Determinism, BallsThatSettleHaveTheSameBitsInEveryBuild) {
-  EXPECT_EQ(hash_of(run_exact(lattice(0.7, 4))), 15165213899123477810u);
+  EXPECT_EQ(hash_of(run_exact(lattice(0.7, 4))), 13752079523097933147u);
 }
 
 TEST(Determinism, TheBooksLoopHasTheSameBitsInEveryBuild) {
@@ -59,8 +59,8 @@ TEST(Determinism, ACrowdInStepsHasTheSameBitsInEveryBuild) {
   options.duration = 3;
   options.step = 0.005;
   for (const auto& [method, hash] :
-       {std::pair(Integrator::euler, 10472411660449661507u), std::pair(Integrator::verlet, 10750732764252053716u),
-        std::pair(Integrator::rk4, 1278034598206144461u)}) {
+       {std::pair(Integrator::euler, 18219649294166627381u), std::pair(Integrator::verlet, 15075713495853401230u),
+        std::pair(Integrator::rk4, 4137986762777197700u)}) {
     options.integrator = method;
     const auto simulator = make_exact_simulator(problem.world, problem.initial, options);
     EXPECT_EQ(hash_of(run_to_end(*simulator, 3)), hash) << static_cast<int>(method);
