@@ -30,6 +30,8 @@ class DualActiveSet {
 
   /// Whether it has factors of a last island.
   bool has_factors() const { return factors_.columns() > 0; }
+  /// They are of an island that is no more the last.
+  void forget() { factors_.reset(0); }
 
  private:
   static constexpr std::uint32_t none = ~std::uint32_t{0};

@@ -250,6 +250,7 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, Known& last
   const double times = alike ? worth_while : 1;
   const bool dense = unequal || cost.dense() <= times * cost.least_sparse() || cost.dense() <= times * cost.sparse();
   if (dense && by_active_set()) return best;
+  last.method.forget();
   if (take(cost.method().solve(attempt), false)) return best;
   for (std::size_t c = 0; c < island.rows.size(); ++c)
     island.rows[c].force = island.rows[c].bilateral ? 0 : std::max(answer.force[c].hi, 0.0);

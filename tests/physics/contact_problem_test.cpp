@@ -216,6 +216,19 @@ TEST(ContactProblem, AWarmStartFindsTheSame) {
     }
 }
 
+// The one method keeps factors, the other does not: those of a problem before the last are of no use.
+TEST(ContactProblem, AWarmStartAfterProblemsOfOtherSizesFindsTheSame) {
+  for (const Load load : loads) {
+    ContactSolver solver;
+    for (const int balls : {40, 300, 300, 12, 300, 40}) {
+      Case cold = loaded("", packing(balls, 6), load, 3), warm = cold;
+      EXPECT_TRUE(solve_case(cold).solved());
+      EXPECT_TRUE(solver.solve({warm.inverse_mass, warm.motion, warm.contacts}).solved());
+      EXPECT_LE(difference(cold.motion, warm.motion), 1e-14) << balls;
+    }
+  }
+}
+
 /// A rod between two balls: they turn about their centre and keep their distance, which takes a pull.
 TEST(ContactProblem, BilateralContactsPullToo) {
   const std::vector<double> inverse_mass{1, 0.5};
