@@ -67,9 +67,8 @@ void ConstrainedMotion::settle(Entity i) {
   bend(i, std::min(bodies_.islands.piece_end[i] - start, following_[i].path->end() - start));
 }
 
-/// What is left between the velocities of body i's path and of the parabola that meets it at its flight's start, with
-/// its velocity, and `length` (s) later: that of a cubic, 3 t^2 - 2 t length times the same, but for the fourth power
-/// of the length.
+/// What the velocity of body i's parabola lacks of its path's. Both begin alike, and meet `length` (s) after the
+/// flight's start: but for the fourth power of that it is a multiple of 3 t^2 - 2 t length, the slope of a cubic.
 void ConstrainedMotion::bend(Entity i, double length) {
   PathBend& bend = bodies_.islands.bend.write(i);
   bend = {};

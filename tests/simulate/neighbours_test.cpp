@@ -48,6 +48,33 @@ TEST(NearOnADiagonal, KnowsAllThatMayTouch) {
     }
 }
 
+TEST(NearThoseThatStay, KnowsAllWithinReachAndFewBeyond) {
+  Random random;
+  for (const double reach : {1e-9, 1e-3, 0.03, 0.5}) {
+    constexpr Entity bodies = 400;
+    World world;
+    std::vector<Vec3> x;
+    for (Entity i = 0; i < bodies; ++i) {
+      world.mass.push_back(1);
+      world.radius.push_back(random(0.3, 0.5));
+      world.restitution.push_back(1);
+      x.push_back(in_cube(random, 3.5));
+    }
+    Neighbours neighbours(world);
+    neighbours.start(x);
+    for (Entity i = 0; i < bodies; ++i) neighbours.hold(i, x[i], reach);
+    for (Entity i = 0; i < bodies; ++i) {
+      const std::span<const Entity> list = neighbours.bodies(i);
+      for (Entity j = 0; j < bodies; ++j) {
+        if (j == i) continue;
+        const double gap = (x[j] - x[i]).norm() - world.radius[i] - world.radius[j];
+        if (gap <= 2 * reach) EXPECT_EQ(std::count(list.begin(), list.end(), j), 1) << reach;
+        if (gap > 12 * reach + 2) EXPECT_EQ(std::count(list.begin(), list.end(), j), 0) << reach;
+      }
+    }
+  }
+}
+
 /// Bodies wander and get new regions when they leave theirs. All the time, whoever may touch within their regions is
 /// on both lists, once, and so is every plane in reach.
 TEST_P(Near, KnowsAllThatMayTouch) {
