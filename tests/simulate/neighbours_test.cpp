@@ -68,8 +68,9 @@ TEST(NearThoseThatStay, KnowsAllWithinReachAndFewBeyond) {
       for (Entity j = 0; j < bodies; ++j) {
         if (j == i) continue;
         const double gap = (x[j] - x[i]).norm() - world.radius[i] - world.radius[j];
-        if (gap <= 2 * reach) EXPECT_EQ(std::count(list.begin(), list.end(), j), 1) << reach;
-        if (gap > 12 * reach + 2) EXPECT_EQ(std::count(list.begin(), list.end(), j), 0) << reach;
+        const auto times = std::count(list.begin(), list.end(), j);
+        EXPECT_LE(times, gap > 12 * reach + 2 ? 0 : 1) << reach;
+        EXPECT_GE(times, gap <= 2 * reach ? 1 : 0) << reach;
       }
     }
   }
