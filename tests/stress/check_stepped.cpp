@@ -1,6 +1,5 @@
 // The same scenes in steps of time, long ones: whatever the method and the step, a run ends, no body is nowhere or
-// inside another, outputs change nothing. In steps in which no body falls farther than the smallest one's radius no
-// energy comes from nowhere either; in longer ones groups in contact may make some, which the books say.
+// inside another, outputs change nothing, and no energy comes from nowhere.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,9 +13,8 @@ namespace carom::stress {
 
 namespace {
 
-constexpr double deepest = 1e-9;  // of the smaller radius, and
-constexpr double most_gain =
-    5e-4;  // of the energy, where time stepping tells contact; measured: 2.4e-5 in 2,000 scenes
+constexpr double deepest = 1e-9;    // of the smaller radius, and
+constexpr double most_gain = 1e-6;  // of the energy; measured: below 1e-7 in 1,371 scenes
 
 struct Seen {
   std::vector<State> states;
