@@ -410,8 +410,9 @@ bool TimeStepping::begin_flight(const Step& step, std::size_t k, Entity i) {
     islands.kicked_until.write(i) = islands.of(i).end;
     islands.kick.write(i) = step.greatest > 0 ? Vec3((solved - v) / step.length) : Vec3(Vec3::Zero());
     begin(solved);
-    bodies_.flights.accelerate(i, Vec3::Zero());  // what forces do is in the kick
-  } else {                                        // flies as free bodies do
+    // What forces do is in the kick.
+    bodies_.flights.accelerate(i, Vec3::Zero());
+  } else {  // flies as free bodies do
     islands.kicked_until.write(i) = bodies_.now;
     islands.kick.write(i).setZero();
     begin(v);

@@ -12,7 +12,6 @@
 // for the next step instead of making thousands of impacts at one instant. The margin shrinks as the group slows down.
 // Bodies that touch inside their margin part a little, as far as what slow approaches have lost pays for it.
 // An island that forces hold in balance is put to rest: velocities exactly zero, no more steps, until struck.
-#include <utility>
 #include <vector>
 
 #include "physics/contact_problem.h"

@@ -157,10 +157,10 @@ Problem boxes_on_a_slope(int n, double b, double angle, double mass) {
   return problem;
 }
 
-TEST(ConstrainedMotion, BoxesInARowSlideDownASlopeAsOneWhicheverIsPushed) {
+TEST(ConstrainedMotion, BoxesInARowSlideDownASlopeAsOneAlsoWhenTheUppermostIsPushed) {
   for (const int n : {1, 2, 5, 9, 17, 40})
     for (const double angle : {0.1, 0.3, 0.6})  // tan < 1: their faces touch
-      for (const double push : {0.0, 3.0}) {    // N, down the slope, on the last
+      for (const double push : {0.0, 3.0}) {    // N, down the slope, on the uppermost
         Problem problem = boxes_on_a_slope(n, 0.5, angle, 2);
         const Vec3 down(std::cos(angle), -std::sin(angle), 0);
         if (push > 0) problem.world.forces.push_back({UniformForce{push * down}, 0, never, {0}});

@@ -101,7 +101,7 @@ class ConstrainedReference {
     }
   }
 
-  /// The multipliers (N) of these rows that leave their gaps' rates as they are; solve() by Cholesky.
+  /// The multipliers (N) of these rows that leave their gaps' rates as they are, by Cholesky's factors.
   std::vector<Real> multipliers(const std::vector<std::size_t>& set, const std::vector<Vec>& x,
                                 const std::vector<Vec>& v) const {
     const std::size_t n = set.size();

@@ -1,5 +1,6 @@
 // The same scenes in steps of time, long ones: whatever the method and the step, a run ends, no body is nowhere or
-// inside another, outputs change nothing, and no energy comes from nowhere.
+// inside another, outputs change nothing; and but for Euler's method, of order 1, no
+// energy comes from nowhere.
 #include <algorithm>
 #include <array>
 #include <cmath>
