@@ -61,14 +61,17 @@ class ConservativeAdvancement {
         if (on == 0) return contact(t, s.feature);
       }
       if (on == never) return {never, no_feature};
-      const Vec3 p = m_.d + displacement(t);
-      const bool unresolved =
-          s.gap <= 2 * rounding * s.normal.cwiseAbs().dot(p.cwiseAbs()) || p == m_.d + displacement(t + on);
-      if (s.gap > 0 && unresolved) {  // positions are too coarse to resolve this gap: it is closed
+      const Vec3 p = m_.d + displacement(t), there = m_.d + displacement(t + on);
+      if (s.gap > 0 && (closed(s, p) || p == there)) {
         if (set_.sharp(s.feature)) s = set_.at(p, face_left(s.feature, p, v, way_.acceleration(t)));
         if (s.feature != left_) s = over_the_edge(s, t, v);
         double out = s.normal.dot(v);
         if (std::abs(out) <= noise(s.feature)) out = 0;
+        // A curved surface may have turned away by the time the path comes to the plane.
+        if (out < 0 && p != there && !closed(look(t + on), there)) {
+          t += on;
+          continue;
+        }
         if (out < 0) return contact(t + on, s.feature);
         on = std::max(on, leaves_until(s, t, v, out));
         if (on == never) return {never, no_feature};
@@ -84,6 +87,10 @@ class ConservativeAdvancement {
   double noise(std::uint8_t feature) const {
     const double turn = set_.flat(feature) ? 0 : far_ / set_.curvature_radius(m_.d, feature);
     return 16 * rounding * m_.speeds * (1 + turn);
+  }
+  /// Whether positions are too coarse to resolve the gap of a point at p.
+  static bool closed(const Separation& s, const Vec3& p) {
+    return s.gap <= 2 * rounding * s.normal.cwiseAbs().dot(p.cwiseAbs());
   }
   Vec3 displacement(double t) const { return way_.displacement(t); }
 

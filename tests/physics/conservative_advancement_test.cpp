@@ -200,5 +200,28 @@ TEST(ConservativeAdvancement, APathThatLeavesARoundedEdgeAsItBendsIsFollowedToTh
     }
 }
 
+TEST(ConservativeAdvancement, APathAlongACurvedSurfaceThatTurnsAwayMeetsNothingLater) {
+  // A cylinder whose side touches a box's edge, but for rounding, and that comes closer no faster than rounding: the
+  // plane through the edge lies a while ahead, and the surface has left it by then.
+  World world;
+  world.mass = {1, 1};
+  world.restitution = {1, 1};
+  world.volume = {Volume::cylinder(0.136, 0.2), Volume::box({0.2, 0.2, 0.2})};
+  for (const Volume& v : world.volume) world.radius.push_back(v.reach());
+  Random random(11);
+  int met = 0;
+  for (int k = 0; k < 4000; ++k) {
+    const double angle = random.uniform(0.2, 1.3), gap = random.log_uniform(1e-18, 1e-15);
+    const Vec3 out(std::cos(angle), 0, std::sin(angle)), along(std::sin(angle), 0, -std::cos(angle));
+    const Vec3 d = Vec3(0.1, 0.01, 0.1) + (0.136 + gap) * out;
+    const Vec3 w = 0.3 * along - random.log_uniform(1e-16, 1e-11) * out;
+    const FeatureTime found = time_of_impact(world, 0, 1, {d, w, Vec3::Zero(), 1, false}, no_feature, 0.3);
+    if (found.time == never) continue;
+    ++met;
+    EXPECT_LT(touch(world, 0, Vec3::Zero(), 1, d + found.time * w, found.feature).gap, 1e-14) << k;
+  }
+  EXPECT_GT(met, 100);
+}
+
 }  // namespace
 }  // namespace carom
