@@ -20,7 +20,15 @@
 
 namespace carom {
 
-/// Of the four rows what forces x of theirs do to the motion of their bodies.
+namespace {
+
+inline __attribute__((always_inline)) double sum(const auto& four) {
+  return (four[0] + four[1]) + (four[2] + four[3]);
+}
+
+}  // namespace
+
+/// Adds the forces x of the four rows to those on their bodies.
 inline __attribute__((always_inline)) void ContactProjectedGradients::push(const Rows& rows, const Four& x,
                                                                            Motion* moved) {
   const Four zero{};
@@ -35,14 +43,14 @@ inline __attribute__((always_inline)) void ContactProjectedGradients::push(const
   const Four p2 = __builtin_shufflevector(xy_even, z_even, 2, 3, 6, 7);
   const Four p3 = __builtin_shufflevector(xy_odd, z_odd, 2, 3, 6, 7);
   // One after the other: they may share bodies.
-  moved[rows.a[0]].u -= rows.left[0] * p0;
-  moved[rows.b[0]].u += rows.right[0] * p0;
-  moved[rows.a[1]].u -= rows.left[1] * p1;
-  moved[rows.b[1]].u += rows.right[1] * p1;
-  moved[rows.a[2]].u -= rows.left[2] * p2;
-  moved[rows.b[2]].u += rows.right[2] * p2;
-  moved[rows.a[3]].u -= rows.left[3] * p3;
-  moved[rows.b[3]].u += rows.right[3] * p3;
+  moved[rows.a[0]].u -= p0;
+  moved[rows.b[0]].u += p0;
+  moved[rows.a[1]].u -= p1;
+  moved[rows.b[1]].u += p1;
+  moved[rows.a[2]].u -= p2;
+  moved[rows.b[2]].u += p2;
+  moved[rows.a[3]].u -= p3;
+  moved[rows.b[3]].u += p3;
 }
 
 /// Of the four rows, of unit length, what such motion of their bodies is along them.
@@ -58,106 +66,171 @@ inline __attribute__((always_inline)) void ContactProjectedGradients::find_rate(
   const Four x = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
   const Four y = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
   const Four z = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
-  rate = rows.scale * (rows.normal[0] * x + rows.normal[1] * y + rows.normal[2] * z);
+  rate = rows.normal[0] * x + rows.normal[1] * y + rows.normal[2] * z;
 }
 
-/// What these forces do to every body.
+inline __attribute__((always_inline)) void divide_by_mass(const double* inverse_mass, auto* moved, std::size_t bodies) {
+  for (std::size_t k = 0; k < bodies; ++k) moved[k].u *= inverse_mass[k];
+}
+
+/// What the next forces do to every body.
 CAROM_FOR_ALL_PROCESSORS
-void ContactProjectedGradients::move(const Rows* rows, const Forces* forces, std::size_t count, Four Forces::*x,
-                                     Motion* moved, std::size_t bodies) {
+void ContactProjectedGradients::move_next(const Rows* rows, const Next* next, std::size_t count,
+                                          const double* inverse_mass, Motion* moved, std::size_t bodies) {
   std::fill(moved, moved + bodies, Motion{});
-  for (std::size_t k = 0; k < count; ++k) push(rows[k], forces[k].*x, moved);
+  for (std::size_t k = 0; k < count; ++k) push(rows[k], next[k].x, moved);
+  divide_by_mass(inverse_mass, moved, bodies);
+}
+
+/// The direction in which rows are to press that do not, and what it does to every body.
+CAROM_FOR_ALL_PROCESSORS
+void ContactProjectedGradients::chop(const Rows* rows, Forces* forces, std::size_t count, const double* inverse_mass,
+                                     Motion* turned, std::size_t bodies, Sums& sums) {
+  const Four zero{};
+  Four gp{}, square{};
+  std::fill(turned, turned + bodies, Motion{});
+  for (std::size_t k = 0; k < count; ++k) {
+    Forces& f = forces[k];
+    f.direction = f.x > zero || f.g > zero ? zero : f.g;
+    gp += f.g * f.direction;
+    square += f.direction * f.direction;
+    push(rows[k], f.direction, turned);
+  }
+  divide_by_mass(inverse_mass, turned, bodies);
+  sums.gp = sum(gp);
+  sums.square = sum(square);
 }
 
 /// From what the direction does to bodies what it does to rows.
 CAROM_FOR_ALL_PROCESSORS
-void ContactProjectedGradients::find_image(const Rows* rows, Forces* forces, std::size_t count, const Motion* moved,
+void ContactProjectedGradients::find_image(const Rows* rows, Forces* forces, std::size_t count, const Motion* turned,
                                            Sums& sums) {
-  Four gp{}, pap{}, square{};
+  Four pap{};
   for (std::size_t k = 0; k < count; ++k) {
     Forces& f = forces[k];
-    find_rate(rows[k], moved, f.image);
-    gp += f.g * f.direction;
+    find_rate(rows[k], turned, f.image);
     pap += f.direction * f.image;
-    square += f.direction * f.direction;
   }
-  sums.square = (square[0] + square[1]) + (square[2] + square[3]);
-  sums.gp = (gp[0] + gp[1]) + (gp[2] + gp[3]);
-  sums.pap = (pap[0] + pap[1]) + (pap[2] + pap[3]);
+  sums.pap = sum(pap);
 }
 
-/// The next forces and gradient, by this step.
+/// Where this step leads, and the gradient there.
+inline __attribute__((always_inline)) void ContactProjectedGradients::reach(const Forces& f, double step, double least,
+                                                                            Next& next) {
+  const Four zero{};
+  const Four x = f.x - step * f.direction, g = f.g - step * f.image;
+  next.x = (x < zero ? -x : x) < least ? zero : x;
+  next.g = (g < zero ? -g : g) < least ? zero : g;
+}
+
+/// Whether this step leaves all bounds kept, and what the next direction needs.
 CAROM_FOR_ALL_PROCESSORS
-void ContactProjectedGradients::try_step(Forces* forces, std::size_t count, double step, double least, Sums& sums) {
+void ContactProjectedGradients::try_step(const Forces* forces, std::size_t count, double step, double least,
+                                         Sums& sums) {
   const Four zero{};
   Four lowest{}, turn{};
   for (std::size_t k = 0; k < count; ++k) {
-    Forces& f = forces[k];
-    Four x = f.x - step * f.direction, g = f.g - step * f.image;
-    x = (x < zero ? -x : x) < least ? zero : x;
-    g = (g < zero ? -g : g) < least ? zero : g;
-    f.next_x = x;
-    f.next_g = g;
-    lowest = x < lowest ? x : lowest;
-    turn += x > zero ? g * f.image : zero;
+    Next next;
+    reach(forces[k], step, least, next);
+    lowest = next.x < lowest ? next.x : lowest;
+    turn += next.x > zero ? next.g * forces[k].image : zero;
   }
   sums.feasible = !(std::min(std::min(lowest[0], lowest[1]), std::min(lowest[2], lowest[3])) < 0);
-  sums.turn = (turn[0] + turn[1]) + (turn[2] + turn[3]);
+  sums.turn = sum(turn);
 }
+
+struct ContactProjectedGradients::Parts {
+  Four square{}, gp{}, reduced{}, chopped{}, potential{}, beyond{};
+  void add_up(Sums& sums) const {
+    sums.square = sum(square);
+    sums.gp = sum(gp);
+    sums.reduced = sum(reduced);
+    sums.chopped = sum(chopped);
+    sums.potential = sum(potential);
+    sums.within_slack = sum(beyond) == 0;
+  }
+};
 
 /// Takes the next forces. The direction of the conjugate gradients on the face of the rows that press: g less `turn`
 /// times the last one.
-CAROM_FOR_ALL_PROCESSORS
-void ContactProjectedGradients::take_next(Forces* forces, std::size_t count, double turn, double per_step, double least,
-                                          Sums& sums) {
+inline __attribute__((always_inline)) void ContactProjectedGradients::take(const Rows& rows, Forces& f,
+                                                                           const Next& next, double turn,
+                                                                           double per_step, double least,
+                                                                           Motion* turned, Parts& parts) {
   const Four zero{};
-  Four reduced{}, chopped{}, potential{}, beyond{};
-  for (std::size_t k = 0; k < count; ++k) {
-    Forces& f = forces[k];
-    const Four x = f.next_x, g = f.next_g;
-    f.x = x;
-    f.g = g;
-    Four p = x > zero ? g : zero;
-    if (turn != 0) p -= turn * f.direction;
-    f.direction = (p < zero ? -p : p) < least ? zero : p;
-    const Four limited = x * per_step < g ? x * per_step : g, pull = g < zero ? g : zero;
-    reduced += x > zero ? limited * g : zero;
-    chopped += x > zero ? zero : pull * pull;
-    potential += x * (g + f.constant);
-    // A row that presses falls short, or presses while it parts.
-    const Four least_of = x < g ? x : g, part = g >= zero ? zero : -g;
-    const Four off = x > zero ? (least_of < zero ? -least_of : least_of) : part;
-    beyond = off <= f.slack ? beyond : zero + 1;  // what is no number, too
-  }
-  sums.reduced = (reduced[0] + reduced[1]) + (reduced[2] + reduced[3]);
-  sums.chopped = (chopped[0] + chopped[1]) + (chopped[2] + chopped[3]);
-  sums.potential = (potential[0] + potential[1]) + (potential[2] + potential[3]);
-  sums.within_slack = (beyond[0] + beyond[1]) + (beyond[2] + beyond[3]) == 0;
+  const Four x = next.x, g = next.g;
+  f.x = x;
+  f.g = g;
+  Four p = x > zero ? g : zero;
+  if (turn != 0) p -= turn * f.direction;
+  p = (p < zero ? -p : p) < least ? zero : p;
+  f.direction = p;
+  push(rows, p, turned);
+  parts.square += p * p;
+  parts.gp += g * p;
+  const Four limited = x * per_step < g ? x * per_step : g, pull = g < zero ? g : zero;
+  parts.reduced += x > zero ? limited * g : zero;
+  parts.chopped += x > zero ? zero : pull * pull;
+  parts.potential += x * (g + f.constant);
+  // A row that presses falls short, or presses while it parts.
+  const Four least_of = x < g ? x : g, part = g >= zero ? zero : -g;
+  const Four off = x > zero ? (least_of < zero ? -least_of : least_of) : part;
+  parts.beyond = off <= f.slack ? parts.beyond : zero + 1;  // what is no number, too
 }
 
-/// Takes next forces onto their bounds. How far along the direction the first bound is.
+/// Takes next forces and a new direction, the gradient; and what that does to every body.
 CAROM_FOR_ALL_PROCESSORS
-double ContactProjectedGradients::project(Forces* forces, std::size_t count) {
+void ContactProjectedGradients::take_next(const Rows* rows, Forces* forces, const Next* next, std::size_t count,
+                                          double per_step, double least, const double* inverse_mass, Motion* turned,
+                                          std::size_t bodies, Sums& sums) {
+  Parts parts;
+  std::fill(turned, turned + bodies, Motion{});
+  for (std::size_t k = 0; k < count; ++k) take(rows[k], forces[k], next[k], 0, per_step, least, turned, parts);
+  divide_by_mass(inverse_mass, turned, bodies);
+  parts.add_up(sums);
+}
+
+/// Takes those to which this step leads, and a direction conjugate to the last one, or where turn is 0 the gradient.
+CAROM_FOR_ALL_PROCESSORS
+void ContactProjectedGradients::go_on(const Rows* rows, Forces* forces, std::size_t count, double step, double turn,
+                                      double per_step, double least, const double* inverse_mass, Motion* turned,
+                                      std::size_t bodies, Sums& sums) {
+  Parts parts;
+  std::fill(turned, turned + bodies, Motion{});
+  for (std::size_t k = 0; k < count; ++k) {
+    Next next;
+    reach(forces[k], step, least, next);
+    take(rows[k], forces[k], next, turn, per_step, least, turned, parts);
+  }
+  divide_by_mass(inverse_mass, turned, bodies);
+  parts.add_up(sums);
+}
+
+/// The next forces: as far as this step leads, and onto their bounds. How far along the direction the first bound is.
+CAROM_FOR_ALL_PROCESSORS
+double ContactProjectedGradients::project(const Forces* forces, Next* next, std::size_t count, double step,
+                                          double least) {
   const Four zero{};
   Four lowest = zero + std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < count; ++k) {
-    Forces& f = forces[k];
-    const Four until = f.next_x < zero ? f.x / f.direction : lowest;
+    const Forces& f = forces[k];
+    reach(f, step, least, next[k]);
+    const Four x = next[k].x, until = x < zero ? f.x / f.direction : lowest;
     lowest = until < lowest ? until : lowest;
-    f.next_x = f.next_x > zero ? f.next_x : zero;
+    next[k].x = x > zero ? x : zero;
   }
   return std::min(std::min(lowest[0], lowest[1]), std::min(lowest[2], lowest[3]));
 }
 
 /// Along the direction to the first bound, and from there by this step along the projected gradient.
 CAROM_FOR_ALL_PROCESSORS
-void ContactProjectedGradients::bend(Forces* forces, std::size_t count, double first, double step) {
+void ContactProjectedGradients::bend(const Forces* forces, Next* next, std::size_t count, double first, double step) {
   const Four zero{};
   for (std::size_t k = 0; k < count; ++k) {
-    Forces& f = forces[k];
+    const Forces& f = forces[k];
     const Four there = f.x - first * f.direction, slope = f.x > zero ? f.g - first * f.image : zero;
     const Four x = (there > zero ? there : zero) - step * slope;
-    f.next_x = x > zero ? x : zero;
+    next[k].x = x > zero ? x : zero;
   }
 }
 
@@ -170,22 +243,23 @@ void ContactProjectedGradients::take_rows() {
   std::fill(std::begin(none.b), std::end(none.b), immovable);
   rows_.assign(count, none);
   forces_.assign(count, Forces{});
-  moved_.resize(island.free.size() + 1);
+  next_.assign(count, Next{});
+  inverse_mass_ = island.inverse_mass;
+  inverse_mass_.push_back(0);
+  moved_.resize(inverse_mass_.size());
+  turned_.resize(inverse_mass_.size());
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < island.rows.size(); ++c) {
     const ContactIsland::Row& r = island.rows[c];
     const auto [four, lane] = place(c);
     Rows& rows = rows_[four];
     Forces& forces = forces_[four];
-    for (int axis = 0; axis < 3; ++axis) rows.normal[axis][lane] = r.normal[axis];
-    rows.scale[lane] = r.scale;
-    rows.left[lane] = r.scale * island.inverse_mass[r.a];
-    rows.right[lane] = r.moves_b() ? r.scale * island.inverse_mass[r.b] : 0;
+    for (int axis = 0; axis < 3; ++axis) rows.normal[axis][lane] = r.scale * r.normal[axis];
     rows.a[lane] = r.a;
     rows.b[lane] = r.moves_b() ? r.b : immovable;
     const Vec3 w = r.moves_b() ? Vec3(island.free[r.b] - island.free[r.a]) : Vec3(-island.free[r.a]);
     const double slack = r.scale * r.slack;
-    forces.next_x[lane] = r.force / r.scale;
+    next_[four].x[lane] = r.force / r.scale;
     forces.constant[lane] = r.scale * (r.normal.dot(w) - r.target);
     forces.slack[lane] = slack;
     least = std::min(least, slack);
@@ -212,16 +286,16 @@ double ContactProjectedGradients::norm() {
 
 /// Of the next forces. Twice their potential.
 double ContactProjectedGradients::find_next_gradient() {
-  move(rows_.data(), forces_.data(), forces_.size(), &Forces::next_x, moved_.data(), moved_.size());
+  move_next(rows_.data(), next_.data(), next_.size(), inverse_mass_.data(), moved_.data(), moved_.size());
   Four potential{};
-  for (std::size_t k = 0; k < forces_.size(); ++k) {
-    Forces& f = forces_[k];
-    find_rate(rows_[k], moved_.data(), f.next_g);
-    f.next_g += f.constant;
-    potential += f.next_x * (f.next_g + f.constant);
+  for (std::size_t k = 0; k < next_.size(); ++k) {
+    Next& next = next_[k];
+    find_rate(rows_[k], moved_.data(), next.g);
+    next.g += forces_[k].constant;
+    potential += next.x * (next.g + forces_[k].constant);
   }
   ++products_;
-  return (potential[0] + potential[1]) + (potential[2] + potential[3]);
+  return sum(potential);
 }
 
 void ContactProjectedGradients::start(const ContactIsland& island) {
@@ -231,16 +305,15 @@ void ContactProjectedGradients::start(const ContactIsland& island) {
   step_ = 1.9 / norm();
   // What has died away to nothing is none: its squares would underflow, and other units would give other bits.
   Four most{};
-  for (const Forces& f : forces_) {
-    const Four size = f.constant < Four{} ? -f.constant : f.constant;
+  for (std::size_t k = 0; k < forces_.size(); ++k) {
+    const Four constant = forces_[k].constant, size = constant < Four{} ? -constant : constant;
     most = size > most ? size : most;
-    most = f.next_x > most ? f.next_x : most;
+    most = next_[k].x > most ? next_[k].x : most;
   }
   least_ = 0x1p-200 * std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
   find_next_gradient();
   scale_guess();
-  begin(0);
-  fresh_ = true;
+  begin();
   potential_.assign(1, sums_.potential);
 }
 
@@ -252,25 +325,27 @@ bool ContactProjectedGradients::moves_bodies(double xax, double xx) const {
 /// The guess times the factor for which the potential is least, which is not above that of no forces at all.
 void ContactProjectedGradients::scale_guess() {
   Four quadratic{}, linear{}, square{};
-  for (const Forces& f : forces_) {
-    quadratic += f.next_x * (f.next_g - f.constant);
-    linear += f.next_x * f.constant;
-    square += f.next_x * f.next_x;
+  for (std::size_t k = 0; k < forces_.size(); ++k) {
+    const Four &x = next_[k].x, &constant = forces_[k].constant;
+    quadratic += x * (next_[k].g - constant);
+    linear += x * constant;
+    square += x * x;
   }
-  const double xax = (quadratic[0] + quadratic[1]) + (quadratic[2] + quadratic[3]);
-  const double cx = (linear[0] + linear[1]) + (linear[2] + linear[3]);
-  const double xx = (square[0] + square[1]) + (square[2] + square[3]);
+  const double xax = sum(quadratic), cx = sum(linear), xx = sum(square);
   const double factor = moves_bodies(xax, xx) ? std::max(-cx / xax, 0.0) : 0;
-  for (Forces& f : forces_) {
-    f.next_g = factor * (f.next_g - f.constant) + f.constant;
-    f.next_x *= factor;
+  for (std::size_t k = 0; k < forces_.size(); ++k) {
+    const Four& constant = forces_[k].constant;
+    next_[k].g = factor * (next_[k].g - constant) + constant;
+    next_[k].x *= factor;
   }
   for (Motion& m : moved_) m.u *= factor;
 }
 
-/// Takes the next forces, and with them a new direction: conjugate to the last one, or where turn is 0 the gradient.
-void ContactProjectedGradients::begin(double turn) {
-  take_next(forces_.data(), forces_.size(), turn, 1 / step_, least_, sums_);
+/// Takes the next forces, whose gradient is known; the gradient is the new direction.
+void ContactProjectedGradients::begin() {
+  take_next(rows_.data(), forces_.data(), next_.data(), forces_.size(), 1 / step_, least_, inverse_mass_.data(),
+            turned_.data(), turned_.size(), sums_);
+  fresh_ = true;
 }
 
 /// One step: along the face of the rows that press, onto its bound, or with the rows that are to press. False: nothing
@@ -278,33 +353,32 @@ void ContactProjectedGradients::begin(double turn) {
 bool ContactProjectedGradients::iterate() {
   fresh_ = false;
   const bool on_face = sums_.chopped <= sums_.reduced;
-  const Four zero{};
   if (!on_face)
-    for (Forces& f : forces_) f.direction = f.x > zero || f.g > zero ? zero : f.g;
-  move(rows_.data(), forces_.data(), forces_.size(), &Forces::direction, moved_.data(), moved_.size());
-  find_image(rows_.data(), forces_.data(), forces_.size(), moved_.data(), sums_);
+    chop(rows_.data(), forces_.data(), forces_.size(), inverse_mass_.data(), turned_.data(), turned_.size(), sums_);
+  find_image(rows_.data(), forces_.data(), forces_.size(), turned_.data(), sums_);
   ++products_;
   if (!moves_bodies(sums_.pap, sums_.square)) return false;
-  try_step(forces_.data(), forces_.size(), sums_.gp / sums_.pap, least_, sums_);
+  const double step = sums_.gp / sums_.pap;
+  try_step(forces_.data(), forces_.size(), step, least_, sums_);
   if (!sums_.feasible && on_face)
-    go_on_at_bounds();
+    go_on_at_bounds(step);
   else
-    begin(on_face ? sums_.turn / sums_.pap : 0);
+    go_on(rows_.data(), forces_.data(), forces_.size(), step, on_face ? sums_.turn / sums_.pap : 0, 1 / step_, least_,
+          inverse_mass_.data(), turned_.data(), turned_.size(), sums_);
   return true;
 }
 
 /// On in the same direction as if there were no bounds, then onto them, if that is better than to stop at the first
 /// one. Else from there along the projected gradient, as far as surely gains. (Kruzik, Horak, Cermak, Pospisil & Pecha,
 /// Adv. Eng. Softw. 149 (2020) 102895.)
-void ContactProjectedGradients::go_on_at_bounds() {
-  const double first = project(forces_.data(), forces_.size());
+void ContactProjectedGradients::go_on_at_bounds(double step) {
+  const double first = project(forces_.data(), next_.data(), forces_.size(), step, least_);
   const double at_first = sums_.potential - first * (2 * sums_.gp - first * sums_.pap);
   if (!(find_next_gradient() <= at_first)) {
-    bend(forces_.data(), forces_.size(), first, step_);
+    bend(forces_.data(), next_.data(), forces_.size(), first, step_);
     find_next_gradient();
   }
-  begin(0);
-  fresh_ = true;
+  begin();
 }
 
 /// What products with the matrix have taken, with all that goes with them: ns, as ExactCost.
@@ -324,10 +398,9 @@ bool ContactProjectedGradients::gains_little() {
 
 /// The gradient that steps have carried along is rounded.
 void ContactProjectedGradients::renew() {
-  for (Forces& f : forces_) f.next_x = f.x;
+  for (std::size_t k = 0; k < forces_.size(); ++k) next_[k].x = forces_[k].x;
   find_next_gradient();
-  begin(0);
-  fresh_ = true;
+  begin();
 }
 
 bool ContactProjectedGradients::run(ContactAccuracy accuracy, double most_cost) {

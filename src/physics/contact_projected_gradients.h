@@ -37,9 +37,7 @@ class ContactProjectedGradients {
   };
   /// Four rows side by side. Lanes beyond the last row move nothing.
   struct alignas(aligned) Rows {
-    Four normal[3];
-    Four scale;        // of rows (ContactIsland::Row)
-    Four left, right;  // scale times inverse mass, of a and b
+    Four normal[3];  // times the scale of rows (ContactIsland::Row)
     std::uint32_t a[width], b[width];
   };
   /// The unknowns of four rows, and what goes with them.
@@ -49,7 +47,10 @@ class ContactProjectedGradients {
     Four image;      // and A times it
     Four constant;   // g without forces
     Four slack;      // of a row of unit length
-    Four next_x, next_g;
+  };
+  /// Forces to go to, and their gradient.
+  struct alignas(aligned) Next {
+    Four x, g;
   };
   /// What a pass over all rows adds up.
   struct Sums {
@@ -72,27 +73,41 @@ class ContactProjectedGradients {
   double find_next_gradient();
   bool moves_bodies(double xax, double xx) const;
   void scale_guess();
-  void begin(double turn);
+  void begin();
   bool iterate();
-  void go_on_at_bounds();
+  void go_on_at_bounds(double step);
   void renew();
   bool gains_little();
   double cost() const;
 
+  /// What a pass over all rows adds up, in four parts.
+  struct Parts;
+
   static void push(const Rows& rows, const Four& x, Motion* moved);
   static void find_rate(const Rows& rows, const Motion* moved, Four& rate);
-  static void move(const Rows* rows, const Forces* forces, std::size_t count, Four Forces::*x, Motion* moved,
-                   std::size_t bodies);
-  static void find_image(const Rows* rows, Forces* forces, std::size_t count, const Motion* moved, Sums& sums);
-  static void try_step(Forces* forces, std::size_t count, double step, double least, Sums& sums);
-  static double project(Forces* forces, std::size_t count);
-  static void bend(Forces* forces, std::size_t count, double first, double step);
-  static void take_next(Forces* forces, std::size_t count, double turn, double per_step, double least, Sums& sums);
+  static void move_next(const Rows* rows, const Next* next, std::size_t count, const double* inverse_mass,
+                        Motion* moved, std::size_t bodies);
+  static void chop(const Rows* rows, Forces* forces, std::size_t count, const double* inverse_mass, Motion* turned,
+                   std::size_t bodies, Sums& sums);
+  static void find_image(const Rows* rows, Forces* forces, std::size_t count, const Motion* turned, Sums& sums);
+  static void reach(const Forces& forces, double step, double least, Next& next);
+  static void try_step(const Forces* forces, std::size_t count, double step, double least, Sums& sums);
+  static double project(const Forces* forces, Next* next, std::size_t count, double step, double least);
+  static void bend(const Forces* forces, Next* next, std::size_t count, double first, double step);
+  static void take(const Rows& rows, Forces& forces, const Next& next, double turn, double per_step, double least,
+                   Motion* turned, Parts& parts);
+  static void take_next(const Rows* rows, Forces* forces, const Next* next, std::size_t count, double per_step,
+                        double least, const double* inverse_mass, Motion* turned, std::size_t bodies, Sums& sums);
+  static void go_on(const Rows* rows, Forces* forces, std::size_t count, double step, double turn, double per_step,
+                    double least, const double* inverse_mass, Motion* turned, std::size_t bodies, Sums& sums);
 
   const ContactIsland* island_ = nullptr;
   std::vector<Rows> rows_;
   std::vector<Forces> forces_;
-  std::vector<Motion> moved_;             // by body: what forces do to it; and one more, which nothing moves
+  std::vector<Next> next_;
+  std::vector<double> inverse_mass_;      // by body; and one more, which nothing moves
+  std::vector<Motion> moved_;             // by body: what the last forces whose gradient was found do to it,
+  std::vector<Motion> turned_;            // and what the direction does
   double step_ = 0;                       // along the projected gradient
   double least_ = 0;                      // less is nothing
   double slack_energy_ = 0;               // twice that of rows off by the least slack

@@ -18,12 +18,14 @@ void ContactList::add(const ContactConstraint& pair, const Contact& name, double
   gaps.push_back(gap);
 }
 
-void ContactList::drop_hidden(const World& world, const Vec3& x, std::size_t first) {
+void ContactList::drop_hidden(const World& world, const Vec3& x, std::size_t first, double beside) {
   const auto fixed = [&](std::size_t c) { return !world.is_body(names[c].e); };
   const auto flat = [&](std::size_t c) { return fixed(c) && is_flat(world, names[c].i, names[c].e, names[c].feature); };
   const auto hides = [&](std::size_t floor, std::size_t c) {
     const Vec3& n = pairs[floor].normal;
-    if (floor == c || !flat(floor) || (flat(c) && (pairs[c].normal - n).norm() <= exact_tolerance::level)) return false;
+    if (floor == c || gaps[floor] > beside || !flat(floor) ||
+        (flat(c) && (pairs[c].normal - n).norm() <= exact_tolerance::level))
+      return false;
     return lies_behind(world, names[c].i, x, names[c].e, -n);
   };
   std::vector<std::size_t> hidden;

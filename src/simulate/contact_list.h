@@ -22,9 +22,9 @@ struct ContactList {
 
   void clear();
   void add(const ContactConstraint& pair, const Contact& name, double gap);
-  /// Drops those of a body at x (m), from number `first` on, with what lies behind a flat fixed surface beside it, but
-  /// for surfaces level with that.
-  void drop_hidden(const World& world, const Vec3& x, std::size_t first);
+  /// Drops those of a body at x (m), from number `first` on, with what lies behind a flat fixed surface beside it, no
+  /// farther away than `beside` (m), but for surfaces level with that.
+  void drop_hidden(const World& world, const Vec3& x, std::size_t first, double beside = never);
   /// Drops those from number `first` on for which drops(number).
   template <typename Drops>
   void drop_if(std::size_t first, Drops drops) {

@@ -31,23 +31,26 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
   m.a = q.acceleration(tq) - p.acceleration(tp);
   const bool balls = world.volume.empty();
   if (balls && m.a.isZero(0) && p.fade == q.fade && m.d.dot(m.w) >= 0) return {never, 0};
-  m.speeds = sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a);
-  m.just_separated = p.start == q.start && bodies_.body[a].origin_partner == b && bodies_.body[b].origin_partner == a;
   const double s = world.radius[a] + world.radius[b];
   const bool curved = p.curve != nullptr || q.curve != nullptr, parabolas = p.is_parabola() && q.is_parabola();
+  const bool step = bodies_.in_group(a) || bodies_.in_group(b);
+  double horizon = bodies_.options.duration - base.hi - base.lo;
+  // Most pairs go no farther than here: they are too far apart for what is left of a step.
+  if (step || curved) {
+    horizon = std::min(end_of(a), end_of(b)) - base;
+    if (parabolas || !curved) {
+      if (curved && !(horizon > 0)) return {never, 0};
+      const double reach = s + horizon * (sum_of_speeds(m.w) + horizon * sum_of_speeds(m.a));
+      if (m.d.squaredNorm() > reach * reach) return {never, 0};
+    }
+  }
+  m.speeds = sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a);
+  m.just_separated = p.start == q.start && bodies_.body[a].origin_partner == b && bodies_.body[b].origin_partner == a;
   if (curved && !parabolas) [[unlikely]]
     return of_curves(a, p, b, q, m, feature);
-  const bool step = bodies_.in_group(a) || bodies_.in_group(b);
-  const double horizon =
-      (step || curved ? std::min(end_of(a), end_of(b)) : Instant{bodies_.options.duration, 0}) - base;
   if (step) {
     const double greatest = std::max(bodies_.applied[a].norm(), bodies_.applied[b].norm());
     m.speeds += exact_tolerance::step_rounding * std::sqrt(greatest * s);
-  }
-  if (step || curved) {
-    if (curved && !(horizon > 0)) return {never, 0};
-    const double reach = s + horizon * (sum_of_speeds(m.w) + horizon * sum_of_speeds(m.a));
-    if (m.d.squaredNorm() > reach * reach) return {never, 0};
   }
   double t;
   if (!parabolas) {

@@ -177,8 +177,12 @@ void TimeStepping::take_slow_impacts(Step& step) const {
   step.impacts.clear();
   if (step.greatest <= 0 || !approaching(step.v, step.contacts.pairs)) return;
   step.impacts = step.contacts.pairs;
+  double fastest = 0;  // m/s
+  for (const ContactConstraint& p : step.impacts)
+    fastest = std::max(fastest, -p.normal.dot(relative_velocity(step.v, p)));
   for (ContactConstraint& p : step.impacts) {
     p.target = std::min(p.target, 0.0);
+    p.slack = std::max(p.slack, tol::simultaneous_slack * fastest);
     p.force = 0;
   }
   bodies_.log.note(carom::solve({step.inverse_mass, step.after_impacts, step.impacts, ContactAccuracy::energy}));

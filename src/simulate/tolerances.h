@@ -44,7 +44,7 @@ inline constexpr double widest_margin = 2e-2;  // of a radius: what bodies that 
 
 // Simultaneous impacts (simultaneous_impacts.h).
 inline constexpr std::uint32_t few_impacts = 3;       // [2e-11 1e-10] of a member between steps are one by one
-inline constexpr double simultaneous_gap = 1e-3;      // of the margin: a gap that counts as contact
+inline constexpr double struck_margin = 0.5;          // of the margin: what those struck at once may use up of it
 inline constexpr double simultaneous_parting = 0.01;  // of the fastest approach: what those struck at once part with
 inline constexpr double simultaneous_slack = 1e-3;    // [1e-14 7e-15] of the fastest approach: what may be left
 inline constexpr double open_margin = 0.5;            // of the widest margin: wider, those struck at once part
