@@ -312,8 +312,9 @@ void ContactProjectedGradients::start(const ContactIsland& island) {
   }
   least_ = 0x1p-200 * std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
   find_next_gradient();
-  scale_guess();
+  scale_next(0);
   begin();
+  fresh_ = true;
   potential_.assign(1, sums_.potential);
 }
 
@@ -322,8 +323,9 @@ bool ContactProjectedGradients::moves_bodies(double xax, double xx) const {
   return xax * step_ > 0x1p-46 * xx;
 }
 
-/// The guess times the factor for which the potential is least, which is not above that of no forces at all.
-void ContactProjectedGradients::scale_guess() {
+/// The next forces times the factor for which the potential is least, which is not above that of no forces at all; or
+/// `else_by`, if they do nothing.
+void ContactProjectedGradients::scale_next(double else_by) {
   Four quadratic{}, linear{}, square{};
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     const Four &x = next_[k].x, &constant = forces_[k].constant;
@@ -332,7 +334,7 @@ void ContactProjectedGradients::scale_guess() {
     square += x * x;
   }
   const double xax = sum(quadratic), cx = sum(linear), xx = sum(square);
-  const double factor = moves_bodies(xax, xx) ? std::max(-cx / xax, 0.0) : 0;
+  const double factor = moves_bodies(xax, xx) ? std::max(-cx / xax, 0.0) : else_by;
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     const Four& constant = forces_[k].constant;
     next_[k].g = factor * (next_[k].g - constant) + constant;
@@ -345,7 +347,6 @@ void ContactProjectedGradients::scale_guess() {
 void ContactProjectedGradients::begin() {
   take_next(rows_.data(), forces_.data(), next_.data(), forces_.size(), 1 / step_, least_, inverse_mass_.data(),
             turned_.data(), turned_.size(), sums_);
-  fresh_ = true;
 }
 
 /// One step: along the face of the rows that press, onto its bound, or with the rows that are to press. False: nothing
@@ -396,11 +397,14 @@ bool ContactProjectedGradients::gains_little() {
   return now >= reach_;
 }
 
-/// The gradient that steps have carried along is rounded.
+/// The gradient that steps have carried along is rounded. And what is left of it does no work: all forces change by one
+/// factor, for which the potential is least.
 void ContactProjectedGradients::renew() {
   for (std::size_t k = 0; k < forces_.size(); ++k) next_[k].x = forces_[k].x;
   find_next_gradient();
+  scale_next(1);
   begin();
+  fresh_ = true;
 }
 
 bool ContactProjectedGradients::run(ContactAccuracy accuracy, double most_cost) {

@@ -72,7 +72,7 @@ class ContactProjectedGradients {
   double norm();
   double find_next_gradient();
   bool moves_bodies(double xax, double xx) const;
-  void scale_guess();
+  void scale_next(double else_by);
   void begin();
   bool iterate();
   void go_on_at_bounds(double step);
@@ -114,7 +114,7 @@ class ContactProjectedGradients {
   std::vector<double> potential_;         // twice, by iteration
   std::size_t products_ = 0, reach_ = 0;  // with the matrix; the island's, 0: not looked for yet
   Sums sums_;
-  bool fresh_ = false;  // the gradient and moved_ are those of x but for rounding
+  bool fresh_ = false;  // the gradient and moved_ are those of x but for rounding, and the gradient does no work
 };
 
 }  // namespace carom

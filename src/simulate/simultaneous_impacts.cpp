@@ -24,13 +24,14 @@ void SimultaneousImpacts::count_impact(Entity i) {
   for (const Entity a : changed) predictor_.predict(a);
 }
 
-/// Member `first`, all that touch one another with it, and all that these would meet before the next step.
+/// Member `first`, what touches it, and on from them all that bodies would meet before the next step if they moved as
+/// the impacts of those before make them: no farther than that goes.
 SimultaneousImpacts::Struck SimultaneousImpacts::strike(Entity first) const {
   const Instant& end = bodies_.islands.of(first).end;
   Struck set;
   set.rest = bodies_.now < end ? end - bodies_.now : 0;
   take_in(set, first);
-  for (std::size_t c = 0; c < set.near.pairs.size(); ++c)
+  for (std::size_t c = 0, count = set.near.pairs.size(); c < count; ++c)
     if (set.near.gaps[c] <= set.margins[c]) add(set, c);
   const double open = tol::open_margin * tol::widest_margin * bodies_.world.radius[first];
   do {
@@ -84,9 +85,9 @@ double SimultaneousImpacts::allowed(const Struck& set, std::size_t near) {
   return beyond > 0 ? beyond / set.rest : 0;
 }
 
-/// and how much faster if they are to keep a share of it.
+/// and how much faster if they are to keep a share of their gap.
 double SimultaneousImpacts::slack(const Struck& set, std::size_t near) {
-  const double margin = set.margins[near], room = std::min(set.near.gaps[near], margin) - tol::struck_margin * margin;
+  const double room = tol::gap_share * std::min(set.near.gaps[near], set.margins[near]);
   return room > 0 && set.rest > 0 ? room / set.rest : 0;
 }
 
@@ -135,10 +136,7 @@ void SimultaneousImpacts::solve(Struck& set, bool part) const {
   for (std::size_t k = 0; k < set.members.size(); ++k)
     gained += bodies_.world.mass[set.members[k]] * (set.after[k] - set.before[k]).dot(set.after[k] + set.before[k]);
   if (!certificate.solved() || gained > 0) {
-    for (ContactConstraint& p : set.pairs) {
-      p.target = std::min(p.target, 0.0);
-      p.force = 0;
-    }
+    for (ContactConstraint& p : set.pairs) p.target = std::min(p.target, 0.0);
     certificate = press();
   }
   bodies_.log.note(certificate);

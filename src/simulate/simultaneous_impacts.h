@@ -1,8 +1,8 @@
 #pragma once
 // Impacts at one instant among bodies of the contact group. One that is pushed to and fro between others would go on so
-// for ever: then all of those that touch one another there are struck at once, and with them all that these would meet
-// before the next step. Time stepping keeps bodies apart by a margin: those within it touch. Where
-// margins are wide they part a little, lest they strike again at the next rounding.
+// for ever: then it and all that touch it are struck at once, and with them all that would meet before the next step
+// for it. Time stepping keeps bodies apart by a margin: those within it touch. Where margins are wide they part a
+// little, lest they strike again at the next rounding.
 #include <vector>
 
 #include "physics/contact_problem.h"
@@ -18,8 +18,7 @@ class SimultaneousImpacts {
   SimultaneousImpacts(ExactBodies& bodies, ExactGroup& group, FlightChanges& flights, EventPredictor& predictor)
       : bodies_(bodies), group_(group), flights_(flights), predictor_(predictor) {}
 
-  /// An impact of body i has ended in contact. After some of them since the last time step it and all that touch one
-  /// another there are struck at once.
+  /// An impact of body i has ended in contact. After some of them since the last time step they are all struck at once.
   void count_impact(Entity i);
 
  private:

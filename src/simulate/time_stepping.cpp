@@ -156,9 +156,12 @@ void TimeStepping::find_pairs(Step& step) const {
         step.near.push_back(e);
         continue;
       }
-      ContactConstraint pair{
-          static_cast<std::uint32_t>(k),  other, there.normal, -std::max(there.gap - margin, 0.0) / h,
-          tol::margin_slack * margin / h, 0};
+      ContactConstraint pair{static_cast<std::uint32_t>(k),
+                             other,
+                             there.normal,
+                             -std::max(there.gap - margin, 0.0) / h,
+                             std::max(tol::margin_slack * margin, tol::gap_share * std::min(there.gap, margin)) / h,
+                             0};
       // With a wide margin, those that the slack would let strike at once part by as much.
       if (step.greatest > 0 && margin > tol::parting_margin * step.smallest && there.gap < tol::margin_slack * margin &&
           pair_restitution(world, i, e) < 1)
@@ -182,7 +185,7 @@ void TimeStepping::take_slow_impacts(Step& step) const {
     fastest = std::max(fastest, -p.normal.dot(relative_velocity(step.v, p)));
   for (ContactConstraint& p : step.impacts) {
     p.target = std::min(p.target, 0.0);
-    p.slack = std::max(p.slack, tol::simultaneous_slack * fastest);
+    p.slack = std::max(p.slack, tol::slow_slack * fastest);
     p.force = 0;
   }
   bodies_.log.note(carom::solve({step.inverse_mass, step.after_impacts, step.impacts, ContactAccuracy::energy}));
@@ -205,32 +208,49 @@ void TimeStepping::keep_apart(Step& step) const {
     step.solved = free;
     return carom::solve({inverse_mass, step.solved, step.contacts.pairs, ContactAccuracy::contacts});
   };
+  bool part = std::any_of(step.contacts.pairs.begin(), step.contacts.pairs.end(),
+                          [](const ContactConstraint& p) { return p.target > 0; });
+  const auto press_only = [&] {
+    for (ContactConstraint& p : step.contacts.pairs) p.target = std::min(p.target, 0.0);
+    part = false;
+  };
+  const double lost = part ? lost_by_impacts(step) : 0;
+  if (part && parting_work(step) > lost) press_only();  // by the last step's forces
   Certificate certificate = press();
-  const bool part = std::any_of(step.contacts.pairs.begin(), step.contacts.pairs.end(),
-                                [](const ContactConstraint& p) { return p.target > 0; });
-  if (part && (!certificate.solved() || makes_energy(step, free))) {
-    for (ContactConstraint& p : step.contacts.pairs) {
-      p.target = std::min(p.target, 0.0);
-      p.force = 0;
-    }
+  if (part && (!certificate.solved() || parting_work(step) > lost || makes_energy(step, free))) {
+    press_only();
     certificate = press();
   }
   bodies_.log.note(certificate);
 }
 
-/// Whether the step makes more energy than slow impacts have lost. free (m/s): its velocities without contact.
+/// J, that slow impacts have lost.
+double TimeStepping::lost_by_impacts(const Step& step) {
+  double lost = 0;
+  for (std::size_t k = 0; k < step.x.size(); ++k) {
+    const Vec3& v = step.after_impacts[k];
+    lost += 0.5 * (step.v[k] - v).dot(step.v[k] + v) / step.inverse_mass[k];
+  }
+  return lost;
+}
+
+/// J, that forces do where pairs are to part.
+double TimeStepping::parting_work(const Step& step) {
+  double work = 0;
+  for (const ContactConstraint& p : step.contacts.pairs) work += p.force * std::max(p.target, 0.0);
+  return work;
+}
+
+/// Whether the step makes energy. free (m/s): its velocities without contact.
 bool TimeStepping::makes_energy(const Step& step, const std::vector<Vec3>& free) const {
-  double made = 0, lost = 0;  // J, J: now, and by slow impacts
+  double made = 0;  // J
   for (std::size_t k = 0; k < free.size(); ++k) {
     const Vec3 &v = step.after_impacts[k], &solved = step.solved[k];
     const double drag = step.length * bodies_.fade[step.members[k]];
     const Vec3 forced = free[k] - v + drag * (free[k] - solved);  // m/s
     made += (0.5 * (solved - v).dot(solved + v) - forced.dot(solved)) / step.inverse_mass[k];
-    lost += 0.5 * (step.v[k] - v).dot(step.v[k] + v) / step.inverse_mass[k];
   }
-  double parting = 0;  // J
-  for (const ContactConstraint& p : step.contacts.pairs) parting += p.force * std::max(p.target, 0.0);
-  return made > 0 || parting > lost;
+  return made > 0;
 }
 
 /// Members that press on one another are an island. The faster one of its bodies is, the wider are its margins.

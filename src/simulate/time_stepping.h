@@ -62,6 +62,8 @@ class TimeStepping {
   void find_pairs(Step& step) const;
   void take_slow_impacts(Step& step) const;
   void keep_apart(Step& step) const;
+  static double lost_by_impacts(const Step& step);
+  static double parting_work(const Step& step);
   bool makes_energy(const Step& step, const std::vector<Vec3>& free) const;
   void find_parts(Step& step);
   void put_to_rest(Step& step) const;

@@ -44,7 +44,8 @@ inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, st
     const State& state = simulator.state();
     EXPECT_LE(kinetic_energy(world, state), still) << t;
     if (first.empty()) first = state.position;
-    EXPECT_EQ(state.position, first) << t;
+    // What linear drag has stopped ends where its path ends, to rounding.
+    for (Entity a = 0; a < n; ++a) EXPECT_LE((state.position[a] - first[a]).norm(), still == 0 ? 0 : 4e-16) << t;
   }
   const State& state = simulator.state();
   double deepest = 0;
