@@ -68,16 +68,15 @@ inline constexpr double velocity_change = 0x1p-40;    // of a speed: a contact h
 inline constexpr double free_time = 1e-6;             // of a radius over the greatest speed: to come back in, unloaded
 
 // Time stepping (time_stepping.h).
-inline constexpr double shortest_step = 0.04;      // [1e-2 6e-3] of the time of falling by a radius
-inline constexpr double longest_step = 25;         // [- 6e-3] of the shortest step
-inline constexpr double step_displacement = 0.04;  // [1e-1 3e-2] of a radius: of the fastest body in longer steps
-inline constexpr double fast_impact = 8;           // of slow_speed: bodies that approach faster strike each other
-inline constexpr double slow_slack = 1e-2;         // of the fastest slow approach: what a step's forces may take
-inline constexpr double pressing_gap = 1e-3;       // of a radius: bodies no farther apart may press in a step
-// What bodies are kept apart, of a step's displacement: as much as curved surfaces turn away in the longest one.
-inline constexpr double margin_of_displacement = step_displacement / 4;
+inline constexpr double shortest_step = 0.04;           // [1e-2 6e-3] of the time of falling by a radius
+inline constexpr double longest_step = 25;              // [- 6e-3] of the shortest step
+inline constexpr double step_displacement = 0.04;       // [1e-1 3e-2] of a radius: of the fastest body in longer steps
+inline constexpr double fast_impact = 8;                // of slow_speed: bodies that approach faster strike each other
+inline constexpr double slow_slack = 1e-2;              // of the fastest slow approach: what a step's forces may take
+inline constexpr double pressing_gap = 1e-3;            // of a radius: bodies no farther apart may press in a step
+inline constexpr double margin_of_displacement = 1e-3;  // of a step's displacement: what bodies are kept apart for it
 inline constexpr double margin_slack = 0.05;            // of the margin: what may be missing of it
-inline constexpr double gap_share = 0.5;                // or of the gap within it: what is left of it in any case
+inline constexpr double gap_share = 0.2;                // or of the gap within it: the same
 inline constexpr double margin_decay = 0.5;             // [* -] a step leaves of the margin
 inline constexpr double least_margin = 1e-10;           // of a radius: what slow bodies are kept apart
 inline constexpr double parting_margin = 1e-3;          // of a radius: with a wider margin bodies part where they touch
