@@ -31,6 +31,12 @@ struct ContactConstraint {
   bool bilateral = false;  // normal . (u_b - u_a) must be the target: the force may pull too
 };
 
+/// How fast a contact's bodies approach each other along its normal, in the unit of `motion`.
+inline double approach(std::span<const Vec3> motion, const ContactConstraint& c) {
+  const Vec3 b = c.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : motion[c.b];
+  return c.normal.dot(motion[c.a] - b);
+}
+
 /// How near an answer has to be. A contact that is off by its slack s has the kinetic energy of the motion that would
 /// mend it: s^2 / (2/m_a + 2/m_b).
 enum class ContactAccuracy : std::uint8_t {

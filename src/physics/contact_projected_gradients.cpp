@@ -69,6 +69,7 @@ inline __attribute__((always_inline)) void ContactProjectedGradients::find_rate(
   rate = rows.normal[0] * x + rows.normal[1] * y + rows.normal[2] * z;
 }
 
+/// From forces on bodies what they do to them.
 inline __attribute__((always_inline)) void divide_by_mass(const double* inverse_mass, auto* moved, std::size_t bodies) {
   for (std::size_t k = 0; k < bodies; ++k) moved[k].u *= inverse_mass[k];
 }
@@ -178,29 +179,21 @@ inline __attribute__((always_inline)) void ContactProjectedGradients::take(const
   parts.beyond = off <= f.slack ? parts.beyond : zero + 1;  // what is no number, too
 }
 
-/// Takes next forces and a new direction, the gradient; and what that does to every body.
+/// Takes the next forces, or where there are none those to which this step leads; and a direction conjugate to the last
+/// one, or where turn is 0 the gradient, with what it does to every body.
 CAROM_FOR_ALL_PROCESSORS
-void ContactProjectedGradients::take_next(const Rows* rows, Forces* forces, const Next* next, std::size_t count,
-                                          double per_step, double least, const double* inverse_mass, Motion* turned,
-                                          std::size_t bodies, Sums& sums) {
-  Parts parts;
-  std::fill(turned, turned + bodies, Motion{});
-  for (std::size_t k = 0; k < count; ++k) take(rows[k], forces[k], next[k], 0, per_step, least, turned, parts);
-  divide_by_mass(inverse_mass, turned, bodies);
-  parts.add_up(sums);
-}
-
-/// Takes those to which this step leads, and a direction conjugate to the last one, or where turn is 0 the gradient.
-CAROM_FOR_ALL_PROCESSORS
-void ContactProjectedGradients::go_on(const Rows* rows, Forces* forces, std::size_t count, double step, double turn,
-                                      double per_step, double least, const double* inverse_mass, Motion* turned,
-                                      std::size_t bodies, Sums& sums) {
+void ContactProjectedGradients::take_all(const Rows* rows, Forces* forces, const Next* next, std::size_t count,
+                                         double step, double turn, double per_step, double least,
+                                         const double* inverse_mass, Motion* turned, std::size_t bodies, Sums& sums) {
   Parts parts;
   std::fill(turned, turned + bodies, Motion{});
   for (std::size_t k = 0; k < count; ++k) {
-    Next next;
-    reach(forces[k], step, least, next);
-    take(rows[k], forces[k], next, turn, per_step, least, turned, parts);
+    Next here;
+    if (next)
+      here = next[k];
+    else
+      reach(forces[k], step, least, here);
+    take(rows[k], forces[k], here, turn, per_step, least, turned, parts);
   }
   divide_by_mass(inverse_mass, turned, bodies);
   parts.add_up(sums);
@@ -345,8 +338,8 @@ void ContactProjectedGradients::scale_next(double else_by) {
 
 /// Takes the next forces, whose gradient is known; the gradient is the new direction.
 void ContactProjectedGradients::begin() {
-  take_next(rows_.data(), forces_.data(), next_.data(), forces_.size(), 1 / step_, least_, inverse_mass_.data(),
-            turned_.data(), turned_.size(), sums_);
+  take_all(rows_.data(), forces_.data(), next_.data(), forces_.size(), 0, 0, 1 / step_, least_, inverse_mass_.data(),
+           turned_.data(), turned_.size(), sums_);
 }
 
 /// One step: along the face of the rows that press, onto its bound, or with the rows that are to press. False: nothing
@@ -364,8 +357,8 @@ bool ContactProjectedGradients::iterate() {
   if (!sums_.feasible && on_face)
     go_on_at_bounds(step);
   else
-    go_on(rows_.data(), forces_.data(), forces_.size(), step, on_face ? sums_.turn / sums_.pap : 0, 1 / step_, least_,
-          inverse_mass_.data(), turned_.data(), turned_.size(), sums_);
+    take_all(rows_.data(), forces_.data(), nullptr, forces_.size(), step, on_face ? sums_.turn / sums_.pap : 0,
+             1 / step_, least_, inverse_mass_.data(), turned_.data(), turned_.size(), sums_);
   return true;
 }
 
@@ -417,7 +410,7 @@ bool ContactProjectedGradients::run(ContactAccuracy accuracy, double most_cost) 
     if (cost() >= most_cost || !iterate()) return false;
     potential_.push_back(sums_.potential);
     if (accuracy == ContactAccuracy::energy && gains_little()) {
-      if (!fresh_) renew();
+      renew();
       return true;
     }
   }

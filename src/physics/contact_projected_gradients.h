@@ -80,7 +80,7 @@ class ContactProjectedGradients {
   bool gains_little();
   double cost() const;
 
-  /// What a pass over all rows adds up, in four parts.
+  /// The same, in four parts.
   struct Parts;
 
   static void push(const Rows& rows, const Four& x, Motion* moved);
@@ -96,10 +96,9 @@ class ContactProjectedGradients {
   static void bend(const Forces* forces, Next* next, std::size_t count, double first, double step);
   static void take(const Rows& rows, Forces& forces, const Next& next, double turn, double per_step, double least,
                    Motion* turned, Parts& parts);
-  static void take_next(const Rows* rows, Forces* forces, const Next* next, std::size_t count, double per_step,
-                        double least, const double* inverse_mass, Motion* turned, std::size_t bodies, Sums& sums);
-  static void go_on(const Rows* rows, Forces* forces, std::size_t count, double step, double turn, double per_step,
-                    double least, const double* inverse_mass, Motion* turned, std::size_t bodies, Sums& sums);
+  static void take_all(const Rows* rows, Forces* forces, const Next* next, std::size_t count, double step, double turn,
+                       double per_step, double least, const double* inverse_mass, Motion* turned, std::size_t bodies,
+                       Sums& sums);
 
   const ContactIsland* island_ = nullptr;
   std::vector<Rows> rows_;

@@ -11,7 +11,7 @@ namespace carom {
 
 /// Two things in contact.
 struct Contact {
-  Entity i, e;           // i < e; i a body
+  Entity i, e;           // i a body; in steps i < e
   std::uint8_t feature;  // as in Touch
 };
 

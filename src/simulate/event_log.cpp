@@ -38,12 +38,11 @@ void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const ContactConstraint& p = pairs[c];
     if (!(p.force > 0)) continue;
-    const Vec3 vb = p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : before[p.b];
-    const double approach = p.normal.dot(before[p.a] - vb);
+    const double speed = approach(before, p);
     if (!recorded.empty() && recorded[c]) {
-      of_recorded += 0.5 * p.force * approach;
-    } else if (approach > std::max(exact_tolerance::drift * fastest, p.slack)) {
-      take_up(approach, 0);
+      of_recorded += 0.5 * p.force * speed;
+    } else if (speed > std::max(exact_tolerance::drift * fastest, p.slack)) {
+      take_up(speed, 0);
       any = true;
     }
   }

@@ -34,15 +34,13 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
   const double s = world.radius[a] + world.radius[b];
   const bool curved = p.curve != nullptr || q.curve != nullptr, parabolas = p.is_parabola() && q.is_parabola();
   const bool step = bodies_.in_group(a) || bodies_.in_group(b);
-  double horizon = bodies_.options.duration - base.hi - base.lo;
+  const double horizon =
+      (step || curved ? std::min(end_of(a), end_of(b)) : Instant{bodies_.options.duration, 0}) - base;
   // Most pairs go no farther than here: they are too far apart for what is left of a step.
-  if (step || curved) {
-    horizon = std::min(end_of(a), end_of(b)) - base;
-    if (parabolas || !curved) {
-      if (curved && !(horizon > 0)) return {never, 0};
-      const double reach = s + horizon * (sum_of_speeds(m.w) + horizon * sum_of_speeds(m.a));
-      if (m.d.squaredNorm() > reach * reach) return {never, 0};
-    }
+  if ((step || curved) && (parabolas || !curved)) {
+    if (curved && !(horizon > 0)) return {never, 0};
+    const double reach = s + horizon * (sum_of_speeds(m.w) + horizon * sum_of_speeds(m.a));
+    if (m.d.squaredNorm() > reach * reach) return {never, 0};
   }
   m.speeds = sum_of_speeds(p.v) + sum_of_speeds(q.v) + sum_of_speeds(tp * p.a) + sum_of_speeds(tq * q.a);
   m.just_separated = p.start == q.start && bodies_.body[a].origin_partner == b && bodies_.body[b].origin_partner == a;

@@ -24,15 +24,15 @@ void SimultaneousImpacts::count_impact(Entity i) {
   for (const Entity a : changed) predictor_.predict(a);
 }
 
-/// Member `first`, what touches it, and on from them all that bodies would meet before the next step if they moved as
-/// the impacts of those before make them: no farther than that goes.
+/// Member `first`, what touches it, and all that these would meet before the next step with the velocities that impacts
+/// give them; and on from there as far as impacts reach.
 SimultaneousImpacts::Struck SimultaneousImpacts::strike(Entity first) const {
   const Instant& end = bodies_.islands.of(first).end;
   Struck set;
   set.rest = bodies_.now < end ? end - bodies_.now : 0;
   take_in(set, first);
   for (std::size_t c = 0, count = set.near.pairs.size(); c < count; ++c)
-    if (set.near.gaps[c] <= set.margins[c]) add(set, c);
+    if (set.near.gaps[c] <= margin(set, c)) add(set, c);
   const double open = tol::open_margin * tol::widest_margin * bodies_.world.radius[first];
   do {
     solve(set, group_.margin[first] > open);
@@ -62,11 +62,13 @@ void SimultaneousImpacts::take_in(Struck& set, Entity i) const {
     set.near.add({k, ContactConstraint::fixed, there.normal}, {i, e, there.feature}, there.gap);
   }
   set.near.drop_hidden(world, x, first, group_.margin[i]);
-  for (std::size_t c = first; c < set.near.pairs.size(); ++c) {
-    const Entity e = set.near.names[c].e;
-    set.margins.push_back(std::max(group_.margin[i], world.is_body(e) ? group_.margin[e] : 0));
-    set.added.push_back(0);
-  }
+  set.added.resize(set.near.pairs.size(), 0);
+}
+
+/// m, that time stepping keeps the two apart.
+double SimultaneousImpacts::margin(const Struck& set, std::size_t near) const {
+  const auto& [i, e, feature] = set.near.names[near];
+  return std::max(group_.margin[i], bodies_.world.is_body(e) ? group_.margin[e] : 0);
 }
 
 /// m/s, with the velocities found so far.
@@ -79,15 +81,16 @@ double SimultaneousImpacts::approach(const Struck& set, std::size_t near) const 
   return p.normal.dot(set.after[p.a] - v);
 }
 
-/// m/s: how fast two may approach that are to be no closer than their margin at the next step,
-double SimultaneousImpacts::allowed(const Struck& set, std::size_t near) {
-  const double beyond = set.near.gaps[near] - set.margins[near];
+/// m/s: how fast two may approach that are to be no closer than their margin at the next step; infinite, where it is
+/// due,
+double SimultaneousImpacts::allowed(const Struck& set, std::size_t near) const {
+  const double beyond = set.near.gaps[near] - margin(set, near);
   return beyond > 0 ? beyond / set.rest : 0;
 }
 
 /// and how much faster if they are to keep a share of their gap.
-double SimultaneousImpacts::slack(const Struck& set, std::size_t near) {
-  const double room = tol::gap_share * std::min(set.near.gaps[near], set.margins[near]);
+double SimultaneousImpacts::slack(const Struck& set, std::size_t near) const {
+  const double room = tol::gap_share * std::min(set.near.gaps[near], margin(set, near));
   return room > 0 && set.rest > 0 ? room / set.rest : 0;
 }
 
@@ -109,8 +112,7 @@ void SimultaneousImpacts::add(Struck& set, std::size_t near) const {
 bool SimultaneousImpacts::add_meeting(Struck& set) const {
   const std::size_t before = set.pairs.size(), count = set.near.pairs.size();
   for (std::size_t c = 0; c < count; ++c) {
-    if (set.added[c] || (set.near.gaps[c] > set.margins[c] && set.rest == 0)) continue;
-    if (approach(set, c) > allowed(set, c) + std::max(slack(set, c), set.slack)) add(set, c);
+    if (!set.added[c] && approach(set, c) > allowed(set, c) + std::max(slack(set, c), set.slack)) add(set, c);
   }
   return set.pairs.size() > before;
 }
@@ -118,10 +120,7 @@ bool SimultaneousImpacts::add_meeting(Struck& set) const {
 /// The velocities after the impacts. part: whether those that touch part, as far as that makes no energy.
 void SimultaneousImpacts::solve(Struck& set, bool part) const {
   double fastest = 0;  // m/s
-  for (const ContactConstraint& p : set.pairs) {
-    const Vec3 vb = p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : set.before[p.b];
-    fastest = std::max(fastest, p.normal.dot(set.before[p.a] - vb));
-  }
+  for (const ContactConstraint& p : set.pairs) fastest = std::max(fastest, carom::approach(set.before, p));
   set.slack = tol::simultaneous_slack * fastest;
   for (ContactConstraint& p : set.pairs) {
     if (part && p.target >= 0) p.target = tol::simultaneous_parting * fastest;

@@ -18,7 +18,8 @@ class SimultaneousImpacts {
   SimultaneousImpacts(ExactBodies& bodies, ExactGroup& group, FlightChanges& flights, EventPredictor& predictor)
       : bodies_(bodies), group_(group), flights_(flights), predictor_(predictor) {}
 
-  /// An impact of body i has ended in contact. After some of them since the last time step they are all struck at once.
+  /// An impact of body i has ended in contact. After some of them since the last time step it is struck with others at
+  /// once.
   void count_impact(Entity i);
 
  private:
@@ -28,7 +29,6 @@ class SimultaneousImpacts {
     double slack = 0;  // m/s, that any pair may approach by
     std::vector<Entity> members;
     ContactList near;                 // what the members are near; a of its pairs: the member's number
-    std::vector<double> margins;      // m, of what is near
     std::vector<std::uint8_t> added;  // of what is near: whether it is among the pairs
     std::vector<ContactConstraint> pairs;
     std::vector<double> inverse_mass;  // 1/kg
@@ -38,8 +38,9 @@ class SimultaneousImpacts {
   Struck strike(Entity first) const;
   void take_in(Struck& set, Entity i) const;
   double approach(const Struck& set, std::size_t near) const;
-  static double allowed(const Struck& set, std::size_t near);
-  static double slack(const Struck& set, std::size_t near);
+  double margin(const Struck& set, std::size_t near) const;
+  double allowed(const Struck& set, std::size_t near) const;
+  double slack(const Struck& set, std::size_t near) const;
   void add(Struck& set, std::size_t near) const;
   bool add_meeting(Struck& set) const;
   void solve(Struck& set, bool part) const;

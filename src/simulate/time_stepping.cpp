@@ -15,16 +15,10 @@ namespace tol = exact_tolerance;
 
 namespace {
 
-/// m/s, of a pair's b against its a.
-Vec3 relative_velocity(const std::vector<Vec3>& v, const ContactConstraint& p) {
-  return (p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : v[p.b]) - v[p.a];
-}
-
 /// Whether any of the pairs falls short of its target at these velocities.
 bool approaching(const std::vector<Vec3>& v, const std::vector<ContactConstraint>& pairs) {
-  return std::any_of(pairs.begin(), pairs.end(), [&](const ContactConstraint& p) {
-    return p.normal.dot(relative_velocity(v, p)) < p.target - p.slack;
-  });
+  return std::any_of(pairs.begin(), pairs.end(),
+                     [&](const ContactConstraint& p) { return -approach(v, p) < p.target - p.slack; });
 }
 
 }  // namespace
@@ -181,8 +175,7 @@ void TimeStepping::take_slow_impacts(Step& step) const {
   if (step.greatest <= 0 || !approaching(step.v, step.contacts.pairs)) return;
   step.impacts = step.contacts.pairs;
   double fastest = 0;  // m/s
-  for (const ContactConstraint& p : step.impacts)
-    fastest = std::max(fastest, -p.normal.dot(relative_velocity(step.v, p)));
+  for (const ContactConstraint& p : step.impacts) fastest = std::max(fastest, approach(step.v, p));
   for (ContactConstraint& p : step.impacts) {
     p.target = std::min(p.target, 0.0);
     p.slack = std::max(p.slack, tol::slow_slack * fastest);
@@ -276,7 +269,7 @@ void TimeStepping::find_parts(Step& step) {
     widen(k, tol::margin_of_displacement * step.length * step.solved[k].norm());
   }
   for (const ContactConstraint& p : step.contacts.pairs) {
-    const double missing = step.length * (p.target - p.normal.dot(relative_velocity(step.solved, p)));  // m
+    const double missing = step.length * (p.target + approach(step.solved, p));  // m
     if (missing > 0) widen(p.a, std::min(2 * missing, tol::widest_margin * step.smallest));
   }
   for (std::uint32_t k = 0; k < n; ++k) group_.margin.write(step.members[k]) = margin[island[k]];
