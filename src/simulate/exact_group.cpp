@@ -125,16 +125,23 @@ double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity 
   return met > exact_tolerance::approach_rounding * (vi.norm() + ve.norm() + approach) ? met : 0;
 }
 
-void ExactGroup::kick(Entity i, const Vec3& dv) {
-  if (!bodies_.is_stepped(i) || dv.isZero(0)) return;
-  Islands& islands = bodies_.islands;
-  const Instant& end = islands.of(i).end;
-  if (!(bodies_.now < end)) return;
-  if (!(bodies_.now < islands.kicked_until[i])) {
-    islands.kicked_until.write(i) = end;
-    islands.kick.write(i).setZero();
+bool ExactGroup::opens(Entity i) const {
+  if (!bodies_.is_stepped(i) || !(bodies_.now < bodies_.islands.kicked_until[i])) return false;
+  const Vec3 x = bodies_.position(i), v = bodies_.velocity(i);
+  const auto parts_from = [&](Entity e) {
+    const bool body = bodies_.world.is_body(e);
+    const Vec3 ve = body ? bodies_.velocity(e) : Vec3(Vec3::Zero());
+    const Vec3 n = touch(bodies_.world, i, x, e, bodies_.position_of(e)).normal;
+    return n.dot(ve - v) > bodies_.slow_speed(bodies_.applied[i].norm(), bodies_.smaller_length(i, e));
+  };
+  for (const PressingContact& p : pressing[i])
+    if (parts_from(p.partner)) return true;
+  for (const Entity e : bodies_.known_to(i)) {
+    if (!bodies_.world.is_body(e) || e > i) continue;
+    for (const PressingContact& p : pressing[e])
+      if (p.partner == i && parts_from(e)) return true;
   }
-  islands.kick.write(i) += dv / (islands.kicked_until[i] - bodies_.now);
+  return false;
 }
 
 bool ExactGroup::strikes(Entity i, Entity e, double approach, double greatest, bool apart) const {

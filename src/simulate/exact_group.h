@@ -52,8 +52,8 @@ class ExactGroup {
   /// How much of an approach (m/s) along n is there already: in time stepping flights have been kicked by what forces
   /// do in the rest of the step. 0 where no more than rounding is.
   double approach_without_kick(double approach, const Vec3& n, Entity i, Entity e) const;
-  /// A force in what is left of a time step changes body i's velocity by dv (m/s), which is in its flight from now on.
-  void kick(Entity i, const Vec3& dv);
+  /// Whether member i parts from what the last time step found pressing on it.
+  bool opens(Entity i) const;
   /// Whether member i and e approach each other (m/s) for an impact of its own: one that bounces, or if they are
   /// `apart`. Contact must not take that speed. `greatest` is the greatest acceleration in the group (m/s^2).
   bool strikes(Entity i, Entity e, double approach, double greatest, bool apart = false) const;

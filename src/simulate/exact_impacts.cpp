@@ -117,8 +117,8 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
                     (real && parts_.collapses.count_impact(a, b, e, met, press, length, false)) ||
                     (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press)));
   const double separation = ends ? 0 : e * met;
-  const double impulse = impact_impulse(ma, mb, ends ? approach : met, separation);
-  bodies_.log.lose(impact_loss(ma, mb, approach, ends || met == approach ? separation : met + separation - approach));
+  const double impulse = impact_impulse(ma, mb, met, separation);
+  bodies_.log.lose(impact_loss(ma, mb, approach, met == approach ? separation : met + separation - approach));
   const Collision collision =
       make_collision(world, CollisionKind::body_body, bodies_.now.hi, a, b, there.point, n, met, separation, e);
   if (!ends || is_plastic(collision, press, length))
@@ -132,11 +132,16 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   if (ends) parts_.group.unite_fresh(a, b);
   parts_.flights.begin(a, xa, parts_.flat.keep_at(a, va - (impulse / ma) * n), {b, feature});
   parts_.flights.begin(b, xb, parts_.flat.keep_at(b, vb + (impulse / mb) * n), {a, feature});
+  for (const Entity i : {a, b})
+    if (parts_.group.opens(i)) parts_.flights.release(i);
   if (ends) {
-    for (const Entity i : {a, b}) bodies_.flights.accelerate(i, Vec3::Zero());
-    const double held = impact_impulse(ma, mb, approach - met, 0);
-    parts_.group.kick(a, -held / ma * n);
-    parts_.group.kick(b, held / mb * n);
+    for (const Entity i : {a, b}) parts_.flights.hold(i);
+    const double closing = n.dot(bodies_.velocity(a) - bodies_.velocity(b));
+    if (closing > 0) {
+      const double held = impact_impulse(ma, mb, closing, 0);
+      parts_.flights.push(a, -held / ma * n);
+      parts_.flights.push(b, held / mb * n);
+    }
     parts_.group.unite(a, b);
   }
   parts_.predictor.predict(a);
@@ -238,8 +243,8 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   if (ends || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
   parts_.group.widen_margin(i, approach);
   if (approach > 0 || separation > 0) {
-    bodies_.log.lose(impact_loss(mass, ExactBodies::immovable, approach,
-                                 leaves_nothing || met == approach ? separation : met + separation - approach));
+    const double left = taken_over || met == approach ? separation : met + separation - approach;
+    bodies_.log.lose(impact_loss(mass, ExactBodies::immovable, approach, left));
     const Collision collision = make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, surface,
                                                impact.there.point, n, met, separation, impact.e);
     if (!leaves_nothing || (ends && is_plastic(collision, impact.press, world.radius[i])))
@@ -252,14 +257,16 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
     parts_.flat.add(i, contact);
     parts_.flights.begin(i, x + impact.there.gap * n, parts_.flat.keep_at(i, v - approach * n), {surface, feature});
   } else {
-    const double change = (ends ? approach : met) + separation;
-    parts_.flights.begin(i, x, parts_.flat.keep_at(i, v - change * n), {surface, feature});
+    parts_.flights.begin(i, x, parts_.flat.keep_at(i, v - (met + separation) * n), {surface, feature});
   }
-  if (ends) bodies_.flights.accelerate(i, Vec3::Zero());
+  if (parts_.group.opens(i)) parts_.flights.release(i);
+  if (ends) {
+    parts_.flights.hold(i);
+    const double closing = n.dot(bodies_.velocity(i));
+    if (closing > 0) parts_.flights.push(i, -closing * n);
+  }
   parts_.predictor.predict(i);
-  if (!ends) return;
-  parts_.group.kick(i, (met - approach) * n);
-  parts_.simultaneous.count_impact(i);
+  if (ends) parts_.simultaneous.count_impact(i);
 }
 
 }  // namespace carom

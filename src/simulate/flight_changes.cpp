@@ -93,6 +93,46 @@ void FlightChanges::let_fall(Entity i) {
     bodies_.flights.accelerate(i, bodies_.force_at(i, f.x, f.v), bodies_.fade[i]);
 }
 
+void FlightChanges::release(Entity i) {
+  Islands& islands = bodies_.islands;
+  const Vec3 pending = (islands.kicked_until[i] - bodies_.now) * islands.kick[i];
+  islands.kicked_until.write(i) = bodies_.now;
+  islands.kick.write(i).setZero();
+  change(i, -pending);
+  let_fall(i);
+  Island& island = islands.of(i);
+  const double excess = (island.end - bodies_.now) - island.shortest_step;
+  if (!(excess > 0)) return;
+  island.end = bodies_.now + island.shortest_step;
+  island.step_length -= excess;
+}
+
+void FlightChanges::hold(Entity i) {
+  bodies_.flights.accelerate(i, Vec3::Zero());
+  Islands& islands = bodies_.islands;
+  if (!bodies_.is_stepped(i) || bodies_.now < islands.kicked_until[i] || !(bodies_.now < islands.of(i).end)) return;
+  const double rest = islands.of(i).end - bodies_.now;
+  const Vec3 v = bodies_.flights[i].v;
+  islands.kicked_until.write(i) = islands.of(i).end;
+  islands.kick.write(i).setZero();
+  push(i, rest * (bodies_.applied[i] - bodies_.fade[i] * v) / (1 + rest * bodies_.fade[i]));
+}
+
+void FlightChanges::push(Entity i, const Vec3& dv) {
+  Islands& islands = bodies_.islands;
+  change(i, dv);
+  if (bodies_.is_stepped(i) && bodies_.now < islands.kicked_until[i])
+    islands.kick.write(i) += dv / (islands.kicked_until[i] - bodies_.now);
+}
+
+void FlightChanges::change(Entity i, const Vec3& dv) {
+  Flight f = bodies_.flights[i];
+  bodies_.log.lose(-0.5 * bodies_.world.mass[i] * dv.dot(2 * f.v + dv));
+  f.v += dv;
+  bodies_.log.note_speed(f.v.norm());
+  bodies_.flights.set(i, {f.start, f.x, f.v, f.a, f.fade});
+}
+
 void FlightChanges::correct(Entity i, const Vec3& v) {
   const Vec3 x = bodies_.position(i), before = bodies_.velocity(i);
   if (v == before) return;

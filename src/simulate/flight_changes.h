@@ -27,6 +27,14 @@ class FlightChanges {
   void take_step(Entity i);
   /// Body i's flight, which has just begun, goes on as if it were free.
   void let_fall(Entity i);
+  /// Member i falls from now on: nothing presses on it in the rest of its time step, which is no longer than a short
+  /// one.
+  void release(Entity i);
+  /// Member i, which something presses on from now on, flies straight. What forces do in the rest of its time step is
+  /// in its velocity.
+  void hold(Entity i);
+  /// A force in the rest of the time step changes member i's velocity by dv (m/s), from now on.
+  void push(Entity i, const Vec3& dv);
   /// Body i's flight goes on from now with velocity v (m/s), which it ought to have had. Its events stay.
   void correct(Entity i, const Vec3& v);
   /// Books what forces did to body i on the flight that ends at x (m) then: the World's, and contact forces against
@@ -46,6 +54,7 @@ class FlightChanges {
 
  private:
   void end_verlets(Entity i);
+  void change(Entity i, const Vec3& dv);
   void curve(Entity i, Flight from, bool free);
   void end_change(Entity i, const FlightOrigin& origin);
   void book_forces(Entity i, const Vec3& x, const Instant& end);

@@ -47,6 +47,7 @@ void Islands::merge(Entity a, Entity b, const Instant& now) {
   one.calm = 0;
   one.calm_needed = std::max(one.calm_needed, other.calm_needed);
   one.step_length = std::max(one.step_length, other.step_length);
+  one.shortest_step = std::max(one.shortest_step, other.shortest_step);
   one.impact_pairs += other.impact_pairs;
   one.short_steps = std::max(one.short_steps, other.short_steps);
   release(from);

@@ -31,6 +31,7 @@ struct Island {
   std::uint32_t calm_needed = 0;  // so many, and it is busy no more
   std::uint64_t pressing = 0;     // a hash of those pairs
   double step_length = 0;         // s, of the last time step
+  double shortest_step = 0;       // s, of one that is as short as the method has them
   std::size_t impact_pairs = 0;   // that simultaneous impacts have solved for since then
   std::uint32_t short_steps = 0;  // time steps on end that simultaneous impacts ended at once
 };

@@ -33,9 +33,10 @@ SimultaneousImpacts::Struck SimultaneousImpacts::strike(Entity first) const {
   take_in(set, first);
   for (std::size_t c = 0, count = set.near.pairs.size(); c < count; ++c)
     if (set.near.gaps[c] <= margin(set, c)) add(set, c);
-  const double open = tol::open_margin * tol::widest_margin * bodies_.world.radius[first];
+  // The next step keeps them apart by itself.
+  set.part = set.rest > 0 && group_.margin[first] > tol::open_margin * tol::widest_margin * bodies_.world.radius[first];
   do {
-    solve(set, group_.margin[first] > open);
+    solve(set);
   } while (add_meeting(set));
   for (const Entity i : set.members) group_.index.write(i) = ContactConstraint::fixed;
   return set;
@@ -50,8 +51,10 @@ void SimultaneousImpacts::take_in(Struck& set, Entity i) const {
   index.write(i) = k;
   set.members.push_back(i);
   set.inverse_mass.push_back(1 / world.mass[i]);
-  set.before.push_back(bodies_.velocity(i));
-  set.after.push_back(set.before.back());
+  set.before.push_back(bodies_.velocity_without_kick(i, bodies_.now));
+  set.forced.push_back(forced(set, i));
+  set.path.push_back(set.before.back() + set.forced.back());
+  set.after.push_back(bodies_.velocity(i));
   const Vec3 x = bodies_.position(i);
   const std::size_t first = set.near.pairs.size();
   for (const Entity e : bodies_.known_to(i)) {
@@ -63,6 +66,32 @@ void SimultaneousImpacts::take_in(Struck& set, Entity i) const {
   }
   set.near.drop_hidden(world, x, first, group_.margin[i]);
   set.added.resize(set.near.pairs.size(), 0);
+  for (std::size_t c = first; c < set.near.pairs.size(); ++c) {
+    const Entity e = set.near.names[c].e;
+    const double rest = std::min(remaining(set, i), world.is_body(e) ? remaining(set, e) : never);
+    set.held.push_back(pressing(i, e) * rest);
+  }
+}
+
+/// s, that forces are in member i's velocity for, or will be.
+double SimultaneousImpacts::remaining(const Struck& set, Entity i) const {
+  const Instant& until = bodies_.islands.kicked_until[i];
+  return bodies_.now < until ? until - bodies_.now : set.rest;
+}
+
+/// m/s: what forces do to member i in that time, as far as is known.
+Vec3 SimultaneousImpacts::forced(const Struck& set, Entity i) const {
+  const double rest = remaining(set, i);
+  if (bodies_.now < bodies_.islands.kicked_until[i]) return rest * bodies_.islands.kick[i];
+  const double drag = rest * bodies_.fade[i];
+  return (rest * bodies_.applied[i] - drag * bodies_.velocity(i)) / (1 + drag);
+}
+
+/// N: between member i and what is near it, by the last step.
+double SimultaneousImpacts::pressing(Entity i, Entity e) const {
+  for (const PressingContact& p : group_.pressing[std::min(i, e)])
+    if (p.partner == std::max(i, e)) return p.force;
+  return 0;
 }
 
 /// m, that time stepping keeps the two apart.
@@ -71,14 +100,14 @@ double SimultaneousImpacts::margin(const Struck& set, std::size_t near) const {
   return std::max(group_.margin[i], bodies_.world.is_body(e) ? group_.margin[e] : 0);
 }
 
-/// m/s, with the velocities found so far.
-double SimultaneousImpacts::approach(const Struck& set, std::size_t near) const {
+/// m/s: of what is near, with these velocities of the set's members.
+double SimultaneousImpacts::approach(const Struck& set, const std::vector<Vec3>& velocities, std::size_t near) const {
   const Entity e = set.near.names[near].e;
   Vec3 v = Vec3::Zero();
   if (bodies_.world.is_body(e))
-    v = group_.index[e] == ContactConstraint::fixed ? bodies_.velocity(e) : set.after[group_.index[e]];
+    v = group_.index[e] == ContactConstraint::fixed ? bodies_.velocity(e) : velocities[group_.index[e]];
   const ContactConstraint& p = set.near.pairs[near];
-  return p.normal.dot(set.after[p.a] - v);
+  return p.normal.dot(velocities[p.a] - v);
 }
 
 /// m/s: how fast two may approach that are to be no closer than their margin at the next step; infinite, where it is
@@ -105,53 +134,116 @@ void SimultaneousImpacts::add(Struck& set, std::size_t near) const {
   }
   pair.target = -allowed(set, near);
   pair.slack = slack(set, near);
+  pair.force = set.held[near];  // found anew
+  set.forced[pair.a] += pair.force * set.inverse_mass[pair.a] * pair.normal;
+  if (pair.b != ContactConstraint::fixed) set.forced[pair.b] -= pair.force * set.inverse_mass[pair.b] * pair.normal;
   set.pairs.push_back(pair);
+  pair.force = 0;
+  set.impacts.push_back(pair);
+  set.which.push_back(near);
 }
 
-/// Adds the pairs that would meet before the next step with these velocities. False: there are none.
+/// Adds the pairs that would meet before the next step with these velocities, and those that press and part. False:
+/// there are none.
 bool SimultaneousImpacts::add_meeting(Struck& set) const {
   const std::size_t before = set.pairs.size(), count = set.near.pairs.size();
   for (std::size_t c = 0; c < count; ++c) {
-    if (!set.added[c] && approach(set, c) > allowed(set, c) + std::max(slack(set, c), set.slack)) add(set, c);
+    if (set.added[c]) continue;
+    const double speed = approach(set, set.after, c), room = std::max(slack(set, c), set.slack);
+    if (speed > allowed(set, c) + room) {
+      add(set, c);
+    } else if (set.held[c] > 0 && speed < std::min(approach(set, set.path, c), 0.0) - room) {
+      add(set, c);
+    }
   }
   return set.pairs.size() > before;
 }
 
-/// The velocities after the impacts. part: whether those that touch part, as far as that makes no energy.
-void SimultaneousImpacts::solve(Struck& set, bool part) const {
+/// What the impacts leave of the velocities.
+void SimultaneousImpacts::take_impacts(Struck& set) const {
+  set.struck = set.before;
   double fastest = 0;  // m/s
-  for (const ContactConstraint& p : set.pairs) fastest = std::max(fastest, carom::approach(set.before, p));
+  for (const ContactConstraint& p : set.impacts) fastest = std::max(fastest, carom::approach(set.before, p));
+  for (ContactConstraint& p : set.impacts) {
+    p.target = std::min(p.target, 0.0);
+    p.slack = std::max(p.slack, tol::simultaneous_slack * fastest);
+  }
+  bodies_.log.note(carom::solve({set.inverse_mass, set.struck, set.impacts, ContactAccuracy::energy}));
+}
+
+/// The velocities that the impacts, and forces in the rest of the step, give.
+void SimultaneousImpacts::solve(Struck& set) const {
+  take_impacts(set);
+  std::vector<Vec3> free = set.struck;
+  for (std::size_t k = 0; k < free.size(); ++k) free[k] += set.forced[k];
+  double fastest = 0;  // m/s
+  for (const ContactConstraint& p : set.pairs)
+    fastest = std::max({fastest, carom::approach(set.before, p), carom::approach(set.path, p)});
   set.slack = tol::simultaneous_slack * fastest;
   for (ContactConstraint& p : set.pairs) {
-    if (part && p.target >= 0) p.target = tol::simultaneous_parting * fastest;
+    if (set.part && p.target >= 0) p.target = tol::simultaneous_parting * fastest;
     p.slack = std::max(p.slack, set.slack);
   }
   const auto press = [&] {
-    set.after = set.before;
-    return carom::solve({set.inverse_mass, set.after, set.pairs, ContactAccuracy::contacts});
+    set.after = free;
+    return carom::solve({set.inverse_mass, set.after, set.pairs, ContactAccuracy::energy});
   };
   Certificate certificate = press();
-  double gained = 0;
-  for (std::size_t k = 0; k < set.members.size(); ++k)
-    gained += bodies_.world.mass[set.members[k]] * (set.after[k] - set.before[k]).dot(set.after[k] + set.before[k]);
-  if (!certificate.solved() || gained > 0) {
+  if (set.part && (!certificate.solved() || makes_energy(set))) {
+    set.part = false;
     for (ContactConstraint& p : set.pairs) p.target = std::min(p.target, 0.0);
     certificate = press();
   }
   bodies_.log.note(certificate);
 }
 
+/// Whether there is more energy than before, but for what forces do.
+bool SimultaneousImpacts::makes_energy(const Struck& set) {
+  double made = 0;  // J
+  for (std::size_t k = 0; k < set.members.size(); ++k) {
+    const Vec3 &before = set.before[k], &after = set.after[k];
+    made += (0.5 * (after - before).dot(after + before) - set.forced[k].dot(after)) / set.inverse_mass[k];
+  }
+  return made > 0;
+}
+
+/// What presses from now on.
+void SimultaneousImpacts::note_forces(const Struck& set) {
+  for (std::size_t c = 0; c < set.pairs.size(); ++c) {
+    const auto& [i, e, feature] = set.near.names[set.which[c]];
+    const double force = set.pairs[c].force;
+    if (!(force > 0 || set.held[set.which[c]] > 0)) continue;
+    std::vector<PressingContact>& list = group_.pressing.write(std::min(i, e));
+    const Entity partner = std::max(i, e);
+    std::erase_if(list, [&](const PressingContact& p) { return p.partner == partner; });
+    const double rest = std::min(remaining(set, i), bodies_.world.is_body(e) ? remaining(set, e) : never);
+    if (force > 0 && rest > 0) list.push_back({partner, force / rest});
+  }
+}
+
 /// Gives those whose velocities have changed.
 std::vector<Entity> SimultaneousImpacts::begin_flights(const Struck& set) {
   std::vector<Entity> changed;
-  bodies_.log.take_up(set.inverse_mass, set.before, set.after, set.pairs);
+  bodies_.log.take_up(set.inverse_mass, set.before, set.struck, set.impacts);
+  std::vector<std::uint8_t> pressed(set.members.size());
+  for (std::size_t c = 0; c < set.pairs.size(); ++c) {
+    const ContactConstraint& p = set.pairs[c];
+    if (!(p.force > 0 || set.impacts[c].force > 0 || set.held[set.which[c]] > 0)) continue;
+    pressed[p.a] = 1;
+    if (p.b != ContactConstraint::fixed) pressed[p.b] = 1;
+  }
+  note_forces(set);
+  Islands& islands = bodies_.islands;
   for (std::size_t k = 0; k < set.members.size(); ++k) {
     const Entity a = set.members[k];
-    const Vec3 &before = set.before[k], &after = set.after[k];
     group_.impacts.write(a) = 1;
-    if (after == before) continue;
+    if (!pressed[k]) continue;
     changed.push_back(a);
+    const Vec3 before = bodies_.velocity(a), &after = set.after[k];
     bodies_.log.lose(0.5 * bodies_.world.mass[a] * (before - after).dot(before + after));
+    if (!(bodies_.now < islands.kicked_until[a])) islands.kicked_until.write(a) = bodies_.now + set.rest;
+    const double rest = islands.kicked_until[a] - bodies_.now;
+    islands.kick.write(a) = rest > 0 ? Vec3((after - set.struck[k]) / rest) : Vec3(Vec3::Zero());
     flights_.begin(a, bodies_.position(a), after, {});
     bodies_.flights.accelerate(a, Vec3::Zero());
   }

@@ -38,6 +38,7 @@ void TimeStepping::advance(Entity i) {
 bool TimeStepping::solve_step(Step& step) const {
   const Island& island = bodies_.islands.of(step.members.front());
   const double shortest = shortest_step(step);
+  step.shortest = shortest;
   step.short_steps = island.step_length < 0.01 * shortest ? island.short_steps + 1 : 0;
   double fastest = 0;
   for (const double speed : step.expected) fastest = std::max(fastest, speed);
@@ -343,6 +344,7 @@ void TimeStepping::begin_flights(const Step& step) {
   Island& island = bodies_.islands.of(step.members.front());
   island.fresh = island.constrained = false;
   island.step_length = h;
+  island.shortest_step = step.shortest;
   island.short_steps = step.short_steps;
   island.impact_pairs = 0;
   island.end = bodies_.now + h;

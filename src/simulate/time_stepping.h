@@ -5,8 +5,9 @@
 // velocities are those nearest to what forces alone would make of them that keep every pair apart until the next step
 // (contact_problem.h): linearised at the closest points, which for convex bodies on straight paths is on the safe side.
 // (Stewart & Trinkle, Int. J. Numer. Meth. Eng. 39 (1996) 2673, without friction and with exact impacts.) An impact
-// meets the velocities that bodies have by then, not those that the step's kick has given them for its end. A step that
-// ends early takes back what forces would have done in its rest.
+// meets the velocities that bodies have by then, not those that the step's kick has given them for its end. A body that
+// an impact throws off what carries it falls freely, and the next step is due after a shortest one. A step that ends
+// early takes back what forces would have done in its rest.
 //
 // Members that have just been struck are kept apart by a margin, so that the small motions that a strike causes wait
 // for the next step instead of making thousands of impacts at one instant. The margin shrinks as the group slows down.
@@ -34,7 +35,7 @@ class TimeStepping {
   /// A step, in numbers of its own.
   struct Step {
     std::vector<Entity> members;               // ascending
-    double length = 0;                         // s
+    double length = 0, shortest = 0;           // s
     std::uint32_t short_steps = 0;             // on end, that simultaneous impacts ended at once
     double smallest = never, greatest = 0;     // m, the least radius; m/s^2, the greatest acceleration
     std::vector<Vec3> x, v;                    // m, m/s: now,

@@ -120,15 +120,34 @@ TEST(ExactGroup, WakesAllThatTouch) {
   EXPECT_EQ(parts.bodies.log.tally().resting, 0u);
 }
 
-TEST(ExactGroup, TakesAKickOutOfAVelocity) {
+TEST(FlightChanges, TakeAPushOutOfAVelocity) {
   ExactParts parts(three_in_a_row(0.5));
   parts.group.join(0);
   parts.bodies.islands.of(0).end = {2, 0};
-  parts.bodies.flights.set(0, {{}, Vec3::Zero(), Vec3(3, 0, 0), Vec3::Zero()});
-  parts.group.kick(0, Vec3(3, 0, 0));  // in two seconds
+  parts.bodies.islands.kicked_until.write(0) = {2, 0};
+  parts.flights.push(0, Vec3(3, 0, 0));  // in two seconds
   EXPECT_EQ(parts.bodies.velocity_without_kick(0, {0, 0}), Vec3::Zero());
   EXPECT_EQ(parts.bodies.velocity_without_kick(0, {1, 0}), Vec3(1.5, 0, 0));
   EXPECT_EQ(parts.bodies.velocity_without_kick(0, {2, 0}), Vec3(3, 0, 0));
+}
+
+TEST(FlightChanges, HoldABodyByWhatForcesDoInTheRestOfItsStepAndReleaseIt) {
+  Problem p = three_in_a_row(0.5);
+  p.world.gravity = Vec3(0, -10, 0);
+  ExactParts parts(p);
+  for (Entity i = 0; i < 3; ++i) parts.bodies.applied.write(i) = p.world.gravity;
+  parts.group.join(0);
+  Island& island = parts.bodies.islands.of(0);
+  island.end = {2, 0};
+  island.shortest_step = 0.5;
+  parts.flights.hold(0);
+  EXPECT_EQ(parts.bodies.flights[0].v, Vec3(0, -20, 0));  // straight, to where a step of two seconds takes it
+  EXPECT_EQ(parts.bodies.flights[0].a, Vec3::Zero());
+  EXPECT_EQ(parts.bodies.velocity_without_kick(0, {1, 0}), Vec3(0, -10, 0));
+  parts.flights.release(0);
+  EXPECT_EQ(parts.bodies.flights[0].v, Vec3::Zero());
+  EXPECT_EQ(parts.bodies.flights[0].a, p.world.gravity);
+  EXPECT_EQ(island.end.hi, 0.5);
 }
 
 TEST(ExactGroup, TakesWhatRoundingLeavesOfAKickedApproachForNone) {
@@ -137,9 +156,9 @@ TEST(ExactGroup, TakesWhatRoundingLeavesOfAKickedApproachForNone) {
   parts.bodies.islands.of(0).end = {3, 0};
   const Vec3 n(1, 0, 0);
   const auto approach_beyond_kick = [&](double speed) {
-    parts.bodies.islands.kicked_until.write(0) = {0, 0};
+    parts.bodies.islands.kicked_until.write(0) = {3, 0};
+    parts.bodies.islands.kick.write(0) = Vec3(0.1, 0, 0) / 3;
     parts.bodies.flights.set(0, {{}, Vec3::Zero(), Vec3(0.1 + speed, 2, 0), Vec3::Zero()});
-    parts.group.kick(0, Vec3(0.1, 0, 0));
     return parts.group.approach_without_kick(0.1 + speed, n, 0, 1);
   };
   EXPECT_EQ(approach_beyond_kick(1e-17), 0);

@@ -21,7 +21,6 @@ TEST(Pile, AWokenPileComesToRestAgain) {
 }
 
 TEST(Pile, GainsNoEnergyAsItSettles) {
-  // Within a time step energy is as right as motion is, to first order: rises of 1e-4 of it were measured here.
   for (int side : {3, 4, 5}) {
     const Problem problem = loose_pile(side, 6, 20);
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
@@ -30,7 +29,7 @@ TEST(Pile, GainsNoEnergyAsItSettles) {
       go_to(*simulator, t);
       const State& state = simulator->state();
       const double energy = kinetic_energy(problem.world, state) + potential_energy(problem.world, state);
-      EXPECT_LT(energy, 1.0003 * least) << side << " at " << t;
+      EXPECT_LT(energy, (1 + 1e-9) * least) << side << " at " << t;
       least = std::min(least, energy);
     }
   }
