@@ -43,7 +43,7 @@ TEST(Determinism, AGasHasTheSameBitsInEveryBuild) {
 }
 
 TEST(Determinism, BallsThatSettleHaveTheSameBitsInEveryBuild) {
-  EXPECT_EQ(hash_of(run_exact(lattice(0.7, 4))), 10623269676876894573u);
+  EXPECT_EQ(hash_of(run_exact(lattice(0.7, 4))), 2657923213877608498u);
 }
 
 TEST(Determinism, TheBooksLoopHasTheSameBitsInEveryBuild) {
@@ -59,8 +59,8 @@ TEST(Determinism, ACrowdInStepsHasTheSameBitsInEveryBuild) {
   options.duration = 3;
   options.step = 0.005;
   for (const auto& [method, hash] :
-       {std::pair(Integrator::euler, 6640166535632235762u), std::pair(Integrator::verlet, 11461940259607165253u),
-        std::pair(Integrator::rk4, 13944943484763325006u)}) {
+       {std::pair(Integrator::euler, 228267547694042158u), std::pair(Integrator::verlet, 14816391714551115303u),
+        std::pair(Integrator::rk4, 11812592450691723766u)}) {
     options.integrator = method;
     const auto simulator = make_exact_simulator(problem.world, problem.initial, options);
     EXPECT_EQ(hash_of(run_to_end(*simulator, 3)), hash) << static_cast<int>(method);
