@@ -69,7 +69,7 @@ void SimultaneousImpacts::take_in(Struck& set, Entity i) const {
   for (std::size_t c = first; c < set.near.pairs.size(); ++c) {
     const Entity e = set.near.names[c].e;
     const double rest = std::min(remaining(set, i), world.is_body(e) ? remaining(set, e) : never);
-    set.held.push_back(pressing(i, e) * rest);
+    set.held.push_back(set.rest > 0 ? pressing(i, e) * rest : 0);  // else the next step finds it anew
   }
 }
 
@@ -132,7 +132,10 @@ void SimultaneousImpacts::add(Struck& set, std::size_t near) const {
     take_in(set, e);
     pair.b = group_.index[e];
   }
-  pair.target = -allowed(set, near);
+  // Rows of a problem are to be of one scale: faster than at several times their speeds these bodies cannot approach.
+  double speeds = set.before[pair.a].norm() + set.forced[pair.a].norm();
+  if (pair.b != ContactConstraint::fixed) speeds += set.before[pair.b].norm() + set.forced[pair.b].norm();
+  pair.target = -std::min(allowed(set, near), 4 * speeds);
   pair.slack = slack(set, near);
   pair.force = set.held[near];  // found anew
   set.forced[pair.a] += pair.force * set.inverse_mass[pair.a] * pair.normal;
