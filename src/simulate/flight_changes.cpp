@@ -111,11 +111,14 @@ void FlightChanges::hold(Entity i) {
   bodies_.flights.accelerate(i, Vec3::Zero());
   Islands& islands = bodies_.islands;
   if (!bodies_.is_stepped(i) || bodies_.now < islands.kicked_until[i] || !(bodies_.now < islands.of(i).end)) return;
-  const double rest = islands.of(i).end - bodies_.now;
-  const Vec3 v = bodies_.flights[i].v;
   islands.kicked_until.write(i) = islands.of(i).end;
   islands.kick.write(i).setZero();
-  push(i, rest * (bodies_.applied[i] - bodies_.fade[i] * v) / (1 + rest * bodies_.fade[i]));
+  push(i, by_forces(i, islands.of(i).end - bodies_.now));
+}
+
+Vec3 FlightChanges::by_forces(Entity i, double seconds) const {
+  const double drag = seconds * bodies_.fade[i];
+  return (seconds * bodies_.applied[i] - drag * bodies_.velocity(i)) / (1 + drag);
 }
 
 void FlightChanges::push(Entity i, const Vec3& dv) {

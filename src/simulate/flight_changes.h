@@ -33,6 +33,8 @@ class FlightChanges {
   /// Member i, which something presses on from now on, flies straight. What forces do in the rest of its time step is
   /// in its velocity.
   void hold(Entity i);
+  /// m/s: what forces do to body i in so many seconds from now; drag is implicit.
+  Vec3 by_forces(Entity i, double seconds) const;
   /// A force in the rest of the time step changes member i's velocity by dv (m/s), from now on.
   void push(Entity i, const Vec3& dv);
   /// Body i's flight goes on from now with velocity v (m/s), which it ought to have had. Its events stay.

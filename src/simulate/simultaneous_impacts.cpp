@@ -68,8 +68,7 @@ void SimultaneousImpacts::take_in(Struck& set, Entity i) const {
   set.added.resize(set.near.pairs.size(), 0);
   for (std::size_t c = first; c < set.near.pairs.size(); ++c) {
     const Entity e = set.near.names[c].e;
-    const double rest = std::min(remaining(set, i), world.is_body(e) ? remaining(set, e) : never);
-    set.held.push_back(set.rest > 0 ? pressing(i, e) * rest : 0);  // else the next step finds it anew
+    set.held.push_back(set.rest > 0 ? pressing(i, e) * remaining(set, i, e) : 0);  // else the next step finds it anew
   }
 }
 
@@ -79,12 +78,16 @@ double SimultaneousImpacts::remaining(const Struck& set, Entity i) const {
   return bodies_.now < until ? until - bodies_.now : set.rest;
 }
 
+/// The same of a pair: what it presses with ends with the first of the two.
+double SimultaneousImpacts::remaining(const Struck& set, Entity i, Entity e) const {
+  return std::min(remaining(set, i), bodies_.world.is_body(e) ? remaining(set, e) : never);
+}
+
 /// m/s: what forces do to member i in that time, as far as is known.
 Vec3 SimultaneousImpacts::forced(const Struck& set, Entity i) const {
   const double rest = remaining(set, i);
-  if (bodies_.now < bodies_.islands.kicked_until[i]) return rest * bodies_.islands.kick[i];
-  const double drag = rest * bodies_.fade[i];
-  return (rest * bodies_.applied[i] - drag * bodies_.velocity(i)) / (1 + drag);
+  return bodies_.now < bodies_.islands.kicked_until[i] ? Vec3(rest * bodies_.islands.kick[i])
+                                                       : flights_.by_forces(i, rest);
 }
 
 /// N: between member i and what is near it, by the last step.
@@ -153,11 +156,8 @@ bool SimultaneousImpacts::add_meeting(Struck& set) const {
   for (std::size_t c = 0; c < count; ++c) {
     if (set.added[c]) continue;
     const double speed = approach(set, set.after, c), room = std::max(slack(set, c), set.slack);
-    if (speed > allowed(set, c) + room) {
-      add(set, c);
-    } else if (set.held[c] > 0 && speed < std::min(approach(set, set.path, c), 0.0) - room) {
-      add(set, c);
-    }
+    const bool meets = speed > allowed(set, c) + room;
+    if (meets || (set.held[c] > 0 && speed < std::min(approach(set, set.path, c), 0.0) - room)) add(set, c);
   }
   return set.pairs.size() > before;
 }
@@ -219,7 +219,7 @@ void SimultaneousImpacts::note_forces(const Struck& set) {
     std::vector<PressingContact>& list = group_.pressing.write(std::min(i, e));
     const Entity partner = std::max(i, e);
     std::erase_if(list, [&](const PressingContact& p) { return p.partner == partner; });
-    const double rest = std::min(remaining(set, i), bodies_.world.is_body(e) ? remaining(set, e) : never);
+    const double rest = remaining(set, i, e);
     if (force > 0 && rest > 0) list.push_back({partner, force / rest});
   }
 }

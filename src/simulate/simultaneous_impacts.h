@@ -45,6 +45,7 @@ class SimultaneousImpacts {
   Struck strike(Entity first) const;
   void take_in(Struck& set, Entity i) const;
   double remaining(const Struck& set, Entity i) const;
+  double remaining(const Struck& set, Entity i, Entity e) const;
   Vec3 forced(const Struck& set, Entity i) const;
   double pressing(Entity i, Entity e) const;
   double approach(const Struck& set, const std::vector<Vec3>& velocities, std::size_t near) const;
