@@ -69,8 +69,11 @@ inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, st
     EXPECT_LE(std::count(glides.begin(), glides.end(), 1), n / 100) << t;
     if (first.empty()) first = state.position;
     // What linear drag has stopped ends where its path ends, to rounding.
-    for (Entity a = 0; a < n; ++a)
-      if (!glides[a]) EXPECT_LE((state.position[a] - first[a]).norm(), still == 0 ? 0 : 4e-16) << t;
+    for (Entity a = 0; a < n; ++a) {
+      if (!glides[a]) {
+        EXPECT_LE((state.position[a] - first[a]).norm(), still == 0 ? 0 : 4e-16) << t;
+      }
+    }
   }
   const State& state = simulator.state();
   double deepest = 0;
