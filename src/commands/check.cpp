@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "commands/accuracy_report.h"
 #include "commands/foresight.h"
+#include "commands/interrupt.h"
 #include "commands/plan.h"
 #include "commands/preview.h"
 #include "commands/report.h"
@@ -273,7 +275,7 @@ const CommandText& check_text() {
       "  carom check scenes/*.yaml -q                          only what is wrong\n"
       "  carom check scene.yaml --set simulate.duration=60     is it still of a size to run?\n",
       "Exit codes: 0 all scenes are right, 2 the command line or a scene is wrong.",
-      {{"--output"}, {"--set"}, {"--only"}, {"--seed"}, {"--force", "lift the budget"}}};
+      {{"--output"}, {"--set"}, {"--only"}, {"--seed"}, {"--accuracy"}, {"--force", "lift the budget"}}};
   return text;
 }
 
@@ -291,10 +293,15 @@ int check_command(const Options& options) {
     }
     if (options.quiet) continue;
     const Findings findings = examine(planned);
+    AccuracyReport accuracy;
+    if (options.accuracy) accuracy = report_accuracy(*planned.scene, planned.engine);
     if (options.json) {
       entries.push_back(as_json(planned, findings));
+      if (options.accuracy) entries.back()["accuracy"] = accuracy.json;
     } else {
-      write_out(as_text(planned, findings, palette, terminal_width(STDOUT_FILENO)));
+      Block block(palette, terminal_width(STDOUT_FILENO));
+      for (const auto& [label, text] : accuracy.lines) block.line(label, text);
+      write_out(as_text(planned, findings, palette, terminal_width(STDOUT_FILENO)) + block.text());
     }
   }
   if (options.json) write_out(document("check", entries));

@@ -59,8 +59,9 @@ struct Options {
   SubmitOptions submit;
   std::vector<std::string> grid;  // path=from:to:count, path=value,value
   std::optional<Shard> shard;
-  bool plan = false;  // show, do not do
-  bool page = false;  // of explain: the whole format
+  bool plan = false;      // show, do not do
+  bool accuracy = false;  // of check and run: tell the expected error, by more runs
+  bool page = false;      // of explain: the whole format
 };
 
 /// An option that a command has, by its name in the table of options (options.h).

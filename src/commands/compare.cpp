@@ -121,7 +121,8 @@ class CompareSession {
              const std::string& request) {
     const std::size_t count = differences.runs().size();
     Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO), "compare", 1, 0);
-    const ComparisonWatch watch{stop_if_interrupted, [&](std::size_t read) { progress.update(read, count, "runs"); }};
+    const ComparisonWatch watch{stop_if_interrupted, [&](std::size_t read) { progress.update(read, count, "runs"); },
+                                [&](std::size_t runs) { doubtful_ = runs; }};
     ComparisonFolder folder(folder_);
     std::unique_ptr<SideBySide> film;
     if (options_.compare.video)
@@ -151,6 +152,7 @@ class CompareSession {
     for (const Measure& measure : measures_of(plan)) measures.push_back(measure.name);
     document_["runs"] = runs.size();
     document_["failed"] = failed;
+    document_["doubtful"] = doubtful_;
     document_["parameters"] = varied;
     document_["measures"] = measures;
     document_["files"] = files_in(folder_);
@@ -160,6 +162,7 @@ class CompareSession {
       block.heading(plan.title.empty() ? title_of(options_.operands) : plan.title, "");
       block.line("runs",
                  failed == 0 ? grouped(runs.size()) : fmt::format("{}, {} failed", grouped(runs.size()), failed));
+      describe_doubtful(block, doubtful_);
       block.line("varied", varied.empty() ? "nothing" : listed(varied, most));
       block.line("measures", listed(measures, most));
       block.line("wrote", fmt::format("{}: {}", printable(folder_), listed(files_in(folder_), most)));

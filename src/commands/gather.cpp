@@ -104,6 +104,7 @@ class GatherSession {
     watch.done = [&](std::size_t done) {
       progress.update(sweep.size() + done, 2 * sweep.size(), "runs looked at or compared");
     };
+    watch.doubtful = [&](std::size_t runs) { doubtful_ = runs; };
     folder.finish(sweep, statuses, watch);
     progress.clear();
     if (!failed.empty())
@@ -154,11 +155,9 @@ class GatherSession {
   void show(std::string_view status, const Sweep& sweep, const std::vector<std::string>& missing,
             const std::vector<std::string>& failed) const {
     if (options_.json) {
-      const Json json = {{"folder", folder_},
-                         {"status", std::string(status)},
-                         {"runs", sweep.size()},
-                         {"missing", missing},
-                         {"failed", failed}};
+      const Json json = {{"folder", folder_},    {"status", std::string(status)},
+                         {"runs", sweep.size()}, {"missing", missing},
+                         {"failed", failed},     {"doubtful", doubtful_}};
       write_out(document("gather", json));
     }
     if (options_.json || options_.quiet || status != "done") return;
@@ -167,12 +166,14 @@ class GatherSession {
     block.line("runs", failed.empty()
                            ? fmt::format("{}", counted(sweep.size(), "run", "runs"))
                            : fmt::format("{}, {} failed", counted(sweep.size(), "run", "runs"), failed.size()));
+    describe_doubtful(block, doubtful_);
     block.line("folder", printable(folder_));
     write_out(block.text());
   }
 
   const Options& options_;
   std::string folder_;
+  std::size_t doubtful_ = 0;  // runs
 };
 
 }  // namespace

@@ -84,6 +84,11 @@ void Block::line(std::string_view label, std::string_view text) {
                        wrapped(text, label_width + 2, width_));
 }
 
+void Block::warning(std::string_view label, std::string_view text) {
+  text_ += fmt::format("  {}{:{}}{}{}\n", palette_.yellow, label, label_width, palette_.reset,
+                       wrapped(text, label_width + 2, width_));
+}
+
 void Block::table(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const auto& row : rows)
@@ -111,6 +116,22 @@ std::vector<std::string> files_in(const std::string& folder) {
   return files;
 }
 
+std::vector<Warning> warnings_in(const std::string& folder) {
+  const Descriptor opened = open_folder(AT_FDCWD, folder, true);
+  const std::optional<Manifest> manifest = opened ? read_manifest(opened.get(), manifest_name) : std::nullopt;
+  return manifest ? manifest->warnings : std::vector<Warning>();
+}
+
+void describe(Block& block, const std::vector<Warning>& warnings) {
+  for (const Warning& warning : warnings) block.warning("doubtful", warning.text);
+}
+
+void describe_doubtful(Block& block, std::size_t runs) {
+  if (runs > 0)
+    block.warning("doubtful", fmt::format("{}: the column `status` of summary.csv has them, their manifests say why",
+                                          counted(runs, "run", "runs")));
+}
+
 void describe(Block& block, const PlannedScene& planned, const RunResult& result) {
   const Summary& summary = result.summary;
   const EngineChoice& engine = result.engine;
@@ -125,11 +146,9 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
     block.line("taken up", fmt::format("{} by lasting contact, at {} at most, {} of the energy lost",
                                        counted(all.impacts, "impact", "impacts"), quantity(all.fastest, "m/s"),
                                        quantity(all.energy, "J")));
-  if (summary.contact.doubtful > 0)
-    block.line("doubtful", fmt::format("{}: motion may be off by more than rounding; make masses less unequal",
-                                       counted(summary.contact.doubtful, "contact problem", "contact problems")));
   block.line("energy", energy_text(summary));
   block.line("overlap", summary.max_overlap > 0 ? quantity(summary.max_overlap, "m at most") : "none");
+  describe(block, summary.warnings);
   for (const LeftOut& file : result.facts.left_out)
     block.line("left out", fmt::format("{}: {}", printable(file.name), file.why));
   block.line("wrote", fmt::format("{}: {}", printable(planned.folder), file_list(planned.folder)));
@@ -164,11 +183,16 @@ Json summary_json(const Summary& s) {
           {"stepped_contact_s", s.stepped_contact}};
 }
 
+Json warnings_json(const std::vector<Warning>& warnings) {
+  Json list = Json::array();
+  for (const Warning& warning : warnings) list.push_back({{"code", warning.code}, {"text", warning.text}});
+  return list;
+}
+
 Json contact_json(const Summary& s) {
   return {{"resting", s.resting},
           {"clusters_taken_into_contact", s.contact.collapses},
           {"merges", s.contact.merges},
-          {"doubtful", s.contact.doubtful},
           {"impacts_taken_up",
            {{"impacts", s.contact.taken_up.impacts},
             {"fastest_m_per_s", s.contact.taken_up.fastest},

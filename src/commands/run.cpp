@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "commands/accuracy_report.h"
 #include "commands/interrupt.h"
 #include "commands/plan.h"
 #include "commands/progress.h"
@@ -168,6 +169,7 @@ class Session {
     RunSettings settings;
     if (!planned.former) return settings;
     const FormerRun& former = *planned.former;
+    settings.warnings = former.manifest.warnings;
     if (former.has_flights())
       settings.simulator = [&former](const Scene& scene) { return former.motion(scene); };
     else if (!options_.quiet)
@@ -187,21 +189,34 @@ class Session {
     Told one = told(planned, done);
     one.entry["summary"] = summary_json(result.summary);
     one.entry["contact"] = contact_json(result.summary);
+    one.entry["warnings"] = warnings_json(result.summary.warnings);
     one.entry["files"] = files_in(planned.folder);
     one.entry["time"] = facts_json(result);
     Block block(palette_, width_);
     block.heading(planned.name, planned.scene->title);
     describe(block, planned, result);
+    if (options_.accuracy) {
+      const AccuracyReport accuracy = report_accuracy(*planned.scene, result.engine);
+      one.entry["accuracy"] = accuracy.json;
+      for (const auto& [label, text] : accuracy.lines) block.line(label, text);
+    }
     one.out = block.text();
+    if (options_.quiet)
+      for (const Warning& warning : result.summary.warnings)
+        one.complaint += fmt::format("{}{}: doubtful: {}",
+                                     one.complaint.empty() ? "" : "\ncarom: ", printable(planned.file), warning.text);
     return one;
   }
 
   Told told_up_to_date(const PlannedScene& planned) const {
     Told one = told(planned, up_to_date);
     one.entry["files"] = files_in(planned.folder);
+    const std::vector<Warning> warnings = warnings_in(planned.folder);
+    one.entry["warnings"] = warnings_json(warnings);
     Block block(palette_, width_);
     block.heading(planned.name, planned.scene->title);
     block.line("up to date", printable(planned.folder));
+    describe(block, warnings);
     one.out = block.text();
     return one;
   }
@@ -273,7 +288,7 @@ const CommandText& run_text() {
       "\n"
       "Exit codes: 0 done or up to date, 1 a run failed, 2 the command line or a scene is wrong,\n"
       "130 or 143 interrupted.",
-      {{"--output"}, {"--set"}, {"--only"}, {"--seed"}, {"--jobs"}, {"--force"}, {"--progress"}}};
+      {{"--output"}, {"--set"}, {"--only"}, {"--seed"}, {"--jobs"}, {"--force"}, {"--verbose"}, {"--progress"}}};
   return text;
 }
 

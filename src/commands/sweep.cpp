@@ -103,6 +103,7 @@ class SweepSession {
       ComparisonWatch watch;
       watch.look = stop_if_interrupted;
       watch.done = [&](std::size_t done) { tell({done, 0, job.runs().size()}); };
+      watch.doubtful = [&](std::size_t runs) { outcome.doubtful = runs; };
       folder.finish(job.sweep(), statuses, watch);
     } else {
       sync_file_system(folder_);

@@ -52,6 +52,7 @@ void show_outcome(const Options& options, const SweepOutcome& outcome, const Swe
     for (const auto& [number, why] : outcome.failures)
       failures.push_back({{"run", job.sweep().id(number)}, {"error", why}});
     json["failed"] = std::move(failures);
+    json["doubtful"] = outcome.doubtful;
     json["wall_s"] = outcome.wall_s;
     write_out(document("sweep", json));
     return;
@@ -66,6 +67,7 @@ void show_outcome(const Options& options, const SweepOutcome& outcome, const Swe
     block.line("made", fmt::format("{}{} in {}", counted(outcome.to_do - outcome.failures.size(), "run", "runs"),
                                    outcome.failures.empty() ? "" : fmt::format(", {} failed", outcome.failures.size()),
                                    wait_text(outcome.wall_s)));
+    describe_doubtful(block, outcome.doubtful);
     block.line("folder", printable(job.folder()));
     if (outcome.status.starts_with("part"))
       block.line("then", fmt::format("carom gather {}, once all parts are done", printable(job.folder())));

@@ -16,6 +16,7 @@ struct SweepOutcome {
   std::size_t runs = 0;                                       // of the whole sweep
   std::vector<std::pair<std::size_t, std::string>> failures;  // run, why
   double wall_s = 0;
+  std::size_t doubtful = 0;  // runs of the whole sweep; of a part: not known
 };
 
 /// The end of a sweep, on stdout, and the runs that failed, on stderr.

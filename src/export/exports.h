@@ -30,16 +30,22 @@ struct PictureStream {
 /// Where a run's energy went, J.
 struct EnergyTotals {
   double start = 0, end = 0;
-  double lost = 0;      // by collisions
+  double lost = 0;      // by impacts: those recorded, and those that contact took up
   double work = 0;      // of forces without a potential
-  double residual = 0;  // what neither collisions nor work account for
+  double residual = 0;  // what neither impacts nor work account for: the method's own error, and rounding
+  double turnover = 0;  // what has changed its form at least: kinetic at both ends, potential, lost, work
+};
+
+/// Why a figure may be wrong, and what to do about it.
+struct Warning {
+  std::string code;  // one word, for programs: energy, step, tolerance, contact, place, speed
+  std::string text;
 };
 
 /// For the report alone: no columns.
 struct ContactCounts {
   std::uint64_t merges = 0;
   std::uint64_t collapses = 0;  // clusters taken into contact
-  std::uint64_t doubtful = 0;   // contact problems whose answer may be off by more than rounding
   TakenUp taken_up;
 };
 
@@ -56,6 +62,7 @@ struct Summary {
   double stepped_contact = 0;  // s, summed over bodies: lasting contact that time stepping has told
 
   ContactCounts contact;
+  std::vector<Warning> warnings;  // any: status is `doubtful`
 };
 
 /// A quantity of the run's end that was asked for; not finite: undefined.

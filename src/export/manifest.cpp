@@ -117,6 +117,9 @@ std::string manifest_text(const Scene& scene, const Summary& summary, const RunF
   for (const Measured& measure : facts.measures)
     json["measures"][measure.name] = std::isfinite(measure.value) ? Json(measure.value) : Json();
   for (const LeftOut& file : facts.left_out) json["left_out"][file.name] = file.why;
+  json["status"] = summary.status;
+  for (const Warning& warning : summary.warnings)
+    json["warnings"].push_back({{"code", warning.code}, {"text", warning.text}});
   return manifest_text(scene, outputs_text(scene.output), to_text(json, -1), files);
 }
 
@@ -141,6 +144,9 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name) {
   if (const auto measures = json.find("measures"); measures != json.end() && measures->is_object())
     for (const auto& [measure, value] : measures->items())
       manifest.measures.push_back({measure, value.is_number() ? value.get<double>() : std::nan("")});
+  if (const auto warnings = json.find("warnings"); warnings != json.end() && warnings->is_array())
+    for (const Json& warning : *warnings)
+      manifest.warnings.push_back({text_member(warning, "code"), text_member(warning, "text")});
   if (const auto failed = json.find("failed"); failed != json.end() && failed->is_array())
     for (const Json& id : *failed)
       if (id.is_string()) manifest.failed.push_back(id.get<std::string>());

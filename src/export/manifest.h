@@ -25,6 +25,7 @@ struct Manifest {
   std::string scene_file{};         // its name, without a folder
   std::vector<LeftOut> left_out{};  // files of the outputs that there are none of
   std::vector<Measured> measures{};
+  std::vector<Warning> warnings{};
   std::uint64_t collisions = 0;
   std::vector<std::string> failed{};  // of a sweep: the runs that did
 };

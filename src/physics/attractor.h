@@ -23,6 +23,8 @@ struct Attractor {
     const double square = distance_squared(p);
     return std::sqrt(std::abs(strength) / (square * std::sqrt(square))) + p.v.norm() / std::sqrt(square);
   }
+  /// m: to the nearest complex point at which the acceleration is infinite.
+  double distance(const Vec3& x) const { return std::sqrt((x - center).squaredNorm() + softening * softening); }
   friend bool operator==(const Attractor&, const Attractor&) = default;
 
  private:

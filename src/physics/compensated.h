@@ -53,6 +53,21 @@ inline DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
   return fast_two_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
 }
 
+/// To about 1e-31, as the square root below.
+inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
+  const double first = a.hi / b.hi;
+  const DoubleDouble rest = a - b * DoubleDouble{first, 0};
+  const double second = rest.hi / b.hi;
+  const double third = (rest - b * DoubleDouble{second, 0}).hi / b.hi;
+  return fast_two_sum(first, second) + DoubleDouble{third, 0};
+}
+/// By one step of Newton's method from the rounded root; 0 of what is not above 0.
+inline DoubleDouble square_root(DoubleDouble x) {
+  if (!(x.hi > 0)) return {0, 0};
+  const double root = std::sqrt(x.hi);
+  return fast_two_sum(root, (x - two_product(root, root)).value() / (2 * root));
+}
+
 /// a b - c d, as if rounded once or twice.
 inline DoubleDouble difference_of_products(double a, double b, double c, double d) {
   return two_product(a, b) - two_product(c, d);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace carom {
@@ -193,7 +194,8 @@ double DormandPrince::step(double h, const Acceleration& acceleration, double po
     for (int axis = 0; axis < 3; ++axis) {
       const double x_error = error_of(h, x5[axis], x3[axis]) / position;
       const double v_error = error_of(h, v5[axis], v3[axis]) / velocity;
-      if (!(std::max(x_error, v_error) <= greatest)) greatest = std::max(x_error, v_error);
+      if (!std::isfinite(x_error) || !std::isfinite(v_error)) return std::numeric_limits<double>::infinity();
+      greatest = std::max({greatest, x_error, v_error});
     }
   }
   return greatest;

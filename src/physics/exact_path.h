@@ -19,11 +19,4 @@ inline std::array<DoubleDouble, 3> exact_position(const RelativeMotion& m, doubl
   return p;
 }
 
-/// By one step of Newton's method from the rounded root.
-inline DoubleDouble square_root(DoubleDouble x) {
-  const double root = std::sqrt(x.hi);
-  if (root == 0) return {0, 0};
-  return fast_two_sum(root, (x - two_product(root, root)).value() / (2 * root));
-}
-
 }  // namespace carom

@@ -1,6 +1,10 @@
 #include "physics/force.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/closed_motion.h"
 
 namespace carom {
 
@@ -66,11 +70,53 @@ const Force* varying_force(const World& world) {
   return nullptr;
 }
 
-const Force* force_without_closed_form(const World& world) {
+bool acts(const Force& force, Entity body, double time) {
+  return time >= force.from && time < force.until && acts_on(force, body);
+}
+
+bool bends(const ForceLaw& law) {
+  const Drag* drag = std::get_if<Drag>(&law);
+  return !is_constant(law) && (drag == nullptr || drag->quadratic != 0);
+}
+
+const Force* bending_force(const World& world) {
+  for (const Force& force : world.forces)
+    if (bends(force.law)) return &force;
+  return nullptr;
+}
+
+bool bends(const World& world, Entity body, double time) {
+  return std::any_of(world.forces.begin(), world.forces.end(),
+                     [&](const Force& force) { return bends(force.law) && acts(force, body, time); });
+}
+
+namespace {
+
+/// The force on a body that has no closed form from `time` (s) on: one that has none by itself, or any with the others.
+const Force* open_force(const World& world, Entity body, double time) {
+  if (!bends(world, body, time) || closed_forces(world, body, time)) return nullptr;
+  const Force* any = nullptr;
   for (const Force& force : world.forces) {
-    const Drag* drag = std::get_if<Drag>(&force.law);
-    if (!is_constant(force.law) && (drag == nullptr || drag->quadratic != 0)) return &force;
+    if (!bends(force.law) || !acts(force, body, time)) continue;
+    const Spring* spring = std::get_if<Spring>(&force.law);
+    const Attractor* attractor = std::get_if<Attractor>(&force.law);
+    const bool closed = (spring != nullptr && spring->rest_length == 0 && spring->damping == 0) ||
+                        (attractor != nullptr && attractor->softening == 0);
+    if (!closed) return &force;
+    any = &force;
   }
+  return any;
+}
+
+}  // namespace
+
+const Force* force_without_closed_form(const World& world) {
+  if (bending_force(world) == nullptr) return nullptr;
+  const bool alike = std::all_of(world.forces.begin(), world.forces.end(), [](const Force& f) { return f.on.empty(); });
+  const Entity bodies = alike ? std::min<Entity>(1, world.body_count()) : world.body_count();
+  for (Entity i = 0; i < bodies; ++i)
+    for (double time = 0; time < std::numeric_limits<double>::infinity(); time = next_switch(world, i, time))
+      if (const Force* open = open_force(world, i, time)) return open;
   return nullptr;
 }
 
@@ -84,12 +130,6 @@ double fade_of(const World& world, Entity body, double time) {
   return fade;
 }
 
-bool varies(const World& world, Entity body, double time) {
-  return std::any_of(world.forces.begin(), world.forces.end(), [&](const Force& force) {
-    return !is_constant(force.law) && time >= force.from && time < force.until && acts_on(force, body);
-  });
-}
-
 const char* name_of(const ForceLaw& law) {
   return std::visit([](const auto& l) { return l.name; }, law);
 }
@@ -101,6 +141,29 @@ double force_rate(const World& world, Entity body, const Vec3& x, const Vec3& v)
     most += std::visit([&](const auto& law) { return law.rate({x, v, world.mass[body]}); }, force.law);
   }
   return most;
+}
+
+double force_reach(const World& world, Entity body, const Vec3& x) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Force& force : world.forces) {
+    const Attractor* attractor = std::get_if<Attractor>(&force.law);
+    if (attractor != nullptr && acts_on(force, body)) least = std::min(least, attractor->distance(x));
+  }
+  return least;
+}
+
+/// Of speed t + acceleration t^2 / 2 = reach / 2, without cancellation.
+double step_within(double reach, double speed, double acceleration) {
+  return reach / (speed + std::sqrt(speed * speed + acceleration * reach));
+}
+
+ForceJacobian force_jacobian(const World& world, Entity body, double time, const Vec3& x, const Vec3& v) {
+  ForceJacobian sum;
+  for (const Force& force : world.forces) {
+    if (!acts(force, body, time)) continue;
+    sum += std::visit([&](const auto& law) { return jacobian(law, {x, v, world.mass[body]}); }, force.law);
+  }
+  return sum;
 }
 
 double default_step(const World& world, const State& initial) {

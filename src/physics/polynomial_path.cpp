@@ -30,6 +30,22 @@ PolynomialPath PolynomialPath::through(double length, const Vec3& v, const Vec3&
                           7 * turn - 15 * bend + 1.5 * a0 - a1, 6 * bend - 3 * turn - 0.5 * a0 + 0.5 * a1});
 }
 
+PolynomialPath PolynomialPath::through(double length, const Point& start, const Point& middle, const Point& end) {
+  // That of degree 5 through both ends, and what it lacks in the middle: (s (1 - s))^3 times a parabola about there.
+  PolynomialPath path = through(length, start.velocity, start.acceleration, end.displacement - length * start.velocity,
+                                end.velocity - start.velocity, end.acceleration);
+  Terms& c = path.displacement;
+  const Vec3 place = middle.displacement - value(c, 0.5), slope_lacks = length * middle.velocity - slope(c, 0.5);
+  const Vec3 bend_lacks = length * length * middle.acceleration - bend(c, 0.5);
+  const Vec3 a = 64 * place, b = 64 * slope_lacks, d = 32 * bend_lacks + 12 * a;
+  // By powers of s: e0 + e1 s + e2 s^2 is that parabola, and (s (1 - s))^3 = s^3 - 3 s^4 + 3 s^5 - s^6.
+  const Vec3 e[3] = {a - 0.5 * b + 0.25 * d, b - d, d};
+  constexpr double cube[4] = {1, -3, 3, -1};
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t p = 0; p < 3; ++p) c[2 + k + p] += cube[k] * e[p];
+  return path;
+}
+
 Vec3 PolynomialPath::value(const Terms& of, double s) {
   Vec3 sum = of[terms - 1];
   for (std::size_t k = terms - 1; k-- > 0;) sum = sum * s + of[k];

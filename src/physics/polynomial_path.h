@@ -30,6 +30,13 @@ struct PolynomialPath {
   static PolynomialPath through(double length, const Vec3& v, const Vec3& a, const Vec3& bend, const Vec3& change,
                                 const Vec3& end_a);
 
+  /// Where a path is, from its start (m), how fast (m/s), and how it bends (m/s^2).
+  struct Point {
+    Vec3 displacement, velocity, acceleration;
+  };
+  /// Or Hermite's polynomial of degree 8, through a step's start, middle and end. start.displacement: 0.
+  static PolynomialPath through(double length, const Point& start, const Point& middle, const Point& end);
+
   static Vec3 value(const Terms& of, double s);
   static Vec3 slope(const Terms& of, double s) { return of[0] + slope_change(of, s); }
   static Vec3 slope_change(const Terms& of, double s);  // of the slope since s = 0

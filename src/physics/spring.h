@@ -18,11 +18,11 @@ struct Spring {
 
   Vec3 acceleration(const Particle& p) const {
     const Vec3 d = p.x - anchor;
-    Vec3 force = -stiffness * d;
-    if (rest_length != 0)
-      if (const double length = d.norm(); length > 0) force += stiffness * rest_length / length * d;
-    if (damping != 0) force += damper(p, d);
-    return force / p.mass;
+    if (rest_length == 0 && damping == 0) return -stiffness / p.mass * d;
+    const double length = d.norm();
+    if (length == 0) return -damping / p.mass * p.v;
+    // One factor times d: where it is great, rounding leaves nothing across the line.
+    return (stiffness * (rest_length - length) - damping / length * d.dot(p.v)) / (length * p.mass) * d;
   }
   double potential(const Particle& p) const {
     const Vec3 d = p.x - anchor;
@@ -38,7 +38,7 @@ struct Spring {
   Vec3 damper(const Particle& p, const Vec3& d) const {
     const double square = d.squaredNorm();
     if (damping == 0 || square == 0) return -damping * p.v;
-    return -damping * d.dot(p.v) / square * d;
+    return -damping * d.dot(p.v) / square * d;  // along the line alone, as above
   }
 };
 

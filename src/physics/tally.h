@@ -23,8 +23,10 @@ struct Tally {
   double first_collision = std::numeric_limits<double>::quiet_NaN();  // s, NaN: none
   double last_collision = std::numeric_limits<double>::quiet_NaN();   // s, NaN: none
   std::uint64_t doubtful = 0;  // contact problems whose answer may be off by more than rounding
-  double energy_lost = 0;      // J, by collisions and by coming to rest
+  double energy_lost = 0;      // J, by impacts: those recorded, and those that contact took up
+  double method_error = 0;     // J, that lasting contact took beside impacts (below 0: made): its method's own error
   double work = 0;             // J, by the World's forces (gravity apart)
+  double greatest_phase = 0;   // rad, by which forces turn in a step of a method with steps of one length
   double max_overlap = 0;      // m, deepest seen
   double max_speed = 0;        // m/s, greatest seen
   std::uint64_t resting = 0;   // bodies in resting contact now

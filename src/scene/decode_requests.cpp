@@ -53,7 +53,7 @@ class Requests {
     s.step = view.number("step");
     if (s.engine == Engine::book && view.given("step") == nullptr) s.step = 1.0 / 60;
     s.tolerance = view.number("tolerance");
-    const std::string integrator = view.text("integrator").value_or(s.step || s.tolerance ? "rk4" : "dop853");
+    const std::string integrator = view.text("integrator").value_or(s.step ? "rk4" : "dop853");
     s.integrator = integrator == "euler"    ? Integrator::euler
                    : integrator == "verlet" ? Integrator::verlet
                    : integrator == "dop853" ? Integrator::dop853

@@ -10,25 +10,32 @@ bool goes_along_parabolas(const World& world, const Simulate& simulate) {
   return (simulate.engine == Engine::exact || simulate.engine == Engine::automatic) && varying_force(world) == nullptr;
 }
 
+std::string open_force_text(const Force& force) {
+  if (const Spring* spring = std::get_if<Spring>(&force.law); spring != nullptr)
+    if (spring->rest_length != 0 || spring->damping != 0) return "a `spring` with a rest length or damping";
+  if (const Attractor* attractor = std::get_if<Attractor>(&force.law); attractor != nullptr)
+    return attractor->softening != 0 ? "a softened `attractor`" : "an `attractor` beside other forces";
+  return std::holds_alternative<Drag>(force.law) ? "quadratic `drag`"
+                                                 : fmt::format("a `{}` beside other forces", name_of(force.law));
+}
+
 std::vector<Unsupported> unsupported(const World& world, const Simulate& simulate) {
   std::vector<Unsupported> lacks;
   const Force *varying = varying_force(world), *open = force_without_closed_form(world);
   if (simulate.engine == Engine::exact && open != nullptr)
-    lacks.push_back({"engine",
-                     fmt::format("under {}`{}` paths have no closed form, which `engine: exact` follows",
-                                 std::holds_alternative<Drag>(open->law) ? "quadratic " : "", name_of(open->law)),
-                     "expected `engine: stepped`, or `auto`"});
-  const bool in_steps = simulate.engine == Engine::stepped || open != nullptr;
+    lacks.push_back(
+        {"engine",
+         fmt::format("under {} paths have no closed form, which `engine: exact` follows", open_force_text(*open)),
+         "expected `engine: stepped`, or `auto`"});
+  const Force* bending = bending_force(world);
+  const bool in_steps = simulate.engine == Engine::stepped || bending != nullptr;
   if (simulate.merge && simulate.engine != Engine::book && in_steps)
     lacks.push_back(
         {"contact",
          simulate.engine == Engine::stepped
              ? "`engine: stepped` has no `contact: merge`"
-             : fmt::format("`contact: merge` is for paths in closed form, not for `{}`", name_of(open->law)),
+             : fmt::format("`contact: merge` is for parabolas and linear drag, not for `{}`", name_of(bending->law)),
          "expected `contact: bounce`"});
-  if (simulate.tolerance && simulate.integrator == Integrator::dop853)
-    lacks.push_back({"tolerance", "`integrator: dop853` has no `tolerance`: its steps are as exact as numbers allow",
-                     "expected no `tolerance`, or another integrator"});
   if (simulate.engine != Engine::book) return lacks;
   // The chapter's listings know spheres, planes and walls, gravity and the impulses of the first frame.
   const auto lack = [&](const char* at, const char* what, const char* instead) {

@@ -17,6 +17,9 @@ struct Unsupported {
 /// need that.
 bool goes_along_parabolas(const World& world, const Simulate& simulate);
 
+/// What a force is that has no closed form, alone or with others: "a softened `attractor`".
+std::string open_force_text(const Force& force);
+
 /// What the engine that `simulate` names cannot do of what the world and `simulate` ask for; empty: it runs.
 std::vector<Unsupported> unsupported(const World& world, const Simulate& simulate);
 

@@ -168,7 +168,9 @@ void BookSimulator::move() {
     const Vec3 before = v_[i];
     v_[i] += force_[i] / world_.mass[i] * dt;
     x_[i] += v_[i] * dt;
-    hold_to(bounds_, i, frame_time(frames_), x_[i], v_[i], "use a smaller simulate.step, or engine: exact");
+    if (!bounds_.hold(x_[i], v_[i]))
+      fail_out_of_bounds(bounds_, i, frame_time(frames_), x_[i], v_[i],
+                         {.speed = "use a smaller simulate.step, or engine: exact"});
     log_.note_speed(v_[i].norm());
     const Vec3 other = force_[i] - world_.mass[i] * world_.gravity;
     if (!other.isZero(0)) log_.add_work(0.5 * other.dot(before + v_[i]) * dt);

@@ -496,7 +496,7 @@ void ConstrainedMotion::begin_flights(const Step& step) {
 /// Body i, the step's member k, leaves its island, falls asleep, or goes on. Gives whether it stays.
 bool ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) {
   const Vec3 &x = step.x[k], &v = step.v[k], before = bodies_.velocity(i);
-  bodies_.log.lose(0.5 * bodies_.world.mass[i] * (before - v).dot(before + v));
+  bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (before - v).dot(before + v));
   if (step.bound[k]) group_.needed.write(i) = bodies_.now;
   if (leaves(step, k) && bodies_.now - group_.needed[i] >= step.grace) {
     bodies_.body[i].state = ContactState::free;
@@ -562,7 +562,7 @@ void ConstrainedMotion::go_on(Entity i) {
   const std::uint32_t k = following_[i].place;
   const Vec3 x = path.motion->start(k) + path.motion->displacement(k, bodies_.now - path.start);
   const Vec3 v = velocity(i, bodies_.now), before = bodies_.velocity(i);
-  bodies_.log.lose(0.5 * bodies_.world.mass[i] * (before - v).dot(before + v));
+  bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (before - v).dot(before + v));
   flights_.go_on(i, x, v, {});
   begin_piece(i);
   predictor_.predict(i);

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/cube_root.h"
 #include "physics/dormand_prince.h"
 #include "physics/force.h"
+#include "physics/implicit_step.h"
 #include "physics/integrator.h"
 #include "physics/whole.h"
 #include "simulate/simulation_error.h"
@@ -39,33 +41,131 @@ double CurvedFlights::first_length(Entity i, const Vec3& x, const Vec3& v) const
 }
 
 PolynomialPath CurvedFlights::step_of_its_own(Entity i, const Vec3& x, const Vec3& v) {
-  const World& world = bodies_.world;
-  const double now = bodies_.now.hi, radius = world.radius[i];
-  const auto acceleration = [&](const std::vector<Vec3>& at, const std::vector<Vec3>& speed) {
-    return std::vector<Vec3>{free_acceleration(world, i, now, at[0], speed[0])};
+  const std::optional<ClosedForces> closed = closed_forces(bodies_.world, i, bodies_.now.hi);
+  return closed ? closed_step(i, *closed, x, v) : numerical_step(i, x, v);
+}
+
+/// Throws SimulationError if a step of so many seconds does not move the clock.
+void CurvedFlights::check_clock(Entity i, double length) const {
+  if (bodies_.now < bodies_.now + length) return;
+  throw SimulationError(fmt::format("at t = {} s the forces on ", bodies_.now.hi), i,
+                        " change faster than the clock can tell: soften what attracts, or weaken a stiff force");
+}
+
+/// s: within what is asked for, the run, and where forces are smooth.
+double CurvedFlights::longest_step(Entity i, const Vec3& x, const Vec3& v, const Vec3& a) const {
+  const double now = bodies_.now.hi;
+  const double reach = step_within(force_reach(bodies_.world, i, x), v.norm(), a.norm());
+  const double longest =
+      std::min(bodies_.options.step, std::max(2 * (bodies_.options.duration - now), tol::clock_rounding * now));
+  return reach > 0 ? std::min(reach, longest) : longest;
+}
+
+/// A polynomial through the motion at the step's start, middle and end. Where it is worst, it is held against the
+/// motion.
+PolynomialPath CurvedFlights::closed_step(Entity i, const ClosedForces& forces, const Vec3& x, const Vec3& v) {
+  if (closed_.empty()) closed_.resize(bodies_.body.size());
+  Closed& closed = closed_[i];
+  const Instant now = bodies_.now;
+  if (closed.next != now || closed.forces != forces || closed.end.x != x || closed.end.v != v) {
+    closed.forces = forces;
+    closed.motion = ClosedMotion(forces, x, v, free_acceleration(bodies_.world, i, now.hi, x, Vec3::Zero()));
+    closed.start = now;
+  }
+  const ClosedMotion& motion = closed.motion;
+  const double since = now - closed.start;
+  Vec3 from, v0;  // m, from the motion's origin
+  motion.at(since, from, v0);
+  const Vec3 a0 = motion.acceleration(from, v0);
+  const auto point = [&](double t) {
+    PolynomialPath::Point there;
+    motion.at(t, there.displacement, there.velocity);
+    there.acceleration = motion.acceleration(there.displacement, there.velocity);
+    there.displacement -= from;
+    return there;
   };
-  const Vec3 a = free_acceleration(world, i, now, x, v);
-  DormandPrince motion({x}, {v}, {a});
-  // A step's error, and no less than what rounding makes of a place.
-  const double place = std::max(tol::step_error * radius, tol::position_rounding * x.cwiseAbs().maxCoeff());
-  const double speed =
-      std::max({v.norm(), std::sqrt(a.norm() * radius), radius * force_rate(world, i, x, v), 0x1p-900});
-  double h = next_[i] > 0 ? next_[i] : first_length(i, x, v);
-  h = std::min({h, bodies_.options.step, std::max(2 * (bodies_.options.duration - now), tol::clock_rounding * now)});
+  const double radius = bodies_.world.radius[i];
+  const double place = tol::closed_place * std::max(radius, x.cwiseAbs().maxCoeff());
+  const double speed = tol::closed_speed * std::max({v0.norm(), std::sqrt(a0.norm() * radius), 0x1p-900});
+  double h = std::min(longest_step(i, x, v0, a0), motion.longest_step(from, v0));
+  if (next_[i] > 0) h = std::min(h, next_[i]);
   for (;;) {
-    if (!(now + h > now))
-      throw SimulationError(fmt::format("at t = {} s the forces on ", now), i,
-                            " change faster than the clock can tell: soften what attracts, or weaken a stiff force");
-    const double error = motion.step(h, acceleration, place, tol::step_error * speed);
-    const double next = DormandPrince::next_length(h, error);
+    check_clock(i, h);
+    const Instant next = now + h;
+    const PolynomialPath::Point end = point(next - closed.start);
+    const PolynomialPath path = PolynomialPath::through(h, {Vec3::Zero(), v0, a0}, point(since + 0.5 * h), end);
+    constexpr double worst = 0.21132486540518713, slope = 8;  // of (s (s - 1/2) (s - 1))^3: there, slopes by that
+    const double off = (path.displacement_at(worst * h) - point(since + worst * h).displacement).norm();
+    const double error = std::max(off / place, slope * off / (h * speed));
+    const double ninth_root = cube_root(cube_root(error));
+    next_.write(i) = h * std::clamp(0.9 / std::max(ninth_root, 0x1p-10), 0.2, 4.0);
+    if (error <= 1) {
+      closed.next = next;
+      closed.end = {motion.origin() + (from + end.displacement), end.velocity};
+      return path;
+    }
+    h = next_[i];
+  }
+}
+
+/// Whether the next step, of `length` (s) by the method before, is to be implicit: it is no shorter for it, or dop853
+/// is held to a share of the time of a force that brakes (1 / damping), step after step.
+bool CurvedFlights::is_implicit(Entity i, double length, double damping) const {
+  const double damped = length * damping;
+  if (method_[i] == tol::implicit_method) return damped >= 0.5;
+  return damped > 2 || (method_[i] >= tol::many_explicit_steps && damped > 0.1);
+}
+
+void CurvedFlights::note_method(Entity i, bool implicit) {
+  const std::uint8_t before = method_[i];
+  const int explicit_steps = before == tol::implicit_method ? 0 : std::min(before + 1, int{tol::many_explicit_steps});
+  method_.write(i) = implicit ? tol::implicit_method : static_cast<std::uint8_t>(explicit_steps);
+}
+
+PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3& v) {
+  const World& world = bodies_.world;
+  const double now = bodies_.now.hi, radius = world.radius[i], share = bodies_.options.step_error;
+  const auto acceleration = [&](const Vec3& at, const Vec3& speed) {
+    return free_acceleration(world, i, now, at, speed);
+  };
+  const auto accelerations = [&](const std::vector<Vec3>& at, const std::vector<Vec3>& speed) {
+    return std::vector<Vec3>{acceleration(at[0], speed[0])};
+  };
+  const auto jacobian = [&](const Vec3& at, const Vec3& speed) { return force_jacobian(world, i, now, at, speed); };
+  const Vec3 a = acceleration(x, v);
+  // A step's error, and no less than what rounding makes of a place.
+  const double place = std::max(share * radius, tol::position_rounding * x.cwiseAbs().maxCoeff());
+  const double speed = share * std::max({v.norm(), std::sqrt(a.norm() * radius), 0x1p-900});
+  const double damping = jacobian(x, v).by_velocity.norm(), longest = longest_step(i, x, v, a);
+  double h = next_[i] > 0 ? next_[i] : first_length(i, x, v);
+  bool implicit = is_implicit(i, h, damping);
+  h = std::min(h, longest);
+  for (;;) {
+    check_clock(i, h);
+    PolynomialPath path;
+    double error, next;
+    if (implicit) {
+      ImplicitStep motion;
+      error = motion.step(h, x, v, acceleration, jacobian, place, speed);
+      next = ImplicitStep::next_length(h, error);
+      if (error <= 1) path = motion.path();
+    } else {
+      DormandPrince motion({x}, {v}, {a});
+      error = motion.step(h, accelerations, place, speed);
+      next = DormandPrince::next_length(h, error);
+      if (error <= 1) {
+        motion.interpolate(accelerations);
+        path = motion.path(0);
+      }
+    }
     if (error <= 1) {
       next_.write(i) = next;
-      break;
+      note_method(i, implicit);
+      return path;
     }
+    if (implicit && next * damping < 0.1) implicit = false;
     h = next;
   }
-  motion.interpolate(acceleration);
-  return motion.path(0);
 }
 
 /// s: to the next multiple of the step, or the run's end. Multiples are computed, not summed up, so that a long run
@@ -92,6 +192,7 @@ PolynomialPath CurvedFlights::step(Entity i, const Vec3& x, Vec3& v, bool next) 
   const PolynomialPath* const last = bodies_.flights.curve(i);
   Vec3 ahead = last == nullptr ? Vec3(Vec3::Zero()) : last->ahead;
   const Vec3 own = v - ahead, a = acceleration(x, own);
+  if (bodies_.bent[i] || bodies_.fade[i] != 0) bodies_.log.note_phase(h * force_rate(bodies_.world, i, x, own));
   if (method == Integrator::rk4) {
     const auto [bend, change] = runge_kutta(h, x, v, a, acceleration);
     return PolynomialPath::through(h, v, a, bend, change, acceleration(Vec3(x + (h * v + bend)), Vec3(v + change)));

@@ -33,7 +33,7 @@ void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec
                        std::span<const ContactConstraint> pairs, std::span<const std::uint8_t> recorded) {
   double fastest = 0;
   for (const Vec3& v : before) fastest = std::max(fastest, v.norm());
-  bool any = false;
+  bool any = false, any_recorded = false;
   double of_recorded = 0;  // J
   for (std::size_t c = 0; c < pairs.size(); ++c) {
     const ContactConstraint& p = pairs[c];
@@ -41,15 +41,19 @@ void EventLog::take_up(std::span<const double> inverse_mass, std::span<const Vec
     const double speed = approach(before, p);
     if (!recorded.empty() && recorded[c]) {
       of_recorded += 0.5 * p.force * speed;
+      any_recorded = true;
     } else if (speed > std::max(exact_tolerance::drift * fastest, p.slack)) {
       take_up(speed, 0);
       any = true;
     }
   }
-  if (!any) return;
-  tally_.taken_up.energy -= of_recorded;
+  if (!any && !any_recorded) return;
+  double lost = 0;  // J
   for (std::size_t k = 0; k < before.size(); ++k)
-    tally_.taken_up.energy += 0.5 / inverse_mass[k] * (before[k] - after[k]).dot(before[k] + after[k]);
+    lost += 0.5 / inverse_mass[k] * (before[k] - after[k]).dot(before[k] + after[k]);
+  lose(lost);
+  deviate(-lost);
+  if (any) tally_.taken_up.energy += lost - of_recorded;
 }
 
 }  // namespace carom

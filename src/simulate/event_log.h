@@ -1,5 +1,6 @@
 #pragma once
 // What a simulator writes down while it goes on: collisions, energy that contact takes, work of forces, extremes.
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,10 +26,16 @@ class EventLog {
   bool has_room(std::size_t more) const { return collisions_.size() + more < capacity; }
   std::span<const Collision> collisions() const { return collisions_; }  // in order
 
-  /// Books energy (J) that a collision or a contact took; negative: made.
+  /// Books energy (J) that an impact took; negative: made.
   void lose(double energy) {
     energy_lost_.add(energy);
     tally_.energy_lost = energy_lost_.value();
+  }
+  /// Books energy (J) that lasting contact took; negative: made. What is not the loss of an impact is an error of the
+  /// method: contact without friction does no work.
+  void deviate(double energy) {
+    method_error_.add(energy);
+    tally_.method_error = method_error_.value();
   }
   /// Books work (J) of the World's forces, gravity apart.
   void add_work(double work) {
@@ -36,18 +43,19 @@ class EventLog {
     tally_.work = work_.value();
   }
   void note_speed(double speed) { tally_.max_speed = tally_.max_speed < speed ? speed : tally_.max_speed; }  // m/s
-  void note_overlap(double overlap) {                                                                        // m
+  void note_phase(double phase) { tally_.greatest_phase = std::max(tally_.greatest_phase, phase); }  // rad, of a step
+  void note_overlap(double overlap) {                                                                // m
     tally_.max_overlap = tally_.max_overlap < overlap ? overlap : tally_.max_overlap;
   }
   /// Bodies that come to rest on something, and bodies that leave it.
   void add_resting(std::uint64_t bodies) { tally_.resting += bodies; }
   void remove_resting(std::uint64_t bodies) { tally_.resting -= bodies; }
   void add_stepped_contact(double time) { tally_.stepped_contact += time; }  // s, of one body
-  /// Counts an impact with this approach (m/s) that contact takes up, and the energy (J) it takes: booked elsewhere.
+  /// Counts an impact with this approach (m/s) that contact takes up, and the energy (J) it takes: lost elsewhere.
   void take_up(double approach, double energy);
   /// The same of all that pressed when these velocities (m/s) were solved for from those before: `inverse_mass` (1/kg)
   /// by body. Approaches within a pair's slack, or that are errors of paths, are none; `recorded`: by pair, an impact
-  /// that is recorded, or empty.
+  /// that is recorded, or empty. What they take is lost; who calls books all that velocities change as deviation.
   void take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
                std::span<const ContactConstraint> pairs, std::span<const std::uint8_t> recorded = {});
   void count_collapse() { ++tally_.collapses; }
@@ -64,7 +72,7 @@ class EventLog {
   const bool record_collisions_;
   std::vector<Collision> collisions_;
   Tally tally_;
-  Sum energy_lost_, work_;  // J
+  Sum energy_lost_, method_error_, work_;  // J
 };
 
 }  // namespace carom

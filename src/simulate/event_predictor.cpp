@@ -153,7 +153,7 @@ void EventPredictor::renew_region(Entity i) {
   const Vec3 here = f.position(since);
   const Vec3 ahead =
       f.is_straight() ? Vec3(half * (f.velocity(since) + (0.5 * half) * f.a)) : Vec3(f.position(since + half) - here);
-  hold_to(bodies_.bounds, i, bodies_.now.hi, here, f.velocity(since), ExactBodies::too_fast);
+  bodies_.hold_to_bounds(i, bodies_.now.hi, here, f.velocity(since));
   const std::span<const Entity> came = bodies_.neighbours.renew(i, here, ahead);
   ExactEvent best = bodies_.body[i].event;
   meet_bodies(i, came, best);

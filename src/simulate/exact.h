@@ -6,6 +6,7 @@
 
 #include "physics/integrator.h"
 #include "simulate/simulator.h"
+#include "simulate/tolerances.h"
 
 namespace carom {
 
@@ -16,6 +17,7 @@ struct ExactOptions {
   std::uint64_t max_collisions = 0;            // stop with an error after so many; 0: no limit
   Integrator integrator = Integrator::dop853;  // of free flights without a closed form, or that are to have none
   double step = std::numeric_limits<double>::infinity();  // s: of dop853 the longest; others' end at its multiples
+  double step_error = exact_tolerance::step_error;        // of dop853: of a radius, and of speeds
   bool merge = false;                                     // bodies that meet become one
   bool record_collisions = true;                          // false: no buffer is made and collisions() stays empty
   bool record_paths = false;                              // false: nor is one for paths()

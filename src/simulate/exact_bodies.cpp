@@ -16,7 +16,7 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
       bounds(bounds_of(given)),
       same_radius(!options.merge && std::adjacent_find(given.radius.begin(), given.radius.end(), std::not_equal_to{}) ==
                                         given.radius.end()),
-      varying(force_without_closed_form(given) != nullptr),
+      varying(bending_force(given) != nullptr),
       in_steps(varying || options.integrator != Integrator::dop853),
       applied(given.body_count(), given.gravity),
       working(given.body_count(), Vec3::Zero()),
@@ -59,10 +59,17 @@ void ExactBodies::apply(Entity i, const AppliedAcceleration& forces) {
 }
 
 void ExactBodies::apply_forces(Entity i, const Vec3& x, const Vec3& v) {
-  const bool bends = varying && varies(world, i, now.hi);
-  if (bends != (bent[i] != 0)) bent.write(i) = bends;
-  if (!bends) return apply(i, merged.applied(i, now.hi));
+  const bool bend = varying && bends(world, i, now.hi);
+  if (bend != (bent[i] != 0)) bent.write(i) = bend;
+  if (!bend) return apply(i, merged.applied(i, now.hi));
   apply(i, {free_acceleration(world, i, now.hi, x, v), working_acceleration(world, i, now.hi, x, v), 0});
+}
+
+/// Steps too long for the forces make energy without end.
+Remedies ExactBodies::remedies() const {
+  constexpr const char* step =
+      "steps of simulate.step are too long for the forces: shorten it, or use `integrator: dop853`";
+  return log.tally().greatest_phase > 1 ? Remedies{step, step} : Remedies{};
 }
 
 /// Whether the method's steps under forces with a closed form differ from that: but for Euler's they do not where the

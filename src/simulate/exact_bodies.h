@@ -32,21 +32,24 @@ struct ExactBodies {
   const World& world;  // with the joint bodies' masses and volumes
   const Bounds bounds;
   const bool same_radius;  // of all bodies, for good
-  const bool varying;      // some force has no closed form
+  const bool varying;      // some force bends paths (force.h)
   const bool in_steps;     // or a method is asked for: some flight may be curved
   Instant now;
   LazyArray<Vec3> applied;       // m/s^2, by body: gravity and the forces of now, on a body that stands,
   LazyArray<Vec3> working;       // and the part of it that does work (force.h);
   LazyArray<double> fade;        // 1/s: this, times its velocity, linear drag takes from both
-  LazyArray<std::uint8_t> bent;  // forces without a closed form act on it: all of these are as they were last looked at
+  LazyArray<std::uint8_t> bent;  // forces that bend paths act on it: all of these are as they were last looked at
   Flights flights;
   LargeVector<ExactBody> body;
   Neighbours neighbours;
   Islands islands;
   EventLog log;
 
-  static constexpr const char* too_fast =
-      "restitution above 1 makes energy at every collision; lower it, or shorten simulate.duration";
+  /// Throws SimulationError unless body i's place x (m) and velocity v (m/s) at `time` (s) are within bounds.
+  void hold_to_bounds(Entity i, double time, const Vec3& x, const Vec3& v) const {
+    if (!bounds.hold(x, v)) [[unlikely]]
+      fail_out_of_bounds(bounds, i, time, x, v, remedies());
+  }
   static constexpr double immovable = never;  // kg
 
   Vec3 position(Entity i) const { return flights[i].position(now - flights[i].start); }  // m, now
@@ -123,6 +126,7 @@ struct ExactBodies {
 
  private:
   bool method_bends(Entity i) const;
+  Remedies remedies() const;
   Vec3 bent_force_at(Entity i, const Vec3& x, const Vec3& v) const;
 };
 

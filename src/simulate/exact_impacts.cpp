@@ -118,7 +118,9 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
                     (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press)));
   const double separation = ends ? 0 : e * met;
   const double impulse = impact_impulse(ma, mb, met, separation);
-  bodies_.log.lose(impact_loss(ma, mb, approach, met == approach ? separation : met + separation - approach));
+  const double lost = impact_loss(ma, mb, met, separation);
+  bodies_.log.lose(lost);
+  if (met != approach) bodies_.log.deviate(impact_loss(ma, mb, approach, met + separation - approach) - lost);
   const Collision collision =
       make_collision(world, CollisionKind::body_body, bodies_.now.hi, a, b, there.point, n, met, separation, e);
   if (!ends || is_plastic(collision, press, length))
@@ -243,8 +245,10 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, std::uint8_t feature)
   if (ends || bodies_.body[i].state == ContactState::asleep) parts_.group.join(i);
   parts_.group.widen_margin(i, approach);
   if (approach > 0 || separation > 0) {
-    const double left = taken_over || met == approach ? separation : met + separation - approach;
-    bodies_.log.lose(impact_loss(mass, ExactBodies::immovable, approach, left));
+    const double lost = impact_loss(mass, ExactBodies::immovable, met, separation);
+    bodies_.log.lose(lost);
+    if (const double left = taken_over ? 0 : met + separation - approach; met != approach)
+      bodies_.log.deviate(impact_loss(mass, ExactBodies::immovable, approach, left) - lost);
     const Collision collision = make_collision(world, CollisionKind::body_fixed, bodies_.now.hi, i, surface,
                                                impact.there.point, n, met, separation, impact.e);
     if (!leaves_nothing || (ends && is_plastic(collision, impact.press, world.radius[i])))

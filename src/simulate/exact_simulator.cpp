@@ -164,7 +164,7 @@ void ExactSimulator::switch_forces(Entity i) {
   if (bodies_.body[i].state == ContactState::asleep) group_.join(i);
   if (bodies_.in_group(i)) {  // the last step had the old forces in it until its end
     const Vec3 slower = bodies_.velocity_without_kick(i, bodies_.now);
-    bodies_.log.lose(0.5 * bodies_.world.mass[i] * (v - slower).dot(v + slower));
+    bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (v - slower).dot(v + slower));
     v = slower;
     bodies_.islands.kicked_until.write(i) = bodies_.now;
     bodies_.islands.of(i).end = bodies_.now;

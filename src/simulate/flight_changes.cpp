@@ -16,7 +16,7 @@ void FlightChanges::begin(Entity i, const Vec3& x, const Vec3& v, const FlightOr
 void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin) {
   paths_.note_change(i);
   const double speed = v.norm();
-  hold_to(bodies_.bounds, i, bodies_.now.hi, x, v, ExactBodies::too_fast);
+  bodies_.hold_to_bounds(i, bodies_.now.hi, x, v);
   bodies_.log.note_speed(speed);
   book(i, x, bodies_.now);
   if (bodies_.in_group(i)) bodies_.islands.bend.write(i) = {};
@@ -80,6 +80,10 @@ void FlightChanges::end_verlets(Entity i) {
 
 void FlightChanges::take_step(Entity i) {
   end_step(i);
+  if (const CurvedFlights::Reached* end = curved_.reached(i)) {
+    const auto [x, v] = *end;
+    return go_on(i, x, v, {});
+  }
   go_on(i, bodies_.position(i), bodies_.velocity(i), {});
 }
 
@@ -130,7 +134,7 @@ void FlightChanges::push(Entity i, const Vec3& dv) {
 
 void FlightChanges::change(Entity i, const Vec3& dv) {
   Flight f = bodies_.flights[i];
-  bodies_.log.lose(-0.5 * bodies_.world.mass[i] * dv.dot(2 * f.v + dv));
+  bodies_.log.deviate(-0.5 * bodies_.world.mass[i] * dv.dot(2 * f.v + dv));
   f.v += dv;
   bodies_.log.note_speed(f.v.norm());
   bodies_.flights.set(i, {f.start, f.x, f.v, f.a, f.fade});
@@ -140,7 +144,7 @@ void FlightChanges::correct(Entity i, const Vec3& v) {
   const Vec3 x = bodies_.position(i), before = bodies_.velocity(i);
   if (v == before) return;
   paths_.note_change(i);
-  bodies_.log.lose(0.5 * bodies_.world.mass[i] * (before - v).dot(before + v));
+  bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (before - v).dot(before + v));
   book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
 }
@@ -161,7 +165,7 @@ void FlightChanges::book_forces(Entity i, const Vec3& x, const Instant& end) {
   const double dragged = fade == 0 ? 0 : fade * f.path().squared_speed(end - f.start);  // m^2/s^2
   // On a path that fades with its drag contact forces stay the same.
   const Vec3 held = f.fade == 0 ? Vec3(bodies_.applied[i] - f.a) : Vec3(bodies_.force_at(i, f.x, f.v) - f.a);
-  bodies_.log.lose(mass * (held.dot(displacement) - (f.fade == 0 ? dragged : 0)));
+  bodies_.log.deviate(mass * (held.dot(displacement) - (f.fade == 0 ? dragged : 0)));
   if (!world.forces.empty()) bodies_.log.add_work(mass * (bodies_.working[i].dot(displacement) - dragged));
 }
 
@@ -174,8 +178,8 @@ void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
   bodies_.log.add_work(work);
   if (f.curve != nullptr) return;
   const Vec3 v = f.velocity(length);
-  bodies_.log.lose(0.5 * mass * (f.v - v).dot(f.v + v) + potential(bodies_.world, i, f.x) -
-                   potential(bodies_.world, i, x) + work);
+  bodies_.log.deviate(0.5 * mass * (f.v - v).dot(f.v + v) + potential(bodies_.world, i, f.x) -
+                      potential(bodies_.world, i, x) + work);
 }
 
 void FlightChanges::book_last(double time) {
@@ -186,10 +190,10 @@ void FlightChanges::book_last(double time) {
     const Flight f = bodies_.flights[i];
     const Vec3 x = f.position(at - f.start), kicked = f.velocity(at - f.start);
     const Vec3 v = bodies_.velocity_without_kick(i, at);
-    hold_to(bodies_.bounds, i, time, x, v, ExactBodies::too_fast);
+    bodies_.hold_to_bounds(i, time, x, v);
     bodies_.log.note_speed(v.norm());
     book(i, x, at);
-    if (kicked != v) bodies_.log.lose(0.5 * bodies_.world.mass[i] * (kicked - v).dot(kicked + v));
+    if (kicked != v) bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (kicked - v).dot(kicked + v));
   }
 }
 

@@ -14,19 +14,20 @@ SimulationError SimulationError::named(const std::function<std::string(Entity)>&
 }
 
 void fail_out_of_bounds(const Bounds& bounds, Entity body, double time, const Vec3& x, const Vec3& v,
-                        const char* remedy) {
+                        const Remedies& remedies) {
   const std::string when = fmt::format("at t = {} s ", time);
   const double speed = v.norm();
-  if (!std::isfinite(speed)) throw SimulationError(when, body, fmt::format("'s speed is no longer finite: {}", remedy));
+  if (!std::isfinite(speed))
+    throw SimulationError(when, body, fmt::format("'s speed is no longer finite: {}", remedies.speed));
   if (speed > bounds.speed)
     throw SimulationError(when, body,
                           fmt::format("'s speed is {:.4g} m/s, more than the {:g} m/s that a run computes with: {}",
-                                      speed, bounds.speed, remedy));
+                                      speed, bounds.speed, remedies.speed));
   throw SimulationError(
       when, body,
       fmt::format(" is {:.4g} m from the origin, more than {:g} times the smallest size of the scene, where doubles no "
-                  "longer resolve it: shorten simulate.duration, or hold it back by a wall",
-                  x.cwiseAbs().maxCoeff(), farthest_by_size));
+                  "longer resolve it: {}",
+                  x.cwiseAbs().maxCoeff(), farthest_by_size, remedies.place));
 }
 
 }  // namespace carom

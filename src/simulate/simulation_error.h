@@ -29,15 +29,14 @@ class SimulationError : public std::runtime_error {
   std::optional<About> about_;
 };
 
-/// Throws SimulationError: a body's place x (m) or velocity v (m/s) at `time` (s) is out of bounds. `remedy`: what the
-/// user can do about a speed.
-[[noreturn]] void fail_out_of_bounds(const Bounds& bounds, Entity body, double time, const Vec3& x, const Vec3& v,
-                                     const char* remedy);
+/// What a user can do about a speed, or about a place, that is out of bounds.
+struct Remedies {
+  const char* speed = "restitution above 1 makes energy at every collision; lower it, or shorten simulate.duration";
+  const char* place = "shorten simulate.duration, or hold it back by a wall";
+};
 
-/// The same, unless they are within bounds.
-inline void hold_to(const Bounds& bounds, Entity body, double time, const Vec3& x, const Vec3& v, const char* remedy) {
-  if (!bounds.hold(x, v)) [[unlikely]]
-    fail_out_of_bounds(bounds, body, time, x, v, remedy);
-}
+/// Throws SimulationError: a body's place x (m) or velocity v (m/s) at `time` (s) is out of bounds.
+[[noreturn]] void fail_out_of_bounds(const Bounds& bounds, Entity body, double time, const Vec3& x, const Vec3& v,
+                                     const Remedies& remedies);
 
 }  // namespace carom

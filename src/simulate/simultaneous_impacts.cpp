@@ -243,7 +243,7 @@ std::vector<Entity> SimultaneousImpacts::begin_flights(const Struck& set) {
     if (!pressed[k]) continue;
     changed.push_back(a);
     const Vec3 before = bodies_.velocity(a), &after = set.after[k];
-    bodies_.log.lose(0.5 * bodies_.world.mass[a] * (before - after).dot(before + after));
+    bodies_.log.deviate(0.5 * bodies_.world.mass[a] * (before - after).dot(before + after));
     if (!(bodies_.now < islands.kicked_until[a])) islands.kicked_until.write(a) = bodies_.now + set.rest;
     const double rest = islands.kicked_until[a] - bodies_.now;
     islands.kick.write(a) = rest > 0 ? Vec3((after - set.struck[k]) / rest) : Vec3(Vec3::Zero());

@@ -332,10 +332,25 @@ void TimeStepping::put_to_rest(Step& step) const {
       step.contacts.pairs[holding.which[c]].force = step.length * holding.pairs[c].force;
 }
 
+/// Books the impacts of pairs whose gaps close within the step: the force between them takes their approach.
+void TimeStepping::take_closings(const Step& step) const {
+  double fastest = 0;  // m/s
+  for (const Vec3& v : step.after_impacts) fastest = std::max(fastest, v.norm());
+  for (const ContactConstraint& p : step.contacts.pairs) {
+    const double speed = approach(step.after_impacts, p);
+    if (!(p.force > 0 && speed > std::max(tol::drift * fastest, p.slack))) continue;
+    const double lost = 0.5 * p.force * (speed + approach(step.solved, p));  // J, by the mean speed
+    bodies_.log.take_up(speed, lost);
+    bodies_.log.lose(lost);
+    bodies_.log.deviate(-lost);
+  }
+}
+
 /// The members' flights until the step's end.
 void TimeStepping::begin_flights(const Step& step) {
   const double h = step.length;
   bodies_.log.take_up(step.inverse_mass, step.v, step.after_impacts, step.impacts);
+  take_closings(step);
   for (const Entity i : step.members) group_.pressing.write(i).clear();
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c)
     if (step.contacts.pairs[c].force > 0)
@@ -406,7 +421,7 @@ bool TimeStepping::begin_flight(const Step& step, std::size_t k, Entity i) {
   const Vec3 &v = step.after_impacts[k], &solved = step.solved[k];
   const Vec3 before = bodies_.velocity(i);
   const auto begin = [&](const Vec3& velocity) {
-    bodies_.log.lose(0.5 * bodies_.world.mass[i] * (before - velocity).dot(before + velocity));
+    bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (before - velocity).dot(before + velocity));
     flights_.begin(i, step.x[k], velocity, {});
   };
   if (step.rests[k]) {

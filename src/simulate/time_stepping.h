@@ -70,6 +70,7 @@ class TimeStepping {
   void put_to_rest(Step& step) const;
   std::vector<std::uint8_t> stop_slow(Step& step) const;
   Holding hold(const Step& step, const std::vector<std::uint8_t>& still) const;
+  void take_closings(const Step& step) const;
   void begin_flights(const Step& step);
   static void count_calm(const Step& step, Island& island);
   void split(const Step& step);

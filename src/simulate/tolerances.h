@@ -23,9 +23,14 @@ inline constexpr double plane_rounding = 0x1p-49;  // [3e-10 2e-10] of speeds: a
 inline constexpr double curve_rounding = 0x1p-43;  // of accelerations: a difference on curves that is rounding
 inline constexpr double told_fade = 0x1p-4;  // of a fade's time: so long its first eight terms tell it to rounding
 inline constexpr double faded = 64;          // times of a fade: then nothing is left of it
-inline constexpr double negligible_speed = 0x1p-200;  // of the greatest speed so far: products with itself underflow
-inline constexpr double negligible_hop = 0x1p-120;    // of the squared speed of falling by a radius: a body at rest
-inline constexpr double approach_rounding = 0x1p-50;  // of speeds: an approach that is rounding: unpressed, or kicked
+inline constexpr double closed_place =
+    0x1p-48;  // of a radius or a coordinate: what polynomials leave a closed form by,
+inline constexpr double closed_speed = 0x1p-44;         // and of speeds
+inline constexpr std::uint8_t many_explicit_steps = 8;  // held up by what brakes: the implicit method is tried,
+inline constexpr std::uint8_t implicit_method = 255;    // which stands in place of their number
+inline constexpr double negligible_speed = 0x1p-200;    // of the greatest speed so far: products with itself underflow
+inline constexpr double negligible_hop = 0x1p-120;      // of the squared speed of falling by a radius: a body at rest
+inline constexpr double approach_rounding = 0x1p-50;    // of speeds: an approach that is rounding: unpressed, or kicked
 
 // Impacts that end in contact (collapse_detector.h).
 inline constexpr double slow_impact = 0.03;    // [4e-7 4e-2] of the speed of falling by a length: no impact in contact
@@ -91,15 +96,29 @@ inline constexpr std::uint32_t many_short_steps = 8;    // ended at once by simu
 
 }  // namespace carom::exact_tolerance
 
-namespace carom::stepped_tolerance {
+namespace carom::accuracy_tolerance {
 
-// The choice of a step (step_choice.h).
-inline constexpr int instants = 64;           // of a run, at which two runs are compared
-inline constexpr double longest_choice = 64;  // [* -'] of default_step (force.h): the first step that is tried
-inline constexpr int most_halvings = 24;      // of it
-inline constexpr int few_halvings = 16;       // in which, at its rate, what runs gain must reach the end
-inline constexpr int most_vain_halvings = 5;  // [* -'] without a gain: then runs differ for good
-inline constexpr double most_steps = 1e9;     // of all bodies together, in the longest run
+// Which steps meet a tolerance (study/accuracy.h).
+inline constexpr int most_instants = 64;              // of a run, at which two runs are compared,
+inline constexpr double places_kept = 1e6;            // or fewer: of all bodies together
+inline constexpr double golden = 0.6180339887498949;  // where in its part of a run an instant lies
+inline constexpr double disturbance = 0x1p-50;        // of speeds and masses: rounding, of a finer run
+inline constexpr double coarsest_error = 1e-6;        // of a radius and of speeds: a step's, so that its estimate holds
+inline constexpr double finest_error = 0x1p-50;       // the same: rounding
+inline constexpr double finer = 64;                   // step errors of two runs that are compared: one by the other
+inline constexpr double first_share = 1e-3;           // of a tolerance: the first step error that is tried
+inline constexpr double reference_share = 0.125;      // of a tolerance: to which the reference is known
+inline constexpr double longest_choice = 64;          // of default_step (force.h): the first step that is tried
+inline constexpr double gain = 0.75;                  // a halving leaves less of a difference,
+inline constexpr int most_vain_halvings = 5;          // or so many do not: then none does
+inline constexpr double most_steps = 1e9;             // of all bodies together, in the longest run
+inline constexpr double told_radius = 0.01;           // of the smallest radius: a tolerance where none is asked for
+inline constexpr double carried_disturbance = 1e-12;  // of speeds and masses: whose growth tells chaos
+inline constexpr double saturated = 0.01;             // of the largest radius: a disturbance is no longer small
+
+}  // namespace carom::accuracy_tolerance
+
+namespace carom::stepped_tolerance {
 
 // The book simulator (book.h).
 inline constexpr double frame_rounding = 1e-9;  // of a frame: a time as near to a frame's is that frame's

@@ -61,6 +61,7 @@ class Comparison {
     compared.id = valid_utf8(compared.id);
     const RunRecord run = read_run(std::move(compared), measures_);
     if (!run.done) ++failed_;
+    if (run.done && run.summary[status_] == "doubtful") ++doubtful_;
     summary_.add(number, run);
     outcomes_.add(number, run.run, run.done, run.measures);
     series_.add(run);
@@ -68,6 +69,8 @@ class Comparison {
     common_.add(run);
     parameters_.add(run.run);
   }
+
+  std::size_t doubtful() const { return doubtful_; }  // runs so far
 
   std::vector<std::unique_ptr<OutputFile>> finish() {
     outcomes_.finish();
@@ -108,6 +111,7 @@ class Comparison {
     for (const Parameter& parameter : plan_.parameters) varied += (varied.empty() ? "" : ", ") + parameter.path;
     std::string text = fmt::format("{} runs", count_);
     if (failed_ > 0) text += fmt::format(", {} of them failed", failed_);
+    if (doubtful_ > 0) text += fmt::format(", {} of them doubtful", doubtful_);
     if (!varied.empty()) text += "; varied: " + varied;
     charts_.write(plan_.title, {text}, charts, placed);
   }
@@ -131,7 +135,8 @@ class Comparison {
 
   FilePlace place_;
   ComparisonPlan plan_;
-  std::size_t count_, failed_ = 0;
+  std::size_t count_, failed_ = 0, doubtful_ = 0;
+  const std::size_t status_ = static_cast<std::size_t>(find_summary_column("status") - summary_columns().data());
   std::vector<Measure> measures_;
   Workbook book_;
   CompareSheet charts_;
@@ -211,6 +216,7 @@ std::vector<std::unique_ptr<OutputFile>> write_comparison(const FilePlace& place
     comparison.add(i, run(i));
     watch.done(i + 1);
   }
+  watch.doubtful(comparison.doubtful());
   return comparison.finish();
 }
 

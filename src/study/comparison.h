@@ -48,8 +48,9 @@ std::vector<Measure> measures_of(const ComparisonPlan& plan);
 void check_charts(const ComparisonPlan& plan);
 
 struct ComparisonWatch {
-  std::function<void()> look = [] {};                          // called for each run; may throw
-  std::function<void(std::size_t)> done = [](std::size_t) {};  // so many runs are read
+  std::function<void()> look = [] {};                              // called for each run; may throw
+  std::function<void(std::size_t)> done = [](std::size_t) {};      // so many runs are read
+  std::function<void(std::size_t)> doubtful = [](std::size_t) {};  // so many of them are doubtful: at the end
 };
 
 /// What a comparison writes.

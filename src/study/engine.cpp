@@ -6,7 +6,7 @@
 #include "scene/unsupported.h"
 #include "simulate/book.h"
 #include "simulate/exact.h"
-#include "simulate/step_choice.h"
+#include "study/accuracy.h"
 
 namespace carom {
 
@@ -37,8 +37,9 @@ bool chooses_steps(const Simulate& simulate) {
 
 /// The same, with free flights in steps.
 std::unique_ptr<Simulator> make_stepped(const World& world, const State& initial, const Simulate& simulate,
-                                        bool record_collisions) {
+                                        bool record_collisions, double step_error) {
   ExactOptions options = exact_options(simulate, record_collisions);
+  if (step_error > 0) options.step_error = step_error;
   options.integrator = simulate.integrator;
   if (simulate.step)
     options.step = *simulate.step;
@@ -104,7 +105,7 @@ EngineChoice choose_engine(const Scene& scene) {
   switch (scene.simulate.engine) {
     case Engine::automatic:
       if (const Force* open = force_without_closed_form(scene.world))
-        choice = {"stepped", fmt::format("auto: under `{}` paths have no closed form", name_of(open->law))};
+        choice = {"stepped", fmt::format("auto: under {} paths have no closed form", open_force_text(*open))};
       else
         choice.why = "auto: every path of this scene has a closed form";
       break;
@@ -117,46 +118,79 @@ EngineChoice choose_engine(const Scene& scene) {
       choice.name = "book";
       break;
   }
-  if (choice.name == "stepped" && chooses_steps(scene.simulate)) {
+  if (choice.name != "stepped" || scene.simulate.tolerance) return choice;
+  if (chooses_steps(scene.simulate)) {
     const std::string limit = scene.simulate.step ? fmt::format(", {:.4g} s at most", *scene.simulate.step) : "";
     choice.why = joined(choice.why, "dop853, steps of its own" + limit);
-  } else if (choice.name == "stepped" && !scene.simulate.tolerance) {
-    choice.step = scene.simulate.step.value_or(default_step(scene.world, scene.initial));
-    choice.why =
-        joined(choice.why, fmt::format("{}, steps of {:.4g} s", name_of(scene.simulate.integrator), *choice.step));
+  } else {
+    choice.steps.length = scene.simulate.step.value_or(default_step(scene.world, scene.initial));
+    choice.why = joined(choice.why,
+                        fmt::format("{}, steps of {:.4g} s", name_of(scene.simulate.integrator), *choice.steps.length));
   }
   return choice;
 }
 
-void settle_step(const Scene& scene, EngineChoice& engine, const std::function<void()>& look) {
-  if (engine.name != "stepped" || engine.step || chooses_steps(scene.simulate)) return;
-  const Simulate& simulate = scene.simulate;
-  ExactOptions way = exact_options(simulate, false);
-  way.integrator = simulate.integrator;
-  const StepChoice choice = choose_step(scene.world, scene.initial, way, *simulate.tolerance, look);
-  engine.step = choice.step;
-  engine.why = joined(engine.why, fmt::format("{}, steps of {:.4g} s, ", name_of(simulate.integrator), choice.step));
-  engine.why +=
-      choice.chaotic_from <= simulate.duration
-          ? fmt::format("chaotic: from {:.4g} s on positions differ by more than {} m, and no later with shorter ones",
-                        choice.chaotic_from, *simulate.tolerance)
-          : fmt::format("with which positions agree within {:.2g} m", choice.difference);
+Simulate with_steps(Simulate simulate, const Steps& steps) {
+  if (steps.length) simulate.step = steps.length;
+  return simulate;
+}
+
+namespace {
+
+/// How a run that does not meet its tolerance falls short of it.
+std::string shortfall_of(const Scene& scene, const Simulate& way, const Accuracy& accuracy, const Growth& growth) {
+  const double tolerance = *scene.simulate.tolerance;
+  std::string text;
+  if (!accuracy.reached)
+    text = fmt::format(
+        "not converged: with the shortest steps that were tried, {:.3g} s, places are off by {:.2g} m, not {} m",
+        *accuracy.steps.length, accuracy.difference, tolerance);
+  if (!(accuracy.right_until < way.duration)) return text;
+  const std::string since =
+      fmt::format("places are told to {} m until {:.4g} s, and differ by up to {:.2g} m later: ", tolerance,
+                  accuracy.right_until, accuracy.beyond);
+  const std::string why = growth.chaotic
+                              ? fmt::format("chaotic, a disturbance grows e-fold in {:.3g} s", growth.lyapunov_time)
+                              : std::string(
+                                    "not converged, though not chaotic: rounding is grown by the motion, or forces are "
+                                    "too sharp for doubles");
+  return joined(text, since + why);
+}
+
+}  // namespace
+
+void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<void()>& look) {
+  if (!scene.simulate.tolerance || engine.name == "book") return;
+  Simulate way = scene.simulate;
+  way.engine = engine.name == "exact" ? Engine::exact : Engine::stepped;
+  const Accuracy accuracy = settle_accuracy(scene, way, *way.tolerance, look);
+  engine.steps = accuracy.steps;
+  if (engine.name == "stepped")
+    engine.why =
+        joined(engine.why, chooses_steps(way)
+                               ? fmt::format("dop853, steps that err by {:.1g} of a radius", engine.steps.error)
+                               : fmt::format("{}, steps of {:.4g} s", name_of(way.integrator), *engine.steps.length));
+  const bool known = accuracy.right_until >= way.duration;
+  if (accuracy.reached && known)
+    engine.why = joined(engine.why, fmt::format("places agree within {:.2g} m with a finer run", accuracy.difference));
+  if (!known) engine.growth = growth_of(scene, way, engine.steps, look);
+  engine.right_until = accuracy.right_until;
+  engine.shortfall = shortfall_of(scene, way, accuracy, engine.growth);
 }
 
 std::unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
-                                          bool record_collisions, bool record_paths) {
+                                          bool record_collisions, bool record_paths, double step_error) {
   if (simulate.engine == Engine::exact) return make_exact(world, initial, simulate, record_collisions, record_paths);
-  const auto make = simulate.engine == Engine::stepped ? make_stepped : make_book;
-  return make(world, initial, simulate, record_collisions);
+  if (simulate.engine == Engine::stepped) return make_stepped(world, initial, simulate, record_collisions, step_error);
+  return make_book(world, initial, simulate, record_collisions);
 }
 
-std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions, std::optional<double> step,
+std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions, const Steps& steps,
                                           bool record_paths) {
-  Simulate simulate = scene.simulate;
+  Simulate simulate = with_steps(scene.simulate, steps);
   if (simulate.engine == Engine::automatic)
     simulate.engine = force_without_closed_form(scene.world) == nullptr ? Engine::exact : Engine::stepped;
-  if (step) simulate.step = step;
-  return make_simulator(scene.world, scene.initial, simulate, record_collisions, record_paths);
+  return make_simulator(scene.world, scene.initial, simulate, record_collisions, record_paths, steps.error);
 }
 
 void check_flights(const Scene& scene) {

@@ -1,6 +1,7 @@
 #pragma once
 // Which simulator a scene runs on.
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,11 +11,27 @@
 
 namespace carom {
 
+/// Of engine stepped.
+struct Steps {
+  std::optional<double> length{};  // s: of dop853 the longest; none: by the forces, or as the run goes
+  double error = 0;                // of dop853, of a radius and of speeds in each; 0: the default
+};
+
+/// How a small disturbance of a motion grows.
+struct Growth {
+  bool chaotic = false;
+  double lyapunov_time = std::numeric_limits<double>::infinity();  // s, in which it grows e-fold; infinity: regular
+  double factor = 1;                                               // by which it has grown at most
+};
+
 struct EngineChoice {
   std::string name;  // "exact", "stepped", "book"; as in summary.csv
   std::string why;   // one line: why this one, and with which steps
-  // s, of engine stepped; none: the scene's tolerance is to tell, by settle_step, or steps are chosen as the run goes
-  std::optional<double> step{};
+  Steps steps{};     // but where the scene has a tolerance: then settle_steps finds them
+  // Of a scene with a tolerance:
+  std::string shortfall{};                                       // how it is not met; empty: it is
+  double right_until = std::numeric_limits<double>::infinity();  // s, until when it is; infinity: to the end
+  Growth growth{};                                               // where it is not
 };
 
 EngineChoice choose_engine(const Scene& scene);
@@ -26,23 +43,26 @@ const char* name_of(Integrator integrator);  // "euler", "verlet", "rk4", "dop85
 Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator = Integrator::rk4,
                      std::optional<double> step = {});
 
-/// Finds the step of engine stepped where the scene asks for a tolerance, by running it again and again. `look` is
-/// called now and then, and may throw. Throws SimulationError.
-void settle_step(const Scene& scene, EngineChoice& engine, const std::function<void()>& look);
+/// The same settings with these steps.
+Simulate with_steps(Simulate simulate, const Steps& steps);
+
+/// Where the scene asks for a tolerance: finds the steps that meet it, by running it again and again (accuracy.h), or
+/// by how much it is not met. `look` is called now and then, and may throw. Throws SimulationError.
+void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<void()>& look);
 
 /// Throws SimulationError if the scene's output has flights and its engine records no paths. (The loader refuses that
 /// too; outputs may be chosen by the command line.)
 void check_flights(const Scene& scene);
 
-/// The scene's simulator at time 0. `scene` must outlive it. `step`: as settled; else the scene's own, or the default.
+/// The scene's simulator at time 0. `scene` must outlive it. `steps`: as settled; else the scene's own, or the default.
 /// `record_paths`: where paths are parabolas (scene/unsupported.h); else paths() stays empty. Throws SimulationError.
-std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions, std::optional<double> step = {},
+std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions, const Steps& steps = {},
                                           bool record_paths = false);
 
 /// The simulator that `simulate` names (its engine: not automatic), from any state of any world on; both must outlive
-/// it. Without a step of its own: the default. Throws SimulationError.
+/// it. Without a step of its own: the default. step_error: Steps::error. Throws SimulationError.
 std::unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
-                                          bool record_collisions, bool record_paths = false);
+                                          bool record_collisions, bool record_paths = false, double step_error = 0);
 
 /// The most exact simulator that there is for the scene, whatever engine it asks for: what really happens first.
 std::unique_ptr<Simulator> make_oracle(const Scene& scene);

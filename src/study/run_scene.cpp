@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "render/glb.h"
 #include "render/renderer.h"
 #include "render/still_things.h"
+#include "study/warnings.h"
 
 namespace carom {
 
@@ -37,8 +39,13 @@ std::uint64_t peak_memory() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
-double energy(const Scene& scene, const State& state) {
-  return kinetic_energy(scene.world, state) + potential_energy(scene.world, state);
+struct Energy {
+  double kinetic = 0, potential = 0;  // J
+  double total() const { return kinetic + potential; }
+};
+
+Energy energy(const Scene& scene, const State& state) {
+  return {kinetic_energy(scene.world, state), potential_energy(scene.world, state)};
 }
 
 /// One show on its way.
@@ -109,14 +116,13 @@ Vec3 starting_momentum(const Scene& scene) {
 }
 
 // The energy at the start is that of energy.csv's first row: the exact engine's bodies have their impulses by then, the
-// book engine's get theirs as a force of the first frame, whose work counts. What energy the collisions, work and
-// motion do not account for is the residual: zero but for rounding.
-Summary summarize(const Scene& scene, const EngineChoice& engine, double energy_start, const State& end,
+// book engine's get theirs as a force of the first frame, whose work counts. What energy the impacts, work and
+// motion do not account for is the residual: the method's own error, and rounding.
+Summary summarize(const Scene& scene, const EngineChoice& engine, const Energy& start, const State& end,
                   const Tally& tally) {
   Summary summary;
   summary.title = scene.title;
   summary.engine = engine.name;
-  summary.status = "done";
   summary.duration = scene.simulate.duration;
   summary.bodies = scene.world.body_count();
   summary.collisions = tally.collisions();
@@ -124,17 +130,20 @@ Summary summarize(const Scene& scene, const EngineChoice& engine, double energy_
   summary.body_fixed = tally.body_fixed;
   summary.first_collision = tally.first_collision;
   summary.last_collision = tally.last_collision;
-  summary.energy.start = energy_start;
-  summary.energy.end = energy(scene, end);
+  const Energy last = energy(scene, end);
+  summary.energy.start = start.total();
+  summary.energy.end = last.total();
   summary.energy.lost = tally.energy_lost;
   summary.energy.work = tally.work;
   summary.energy.residual = summary.energy.end - summary.energy.start - summary.energy.work + summary.energy.lost;
+  summary.energy.turnover = start.kinetic + last.kinetic + std::abs(last.potential - start.potential) +
+                            std::abs(tally.energy_lost) + std::abs(tally.work);
   summary.momentum_drift = (momentum(scene.world, end) - starting_momentum(scene)).norm();
   summary.max_overlap = tally.max_overlap;
   summary.max_speed = tally.max_speed;
   summary.resting = tally.resting;
   summary.stepped_contact = tally.stepped_contact;
-  summary.contact = {tally.merges, tally.collapses, tally.doubtful, tally.taken_up};
+  summary.contact = {tally.merges, tally.collapses, tally.taken_up};
   return summary;
 }
 
@@ -150,15 +159,15 @@ class Run {
       });
     }
     const Stopwatch stopwatch(simulate_s_);
-    if (!settings.simulator) settle_step(scene(), engine_, watch_.look);
+    if (!settings.simulator) settle_steps(scene(), engine_, watch_.look);
     const bool collisions =
         std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.collisions; });
     const bool paths =
         std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.flights; });
     simulator_ =
-        settings.simulator ? settings.simulator(scene()) : make_simulator(scene(), collisions, engine_.step, paths);
+        settings.simulator ? settings.simulator(scene()) : make_simulator(scene(), collisions, engine_.steps, paths);
     record({}, simulator_->paths());
-    energy_start_ = energy(scene(), simulator_->state());
+    start_ = energy(scene(), simulator_->state());
   }
 
   void go() {
@@ -248,7 +257,11 @@ class Run {
     RunResult& result = results_[i];
     const State& end = simulator_->state();
     result.engine = engine_;
-    result.summary = summarize(stage.scene, engine_, energy_start_, end, simulator_->tally());
+    result.summary = summarize(stage.scene, engine_, start_, end, simulator_->tally());
+    result.summary.warnings = settings_.warnings
+                                  ? *settings_.warnings
+                                  : warnings_of(stage.scene, engine_, end, result.summary, simulator_->tally());
+    result.summary.status = result.summary.warnings.empty() ? "done" : "doubtful";
     result.summary.frames = stage.exports.frames();
     result.facts = stage.facts;
     result.facts.simulate_s = simulate_s_;
@@ -265,8 +278,8 @@ class Run {
   std::vector<RunResult> results_;              // by show
   std::vector<std::unique_ptr<Stage>> stages_;  // by show; none: it has failed
   std::unique_ptr<Simulator> simulator_;
-  double energy_start_ = 0;  // J
-  double simulate_s_ = 0;    // wall time
+  Energy start_;           // at time 0
+  double simulate_s_ = 0;  // wall time
 };
 
 }  // namespace

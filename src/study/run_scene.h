@@ -3,6 +3,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ struct RunSettings {
   Durability durability = Durability::synced;
   /// What else the manifest says of a run's end; may be unset.
   std::function<std::vector<Measured>(const Scene&, const State& end, const Summary&)> measure;
+  /// Of a former run whose motion this is: what it warned of. Unset: found anew.
+  std::optional<std::vector<Warning>> warnings{};
   /// What goes along the motion in place of the scene's engine; may be unset.
   std::function<std::unique_ptr<Simulator>(const Scene&)> simulator{};
 };

@@ -98,9 +98,27 @@ void SummarySheet::finish() {
   } else if (rows > 0) {
     worksheet_autofilter(sheet_.get(), 0, 0, last_row, last_column);
   }
+  if (rows > 0) mark_rows(last_row, last_column);
   sheet_.fit_all(9, 60, 3);  // room for the filters' buttons
   sheet_.freeze(1, 1);
   sheet_.print_table();
+}
+
+/// Rows that are not `done` are tinted, however they are sorted.
+void SummarySheet::mark_rows(lxw_row_t last_row, lxw_col_t last_column) {
+  const auto status =
+      std::find_if(columns_.begin(), columns_.end(), [](const Column& c) { return c.name == "status"; });
+  char column[LXW_MAX_COL_NAME_LENGTH];
+  lxw_col_to_name(column, static_cast<lxw_col_t>(status - columns_.begin()), 1);
+  for (const auto& [text, look] :
+       {std::pair("doubtful", CellStyle::doubtful), std::pair("failed", CellStyle::failed)}) {
+    std::string formula = fmt::format("={}2=\"{}\"", column, text);
+    lxw_conditional_format rule{};
+    rule.type = LXW_CONDITIONAL_TYPE_FORMULA;
+    rule.value_string = formula.data();
+    rule.format = sheet_.format(look);
+    worksheet_conditional_format_range(sheet_.get(), 1, 0, last_row, last_column, &rule);
+  }
 }
 
 void SummarySheet::make_table(lxw_row_t last_row, lxw_col_t last_column) {

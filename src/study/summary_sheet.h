@@ -47,6 +47,7 @@ class SummarySheet {
     std::optional<std::size_t> summary, parameter, measure;
   };
   static std::vector<Column> make_columns(const ComparisonPlan& plan, const std::vector<Measure>& measures);
+  void mark_rows(lxw_row_t last_row, lxw_col_t last_column);
   void make_table(lxw_row_t last_row, lxw_col_t last_column);
 
   const std::size_t count_, parameters_;  // how many

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t longest_text = 32'767;  // characters of a cell
 constexpr lxw_color_t tint = 0xFFF2CC, header_tint = 0xD9E1F2, swept_header_tint = 0xF4B183, grey = 0x595959;
+constexpr lxw_color_t doubtful_tint = 0xFFE699, failed_tint = 0xF8CBAD;
 
 /// The first `most` characters; a cut is seen.
 std::string shortened(std::string_view text, std::size_t most) {
@@ -72,6 +73,12 @@ lxw_format* make_format(lxw_workbook* book, CellStyle look) {
     case CellStyle::wrapped:
       format_set_text_wrap(format);
       format_set_align(format, LXW_ALIGN_VERTICAL_TOP);
+      break;
+    case CellStyle::doubtful:
+      format_set_bg_color(format, doubtful_tint);
+      break;
+    case CellStyle::failed:
+      format_set_bg_color(format, failed_tint);
       break;
     case CellStyle::plain:
     case CellStyle::count_:

@@ -38,7 +38,9 @@ enum class CellStyle {
   title,
   note,
   wrapped,
-  count_  // how many there are
+  doubtful,  // of a row whose figures may be wrong,
+  failed,    // or of which there are none
+  count_     // how many there are
 };
 
 /// What a sheet can hold.

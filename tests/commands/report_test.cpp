@@ -39,11 +39,14 @@ TEST(Report, TellsOfMergesAndOfClustersTakenIntoContact) {
             "              into contact\n");
 }
 
-TEST(Report, SaysHowManyContactProblemsAreDoubtful) {
+TEST(Report, SaysWhyARunIsDoubtful) {
   RunResult result = result_with(0, 0);
-  EXPECT_EQ(lines_of(result).find("doubtful"), std::string::npos);
-  result.summary.contact.doubtful = 2;
-  EXPECT_NE(lines_of(result).find("  doubtful    2 contact problems: motion may be off"), std::string::npos);
+  Block block(Palette(false), 100);
+  describe(block, result.summary.warnings);
+  EXPECT_EQ(block.text(), "");
+  describe(block, {{"energy", "the method made 2 J"}, {"step", "too long"}});
+  EXPECT_EQ(block.text(), "  doubtful    the method made 2 J\n  doubtful    too long\n");
+  EXPECT_EQ(warnings_json({{"step", "too long"}}).dump(), R"([{"code":"step","text":"too long"}])");
 }
 
 TEST(Report, SaysWhichImpactsContactHasTakenUp) {
@@ -57,7 +60,7 @@ TEST(Report, SaysWhichImpactsContactHasTakenUp) {
 TEST(Report, JsonHasThemBesideTheSummary) {
   EXPECT_EQ(
       contact_json(result_with(2, 1).summary).dump(),
-      R"({"resting":3,"clusters_taken_into_contact":2,"merges":1,"doubtful":0,"impacts_taken_up":{"impacts":0,"fastest_m_per_s":0.0,"energy_J":0.0}})");
+      R"({"resting":3,"clusters_taken_into_contact":2,"merges":1,"impacts_taken_up":{"impacts":0,"fastest_m_per_s":0.0,"energy_J":0.0}})");
 }
 
 }  // namespace

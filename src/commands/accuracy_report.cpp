@@ -1,0 +1,78 @@
+#include "commands/accuracy_report.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "commands/interrupt.h"
+#include "commands/text.h"
+#include "study/accuracy.h"
+
+namespace carom {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json finite_or_null(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+std::string integrator_text(const Assessment& assessment) {
+  return assessment.integrator
+             ? fmt::format("{} at most between two accuracies of its steps", quantity(*assessment.integrator, "m"))
+             : "closed forms: no error of a step";
+}
+
+std::string contact_text(const Assessment& assessment) {
+  if (assessment.stepped_contact == 0) return "none of it by time steps";
+  return fmt::format("{}, summed over bodies, by time steps, which took {} beside impacts",
+                     quantity(assessment.stepped_contact, "s"), quantity(assessment.method_error, "J"));
+}
+
+std::string chaos_text(const Assessment& assessment) {
+  const Growth& growth = assessment.growth;
+  if (!growth.chaotic) return fmt::format("none: a disturbance of 1e-12 grows {:.3g} times", growth.factor);
+  return fmt::format("a disturbance grows e-fold in {}", quantity(growth.lyapunov_time, "s"));
+}
+
+std::string right_text(const Assessment& assessment) {
+  const std::string to = quantity(assessment.tolerance, "m");
+  return std::isfinite(assessment.right_until)
+             ? fmt::format("places are right to {} until {}", to, quantity(assessment.right_until, "s"))
+             : fmt::format("places are right to {} until the end", to);
+}
+
+Json json_of(const Assessment& assessment) {
+  return {{"tolerance_m", assessment.tolerance},
+          {"right_until_s", finite_or_null(assessment.right_until)},
+          {"rounding_m", assessment.rounding},
+          {"integrator_m", assessment.integrator ? Json(*assessment.integrator) : Json(nullptr)},
+          {"stepped_contact_s", assessment.stepped_contact},
+          {"method_error_J", assessment.method_error},
+          {"chaotic", assessment.growth.chaotic},
+          {"lyapunov_time_s", finite_or_null(assessment.growth.lyapunov_time)},
+          {"growth", assessment.growth.factor}};
+}
+
+}  // namespace
+
+AccuracyReport report_accuracy(const Scene& scene, EngineChoice engine) {
+  if (scene.world.body_count() == 0 || scene.simulate.duration == 0) return {};
+  try {
+    if (!engine.steps.length && engine.steps.error == 0) settle_steps(scene, engine, stop_if_interrupted);
+    const Assessment all = assess(scene, engine, stop_if_interrupted);
+    return {{{"accuracy", right_text(all)},
+             {"rounding", fmt::format("{} at most", quantity(all.rounding, "m"))},
+             {"integrator", integrator_text(all)},
+             {"contact", contact_text(all)},
+             {"chaos", chaos_text(all)}},
+            json_of(all)};
+  } catch (const SimulationError& error) {
+    const SimulationError named =
+        error.named([&](Entity body) { return fmt::format("`{}`", scene.roster.name(body)); });
+    return {{{"accuracy", fmt::format("a run stops: {}", named.what())}}, {{"failure", named.what()}}};
+  }
+}
+
+}  // namespace carom

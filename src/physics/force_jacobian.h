@@ -1,0 +1,80 @@
+#pragma once
+// The Jacobians of the forces' accelerations: what an implicit method needs of stiff forces.
+#include <Eigen/Core>
+#include <cmath>
+
+#include "physics/attractor.h"
+#include "physics/drag.h"
+#include "physics/spring.h"
+#include "physics/uniform_acceleration.h"
+#include "physics/uniform_force.h"
+
+namespace carom {
+
+/// The derivatives of an acceleration.
+struct ForceJacobian {
+  Eigen::Matrix3d by_position = Eigen::Matrix3d::Zero();  // 1/s^2
+  Eigen::Matrix3d by_velocity = Eigen::Matrix3d::Zero();  // 1/s
+
+  ForceJacobian& operator+=(const ForceJacobian& other) {
+    by_position += other.by_position;
+    by_velocity += other.by_velocity;
+    return *this;
+  }
+};
+
+inline ForceJacobian jacobian(const UniformForce&, const Particle&) {
+  return {};
+}
+inline ForceJacobian jacobian(const UniformAcceleration&, const Particle&) {
+  return {};
+}
+
+/// d/du of -(c + q |u|) u is -(c + q |u|) - q u u^T / |u|. The last term goes to zero with u.
+inline ForceJacobian jacobian(const Drag& drag, const Particle& p) {
+  const Vec3 u = p.v - drag.wind;
+  const double speed = u.norm();
+  ForceJacobian j;
+  j.by_velocity.diagonal().setConstant(-(drag.linear + drag.quadratic * speed));
+  if (drag.quadratic != 0 && speed > 0) j.by_velocity -= (drag.quadratic / speed * u) * u.transpose();
+  j.by_velocity /= p.mass;
+  return j;
+}
+
+/// With n = d / |d|: of the spring -k + k l / |d| (1 - n n^T); of the damper -c n n^T by the velocity, and by the
+/// position -c (n v^T + (n . v) (1 - 2 n n^T)) / |d|. At the anchor the rest length counts for nothing, and the damper
+/// acts along every direction, as in Spring.
+inline ForceJacobian jacobian(const Spring& spring, const Particle& p) {
+  const Vec3 d = p.x - spring.anchor;
+  const double length = d.norm();
+  const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
+  ForceJacobian j;
+  j.by_position = -spring.stiffness * one;
+  if (length > 0) {
+    const Vec3 n = d / length;
+    const Eigen::Matrix3d along = n * n.transpose();
+    const double approach = n.dot(p.v);  // m/s, away from the anchor
+    j.by_position += (spring.stiffness * spring.rest_length / length) * (one - along);
+    j.by_position -= (spring.damping / length) * (n * p.v.transpose() + approach * (one - 2 * along));
+    j.by_velocity = -spring.damping * along;
+  } else {
+    j.by_velocity = -spring.damping * one;
+  }
+  j.by_position /= p.mass;
+  j.by_velocity /= p.mass;
+  return j;
+}
+
+/// d/dd of -mu d / D^(3/2), D = |d|^2 + s^2, is -mu / D^(3/2) (1 - 3 d d^T / D). At an unsoftened center, where the
+/// acceleration has no value either, it is left at zero.
+inline ForceJacobian jacobian(const Attractor& attractor, const Particle& p) {
+  const Vec3 d = p.x - attractor.center;
+  const double square = d.squaredNorm() + attractor.softening * attractor.softening;
+  ForceJacobian j;
+  if (!(square > 0)) return j;
+  const Eigen::Matrix3d along = d * (d / square).transpose();
+  j.by_position = -attractor.strength / (square * std::sqrt(square)) * (Eigen::Matrix3d::Identity() - 3 * along);
+  return j;
+}
+
+}  // namespace carom

@@ -1,0 +1,344 @@
+// The unknowns are the changes Z_i of the velocity at the stages, X_i = x + c_i h v + h sum_j A_ij Z_j:
+//   Z_i = h sum_j A_ij a(X_j, v + Z_j)
+// Newton's method finds them. It begins at the solution for forces that are linear about the start. Its matrix has the
+// Jacobian of the start, as long as that converges fast; then those of all stages. Only the latter converge where a
+// stiff direction turns within a step, as that of a damper does across its line.
+#include "physics/implicit_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/lu_factors.h"
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t nodes = 7, axes = 3, unknowns = nodes * axes;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr int most_passes = 12;
+constexpr double enough = 0.01;   // of the error that is allowed: what the stages may be wrong by
+constexpr double hopeless = 100;  // times enough: where rounding ends the passes, stages may be so wrong
+constexpr int worth_factors = 6;  // as many passes take as long as new factors
+
+// Where forces are smooth, the velocity's error is e int prod (s - c_i). Its greatest value in the step is start_share
+// of its slope at the start; the displacement's is displacement_share of it, by the step.
+constexpr double start_share = 0.0175, displacement_share = 0.071;
+constexpr double term_share = 0.5;  // measured: the error is 0.07 to 1.4 of the next term's size
+constexpr double filter = 0x1p-5;   // of a step: what is over in less counts by its velocity, not its acceleration
+
+using NodeRow = std::array<double, nodes>;
+using NodeMatrix = std::array<NodeRow, nodes>;
+
+/// Legendre's polynomials up to degree 7, at s in [0, 1] for x in [-1, 1].
+std::array<double, nodes + 1> legendre(double s) {
+  const double x = 2 * s - 1;
+  std::array<double, nodes + 1> p{1, x};
+  for (std::size_t n = 2; n <= nodes; ++n) {
+    const auto degree = static_cast<double>(n);
+    p[n] = ((2 * degree - 1) * x * p[n - 1] - (degree - 1) * p[n - 2]) / degree;
+  }
+  return p;
+}
+
+/// Zero at Radau's points.
+double radau_polynomial(double s) {
+  const auto p = legendre(s);
+  return p[nodes - 1] - p[nodes];
+}
+
+/// Radau's points in (0, 1], the last at 1.
+NodeRow radau_points() {
+  constexpr int intervals = 1000;
+  NodeRow points{};
+  std::size_t found = 0;
+  for (int k = 0; k < intervals - 1; ++k) {
+    double low = static_cast<double>(k) / intervals, high = (k + 1.0) / intervals;
+    if (radau_polynomial(low) * radau_polynomial(high) > 0) continue;
+    for (int pass = 0; pass < 60; ++pass) {
+      const double middle = 0.5 * (low + high);
+      (radau_polynomial(low) * radau_polynomial(middle) <= 0 ? high : low) = middle;
+    }
+    points[found++] = 0.5 * (low + high);
+  }
+  points[nodes - 1] = 1;
+  return points;
+}
+
+/// Points and weights on [0, 1] that integrate polynomials of degree 7.
+struct Gauss {
+  std::array<double, 4> at, weight;
+  Gauss() {
+    const double root = 2 * std::sqrt(1.2), near = std::sqrt((3 - root) / 7), far = std::sqrt((3 + root) / 7);
+    const double part = std::sqrt(30.0) / 72;
+    at = {0.5 * (1 - far), 0.5 * (1 - near), 0.5 * (1 + near), 0.5 * (1 + far)};
+    weight = {0.25 - part, 0.25 + part, 0.25 + part, 0.25 - part};
+  }
+};
+
+struct Method {
+  NodeRow c = radau_points();
+  NodeMatrix a;  // of the collocation: integrals of Lagrange's polynomials up to each point
+  NodeMatrix a_squared;
+  std::array<NodeRow, 4> tail;  // of Legendre's polynomials of degrees 4 to 7 in the polynomial that `power` has
+  NodeMatrix power;  // of s^(row + 1) in the polynomial that is 0 at 0 and, at the points, 1 only at the column's
+
+  Method() {
+    for (std::size_t i = 0; i < nodes; ++i) a[i] = integrals(c[i]);
+    for (std::size_t i = 0; i < nodes; ++i)
+      for (std::size_t j = 0; j < nodes; ++j) {
+        a_squared[i][j] = 0;
+        for (std::size_t k = 0; k < nodes; ++k) a_squared[i][j] += a[i][k] * a[k][j];
+      }
+    for (std::size_t j = 0; j < nodes; ++j) {
+      set_powers(j);
+      set_tail(j);
+    }
+  }
+
+  /// Of Lagrange's polynomials through the points, from 0 to s.
+  NodeRow integrals(double s) const {
+    const Gauss gauss;
+    NodeRow sum{};
+    for (std::size_t g = 0; g < gauss.at.size(); ++g)
+      for (std::size_t j = 0; j < nodes; ++j) {
+        double product = s * gauss.weight[g];
+        for (std::size_t l = 0; l < nodes; ++l)
+          if (l != j) product *= (s * gauss.at[g] - c[l]) / (c[j] - c[l]);
+        sum[j] += product;
+      }
+    return sum;
+  }
+
+  /// Of s / c_j times the product of (s - c_l) / (c_j - c_l) over the others.
+  void set_powers(std::size_t j) {
+    NodeRow terms{1 / c[j]};
+    std::size_t degree = 0;
+    for (std::size_t l = 0; l < nodes; ++l) {
+      if (l == j) continue;
+      const double scale = 1 / (c[j] - c[l]);
+      ++degree;
+      for (std::size_t k = degree; k > 0; --k) terms[k] = scale * (terms[k - 1] - c[l] * terms[k]);
+      terms[0] *= -scale * c[l];
+    }
+    for (std::size_t k = 0; k < nodes; ++k) power[k][j] = terms[k];
+  }
+
+  /// Radau's weights integrate the products exactly for degrees up to 6. (P_6 - P_7) / 2, which is 1 at 0 and zero at
+  /// the points, then brings the polynomial to 0 at 0.
+  void set_tail(std::size_t j) {
+    const auto p = legendre(c[j]);
+    double missed = 0, sign = 1;
+    for (std::size_t n = 0; n < nodes; ++n, sign = -sign) {
+      const double term = static_cast<double>(2 * n + 1) * a[nodes - 1][j] * p[n];
+      missed -= sign * term;
+      if (n >= 4) tail[n - 4][j] = term;
+    }
+    tail[2][j] += 0.5 * missed;
+    tail[3][j] = -0.5 * missed;
+  }
+};
+
+const Method& method() {
+  static const Method radau;
+  return radau;
+}
+
+/// Whether n more passes, each of which leaves `rate` of a change, leave more than `limit` of this one.
+bool is_slow(double change, double rate, double limit, int n) {
+  for (int pass = 0; pass < n && change > limit; ++pass) change *= rate;
+  return change > limit;
+}
+
+}  // namespace
+
+/// The search for a step's stages.
+struct ImplicitStep::Newton {
+  using Vector = LuFactors<unknowns>::Row;
+
+  const double h;
+  const Vec3 &x, &v;
+  const Acceleration& acceleration;
+  const Jacobian& jacobian;
+  std::array<Vec3, stages>& z;
+  LuFactors<unknowns> factors;
+
+  Vec3 position(std::size_t i) const {
+    Vec3 sum = method().c[i] * v;
+    for (std::size_t j = 0; j < nodes; ++j) sum += method().a[i][j] * z[j];
+    return x + h * sum;
+  }
+
+  /// I - h A (x) J_v - h^2 A^2 (x) J_x, with one Jacobian.
+  bool factor(const ForceJacobian& j) {
+    const Method& m = method();
+    const Eigen::Matrix3d hj = h * j.by_velocity, hhj = h * h * j.by_position;
+    for (std::size_t row = 0; row < unknowns; ++row)
+      for (std::size_t column = 0; column < unknowns; ++column) {
+        const std::size_t i = row / axes, k = column / axes;
+        const auto p = static_cast<Eigen::Index>(row % axes), q = static_cast<Eigen::Index>(column % axes);
+        factors.at(row, column) = (row == column ? 1 : 0) - m.a[i][k] * hj(p, q) - m.a_squared[i][k] * hhj(p, q);
+      }
+    return factors.factor();
+  }
+
+  /// The same with the Jacobian of each stage.
+  bool factor_at_stages() {
+    const Method& m = method();
+    std::array<Eigen::Matrix3d, nodes> hj, hhj;
+    for (std::size_t l = 0; l < nodes; ++l) {
+      const ForceJacobian j = jacobian(position(l), v + z[l]);
+      hj[l] = h * j.by_velocity;
+      hhj[l] = h * h * j.by_position;
+    }
+    for (std::size_t i = 0; i < nodes; ++i)
+      for (std::size_t k = 0; k < nodes; ++k) {
+        Eigen::Matrix3d block = m.a[i][k] * hj[k];
+        for (std::size_t l = 0; l < nodes; ++l) block += (m.a[i][l] * m.a[l][k]) * hhj[l];
+        for (std::size_t p = 0; p < axes; ++p)
+          for (std::size_t q = 0; q < axes; ++q)
+            factors.at(i * axes + p, k * axes + q) =
+                (i == k && p == q ? 1 : 0) - block(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q));
+      }
+    return factors.factor();
+  }
+
+  /// Z for forces that are linear about the start, where the acceleration is a0 (m/s^2).
+  void predict(const Vec3& a0, const ForceJacobian& j) {
+    const Vec3 turn = 0.5 * h * h * (j.by_position * v);
+    Vector b;
+    for (std::size_t i = 0; i < nodes; ++i) {
+      const double c = method().c[i];
+      put(b, i, c * (h * a0 + c * turn));
+    }
+    factors.solve(b);
+    for (std::size_t i = 0; i < nodes; ++i) z[i] = Vec3(b[axes * i], b[axes * i + 1], b[axes * i + 2]);
+  }
+
+  /// A pass. Gives by how much a velocity has changed at most (m/s); infinity: by no number.
+  double correct() {
+    std::array<Vec3, nodes> a;
+    for (std::size_t j = 0; j < nodes; ++j) a[j] = acceleration(position(j), v + z[j]);
+    Vector b;
+    for (std::size_t i = 0; i < nodes; ++i) {
+      Vec3 sum = Vec3::Zero();
+      for (std::size_t j = 0; j < nodes; ++j) sum += method().a[i][j] * a[j];
+      put(b, i, h * sum - z[i]);
+    }
+    factors.solve(b);
+    double changed = 0;
+    for (std::size_t i = 0; i < nodes; ++i)
+      for (std::size_t p = 0; p < axes; ++p) {
+        const double change = b[axes * i + p];
+        if (!std::isfinite(change)) return infinity;
+        z[i][static_cast<Eigen::Index>(p)] += change;
+        changed = std::max(changed, std::abs(change));
+      }
+    return changed;
+  }
+
+  static void put(Vector& b, std::size_t i, const Vec3& value) {
+    std::copy(value.data(), value.data() + axes, b.begin() + static_cast<std::ptrdiff_t>(axes * i));
+  }
+
+  /// Whether velocities converge to within `limit` (m/s).
+  bool solve(double limit) {
+    const std::array<Vec3, stages> predicted = z;
+    double before = infinity;
+    bool at_stages = false;
+    for (int pass = 0; pass < most_passes; ++pass) {
+      const double changed = correct();
+      if (changed == infinity) return false;
+      const double rate = changed / before;  // 0 in a first pass
+      const bool first = before == infinity;
+      if (changed <= limit || (!first && rate < 0.5 && rate * changed <= limit)) return true;
+      if (at_stages && rate >= 0.5 && changed <= hopeless * limit) return true;  // as near as numbers come
+      before = changed;
+      if (!is_slow(changed, rate, limit, worth_factors)) continue;
+      if (!at_stages && !(rate < 0.5)) {
+        z = predicted;
+        before = infinity;
+      }
+      if (!factor_at_stages()) return false;
+      at_stages = true;
+    }
+    return false;
+  }
+};
+
+double ImplicitStep::step(double h, const Vec3& x, const Vec3& v, const Acceleration& acceleration,
+                          const Jacobian& jacobian, double position, double velocity) {
+  length_ = h;
+  v_ = v;
+  const Vec3 a = acceleration(x, v);
+  const ForceJacobian j = jacobian(x, v);
+  Newton newton{h, x, v, acceleration, jacobian, change_, {}};
+  if (!newton.factor(j)) return infinity;
+  newton.predict(a, j);
+  if (!newton.solve(enough * std::min(velocity, position / h))) return infinity;
+  const double wrong = std::max(error_by_terms(), error_by_start(a, j));
+  return wrong * std::max(1 / velocity, displacement_share * h / position);
+}
+
+/// m/s: by what the velocity is wrong, from its polynomial's last terms: they fade by a like factor each, of which
+/// terms of one parity tell too. A transient that is small beside the slow motion stays hidden to this.
+double ImplicitStep::error_by_terms() const {
+  std::array<double, 4> size;  // of the terms of degrees 4 to 7
+  for (std::size_t n = 0; n < size.size(); ++n) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t j = 0; j < nodes; ++j) sum += method().tail[n][j] * change_[j];
+    size[n] = sum.cwiseAbs().maxCoeff();
+  }
+  const double last = std::max(size[2], size[3]), before = std::max(size[0], size[1]);
+  if (!(last < before)) return last;
+  const double fading = std::sqrt(last / before);
+  return term_share * std::max(size[3], fading * size[2]) * fading;
+}
+
+/// m/s: by what the velocity is wrong, from what the polynomial's acceleration misses a (m/s^2) by at the start, the
+/// one place where it is not the forces'. The filter (Hairer & Wanner, IV.8, eq. 8.20) brings what is over at once to
+/// the size of its velocity. Beside a sign change of the error there this is too small.
+double ImplicitStep::error_by_start(const Vec3& a, const ForceJacobian& j) const {
+  const double s = filter * length_;
+  LuFactors<axes> factors;
+  for (std::size_t p = 0; p < axes; ++p)
+    for (std::size_t q = 0; q < axes; ++q) {
+      const auto row = static_cast<Eigen::Index>(p), column = static_cast<Eigen::Index>(q);
+      factors.at(p, q) = (p == q ? 1 : 0) - s * j.by_velocity(row, column) - s * s * j.by_position(row, column);
+    }
+  if (!factors.factor()) return infinity;
+  Vec3 slope = Vec3::Zero();  // m/s: of the polynomial there, by the step
+  for (std::size_t k = 0; k < nodes; ++k) slope += method().power[0][k] * change_[k];
+  const Vec3 miss = length_ * a - slope;
+  LuFactors<axes>::Row b{miss[0], miss[1], miss[2]};
+  factors.solve(b);
+  double greatest = 0;
+  for (const double missed : b) {
+    if (!std::isfinite(missed)) return infinity;
+    greatest = std::max(greatest, std::abs(missed));
+  }
+  return start_share * greatest;
+}
+
+double ImplicitStep::next_length(double h, double error) {
+  constexpr double safety = 0.9, shortest = 0.2, longest = 6;
+  if (!std::isfinite(error)) return shortest * h;
+  const double eighth_root = std::sqrt(std::sqrt(std::sqrt(error)));
+  return h * (eighth_root > 0 ? std::clamp(safety / eighth_root, shortest, longest) : longest);
+}
+
+PolynomialPath ImplicitStep::path() const {
+  PolynomialPath path;
+  path.length = length_;
+  path.displacement[0] = length_ * v_;
+  for (std::size_t k = 0; k < nodes; ++k) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t j = 0; j < nodes; ++j) sum += method().power[k][j] * change_[j];
+    path.displacement[k + 1] = length_ / static_cast<double>(k + 2) * sum;
+  }
+  return path;
+}
+
+}  // namespace carom

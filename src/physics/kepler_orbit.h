@@ -1,0 +1,64 @@
+#pragma once
+// Motion about a fixed centre under an inverse square law, x'' = -mu x / |x|^3 with x from the centre: an ellipse, a
+// parabola or a hyperbola, for any time at once. Of arithmetic, only + - * / and the square root reach the result.
+#include <cmath>
+
+#include "physics/compensated.h"
+#include "physics/vec3.h"
+
+namespace carom {
+
+class KeplerOrbit {
+ public:
+  KeplerOrbit() = default;  // to be assigned to
+  /// mu: m^3/s^2, not 0; negative: the centre repels. x: m, not 0. v: m/s. Squares of mu and of x cross v are doubles.
+  KeplerOrbit(double mu, const Vec3& x, const Vec3& v);
+
+  /// Place (m, from the centre) and velocity (m/s) at t (s, >= 0, since the start). A path through the centre itself
+  /// comes back the way it went; there, its velocity is given as 0.
+  void at(double t, Vec3& x, Vec3& v) const;
+
+  double pericentre() const { return near_.distance; }  // m
+  /// s: when it first passes the pericentre, from the start on; infinity: never.
+  double closest_time() const;
+  /// m/s: the greatest speed in [0, t].
+  double greatest_speed(double t) const;
+  /// s: when it reaches the centre, on a line or so close to one that the pericentre is 0; infinity: never.
+  double fall_in_time() const;
+  bool falls_in(double t) const { return fall_in_time() <= t; }
+  /// s: of an ellipse, else infinity.
+  double period() const { return period_.hi; }
+
+ private:
+  /// One of the ends of the long axis. At parameter s from there on, the time is distance s + bend G3(s), the distance
+  /// from the centre is distance + bend G2(s).
+  struct Apsis {
+    double side = 1;      // of the centre: 1 the near end, -1 the far one
+    double distance = 0;  // m, from the centre
+    double bend = 0;      // m^3/s^2: |mu| times the eccentricity, negative at the far end
+  };
+  /// s: time since the passage through an apsis, negative before it.
+  struct Phase {
+    const Apsis* apsis;
+    DoubleDouble time;
+  };
+
+  Phase phase(double t) const;
+  double parameter(const Apsis& from, DoubleDouble time) const;
+  double first_guess(const Apsis& from, double time) const;
+
+  double mu_ = 1;                              // m^3/s^2
+  double beta_ = 0;                            // m^2/s^2: -2 energy / mass
+  double root_ = 0;                            // m/s: square root of |beta|
+  double momentum_ = 0;                        // m^2/s: angular momentum / mass
+  Apsis near_, far_;                           // far: of an ellipse only
+  Vec3 ahead_ = Vec3::UnitX();                 // to the pericentre
+  Vec3 aside_ = Vec3::Zero();                  // along the velocity there; 0 for a path on a line
+  DoubleDouble period_ = {INFINITY, 0};        // s
+  double quarter_ = INFINITY;                  // s: from the pericentre to the end of the short axis
+  bool starts_far_ = false;                    // nearer to the far end in phase
+  DoubleDouble start_ = {0, 0};                // s: the time of the start, since that end
+  Vec3 x_ = Vec3::UnitX(), v_ = Vec3::Zero();  // m, m/s: at the start
+};
+
+}  // namespace carom

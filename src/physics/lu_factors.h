@@ -1,0 +1,58 @@
+#pragma once
+// P M = L U of a small dense matrix, by rows with partial pivoting (Golub & Van Loan, Matrix Computations, 4th ed.
+// 2013, 3.4). Sums have one order, unlike those of a library that fits its blocks to a machine's caches.
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace carom {
+
+template <std::size_t size>
+class LuFactors {
+ public:
+  using Row = std::array<double, size>;
+
+  /// An entry of the matrix; after factor() of its factors.
+  double& at(std::size_t row, std::size_t column) { return row_[row][column]; }
+
+  /// Whether there are factors: the matrix is finite and not singular.
+  bool factor() {
+    for (std::size_t k = 0; k < size; ++k) {
+      std::size_t pivot = k;
+      for (std::size_t i = k + 1; i < size; ++i)
+        if (std::abs(row_[i][k]) > std::abs(row_[pivot][k])) pivot = i;
+      from_[k] = pivot;
+      if (pivot != k) std::swap(row_[k], row_[pivot]);
+      inverse_[k] = 1 / row_[k][k];
+      if (!std::isfinite(inverse_[k])) return false;
+      for (std::size_t i = k + 1; i < size; ++i) eliminate(i, k);
+    }
+    return true;
+  }
+
+  /// Brings b to M^-1 b.
+  void solve(Row& b) const {
+    for (std::size_t k = 0; k < size; ++k) {
+      std::swap(b[k], b[from_[k]]);
+      for (std::size_t j = 0; j < k; ++j) b[k] -= row_[k][j] * b[j];
+    }
+    for (std::size_t k = size; k-- > 0;) {
+      for (std::size_t j = k + 1; j < size; ++j) b[k] -= row_[k][j] * b[j];
+      b[k] *= inverse_[k];
+    }
+  }
+
+ private:
+  void eliminate(std::size_t i, std::size_t k) {
+    if (row_[i][k] == 0) return;
+    const double factor = row_[i][k] *= inverse_[k];
+    for (std::size_t j = k + 1; j < size; ++j) row_[i][j] -= factor * row_[k][j];
+  }
+
+  std::array<Row, size> row_;
+  Row inverse_;                         // of U's diagonal
+  std::array<std::size_t, size> from_;  // the row that was swapped with each
+};
+
+}  // namespace carom

@@ -1,0 +1,108 @@
+// Runs whose own books tell that they are wrong say so, everywhere; those that cannot go on end with a remedy.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "commands/program.h"
+
+namespace carom::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string ball = "scene: 1\ngravity: [0, 0, 0]\nballs: {a: {mass: 1, radius: 0.01, position: [1, 0, 0]}}\n";
+const std::string spring = "forces: [{spring: {anchor: [0, 0, 0], stiffness: 1e4}}]\n";
+
+/// A scene that is doubtful: rk4 takes most of the energy of a spring whose period is five steps.
+std::string damped(const std::string& step) {
+  return ball + spring + "simulate: {duration: 2, engine: stepped, integrator: rk4, step: " + step + "}\n";
+}
+
+TEST(Doubtful, RunsSaySoInTheReportTheManifestJsonAndSummary) {
+  const Workplace here;
+  here.write("damped.yaml", damped("0.012"));
+  const Finished run = here.carom({"run", "damped.yaml"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("\n  doubtful    the method took "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("\n  doubtful    forces turned by 1.2 rad in a step"), std::string::npos) << run.out;
+  EXPECT_NE(here.read("output/damped/summary.csv").find(",stepped,doubtful,2,"), std::string::npos);
+  const Json manifest = Json::parse(here.read("output/damped/manifest.json"));
+  EXPECT_EQ(manifest.at("status"), "doubtful");
+  ASSERT_EQ(manifest.at("warnings").size(), 2u);
+  EXPECT_EQ(manifest.at("warnings")[0].at("code"), "energy");
+  EXPECT_EQ(manifest.at("warnings")[1].at("code"), "step");
+  const Json again = Json::parse(here.carom({"run", "damped.yaml", "--json"}).out).at("scenes").at(0);
+  EXPECT_EQ(again.at("status"), "up to date");
+  EXPECT_EQ(again.at("warnings"), manifest.at("warnings"));
+  const Json fresh = Json::parse(here.carom({"run", "damped.yaml", "--json", "--force"}).out).at("scenes").at(0);
+  EXPECT_EQ(fresh.at("summary").at("status"), "doubtful");
+  EXPECT_EQ(fresh.at("warnings"), manifest.at("warnings"));
+  const Finished quiet = here.carom({"run", "damped.yaml", "-q", "--force"});
+  EXPECT_EQ(quiet.out, "");
+  EXPECT_NE(quiet.err.find("carom: damped.yaml: doubtful: the method took "), std::string::npos) << quiet.err;
+}
+
+TEST(Doubtful, IsNoRunWithAGoodStep) {
+  const Workplace here;
+  here.write("fine.yaml", damped("0.0005"));
+  const Finished run = here.carom({"run", "fine.yaml"});
+  EXPECT_EQ(run.out.find("doubtful"), std::string::npos) << run.out;
+  EXPECT_NE(here.read("output/fine/summary.csv").find(",stepped,done,2,"), std::string::npos);
+}
+
+TEST(Doubtful, RunsOfASweepAreCountedAndMarked) {
+  const Workplace here;
+  here.write("damped.yaml", damped("0.012"));
+  here.write("steps.yaml", "sweep: 1\nbase: damped.yaml\ngrid: {simulate.step: [0.0005, 0.012]}\n");
+  const Finished run = here.carom({"sweep", "steps.yaml"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("\n  doubtful    1 run: "), std::string::npos) << run.out;
+  const std::string table = here.read("output/steps/summary.csv");
+  EXPECT_NE(table.find("r0001,damped,stepped,done"), std::string::npos) << table;
+  EXPECT_NE(table.find("r0002,damped,stepped,doubtful"), std::string::npos) << table;
+}
+
+TEST(Doubtful, StepsThatMakeEnergyWithoutEndEndTheRun) {
+  const Workplace here;
+  here.write("burst.yaml",
+             ball + spring + "simulate: {duration: 20, engine: stepped, integrator: verlet, step: 0.0201}\n");
+  const Finished run = here.carom({"run", "burst.yaml"});
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.err.find("at t = "), std::string::npos);
+  EXPECT_NE(run.err.find(" s `a` is "), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("simulate.step are too long for the forces: shorten"), std::string::npos) << run.err;
+  EXPECT_FALSE(here.has("output/burst/summary.csv"));
+}
+
+TEST(Doubtful, AToleranceThatIsNotMetIsSaid) {
+  const Workplace here;
+  std::string scene =
+      "scene: 1\ngravity: [0, 0, 0]\nroom: {min: [-1, -1, -1], max: [1, 1, 1], restitution: 1}\nballs:\n";
+  for (int k = 0; k < 12; ++k)
+    scene += "  b" + std::to_string(k) + ": {mass: 1, radius: 0.15, position: [" +
+             std::to_string(-0.75 + 0.5 * (k % 4)) + ", " + std::to_string(-0.5 + 0.5 * (k / 4)) + ", " +
+             std::to_string(0.01 * k) + "], velocity: [" + std::to_string(0.3 * (k % 3) - 0.2) + ", " +
+             std::to_string(0.25 * (k % 5) - 0.4) + ", 0.3]}\n";
+  here.write("crowd.yaml", scene + "simulate: {duration: 80, tolerance: 1e-6}\n");
+  const Finished run = here.carom({"run", "crowd.yaml"});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("doubtful    places are told to 1e-06 m until "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("chaotic, a disturbance grows e-fold in"), std::string::npos) << run.out;
+}
+
+TEST(Accuracy, IsToldByCheckByWhatItConsistsOf) {
+  const Workplace here;
+  here.write("damped.yaml", damped("0.0005"));
+  const Finished check = here.carom({"check", "damped.yaml", "--accuracy"});
+  EXPECT_EQ(check.code, 0) << check.err;
+  for (const char* label : {"accuracy", "rounding", "integrator", "contact", "chaos"})
+    EXPECT_NE(check.out.find(std::string("\n  ") + label), std::string::npos) << check.out;
+  const Json json = Json::parse(here.carom({"check", "damped.yaml", "--accuracy", "--json"}).out);
+  const Json& accuracy = json.at("scenes").at(0).at("accuracy");
+  EXPECT_GT(accuracy.at("rounding_m"), 0);
+  EXPECT_LT(accuracy.at("rounding_m"), 1e-11);
+  EXPECT_FALSE(accuracy.at("chaotic"));
+}
+
+}  // namespace
+}  // namespace carom::testing

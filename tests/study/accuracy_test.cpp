@@ -1,0 +1,137 @@
+// What a tolerance gives: steps that meet it, or a word about what is not met.
+#include "study/accuracy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/load.h"
+#include "simulate/long_kepler.h"
+
+namespace carom {
+namespace {
+
+constexpr auto no_look = [] {};
+
+Scene scene_of(Simulate simulate) {
+  Scene scene;
+  scene.simulate = simulate;
+  scene.world.gravity = Vec3::Zero();
+  return scene;
+}
+
+void add_ball(Scene& scene, const Vec3& x, const Vec3& v, double radius) {
+  scene.world.mass.push_back(1);
+  scene.world.radius.push_back(radius);
+  scene.world.restitution.push_back(1);
+  scene.initial.position.push_back(x);
+  scene.initial.velocity.push_back(v);
+}
+
+Simulate stepped(double duration, double tolerance, Integrator integrator = Integrator::dop853) {
+  Simulate simulate;
+  simulate.duration = duration;
+  simulate.engine = Engine::stepped;
+  simulate.integrator = integrator;
+  simulate.tolerance = tolerance;
+  return simulate;
+}
+
+Vec3 end_of(const Scene& scene, const EngineChoice& engine) {
+  const auto simulator = make_simulator(scene, false, engine.steps);
+  while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
+  return simulator->state().position[0];
+}
+
+/// Softened by so little that it is Kepler's to the last digit, but for a method's eyes: no closed form.
+void attract(Scene& scene, double mu, double softening) {
+  scene.world.forces.push_back({Attractor{Vec3::Zero(), mu, softening}});
+}
+
+TEST(Accuracy, OfOrbitsIsTheToleranceAskedFor) {
+  for (const double e : {0.0, 0.5, 0.9, 0.99, 0.999})
+    for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+      Scene scene = scene_of(stepped(20 * M_PI + 1, tolerance));
+      add_ball(scene, {1 + e, 0, 0}, {0, std::sqrt((1 - e) / (1 + e)), 0}, 1e-3);
+      attract(scene, 1, 1e-12 * (1 - e));
+      EngineChoice engine = choose_engine(scene);
+      settle_steps(scene, engine, no_look);
+      const LongKepler kepler(1, scene.initial.position[0], scene.initial.velocity[0]);
+      const double off = (end_of(scene, engine) - kepler.at(scene.simulate.duration)).norm();
+      EXPECT_EQ(engine.shortfall, "") << e << ", " << tolerance;
+      EXPECT_LT(off, tolerance) << e << ": " << engine.why;
+    }
+}
+
+TEST(Accuracy, OfFlybysIsTheToleranceAskedForByAnyIntegrator) {
+  for (const double b : {1e-1, 1e-3, 1e-5})
+    for (const Integrator integrator : {Integrator::dop853, Integrator::rk4}) {
+      Scene scene = scene_of(stepped(0.2, 1e-3, integrator));
+      add_ball(scene, {-1, b, 0}, {10, 0, 0}, 0.01);
+      attract(scene, 1e-4, 0);
+      EngineChoice engine = choose_engine(scene);
+      settle_steps(scene, engine, no_look);
+      const LongKepler kepler(1e-4, scene.initial.position[0], scene.initial.velocity[0]);
+      const double off = (end_of(scene, engine) - kepler.at(0.2)).norm();
+      if (engine.shortfall.empty()) EXPECT_LT(off, 1e-3) << b << ": " << engine.why;
+      if (integrator == Integrator::dop853 || b > 1e-4) EXPECT_EQ(engine.shortfall, "") << b;
+    }
+}
+
+TEST(Accuracy, OfAMethodsStepsIsTheToleranceToo) {
+  for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
+    Scene scene = scene_of(stepped(10, tolerance, Integrator::rk4));
+    add_ball(scene, {1, 0, 0}, {0, 0, 0}, 0.1);
+    scene.world.forces = {{Spring{Vec3::Zero(), 4, 0, 0}}};
+    EngineChoice engine = choose_engine(scene);
+    settle_steps(scene, engine, no_look);
+    EXPECT_EQ(engine.shortfall, "");
+    EXPECT_NEAR(end_of(scene, engine).x(), std::cos(20), tolerance);
+  }
+}
+
+Scene crowd(double duration, double tolerance) {
+  Scene scene = scene_of(stepped(duration, tolerance));
+  for (int k = 0; k < 12; ++k)  // balls among balls: errors grow tenfold at each collision
+    add_ball(scene, {-0.75 + 0.5 * (k % 4), -0.5 + 0.5 * (k / 4), 0.01 * k}, {std::cos(k), std::sin(3 * k), 0.3}, 0.15);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      const Vec3 normal = -side * Vec3::Unit(axis);
+      scene.world.planes.push_back({side * Vec3::Unit(axis), normal, 1.0});
+    }
+  scene.world.forces = {{Spring{Vec3::Zero(), 1, 0, 0}}};
+  return scene;
+}
+
+TEST(Accuracy, OfChaosEndsAndIsSaid) {
+  const Scene scene = crowd(60, 1e-6);
+  EngineChoice engine = choose_engine(scene);
+  settle_steps(scene, engine, no_look);
+  EXPECT_TRUE(engine.growth.chaotic);
+  EXPECT_GT(engine.growth.lyapunov_time, 0.1);
+  EXPECT_LT(engine.growth.lyapunov_time, 5);
+  EXPECT_GT(engine.right_until, 2);
+  EXPECT_LT(engine.right_until, 40);
+  EXPECT_NE(engine.shortfall.find("chaotic"), std::string::npos) << engine.shortfall;
+}
+
+TEST(Accuracy, DoesNotCallOrbitsChaotic) {
+  for (const double e : {0.0, 0.9, 0.999}) {
+    Scene scene = scene_of(stepped(200 * M_PI, 1e-6));
+    add_ball(scene, {1 + e, 0, 0}, {0, std::sqrt((1 - e) / (1 + e)), 0}, 1e-3);
+    attract(scene, 1, 1e-9 * (1 - e));
+    EXPECT_FALSE(growth_of(scene, scene.simulate, {}, no_look).chaotic) << e;
+  }
+}
+
+TEST(Accuracy, OfStiffForcesIsFoundToo) {
+  Scene scene = scene_of(stepped(1, 1e-6, Integrator::rk4));
+  add_ball(scene, {1, 0, 0}, {0, 0, 0}, 0.1);
+  scene.world.forces = {{Drag{0, 1e4, {0, 3, 0}}}};  // longer steps throw the ball to infinity
+  EngineChoice engine = choose_engine(scene);
+  settle_steps(scene, engine, no_look);
+  EXPECT_EQ(engine.shortfall, "");
+}
+
+}  // namespace
+}  // namespace carom
