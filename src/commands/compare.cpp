@@ -185,6 +185,7 @@ class CompareSession {
 
   const Options& options_;
   std::string folder_;
+  std::size_t doubtful_ = 0;  // runs
   Json document_ = Json::object();
 };
 

@@ -62,23 +62,46 @@ ClosedMotion::ClosedMotion(const ClosedForces& forces, const Vec3& x, const Vec3
     motion_ = Oscillation{Vec3::Zero(), v, at_rest, forces.fade, forces.stiffness};
 }
 
-void ClosedMotion::at(double t, Vec3& place, Vec3& v) const {
-  std::visit([&](const auto& motion) { motion.at(t, place, v); }, motion_);
+namespace {
+
+/// m/s^2 and m/s^3, about an attractor.
+void fall(double strength, ClosedMotion::Point& there) {
+  const double square = there.place.squaredNorm(), factor = -strength / (square * std::sqrt(square));
+  there.acceleration = factor * there.place;
+  there.jerk = factor * (there.velocity - 3 * there.place.dot(there.velocity) / square * there.place);
 }
 
-Vec3 ClosedMotion::acceleration(const Vec3& place, const Vec3& v) const {
-  if (const auto* swing = std::get_if<Oscillation>(&motion_))
-    return swing->a - swing->stiffness * place - swing->fade * v;
-  const double square = place.squaredNorm();
-  return -strength_ / (square * std::sqrt(square)) * place;
-}
+}  // namespace
 
-double ClosedMotion::longest_step(const Vec3& place, const Vec3& v) const {
-  if (const auto* swing = std::get_if<Oscillation>(&motion_)) {
-    const bool turns = 4 * swing->stiffness > swing->fade * swing->fade;
-    return turns ? 1 / std::sqrt(swing->stiffness) : std::numeric_limits<double>::infinity();
+ClosedMotion::Point ClosedMotion::at(DoubleDouble t) const {
+  Point there;
+  if (const auto* orbit = std::get_if<KeplerOrbit>(&motion_)) {
+    orbit->at(t, there.place, there.velocity);
+    fall(strength_, there);
+    return there;
   }
-  return step_within(place.norm(), v.norm(), acceleration(place, v).norm());
+  const Oscillation& swing = std::get<Oscillation>(motion_);
+  swing.at(t.hi, there.place, there.velocity);
+  swing.bend(t.hi, there.acceleration, there.jerk);
+  there.place += t.lo * there.velocity;
+  there.velocity += t.lo * there.acceleration;
+  there.acceleration += t.lo * there.jerk;
+  return there;
+}
+
+double ClosedMotion::rate(const Point& there) const {
+  if (const auto* swing = std::get_if<Oscillation>(&motion_)) return std::sqrt(swing->stiffness);
+  return there.velocity.norm() / there.place.norm();
+}
+
+double ClosedMotion::longest_step(const Point& there, double room) const {
+  if (const auto* swing = std::get_if<Oscillation>(&motion_)) {
+    const double turn = std::sqrt(swing->stiffness);
+    const bool turns = 2 * turn > swing->fade;
+    const double left = there.velocity.norm() + there.acceleration.norm() / turn;  // m/s, at least the fastest to come
+    return turns && left > room * turn ? 1 / turn : std::numeric_limits<double>::infinity();
+  }
+  return step_within(there.place.norm(), there.velocity.norm(), there.acceleration.norm());
 }
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 #include <optional>
 #include <variant>
 
+#include "physics/compensated.h"
 #include "physics/kepler_orbit.h"
 #include "physics/oscillation.h"
 #include "physics/world.h"
@@ -32,12 +33,17 @@ class ClosedMotion {
 
   /// m: places are told from here.
   const Vec3& origin() const { return origin_; }
-  /// Place (m, from the origin) and velocity (m/s) at t (s, since the start).
-  void at(double t, Vec3& place, Vec3& v) const;
-  /// m/s^2, there.
-  Vec3 acceleration(const Vec3& place, const Vec3& v) const;
-  /// s: from there on, a step in which the motion does not turn, and comes no nearer to a centre than half way.
-  double longest_step(const Vec3& place, const Vec3& v) const;
+  /// Place (m, from the origin), velocity (m/s), acceleration (m/s^2) and jerk (m/s^3).
+  struct Point {
+    Vec3 place, velocity, acceleration, jerk;
+  };
+  /// At t (s, since the start): in two doubles, for one is coarser after some time than a short step can bear.
+  Point at(DoubleDouble t) const;
+  /// 1/s: how fast it turns there.
+  double rate(const Point& there) const;
+  /// s: from there on, a step in which the motion does not turn, and comes no nearer to a centre than half way. Turns
+  /// of less than `room` (m) do not count.
+  double longest_step(const Point& there, double room) const;
 
  private:
   Vec3 origin_ = Vec3::Zero();

@@ -166,8 +166,8 @@ KeplerOrbit::KeplerOrbit(double mu, const Vec3& x, const Vec3& v) : mu_(mu), x_(
   start_ = start_time(mu, c, starts_far_ ? -1 : 1, start_from);
 }
 
-KeplerOrbit::Phase KeplerOrbit::phase(double t) const {
-  DoubleDouble since = start_ + DoubleDouble{t, 0};
+KeplerOrbit::Phase KeplerOrbit::phase(DoubleDouble t) const {
+  DoubleDouble since = start_ + t;
   if (!(period_.hi < INFINITY)) return {&near_, since};
   // Once, but for more turns than a double counts: then the phase is not known, only that the place is on the orbit.
   constexpr int most = 32;
@@ -220,8 +220,8 @@ double KeplerOrbit::parameter(const Apsis& from, DoubleDouble time) const {
   return s;
 }
 
-void KeplerOrbit::at(double t, Vec3& x, Vec3& v) const {
-  if (t == 0) {
+void KeplerOrbit::at(DoubleDouble t, Vec3& x, Vec3& v) const {
+  if (t.hi == 0) {
     x = x_;
     v = v_;
     return;

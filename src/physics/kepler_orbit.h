@@ -16,7 +16,8 @@ class KeplerOrbit {
 
   /// Place (m, from the centre) and velocity (m/s) at t (s, >= 0, since the start). A path through the centre itself
   /// comes back the way it went; there, its velocity is given as 0.
-  void at(double t, Vec3& x, Vec3& v) const;
+  void at(double t, Vec3& x, Vec3& v) const { at(DoubleDouble{t, 0}, x, v); }
+  void at(DoubleDouble t, Vec3& x, Vec3& v) const;
 
   double pericentre() const { return near_.distance; }  // m
   /// s: when it first passes the pericentre, from the start on; infinity: never.
@@ -43,7 +44,7 @@ class KeplerOrbit {
     DoubleDouble time;
   };
 
-  Phase phase(double t) const;
+  Phase phase(DoubleDouble t) const;
   double parameter(const Apsis& from, DoubleDouble time) const;
   double first_guess(const Apsis& from, double time) const;
 

@@ -102,4 +102,21 @@ void Oscillation::at(double t, Vec3& position, Vec3& velocity) const {
   velocity = r.kept * v + r.displaced * a;
 }
 
+void Oscillation::bend(double t, Vec3& acceleration, Vec3& jerk) const {
+  const Roots of = roots(fade, stiffness);
+  if (!of.real || of.large < 2 * of.small) {
+    const Response r = response(fade, stiffness, t);
+    const Vec3 velocity = r.kept * v + r.displaced * a;
+    acceleration = r.kept * a - (fade * r.kept + stiffness * r.displaced) * v;
+    jerk = -stiffness * velocity - fade * acceleration;
+    return;
+  }
+  // The velocity is the sum of two exponentials: what the springs leave behind the drag, and what the drag takes.
+  const double gap = of.large - of.small;
+  const Vec3 slow = exp_minus(of.small * t) / gap * (a - of.small * v);
+  const Vec3 fast = exp_minus(of.large * t) / gap * (of.large * v - a);
+  acceleration = -of.large * fast - of.small * slow;
+  jerk = of.large * of.large * fast + of.small * of.small * slow;
+}
+
 }  // namespace carom

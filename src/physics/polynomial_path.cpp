@@ -31,18 +31,24 @@ PolynomialPath PolynomialPath::through(double length, const Vec3& v, const Vec3&
 }
 
 PolynomialPath PolynomialPath::through(double length, const Point& start, const Point& middle, const Point& end) {
-  // That of degree 5 through both ends, and what it lacks in the middle: (s (1 - s))^3 times a parabola about there.
-  PolynomialPath path = through(length, start.velocity, start.acceleration, end.displacement - length * start.velocity,
-                                end.velocity - start.velocity, end.acceleration);
-  Terms& c = path.displacement;
-  const Vec3 place = middle.displacement - value(c, 0.5), slope_lacks = length * middle.velocity - slope(c, 0.5);
-  const Vec3 bend_lacks = length * length * middle.acceleration - bend(c, 0.5);
-  const Vec3 a = 64 * place, b = 64 * slope_lacks, d = 32 * bend_lacks + 12 * a;
-  // By powers of s: e0 + e1 s + e2 s^2 is that parabola, and (s (1 - s))^3 = s^3 - 3 s^4 + 3 s^5 - s^6.
-  const Vec3 e[3] = {a - 0.5 * b + 0.25 * d, b - d, d};
+  // The velocity's change: by the polynomial of degree 5 through both ends, and what it lacks in the middle, which is
+  // (s (1 - s))^3 times a line.
+  const Vec3 change = end.velocity - start.velocity;
+  const Terms of = through(length, start.acceleration, start.jerk, change - length * start.acceleration,
+                           end.acceleration - start.acceleration, end.jerk)
+                       .displacement;
+  const Vec3 place = 64 * ((middle.velocity - start.velocity) - value(of, 0.5));
+  const Vec3 line = 64 * (length * middle.acceleration - slope(of, 0.5));
+  const Vec3 level = place - 0.5 * line;  // of the line, at s = 0
   constexpr double cube[4] = {1, -3, 3, -1};
-  for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t p = 0; p < 3; ++p) c[2 + k + p] += cube[k] * e[p];
+  Terms velocity = of;
+  for (std::size_t k = 0; k < 4; ++k) {
+    velocity[2 + k] += cube[k] * level;
+    velocity[3 + k] += cube[k] * line;
+  }
+  PolynomialPath path = path_of(length, {length * start.velocity});
+  for (std::size_t k = 0; k + 1 < terms; ++k)
+    path.displacement[k + 1] = length / static_cast<double>(k + 2) * velocity[k];
   return path;
 }
 

@@ -30,11 +30,12 @@ struct PolynomialPath {
   static PolynomialPath through(double length, const Vec3& v, const Vec3& a, const Vec3& bend, const Vec3& change,
                                 const Vec3& end_a);
 
-  /// Where a path is, from its start (m), how fast (m/s), and how it bends (m/s^2).
+  /// A path's velocity (m/s), acceleration (m/s^2) and jerk (m/s^3) at one place.
   struct Point {
-    Vec3 displacement, velocity, acceleration;
+    Vec3 velocity, acceleration, jerk;
   };
-  /// Or Hermite's polynomial of degree 8, through a step's start, middle and end. start.displacement: 0.
+  /// Or the integral of Hermite's polynomial of degree 7 for the velocity: with all of that at a step's start and end,
+  /// and velocity and acceleration in the middle.
   static PolynomialPath through(double length, const Point& start, const Point& middle, const Point& end);
 
   static Vec3 value(const Terms& of, double s);

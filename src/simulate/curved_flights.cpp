@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/cube_root.h"
 #include "physics/dormand_prince.h"
 #include "physics/force.h"
 #include "physics/implicit_step.h"
@@ -29,6 +28,15 @@ constexpr GaussPoint gauss[] = {{0.04691007703066800, 0.11846344252809454},
                                 {0.5, 0.28444444444444444},
                                 {0.76923465505284155, 0.23931433524968324},
                                 {0.95308992296933200, 0.11846344252809454}};
+
+/// From one instant to another.
+DoubleDouble seconds(const Instant& from, const Instant& to) {
+  return DoubleDouble{to.hi, to.lo} - DoubleDouble{from.hi, from.lo};
+}
+
+PolynomialPath::Point point(const ClosedMotion::Point& of) {
+  return {of.velocity, of.acceleration, of.jerk};
+}
 
 }  // namespace
 
@@ -61,8 +69,8 @@ double CurvedFlights::longest_step(Entity i, const Vec3& x, const Vec3& v, const
   return reach > 0 ? std::min(reach, longest) : longest;
 }
 
-/// A polynomial through the motion at the step's start, middle and end. Where it is worst, it is held against the
-/// motion.
+/// A polynomial for the velocity at the step's start, middle and end: places, which differ by less in a short step than
+/// they are rounded to, would make it waver. Where it is worst, it is held against the motion.
 PolynomialPath CurvedFlights::closed_step(Entity i, const ClosedForces& forces, const Vec3& x, const Vec3& v) {
   if (closed_.empty()) closed_.resize(bodies_.body.size());
   Closed& closed = closed_[i];
@@ -73,39 +81,40 @@ PolynomialPath CurvedFlights::closed_step(Entity i, const ClosedForces& forces, 
     closed.start = now;
   }
   const ClosedMotion& motion = closed.motion;
-  const double since = now - closed.start;
-  Vec3 from, v0;  // m, from the motion's origin
-  motion.at(since, from, v0);
-  const Vec3 a0 = motion.acceleration(from, v0);
-  const auto point = [&](double t) {
-    PolynomialPath::Point there;
-    motion.at(t, there.displacement, there.velocity);
-    there.acceleration = motion.acceleration(there.displacement, there.velocity);
-    there.displacement -= from;
-    return there;
-  };
+  const DoubleDouble since = seconds(closed.start, now);
+  const ClosedMotion::Point start = motion.at(since);
   const double radius = bodies_.world.radius[i];
-  const double place = tol::closed_place * std::max(radius, x.cwiseAbs().maxCoeff());
-  const double speed = tol::closed_speed * std::max({v0.norm(), std::sqrt(a0.norm() * radius), 0x1p-900});
-  double h = std::min(longest_step(i, x, v0, a0), motion.longest_step(from, v0));
+  const double room =
+      tol::closed_place * std::max({radius, x.cwiseAbs().maxCoeff(), start.place.cwiseAbs().maxCoeff()});
+  // What is asked, and what impacts start from, is the motion itself: polynomials only find the times of impacts.
+  const double speed = std::max({tol::closed_speed * start.velocity.norm(), room * motion.rate(start), 0x1p-900});
+  double h = std::min(longest_step(i, x, start.velocity, start.acceleration), motion.longest_step(start, room));
   if (next_[i] > 0) h = std::min(h, next_[i]);
   for (;;) {
     check_clock(i, h);
     const Instant next = now + h;
-    const PolynomialPath::Point end = point(next - closed.start);
-    const PolynomialPath path = PolynomialPath::through(h, {Vec3::Zero(), v0, a0}, point(since + 0.5 * h), end);
-    constexpr double worst = 0.21132486540518713, slope = 8;  // of (s (s - 1/2) (s - 1))^3: there, slopes by that
-    const double off = (path.displacement_at(worst * h) - point(since + worst * h).displacement).norm();
-    const double error = std::max(off / place, slope * off / (h * speed));
-    const double ninth_root = cube_root(cube_root(error));
-    next_.write(i) = h * std::clamp(0.9 / std::max(ninth_root, 0x1p-10), 0.2, 4.0);
+    const ClosedMotion::Point end = motion.at(seconds(closed.start, next));
+    const PolynomialPath path =
+        PolynomialPath::through(h, point(start), point(motion.at(since + DoubleDouble{0.5 * h, 0})), point(end));
+    // The velocity is farthest off at a quarter; the displacement, in the end, by 0.4816 of that for the whole step.
+    const Vec3 quarter = motion.at(since + DoubleDouble{0.25 * h, 0}).velocity;
+    const double off = (start.velocity + path.change_at(0.25 * h) - quarter).norm();
+    const double error = std::max(off / speed, 0.4816 * h * off / room);
+    const double eighth_root = std::sqrt(std::sqrt(std::sqrt(error)));
+    next_.write(i) = h * std::clamp(0.9 / std::max(eighth_root, 0x1p-10), 0.2, 4.0);
     if (error <= 1) {
       closed.next = next;
-      closed.end = {motion.origin() + (from + end.displacement), end.velocity};
+      closed.end = {motion.origin() + end.place, end.velocity};
       return path;
     }
     h = next_[i];
   }
+}
+
+CurvedFlights::Reached CurvedFlights::closed_place(Entity i, const Instant& at) const {
+  const Closed& closed = closed_[i];
+  const ClosedMotion::Point there = closed.motion.at(seconds(closed.start, at));
+  return {closed.motion.origin() + there.place, there.velocity};
 }
 
 /// Whether the next step, of `length` (s) by the method before, is to be implicit: it is no shorter for it, or dop853

@@ -36,6 +36,15 @@ class CurvedFlights {
   const Reached* reached(Entity i) const {
     return closed_.empty() || closed_[i].next != bodies_.now ? nullptr : &closed_[i].end;
   }
+  /// Whether body i's present flight is a step of a motion in closed form, which may have ended.
+  bool follows_closed_form(Entity i) const {
+    if (closed_.empty()) [[likely]]
+      return false;
+    const PolynomialPath* const curve = bodies_.flights.curve(i);
+    return curve != nullptr && bodies_.flights[i].start + curve->length == closed_[i].next;
+  }
+  /// Where such a motion has led by then.
+  Reached closed_place(Entity i, const Instant& at) const;
 
  private:
   /// A body's motion in closed form.

@@ -213,7 +213,7 @@ const State& ExactSimulator::state() {
   state_.position.resize(world.body_count());
   state_.velocity.resize(world.body_count());
   for (Entity i = 0; i < world.body_count(); ++i) {
-    state_.position[i] = bodies_.flights[i].position(at - bodies_.flights[i].start);
+    state_.position[i] = flights_.position_of_method(i, at);
     state_.velocity[i] = flights_.velocity_of_method(i, at);
   }
   if (bodies_.merged.any()) {

@@ -62,7 +62,16 @@ void FlightChanges::curve(Entity i, Flight from, bool free) {
   bodies_.flights.set(i, from, path);
 }
 
+Vec3 FlightChanges::position_of_method(Entity i, const Instant& at) const {
+  if (curved_.follows_closed_form(i)) [[unlikely]]
+    return curved_.closed_place(i, at).x;
+  const Flight f = bodies_.flights[i];
+  return f.position(at - f.start);
+}
+
 Vec3 FlightChanges::velocity_of_method(Entity i, const Instant& at) const {
+  if (curved_.follows_closed_form(i)) [[unlikely]]
+    return curved_.closed_place(i, at).v;
   const Vec3 v = bodies_.velocity_without_kick(i, at);
   const Flight f = bodies_.flights[i];
   if (f.curve == nullptr || bodies_.in_lasting_contact(i)) return v;
@@ -78,12 +87,18 @@ void FlightChanges::end_verlets(Entity i) {
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.force_at(i, x, v)});
 }
 
+void FlightChanges::end_closed(Entity i) {
+  const auto [x, v] = curved_.closed_place(i, bodies_.now);
+  book(i, x, bodies_.now);
+  bodies_.flights.set(i, {bodies_.now, x, v, bodies_.force_at(i, x, v)});
+}
+
 void FlightChanges::take_step(Entity i) {
-  end_step(i);
   if (const CurvedFlights::Reached* end = curved_.reached(i)) {
     const auto [x, v] = *end;
     return go_on(i, x, v, {});
   }
+  end_step(i);
   go_on(i, bodies_.position(i), bodies_.velocity(i), {});
 }
 

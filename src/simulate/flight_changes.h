@@ -16,10 +16,15 @@ class FlightChanges {
   void begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
   /// The same within such a step.
   void go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
+  /// m: where body i is at an instant of its flight.
+  Vec3 position_of_method(Entity i, const Instant& at) const;
   /// m/s: body i's at an instant of its flight, by the method that is asked for, without what forces do later.
   Vec3 velocity_of_method(Entity i, const Instant& at) const;
-  /// Verlet's method changes body i's velocity where its step ends, now, at an impact or by itself.
+  /// An impact ends body i's step, now: a motion in closed form has its own place and velocity. Verlet's method changes
+  /// the velocity where its step ends, at an impact or by itself.
   void end_step(Entity i) {
+    if (curved_.follows_closed_form(i)) [[unlikely]]
+      return end_closed(i);
     if (bodies_.options.integrator == Integrator::verlet) [[unlikely]]
       end_verlets(i);
   }
@@ -56,6 +61,7 @@ class FlightChanges {
 
  private:
   void end_verlets(Entity i);
+  void end_closed(Entity i);
   void change(Entity i, const Vec3& dv);
   void curve(Entity i, Flight from, bool free);
   void end_change(Entity i, const FlightOrigin& origin);

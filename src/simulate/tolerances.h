@@ -25,7 +25,7 @@ inline constexpr double told_fade = 0x1p-4;  // of a fade's time: so long its fi
 inline constexpr double faded = 64;          // times of a fade: then nothing is left of it
 inline constexpr double closed_place =
     0x1p-48;  // of a radius or a coordinate: what polynomials leave a closed form by,
-inline constexpr double closed_speed = 0x1p-44;         // and of speeds
+inline constexpr double closed_speed = 0x1p-20;         // and of speeds: there polynomials only find impacts
 inline constexpr std::uint8_t many_explicit_steps = 8;  // held up by what brakes: the implicit method is tried,
 inline constexpr std::uint8_t implicit_method = 255;    // which stands in place of their number
 inline constexpr double negligible_speed = 0x1p-200;    // of the greatest speed so far: products with itself underflow

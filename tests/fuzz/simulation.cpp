@@ -30,7 +30,7 @@ class Run {
     exact_ = engine.name == "exact" && varying_force(world_) == nullptr;
     book_ = engine.name == "book";
     try {
-      simulator_ = make_simulator(scene_, true, engine.step);
+      simulator_ = make_simulator(scene_, true, engine.steps);
       const long double before = energy();
       if (!go_to(0) || !see()) return;
       for (int k = 1; k <= looks; ++k) {

@@ -36,7 +36,7 @@ double worst(const Problem& given, double mu, double duration, bool mirror) {
     if (mirror) there.y() = std::abs(there.y());
     most = std::max(most, (simulator->state().position[0] - center - there).norm());
   }
-  if (mirror) EXPECT_GT(simulator->tally().collisions(), 0u);
+  EXPECT_TRUE(!mirror || simulator->tally().collisions() > 0);
   return most;
 }
 
@@ -46,11 +46,9 @@ TEST(ClosedFlights, OfAHundredRevolutionsAreKeplers) {
     const double duration = 100 * 2 * M_PI;
     // What an error of the last digit does to the period, at the greatest speed.
     const double bound = 4e-16 * 3 * duration * std::sqrt((1 + e) / (1 - e));
-    for (const Vec3& center : {Vec3(0, 0, 0), Vec3(3, -2, 1)}) {
-      const double rounding = center.isZero(0) ? 1 : 10;  // of places that are not the centre's own
-      EXPECT_LT(worst(orbit(1, center, x, v, 1e-5), 1, duration, false), rounding * bound) << e;
-      if (e > 0) EXPECT_LT(worst(orbit(1, center, x, v, 1e-5), 1, duration, true), 10 * rounding * bound) << e;
-    }
+    EXPECT_LT(worst(orbit(1, {0, 0, 0}, x, v, 1e-5), 1, duration, false), bound) << e;
+    EXPECT_LT(worst(orbit(1, {0, 0, 0}, x, v, 1e-5), 1, duration, true), 10 * bound) << e;
+    EXPECT_LT(worst(orbit(1, {3, -2, 1}, x, v, 1e-5), 1, duration, false), 10 * bound) << e;  // rounded off the centre
   }
 }
 
@@ -87,6 +85,7 @@ TEST(ClosedFlights, OntoAPlanetBounceThere) {
 Problem swing(double stiffness, double drag, double radius) {
   Problem problem;
   problem.ball({1, 0.3, 0}, {0, 0, 0.5}, 2, radius);
+  problem.world.gravity = Vec3(0, -9.80665, 0);
   problem.world.forces = {{Spring{{0, 9.80665 * 2 / stiffness, 0}, stiffness, 0, 0}}};
   if (drag > 0) problem.world.forces.push_back({Drag{drag, 0, Vec3::Zero()}});
   return problem;
@@ -116,7 +115,7 @@ TEST(ClosedFlights, OfStiffSpringsInAnyMediumTakeFewSteps) {
       problem.options.duration = 1;
       const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
       go_to(*simulator, 1);
-      EXPECT_LT(simulator->effort().events, 1000u) << stiffness << ", " << drag;
+      EXPECT_LT(simulator->effort().events, 2000u) << stiffness << ", " << drag;
       // x'' + 2 d x' + w^2 x = 0.
       using Complex = std::complex<long double>;
       const long double d = drag / 4.0L, w2 = stiffness / 2.0L;

@@ -73,8 +73,8 @@ TEST(Accuracy, OfFlybysIsTheToleranceAskedForByAnyIntegrator) {
       settle_steps(scene, engine, no_look);
       const LongKepler kepler(1e-4, scene.initial.position[0], scene.initial.velocity[0]);
       const double off = (end_of(scene, engine) - kepler.at(0.2)).norm();
-      if (engine.shortfall.empty()) EXPECT_LT(off, 1e-3) << b << ": " << engine.why;
-      if (integrator == Integrator::dop853 || b > 1e-4) EXPECT_EQ(engine.shortfall, "") << b;
+      EXPECT_TRUE(off < 1e-3 || !engine.shortfall.empty()) << b << ": " << off << ", " << engine.why;
+      EXPECT_TRUE(engine.shortfall.empty() || (integrator == Integrator::rk4 && b < 1e-4)) << b;
     }
 }
 
