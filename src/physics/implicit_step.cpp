@@ -68,9 +68,9 @@ NodeRow radau_points() {
 }
 
 /// Points and weights on [0, 1] that integrate polynomials of degree 7.
-struct Gauss {
+struct GaussRule {
   std::array<double, 4> at, weight;
-  Gauss() {
+  GaussRule() {
     const double root = 2 * std::sqrt(1.2), near = std::sqrt((3 - root) / 7), far = std::sqrt((3 + root) / 7);
     const double part = std::sqrt(30.0) / 72;
     at = {0.5 * (1 - far), 0.5 * (1 - near), 0.5 * (1 + near), 0.5 * (1 + far)};
@@ -78,14 +78,14 @@ struct Gauss {
   }
 };
 
-struct Method {
+struct SevenStages {
   NodeRow c = radau_points();
   NodeMatrix a;  // of the collocation: integrals of Lagrange's polynomials up to each point
   NodeMatrix a_squared;
   std::array<NodeRow, 4> tail;  // of Legendre's polynomials of degrees 4 to 7 in the polynomial that `power` has
   NodeMatrix power;  // of s^(row + 1) in the polynomial that is 0 at 0 and, at the points, 1 only at the column's
 
-  Method() {
+  SevenStages() {
     for (std::size_t i = 0; i < nodes; ++i) a[i] = integrals(c[i]);
     for (std::size_t i = 0; i < nodes; ++i)
       for (std::size_t j = 0; j < nodes; ++j) {
@@ -100,7 +100,7 @@ struct Method {
 
   /// Of Lagrange's polynomials through the points, from 0 to s.
   NodeRow integrals(double s) const {
-    const Gauss gauss;
+    const GaussRule gauss;
     NodeRow sum{};
     for (std::size_t g = 0; g < gauss.at.size(); ++g)
       for (std::size_t j = 0; j < nodes; ++j) {
@@ -141,8 +141,8 @@ struct Method {
   }
 };
 
-const Method& method() {
-  static const Method radau;
+const SevenStages& method() {
+  static const SevenStages radau;
   return radau;
 }
 
@@ -173,7 +173,7 @@ struct ImplicitStep::Newton {
 
   /// I - h A (x) J_v - h^2 A^2 (x) J_x, with one Jacobian.
   bool factor(const ForceJacobian& j) {
-    const Method& m = method();
+    const SevenStages& m = method();
     const Eigen::Matrix3d hj = h * j.by_velocity, hhj = h * h * j.by_position;
     for (std::size_t row = 0; row < unknowns; ++row)
       for (std::size_t column = 0; column < unknowns; ++column) {
@@ -186,7 +186,7 @@ struct ImplicitStep::Newton {
 
   /// The same with the Jacobian of each stage.
   bool factor_at_stages() {
-    const Method& m = method();
+    const SevenStages& m = method();
     std::array<Eigen::Matrix3d, nodes> hj, hhj;
     for (std::size_t l = 0; l < nodes; ++l) {
       const ForceJacobian j = jacobian(position(l), v + z[l]);

@@ -13,13 +13,13 @@ namespace carom {
 namespace {
 
 /// The roots: real ones large >= small > 0, or complex ones fade / 2 +- i half_gap.
-struct Roots {
+struct CharacteristicRoots {
   bool real;
   double large, small;    // 1/s, if real
   DoubleDouble half_gap;  // 1/s: of their difference
 };
 
-Roots roots(double fade, double stiffness) {
+CharacteristicRoots roots(double fade, double stiffness) {
   const double mean = 0.5 * fade;
   const DoubleDouble square = two_product(mean, mean) - DoubleDouble{stiffness, 0};
   if (square.hi < 0) return {false, 0, 0, square_root(-square)};
@@ -37,7 +37,7 @@ Response sines(double fade, double t, DoubleDouble w) {
 }
 
 /// S and S', real roots.
-Response exponentials(const Roots& of, double t) {
+Response exponentials(const CharacteristicRoots& of, double t) {
   const double gap = 2 * of.half_gap.hi, z = gap * t;
   const double displaced = exp_minus(of.small * t) * (z > 0 ? exp_loss(z) / gap : t);
   return {displaced, exp_minus(of.large * t) - of.small * displaced, 0};
@@ -82,7 +82,7 @@ double mean_decay(double z) {
 }  // namespace
 
 Response response(double fade, double stiffness, double t) {
-  const Roots of = roots(fade, stiffness);
+  const CharacteristicRoots of = roots(fade, stiffness);
   Response r = of.real ? exponentials(of, t) : sines(fade, t, of.half_gap);
   const double angle = std::sqrt(stiffness) * t, gap = of.real ? 2 * of.half_gap.hi : 0;
   constexpr double many = 1.5, far = 2, close = 0.75;  // so that each form keeps all but two bits of the result
@@ -103,7 +103,7 @@ void Oscillation::at(double t, Vec3& position, Vec3& velocity) const {
 }
 
 void Oscillation::bend(double t, Vec3& acceleration, Vec3& jerk) const {
-  const Roots of = roots(fade, stiffness);
+  const CharacteristicRoots of = roots(fade, stiffness);
   if (!of.real || of.large < 2 * of.small) {
     const Response r = response(fade, stiffness, t);
     const Vec3 velocity = r.kept * v + r.displaced * a;

@@ -39,7 +39,7 @@ class Runs {
       : scene_(scene), look_(look), instants_(instants_of(scene)) {}
 
   /// `tally`: gets the run's sums, unless null.
-  Track track(const Simulate& way, const Steps& steps, double disturbance = 0, Tally* tally = nullptr) const {
+  Track track(const Simulate& way, const StepChoice& steps, double disturbance = 0, Tally* tally = nullptr) const {
     if (disturbance == 0) return carry(scene_.world, scene_.initial, way, steps, tally);
     const Perturbed other = perturbed(scene_.world, scene_.initial, disturbance);
     return carry(other.world, other.initial, way, steps, tally);
@@ -58,7 +58,8 @@ class Runs {
   }
 
  private:
-  Track carry(const World& world, const State& initial, const Simulate& way, const Steps& steps, Tally* tally) const {
+  Track carry(const World& world, const State& initial, const Simulate& way, const StepChoice& steps,
+              Tally* tally) const {
     const auto simulator = make_simulator(world, initial, with_steps(way, steps), false, false, steps.error);
     Track track;
     for (const double time : instants_) {
@@ -83,8 +84,8 @@ std::size_t within(const std::vector<double>& differences, double tolerance) {
   return static_cast<std::size_t>(beyond - differences.begin());
 }
 
-/// Steps whose errors are plainly smaller.
-Steps finer_steps(const Scene& scene, const Simulate& way, Steps steps) {
+/// StepChoice whose errors are plainly smaller.
+StepChoice finer_steps(const Scene& scene, const Simulate& way, StepChoice steps) {
   if (way.engine == Engine::stepped && way.integrator == Integrator::dop853) {
     steps.error = std::max((steps.error > 0 ? steps.error : exact_tolerance::step_error) / finer, finest_error);
   } else {
@@ -114,6 +115,7 @@ class Settling {
   /// Two runs of a kind differ so much: until when is the tolerance met?
   void note(const std::vector<double>& differences) {
     const std::size_t good = within(differences, tolerance_);
+    accuracy_.right_until = std::numeric_limits<double>::infinity();
     accuracy_.difference = good > 0 ? differences[good - 1] : 0;
     accuracy_.beyond = differences.back();
     if (good < differences.size()) accuracy_.right_until = good > 0 ? runs_.instants()[good - 1] : 0;
@@ -125,7 +127,7 @@ class Settling {
   Track settle_adaptive(double tolerance) {
     double least = std::numeric_limits<double>::infinity();  // m
     for (const double radius : scene_.world.radius) least = std::min(least, radius);
-    Steps steps{way_.step, std::clamp(first_share * tolerance / least, finest_error, coarsest_error)};
+    StepChoice steps{way_.step, std::clamp(first_share * tolerance / least, finest_error, coarsest_error)};
     for (;;) {
       const Track coarse = runs_.track(way_, steps);
       const bool finest = steps.error <= finest_error * finer;
@@ -187,10 +189,10 @@ class Settling {
   Accuracy accuracy_;
 };
 
-/// In [-1, 1], of the k-th number: irrational steps around a circle.
+/// In [-1, -1/2] or [1/2, 1], of the k-th number: irrational steps around a circle.
 double irregular(double k) {
-  const double x = k * golden;
-  return 2 * (x - std::floor(x)) - 1;
+  const double x = k * golden, fraction = x - std::floor(x);
+  return fraction < 0.5 ? fraction - 1 : fraction;
 }
 
 }  // namespace
@@ -234,7 +236,7 @@ Assessment assess(const Scene& scene, const EngineChoice& engine, const std::fun
   return assessment;
 }
 
-Growth growth_of(const Scene& scene, const Simulate& way, const Steps& steps, const std::function<void()>& look) {
+Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& steps, const std::function<void()>& look) {
   Growth growth;
   if (way.duration == 0 || scene.world.body_count() == 0) return growth;
   const Runs runs(scene, look);

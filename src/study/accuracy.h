@@ -12,7 +12,7 @@ namespace carom {
 
 /// What a run is to be carried with so that places are right to a tolerance.
 struct Accuracy {
-  Steps steps;            // of engine stepped
+  StepChoice steps;       // of engine stepped
   double difference = 0;  // m: the greatest of its places from those of a finer run, as long as these are known
   // s: from when on places are not known to the tolerance, by whatever steps; infinity: they are to the end.
   double right_until = std::numeric_limits<double>::infinity();
@@ -28,7 +28,7 @@ Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double toleran
 
 /// Carries a disturbance of 1e-12 along (Benettin, Galgani, Giorgilli & Strelcyn, Meccanica 15 (1980) 9). The motion
 /// is chaotic where it grows faster than the third power of time all along, until it is as large as bodies are.
-Growth growth_of(const Scene& scene, const Simulate& way, const Steps& steps, const std::function<void()>& look);
+Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& steps, const std::function<void()>& look);
 
 /// The expected error of a run, by what it consists of.
 struct Assessment {

@@ -130,7 +130,7 @@ EngineChoice choose_engine(const Scene& scene) {
   return choice;
 }
 
-Simulate with_steps(Simulate simulate, const Steps& steps) {
+Simulate with_steps(Simulate simulate, const StepChoice& steps) {
   if (steps.length) simulate.step = steps.length;
   return simulate;
 }
@@ -185,7 +185,7 @@ std::unique_ptr<Simulator> make_simulator(const World& world, const State& initi
   return make_book(world, initial, simulate, record_collisions);
 }
 
-std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions, const Steps& steps,
+std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions, const StepChoice& steps,
                                           bool record_paths) {
   Simulate simulate = with_steps(scene.simulate, steps);
   if (simulate.engine == Engine::automatic)

@@ -12,7 +12,7 @@
 namespace carom {
 
 /// Of engine stepped.
-struct Steps {
+struct StepChoice {
   std::optional<double> length{};  // s: of dop853 the longest; none: by the forces, or as the run goes
   double error = 0;                // of dop853, of a radius and of speeds in each; 0: the default
 };
@@ -25,9 +25,9 @@ struct Growth {
 };
 
 struct EngineChoice {
-  std::string name;  // "exact", "stepped", "book"; as in summary.csv
-  std::string why;   // one line: why this one, and with which steps
-  Steps steps{};     // but where the scene has a tolerance: then settle_steps finds them
+  std::string name;    // "exact", "stepped", "book"; as in summary.csv
+  std::string why;     // one line: why this one, and with which steps
+  StepChoice steps{};  // but where the scene has a tolerance: then settle_steps finds them
   // Of a scene with a tolerance:
   std::string shortfall{};                                       // how it is not met; empty: it is
   double right_until = std::numeric_limits<double>::infinity();  // s, until when it is; infinity: to the end
@@ -44,7 +44,7 @@ Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator = I
                      std::optional<double> step = {});
 
 /// The same settings with these steps.
-Simulate with_steps(Simulate simulate, const Steps& steps);
+Simulate with_steps(Simulate simulate, const StepChoice& steps);
 
 /// Where the scene asks for a tolerance: finds the steps that meet it, by running it again and again (accuracy.h), or
 /// by how much it is not met. `look` is called now and then, and may throw. Throws SimulationError.
@@ -56,11 +56,11 @@ void check_flights(const Scene& scene);
 
 /// The scene's simulator at time 0. `scene` must outlive it. `steps`: as settled; else the scene's own, or the default.
 /// `record_paths`: where paths are parabolas (scene/unsupported.h); else paths() stays empty. Throws SimulationError.
-std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions, const Steps& steps = {},
+std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions, const StepChoice& steps = {},
                                           bool record_paths = false);
 
 /// The simulator that `simulate` names (its engine: not automatic), from any state of any world on; both must outlive
-/// it. Without a step of its own: the default. step_error: Steps::error. Throws SimulationError.
+/// it. Without a step of its own: the default. step_error: StepChoice::error. Throws SimulationError.
 std::unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
                                           bool record_collisions, bool record_paths = false, double step_error = 0);
 

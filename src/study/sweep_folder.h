@@ -45,8 +45,8 @@ class SweepFolder {
     part    // other parts of the same sweep may
   };
   /// Makes the folder if need be, locks it and, unless they stand there, writes sweep.yaml and base.yaml; the runs of
-  /// another sweep go. Waits a while for processes that write these at the same time; `look` is called meanwhile and may
-  /// throw. Throws ExportError, as all of this class does.
+  /// another sweep go. Waits a while for processes that write these at the same time; `look` is called meanwhile and
+  /// may throw. Throws ExportError, as all of this class does.
   SweepFolder(const std::string& path, Use use, const Sweep& sweep, const std::string& base_text,
               const std::function<void()>& look);
 

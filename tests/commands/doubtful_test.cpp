@@ -58,8 +58,8 @@ TEST(Doubtful, RunsOfASweepAreCountedAndMarked) {
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.out.find("\n  doubtful    1 run: "), std::string::npos) << run.out;
   const std::string table = here.read("output/steps/summary.csv");
-  EXPECT_NE(table.find("r0001,damped,stepped,done"), std::string::npos) << table;
-  EXPECT_NE(table.find("r0002,damped,stepped,doubtful"), std::string::npos) << table;
+  EXPECT_NE(table.find("r0001,,stepped,done"), std::string::npos) << table;
+  EXPECT_NE(table.find("r0002,,stepped,doubtful"), std::string::npos) << table;
 }
 
 TEST(Doubtful, StepsThatMakeEnergyWithoutEndEndTheRun) {
@@ -87,7 +87,7 @@ TEST(Doubtful, AToleranceThatIsNotMetIsSaid) {
   const Finished run = here.carom({"run", "crowd.yaml"});
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_NE(run.out.find("doubtful    places are told to 1e-06 m until "), std::string::npos) << run.out;
-  EXPECT_NE(run.out.find("chaotic, a disturbance grows e-fold in"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find(": chaotic, a"), std::string::npos) << run.out;
 }
 
 TEST(Accuracy, IsToldByCheckByWhatItConsistsOf) {

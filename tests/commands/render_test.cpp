@@ -257,7 +257,8 @@ TEST(Flights, AreReadByAnotherProgramToTheLastBit) {
       if (cells[0] != time) {
         time = cells[0];
         std::istringstream out(
-            here.shell("/usr/bin/python3 " SOURCE_DIR "/tests/export/read_flights.py " + scene + "/flights.bin " + time).out);
+            here.shell("/usr/bin/python3 " SOURCE_DIR "/tests/export/read_flights.py " + scene + "/flights.bin " + time)
+                .out);
         said.clear();
         for (std::string word; out >> word;) said.push_back(std::stod(word));
       }

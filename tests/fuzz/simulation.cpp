@@ -135,7 +135,7 @@ class Run {
     const double relative =
         relative_rounding * (1 + std::sqrt(static_cast<double>(counted_))) + (tally.collapses > 0 ? in_islands : 0);
     const double size = size_ + std::abs(tally.energy_lost) + std::abs(tally.work);
-    if (!(std::abs(gain + tally.energy_lost - tally.work) <= relative * size))
+    if (!(std::abs(gain + tally.energy_lost + tally.method_error - tally.work) <= relative * size))
       fail(fmt::format("energy books: gains {} J, lost {} J, work {} J, of {} J", gain, tally.energy_lost, tally.work,
                        size));
   }

@@ -147,7 +147,7 @@ TEST(Engines, HaveTheForcesThatTheyCanFollow) {
   EXPECT_TRUE(
       load_text(one + "forces: [{drag: {linear: 1}}]\nsimulate: {duration: 1, contact: merge}\n").simulate.merge);
   EXPECT_EQ(errors_of(one + "forces: [{drag: {quadratic: 1}}]\nsimulate: {duration: 1, contact: merge}\n"),
-            "scene.yaml:4:34: error: `contact: merge` is for paths in closed form, not for `drag`\n"
+            "scene.yaml:4:34: error: `contact: merge` is for parabolas and linear drag, not for `drag`\n"
             "   4 | simulate: {duration: 1, contact: merge}\n"
             "     |                                  ^~~~~\n"
             "     = expected `contact: bounce`\n");

@@ -123,11 +123,12 @@ TEST(Steps, MoreThanTheBudgetAreRefusedUnlessForced) {
 }
 
 TEST(Steps, ThoseThatAForceAsksForAreCountedToo) {
-  const std::string text = ball("mass: 1, radius: 0.5, position: [0, 0, 0]",
-                                "forces: [{spring: {anchor: [0, 9, 0], stiffness: 1e16}}]\nsimulate: {duration: 9}\n");
+  const std::string text =
+      ball("mass: 1, radius: 0.5, position: [0, 0, 0]",
+           "forces: [{spring: {anchor: [0, 9, 0], stiffness: 1e16, rest_length: 1}}]\nsimulate: {duration: 9}\n");
   EXPECT_EQ(errors_of(text),
             "scene.yaml:4:1: error: the run would take 1.8e+11 steps of time; the limit is 100000000\n"
-            "   4 | forces: [{spring: {anchor: [0, 9, 0], stiffness: 1e16}}]\n"
+            "   4 | forces: [{spring: {anchor: [0, 9, 0], stiffness: 1e16, rest_length: 1}}]\n"
             "     | ^~~~~~\n"
             "     = steps follow the fastest change of a force: expected forces that change more slowly, a `step` or a "
             "shorter duration, or --force if that is meant\n");

@@ -21,7 +21,7 @@ obstacles:
   post: {radius: 0.25, position: [8, 1, 0]}
 forces:
   - {uniform: [0, 0, 1], on: [red], until: 1}
-  - {spring: {anchor: [0, 4, 0], stiffness: 3}}
+  - {spring: {anchor: [0, 4, 0], stiffness: 3, rest_length: 1}}
 camera: {eye: [0, 3, -9], target: [0, 0, 0]}
 )";
 
@@ -41,7 +41,7 @@ TEST(MotionText, LeavesOutWhatIsOnlyLookedAtOrWritten) {
 TEST(MotionText, IsAsNumbersAreNotAsTheyAreWritten) {
   EXPECT_EQ(with("balls.red.mass=1.00"), with(""));
   EXPECT_EQ(with("balls.red.position=[0.0, 1e0, 0]"), with(""));
-  EXPECT_EQ(with("simulate.engine=stepped"), with(""));  // what auto takes under a spring
+  EXPECT_EQ(with("simulate.engine=stepped"), with(""));  // what auto takes under a spring with a rest length
 }
 
 TEST(MotionText, TellsWhateverMovesABodyOtherwise) {

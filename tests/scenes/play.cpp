@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "study/engine.h"
 #include "physics/energy.h"
 #include "render/mesh.h"
 #include "scene/load.h"
+#include "study/engine.h"
 
 namespace carom::testing {
 

@@ -66,6 +66,12 @@ inline double energy(const Problem& problem, const State& state) {
   return kinetic_energy(problem.world, state) + potential_energy(problem.world, state);
 }
 
+/// J, that the books do not account for: rounding.
+inline double unbooked(const Problem& problem, const Outcome& run) {
+  return energy(problem, run.end) - energy(problem, problem.initial) - run.tally.work + run.tally.energy_lost +
+         run.tally.method_error;
+}
+
 /// J, that neither impacts nor work account for: the method's own error, and rounding.
 inline double residual(const Problem& problem, const Outcome& run) {
   return energy(problem, run.end) - energy(problem, problem.initial) - run.tally.work + run.tally.energy_lost;

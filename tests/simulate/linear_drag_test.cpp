@@ -160,7 +160,8 @@ TEST(LinearDrag, AHeavyBodyPushesALightOneThatDragHoldsBack) {
     for (Entity i = 0; i < 3; ++i) EXPECT_NEAR(got.end.position[i].x(), i - std::expm1(-3 * k) / k, 1e-12) << linear;
     EXPECT_LT(got.tally.max_overlap, 1e-12);
     EXPECT_EQ(got.tally.stepped_contact, 0);
-    EXPECT_NEAR(residual(problem, got), 0, 1e-10);
+    EXPECT_NEAR(unbooked(problem, got), 0, 1e-10);
+    EXPECT_NEAR(residual(problem, got), 0, 2e-6);  // measured: 1.2e-6 of 5 J: work is told along parabolas
   }
 }
 
@@ -250,7 +251,8 @@ TEST(LinearDrag, InOtherUnitsAllIsTheSameToTheLastBit) {
     const Problem problem = in_units(1, 1, 1, linear, 7);
     const Outcome first = run(problem);
     EXPECT_GE(first.tally.resting, 8u);
-    EXPECT_NEAR(residual(problem, first), 0, 2e-9);  // of 96 J, measured: 1.04e-9
+    EXPECT_NEAR(unbooked(problem, first), 0, 2e-9);  // of 96 J, measured: 1.04e-9
+    EXPECT_NEAR(residual(problem, first), 0, 0.2);   // measured: 0.096: by time steps
     EXPECT_LT(first.tally.max_overlap, 1e-12);
     for (const auto& [length, time, mass] :
          {std::tuple(256.0, 1.0, 1.0), {1.0, 256.0, 1.0}, {1.0, 0x1p-10, 1.0}, {0x1p-20, 0x1p10, 0x1p-30}}) {

@@ -168,7 +168,11 @@ class Check {
     // In islands paths are integrated, not closed forms.
     const double relative = 2e-14 * (1 + std::sqrt(events)) + (t.collapses > 0 ? 1e-10 : 0);
     const double tolerance = relative * (size + std::abs(t.energy_lost) + std::abs(t.work));
-    const double residual = static_cast<double>(end - start) + t.energy_lost - t.work;
+    const double residual = static_cast<double>(end - start) + t.energy_lost + t.method_error - t.work;
+    // What lasting contact takes beside impacts: by time steps to first order, else next to nothing.
+    const double least = t.stepped_contact > 0 ? -1e-3 : -1e-6, most = t.stepped_contact > 0 ? 5e-2 : 1e-6;
+    if (!(t.method_error >= least * size && t.method_error <= most * size))
+      fail("contact took " + text(t.method_error) + " J beside impacts, of " + text(size) + " J");
     if (!(std::abs(residual) <= tolerance))
       fail("energy books: residual " + text(residual) + " J of " + text(size) + " J, lost " + text(t.energy_lost) +
            ", work " + text(t.work));
