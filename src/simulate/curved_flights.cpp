@@ -144,7 +144,9 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
   const Vec3 a = acceleration(x, v);
   // A step's error, and no less than what rounding makes of a place.
   const double place = std::max(share * radius, tol::position_rounding * x.cwiseAbs().maxCoeff());
-  const double speed = share * std::max({v.norm(), std::sqrt(a.norm() * radius), 0x1p-900});
+  // Of a velocity, no less than that of a swing as wide as a place's error: where forces balance, they are rounding.
+  const double speed =
+      std::max({share * v.norm(), share * std::sqrt(a.norm() * radius), place * force_rate(world, i, x, v), 0x1p-900});
   const double damping = jacobian(x, v).by_velocity.norm(), longest = longest_step(i, x, v, a);
   double h = next_[i] > 0 ? next_[i] : first_length(i, x, v);
   bool implicit = is_implicit(i, h, damping);
