@@ -29,6 +29,9 @@ constexpr GaussPoint gauss[] = {{0.04691007703066800, 0.11846344252809454},
                                 {0.76923465505284155, 0.23931433524968324},
                                 {0.95308992296933200, 0.11846344252809454}};
 
+/// In place of a number of steps: the last one was implicit.
+constexpr std::uint8_t implicit_method = 255;
+
 /// From one instant to another.
 DoubleDouble seconds(const Instant& from, const Instant& to) {
   return DoubleDouble{to.hi, to.lo} - DoubleDouble{from.hi, from.lo};
@@ -121,14 +124,14 @@ CurvedFlights::Reached CurvedFlights::closed_place(Entity i, const Instant& at) 
 /// is held to a share of the time of a force that brakes (1 / damping), step after step.
 bool CurvedFlights::is_implicit(Entity i, double length, double damping) const {
   const double damped = length * damping;
-  if (method_[i] == tol::implicit_method) return damped >= 0.5;
+  if (method_[i] == implicit_method) return damped >= 0.5;
   return damped > 2 || (method_[i] >= tol::many_explicit_steps && damped > 0.1);
 }
 
 void CurvedFlights::note_method(Entity i, bool implicit) {
   const std::uint8_t before = method_[i];
-  const int explicit_steps = before == tol::implicit_method ? 0 : std::min(before + 1, int{tol::many_explicit_steps});
-  method_.write(i) = implicit ? tol::implicit_method : static_cast<std::uint8_t>(explicit_steps);
+  const int explicit_steps = before == implicit_method ? 0 : std::min(before + 1, int{tol::many_explicit_steps});
+  method_.write(i) = implicit ? implicit_method : static_cast<std::uint8_t>(explicit_steps);
 }
 
 PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3& v) {
@@ -144,9 +147,11 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
   const Vec3 a = acceleration(x, v);
   // A step's error, and no less than what rounding makes of a place.
   const double place = std::max(share * radius, tol::position_rounding * x.cwiseAbs().maxCoeff());
-  // Of a velocity, no less than that of a swing as wide as a place's error: where forces balance, they are rounding.
+  // Of a velocity, no less than that of a swing as wide as a place's error or rounding: where forces balance, they are
+  // rounding.
+  const double swing = std::max(share * radius, 0x1p-51 * x.cwiseAbs().maxCoeff());
   const double speed =
-      std::max({share * v.norm(), share * std::sqrt(a.norm() * radius), place * force_rate(world, i, x, v), 0x1p-900});
+      std::max({share * v.norm(), share * std::sqrt(a.norm() * radius), swing * force_rate(world, i, x, v), 0x1p-900});
   const double damping = jacobian(x, v).by_velocity.norm(), longest = longest_step(i, x, v, a);
   double h = next_[i] > 0 ? next_[i] : first_length(i, x, v);
   bool implicit = is_implicit(i, h, damping);

@@ -2,7 +2,7 @@
 // Every constant that decides the accuracy of the simulators, of the choice of a step, and of the book simulator. "Of a
 // radius", "of a speed", "of a step": a share of it. In brackets, as ./dev bench tolerances measures it: by how much of
 // a radius, at most, a body is elsewhere in nine short runs with 4 times the constant, and with a quarter; - nowhere;
-// * a pile rests too late or a run fails; ' another step is chosen. No brackets: nothing of that.
+// * a pile rests too late or a run fails. No brackets: nothing of that.
 #include <cstddef>
 #include <cstdint>
 
@@ -21,13 +21,11 @@ inline constexpr double least_progress = 0x1p-30;  // of the duration: in fewer,
 inline constexpr double step_rounding = 512;       // [3e-10 2e-10] of the speed of falling by a radius: rounding
 inline constexpr double plane_rounding = 0x1p-49;  // [3e-10 2e-10] of speeds: an approach to a plane that is rounding
 inline constexpr double curve_rounding = 0x1p-43;  // of accelerations: a difference on curves that is rounding
-inline constexpr double told_fade = 0x1p-4;  // of a fade's time: so long its first eight terms tell it to rounding
-inline constexpr double faded = 64;          // times of a fade: then nothing is left of it
-inline constexpr double closed_place =
-    0x1p-48;  // of a radius or a coordinate: what polynomials leave a closed form by,
-inline constexpr double closed_speed = 0x1p-20;         // and of speeds: there polynomials only find impacts
-inline constexpr std::uint8_t many_explicit_steps = 8;  // held up by what brakes: the implicit method is tried,
-inline constexpr std::uint8_t implicit_method = 255;    // which stands in place of their number
+inline constexpr double told_fade = 0x1p-4;      // of a fade's time: so long its first eight terms tell it to rounding
+inline constexpr double faded = 64;              // times of a fade: then nothing is left of it
+inline constexpr double closed_place = 0x1p-48;  // of a radius, a coordinate: polynomials beside a closed form,
+inline constexpr double closed_speed = 0x1p-20;  // and of speeds: they only find impacts
+inline constexpr std::uint8_t many_explicit_steps = 8;  // held up by what brakes: the implicit method is tried
 inline constexpr double negligible_speed = 0x1p-200;    // of the greatest speed so far: products with itself underflow
 inline constexpr double negligible_hop = 0x1p-120;      // of the squared speed of falling by a radius: a body at rest
 inline constexpr double approach_rounding = 0x1p-50;    // of speeds: an approach that is rounding: unpressed, or kicked

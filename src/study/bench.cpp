@@ -1,10 +1,10 @@
 // Every run is first recorded and held against the reference, then timed bare: without a record, a look or a file, from
 // the making of the simulator to the scene's end. Timed runs of all rows take turns (timing.h).
 //
-// The reference's own error is at least what rounding does (reference.h). The exact engine is also held against the
-// stepped one's runs by rk4: where one of these differs from it more than twice as much as from the run with twice the
-// step, they converge to something else, and the least difference of all is taken to be the exact engine's, if rounding
-// does not explain it. A stepped reference is off by at most about what it differs from its run with twice the step.
+// The reference is the exact engine, or dop853 where paths have no closed form. Its own error is at least what rounding
+// does (reference.h), and of dop853 what smaller step errors do. An independent method is held against it: runs by rk4
+// in ever shorter steps. Where one of these differs from it more than twice as much as from the run with twice the
+// step, they converge to something else: the reference is not trusted to better than the least difference of all.
 #include "study/bench.h"
 
 #include <fmt/format.h>
@@ -62,23 +62,17 @@ class Bench {
 
   BenchResult go() {
     choose_steps();
-    const std::size_t asked = steps_.size();
-    reference_ = make_reference(scene_, options_, steps_, watch_);
-    if (steps_.size() < asked)
-      result_.left_out.push_back(
-          fmt::format("steps below {:.4g} s: a reference for them is beyond the budget of {:.4g} s of CPU time",
-                      steps_.back(), options_.budget));
+    reference_ = make_reference(scene_, options_, watch_);
     left_ = std::max(0.2 * options_.budget, options_.budget - spent());
     for (const Engine engine : {Engine::exact, Engine::stepped, Engine::book}) {
       if (const auto lacks = unsupported(world_, with_engine(scene_.simulate, engine)); !lacks.empty())
         result_.left_out.push_back(fmt::format("{}: {}", name_of(engine), lacks.front().what));
       else if (engine == Engine::exact)
-        exact_row();
+        row_of(engine, Integrator::rk4);
       else if (engine == Engine::book)
         rows_of(engine, Integrator::rk4);
       else
-        for (const Integrator integrator : {Integrator::euler, Integrator::verlet, Integrator::rk4})
-          rows_of(engine, integrator);
+        rows_of_stepped();
     }
     tell_of_reference();
     time_rows();
@@ -125,17 +119,28 @@ class Bench {
     row.statistics.speeds = {};
   }
 
-  void exact_row() {
+  void rows_of_stepped() {
+    // Where all paths have closed forms, dop853 follows these too: the row is engine exact's.
+    if (force_without_closed_form(world_) != nullptr) row_of(Engine::stepped, Integrator::dop853);
+    for (const Integrator integrator : {Integrator::euler, Integrator::verlet, Integrator::rk4})
+      rows_of(Engine::stepped, integrator);
+  }
+
+  /// Of a method without a step.
+  void row_of(Engine engine, Integrator integrator) {
     BenchRow row;
+    row.engine = engine;
+    row.integrator = integrator;
     try {
-      const bool is_reference = reference_.way.engine == Engine::exact;
+      const bool is_reference = reference_.way.engine == engine;
       const RecordedRun other = is_reference ? RecordedRun{} : record(row, left_);
       const RecordedRun& run = is_reference ? reference_.run : other;
       fill(row, run);
       row.repeats =
           static_cast<int>(std::clamp<std::int64_t>(whole_below(0.2 * left_ / run.cpu_s), 1, options_.repeat));
     } catch (const Overrun&) {
-      result_.left_out.push_back(fmt::format("exact: one run takes more than {:.2g} s of CPU time", left_));
+      result_.left_out.push_back(
+          fmt::format("{}: one run takes more than {:.2g} s of CPU time", method_name(engine, integrator), left_));
       return;
     } catch (const SimulationError& error) {
       row.failure = named(error).what();
@@ -181,7 +186,6 @@ class Bench {
 
   /// By a run with half the step of the one before.
   void check_reference(RecordedRun run) {
-    if (reference_.way.engine != Engine::exact) return;
     if (coarser_)
       convergence_.take(reference_.off(world_, run),
                         differences(world_, *coarser_, run, reference_.instants, reference_.horizon));
@@ -190,7 +194,6 @@ class Bench {
 
   void tell_of_reference() {
     result_.reference = reference_.way.engine;
-    if (result_.reference == Engine::stepped) result_.reference_step = *reference_.way.step;
     result_.rounding = reference_.rounding;
     result_.chaotic = reference_.chaotic;
     result_.horizon = reference_.horizon;
@@ -199,12 +202,11 @@ class Bench {
       result_.members = reference_.ensemble->size();
       result_.mean = reference_.ensemble->mean();
     }
-    if (result_.reference != Engine::exact) return;
     const Differences more = convergence_.error(reference_.error);
     result_.checked_by_steps = more.position > 0;
     result_.reference_error = larger(result_.reference_error, more);
     for (BenchRow& row : result_.rows)
-      if (row.engine == Engine::exact && row.errors) row.errors = result_.reference_error;
+      if (std::isnan(row.step) && row.engine == result_.reference && row.errors) row.errors = result_.reference_error;
   }
 
   /// Nothing recorded; the result must be the row's. Gives the CPU time (s).

@@ -42,11 +42,10 @@ struct BenchRow {
 std::string method_name(Engine engine, Integrator integrator);
 
 struct BenchResult {
-  Engine reference = Engine::exact;                                  // or stepped, by rk4
-  double reference_step = std::numeric_limits<double>::quiet_NaN();  // s, stepped
-  Differences reference_error;                                       // an estimate; how it was come by: see bench.cpp
-  bool checked_by_steps = false;  // it is what the stepped engine says, not what rounding does
-  double rounding = 0;            // m: by how much runs in shifted coordinates differ, anywhere at any instant
+  Engine reference = Engine::exact;  // or stepped, by dop853
+  Differences reference_error;       // an estimate; how it was come by: see bench.cpp
+  bool checked_by_steps = false;     // it is what the stepped engine says, not what rounding does
+  double rounding = 0;               // m: by how much runs in shifted coordinates differ, anywhere at any instant
   bool chaotic = false;
   double horizon = 0;       // s: trajectories are compared until then
   std::size_t members = 0;  // of the ensemble of a chaotic scene, the reference included

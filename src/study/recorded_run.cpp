@@ -10,11 +10,11 @@
 namespace carom {
 
 RecordedRun record_run(const World& world, const State& initial, const Simulate& simulate,
-                       const std::vector<double>& instants, const std::function<void()>& look) {
+                       const std::vector<double>& instants, const std::function<void()>& look, double step_error) {
   const double start = cpu_time();
   RecordedRun run;
   run.duration = simulate.duration;
-  const auto simulator = make_simulator(world, initial, simulate, true);
+  const auto simulator = make_simulator(world, initial, simulate, true, false, step_error);
   const auto go_to = [&](double time) {
     while (simulator->time() < time) {
       look();

@@ -32,9 +32,9 @@ struct RecordedRun {
 };
 
 /// Runs from `initial` on to the end of simulate.duration, and looks at `instants` (s, ascending). `look` is called
-/// now and then, and may throw. Throws SimulationError.
+/// now and then, and may throw. step_error: StepChoice::error. Throws SimulationError.
 RecordedRun record_run(const World& world, const State& initial, const Simulate& simulate,
-                       const std::vector<double>& instants, const std::function<void()>& look);
+                       const std::vector<double>& instants, const std::function<void()>& look, double step_error = 0);
 
 /// The same run, neither looked at nor recorded: what is timed. Gives the result's hash.
 std::uint64_t bare_run(const World& world, const State& initial, const Simulate& simulate,

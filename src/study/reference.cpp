@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scene/unsupported.h"
+#include "simulate/tolerances.h"
 #include "study/engine.h"
 #include "study/shifted.h"
 #include "study/timing.h"
@@ -32,25 +33,24 @@ std::vector<double> instants_in(double from, double to, std::size_t bodies) {
 
 class Making {
  public:
-  Making(const Scene& scene, const BenchOptions& options, std::vector<double>& steps, const BenchWatch& watch)
-      : scene_(scene), world_(scene.world), options_(options), steps_(steps), watch_(watch) {}
+  Making(const Scene& scene, const BenchOptions& options, const BenchWatch& watch)
+      : scene_(scene), world_(scene.world), options_(options), watch_(watch) {}
 
   Reference go() {
     watch_.tell(0, "the reference");
     const Simulate exact = with_engine(scene_.simulate, Engine::exact);
     const bool exact_runs = unsupported(world_, exact).empty();
-    reference_.way =
-        with_engine(scene_.simulate, options_.reference.value_or(exact_runs ? Engine::exact : Engine::stepped));
+    reference_.way = with_engine(
+        scene_.simulate, options_.reference.value_or(exact_runs ? Engine::exact : Engine::stepped), Integrator::dop853);
     if (const auto lacks = unsupported(world_, reference_.way); !lacks.empty())
       throw SimulationError("there is no reference: " + lacks.front().what);
     try {
-      if (reference_.way.engine == Engine::stepped) choose_step();
       run();
     } catch (const Overrun&) {
       throw SimulationError(
           fmt::format("the reference, by {}, takes too long for a budget of {} s: give it more (--budget), or "
                       "shorten simulate.duration",
-                      method_name(reference_.way.engine, Integrator::rk4), options_.budget));
+                      method_name(reference_.way.engine, Integrator::dop853), options_.budget));
     }
     return std::move(reference_);
   }
@@ -58,8 +58,9 @@ class Making {
  private:
   double spent() const { return cpu_time() - start_; }
 
-  RecordedRun record(const World& world, const State& initial, const Simulate& way) const {
-    return record_run(world, initial, way, reference_.instants, look_within(0.5 * options_.budget, watch_.look));
+  RecordedRun record(const World& world, const State& initial, const Simulate& way, double step_error = 0) const {
+    return record_run(world, initial, way, reference_.instants, look_within(0.5 * options_.budget, watch_.look),
+                      step_error);
   }
 
   void run() {
@@ -77,9 +78,7 @@ class Making {
       for (const RecordedRun& other : others) take_error(other);
     }
     if (reference_.way.engine != Engine::stepped) return;
-    Simulate coarser = reference_.way;
-    coarser.step = 2 * *coarser.step;
-    take_error(record(world_, scene_.initial, coarser));
+    take_error(record(world_, scene_.initial, reference_.way, exact_tolerance::step_error / accuracy_tolerance::finer));
   }
 
   RecordedRun shifted_run(int number) const {
@@ -129,33 +128,9 @@ class Making {
     reference_.ensemble.emplace(std::move(members));
   }
 
-  /// A quarter of the shortest step, or longer, so that all runs together take a third of the budget.
-  void choose_step() {
-    const double share = options_.budget / 3 / (2 + shifted_runs);
-    double step = steps_.front(), cost = 0;
-    std::string trouble;
-    for (const double next : steps_) {
-      const double start = cpu_time();
-      reference_.way.step = step = next;
-      try {
-        bare_run(world_, scene_.initial, reference_.way, look_within(share, watch_.look));
-        trouble.clear();
-      } catch (const SimulationError& error) {  // too long a step for these forces, perhaps
-        trouble = error.what();
-      }
-      cost = cpu_time() - start;
-      if (cost > 0.05 * share) break;
-    }
-    if (!trouble.empty()) throw SimulationError("there is no reference: " + trouble);
-    for (; step > 0.25 * steps_.back() && 2 * cost < share; step *= 0.5) cost *= 2;
-    while (steps_.size() > 1 && steps_.back() < 3.9 * step) steps_.pop_back();
-    reference_.way.step = step;
-  }
-
   const Scene& scene_;
   const World& world_;
   const BenchOptions& options_;
-  std::vector<double>& steps_;
   const BenchWatch& watch_;
   const double start_ = cpu_time();
   Reference reference_;
@@ -170,9 +145,8 @@ std::function<void()> look_within(double share, const std::function<void()>& loo
   };
 }
 
-Reference make_reference(const Scene& scene, const BenchOptions& options, std::vector<double>& steps,
-                         const BenchWatch& watch) {
-  return Making(scene, options, steps, watch).go();
+Reference make_reference(const Scene& scene, const BenchOptions& options, const BenchWatch& watch) {
+  return Making(scene, options, watch).go();
 }
 
 }  // namespace carom

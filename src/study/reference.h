@@ -24,14 +24,14 @@ struct Overrun {};
 std::function<void()> look_within(double share, const std::function<void()>& look);
 
 struct Reference {
-  Simulate way;                         // the engine is exact, or stepped by rk4
+  Simulate way;                         // the engine is exact, or stepped by dop853
   std::vector<double> instants;         // s; of a chaotic scene those before the horizon, then those behind it
   std::size_t trajectory_instants = 0;  // of a chaotic scene: how many lie before the horizon
   RecordedRun run;
   double rounding = 0;  // m: by how much shifted runs differ, anywhere at any instant
   bool chaotic = false;
   double horizon = 0;                // s: trajectories are compared until then
-  Differences error;                 // what rounding does until then, or, of a stepped one, twice the step
+  Differences error;                 // what rounding does until then, and, of a stepped one, smaller step errors
   std::optional<Ensemble> ensemble;  // of a chaotic scene, itself included
 
   Differences off(const World& world, const RecordedRun& other) const {
@@ -42,10 +42,8 @@ struct Reference {
   }
 };
 
-/// By options.reference, or the exact engine if it has all that the scene asks for. A stepped one has a quarter of the
-/// shortest of `steps` (s, descending), or, where that would take more than a third of the budget, a longer one: then
-/// those of `steps` that it cannot tell are removed. Throws SimulationError.
-Reference make_reference(const Scene& scene, const BenchOptions& options, std::vector<double>& steps,
-                         const BenchWatch& watch);
+/// By options.reference, or the exact engine if it has all that the scene asks for; a stepped one by dop853. Throws
+/// SimulationError.
+Reference make_reference(const Scene& scene, const BenchOptions& options, const BenchWatch& watch);
 
 }  // namespace carom

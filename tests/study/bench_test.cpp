@@ -66,6 +66,18 @@ TEST(Bench, ErrorsFallByTheOrderOfTheMethod) {
   }
 }
 
+TEST(Bench, WherePathsHaveNoClosedFormDop853IsTheReference) {
+  const BenchResult result = bench(scene_of("bumper", {with_rest_length}), 0x1p-6, 0x1p-10);
+  EXPECT_EQ(result.reference, Engine::stepped);
+  EXPECT_FALSE(result.checked_by_steps);
+  const auto own = rows_of(result, Engine::stepped, Integrator::dop853);
+  const auto rk4 = rows_of(result, Engine::stepped);
+  ASSERT_EQ(own.size(), 1u);
+  EXPECT_LT(own[0].errors->position, 1e-11);
+  EXPECT_LT(own[0].errors->position, 1e-3 * rk4.back().errors->position);
+  EXPECT_NEAR(order_of(rk4, &Differences::position), 4, 0.3);
+}
+
 // Under linear drag the exact engine has exponentials, the stepped one polynomials.
 TEST(Bench, TheExactEngineIsItsOwnReferenceAndItsErrorEstimated) {
   const BenchResult result = bench(scene_of("raindrops"), 0x1p-6, 0x1p-10);

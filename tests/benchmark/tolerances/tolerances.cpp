@@ -1,6 +1,6 @@
 // What the constants of simulate/tolerances.h do: each is made 4 times as large and 4 times as small, and the same runs
 // are made again. As CSV: by how much of a radius, at most, a body is elsewhere in runs of 1 to 20 bodies; * where a
-// pile of 54 balls or fewer comes to rest too late, or not, or a run fails; ' where another step is chosen.
+// pile of 54 balls or fewer comes to rest too late, or not, or a run fails.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,7 +15,6 @@
 #include "benchmark/tolerances/varied.h"
 #include "simulate/exact.h"
 #include "simulate/pile.h"
-#include "simulate/step_choice.h"
 
 namespace carom {
 namespace {
@@ -120,7 +119,7 @@ std::unique_ptr<Simulator> simulator_of(const Problem& p, bool exact, double ste
   return make_exact_simulator(p.world, p.initial, steps(p, step));
 }
 
-/// Prints where bodies are at three times (m), when piles rest (s), and which steps are chosen (s): one thing a line.
+/// Prints where bodies are at three times (m), and whether piles rest: one thing a line.
 void run_all(bool exact) {
   for (const Problem& p : problems()) {
     const std::unique_ptr<Simulator> simulator = simulator_of(p, exact, 0.01);
@@ -137,9 +136,6 @@ void run_all(bool exact) {
     go_to(*simulator, pile.options.duration);
     fmt::print("rest {}\n", simulator->tally().resting == pile.world.body_count() ? 1 : 0);
   }
-  if (exact) return;
-  for (const Problem& p : {bouncing_ball(), balls_in_a_groove(), row_that_slides_to_a_wall()})
-    fmt::print("step {}\n", choose_step(p.world, p.initial, steps(p, 0.01), 1e-3, [] {}).step);
 }
 
 /// What run_all prints in a run of its own; empty where that fails or takes longer than a minute.
@@ -158,18 +154,16 @@ std::string difference(const std::vector<std::string>& usual, const std::vector<
   constexpr double radius = 0.5;  // m
   if (usual.size() != other.size()) return "*";
   double farthest = 0;
-  bool rests = true, same_step = true;
+  bool rests = true;
   for (std::size_t k = 0; k < usual.size(); ++k) {
     Vec3 p, q;
     if (std::sscanf(usual[k].c_str(), "x %lf %lf %lf", &p.x(), &p.y(), &p.z()) == 3 &&
         std::sscanf(other[k].c_str(), "x %lf %lf %lf", &q.x(), &q.y(), &q.z()) == 3)
       farthest = std::max(farthest, (p - q).norm() / radius);
-    else if (usual[k].starts_with("rest"))
-      rests = rests && usual[k] == other[k];
     else
-      same_step = same_step && usual[k] == other[k];
+      rests = rests && usual[k] == other[k];
   }
-  return (farthest == 0 ? "-" : fmt::format("{:.0e}", farthest)) + (rests ? "" : "*") + (same_step ? "" : "'");
+  return (farthest == 0 ? "-" : fmt::format("{:.0e}", farthest)) + (rests ? "" : "*");
 }
 
 int compare_all(const std::string& program) {
