@@ -66,16 +66,16 @@ TEST(Bench, ErrorsFallByTheOrderOfTheMethod) {
   }
 }
 
+// measured: dop853 7.6e-12 m; rk4 4.01
 TEST(Bench, WherePathsHaveNoClosedFormDop853IsTheReference) {
-  const BenchResult result = bench(scene_of("bumper", {with_rest_length}), 0x1p-6, 0x1p-10);
+  const BenchResult result = bench(scene_of("comet", {"forces.0.attractor.softening=0.1"}), 0x1p-5, 0x1p-8);
   EXPECT_EQ(result.reference, Engine::stepped);
   EXPECT_FALSE(result.checked_by_steps);
   const auto own = rows_of(result, Engine::stepped, Integrator::dop853);
   const auto rk4 = rows_of(result, Engine::stepped);
   ASSERT_EQ(own.size(), 1u);
-  EXPECT_LT(own[0].errors->position, 1e-11);
-  EXPECT_LT(own[0].errors->position, 1e-3 * rk4.back().errors->position);
-  EXPECT_NEAR(order_of(rk4, &Differences::position), 4, 0.3);
+  EXPECT_LT(own[0].errors->position, 5e-11);
+  EXPECT_NEAR(order_of(rk4, &Differences::position), 4, 0.15);
 }
 
 // Under linear drag the exact engine has exponentials, the stepped one polynomials.
