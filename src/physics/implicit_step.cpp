@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "physics/lu_factors.h"
+#include "physics/radau_points.h"
 
 namespace carom {
 
@@ -32,41 +33,6 @@ constexpr double filter = 0x1p-5;   // of a step: what is over in less counts by
 using NodeRow = std::array<double, nodes>;
 using NodeMatrix = std::array<NodeRow, nodes>;
 
-/// Legendre's polynomials up to degree 7, at s in [0, 1] for x in [-1, 1].
-std::array<double, nodes + 1> legendre(double s) {
-  const double x = 2 * s - 1;
-  std::array<double, nodes + 1> p{1, x};
-  for (std::size_t n = 2; n <= nodes; ++n) {
-    const auto degree = static_cast<double>(n);
-    p[n] = ((2 * degree - 1) * x * p[n - 1] - (degree - 1) * p[n - 2]) / degree;
-  }
-  return p;
-}
-
-/// Zero at Radau's points.
-double radau_polynomial(double s) {
-  const auto p = legendre(s);
-  return p[nodes - 1] - p[nodes];
-}
-
-/// Radau's points in (0, 1], the last at 1.
-NodeRow radau_points() {
-  constexpr int intervals = 1000;
-  NodeRow points{};
-  std::size_t found = 0;
-  for (int k = 0; k < intervals - 1; ++k) {
-    double low = static_cast<double>(k) / intervals, high = (k + 1.0) / intervals;
-    if (radau_polynomial(low) * radau_polynomial(high) > 0) continue;
-    for (int pass = 0; pass < 60; ++pass) {
-      const double middle = 0.5 * (low + high);
-      (radau_polynomial(low) * radau_polynomial(middle) <= 0 ? high : low) = middle;
-    }
-    points[found++] = 0.5 * (low + high);
-  }
-  points[nodes - 1] = 1;
-  return points;
-}
-
 /// Points and weights on [0, 1] that integrate polynomials of degree 7.
 struct GaussRule {
   std::array<double, 4> at, weight;
@@ -79,7 +45,7 @@ struct GaussRule {
 };
 
 struct SevenStages {
-  NodeRow c = radau_points();
+  NodeRow c = radau_points<nodes>();
   NodeMatrix a;  // of the collocation: integrals of Lagrange's polynomials up to each point
   NodeMatrix a_squared;
   std::array<NodeRow, 4> tail;  // of Legendre's polynomials of degrees 4 to 7 in the polynomial that `power` has
@@ -129,7 +95,7 @@ struct SevenStages {
   /// Radau's weights integrate the products exactly for degrees up to 6. (P_6 - P_7) / 2, which is 1 at 0 and zero at
   /// the points, then brings the polynomial to 0 at 0.
   void set_tail(std::size_t j) {
-    const auto p = legendre(c[j]);
+    const auto p = legendre<nodes>(c[j]);
     double missed = 0, sign = 1;
     for (std::size_t n = 0; n < nodes; ++n, sign = -sign) {
       const double term = static_cast<double>(2 * n + 1) * a[nodes - 1][j] * p[n];

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "physics/polynomial.h"
+#include "physics/radau_points.h"
 
 namespace carom {
 
@@ -16,36 +17,6 @@ constexpr int most_sweeps = 40;
 constexpr double hopeless = 1e4;  // an error of so many times what is allowed
 
 using StageRow = std::array<double, nodes>;
-
-/// Legendre's polynomials up to degree `nodes`, at s in [0, 1] for x in [-1, 1].
-std::array<double, nodes + 1> legendre(double s) {
-  const double x = 2 * s - 1;
-  std::array<double, nodes + 1> p{1, x};
-  for (int n = 2; n <= nodes; ++n) p[n] = ((2 * n - 1) * x * p[n - 1] - (n - 1) * p[n - 2]) / n;
-  return p;
-}
-
-/// Radau's points in (0, 1], the last at 1.
-StageRow radau_points() {
-  const auto f = [](double s) {
-    const auto p = legendre(s);
-    return p[nodes - 1] - p[nodes];
-  };
-  constexpr int intervals = 1000;
-  StageRow points{};
-  int found = 0;
-  for (int k = 0; k < intervals - 1; ++k) {
-    double low = static_cast<double>(k) / intervals, high = (k + 1.0) / intervals;
-    if (f(low) * f(high) > 0) continue;
-    for (int pass = 0; pass < 60; ++pass) {
-      const double middle = 0.5 * (low + high);
-      (f(low) * f(middle) <= 0 ? high : low) = middle;
-    }
-    points[found++] = 0.5 * (low + high);
-  }
-  points[nodes - 1] = 1;
-  return points;
-}
 
 /// Points and weights on [0, 1] that integrate polynomials of degree 9.
 struct Gauss {
@@ -59,7 +30,7 @@ struct Gauss {
 };
 
 struct Method {
-  StageRow c = radau_points();
+  StageRow c = radau_points<nodes>();
   Gauss gauss;
   std::array<StageRow, nodes> a;      // of the collocation: integrals of Lagrange's polynomials up to each point
   std::array<StageRow, nodes> lower;  // the sweeps': the transpose of U, where L U is the transpose of a
@@ -160,7 +131,7 @@ double RadauCollocation::interpolate() {
     Vec3* const d = &of_displacement_[terms * k];
     Vec3* const v = &of_velocity_[terms * k];
     for (int j = 0; j < nodes; ++j) {  // Radau's weights integrate these products exactly
-      const auto p = legendre(method().c[j]);
+      const auto p = legendre<nodes>(method().c[j]);
       for (int n = 0; n < nodes; ++n) v[n] += (2 * n + 1) * weight[j] * p[n] * speed_[j][k];
     }
     Vec3 missed = v_[k];
@@ -181,7 +152,7 @@ double RadauCollocation::interpolate() {
 }
 
 Vec3 RadauCollocation::sum(const std::vector<Vec3>& coefficients, std::size_t k, double s) {
-  const auto p = legendre(s);
+  const auto p = legendre<nodes>(s);
   Vec3 all = Vec3::Zero();
   for (std::size_t n = 0; n < terms; ++n) all += p[n] * coefficients[terms * k + n];
   return all;

@@ -55,7 +55,8 @@ class EventLog {
   void take_up(double approach, double energy);
   /// The same of all that pressed when these velocities (m/s) were solved for from those before: `inverse_mass` (1/kg)
   /// by body. Approaches within a pair's slack, or that are errors of paths, are none; `recorded`: by pair, an impact
-  /// that is recorded, or empty. What they take is lost; who calls books all that velocities change as deviation.
+  /// that is recorded, or empty. What they take is booked as lost, and taken off the deviation: the caller books all
+  /// that velocities change as that.
   void take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
                std::span<const ContactConstraint> pairs, std::span<const std::uint8_t> recorded = {});
   void count_collapse() { ++tally_.collapses; }

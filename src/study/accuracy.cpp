@@ -84,7 +84,7 @@ std::size_t within(const std::vector<double>& differences, double tolerance) {
   return static_cast<std::size_t>(beyond - differences.begin());
 }
 
-/// StepChoice whose errors are plainly smaller.
+/// Steps whose errors are plainly smaller.
 StepChoice finer_steps(const Scene& scene, const Simulate& way, StepChoice steps) {
   if (way.engine == Engine::stepped && way.integrator == Integrator::dop853) {
     steps.error = std::max((steps.error > 0 ? steps.error : exact_tolerance::step_error) / finer, finest_error);
