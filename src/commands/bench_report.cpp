@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "commands/text.h"
-#include "study/engine.h"
+#include "study/bench_folder.h"
 
 namespace carom {
 
@@ -20,15 +21,34 @@ std::string digits(double value) {
   return value == 0 ? "0" : std::isfinite(value) ? fmt::format("{:.3g}", value) : "";
 }
 
+bool is_confirmed(const BenchResult& result) {
+  return std::any_of(result.witnesses.begin(), result.witnesses.end(), [](const Witness& w) { return w.agrees; });
+}
+
 std::string reference_text(const BenchResult& result) {
   const Differences& error = result.reference_error;
-  std::string text = method_name(result.reference, Integrator::dop853);
+  const std::string text = full_name_of(result.reference);
   if (!(result.horizon > 0)) return text;
-  const char* how = result.checked_by_steps               ? "runs by rk4 converge elsewhere: it is trusted to"
-                    : result.reference == Engine::stepped ? "rounding and smaller step errors move it by"
-                                                          : "rounding moves it by";
+  const bool disputed = !result.witnesses.empty() && !is_confirmed(result);
+  const char* how = disputed                                   ? "no other method agrees with it: it is trusted to"
+                    : result.reference.engine == Engine::exact ? "rounding moves it by"
+                    : result.reference.is_stepped_by(Integrator::dop853) ? "rounding and smaller step errors move it by"
+                                                                         : "twice its steps move it by";
   return text +
          fmt::format("; {} {} and {} at most", how, quantity(error.position, "m"), quantity(error.velocity, "m/s"));
+}
+
+/// What other methods say of the reference.
+std::string witnesses_text(const BenchResult& result) {
+  if (result.witnesses.empty()) return "nothing: no other method converges, or all follow the same paths";
+  std::vector<std::string> agree, differ;
+  for (const Witness& witness : result.witnesses)
+    (witness.agrees ? agree : differ)
+        .push_back(fmt::format("{} ({})", full_name_of(witness.method), quantity(witness.apart, "m")));
+  std::string text = agree.empty() ? "" : "in agreement: " + listed(agree, agree.size());
+  if (differ.empty()) return text;
+  if (!text.empty()) text += "; ";
+  return text + "elsewhere: " + listed(differ, differ.size());
 }
 
 std::string motion_text(const BenchResult& result) {
@@ -48,7 +68,9 @@ Cells heading(const BenchResult& result) {
 }
 
 Cells cells_of(const BenchRow& row, bool chaotic) {
-  Cells cells = {method_name(row.engine, row.integrator), digits(row.step)};
+  Cells cells = {name_of(row.method), std::isfinite(row.method.step_error)
+                                          ? fmt::format("to {}", steps_text(row.method))
+                                          : digits(row.method.step)};
   if (!row.failure.empty()) {
     cells.push_back("failed");
     cells.resize(chaotic ? 10 : 9);
@@ -83,9 +105,7 @@ Json statistics_json(const Statistics& s) {
 }
 
 Json row_json(const BenchRow& row, bool chaotic) {
-  Json json = {{"engine", name_of(row.engine)}};
-  if (row.engine == Engine::stepped) json["integrator"] = name_of(row.integrator);
-  if (std::isfinite(row.step)) json["step_s"] = row.step;
+  Json json = method_json(row.method);
   json["status"] = row.failure.empty() ? "done" : "failed";
   if (!row.failure.empty()) {
     json["error"] = row.failure;
@@ -109,26 +129,22 @@ Json row_json(const BenchRow& row, bool chaotic) {
 
 void describe(Block& block, const PlannedScene& planned, const BenchResult& result) {
   block.line("reference", reference_text(result));
+  if (result.horizon > 0) block.line("checked by", witnesses_text(result));
   block.line("motion", motion_text(result));
   std::vector<Cells> rows = {heading(result)};
   for (const BenchRow& row : result.rows) rows.push_back(cells_of(row, result.chaotic));
   block.table(rows);
   for (const std::string& line : result.left_out) block.line("left out", line);
   for (const BenchRow& row : result.rows)
-    if (!row.failure.empty())
-      block.line("failed", fmt::format("{}{}: {}", method_name(row.engine, row.integrator),
-                                       std::isfinite(row.step) ? fmt::format(", steps of {} s", digits(row.step)) : "",
-                                       row.failure));
+    if (!row.failure.empty()) block.line("failed", fmt::format("{}: {}", full_name_of(row.method), row.failure));
   block.line("wrote", fmt::format("{}: {}", printable(planned.folder), listed(files_in(planned.folder), 100)));
   block.line("time", fmt::format("{} of CPU time", wait_text(result.cpu_s)));
 }
 
 Json bench_json(const BenchResult& result) {
-  Json reference = {{"engine", name_of(result.reference)}};
-  if (result.reference == Engine::stepped) {
-    reference["integrator"] = "dop853";
-  }
+  Json reference = method_json(result.reference);
   reference.update(errors_json(result.reference_error));
+  reference["held_against"] = witnesses_json(result.witnesses);
   Json json = {{"reference", reference},
                {"rounding_m", result.rounding},
                {"chaotic", result.chaotic},

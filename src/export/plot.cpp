@@ -17,6 +17,7 @@ namespace carom {
 namespace {
 
 constexpr auto patience = std::chrono::minutes(1);
+constexpr double shortest_bar = 1.2;               // its upper end by its lower one
 constexpr std::size_t most_bytes = (1 << 20) - 1;  // of a picture, as much as Child::output() keeps
 
 /// Colours that every kind of sight tells apart (Okabe & Ito 2008), and gnuplot's numbers of marks.
@@ -83,7 +84,7 @@ std::string script(const Plot& plot, const std::string& terminal) {
   AxisRange x, y;
   for (const PlotSeries& series : plot.series)
     for (const PlotPoint& point : series.points) x.take(point.x), y.take(height(point.y));
-  if (plot.level) y.take(height(plot.level->y));
+  for (const PlotLevel& level : plot.levels) y.take(height(level.y));
   x.widen();
   y.widen();
 
@@ -103,22 +104,32 @@ std::string script(const Plot& plot, const std::string& terminal) {
       quoted_text(plot.y_label));
   std::string data;
   std::vector<std::string> layers;
-  if (plot.level)
+  for (const PlotLevel& level : plot.levels)
     layers.push_back(fmt::format("{:.17g} with lines linetype 1 linecolor '#808080' linewidth 1.5 dashtype 2 title {}",
-                                 height(plot.level->y), quoted_text(plot.level->name)));
+                                 height(level.y), quoted_text(level.name)));
   Labels places(x, y);
   for (std::size_t s = 0; s < plot.series.size(); ++s) {
     const PlotSeries& series = plot.series[s];
     if (series.points.empty()) continue;
     const PlotStyle look = looks.at(series.look);
-    std::string labels;
+    std::string labels, bars;
     data += fmt::format("$series{} << END\n", s);
     for (const PlotPoint& point : series.points) {
       data += fmt::format("{:.17g} {:.17g}\n", point.x, height(point.y));
+      // A bar that is no longer than the mark is none.
+      if (point.high > shortest_bar * height(point.low))
+        bars += fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}\n", point.x, height(point.y),
+                            std::max(point.low, std::pow(10, y.from)), point.high);
       if (!point.label.empty() && places.fits(point.x, height(point.y)))
         labels += fmt::format("{:.17g} {:.17g} \"{}\"\n", point.x, height(point.y), point.label);
     }
     data += "END\n";
+    if (!bars.empty()) {
+      data += fmt::format("$bars{} << END\n{}END\n", s, bars);
+      layers.push_back(fmt::format(
+          "$bars{} using 1:2:3:4 with yerrorbars linetype 1 linecolor '{}' linewidth 1.2 pointtype 0 notitle", s,
+          look.color));
+    }
     layers.push_back(
         fmt::format("$series{} using 1:2 with linespoints linetype 1 linecolor '{}' linewidth 2 pointtype {} "
                     "pointsize 1.3 title {}",

@@ -2,7 +2,7 @@
 // Log-log plots, drawn by gnuplot from a script that names every colour, font and range: the same plot gives the same
 // bytes.
 #include <cstddef>
-#include <optional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,6 +11,8 @@ namespace carom {
 struct PlotPoint {
   double x, y;
   std::string label{};  // beside it; empty: none
+  // The ends of a bar through it; NaN: it has none.
+  double low = std::numeric_limits<double>::quiet_NaN(), high = low;
 };
 
 /// How many colours with a mark each there are.
@@ -33,7 +35,7 @@ struct Plot {
   std::string subtitle;  // smaller, below the title; empty: none
   std::string x_label, y_label;
   std::vector<PlotSeries> series;
-  std::optional<PlotLevel> level;
+  std::vector<PlotLevel> levels;
   double floor = 0;  // what is less than this (zero, say, which has no logarithm) stands at this height
 };
 

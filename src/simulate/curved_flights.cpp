@@ -52,7 +52,8 @@ double CurvedFlights::first_length(Entity i, const Vec3& x, const Vec3& v) const
 }
 
 PolynomialPath CurvedFlights::step_of_its_own(Entity i, const Vec3& x, const Vec3& v) {
-  const std::optional<ClosedForces> closed = closed_forces(bodies_.world, i, bodies_.now.hi);
+  const std::optional<ClosedForces> closed =
+      bodies_.options.closed_forms ? closed_forces(bodies_.world, i, bodies_.now.hi) : std::nullopt;
   return closed ? closed_step(i, *closed, x, v) : numerical_step(i, x, v);
 }
 

@@ -17,7 +17,8 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
       same_radius(!options.merge && std::adjacent_find(given.radius.begin(), given.radius.end(), std::not_equal_to{}) ==
                                         given.radius.end()),
       varying(bending_force(given) != nullptr),
-      in_steps(varying || options.integrator != Integrator::dop853),
+      by_method(options.integrator != Integrator::dop853 || !options.closed_forms),
+      in_steps(varying || by_method),
       applied(given.body_count(), given.gravity),
       working(given.body_count(), Vec3::Zero()),
       fade(given.body_count()),

@@ -33,6 +33,7 @@ struct ExactBodies {
   const Bounds bounds;
   const bool same_radius;  // of all bodies, for good
   const bool varying;      // some force bends paths (force.h)
+  const bool by_method;    // paths that bend are the integrator's, also where they have a closed form
   const bool in_steps;     // or a method is asked for: some flight may be curved
   Instant now;
   LazyArray<Vec3> applied;       // m/s^2, by body: gravity and the forces of now, on a body that stands,
@@ -68,9 +69,7 @@ struct ExactBodies {
   /// Those that act now, on body i at x (m) and v (m/s).
   void apply_forces(Entity i, const Vec3& x, const Vec3& v);
   /// Whether body i's flights, when free, are steps of a method.
-  bool flies_in_steps(Entity i) const {
-    return bent[i] != 0 || (options.integrator != Integrator::dop853 && method_bends(i));
-  }
+  bool flies_in_steps(Entity i) const { return bent[i] != 0 || (by_method && method_bends(i)); }
   /// Looks at them again, if they vary with these.
   void refresh(Entity i, const Vec3& x, const Vec3& v) {
     if (bent[i]) [[unlikely]]

@@ -60,7 +60,7 @@ class Runs {
  private:
   Track carry(const World& world, const State& initial, const Simulate& way, const StepChoice& steps,
               Tally* tally) const {
-    const auto simulator = make_simulator(world, initial, with_steps(way, steps), false, false, steps.error);
+    const auto simulator = make_simulator(world, initial, way, false, false, steps);
     Track track;
     for (const double time : instants_) {
       while (simulator->time() < time) {

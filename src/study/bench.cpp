@@ -1,10 +1,9 @@
 // Every run is first recorded and held against the reference, then timed bare: without a record, a look or a file, from
 // the making of the simulator to the scene's end. Timed runs of all rows take turns (timing.h).
 //
-// The reference is the exact engine, or dop853 where paths have no closed form. Its own error is at least what rounding
-// does (reference.h), and of dop853 what smaller step errors do. An independent method is held against it: runs by rk4
-// in ever shorter steps. Where one of these differs from it more than twice as much as from the run with twice the
-// step, they converge to something else: the reference is not trusted to better than the least difference of all.
+// The reference is at first the exact engine, or dop853 where paths have no closed form. All other methods' finest runs
+// are held against it (evidence.h). Where they speak for another one, that is the reference, and rows are compared
+// anew.
 #include "study/bench.h"
 
 #include <fmt/format.h>
@@ -16,6 +15,7 @@
 #include "physics/force.h"
 #include "physics/whole.h"
 #include "scene/unsupported.h"
+#include "simulate/tolerances.h"
 #include "study/engine.h"
 #include "study/reference.h"
 #include "study/shifted.h"
@@ -28,32 +28,8 @@ namespace {
 constexpr int halvings = 10;
 constexpr int least_repeats = 3;  // that a next row must have room for
 
-constexpr double plainly = 2, far_more = 16;
-constexpr std::array quantities = {&Differences::position, &Differences::velocity, &Differences::energy};
-
-/// What runs by rk4 in ever shorter steps say of the exact engine's error.
-class Convergence {
- public:
-  /// A run's differences from the exact engine's, and from the run with twice the step.
-  void take(const Differences& from_exact, const Differences& from_coarser) {
-    for (const auto q : quantities) {
-      least_.*q = any_ ? std::min(least_.*q, from_exact.*q) : from_exact.*q;
-      if (from_exact.*q > plainly * from_coarser.*q) elsewhere_.*q = 1;
-    }
-    any_ = true;
-  }
-  /// 0 where it is no more than rounding, or the runs do not tell.
-  Differences error(const Differences& rounding) const {
-    Differences error;
-    for (const auto q : quantities)
-      if (elsewhere_.*q > 0 && least_.*q > far_more * rounding.*q) error.*q = least_.*q;
-    return error;
-  }
-
- private:
-  bool any_ = false;
-  Differences least_, elsewhere_;
-};
+/// Of dop853's steps, of a radius and of speeds; the last one is the default.
+constexpr std::array step_errors = {0x1p-16, 0x1p-24, 0x1p-32, exact_tolerance::step_error};
 
 class Bench {
  public:
@@ -63,18 +39,21 @@ class Bench {
   BenchResult go() {
     choose_steps();
     reference_ = make_reference(scene_, options_, watch_);
+    evidence_.emplace(world_, reference_.instants, reference_.horizon, reference_.rounded, rounding_of(scene_),
+                      Finding{reference_.method, reference_.run, reference_.error});
+    if (reference_.second) evidence_->add(*std::move(reference_.second));
     left_ = std::max(0.2 * options_.budget, options_.budget - spent());
     for (const Engine engine : {Engine::exact, Engine::stepped, Engine::book}) {
       if (const auto lacks = unsupported(world_, with_engine(scene_.simulate, engine)); !lacks.empty())
         result_.left_out.push_back(fmt::format("{}: {}", name_of(engine), lacks.front().what));
       else if (engine == Engine::exact)
-        row_of(engine, Integrator::rk4);
+        row_of({});
       else if (engine == Engine::book)
-        rows_of(engine, Integrator::rk4);
+        rows_of({.engine = engine});
       else
         rows_of_stepped();
     }
-    tell_of_reference();
+    settle_reference();
     time_rows();
     result_.cpu_s = spent();
     return std::move(result_);
@@ -87,11 +66,6 @@ class Bench {
 
   double spent() const { return cpu_time() - start_; }
 
-  Simulate way_of(const BenchRow& row) const {
-    const auto step = std::isnan(row.step) ? std::nullopt : std::optional(row.step);
-    return with_engine(scene_.simulate, row.engine, row.integrator, step);
-  }
-
   /// Powers of two (s), from 1/4 of the duration or 64 default steps down, unless they are given.
   void choose_steps() {
     const double duration = scene_.simulate.duration;
@@ -103,8 +77,9 @@ class Bench {
     for (double step = longest; step >= shortest * (1 - 1e-9); step *= 0.5) steps_.push_back(step);
   }
 
-  RecordedRun record(const BenchRow& row, double share) const {
-    return record_run(world_, scene_.initial, way_of(row), reference_.instants, look_within(share, watch_.look));
+  RecordedRun record(const SimulationMethod& method, const std::function<void()>& look) const {
+    return record_run(world_, scene_.initial, settings_of(scene_.simulate, method), steps_of(method),
+                      reference_.instants, look);
   }
 
   void fill(BenchRow& row, const RecordedRun& run) {
@@ -120,27 +95,36 @@ class Bench {
   }
 
   void rows_of_stepped() {
-    // Where all paths have closed forms, dop853 follows these too: the row is engine exact's.
-    if (force_without_closed_form(world_) != nullptr) row_of(Engine::stepped, Integrator::dop853);
+    // Along parabolas dop853 has no steps: the row is engine exact's.
+    if (varying_force(world_) != nullptr)
+      for (const double error : step_errors) row_of(dop853(world_, error));
     for (const Integrator integrator : {Integrator::euler, Integrator::verlet, Integrator::rk4})
-      rows_of(Engine::stepped, integrator);
+      rows_of({.engine = Engine::stepped, .integrator = integrator});
   }
 
-  /// Of a method without a step.
-  void row_of(Engine engine, Integrator integrator) {
+  bool is_reference(const SimulationMethod& method) const {
+    const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+    return method.engine == reference_.method.engine && same(method.step, reference_.method.step) &&
+           same(method.step_error, reference_.method.step_error) &&
+           (method.engine != Engine::stepped || method.integrator == reference_.method.integrator);
+  }
+
+  /// Of a method that chooses its steps.
+  void row_of(const SimulationMethod& method) {
     BenchRow row;
-    row.engine = engine;
-    row.integrator = integrator;
+    row.method = method;
     try {
-      const bool is_reference = reference_.way.engine == engine;
-      const RecordedRun other = is_reference ? RecordedRun{} : record(row, left_);
-      const RecordedRun& run = is_reference ? reference_.run : other;
+      const bool recorded = is_reference(method);
+      const RecordedRun other = recorded ? RecordedRun{} : record(method, look_within(left_, watch_.look));
+      const RecordedRun& run = recorded ? reference_.run : other;
       fill(row, run);
+      if (method.engine == Engine::exact && !recorded && reference_.horizon > 0)
+        evidence_->add({method, run, reference_.rounded});
       row.repeats =
           static_cast<int>(std::clamp<std::int64_t>(whole_below(0.2 * left_ / run.cpu_s), 1, options_.repeat));
     } catch (const Overrun&) {
       result_.left_out.push_back(
-          fmt::format("{}: one run takes more than {:.2g} s of CPU time", method_name(engine, integrator), left_));
+          fmt::format("{}: one run takes more than {:.2g} s of CPU time", full_name_of(method), left_));
       return;
     } catch (const SimulationError& error) {
       row.failure = named(error).what();
@@ -149,33 +133,32 @@ class Bench {
   }
 
   /// From the longest step on, until the next one would cost more than this method's share.
-  void rows_of(Engine engine, Integrator integrator) {
+  void rows_of(SimulationMethod method) {
     double share = left_ / 4, bare = 0, records = 0;  // s: what a run takes, and what recording it takes beside that
     for (const double step : steps_) {
       if (records + (2 + least_repeats) * 2 * bare > share) {
         result_.left_out.push_back(fmt::format("{}: steps below {:.4g} s, for the budget of {:.4g} s of CPU time",
-                                               method_name(engine, integrator), 2 * step, options_.budget));
+                                               name_of(method), 2 * step, options_.budget));
         return;
       }
+      method.step = step;
       const double rows = static_cast<double>(result_.rows.size()) / static_cast<double>(4 * steps_.size() + 1);
-      watch_.tell(0.5 * std::max(rows, std::min(1.0, spent() / options_.budget)),
-                  fmt::format("{}, steps of {:.3g} s", method_name(engine, integrator), step));
+      watch_.tell(0.5 * std::max(rows, std::min(1.0, spent() / options_.budget)), full_name_of(method));
       BenchRow row;
-      row.engine = engine;
-      row.integrator = integrator;
-      row.step = step;
+      row.method = method;
       try {
-        RecordedRun run = record(row, 0.5 * share);
+        RecordedRun run = record(method, look_within(0.5 * share, watch_.look));
         fill(row, run);
         row.cpu_s = bare = time_once(row);
         records = std::max(0.0, run.cpu_s - bare);
         share -= run.cpu_s + bare;
         row.repeats = static_cast<int>(std::clamp<std::int64_t>(whole_below(share / bare), 0, options_.repeat));
         share -= row.repeats * bare;
-        if (engine == Engine::stepped && integrator == Integrator::rk4) check_reference(std::move(run));
+        // The book's engine is off by what bodies overlap, however smooth their paths are.
+        if (reference_.horizon > 0 && method.engine == Engine::stepped) evidence_->add_halved(method, std::move(run));
       } catch (const Overrun&) {
         result_.left_out.push_back(fmt::format("{}: steps of {:.4g} s and shorter, one run takes more than {:.2g} s",
-                                               method_name(engine, integrator), step, 0.5 * share));
+                                               name_of(method), step, 0.5 * share));
         return;
       } catch (const SimulationError& error) {
         row.failure = named(error).what();
@@ -184,37 +167,41 @@ class Bench {
     }
   }
 
-  /// By a run with half the step of the one before.
-  void check_reference(RecordedRun run) {
-    if (coarser_)
-      convergence_.take(reference_.off(world_, run),
-                        differences(world_, *coarser_, run, reference_.instants, reference_.horizon));
-    coarser_ = std::move(run);
-  }
-
-  void tell_of_reference() {
-    result_.reference = reference_.way.engine;
+  void settle_reference() {
     result_.rounding = reference_.rounding;
     result_.chaotic = reference_.chaotic;
     result_.horizon = reference_.horizon;
-    result_.reference_error = reference_.error;
     if (reference_.ensemble) {
       result_.members = reference_.ensemble->size();
       result_.mean = reference_.ensemble->mean();
     }
-    const Differences more = convergence_.error(reference_.error);
-    result_.checked_by_steps = more.position > 0;
-    result_.reference_error = larger(result_.reference_error, more);
+    if (reference_.horizon > 0) {
+      Verdict verdict = evidence_->verdict();
+      reference_.error = verdict.error;
+      result_.witnesses = std::move(verdict.witnesses);
+      if (verdict.trusted > 0) take_reference(evidence_->findings()[verdict.trusted]);
+    }
+    result_.reference = reference_.method;
+    result_.reference_error = reference_.error;
     for (BenchRow& row : result_.rows)
-      if (std::isnan(row.step) && row.engine == result_.reference && row.errors) row.errors = result_.reference_error;
+      if (row.errors && is_reference(row.method)) row.errors = reference_.error;
+  }
+
+  /// In place of the first one.
+  void take_reference(const Finding& finding) {
+    reference_.method = finding.method;
+    reference_.run = finding.run;
+    for (BenchRow& row : result_.rows)
+      if (row.failure.empty()) row.errors = reference_.off(world_, record(row.method, watch_.look));
   }
 
   /// Nothing recorded; the result must be the row's. Gives the CPU time (s).
   double time_once(const BenchRow& row) const {
     const double start = cpu_time();
-    if (bare_run(world_, scene_.initial, way_of(row), watch_.look) != row.hash)
-      throw std::runtime_error(
-          fmt::format("the result is another one at each run of {}", method_name(row.engine, row.integrator)));
+    const SimulationMethod& method = row.method;
+    const Simulate settings = settings_of(scene_.simulate, method);
+    if (bare_run(world_, scene_.initial, settings, steps_of(method), watch_.look) != row.hash)
+      throw std::runtime_error(fmt::format("the result is another one at each run of {}", full_name_of(method)));
     return cpu_time() - start;
   }
 
@@ -241,16 +228,11 @@ class Bench {
   double left_ = 0;            // s of CPU time for the rows
   std::vector<double> steps_;  // s, from the longest
   Reference reference_;
-  std::optional<RecordedRun> coarser_;  // the last one by rk4
-  Convergence convergence_;
+  std::optional<Evidence> evidence_;
   BenchResult result_;
 };
 
 }  // namespace
-
-std::string method_name(Engine engine, Integrator integrator) {
-  return engine == Engine::stepped ? fmt::format("stepped {}", name_of(integrator)) : name_of(engine);
-}
 
 double rounding_of(const Scene& scene) {
   return 0x1p-53 * extent(scene.world, scene.initial);

@@ -2,13 +2,14 @@
 // Run time against error: one scene by every engine, integrator and step, held against a reference.
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "scene/scene.h"
 #include "study/differences.h"
+#include "study/evidence.h"
+#include "study/method.h"
 #include "study/statistics.h"
 
 namespace carom {
@@ -20,11 +21,9 @@ struct BenchOptions {
   std::optional<Engine> reference;          // exact or stepped; none: exact if it has all that the scene asks for
 };
 
-/// One way to simulate, what it costs and how far off it is.
+/// A method, what it costs and how far off it is.
 struct BenchRow {
-  Engine engine = Engine::exact;
-  Integrator integrator = Integrator::rk4;                 // stepped
-  double step = std::numeric_limits<double>::quiet_NaN();  // s; the exact engine has none
+  SimulationMethod method;
   std::string failure;  // empty: the run came to its end, and all of the rest is there
   double cpu_s = 0;     // of one run, the median of `repeats`
   int repeats = 0;
@@ -38,14 +37,11 @@ struct BenchRow {
   Deviation deviation;        // from the ensemble's means
 };
 
-/// "exact", "stepped rk4", "book".
-std::string method_name(Engine engine, Integrator integrator);
-
 struct BenchResult {
-  Engine reference = Engine::exact;  // or stepped, by dop853
-  Differences reference_error;       // an estimate; how it was come by: see bench.cpp
-  bool checked_by_steps = false;     // it is what the stepped engine says, not what rounding does
-  double rounding = 0;               // m: by how much runs in shifted coordinates differ, anywhere at any instant
+  SimulationMethod reference;
+  Differences reference_error;     // an estimate (evidence.h)
+  std::vector<Witness> witnesses;  // what other methods say of it
+  double rounding = 0;             // m: by how much runs in shifted coordinates differ, anywhere at any instant
   bool chaotic = false;
   double horizon = 0;       // s: trajectories are compared until then
   std::size_t members = 0;  // of the ensemble of a chaotic scene, the reference included

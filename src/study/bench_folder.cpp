@@ -4,7 +4,7 @@
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
+#include <set>
 
 #include "export/csv.h"
 #include "export/manifest.h"
@@ -32,11 +32,11 @@ Json outputs_json(const BenchOptions& options) {
 
 Json facts_json(const BenchResult& result) {
   const Differences& error = result.reference_error;
-  Json reference = {{"engine", name_of(result.reference)}};
-  if (result.reference == Engine::stepped) reference["integrator"] = name_of(Integrator::dop853);
+  Json reference = method_json(result.reference);
   reference["position_error_m"] = error.position;
   reference["velocity_error_m_per_s"] = error.velocity;
   reference["energy_error_J"] = error.energy;
+  reference["held_against"] = witnesses_json(result.witnesses);
   return {{"reference", std::move(reference)},
           {"rounding_m", result.rounding},
           {"chaotic", result.chaotic},
@@ -50,14 +50,16 @@ void write_table(OutputFile& file, const BenchResult& result) {
   file.write(
       "engine,integrator,step_s,cpu_s,position_error_m,velocity_error_m_per_s,energy_error_J,max_overlap_m,"
       "collisions_missed,collisions_invented,result_hash,status,repeats,collisions,compared_until_s,"
-      "collision_rate_per_s,mean_speed_m_per_s,force_on_fixed_N,speed_distance,deviation,deviation_of\n");
+      "collision_rate_per_s,mean_speed_m_per_s,force_on_fixed_N,speed_distance,deviation,deviation_of,step_error,"
+      "reference_error_m\n");
   for (const BenchRow& row : result.rows) {
     const bool done = row.failure.empty(), errors = done && row.errors, statistics = done && result.chaotic;
     const auto if_any = [](bool there, double value) { return there ? value : nothing; };
     const Differences e = row.errors.value_or(Differences{});
     CsvRow cells(file);
-    cells.text(name_of(row.engine)).text(row.engine == Engine::stepped ? name_of(row.integrator) : "");
-    cells.number(row.step).number(if_any(done, row.cpu_s)).number(if_any(errors, e.position));
+    const SimulationMethod& method = row.method;
+    cells.text(name_of(method.engine)).text(method.engine == Engine::stepped ? name_of(method.integrator) : "");
+    cells.number(method.step).number(if_any(done, row.cpu_s)).number(if_any(errors, e.position));
     cells.number(if_any(errors, e.velocity)).number(if_any(errors, e.energy)).number(if_any(done, row.max_overlap));
     cells.number(if_any(errors, static_cast<double>(e.missed)));
     cells.number(if_any(errors, static_cast<double>(e.invented)));
@@ -68,33 +70,61 @@ void write_table(OutputFile& file, const BenchResult& result) {
     cells.number(if_any(statistics, row.statistics.mean_speed));
     cells.number(if_any(statistics, row.statistics.force_on_fixed));
     cells.number(if_any(statistics, row.speed_distance)).number(if_any(statistics, row.deviation.value));
-    cells.text(statistics ? row.deviation.of : "").end();
+    cells.text(statistics ? row.deviation.of : "").number(method.step_error);
+    cells.number(if_any(errors, result.reference_error.position)).end();
   }
 }
 
-std::size_t look_of(const BenchRow& row) {
-  return row.engine == Engine::exact  ? 0
-         : row.engine == Engine::book ? 5
-                                      : 1 + static_cast<std::size_t>(row.integrator);
-}
-
-/// "1/16 s", or a decimal where it is no such fraction.
-std::string step_label(double step) {
-  const double per_second = 1 / step;
-  return per_second == std::round(per_second) && per_second < 1e7 ? fmt::format("1/{:.0f} s", per_second)
-                                                                  : fmt::format("{:.2g} s", step);
+std::size_t look_of(const SimulationMethod& method) {
+  return method.engine == Engine::exact  ? 0
+         : method.engine == Engine::book ? 5
+                                         : 1 + static_cast<std::size_t>(method.integrator);
 }
 
 std::string plot_subtitle(const BenchResult& result) {
-  std::string text = result.reference == Engine::exact ? "error: from the exact engine's run; its own is estimated"
-                                                       : "error: from a run by dop853; its own is estimated";
   if (result.chaotic)
     return fmt::format("a chaotic scene: from the mean of {} runs by the {} engine that differ by rounding",
-                       result.members, name_of(result.reference));
-  return text;
+                       result.members, name_of(result.reference.engine));
+  return fmt::format("error: distance from a run by {}; bars: that run's own error", full_name_of(result.reference));
+}
+
+PlotPoint point_of(const BenchRow& row, const BenchResult& result) {
+  PlotPoint point{row.cpu_s, result.chaotic ? row.deviation.value : row.errors->position, steps_text(row.method)};
+  if (result.chaotic) return point;
+  point.low = point.y - result.reference_error.position;
+  point.high = point.y + result.reference_error.position;
+  return point;
+}
+
+bool has_exact_bits(const BenchRow& row, const BenchRow& first) {
+  return row.method.engine == Engine::stepped && first.method.engine == Engine::exact && row.hash == first.hash;
+}
+
+std::vector<PlotLevel> levels_of(const BenchResult& result) {
+  if (result.chaotic) return {{"significant above", significant_deviation}};
+  return {{"limit of rounding", result.rounding}};
 }
 
 }  // namespace
+
+nlohmann::ordered_json method_json(const SimulationMethod& method) {
+  Json json = {{"engine", name_of(method.engine)}};
+  if (method.engine == Engine::stepped) json["integrator"] = name_of(method.integrator);
+  if (std::isfinite(method.step)) json["step_s"] = method.step;
+  if (std::isfinite(method.step_error)) json["step_error"] = method.step_error;
+  return json;
+}
+
+nlohmann::ordered_json witnesses_json(const std::vector<Witness>& witnesses) {
+  Json list = Json::array();
+  for (const Witness& witness : witnesses) {
+    Json json = method_json(witness.method);
+    json["apart_m"] = witness.apart;
+    json["agrees"] = witness.agrees;
+    list.push_back(std::move(json));
+  }
+  return list;
+}
 
 Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
   Plot plot;
@@ -104,16 +134,20 @@ Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
   plot.y_label = result.chaotic ? "deviation of statistics (1: their spread by rounding)"
                                 : "position error (m), greatest of all bodies and instants";
   plot.floor = result.chaotic ? least_deviation : rounding_of(scene);
-  if (result.chaotic) plot.level = PlotLevel{"significant above", significant_deviation};
-  if (!result.chaotic && result.reference == Engine::stepped)
-    plot.level = PlotLevel{"reference's error", result.reference_error.position};
+  plot.levels = levels_of(result);
+  std::set<std::string> exact;  // integrators whose runs have the exact engine's very bits: a point with it
   for (const BenchRow& row : result.rows) {
     if (!row.failure.empty() || (!result.chaotic && !row.errors)) continue;
-    const std::string name = method_name(row.engine, row.integrator);
-    if (plot.series.empty() || plot.series.back().name != name) plot.series.push_back({name, look_of(row), {}});
-    plot.series.back().points.push_back({row.cpu_s, result.chaotic ? row.deviation.value : row.errors->position});
-    if (std::isfinite(row.step)) plot.series.back().points.back().label = step_label(row.step);
+    if (has_exact_bits(row, result.rows.front())) {
+      exact.insert(name_of(row.method.integrator));
+      continue;
+    }
+    const std::string name = name_of(row.method);
+    if (plot.series.empty() || plot.series.back().name != name) plot.series.push_back({name, look_of(row.method), {}});
+    plot.series.back().points.push_back(point_of(row, result));
   }
+  if (exact.size() == 3) exact = {"stepped"};
+  for (const std::string& name : exact) plot.series.front().name += ", " + name;
   // The steps of the first and the last point tell those between.
   for (PlotSeries& series : plot.series)
     for (std::size_t k = 1; k + 1 < series.points.size(); ++k) series.points[k].label.clear();

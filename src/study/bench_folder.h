@@ -1,5 +1,6 @@
 #pragma once
 // What a bench leaves: bench.csv, the plot, the scene, and a manifest that has the reference and the rest of the facts.
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "export/open_folder.h"
@@ -14,6 +15,11 @@ FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene
 
 /// The work-precision plot: CPU time of a run against its error, or, of a chaotic scene, its statistics' deviation.
 Plot work_precision_plot(const Scene& scene, const BenchResult& result);
+
+/// As in manifest.json: engine, integrator, step_s, step_error.
+nlohmann::ordered_json method_json(const SimulationMethod& method);
+/// Other methods, with apart_m and agrees.
+nlohmann::ordered_json witnesses_json(const std::vector<Witness>& witnesses);
 
 class BenchFolder {
  public:

@@ -37,21 +37,23 @@ bool chooses_steps(const Simulate& simulate) {
 
 /// The same, with free flights in steps.
 std::unique_ptr<Simulator> make_stepped(const World& world, const State& initial, const Simulate& simulate,
-                                        bool record_collisions, double step_error) {
+                                        bool record_collisions, const StepChoice& steps) {
   ExactOptions options = exact_options(simulate, record_collisions);
-  if (step_error > 0) options.step_error = step_error;
+  if (steps.error > 0) options.step_error = steps.error;
   options.integrator = simulate.integrator;
-  if (simulate.step)
-    options.step = *simulate.step;
+  options.closed_forms = !steps.numerical;
+  const std::optional<double> step = steps.length ? steps.length : simulate.step;
+  if (step)
+    options.step = *step;
   else if (!chooses_steps(simulate))
     options.step = default_step(world, initial);
   return make_exact_simulator(world, initial, options);
 }
 
 std::unique_ptr<Simulator> make_book(const World& world, const State& initial, const Simulate& simulate,
-                                     bool record_collisions) {
+                                     bool record_collisions, const StepChoice& steps) {
   BookOptions options;
-  options.step = simulate.step.value_or(options.step);
+  options.step = steps.length.value_or(simulate.step.value_or(options.step));
   options.as_printed = simulate.as_printed;
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
   options.record_collisions = record_collisions;
@@ -78,10 +80,10 @@ const char* name_of(Engine engine) {
   return "auto";
 }
 
-Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator, std::optional<double> step) {
+Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator) {
   simulate.engine = engine;
   simulate.integrator = integrator;
-  simulate.step = step;
+  simulate.step.reset();
   simulate.tolerance.reset();
   return simulate;
 }
@@ -130,11 +132,6 @@ EngineChoice choose_engine(const Scene& scene) {
   return choice;
 }
 
-Simulate with_steps(Simulate simulate, const StepChoice& steps) {
-  if (steps.length) simulate.step = steps.length;
-  return simulate;
-}
-
 namespace {
 
 /// How a run that does not meet its tolerance falls short of it.
@@ -179,18 +176,18 @@ void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<
 }
 
 std::unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
-                                          bool record_collisions, bool record_paths, double step_error) {
+                                          bool record_collisions, bool record_paths, const StepChoice& steps) {
   if (simulate.engine == Engine::exact) return make_exact(world, initial, simulate, record_collisions, record_paths);
-  if (simulate.engine == Engine::stepped) return make_stepped(world, initial, simulate, record_collisions, step_error);
-  return make_book(world, initial, simulate, record_collisions);
+  if (simulate.engine == Engine::stepped) return make_stepped(world, initial, simulate, record_collisions, steps);
+  return make_book(world, initial, simulate, record_collisions, steps);
 }
 
 std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collisions, const StepChoice& steps,
                                           bool record_paths) {
-  Simulate simulate = with_steps(scene.simulate, steps);
+  Simulate simulate = scene.simulate;
   if (simulate.engine == Engine::automatic)
     simulate.engine = force_without_closed_form(scene.world) == nullptr ? Engine::exact : Engine::stepped;
-  return make_simulator(scene.world, scene.initial, simulate, record_collisions, record_paths, steps.error);
+  return make_simulator(scene.world, scene.initial, simulate, record_collisions, record_paths, steps);
 }
 
 void check_flights(const Scene& scene) {

@@ -15,6 +15,7 @@ namespace carom {
 struct StepChoice {
   std::optional<double> length{};  // s: of dop853 the longest; none: by the forces, or as the run goes
   double error = 0;                // of dop853, of a radius and of speeds in each; 0: the default
+  bool numerical = false;          // dop853 follows paths that have closed forms too: a way independent of these
 };
 
 /// How a small disturbance of a motion grows.
@@ -39,12 +40,8 @@ EngineChoice choose_engine(const Scene& scene);
 const char* name_of(Engine engine);          // as in scene files
 const char* name_of(Integrator integrator);  // "euler", "verlet", "rk4", "dop853"; as in scene files
 
-/// A scene's settings with another engine, integrator and step (s; none: the default).
-Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator = Integrator::rk4,
-                     std::optional<double> step = {});
-
-/// The same settings with these steps.
-Simulate with_steps(Simulate simulate, const StepChoice& steps);
+/// A scene's settings with another engine and integrator, and without a step or tolerance.
+Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator = Integrator::rk4);
 
 /// Where the scene asks for a tolerance: finds the steps that meet it, by running it again and again (accuracy.h), or
 /// by how much it is not met. `look` is called now and then, and may throw. Throws SimulationError.
@@ -60,9 +57,10 @@ std::unique_ptr<Simulator> make_simulator(const Scene& scene, bool record_collis
                                           bool record_paths = false);
 
 /// The simulator that `simulate` names (its engine: not automatic), from any state of any world on; both must outlive
-/// it. Without a step of its own: the default. step_error: StepChoice::error. Throws SimulationError.
+/// it. Without a step of its own or of `steps`: the default. Throws SimulationError.
 std::unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
-                                          bool record_collisions, bool record_paths = false, double step_error = 0);
+                                          bool record_collisions, bool record_paths = false,
+                                          const StepChoice& steps = {});
 
 /// The most exact simulator that there is for the scene, whatever engine it asks for: what really happens first.
 std::unique_ptr<Simulator> make_oracle(const Scene& scene);

@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <tuple>
 
-#include "study/engine.h"
 #include "study/state_hash.h"
 #include "study/timing.h"
 
 namespace carom {
 
-RecordedRun record_run(const World& world, const State& initial, const Simulate& simulate,
-                       const std::vector<double>& instants, const std::function<void()>& look, double step_error) {
+RecordedRun record_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
+                       const std::vector<double>& instants, const std::function<void()>& look) {
   const double start = cpu_time();
   RecordedRun run;
   run.duration = simulate.duration;
-  const auto simulator = make_simulator(world, initial, simulate, true, false, step_error);
+  const auto simulator = make_simulator(world, initial, simulate, true, false, steps);
   const auto go_to = [&](double time) {
     while (simulator->time() < time) {
       look();
@@ -39,9 +38,9 @@ RecordedRun record_run(const World& world, const State& initial, const Simulate&
   return run;
 }
 
-std::uint64_t bare_run(const World& world, const State& initial, const Simulate& simulate,
+std::uint64_t bare_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
                        const std::function<void()>& look) {
-  const auto simulator = make_simulator(world, initial, simulate, false);
+  const auto simulator = make_simulator(world, initial, simulate, false, false, steps);
   while (simulator->time() < simulate.duration) {
     look();
     simulator->advance_to(simulate.duration);

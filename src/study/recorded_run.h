@@ -8,6 +8,7 @@
 #include "physics/tally.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "study/engine.h"
 
 namespace carom {
 
@@ -32,12 +33,12 @@ struct RecordedRun {
 };
 
 /// Runs from `initial` on to the end of simulate.duration, and looks at `instants` (s, ascending). `look` is called
-/// now and then, and may throw. step_error: StepChoice::error. Throws SimulationError.
-RecordedRun record_run(const World& world, const State& initial, const Simulate& simulate,
-                       const std::vector<double>& instants, const std::function<void()>& look, double step_error = 0);
+/// now and then, and may throw. Throws SimulationError.
+RecordedRun record_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
+                       const std::vector<double>& instants, const std::function<void()>& look);
 
 /// The same run, neither looked at nor recorded: what is timed. Gives the result's hash.
-std::uint64_t bare_run(const World& world, const State& initial, const Simulate& simulate,
+std::uint64_t bare_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
                        const std::function<void()>& look);
 
 }  // namespace carom

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/force.h"
 #include "scene/unsupported.h"
 #include "simulate/tolerances.h"
-#include "study/engine.h"
 #include "study/shifted.h"
 #include "study/timing.h"
 
@@ -38,11 +38,12 @@ class Making {
 
   Reference go() {
     watch_.tell(0, "the reference");
-    const Simulate exact = with_engine(scene_.simulate, Engine::exact);
-    const bool exact_runs = unsupported(world_, exact).empty();
-    reference_.way = with_engine(
-        scene_.simulate, options_.reference.value_or(exact_runs ? Engine::exact : Engine::stepped), Integrator::dop853);
-    if (const auto lacks = unsupported(world_, reference_.way); !lacks.empty())
+    SimulationMethod& method = reference_.method;
+    const bool exact_runs = unsupported(world_, settings_of(scene_.simulate, method)).empty();
+    method.engine = options_.reference.value_or(exact_runs ? Engine::exact : Engine::stepped);
+    if (method.engine == Engine::stepped) method = dop853(world_, exact_tolerance::step_error);
+    reference_.duration = scene_.simulate.duration;
+    if (const auto lacks = unsupported(world_, settings_of(scene_.simulate, method)); !lacks.empty())
       throw SimulationError("there is no reference: " + lacks.front().what);
     try {
       run();
@@ -50,7 +51,7 @@ class Making {
       throw SimulationError(
           fmt::format("the reference, by {}, takes too long for a budget of {} s: give it more (--budget), or "
                       "shorten simulate.duration",
-                      method_name(reference_.way.engine, Integrator::dop853), options_.budget));
+                      name_of(reference_.method), options_.budget));
     }
     return std::move(reference_);
   }
@@ -58,15 +59,15 @@ class Making {
  private:
   double spent() const { return cpu_time() - start_; }
 
-  RecordedRun record(const World& world, const State& initial, const Simulate& way, double step_error = 0) const {
-    return record_run(world, initial, way, reference_.instants, look_within(0.5 * options_.budget, watch_.look),
-                      step_error);
+  RecordedRun record(const World& world, const State& initial, const SimulationMethod& method) const {
+    return record_run(world, initial, settings_of(scene_.simulate, method), steps_of(method), reference_.instants,
+                      look_within(0.5 * options_.budget, watch_.look));
   }
 
   void run() {
     const double duration = scene_.simulate.duration;
     reference_.instants = instants_in(0, duration, world_.body_count());
-    reference_.run = record(world_, scene_.initial, reference_.way);
+    reference_.run = record(world_, scene_.initial, reference_.method);
     const double once = reference_.run.cpu_s;
     std::vector<RecordedRun> others;
     for (int k = 1; k <= shifted_runs && (k == 1 || (k + 1) * once < 0.2 * options_.budget); ++k)
@@ -75,22 +76,43 @@ class Making {
     if (reference_.chaotic) {
       gather_ensemble();
     } else {
-      for (const RecordedRun& other : others) take_error(other);
+      for (const RecordedRun& other : others) take_rounding(other);
     }
-    if (reference_.way.engine != Engine::stepped) return;
-    take_error(record(world_, scene_.initial, reference_.way, exact_tolerance::step_error / accuracy_tolerance::finer));
+    reference_.error = reference_.rounded;
+    if (!(reference_.horizon > 0) || varying_force(world_) == nullptr) return;
+    watch_.tell(0, "dop853");
+    const SimulationMethod fine = dop853(world_, exact_tolerance::step_error / accuracy_tolerance::finer);
+    if (reference_.method.engine == Engine::stepped) {
+      reference_.error = larger(reference_.error, reference_.off(world_, record(world_, scene_.initial, fine)));
+    } else {
+      find_another(fine);
+    }
+  }
+
+  /// One that takes too long is none.
+  void find_another(const SimulationMethod& fine) {
+    if (!unsupported(world_, settings_of(scene_.simulate, fine)).empty()) return;
+    try {
+      const RecordedRun coarse = record(world_, scene_.initial, dop853(world_, exact_tolerance::step_error));
+      Finding other{fine, record(world_, scene_.initial, fine), {}};
+      other.error =
+          larger(reference_.rounded, differences(world_, coarse, other.run, reference_.instants, reference_.horizon));
+      reference_.second = std::move(other);
+    } catch (const Overrun&) {
+    } catch (const SimulationError&) {
+    }
   }
 
   RecordedRun shifted_run(int number) const {
     const Vec3 by = shift(extent(world_, scene_.initial), number);
     const World world = shifted(world_, by);
-    RecordedRun run = record(world, shifted(scene_.initial, by), reference_.way);
+    RecordedRun run = record(world, shifted(scene_.initial, by), reference_.method);
     for (State& state : run.states) state = shifted(std::move(state), -by);
     return run;
   }
 
-  void take_error(const RecordedRun& other) {
-    reference_.error = larger(reference_.error, reference_.off(world_, other));
+  void take_rounding(const RecordedRun& other) {
+    reference_.rounded = larger(reference_.rounded, reference_.off(world_, other));
   }
 
   /// Whether rounding grows until trajectories mean nothing, and until when they do.
@@ -116,14 +138,14 @@ class Making {
     reference_.trajectory_instants = instants.size();
     for (const double later : instants_in(reference_.horizon, scene_.simulate.duration, world_.body_count()))
       instants.push_back(later);
-    reference_.run = record(world_, scene_.initial, reference_.way);
+    reference_.run = record(world_, scene_.initial, reference_.method);
     std::vector<Statistics> members = {reference_.statistics(world_, reference_.run)};
     for (int k = 1; k <= ensemble_runs; ++k) {
       if (k > 3 && spent() + reference_.run.cpu_s > 0.5 * options_.budget) break;
       watch_.tell(0, "the reference, shifted");
       const RecordedRun run = shifted_run(k);
       members.push_back(reference_.statistics(world_, run));
-      take_error(run);
+      take_rounding(run);
     }
     reference_.ensemble.emplace(std::move(members));
   }

@@ -12,6 +12,8 @@
 #include "scene/scene.h"
 #include "study/bench.h"
 #include "study/differences.h"
+#include "study/evidence.h"
+#include "study/method.h"
 #include "study/recorded_run.h"
 #include "study/statistics.h"
 
@@ -24,21 +26,24 @@ struct Overrun {};
 std::function<void()> look_within(double share, const std::function<void()>& look);
 
 struct Reference {
-  Simulate way;                         // the engine is exact, or stepped by dop853
+  SimulationMethod method;              // exact, or stepped by dop853
+  double duration = 0;                  // s, of the scene
   std::vector<double> instants;         // s; of a chaotic scene those before the horizon, then those behind it
   std::size_t trajectory_instants = 0;  // of a chaotic scene: how many lie before the horizon
   RecordedRun run;
   double rounding = 0;  // m: by how much shifted runs differ, anywhere at any instant
   bool chaotic = false;
   double horizon = 0;                // s: trajectories are compared until then
-  Differences error;                 // what rounding does until then, and, of a stepped one, smaller step errors
+  Differences rounded;               // what rounding does until then,
+  Differences error;                 // and, of a stepped one, smaller step errors
+  std::optional<Finding> second;     // by dop853 where paths have closed forms; none: they are parabolas
   std::optional<Ensemble> ensemble;  // of a chaotic scene, itself included
 
   Differences off(const World& world, const RecordedRun& other) const {
     return differences(world, run, other, instants, horizon);
   }
   Statistics statistics(const World& world, const RecordedRun& other) const {
-    return statistics_of(world, other, way.duration, trajectory_instants);
+    return statistics_of(world, other, duration, trajectory_instants);
   }
 };
 

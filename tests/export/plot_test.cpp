@@ -19,7 +19,7 @@ Plot small_plot() {
   plot.y_label = "error (m)";
   plot.series = {{"first", 1, {{1e-3, 1e-1, "1/16 s"}, {2e-3, 5e-2}, {4e-3, 2.5e-2, "1/64 s"}}},
                  {"second", 2, {{1e-3, 1e-2}, {2e-3, 2.5e-3}, {4e-3, 0}}}};
-  plot.level = PlotLevel{"rounding", 1e-6};
+  plot.levels = {{"rounding", 1e-6}};
   plot.floor = 1e-8;
   return plot;
 }

@@ -240,8 +240,8 @@ TEST(ReadmeBench, TableHasTheErrorsThatAreMeasured) {
   for (std::sregex_iterator i(readme().begin(), readme().end(), line), end; i != end; ++i, ++lines) {
     const std::string name = (*i)[1], per_second = (*i)[2];
     const auto row = std::find_if(result.rows.begin(), result.rows.end(), [&](const BenchRow& r) {
-      if (r.engine == Engine::exact) return name == "exact";
-      return name == name_of(r.integrator) && per_second == std::to_string(std::lround(1 / r.step));
+      if (r.method.engine == Engine::exact) return name == "exact";
+      return name == name_of(r.method.integrator) && per_second == std::to_string(std::lround(1 / r.method.step));
     });
     ASSERT_NE(row, result.rows.end()) << name << " 1/" << per_second;
     const Differences& errors = *row->errors;
