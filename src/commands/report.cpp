@@ -67,6 +67,13 @@ std::string energy_text(const Summary& summary) {
   return text + fmt::format(", residual {}", quantity(summary.energy.residual, "J"));
 }
 
+std::string work_text(const Summary& summary) {
+  std::vector<std::string> each;
+  for (const ForceWork& force : summary.energy.of_forces)
+    each.push_back(fmt::format("{} of {}", quantity(force.work, "J"), force.force));
+  return listed(each);
+}
+
 Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value == 0 ? 0.0 : value) : Json(nullptr);
 }
@@ -147,6 +154,7 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
                                        counted(all.impacts, "impact", "impacts"), quantity(all.fastest, "m/s"),
                                        quantity(all.energy, "J")));
   block.line("energy", energy_text(summary));
+  if (!summary.energy.of_forces.empty()) block.line("work", work_text(summary));
   block.line("overlap", summary.max_overlap > 0 ? quantity(summary.max_overlap, "m at most") : "none");
   describe(block, summary.warnings);
   for (const LeftOut& file : result.facts.left_out)
@@ -187,6 +195,12 @@ Json warnings_json(const std::vector<Warning>& warnings) {
   Json list = Json::array();
   for (const Warning& warning : warnings) list.push_back({{"code", warning.code}, {"text", warning.text}});
   return list;
+}
+
+Json work_json(const Summary& s) {
+  Json json = Json::object();
+  for (const ForceWork& force : s.energy.of_forces) json[force.force + "_J"] = number_or_null(force.work);
+  return json;
 }
 
 Json contact_json(const Summary& s) {

@@ -46,6 +46,8 @@ nlohmann::ordered_json summary_json(const Summary& summary);
 nlohmann::ordered_json warnings_json(const std::vector<Warning>& warnings);
 /// What became of bodies that met and stayed together; not all of it has a column.
 nlohmann::ordered_json contact_json(const Summary& summary);
+/// J, by force: "forces.0.drag_J".
+nlohmann::ordered_json work_json(const Summary& summary);
 nlohmann::ordered_json facts_json(const RunResult& result);
 
 /// {"carom": version, "command": ..., "scenes": [...]}, the whole of what --json prints. An object's members stand as

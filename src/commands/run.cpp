@@ -189,6 +189,7 @@ class Session {
     Told one = told(planned, done);
     one.entry["summary"] = summary_json(result.summary);
     one.entry["contact"] = contact_json(result.summary);
+    if (!result.summary.energy.of_forces.empty()) one.entry["work"] = work_json(result.summary);
     one.entry["warnings"] = warnings_json(result.summary.warnings);
     one.entry["files"] = files_in(planned.folder);
     one.entry["time"] = facts_json(result);

@@ -27,6 +27,12 @@ struct PictureStream {
   int timeline_stream = 0;
 };
 
+/// What one force did in a run.
+struct ForceWork {
+  std::string force;  // "gravity", "merging", or its path in the scene: "forces.0.drag"
+  double work = 0;    // J
+};
+
 /// Where a run's energy went, J.
 struct EnergyTotals {
   double start = 0, end = 0;
@@ -34,6 +40,7 @@ struct EnergyTotals {
   double work = 0;      // of forces without a potential
   double residual = 0;  // what neither impacts nor work account for: the method's own error, and rounding
   double turnover = 0;  // what has changed its form at least: kinetic at both ends, potential, lost, work
+  std::vector<ForceWork> of_forces{};  // of a scene with forces; else empty
 };
 
 /// Why a figure may be wrong, and what to do about it.

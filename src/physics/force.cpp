@@ -33,21 +33,27 @@ Vec3 working_acceleration(const World& world, Entity body, double time, const Ve
   Vec3 a = Vec3::Zero();
   for (const Force& force : world.forces) {
     if (time < force.from || time >= force.until || !acts_on(force, body)) continue;
-    const Particle p{x, v, world.mass[body]};
-    const bool all = !acts_for_ever(force);
-    a += std::visit([&](const auto& law) { return all ? law.acceleration(p) : law.drain(p); }, force.law);
+    a += working_acceleration(world, force, body, x, v);
   }
   return a;
 }
 
+Vec3 working_acceleration(const World& world, const Force& force, Entity body, const Vec3& x, const Vec3& v) {
+  const Particle p{x, v, world.mass[body]};
+  const bool all = !acts_for_ever(force);
+  return std::visit([&](const auto& law) { return all ? law.acceleration(p) : law.drain(p); }, force.law);
+}
+
 double potential(const World& world, Entity body, const Vec3& x) {
   double sum = -world.mass[body] * world.gravity.dot(x);
-  for (const Force& force : world.forces) {
-    if (!acts_for_ever(force) || !acts_on(force, body)) continue;
-    const Particle p{x, Vec3::Zero(), world.mass[body]};
-    sum += std::visit([&](const auto& law) { return law.potential(p); }, force.law);
-  }
+  for (const Force& force : world.forces) sum += potential(world, force, body, x);
   return sum;
+}
+
+double potential(const World& world, const Force& force, Entity body, const Vec3& x) {
+  if (!acts_for_ever(force) || !acts_on(force, body)) return 0;
+  const Particle p{x, Vec3::Zero(), world.mass[body]};
+  return std::visit([&](const auto& law) { return law.potential(p); }, force.law);
 }
 
 double next_switch(const World& world, Entity body, double time) {

@@ -15,8 +15,13 @@ Vec3 free_acceleration(const World& world, Entity body, double time, const Vec3&
 /// The part of it that does work: that no potential stands for.
 Vec3 working_acceleration(const World& world, Entity body, double time, const Vec3& x, const Vec3& v);
 
+/// Of one force that acts on this body.
+Vec3 working_acceleration(const World& world, const Force& force, Entity body, const Vec3& x, const Vec3& v);
+
 /// J, of gravity (zero at the origin) and of the forces that act for ever.
 double potential(const World& world, Entity body, const Vec3& x);
+/// Of one force: 0 unless it acts for ever on this body.
+double potential(const World& world, const Force& force, Entity body, const Vec3& x);
 
 /// The first instant after `time` (s) at which a force on this body sets in or ceases; infinity: none.
 double next_switch(const World& world, Entity body, double time);

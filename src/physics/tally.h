@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "physics/collision.h"
 
@@ -26,11 +27,12 @@ struct Tally {
   double energy_lost = 0;      // J, by impacts: those recorded, and those that contact took up
   double method_error = 0;     // J, that lasting contact took beside impacts (below 0: made): its method's own error
   double work = 0;             // J, by the World's forces (gravity apart)
-  double greatest_phase = 0;   // rad, by which forces turn in a step of a method with steps of one length
-  double max_overlap = 0;      // m, deepest seen
-  double max_speed = 0;        // m/s, greatest seen
-  std::uint64_t resting = 0;   // bodies in resting contact now
-  double stepped_contact = 0;  // s, summed over bodies: lasting contact that time stepping has told
+  std::vector<double> force_work;  // J, by force: its part of that; empty: there are no forces, or it is not known
+  double greatest_phase = 0;       // rad, by which forces turn in a step of a method with steps of one length
+  double max_overlap = 0;          // m, deepest seen
+  double max_speed = 0;            // m/s, greatest seen
+  std::uint64_t resting = 0;       // bodies in resting contact now
+  double stepped_contact = 0;      // s, summed over bodies: lasting contact that time stepping has told
   TakenUp taken_up;
 
   /// Takes a record into the counts; the end of bounces is no collision.

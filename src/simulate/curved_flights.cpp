@@ -223,14 +223,23 @@ PolynomialPath CurvedFlights::step(Entity i, const Vec3& x, Vec3& v, bool next) 
   return path;
 }
 
-double CurvedFlights::work(Entity i, const Flight& flight, double length) const {
-  double sum = 0;
-  for (const GaussPoint& node : gauss) {
-    const double t = node.at * length;
-    const Vec3 x = flight.position(t), v = flight.velocity(t);
-    sum += node.weight * working_acceleration(bodies_.world, i, flight.start.hi, x, v).dot(v);
+double CurvedFlights::work(Entity i, const Flight& flight, double length) {
+  const World& world = bodies_.world;
+  double all = 0;
+  for (std::size_t k = 0; k < world.forces.size(); ++k) {
+    const Force& force = world.forces[k];
+    if (!acts(force, i, flight.start.hi)) continue;
+    double sum = 0;
+    for (const GaussPoint& node : gauss) {
+      const double t = node.at * length;
+      const Vec3 x = flight.position(t), v = flight.velocity(t);
+      sum += node.weight * working_acceleration(world, force, i, x, v).dot(v);
+    }
+    const double work = world.mass[i] * length * sum;
+    if (work != 0) bodies_.log.add_force_work(k, work);
+    all += work;
   }
-  return sum * length;
+  return all;
 }
 
 }  // namespace carom

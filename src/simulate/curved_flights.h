@@ -24,9 +24,8 @@ class CurvedFlights {
   /// clock can tell no such steps.
   PolynomialPath step(Entity i, const Vec3& x, Vec3& v, bool next);
 
-  /// m^2/s^2: what forces without a potential do to a unit of body i's mass in `length` (s) of its flight from x (m)
-  /// and v (m/s) on.
-  double work(Entity i, const Flight& flight, double length) const;
+  /// J: what forces without a potential do to body i in `length` (s) of its flight; books what each of them does.
+  double work(Entity i, const Flight& flight, double length);
 
   /// Where a motion in closed form has led.
   struct Reached {

@@ -42,6 +42,16 @@ class EventLog {
     work_.add(work);
     tally_.work = work_.value();
   }
+  /// So many forces' works are booked each.
+  void expect_forces(std::size_t forces) {
+    force_work_.resize(forces);
+    tally_.force_work.resize(forces);
+  }
+  /// What one of them did (J) of that, by its number in the World.
+  void add_force_work(std::size_t force, double work) {
+    force_work_[force].add(work);
+    tally_.force_work[force] = force_work_[force].value();
+  }
   void note_speed(double speed) { tally_.max_speed = tally_.max_speed < speed ? speed : tally_.max_speed; }  // m/s
   void note_phase(double phase) { tally_.greatest_phase = std::max(tally_.greatest_phase, phase); }  // rad, of a step
   void note_overlap(double overlap) {                                                                // m
@@ -74,6 +84,7 @@ class EventLog {
   std::vector<Collision> collisions_;
   Tally tally_;
   Sum energy_lost_, method_error_, work_;  // J
+  std::vector<Sum> force_work_;            // J
 };
 
 }  // namespace carom

@@ -27,7 +27,9 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
       body(given.body_count()),
       neighbours(world),
       islands(given.body_count()),
-      log(options.max_collisions, options.record_collisions) {}
+      log(options.max_collisions, options.record_collisions) {
+  log.expect_forces(given.forces.size());
+}
 
 Vec3 ExactBodies::velocity_without_kick(Entity i, const Instant& at) const {
   const double t = at - flights[i].start;

@@ -181,7 +181,26 @@ void FlightChanges::book_forces(Entity i, const Vec3& x, const Instant& end) {
   // On a path that fades with its drag contact forces stay the same.
   const Vec3 held = f.fade == 0 ? Vec3(bodies_.applied[i] - f.a) : Vec3(bodies_.force_at(i, f.x, f.v) - f.a);
   bodies_.log.deviate(mass * (held.dot(displacement) - (f.fade == 0 ? dragged : 0)));
-  if (!world.forces.empty()) bodies_.log.add_work(mass * (bodies_.working[i].dot(displacement) - dragged));
+  if (world.forces.empty()) return;
+  bodies_.log.add_work(mass * (bodies_.working[i].dot(displacement) - dragged));
+  book_each_force(i, f.start.hi, displacement, fade == 0 ? 0 : dragged / fade);
+}
+
+/// Of forces that are constant but for linear drag, which acts by an integral of the squared speed (m^2/s).
+void FlightChanges::book_each_force(Entity i, double time, const Vec3& displacement, double squared_speed) {
+  const World& world = bodies_.merged.given();
+  const std::span<const Entity> parts = bodies_.merged.parts_of(i);
+  for (const Entity part : parts.empty() ? std::span<const Entity>(&i, 1) : parts)
+    for (std::size_t k = 0; k < world.forces.size(); ++k) {
+      const Force& force = world.forces[k];
+      if (!acts(force, part, time)) continue;
+      const Drag* const drag = std::get_if<Drag>(&force.law);
+      const Vec3 any = Vec3::Zero();
+      const double work = drag != nullptr
+                              ? -drag->linear * squared_speed
+                              : world.mass[part] * working_acceleration(world, force, part, any, any).dot(displacement);
+      if (work != 0) bodies_.log.add_force_work(k, work);
+    }
 }
 
 /// Of a free flight what forces do shows in the potential and in their work. Else contact has done the rest.
@@ -189,7 +208,7 @@ void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
   const Flight f = bodies_.flights[i];
   const double length = end - f.start, mass = bodies_.world.mass[i];
   if (!(length > 0)) return;
-  const double work = mass * curved_.work(i, f, length);
+  const double work = curved_.work(i, f, length);
   bodies_.log.add_work(work);
   if (f.curve != nullptr) return;
   const Vec3 v = f.velocity(length);

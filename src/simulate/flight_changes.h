@@ -65,6 +65,7 @@ class FlightChanges {
   void change(Entity i, const Vec3& dv);
   void curve(Entity i, Flight from, bool free);
   void end_change(Entity i, const FlightOrigin& origin);
+  void book_each_force(Entity i, double time, const Vec3& displacement, double squared_speed);
   void book_forces(Entity i, const Vec3& x, const Instant& end);
   void book_varying(Entity i, const Vec3& x, const Instant& end);
 

@@ -2,6 +2,7 @@
 // Bodies that have become one: which bodies each joint body is made of, and the World with the joint masses and
 // volumes. Forces act on the parts.
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "physics/world.h"
@@ -25,6 +26,10 @@ class MergedBodies {
   bool any() const { return !whole_of_.empty(); }
   const std::vector<Entity>& whole_of() const { return whole_of_; }  // by body: the one it is part of; empty: none
 
+  /// What body i is made of; none: itself.
+  std::span<const Entity> parts_of(Entity i) const {
+    return parts_.empty() ? std::span<const Entity>() : std::span<const Entity>(parts_[i]);
+  }
   /// The accelerations of body i by the forces at `time` (s).
   AppliedAcceleration applied(Entity i, double time) const;
   /// s, when a force on body i next sets in or ceases after `time`.

@@ -6,11 +6,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "physics/compensated.h"
 #include "physics/energy.h"
+#include "physics/force.h"
 #include "render/glb.h"
 #include "render/renderer.h"
 #include "render/still_things.h"
@@ -115,6 +119,32 @@ Vec3 starting_momentum(const Scene& scene) {
   return sum;
 }
 
+/// A force that acts for ever gives what its potential loses; the rest is in the tally. That is not known of a run
+/// told by its record.
+std::vector<ForceWork> work_of_forces(const Scene& scene, const State& end, const Tally& tally) {
+  const World& world = scene.world;
+  std::vector<ForceWork> all;
+  if (world.forces.empty() || tally.force_work.empty()) return all;
+  Sum fallen;
+  for (Entity i = 0; i < world.body_count(); ++i)
+    fallen.add(world.mass[i] * world.gravity.dot(end.position[i] - scene.initial.position[i]));
+  if (!world.gravity.isZero(0)) all.push_back({"gravity", fallen.value()});
+  for (std::size_t k = 0; k < world.forces.size(); ++k) {
+    Sum work;
+    work.add(tally.force_work[k]);
+    for (Entity i = 0; i < world.body_count(); ++i) {
+      work.add(potential(world, world.forces[k], i, scene.initial.position[i]));
+      work.add(-potential(world, world.forces[k], i, end.position[i]));
+    }
+    all.push_back({fmt::format("forces.{}.{}", k, name_of(world.forces[k].law)), work.value()});
+  }
+  // What lifts joint bodies out of what they reach into is no force's.
+  if (tally.merges > 0)
+    all.push_back(
+        {"merging", std::accumulate(tally.force_work.begin(), tally.force_work.end(), tally.work, std::minus())});
+  return all;
+}
+
 // The energy at the start is that of energy.csv's first row: the exact engine's bodies have their impulses by then, the
 // book engine's get theirs as a force of the first frame, whose work counts. What energy the impacts, work and
 // motion do not account for is the residual: the method's own error, and rounding.
@@ -144,6 +174,7 @@ Summary summarize(const Scene& scene, const EngineChoice& engine, const Energy& 
   summary.resting = tally.resting;
   summary.stepped_contact = tally.stepped_contact;
   summary.contact = {tally.merges, tally.collapses, tally.taken_up};
+  summary.energy.of_forces = work_of_forces(scene, end, tally);
   return summary;
 }
 
