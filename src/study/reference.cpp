@@ -71,7 +71,7 @@ class Making {
     const double once = reference_.run.cpu_s;
     std::vector<RecordedRun> others;
     for (int k = 1; k <= shifted_runs && (k == 1 || (k + 1) * once < 0.2 * options_.budget); ++k)
-      others.push_back(shifted_run(k));
+      others.push_back(shifted_run(k, reference_.method));
     judge(others);
     if (reference_.chaotic) {
       gather_ensemble();
@@ -94,7 +94,8 @@ class Making {
     if (!unsupported(world_, settings_of(scene_.simulate, fine)).empty()) return;
     try {
       const RecordedRun coarse = record(world_, scene_.initial, dop853(world_, exact_tolerance::step_error));
-      Finding other{fine, record(world_, scene_.initial, fine), {}};
+      // Elsewhere, so that what rounding does in so many steps shows.
+      Finding other{fine, shifted_run(1, fine), {}};
       other.error =
           larger(reference_.rounded, differences(world_, coarse, other.run, reference_.instants, reference_.horizon));
       reference_.second = std::move(other);
@@ -103,10 +104,10 @@ class Making {
     }
   }
 
-  RecordedRun shifted_run(int number) const {
+  RecordedRun shifted_run(int number, const SimulationMethod& method) const {
     const Vec3 by = shift(extent(world_, scene_.initial), number);
     const World world = shifted(world_, by);
-    RecordedRun run = record(world, shifted(scene_.initial, by), reference_.method);
+    RecordedRun run = record(world, shifted(scene_.initial, by), method);
     for (State& state : run.states) state = shifted(std::move(state), -by);
     return run;
   }
@@ -143,7 +144,7 @@ class Making {
     for (int k = 1; k <= ensemble_runs; ++k) {
       if (k > 3 && spent() + reference_.run.cpu_s > 0.5 * options_.budget) break;
       watch_.tell(0, "the reference, shifted");
-      const RecordedRun run = shifted_run(k);
+      const RecordedRun run = shifted_run(k, reference_.method);
       members.push_back(reference_.statistics(world_, run));
       take_rounding(run);
     }
