@@ -251,15 +251,4 @@ double KeplerOrbit::closest_time() const {
   return start_.hi > 0 ? period_.hi - start_.hi : std::abs(start_.hi);
 }
 
-double KeplerOrbit::greatest_speed(double t) const {
-  if (mu_ > 0 && closest_time() <= t) return std::max(v_.norm(), (mu_ + near_.bend) / momentum_);
-  Vec3 x, v;
-  at(t, x, v);
-  return std::max(v_.norm(), v.norm());
-}
-
-double KeplerOrbit::fall_in_time() const {
-  return mu_ > 0 && near_.distance == 0 ? closest_time() : INFINITY;
-}
-
 }  // namespace carom

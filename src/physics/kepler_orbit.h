@@ -22,11 +22,6 @@ class KeplerOrbit {
   double pericentre() const { return near_.distance; }  // m
   /// s: when it first passes the pericentre, from the start on; infinity: never.
   double closest_time() const;
-  /// m/s: the greatest speed in [0, t].
-  double greatest_speed(double t) const;
-  /// s: when it reaches the centre, on a line or so close to one that the pericentre is 0; infinity: never.
-  double fall_in_time() const;
-  bool falls_in(double t) const { return fall_in_time() <= t; }
   /// s: of an ellipse, else infinity.
   double period() const { return period_.hi; }
 

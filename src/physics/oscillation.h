@@ -28,8 +28,6 @@ struct Oscillation {
   void at(double t, Vec3& position, Vec3& velocity) const;
   /// Acceleration (m/s^2) and jerk (m/s^3) then: not from forces, which cancel where the motion fades.
   void bend(double t, Vec3& acceleration, Vec3& jerk) const;
-  /// 1/s: how fast the motion changes.
-  double rate() const { return std::sqrt(stiffness) + fade; }
 };
 
 }  // namespace carom

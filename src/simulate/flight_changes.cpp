@@ -203,6 +203,23 @@ void FlightChanges::book_each_force(Entity i, double time, const Vec3& displacem
     }
 }
 
+namespace {
+
+/// m/s: of a flight on a curve, in `length` (s) of it. Within a step speed rises and falls but once.
+double greatest_speed(const Flight& f, double length) {
+  const Vec3 ahead = f.curve->ahead;
+  const auto rise = [&](double t) { return (f.velocity(t) - ahead).dot(f.curve->acceleration(t)); };
+  double rising = 0, falling = length;
+  if (!(rise(rising) > 0 && rise(falling) < 0)) return 0;  // its ends are noted elsewhere
+  for (int k = 0; k < 24; ++k) {
+    const double middle = 0.5 * (rising + falling);
+    (rise(middle) > 0 ? rising : falling) = middle;
+  }
+  return (f.velocity(rising) - ahead).norm();
+}
+
+}  // namespace
+
 /// Of a free flight what forces do shows in the potential and in their work. Else contact has done the rest.
 void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
   const Flight f = bodies_.flights[i];
@@ -210,7 +227,7 @@ void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
   if (!(length > 0)) return;
   const double work = curved_.work(i, f, length);
   bodies_.log.add_work(work);
-  if (f.curve != nullptr) return;
+  if (f.curve != nullptr) return bodies_.log.note_speed(greatest_speed(f, length));
   const Vec3 v = f.velocity(length);
   bodies_.log.deviate(0.5 * mass * (f.v - v).dot(f.v + v) + potential(bodies_.world, i, f.x) -
                       potential(bodies_.world, i, x) + work);
