@@ -69,6 +69,12 @@ class EventLog {
   /// that velocities change as that.
   void take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
                std::span<const ContactConstraint> pairs, std::span<const std::uint8_t> recorded = {});
+  /// Books energy (J) that impacts take which are counted already, in lasting contact.
+  void go_on_taking(double energy) {
+    tally_.taken_up.energy += energy;
+    lose(energy);
+    deviate(-energy);
+  }
   void count_collapse() { ++tally_.collapses; }
   /// Counts an answer that is not certified.
   void note(const Certificate& certificate) {

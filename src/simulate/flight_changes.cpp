@@ -114,6 +114,8 @@ void FlightChanges::let_fall(Entity i) {
 
 void FlightChanges::release(Entity i) {
   Islands& islands = bodies_.islands;
+  book_taking(i, bodies_.now);
+  take(i, 0);
   const Vec3 pending = (islands.kicked_until[i] - bodies_.now) * islands.kick[i];
   islands.kicked_until.write(i) = bodies_.now;
   islands.kick.write(i).setZero();
@@ -170,6 +172,15 @@ void FlightChanges::count(Entity i) {
   bodies_.body[i].version = 1;
   for (ExactBody& body : bodies_.body)
     if (body.event.kind == ExactEvent::Kind::body_body && body.event.partner == i) body.event.partner_version = 0;
+}
+
+void FlightChanges::book_stepped(Entity i, const Instant& end) {
+  bodies_.log.add_stepped_contact(end - bodies_.flights[i].start);
+  book_taking(i, end);
+}
+
+void FlightChanges::book_taking(Entity i, const Instant& end) {
+  if (taking_[i] != 0) bodies_.log.go_on_taking(taking_[i] * (end - bodies_.flights[i].start));
 }
 
 void FlightChanges::book_forces(Entity i, const Vec3& x, const Instant& end) {

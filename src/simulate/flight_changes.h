@@ -10,7 +10,12 @@ namespace carom {
 class FlightChanges {
  public:
   FlightChanges(ExactBodies& bodies, FlatContacts& flat, PathLog& paths)
-      : bodies_(bodies), flat_(flat), paths_(paths), curved_(bodies), stepped_(bodies.body.size()) {}
+      : bodies_(bodies),
+        flat_(flat),
+        paths_(paths),
+        curved_(bodies),
+        stepped_(bodies.body.size()),
+        taking_(bodies.body.size()) {}
 
   /// Begins a new flight of body i, now, at x (m) with velocity v (m/s). A step of constrained motion ends with it.
   void begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
@@ -42,13 +47,17 @@ class FlightChanges {
   Vec3 by_forces(Entity i, double seconds) const;
   /// A force in the rest of the time step changes member i's velocity by dv (m/s), from now on.
   void push(Entity i, const Vec3& dv);
+  /// Impacts within member i's time step take energy at this rate (W) from now on, as long as the step goes on.
+  void take(Entity i, double power) {
+    if (power != taking_[i]) taking_.write(i) = power;
+  }
   /// Body i's flight goes on from now with velocity v (m/s), which it ought to have had. Its events stay.
   void correct(Entity i, const Vec3& v);
   /// Books what forces did to body i on the flight that ends at x (m) then: the World's, and contact forces against
   /// them.
   void book(Entity i, const Vec3& x, const Instant& end) {
     const World& world = bodies_.world;
-    if (stepped_[i]) bodies_.log.add_stepped_contact(end - bodies_.flights[i].start);
+    if (stepped_[i]) book_stepped(i, end);
     if (bodies_.in_steps && (bodies_.bent[i] || bodies_.flights.curve(i) != nullptr)) [[unlikely]]
       return book_varying(i, x, end);
     if (bodies_.flights.acceleration(i) != world.gravity || !world.forces.empty()) book_forces(i, x, end);
@@ -65,6 +74,8 @@ class FlightChanges {
   void change(Entity i, const Vec3& dv);
   void curve(Entity i, Flight from, bool free);
   void end_change(Entity i, const FlightOrigin& origin);
+  void book_stepped(Entity i, const Instant& end);
+  void book_taking(Entity i, const Instant& end);
   void book_each_force(Entity i, double time, const Vec3& displacement, double squared_speed);
   void book_forces(Entity i, const Vec3& x, const Instant& end);
   void book_varying(Entity i, const Vec3& x, const Instant& end);
@@ -74,6 +85,7 @@ class FlightChanges {
   PathLog& paths_;
   CurvedFlights curved_;
   LazyArray<std::uint8_t> stepped_;  // by body: this flight is one of time stepping
+  LazyArray<double> taking_;         // W, by body: what impacts within its time step take
   bool ended_ = false;               // the last flights are booked
 };
 

@@ -332,22 +332,40 @@ void TimeStepping::put_to_rest(Step& step) const {
       step.contacts.pairs[holding.which[c]].force = step.length * holding.pairs[c].force;
 }
 
-/// Books the impacts of pairs whose gaps close within the step: the force between them takes their approach.
-void TimeStepping::take_closings(const Step& step) const {
-  double fastest = 0;  // m/s
+/// The impacts of pairs whose gaps close within the step: the force between them takes their approach, as the step goes
+/// on. Together they take no more than the step does: its weights work along paths that they shorten.
+void TimeStepping::take_closings(Step& step) const {
+  step.taking.assign(step.members.size(), 0);
+  double fastest = 0, all = 0;  // m/s, J
   for (const Vec3& v : step.after_impacts) fastest = std::max(fastest, v.norm());
   for (const ContactConstraint& p : step.contacts.pairs) {
     const double speed = approach(step.after_impacts, p);
     if (!(p.force > 0 && speed > std::max(tol::drift * fastest, p.slack))) continue;
+    bodies_.log.take_up(speed, 0);
     const double lost = 0.5 * p.force * (speed + approach(step.solved, p));  // J, by the mean speed
-    bodies_.log.take_up(speed, lost);
-    bodies_.log.lose(lost);
-    bodies_.log.deviate(-lost);
+    step.taking[p.a] += lost / step.length;
+    all += lost;
   }
+  if (all == 0) return;
+  const double share = std::clamp(taken(step) / all, 0.0, 1.0);
+  for (double& power : step.taking) power *= share;
+}
+
+/// J, that contact takes in the step from those that it carries.
+double TimeStepping::taken(const Step& step) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < step.members.size(); ++k) {
+    if (!step.carried[k]) continue;
+    const Entity i = step.members[k];
+    const Vec3 &v = step.after_impacts[k], &solved = step.solved[k];
+    const Vec3 forced = step.length * (bodies_.applied[i] - bodies_.fade[i] * solved);  // m/s
+    sum += (0.5 * (v - solved).dot(v + solved) + forced.dot(solved)) / step.inverse_mass[k];
+  }
+  return sum;
 }
 
 /// The members' flights until the step's end.
-void TimeStepping::begin_flights(const Step& step) {
+void TimeStepping::begin_flights(Step& step) {
   const double h = step.length;
   bodies_.log.take_up(step.inverse_mass, step.v, step.after_impacts, step.impacts);
   take_closings(step);
@@ -423,6 +441,7 @@ bool TimeStepping::begin_flight(const Step& step, std::size_t k, Entity i) {
   const auto begin = [&](const Vec3& velocity) {
     bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (before - velocity).dot(before + velocity));
     flights_.begin(i, step.x[k], velocity, {});
+    flights_.take(i, step.taking[k]);
   };
   if (step.rests[k]) {
     bodies_.body[i].state = ContactState::asleep;

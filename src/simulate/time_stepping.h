@@ -47,6 +47,7 @@ class TimeStepping {
     ContactList contacts;                      // that may press before the step ends
     std::vector<ContactConstraint> impacts;    // by pair: what contact takes at once, or none
     std::vector<std::uint32_t> island;         // by member: one of those that press on one another with it
+    std::vector<double> taking;                // W, by member: what impacts within the step take
     std::vector<std::uint8_t> carried, rests;  // by member: something presses on it; it is at rest
   };
   /// The forces among bodies that may be at rest.
@@ -70,8 +71,9 @@ class TimeStepping {
   void put_to_rest(Step& step) const;
   std::vector<std::uint8_t> stop_slow(Step& step) const;
   Holding hold(const Step& step, const std::vector<std::uint8_t>& still) const;
-  void take_closings(const Step& step) const;
-  void begin_flights(const Step& step);
+  void take_closings(Step& step) const;
+  double taken(const Step& step) const;
+  void begin_flights(Step& step);
   static void count_calm(const Step& step, Island& island);
   void split(const Step& step);
   bool begin_flight(const Step& step, std::size_t k, Entity i);

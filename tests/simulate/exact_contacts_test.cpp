@@ -359,6 +359,27 @@ TEST(TimeStepping, CarriesABodyThatFellWithoutLettingItFallOn) {
   EXPECT_TRUE(parts.bodies.flights[0].v.isZero(1e-12));
 }
 
+// The ball falls on the floor within the step. Contact takes m (v^2 - v'^2) / 2 and the weight's work on the way: part
+// of it at once, the rest as the step goes on.
+TEST(TimeStepping, BooksWhatImpactsWithinAStepTakeAsItGoesOn) {
+  const double v = 0.02, m = 2;
+  for (const double part : {0.25, 0.5, 1.0}) {
+    Problem p = ball_on_floor();
+    p.initial.position[0].y() += 1e-5;
+    p.initial.velocity[0] = Vec3(0.1, -v, 0);
+    ExactParts parts(p);
+    parts.group.join(0);
+    parts.stepping.advance(0);
+    ASSERT_TRUE(parts.bodies.is_stepped(0));
+    const double h = parts.bodies.islands.of(0).step_length, end = -parts.bodies.flights[0].v.y();
+    const double at_once = parts.bodies.log.tally().energy_lost;
+    parts.flights.book_last(part * h);
+    const double all = m * (0.5 * (v * v - end * end) + g * end * h);
+    EXPECT_GT(all - at_once, 0.1 * all);
+    EXPECT_NEAR(parts.bodies.log.tally().energy_lost, at_once + part * (all - at_once), 1e-12);
+  }
+}
+
 TEST(TimeStepping, SlidesABodyOverTilesAsOverOneFloor) {
   for (const double speed : {0.1, 1.0, 10.0}) {
     Problem p;
