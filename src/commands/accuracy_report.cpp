@@ -32,8 +32,11 @@ std::string contact_text(const Assessment& assessment) {
 
 std::string chaos_text(const Assessment& assessment) {
   const Growth& growth = assessment.growth;
-  if (!growth.chaotic) return fmt::format("none: a disturbance of 1e-12 grows {:.3g} times", growth.factor);
-  return fmt::format("a disturbance grows e-fold in {}", quantity(growth.lyapunov_time, "s"));
+  if (growth.chaotic) return fmt::format("a disturbance grows e-fold in {}", quantity(growth.lyapunov_time, "s"));
+  if (!std::isfinite(growth.large_at))
+    return fmt::format("none: a disturbance of 1e-12 grows {:.3g} times", growth.factor);
+  return fmt::format("no steady growth, but a disturbance of 1e-12 decides what happens before {}",
+                     quantity(growth.large_at, "s"));
 }
 
 std::string right_text(const Assessment& assessment) {

@@ -113,6 +113,8 @@ inline constexpr double most_steps = 1e9;             // of all bodies together,
 inline constexpr double told_radius = 0.01;           // of the smallest radius: a tolerance where none is asked for
 inline constexpr double carried_disturbance = 1e-12;  // of speeds and masses: whose growth tells chaos
 inline constexpr double saturated = 0.01;             // of the largest radius: a disturbance is no longer small
+inline constexpr std::size_t least_small = 8;         // instants at which it is: fewer tell no growth,
+inline constexpr double clock_share = 1e-6;           // of the duration: unless it is all at once
 
 }  // namespace carom::accuracy_tolerance
 

@@ -22,21 +22,23 @@ using namespace accuracy_tolerance;
 /// Where all bodies are: by instant, by body (m).
 using Track = std::vector<std::vector<Vec3>>;
 
-/// s: the end, and before it instants that no period of the scene's own has.
-std::vector<double> instants_of(const Scene& scene) {
+/// s: `end`, and before it instants that no period of the scene's own has.
+std::vector<double> instants_of(const Scene& scene, double end) {
   const double bodies = std::max<double>(scene.world.body_count(), 1);
   const int count = static_cast<int>(std::clamp(places_kept / bodies, 8.0, double{most_instants}));
   std::vector<double> instants;
-  for (int k = 0; k + 1 < count; ++k) instants.push_back(scene.simulate.duration * (k + golden) / count);
-  instants.push_back(scene.simulate.duration);
+  for (int k = 0; k + 1 < count; ++k) instants.push_back(end * (k + golden) / count);
+  instants.push_back(end);
   return instants;
 }
 
 /// Runs of one scene, looked at at the same instants.
 class Runs {
  public:
-  Runs(const Scene& scene, const std::function<void()>& look)
-      : scene_(scene), look_(look), instants_(instants_of(scene)) {}
+  Runs(const Scene& scene, const std::function<void()>& look) : Runs(scene, look, scene.simulate.duration) {}
+  /// As far as `end` (s).
+  Runs(const Scene& scene, const std::function<void()>& look, double end)
+      : scene_(scene), look_(look), instants_(instants_of(scene, end)) {}
 
   /// `tally`: gets the run's sums, unless null.
   Track track(const Simulate& way, const StepChoice& steps, double disturbance = 0, Tally* tally = nullptr) const {
@@ -189,6 +191,28 @@ class Settling {
   Accuracy accuracy_;
 };
 
+/// So many instants at which a disturbance is small tell how it grows.
+std::size_t enough(const std::vector<double>& apart) {
+  return std::min(least_small, apart.size() / 2);
+}
+
+/// From how far apart (m) two runs are at instants (s); it is small at the first so many of these.
+void measure_growth(const std::vector<double>& instants, const std::vector<double>& apart, std::size_t small,
+                    Growth& growth) {
+  const auto first = std::find_if(apart.begin(), apart.end(), [](double d) { return d > 0; });
+  if (first == apart.end()) return;
+  growth.factor = apart.back() / *first;
+  if (small < enough(apart)) return;
+  const std::size_t half = small / 2 - 1, between = (half + small - 1) / 2, end = small - 1;
+  // How much faster than the third power of time from one instant to another: its logarithm.
+  const auto excess = [&](std::size_t from, std::size_t to) {
+    if (!(apart[from] > 0)) return 0.0;
+    return std::log(apart[to] / apart[from]) - 3 * std::log(instants[to] / instants[from]);
+  };
+  growth.chaotic = excess(half, between) > 0 && excess(between, end) > 0;
+  if (growth.chaotic) growth.lyapunov_time = (instants[end] - instants[half]) / std::log(apart[end] / apart[half]);
+}
+
 /// In [-1, -1/2] or [1/2, 1], of the k-th number: irrational steps around a circle.
 double irregular(double k) {
   const double x = k * golden, fraction = x - std::floor(x);
@@ -239,25 +263,23 @@ Assessment assess(const Scene& scene, const EngineChoice& engine, const std::fun
 Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& steps, const std::function<void()>& look) {
   Growth growth;
   if (way.duration == 0 || scene.world.body_count() == 0) return growth;
-  const Runs runs(scene, look);
-  const std::vector<double> apart =
-      Runs::differences(runs.track(way, steps), runs.track(way, steps, carried_disturbance));
-  const double largest = *std::max_element(scene.world.radius.begin(), scene.world.radius.end());
-  // Only while it is small: from as large as bodies on it cannot grow.
-  const std::size_t small = within(apart, saturated * largest);
-  const auto first = std::find_if(apart.begin(), apart.end(), [](double d) { return d > 0; });
-  if (small < 8 || first == apart.end()) return growth;
-  growth.factor = apart[small - 1] / *first;
-  const std::size_t half = small / 2 - 1, between = (half + small - 1) / 2, end = small - 1;
-  // How much faster than the third power of time from one instant to another: its logarithm.
-  const auto excess = [&](std::size_t from, std::size_t to) {
-    if (!(apart[from] > 0)) return 0.0;
-    return std::log(apart[to] / apart[from]) - 3 * std::log(runs.instants()[to] / runs.instants()[from]);
-  };
-  growth.chaotic = excess(half, between) > 0 && excess(between, end) > 0;
-  if (growth.chaotic)
-    growth.lyapunov_time = (runs.instants()[end] - runs.instants()[half]) / std::log(apart[end] / apart[half]);
-  return growth;
+  const double large = saturated * *std::max_element(scene.world.radius.begin(), scene.world.radius.end());
+  // Only while it is small: from as large as bodies on it cannot grow. That may be over long before the run is.
+  for (double end = way.duration;;) {
+    const Runs runs(scene, look, end);
+    const std::vector<double> apart =
+        Runs::differences(runs.track(way, steps), runs.track(way, steps, carried_disturbance));
+    const std::size_t small = within(apart, large);
+    if (small < apart.size()) {
+      growth.large_at = runs.instants()[small];
+      if (small < enough(apart) && growth.large_at > clock_share * way.duration) {
+        end = growth.large_at;
+        continue;
+      }
+    }
+    measure_growth(runs.instants(), apart, small, growth);
+    return growth;
+  }
 }
 
 }  // namespace carom

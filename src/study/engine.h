@@ -23,6 +23,7 @@ struct Growth {
   bool chaotic = false;
   double lyapunov_time = std::numeric_limits<double>::infinity();  // s, in which it grows e-fold; infinity: regular
   double factor = 1;                                               // by which it has grown at most
+  double large_at = std::numeric_limits<double>::infinity();  // s, when it is as large as bodies are; infinity: never
 };
 
 struct EngineChoice {

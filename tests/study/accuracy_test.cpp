@@ -116,6 +116,16 @@ TEST(Accuracy, OfChaosEndsAndIsSaid) {
   EXPECT_NE(engine.shortfall.find("chaotic"), std::string::npos) << engine.shortfall;
 }
 
+// Its disturbance is large long before the first eighth of the run is over.
+TEST(Accuracy, SeesChaosThatIsOverEarlyInARun) {
+  const double lyapunov_time = growth_of(crowd(60, 1e-6), crowd(60, 1e-6).simulate, {}, no_look).lyapunov_time;
+  const Scene scene = crowd(1000, 1e-6);
+  const Growth growth = growth_of(scene, scene.simulate, {}, no_look);
+  EXPECT_TRUE(growth.chaotic);
+  EXPECT_LT(growth.large_at, 60);
+  EXPECT_NEAR(growth.lyapunov_time / lyapunov_time, 1, 0.5);
+}
+
 TEST(Accuracy, DoesNotCallOrbitsChaotic) {
   for (const double e : {0.0, 0.9, 0.999}) {
     Scene scene = scene_of(stepped(200 * M_PI, 1e-6));
