@@ -38,7 +38,11 @@ class Bench {
 
   BenchResult go() {
     choose_steps();
-    reference_ = make_reference(scene_, options_, watch_);
+    try {
+      reference_ = make_reference(scene_, options_, watch_);
+    } catch (const SimulationError& error) {
+      throw named(error);
+    }
     evidence_.emplace(world_, reference_.instants, reference_.horizon, reference_.rounded, rounding_of(scene_),
                       Finding{reference_.method, reference_.run, reference_.error});
     if (reference_.second) evidence_->add(*std::move(reference_.second));
@@ -176,7 +180,7 @@ class Bench {
       result_.mean = reference_.ensemble->mean();
     }
     if (reference_.horizon > 0) {
-      Verdict verdict = evidence_->verdict();
+      Verdict verdict = evidence_->verdict(options_.reference.has_value());
       reference_.error = verdict.error;
       result_.witnesses = std::move(verdict.witnesses);
       if (verdict.trusted > 0) take_reference(evidence_->findings()[verdict.trusted]);

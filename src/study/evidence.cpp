@@ -15,6 +15,8 @@ constexpr double safety = 2;          // an estimate of an error may be off by s
 constexpr double rounding_room = 16;  // the same, of what rounding does: a few runs have shown it
 constexpr double converging = 0.6;    // a method of order 1 halves its error with its step
 
+constexpr double told = 0.01;  // of the scene's extent: a run that is off by more says nothing
+
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Whether steps are as short as forces ask for, or there are none.
@@ -49,7 +51,8 @@ void Evidence::add_halved(const SimulationMethod& method, RecordedRun run) {
     const bool falls = change_ < infinite && change <= converging * change_;
     // Two runs in a row may be off alike by accident, three hardly.
     finding.error.position = change_ < infinite ? std::max(change, 0.5 * change_) : change;
-    if (falls || change <= rounding_room * rounding_.position) keep(finding);
+    const bool converges = falls || change <= rounding_room * rounding_.position;
+    if (converges && 0x1p-53 * finding.error.position <= told * last_digit_) keep(finding);
   }
   last_ = std::move(finding);
   change_ = change;
@@ -69,7 +72,7 @@ bool Evidence::agree(const Finding& a, const Finding& b, double apart) const {
   return apart <= safety * (a.error.position + b.error.position) + rounding_room * rounding_.position;
 }
 
-Verdict Evidence::verdict() const {
+Verdict Evidence::verdict(bool settled) const {
   const std::size_t n = findings_.size();
   Verdict verdict;
   std::vector<Differences> apart(n * n);
@@ -82,7 +85,7 @@ Verdict Evidence::verdict() const {
         if (agree(findings_[i], findings_[j], apart[i * n + j].position)) confirmed[i] = confirmed[j] = true;
     }
   // The first one, unless others agree on something else, or by far more digits.
-  for (std::size_t i = 1; i < n; ++i) {
+  for (std::size_t i = 1; i < n && !settled; ++i) {
     const double mine = findings_[i].error.position, held = findings_[verdict.trusted].error.position;
     if (confirmed[i] && (!confirmed[verdict.trusted] || rounding_room * mine < held)) verdict.trusted = i;
   }

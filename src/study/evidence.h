@@ -48,7 +48,8 @@ class Evidence {
   void add_halved(const SimulationMethod& method, RecordedRun run);
 
   const std::vector<Finding>& findings() const { return findings_; }
-  Verdict verdict() const;
+  /// settled: the first finding is the reference whatever others say.
+  Verdict verdict(bool settled = false) const;
 
  private:
   Differences between(const RecordedRun& a, const RecordedRun& b) const {

@@ -77,7 +77,7 @@ TEST(Bench, WherePathsHaveNoClosedFormDop853IsTheReference) {
   EXPECT_LT(own.back().errors->position, 5e-11);
   for (std::size_t k = 1; k < own.size(); ++k)
     EXPECT_LT(own[k].errors->position, 0.2 * own[k - 1].errors->position);  // measured: 0.13, 1e-3, 5e-2
-  ASSERT_EQ(result.witnesses.size(), 3u);
+  ASSERT_EQ(result.witnesses.size(), 2u);  // verlet, rk4: in such steps euler is off by more than it could tell
   for (const Witness& witness : result.witnesses) EXPECT_TRUE(witness.agrees) << full_name_of(witness.method);
   EXPECT_NEAR(order_of(rk4, &Differences::position), 4, 0.15);
 }
