@@ -126,6 +126,14 @@ const Force* force_without_closed_form(const World& world) {
   return nullptr;
 }
 
+bool damps(const World& world, Entity body, double time) {
+  return std::any_of(world.forces.begin(), world.forces.end(), [&](const Force& force) {
+    if (!acts(force, body, time)) return false;
+    const Spring* const spring = std::get_if<Spring>(&force.law);
+    return std::holds_alternative<Drag>(force.law) || (spring != nullptr && spring->damping > 0);
+  });
+}
+
 double fade_of(const World& world, Entity body, double time) {
   double fade = 0;
   for (const Force& force : world.forces) {

@@ -46,6 +46,9 @@ bool bends(const World& world, Entity body, double time);
 /// is none.
 const Force* force_without_closed_form(const World& world);
 
+/// Whether a force that acts on this body at `time` (s) takes energy, however slow it is: drag, a damper.
+bool damps(const World& world, Entity body, double time);
+
 /// 1/s: how fast linear drag takes a body's velocity at `time` (s), by the velocity; free_acceleration at no velocity,
 /// less this times the velocity, is what forces do that have a closed form.
 double fade_of(const World& world, Entity body, double time);

@@ -68,6 +68,10 @@ void ExactBodies::apply_forces(Entity i, const Vec3& x, const Vec3& v) {
   apply(i, {free_acceleration(world, i, now.hi, x, v), working_acceleration(world, i, now.hi, x, v), 0});
 }
 
+bool ExactBodies::hops_fade(Entity i, double speed, double press) const {
+  return speed * speed < press * exact_tolerance::fading_hop * world.radius[i] && damps(world, i, now.hi);
+}
+
 /// Steps too long for the forces make energy without end.
 Remedies ExactBodies::remedies() const {
   constexpr const char* step =

@@ -123,6 +123,10 @@ struct ExactBodies {
     return speed * speed < press * exact_tolerance::position_rounding * x.cwiseAbs().sum();
   }
 
+  /// Whether body i's elastic hops, of this speed (m/s) against a pressing acceleration (m/s^2), are as good as over:
+  /// drag shortens them, ever more in a second.
+  bool hops_fade(Entity i, double speed, double press) const;
+
  private:
   bool method_bends(Entity i) const;
   Remedies remedies() const;

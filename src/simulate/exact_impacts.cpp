@@ -115,7 +115,8 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   const bool enters = met == 0 && w.dot(n) <= 0 && (p.curve != nullptr || q.curve != nullptr);  // by how forces change
   const bool ends = (approach > 0 && met == 0) || enters ||
                     (real && parts_.collapses.count_impact(a, b, e, met, press, length, false)) ||
-                    (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press)));
+                    (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press) ||
+                                   (e == 1 && (bodies_.hops_fade(a, met, press) || bodies_.hops_fade(b, met, press)))));
   const double separation = ends ? 0 : e * met;
   const double impulse = impact_impulse(ma, mb, met, separation);
   const double lost = impact_loss(ma, mb, met, separation);
@@ -201,7 +202,8 @@ bool ExactImpacts::comes_to_rest(const FixedImpact& impact, FlatContact& contact
     return true;
   }
   if (bodies_.bent[i]) return false;  // on which no parabola goes on
-  const bool ends = e < 1 || approach == 0 || (e == 1 && bodies_.too_low(x, approach, press));
+  const bool ends = e < 1 || approach == 0 ||
+                    (e == 1 && (bodies_.too_low(x, approach, press) || bodies_.hops_fade(i, approach, press)));
   if (!(press > 0) || !flat || bodies_.in_lasting_contact(i) || carrying >= FlatContactList::most || !ends)
     return false;
   const double left = separation == 0 || e == 1 ? 0 : 2 * separation / (press * (1 - e));
@@ -226,6 +228,7 @@ bool ExactImpacts::ends_in_contact(const FixedImpact& impact) {
   if (!(press > 0)) return false;
   if (flat && bodies_.bent[i] && !bodies_.in_lasting_contact(i) && e < 1)
     return over_at_once(impact, 2 * separation / (press * (1 - e)));
+  if (e == 1 && bodies_.hops_fade(i, separation, press)) return true;
   return (!flat || bodies_.in_lasting_contact(i)) && (separation == 0 || bodies_.too_low(x, separation, press));
 }
 

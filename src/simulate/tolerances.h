@@ -11,11 +11,12 @@ namespace carom::exact_tolerance {
 // Rounding.
 inline constexpr double velocity_rounding = 0x1p-48;  // [9e-20 1e-14] of speeds: of a component, rounding
 inline constexpr double position_rounding = 0x1p-48;  // of coordinates: a displacement that is rounding
-inline constexpr double flat_rounding = 0x1p-50;      // of coordinates: a gap to a flat surface, in a scene's numbers
-inline constexpr double initial_rounding = 0x1p-46;   // of coordinates: a gap to anything else, in a scene's numbers
-inline constexpr double far_from_origin = 0x1p13;     // of a radius: beyond, bodies meet by their relative paths
-inline constexpr double rim_gap = 0x1p-40;            // of a radius: rims no farther apart adjoin
-inline constexpr double level = 1e-6;                 // rad: between surfaces that take over from one another
+inline constexpr double fading_hop = 0x1p-32;     // of a radius: elastic hops that drag shortens without end are over
+inline constexpr double flat_rounding = 0x1p-50;  // of coordinates: a gap to a flat surface, in a scene's numbers
+inline constexpr double initial_rounding = 0x1p-46;  // of coordinates: a gap to anything else, in a scene's numbers
+inline constexpr double far_from_origin = 0x1p13;    // of a radius: beyond, bodies meet by their relative paths
+inline constexpr double rim_gap = 0x1p-40;           // of a radius: rims no farther apart adjoin
+inline constexpr double level = 1e-6;                // rad: between surfaces that take over from one another
 inline constexpr double clock_rounding = 0x1p-46;  // of the clock: in a million events it stands still (stall_guard.h)
 inline constexpr double least_progress = 0x1p-30;  // of the duration: in fewer, a run would never end
 inline constexpr double step_rounding = 512;       // [3e-10 2e-10] of the speed of falling by a radius: rounding

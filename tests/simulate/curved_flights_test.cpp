@@ -29,6 +29,74 @@ TEST(CurvedFlights, KeepToKeplersEllipses) {
   EXPECT_NEAR(energy(problem, outcome.end), -0.75, 1e-12);
 }
 
+/// A ball that drag brakes from 0.25 s on, so shortly that it hardly moves meanwhile: where it is at the end. Linear
+/// drag c fades its velocity by exp(-c w), quadratic drag q by 1 / (1 + q v w) (unit mass).
+struct Brake {
+  double linear, quadratic, window, speed, duration;  // kg/s, kg/m, s, m/s, s
+  double end() const {
+    const double from = 0.25, w = (from + window) - from, f = quadratic * speed * w;
+    const double faded = linear > 0 ? std::exp(-linear * w) : 1 / (1 + f);
+    const double way = linear > 0 ? speed * -std::expm1(-linear * w) / linear : std::log1p(f) / quadratic;
+    return speed * from + way + speed * faded * (duration - (from + window));
+  }
+};
+
+// A size of the ball says nothing of how exactly its speed is to be known after that. measured: 4e-12
+TEST(CurvedFlights, KeepTheirSpeedsDigitsInAMomentOfStrongDrag) {
+  for (const double radius : {0.01, 1.0, 1000.0})
+    for (const Brake& brake : {Brake{0, 2e8, 1e-9, 5, 1}, Brake{0, 1e6, 1e-9, 1000, 1000},
+                               Brake{4e7, 0, 1e-7, 0.5, 1000}, Brake{1e9, 0, 4e-9, 5, 100}}) {
+      Problem problem;
+      problem.world.gravity = Vec3::Zero();
+      problem.ball(Vec3::Zero(), {brake.speed, 0, 0}, 1, radius);
+      for (const Drag& drag : {Drag{brake.linear, brake.quadratic, Vec3::Zero()}, Drag{0, 1e-60, Vec3::Zero()}}) {
+        Force force{drag};
+        force.from = 0.25;
+        force.until = 0.25 + brake.window;
+        problem.world.forces.push_back(force);
+      }
+      problem.options.duration = brake.duration;
+      const double end = brake.end();
+      EXPECT_NEAR(run_exact(problem).end.position[0].x() / end, 1, 1e-10) << radius << ", " << brake.window;
+    }
+}
+
+// Nor of how exactly it is to be known where forces change in less. measured: 2e-7 m, 5e-9 J
+TEST(CurvedFlights, PastASmallAttractorAreTheSameForLargeAndSmallBodies) {
+  std::vector<Vec3> ends;
+  for (const double radius : {1e-3, 0.1, 10.0, 1000.0}) {
+    Problem problem;
+    problem.world.gravity = Vec3::Zero();
+    problem.ball({1, 0.001, 0}, {-1, 0, 0}, 1, radius);
+    problem.world.forces = {{Attractor{Vec3::Zero(), 1, 1e-3}}};
+    problem.options.duration = 100;
+    const Outcome outcome = run_exact(problem);
+    EXPECT_NEAR(energy(problem, outcome.end), energy(problem, problem.initial), 1e-7) << radius;
+    ends.push_back(outcome.end.position[0]);
+    EXPECT_LT((ends.back() - ends.front()).norm(), 1e-5) << radius;
+  }
+}
+
+// Drag takes energy without impacts, ever more often in a second.
+TEST(CurvedFlights, OfElasticBallsThatDragBrakesEndOnTheFloor) {
+  for (const Force& force : {Force{Drag{10, 0, Vec3::Zero()}}, Force{Drag{10, 0.1, Vec3::Zero()}},
+                             Force{Spring{Vec3(0, 0.1, 0), 100, 0, 10}}}) {
+    Problem problem;
+    problem.world.gravity = Vec3(0, -9.81, 0);
+    problem.ball({0, 1, 0}, Vec3::Zero(), 1, 0.2);
+    problem.plane(Vec3::Zero(), {0, 1, 0});
+    problem.world.forces = {force};
+    problem.options.duration = 10;
+    const Outcome outcome = run_exact(problem);
+    EXPECT_LT(outcome.tally.collisions(), 200'000u);
+    EXPECT_GT(outcome.tally.collisions(), 10'000u);
+    EXPECT_NEAR(outcome.end.position[0].y(), 0.2, 1e-9);
+    EXPECT_TRUE(outcome.end.velocity[0].isZero(0));
+    EXPECT_LT(outcome.tally.energy_lost, 1e-8);
+    EXPECT_EQ(outcome.tally.resting, 1u);
+  }
+}
+
 TEST(CurvedFlights, MeetWhenTwoOscillationsDo) {
   // Mirror images: each strikes where its spring is slack, so that they swing half periods, back and forth.
   Problem problem;

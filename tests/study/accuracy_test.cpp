@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "scene/load.h"
 #include "simulate/long_kepler.h"
@@ -89,6 +90,25 @@ TEST(Accuracy, OfAMethodsStepsIsTheToleranceToo) {
     EXPECT_EQ(engine.shortfall, "");
     EXPECT_NEAR(end_of(scene, engine).x(), std::cos(20), tolerance);
   }
+}
+
+// Both of two runs cross the window in one step, which neither may take for exact.
+TEST(Accuracy, OfAMomentOfStrongDragIsTheToleranceToo) {
+  for (const auto& [speed, quadratic, duration] : {std::tuple(5.0, 2e8, 1.0), std::tuple(1000.0, 1e6, 1000.0)})
+    for (const double tolerance : {1e-3, 1e-6}) {
+      Scene scene = scene_of(stepped(duration, tolerance));
+      add_ball(scene, {0, 0, 0}, {speed, 0, 0}, 0.1);
+      Force drag{Drag{0, quadratic, Vec3::Zero()}};
+      drag.from = 0.25;
+      drag.until = 0.25 + 1e-9;
+      scene.world.forces = {drag};
+      EngineChoice engine = choose_engine(scene);
+      settle_steps(scene, engine, no_look);
+      const double w = drag.until - drag.from, f = quadratic * speed * w;
+      const double end = speed * 0.25 + std::log1p(f) / quadratic + speed / (1 + f) * (duration - drag.until);
+      EXPECT_TRUE(engine.shortfall.empty()) << engine.shortfall;
+      EXPECT_NEAR(end_of(scene, engine).x(), end, tolerance) << speed;
+    }
 }
 
 Scene crowd(double duration, double tolerance) {
