@@ -159,6 +159,7 @@ class Settling {
     accuracy_.difference = std::numeric_limits<double>::infinity();
     accuracy_.steps = {};
     std::string trouble;
+    double before = 0, coarse = 0;  // m: with twice the step, and with four times that
     double step = std::min(way_.duration, longest_choice * default_step(scene_.world, scene_.initial));
     const double bodies = static_cast<double>(scene_.world.body_count());
     for (int vain = 0; vain < most_vain_halvings && way_.duration / step * bodies <= most_steps; step *= 0.5) {
@@ -170,11 +171,15 @@ class Settling {
         continue;
       }
       const double difference = known > 0 ? off[known - 1] : 0;
+      const double steps = way_.duration / step * bodies;
+      const bool out_of_reach = steps > few_steps && steps_to_go(coarse, difference) * steps > most_steps;
+      coarse = std::exchange(before, difference);
       vain = difference <= gain * accuracy_.difference ? 0 : vain + 1;
       if (!(difference < accuracy_.difference)) continue;
       accuracy_.difference = difference;
       accuracy_.steps = {step, 0};
       if ((accuracy_.reached = difference <= tolerance_)) return;
+      if (out_of_reach) break;
     }
     if (accuracy_.steps.length) return;
     if (!trouble.empty()) throw SimulationError(trouble);
@@ -182,6 +187,13 @@ class Settling {
         "the forces change so fast that even steps of {:.4g} s take more than {:g} steps of bodies: shorten "
         "simulate.duration, or name a simulate.step in place of the tolerance",
         step, most_steps));
+  }
+
+  /// How many times as many steps the tolerance takes as these, whose difference (m) was so much with a quarter of
+  /// them.
+  double steps_to_go(double coarse, double difference) const {
+    if (!(difference > tolerance_) || !(coarse > difference)) return 1;
+    return std::exp2(2 * std::log(difference / tolerance_) / std::log(coarse / difference));
   }
 
   const Scene& scene_;

@@ -11,7 +11,7 @@ namespace carom {
 
 namespace {
 
-constexpr double safety = 2;          // an estimate of an error may be off by so much
+constexpr double safety = 10;         // an estimate of an error may be off by so much
 constexpr double rounding_room = 16;  // the same, of what rounding does: a few runs have shown it
 constexpr double converging = 0.6;    // a method of order 1 halves its error with its step
 
