@@ -14,12 +14,11 @@ struct ExactOptions {
   double duration = 0;  // s; nothing later is scheduled
   double rest_speed =
       0;  // m/s; slower impacts under load end in resting contact; 0: chosen by the case (exact_bodies.h)
-  std::uint64_t max_collisions = 0;  // stop with an error after so many; 0: no limit
-  Integrator integrator =
-      Integrator::dop853;  // of free flights without a closed form, or where `closed_forms` is false
+  std::uint64_t max_collisions = 0;            // stop with an error after so many; 0: no limit
+  Integrator integrator = Integrator::dop853;  // of free flights without a closed form; but for dop853 of all that bend
   double step = std::numeric_limits<double>::infinity();  // s: of dop853 the longest; others' end at its multiples
   double step_error = exact_tolerance::step_error;        // of dop853: of a radius, and of speeds
-  bool closed_forms = true;                               // false: dop853 follows all paths that bend
+  bool closed_forms = true;                               // false: dop853 follows all that bend, too
   bool merge = false;                                     // bodies that meet become one
   bool record_collisions = true;                          // false: no buffer is made and collisions() stays empty
   bool record_paths = false;                              // false: nor is one for paths()
