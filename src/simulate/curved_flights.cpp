@@ -9,6 +9,7 @@
 #include "physics/force.h"
 #include "physics/implicit_step.h"
 #include "physics/integrator.h"
+#include "physics/springs_in_line.h"
 #include "physics/whole.h"
 #include "simulate/simulation_error.h"
 #include "simulate/tolerances.h"
@@ -137,17 +138,30 @@ void CurvedFlights::note_method(Entity i, bool implicit) {
   method_.write(i) = implicit ? implicit_method : static_cast<std::uint8_t>(explicit_steps);
 }
 
+namespace {
+
+/// The path's first seconds, so many.
+void cut(PolynomialPath& path, double length) {
+  path.displacement = PolynomialPath::shifted(path.displacement, 0, length / path.length);
+  path.length = length;
+}
+
+}  // namespace
+
 PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3& v) {
   const World& world = bodies_.world;
   const double now = bodies_.now.hi, radius = world.radius[i], share = bodies_.options.step_error;
+  const Vec3 whole = free_acceleration(world, i, now, x, v);
+  const SpringsInLine springs(world, i, now, x, v, whole);
   const auto acceleration = [&](const Vec3& at, const Vec3& speed) {
-    return free_acceleration(world, i, now, at, speed);
+    const Vec3 there = free_acceleration(world, i, now, at, speed);
+    return springs.any() ? springs.without_turn(at, there) : there;
   };
   const auto accelerations = [&](const std::vector<Vec3>& at, const std::vector<Vec3>& speed) {
     return std::vector<Vec3>{acceleration(at[0], speed[0])};
   };
   const auto jacobian = [&](const Vec3& at, const Vec3& speed) { return force_jacobian(world, i, now, at, speed); };
-  const Vec3 a = acceleration(x, v);
+  const Vec3 a = springs.any() ? springs.without_turn(x, whole) : whole;
   const ForceJacobian slopes = jacobian(x, v);
   const double damping = slopes.by_velocity.norm(), longest = longest_step(i, x, v, a);
   // A step's error, of a radius or where forces change in less, and no less than what rounding makes of a place.
@@ -184,6 +198,7 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
     if (error <= 1) {
       next_.write(i) = next;
       note_method(i, implicit);
+      if (const double arrival = springs.arrival(x, path); arrival < path.length) cut(path, arrival);
       return path;
     }
     if (implicit && next * damping < 0.1) implicit = false;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "simulate/build.h"
 
@@ -94,6 +95,41 @@ TEST(CurvedFlights, OfElasticBallsThatDragBrakesEndOnTheFloor) {
     EXPECT_TRUE(outcome.end.velocity[0].isZero(0));
     EXPECT_LT(outcome.tally.energy_lost, 1e-8);
     EXPECT_EQ(outcome.tally.resting, 1u);
+  }
+}
+
+/// The direction of a line.
+const std::vector<Vec3> lines = {Vec3(1, 0, 0), Vec3(0.6, 0.8, 0), Vec3(-1, 2, 2) / 3};
+
+// A push k (l - |s|) turns round at the anchor, s = 0. Between two passages it is an oscillation about l: from rest at
+// s0 to the anchor it takes acos(-l / (s0 - l)) / sqrt(k). measured: 2e-8 m, 5e-10 of the energy
+TEST(CurvedFlights, ThroughTheAnchorOfASpringWithARestLengthAreOscillationsPutTogether) {
+  for (const Vec3& line : lines)
+    for (const Vec3& anchor : {Vec3(0, 0, 0), Vec3(3, -1, 2)})
+      for (const auto& [stiffness, length, start] : {std::tuple(10.0, 0.5, 1.5), std::tuple(1e6, 1.0, 2.5)}) {
+        Problem problem;
+        problem.world.gravity = Vec3::Zero();
+        problem.ball(anchor + start * line, Vec3::Zero(), 1, 0.1);
+        problem.world.forces = {spring(0, anchor, stiffness, length, 0)};
+        const double period = 4 * std::acos(-length / (start - length)) / std::sqrt(stiffness);
+        problem.options.duration = 100 * period;
+        const Outcome outcome = run_exact(problem);
+        EXPECT_LT((outcome.end.position[0] - problem.initial.position[0]).norm(), 2e-6) << line << stiffness;
+        EXPECT_NEAR(energy(problem, outcome.end) / energy(problem, problem.initial), 1, 2e-9) << line << stiffness;
+        EXPECT_NEAR(outcome.tally.max_speed / ((start - length) * std::sqrt(stiffness)), 1, 1e-9) << line << stiffness;
+      }
+}
+
+// Past it, off the line, the push turns in a while; and two anchors on one line turn it twice.
+TEST(CurvedFlights, NearTheAnchorOfASpringWithARestLengthKeepTheirEnergy) {
+  for (const double miss : {1e-2, 1e-4, 1e-6, 1e-9, 1e-12}) {
+    Problem problem;
+    problem.world.gravity = Vec3::Zero();
+    problem.ball({1.5, miss, 0}, Vec3::Zero(), 1, 0.1);
+    problem.world.forces = {spring(0, {0, 0, 0}, 10, 0.5, 0), spring(0, {0.3, 0, 0}, 4, 0.2, 0)};
+    problem.options.duration = 20;
+    const Outcome outcome = run_exact(problem);
+    EXPECT_NEAR(energy(problem, outcome.end) / energy(problem, problem.initial), 1, 1e-8) << miss;
   }
 }
 
