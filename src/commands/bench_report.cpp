@@ -68,9 +68,10 @@ Cells heading(const BenchResult& result) {
 }
 
 Cells cells_of(const BenchRow& row, bool chaotic) {
-  Cells cells = {name_of(row.method), std::isfinite(row.method.step_error)
-                                          ? fmt::format("to {}", steps_text(row.method))
-                                          : digits(row.method.step)};
+  const StepChoice& steps = row.method.steps;
+  Cells cells = {name_of(row.method), steps.length      ? digits(*steps.length)
+                                      : steps.error > 0 ? "to " + steps_text(row.method)
+                                                        : ""};
   if (!row.failure.empty()) {
     cells.push_back("failed");
     cells.resize(chaotic ? 10 : 9);

@@ -29,15 +29,6 @@ Vec3 free_acceleration(const World& world, Entity body, double time, const Vec3&
   return a;
 }
 
-Vec3 working_acceleration(const World& world, Entity body, double time, const Vec3& x, const Vec3& v) {
-  Vec3 a = Vec3::Zero();
-  for (const Force& force : world.forces) {
-    if (time < force.from || time >= force.until || !acts_on(force, body)) continue;
-    a += working_acceleration(world, force, body, x, v);
-  }
-  return a;
-}
-
 Vec3 working_acceleration(const World& world, const Force& force, Entity body, const Vec3& x, const Vec3& v) {
   const Particle p{x, v, world.mass[body]};
   const bool all = !acts_for_ever(force);

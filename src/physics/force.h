@@ -12,10 +12,7 @@ namespace carom {
 /// m/s^2, from `time` (s) on, at position x (m) and velocity v (m/s).
 Vec3 free_acceleration(const World& world, Entity body, double time, const Vec3& x, const Vec3& v);
 
-/// The part of it that does work: that no potential stands for.
-Vec3 working_acceleration(const World& world, Entity body, double time, const Vec3& x, const Vec3& v);
-
-/// Of one force that acts on this body.
+/// m/s^2: the part of it that one force has, which acts on this body, and that does work: no potential stands for it.
 Vec3 working_acceleration(const World& world, const Force& force, Entity body, const Vec3& x, const Vec3& v);
 
 /// J, of gravity (zero at the origin) and of the forces that act for ever.

@@ -48,7 +48,7 @@ void BodyMerging::join(Entity whole, Entity part) {
   bodies_.merged.join(whole, part);
   if (!bodies_.world.forces.empty()) {
     const auto mean = [&]<typename T>(const LazyArray<T>& of) { return T(of[whole] + share * (of[part] - of[whole])); };
-    bodies_.apply(whole, {mean(bodies_.applied), mean(bodies_.working), mean(bodies_.fade)});
+    bodies_.apply(whole, {mean(bodies_.applied), mean(bodies_.fade)});
   }
   for (const Entity i : {whole, part}) flat_.clear(i);
   bodies_.neighbours.remove(part);

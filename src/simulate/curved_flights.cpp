@@ -67,13 +67,13 @@ void CurvedFlights::check_clock(Entity i, double length) const {
                         " change faster than the clock can tell: soften what attracts, or weaken a stiff force");
 }
 
-/// s: within what is asked for, the run, and where forces are smooth.
-double CurvedFlights::longest_step(Entity i, const Vec3& x, const Vec3& v, const Vec3& a) const {
+/// s: within what is asked for, the run, and where forces are smooth, `reach` (m) far.
+double CurvedFlights::longest_step(double reach, const Vec3& v, const Vec3& a) const {
   const double now = bodies_.now.hi;
-  const double reach = step_within(force_reach(bodies_.world, i, x), v.norm(), a.norm());
+  const double within_reach = step_within(reach, v.norm(), a.norm());
   const double longest =
       std::min(bodies_.options.step, std::max(2 * (bodies_.options.duration - now), tol::clock_rounding * now));
-  return reach > 0 ? std::min(reach, longest) : longest;
+  return within_reach > 0 ? std::min(within_reach, longest) : longest;
 }
 
 /// A polynomial for the velocity at the step's start, middle and end: places, which differ by less in a short step than
@@ -95,7 +95,8 @@ PolynomialPath CurvedFlights::closed_step(Entity i, const ClosedForces& forces, 
       tol::closed_place * std::max({radius, x.cwiseAbs().maxCoeff(), start.place.cwiseAbs().maxCoeff()});
   // What is asked, and what impacts start from, is the motion itself: polynomials only find the times of impacts.
   const double speed = std::max({tol::closed_speed * start.velocity.norm(), room * motion.rate(start), 0x1p-900});
-  double h = std::min(longest_step(i, x, start.velocity, start.acceleration), motion.longest_step(start, room));
+  double h = std::min(longest_step(force_reach(bodies_.world, i, x), start.velocity, start.acceleration),
+                      motion.longest_step(start, room));
   if (next_[i] > 0) h = std::min(h, next_[i]);
   for (;;) {
     check_clock(i, h);
@@ -163,9 +164,10 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
   const auto jacobian = [&](const Vec3& at, const Vec3& speed) { return force_jacobian(world, i, now, at, speed); };
   const Vec3 a = springs.any() ? springs.without_turn(x, whole) : whole;
   const ForceJacobian slopes = jacobian(x, v);
-  const double damping = slopes.by_velocity.norm(), longest = longest_step(i, x, v, a);
+  const double damping = slopes.by_velocity.norm(), reach = force_reach(world, i, x);
+  const double longest = longest_step(reach, v, a);
   // A step's error, of a radius or where forces change in less, and no less than what rounding makes of a place.
-  const double width = std::min(radius, force_reach(world, i, x));
+  const double width = std::min(radius, reach);
   const double place = std::max(share * width, tol::position_rounding * x.cwiseAbs().maxCoeff());
   // Of a velocity: of itself; of the speed gained on the way of a width, or of that at which drag balances forces; and
   // no less than that of a swing as wide as a place's error or rounding, for forces that balance are rounding.
@@ -244,7 +246,7 @@ PolynomialPath CurvedFlights::step(Entity i, const Vec3& x, Vec3& v, bool next) 
   return path;
 }
 
-double CurvedFlights::work(Entity i, const Flight& flight, double length) {
+double CurvedFlights::book_work(Entity i, const Flight& flight, double length) {
   const World& world = bodies_.world;
   double all = 0;
   for (std::size_t k = 0; k < world.forces.size(); ++k) {
@@ -257,7 +259,7 @@ double CurvedFlights::work(Entity i, const Flight& flight, double length) {
       sum += node.weight * working_acceleration(world, force, i, x, v).dot(v);
     }
     const double work = world.mass[i] * length * sum;
-    if (work != 0) bodies_.log.add_force_work(k, work);
+    if (work != 0) bodies_.log.add_work(k, work);
     all += work;
   }
   return all;

@@ -24,8 +24,8 @@ class CurvedFlights {
   /// clock can tell no such steps.
   PolynomialPath step(Entity i, const Vec3& x, Vec3& v, bool next);
 
-  /// J: what forces without a potential do to body i in `length` (s) of its flight; books what each of them does.
-  double work(Entity i, const Flight& flight, double length);
+  /// Books what forces without a potential do to body i in `length` (s) of its flight, and gives all of it (J).
+  double book_work(Entity i, const Flight& flight, double length);
 
   /// Where a motion in closed form has led.
   struct Reached {
@@ -55,7 +55,7 @@ class CurvedFlights {
   };
   PolynomialPath closed_step(Entity i, const ClosedForces& forces, const Vec3& x, const Vec3& v);
   PolynomialPath numerical_step(Entity i, const Vec3& x, const Vec3& v);
-  double longest_step(Entity i, const Vec3& x, const Vec3& v, const Vec3& a) const;
+  double longest_step(double reach, const Vec3& v, const Vec3& a) const;
   bool is_implicit(Entity i, double length, double damping) const;
   void note_method(Entity i, bool implicit);
   void check_clock(Entity i, double length) const;

@@ -9,8 +9,9 @@
 
 namespace carom {
 
-EventLog::EventLog(std::uint64_t max_collisions, bool record_collisions)
-    : max_collisions_(max_collisions), record_collisions_(record_collisions) {
+EventLog::EventLog(std::uint64_t max_collisions, bool record_collisions, std::size_t forces)
+    : max_collisions_(max_collisions), record_collisions_(record_collisions), force_work_(forces) {
+  tally_.force_work.resize(forces);
   if (record_collisions) collisions_.reserve(capacity);
 }
 

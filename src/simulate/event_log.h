@@ -16,7 +16,8 @@ class EventLog {
  public:
   /// max_collisions: one more is an error; 0: no limit. record_collisions: false: they are counted only, without a
   /// buffer.
-  EventLog(std::uint64_t max_collisions, bool record_collisions);
+  /// `forces`: how many are booked each.
+  EventLog(std::uint64_t max_collisions, bool record_collisions, std::size_t forces = 0);
 
   /// Empties the buffer for the next advance.
   void begin_advance() { collisions_.clear(); }
@@ -37,18 +38,14 @@ class EventLog {
     method_error_.add(energy);
     tally_.method_error = method_error_.value();
   }
-  /// Books work (J) of the World's forces, gravity apart.
+  /// Books work (J) of no single force.
   void add_work(double work) {
     work_.add(work);
     tally_.work = work_.value();
   }
-  /// So many forces' works are booked each.
-  void expect_forces(std::size_t forces) {
-    force_work_.resize(forces);
-    tally_.force_work.resize(forces);
-  }
-  /// What one of them did (J) of that, by its number in the World.
-  void add_force_work(std::size_t force, double work) {
+  /// Books work (J) of a force of the World, by its number there.
+  void add_work(std::size_t force, double work) {
+    add_work(work);
     force_work_[force].add(work);
     tally_.force_work[force] = force_work_[force].value();
   }

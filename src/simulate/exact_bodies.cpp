@@ -20,16 +20,13 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
       by_method(options.integrator != Integrator::dop853 || !options.closed_forms),
       in_steps(varying || by_method),
       applied(given.body_count(), given.gravity),
-      working(given.body_count(), Vec3::Zero()),
       fade(given.body_count()),
       bent(given.body_count()),
       flights(given.body_count(), given.gravity),
       body(given.body_count()),
       neighbours(world),
       islands(given.body_count()),
-      log(options.max_collisions, options.record_collisions) {
-  log.expect_forces(given.forces.size());
-}
+      log(options.max_collisions, options.record_collisions, given.forces.size()) {}
 
 Vec3 ExactBodies::velocity_without_kick(Entity i, const Instant& at) const {
   const double t = at - flights[i].start;
@@ -57,7 +54,6 @@ ExactBodies::PairState ExactBodies::in_frame_of(Entity a, Entity b) const {
 
 void ExactBodies::apply(Entity i, const AppliedAcceleration& forces) {
   applied.write(i) = forces.all;
-  working.write(i) = forces.working;
   if (forces.fade != fade[i]) fade.write(i) = forces.fade;
 }
 
@@ -65,7 +61,7 @@ void ExactBodies::apply_forces(Entity i, const Vec3& x, const Vec3& v) {
   const bool bend = varying && bends(world, i, now.hi);
   if (bend != (bent[i] != 0)) bent.write(i) = bend;
   if (!bend) return apply(i, merged.applied(i, now.hi));
-  apply(i, {free_acceleration(world, i, now.hi, x, v), working_acceleration(world, i, now.hi, x, v), 0});
+  apply(i, {free_acceleration(world, i, now.hi, x, v), 0});
 }
 
 bool ExactBodies::hops_fade(Entity i, double speed, double press) const {

@@ -37,7 +37,6 @@ struct ExactBodies {
   const bool in_steps;     // or a method is asked for: some flight may be curved
   Instant now;
   LazyArray<Vec3> applied;       // m/s^2, by body: gravity and the forces of now, on a body that stands,
-  LazyArray<Vec3> working;       // and the part of it that does work (force.h);
   LazyArray<double> fade;        // 1/s: this, times its velocity, linear drag takes from both
   LazyArray<std::uint8_t> bent;  // forces that bend paths act on it: all of these are as they were last looked at
   Flights flights;

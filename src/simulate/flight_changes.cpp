@@ -21,7 +21,10 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
   book(i, x, bodies_.now);
   if (bodies_.in_group(i)) bodies_.islands.bend.write(i) = {};
   const bool stepped = bodies_.is_stepped(i) && !bodies_.islands.of(i).fresh;
-  if (stepped != (stepped_[i] != 0)) stepped_.write(i) = stepped;
+  if (stepped != (stepped_[i] != 0)) {
+    stepped_.write(i) = stepped;
+    take(i, 0);
+  }
   const bool falls = bodies_.is_stepped(i) && (bodies_.flights.acceleration(i) != Vec3::Zero() ||
                                                bodies_.flights.curve(i) != nullptr);  // through a time step
   const double negligible = bodies_.negligible_speed();
@@ -192,25 +195,23 @@ void FlightChanges::book_forces(Entity i, const Vec3& x, const Instant& end) {
   // On a path that fades with its drag contact forces stay the same.
   const Vec3 held = f.fade == 0 ? Vec3(bodies_.applied[i] - f.a) : Vec3(bodies_.force_at(i, f.x, f.v) - f.a);
   bodies_.log.deviate(mass * (held.dot(displacement) - (f.fade == 0 ? dragged : 0)));
-  if (world.forces.empty()) return;
-  bodies_.log.add_work(mass * (bodies_.working[i].dot(displacement) - dragged));
-  book_each_force(i, f.start.hi, displacement, fade == 0 ? 0 : dragged / fade);
+  if (!world.forces.empty()) book_work(i, f.start.hi, displacement, fade == 0 ? 0 : dragged / fade);
 }
 
 /// Of forces that are constant but for linear drag, which acts by an integral of the squared speed (m^2/s).
-void FlightChanges::book_each_force(Entity i, double time, const Vec3& displacement, double squared_speed) {
+void FlightChanges::book_work(Entity i, double time, const Vec3& displacement, double squared_speed) {
   const World& world = bodies_.merged.given();
   const std::span<const Entity> parts = bodies_.merged.parts_of(i);
   for (const Entity part : parts.empty() ? std::span<const Entity>(&i, 1) : parts)
     for (std::size_t k = 0; k < world.forces.size(); ++k) {
       const Force& force = world.forces[k];
       if (!acts(force, part, time)) continue;
+      // What acts on a body that stands, wind among it, and the drag on its motion.
+      const Vec3 any = Vec3::Zero(), standing = working_acceleration(world, force, part, any, any);
       const Drag* const drag = std::get_if<Drag>(&force.law);
-      const Vec3 any = Vec3::Zero();
-      const double work = drag != nullptr
-                              ? -drag->linear * squared_speed
-                              : world.mass[part] * working_acceleration(world, force, part, any, any).dot(displacement);
-      if (work != 0) bodies_.log.add_force_work(k, work);
+      const double work =
+          world.mass[part] * standing.dot(displacement) - (drag != nullptr ? drag->linear * squared_speed : 0);
+      if (work != 0) bodies_.log.add_work(k, work);
     }
 }
 
@@ -236,8 +237,7 @@ void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
   const Flight f = bodies_.flights[i];
   const double length = end - f.start, mass = bodies_.world.mass[i];
   if (!(length > 0)) return;
-  const double work = curved_.work(i, f, length);
-  bodies_.log.add_work(work);
+  const double work = curved_.book_work(i, f, length);
   if (f.curve != nullptr) return bodies_.log.note_speed(greatest_speed(f, length));
   const Vec3 v = f.velocity(length);
   bodies_.log.deviate(0.5 * mass * (f.v - v).dot(f.v + v) + potential(bodies_.world, i, f.x) -

@@ -76,7 +76,7 @@ class FlightChanges {
   void end_change(Entity i, const FlightOrigin& origin);
   void book_stepped(Entity i, const Instant& end);
   void book_taking(Entity i, const Instant& end);
-  void book_each_force(Entity i, double time, const Vec3& displacement, double squared_speed);
+  void book_work(Entity i, double time, const Vec3& displacement, double squared_speed);
   void book_forces(Entity i, const Vec3& x, const Instant& end);
   void book_varying(Entity i, const Vec3& x, const Instant& end);
 

@@ -22,15 +22,13 @@ void MergedBodies::begin() {
 AppliedAcceleration MergedBodies::applied(Entity i, double time) const {
   const Vec3 any = Vec3::Zero();  // where it is makes no difference
   const auto on = [&](const World& world, Entity body) {
-    return AppliedAcceleration{free_acceleration(world, body, time, any, any),
-                               working_acceleration(world, body, time, any, any), fade_of(world, body, time)};
+    return AppliedAcceleration{free_acceleration(world, body, time, any, any), fade_of(world, body, time)};
   };
   if (parts_.empty() || parts_[i].empty()) return on(world(), i);
-  AppliedAcceleration sum{Vec3::Zero(), Vec3::Zero(), 0};
+  AppliedAcceleration sum{Vec3::Zero(), 0};
   for (const Entity part : parts_[i]) {
     const AppliedAcceleration its = on(given_, part);
     sum.all += share_[part] * its.all;
-    sum.working += share_[part] * its.working;
     sum.fade += share_[part] * its.fade;
   }
   return sum;

@@ -9,11 +9,10 @@
 
 namespace carom {
 
-/// What forces do to a body that stands, and the part of it that does work (force.h). Where it moves at v, both are
-/// less by fade v.
+/// What forces do to a body that stands. Where it moves at v, it is less by fade v.
 struct AppliedAcceleration {
-  Vec3 all, working;  // m/s^2
-  double fade;        // 1/s
+  Vec3 all;     // m/s^2
+  double fade;  // 1/s
 };
 
 class MergedBodies {

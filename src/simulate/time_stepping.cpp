@@ -441,7 +441,7 @@ bool TimeStepping::begin_flight(const Step& step, std::size_t k, Entity i) {
   const auto begin = [&](const Vec3& velocity) {
     bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (before - velocity).dot(before + velocity));
     flights_.begin(i, step.x[k], velocity, {});
-    flights_.take(i, step.taking[k]);
+    if (bodies_.is_stepped(i)) flights_.take(i, step.taking[k]);
   };
   if (step.rests[k]) {
     bodies_.body[i].state = ContactState::asleep;

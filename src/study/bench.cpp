@@ -82,8 +82,8 @@ class Bench {
   }
 
   RecordedRun record(const SimulationMethod& method, const std::function<void()>& look) const {
-    return record_run(world_, scene_.initial, settings_of(scene_.simulate, method), steps_of(method),
-                      reference_.instants, look);
+    return record_run(world_, scene_.initial, settings_of(scene_.simulate, method), method.steps, reference_.instants,
+                      look);
   }
 
   void fill(BenchRow& row, const RecordedRun& run) {
@@ -106,19 +106,12 @@ class Bench {
       rows_of({.engine = Engine::stepped, .integrator = integrator});
   }
 
-  bool is_reference(const SimulationMethod& method) const {
-    const auto same = [](double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); };
-    return method.engine == reference_.method.engine && same(method.step, reference_.method.step) &&
-           same(method.step_error, reference_.method.step_error) &&
-           (method.engine != Engine::stepped || method.integrator == reference_.method.integrator);
-  }
-
   /// Of a method that chooses its steps.
   void row_of(const SimulationMethod& method) {
     BenchRow row;
     row.method = method;
     try {
-      const bool recorded = is_reference(method);
+      const bool recorded = method == reference_.method;
       const RecordedRun other = recorded ? RecordedRun{} : record(method, look_within(left_, watch_.look));
       const RecordedRun& run = recorded ? reference_.run : other;
       fill(row, run);
@@ -145,7 +138,7 @@ class Bench {
                                                name_of(method), 2 * step, options_.budget));
         return;
       }
-      method.step = step;
+      method.steps.length = step;
       const double rows = static_cast<double>(result_.rows.size()) / static_cast<double>(4 * steps_.size() + 1);
       watch_.tell(0.5 * std::max(rows, std::min(1.0, spent() / options_.budget)), full_name_of(method));
       BenchRow row;
@@ -188,7 +181,7 @@ class Bench {
     result_.reference = reference_.method;
     result_.reference_error = reference_.error;
     for (BenchRow& row : result_.rows)
-      if (row.errors && is_reference(row.method)) row.errors = reference_.error;
+      if (row.errors && row.method == reference_.method) row.errors = reference_.error;
   }
 
   /// In place of the first one.
@@ -204,7 +197,7 @@ class Bench {
     const double start = cpu_time();
     const SimulationMethod& method = row.method;
     const Simulate settings = settings_of(scene_.simulate, method);
-    if (bare_run(world_, scene_.initial, settings, steps_of(method), watch_.look) != row.hash)
+    if (bare_run(world_, scene_.initial, settings, method.steps, watch_.look) != row.hash)
       throw std::runtime_error(fmt::format("the result is another one at each run of {}", full_name_of(method)));
     return cpu_time() - start;
   }

@@ -59,7 +59,9 @@ void write_table(OutputFile& file, const BenchResult& result) {
     CsvRow cells(file);
     const SimulationMethod& method = row.method;
     cells.text(name_of(method.engine)).text(method.engine == Engine::stepped ? name_of(method.integrator) : "");
-    cells.number(method.step).number(if_any(done, row.cpu_s)).number(if_any(errors, e.position));
+    cells.number(method.steps.length.value_or(nothing))
+        .number(if_any(done, row.cpu_s))
+        .number(if_any(errors, e.position));
     cells.number(if_any(errors, e.velocity)).number(if_any(errors, e.energy)).number(if_any(done, row.max_overlap));
     cells.number(if_any(errors, static_cast<double>(e.missed)));
     cells.number(if_any(errors, static_cast<double>(e.invented)));
@@ -70,7 +72,7 @@ void write_table(OutputFile& file, const BenchResult& result) {
     cells.number(if_any(statistics, row.statistics.mean_speed));
     cells.number(if_any(statistics, row.statistics.force_on_fixed));
     cells.number(if_any(statistics, row.speed_distance)).number(if_any(statistics, row.deviation.value));
-    cells.text(statistics ? row.deviation.of : "").number(method.step_error);
+    cells.text(statistics ? row.deviation.of : "").number(if_any(method.steps.error > 0, method.steps.error));
     cells.number(if_any(errors, result.reference_error.position)).end();
   }
 }
@@ -110,8 +112,8 @@ std::vector<PlotLevel> levels_of(const BenchResult& result) {
 nlohmann::ordered_json method_json(const SimulationMethod& method) {
   Json json = {{"engine", name_of(method.engine)}};
   if (method.engine == Engine::stepped) json["integrator"] = name_of(method.integrator);
-  if (std::isfinite(method.step)) json["step_s"] = method.step;
-  if (std::isfinite(method.step_error)) json["step_error"] = method.step_error;
+  if (method.steps.length) json["step_s"] = *method.steps.length;
+  if (method.steps.error > 0) json["step_error"] = method.steps.error;
   return json;
 }
 

@@ -16,6 +16,7 @@ struct StepChoice {
   std::optional<double> length{};  // s: of dop853 the longest; none: by the forces, or as the run goes
   double error = 0;                // of dop853, of a radius and of speeds in each; 0: the default
   bool numerical = false;          // dop853 follows paths that have closed forms too: a way independent of these
+  friend bool operator==(const StepChoice&, const StepChoice&) = default;
 };
 
 /// How a small disturbance of a motion grows.

@@ -15,7 +15,7 @@ constexpr double safety = 10;         // an estimate of an error may be off by s
 constexpr double rounding_room = 16;  // the same, of what rounding does: a few runs have shown it
 constexpr double converging = 0.6;    // a method of order 1 halves its error with its step
 
-constexpr double told = 0.01;  // of the scene's extent: a run that is off by more says nothing
+constexpr double told = 0x1p46;  // of a place's last digit, 2^-7 of the extent: a run that is off by more says nothing
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -38,7 +38,7 @@ void Evidence::add(Finding finding) {
 
 void Evidence::add_halved(const SimulationMethod& method, RecordedRun run) {
   if (run.hash == findings_.front().run.hash) return;
-  if (last_ && (last_->method.engine != method.engine || last_->method.integrator != method.integrator)) {
+  if (last_ && last_->method.integrator != method.integrator) {
     last_.reset();
     best_ = 0;
   }
@@ -47,12 +47,12 @@ void Evidence::add_halved(const SimulationMethod& method, RecordedRun run) {
   if (last_) {
     finding.error = larger(between(last_->run, finding.run), rounding_);
     // A place is rounded in each step, often in the same direction.
-    change = std::max(finding.error.position, until_ / method.step * last_digit_);
+    change = std::max(finding.error.position, until_ / *method.steps.length * last_digit_);
     const bool falls = change_ < infinite && change <= converging * change_;
     // Two runs in a row may be off alike by accident, three hardly.
     finding.error.position = change_ < infinite ? std::max(change, 0.5 * change_) : change;
     const bool converges = falls || change <= rounding_room * rounding_.position;
-    if (converges && 0x1p-53 * finding.error.position <= told * last_digit_) keep(finding);
+    if (converges && finding.error.position <= told * last_digit_) keep(finding);
   }
   last_ = std::move(finding);
   change_ = change;

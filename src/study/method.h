@@ -1,6 +1,5 @@
 #pragma once
 // One way to simulate a scene: an engine, and how it goes through paths that have no closed form.
-#include <limits>
 #include <string>
 
 #include "scene/scene.h"
@@ -9,15 +8,12 @@
 namespace carom {
 
 struct SimulationMethod {
-  static constexpr double none = std::numeric_limits<double>::quiet_NaN();
-
   Engine engine = Engine::exact;
   Integrator integrator = Integrator::rk4;  // of engine stepped
-  double step = none;                       // s; none: the exact engine, and dop853
-  double step_error = none;                 // of dop853: of a radius and of speeds in each step
-  bool numerical = false;                   // of dop853: also where paths have closed forms
+  StepChoice steps{};
 
   bool is_stepped_by(Integrator which) const { return engine == Engine::stepped && integrator == which; }
+  friend bool operator==(const SimulationMethod&, const SimulationMethod&) = default;
 };
 
 /// "exact", "stepped rk4", "book".
@@ -30,8 +26,7 @@ std::string steps_text(const SimulationMethod& method);
 /// Engine stepped, by dop853; where all paths have closed forms it follows them by steps too.
 SimulationMethod dop853(const World& world, double step_error);
 
-/// The scene's settings by this method, and its steps.
+/// The scene's settings by this method, but for its steps.
 Simulate settings_of(const Simulate& simulate, const SimulationMethod& method);
-StepChoice steps_of(const SimulationMethod& method);
 
 }  // namespace carom

@@ -15,16 +15,15 @@ namespace carom {
 
 namespace {
 
-constexpr int most_instants = 64;
-constexpr double golden = 0.6180339887498949;  // where in its part an instant lies: no round number is there
-constexpr double states_kept = 1e6;            // of all bodies, in one run
+using accuracy_tolerance::golden, accuracy_tolerance::most_instants, accuracy_tolerance::places_kept;
+
 constexpr int shifted_runs = 3;
 constexpr int ensemble_runs = 12;
 constexpr double astray = 0.01;  // of the largest radius
 constexpr double last_digit = 0x1p-53, grown = 0x1p14;
 
 std::vector<double> instants_in(double from, double to, std::size_t bodies) {
-  const auto most = static_cast<int>(states_kept / static_cast<double>(std::max<std::size_t>(bodies, 1)));
+  const auto most = static_cast<int>(places_kept / static_cast<double>(std::max<std::size_t>(bodies, 1)));
   const int count = std::clamp(most, 8, most_instants);
   std::vector<double> instants(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) instants[static_cast<std::size_t>(k)] = from + (to - from) * (k + golden) / count;
@@ -60,7 +59,7 @@ class Making {
   double spent() const { return cpu_time() - start_; }
 
   RecordedRun record(const World& world, const State& initial, const SimulationMethod& method) const {
-    return record_run(world, initial, settings_of(scene_.simulate, method), steps_of(method), reference_.instants,
+    return record_run(world, initial, settings_of(scene_.simulate, method), method.steps, reference_.instants,
                       look_within(0.5 * options_.budget, watch_.look));
   }
 

@@ -60,6 +60,14 @@ TEST(WorkOfForces, AndLossesOfImpactsAreTheChangeOfKineticEnergy) {
   EXPECT_NEAR(balance.missing, 0, 1e-12);
 }
 
+TEST(WorkOfForces, HasTheWindsInIt) {
+  const Workplace here;
+  const Balance balance =
+      testing::balance(here, falling("duration: 2", "  - drag: {linear: 0.3, wind: [40, 0, 5]}\n" + gust));
+  EXPECT_GT(balance.work["forces.0.drag_J"], 1);
+  EXPECT_NEAR(balance.missing, 0, 1e-11);
+}
+
 TEST(WorkOfForces, AddsUpAlongCurvesToo) {
   const Workplace here;
   const Balance balance = testing::balance(here, falling("duration: 2", pull + gust + damper + air + dense_air));

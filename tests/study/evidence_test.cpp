@@ -37,7 +37,8 @@ Differences error(double position) {
   return {position, 0, 0, 0, 0};
 }
 
-const SimulationMethod exact, dop853{.engine = Engine::stepped, .integrator = Integrator::dop853, .step_error = 1e-14};
+const SimulationMethod exact,
+    dop853{.engine = Engine::stepped, .integrator = Integrator::dop853, .steps = {.error = 1e-14}};
 
 class EvidenceTest : public ::testing::Test {
  protected:
@@ -48,8 +49,9 @@ class EvidenceTest : public ::testing::Test {
   static void add_series(Evidence& evidence, Integrator integrator, int order, double coarse, int halvings,
                          double bias = 0) {
     for (int k = 0; k <= halvings; ++k)
-      evidence.add_halved({.engine = Engine::stepped, .integrator = integrator, .step = std::ldexp(1.0 / 16, -k)},
-                          run_off(bias + std::ldexp(coarse, -order * k)));
+      evidence.add_halved(
+          {.engine = Engine::stepped, .integrator = integrator, .steps = {.length = std::ldexp(1.0 / 16, -k)}},
+          run_off(bias + std::ldexp(coarse, -order * k)));
   }
 
   const World world_ = one_body();
@@ -102,13 +104,15 @@ TEST_F(EvidenceTest, WhereTwoMethodsContradictEachOtherNeitherIsTrustedBeyondThe
 TEST_F(EvidenceTest, AMethodThatDoesNotConvergeSaysNothing) {
   Evidence evidence = of_exact(0);
   for (int k = 0; k < 8; ++k)
-    evidence.add_halved({.engine = Engine::stepped, .step = std::ldexp(1.0, -k)}, run_off(k % 2 == 0 ? 0.1 : 0.2));
+    evidence.add_halved({.engine = Engine::stepped, .steps = {.length = std::ldexp(1.0, -k)}},
+                        run_off(k % 2 == 0 ? 0.1 : 0.2));
   EXPECT_TRUE(evidence.verdict().witnesses.empty());
 }
 
 TEST_F(EvidenceTest, ARunWithTheVeryBitsOfTheReferenceIsNoEvidence) {
   Evidence evidence = of_exact(0);
-  for (int k = 0; k < 8; ++k) evidence.add_halved({.engine = Engine::stepped, .step = std::ldexp(1.0, -k)}, run_off(0));
+  for (int k = 0; k < 8; ++k)
+    evidence.add_halved({.engine = Engine::stepped, .steps = {.length = std::ldexp(1.0, -k)}}, run_off(0));
   EXPECT_TRUE(evidence.verdict().witnesses.empty());
 }
 
@@ -116,10 +120,11 @@ TEST_F(EvidenceTest, ARunWithTheVeryBitsOfTheReferenceIsNoEvidence) {
 TEST_F(EvidenceTest, RoundingInEachOfManyStepsIsNoContradiction) {
   Evidence evidence = of_exact(0);
   for (const double off : {3e-11, 2.5e-11, 2e-11})
-    evidence.add_halved({.engine = Engine::stepped, .step = 1e-6}, run_off(off));
+    evidence.add_halved({.engine = Engine::stepped, .steps = {.length = 1e-6}}, run_off(off));
   ASSERT_EQ(evidence.verdict().witnesses.size(), 0u);  // it no longer converges
   for (const double off : {1e-9, 1e-10, 2e-11})
-    evidence.add_halved({.engine = Engine::stepped, .integrator = Integrator::verlet, .step = 1e-6}, run_off(off));
+    evidence.add_halved({.engine = Engine::stepped, .integrator = Integrator::verlet, .steps = {.length = 1e-6}},
+                        run_off(off));
   ASSERT_EQ(evidence.verdict().witnesses.size(), 1u);
   EXPECT_TRUE(evidence.verdict().witnesses[0].agrees);
 }
