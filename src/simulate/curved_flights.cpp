@@ -141,6 +141,19 @@ void CurvedFlights::note_method(Entity i, bool implicit) {
 
 namespace {
 
+/// What is left of a body's kinetic energy far from what attracts it, of it here: there an error of this speed is by so
+/// much a larger share.
+double left_of_speed(const World& world, Entity body, double time, const Vec3& x, const Vec3& v) {
+  double depth = 0;  // m^2/s^2
+  for (const Force& force : world.forces) {
+    const Attractor* const attractor = std::get_if<Attractor>(&force.law);
+    if (attractor == nullptr || !acts(force, body, time)) continue;
+    depth = std::max(depth, -attractor->potential({x, v, 1}));
+  }
+  const double kinetic = 0.5 * v.squaredNorm();
+  return depth > 0 && kinetic > 0 ? std::min(std::abs(kinetic - depth) / kinetic, 1.0) : 1;
+}
+
 /// The path's first seconds, so many.
 void cut(PolynomialPath& path, double length) {
   path.displacement = PolynomialPath::shifted(path.displacement, 0, length / path.length);
@@ -168,14 +181,16 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
   const double longest = longest_step(reach, v, a);
   // A step's error, of a radius or where forces change in less, and no less than what rounding makes of a place.
   const double width = std::min(radius, reach);
-  const double place = std::max(share * width, tol::position_rounding * x.cwiseAbs().maxCoeff());
+  const double left = left_of_speed(world, i, now, x, v);
+  const double place = std::max(share * left * width, tol::position_rounding * x.cwiseAbs().maxCoeff());
   // Of a velocity: of itself; of the speed gained on the way of a width, or of that at which drag balances forces; and
   // no less than that of a swing as wide as a place's error or rounding, for forces that balance are rounding.
   const double swing = std::max(share * width, 0x1p-51 * x.cwiseAbs().maxCoeff());
   const double gained = std::min(std::sqrt(a.norm() * width), a.norm() / std::max(damping, 0x1p-900));
   // (Across a spring that is nearly at its anchor the slope is without bound, and damping is no swing.)
   const double swings = std::min(std::sqrt(slopes.by_position.norm()), force_rate(world, i, x, v));
-  const double speed = std::max({share * v.norm(), share * gained, swing * swings, 0x1p-900});
+  const double fine = std::max(share * left, tol::velocity_rounding);
+  const double speed = std::max({fine * v.norm(), fine * gained, left * swing * swings, 0x1p-900});
   double h = next_[i] > 0 ? next_[i] : first_length(i, x, v);
   bool implicit = is_implicit(i, h, damping);
   h = std::min(h, longest);
