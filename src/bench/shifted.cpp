@@ -1,9 +1,10 @@
 #include "bench/shifted.h"
-#include "physics/world.h"
 
 #include <algorithm>
 #include <cmath>
 #include <variant>
+
+#include "physics/world.h"
 
 namespace carom {
 

@@ -1,9 +1,10 @@
 #include "bench/statistics.h"
-#include "physics/world.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "physics/world.h"
 
 namespace carom {
 

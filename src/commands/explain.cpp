@@ -8,6 +8,7 @@
 
 #include "commands/report.h"
 #include "commands/text.h"
+#include "scene/absent_words.h"
 #include "scene/field_places.h"
 #include "scene/format_page.h"
 #include "yaml/diagnostics.h"
@@ -33,13 +34,16 @@ bool has_defaults(const FieldPlaces& row) {
 }
 
 // The keys of which one is needed; empty: none is.
-std::vector<std::string> needed_keys(const FieldPlaces& row) {
-  const Field& field = *row.field;
+std::vector<std::string> needed_keys(const Field& field, const Kind& kind) {
   if (field.needed && field.one_of.empty()) return {std::string(field.key)};
-  for (const Field& other : row.kinds.front()->fields) {
+  for (const Field& other : kind.fields) {
     if (other.needed && !field.one_of.empty() && other.one_of == field.one_of) return strings(parts_of(field.one_of));
   }
   return {};
+}
+
+std::vector<std::string> needed_keys(const FieldPlaces& row) {
+  return needed_keys(*row.field, *row.kinds.front());
 }
 
 std::string needed_text(const FieldPlaces& row) {
@@ -53,7 +57,7 @@ std::string needed_text(const FieldPlaces& row) {
 }
 
 /// Lines of keys or kinds and what they are.
-std::string key_list(const std::vector<std::pair<std::string_view, std::string_view>>& rows, std::size_t width) {
+std::string key_list(const std::vector<std::pair<std::string_view, std::string>>& rows, std::size_t width) {
   constexpr std::size_t column = 20;
   std::string text;
   for (const auto& [name, doc] : rows)
@@ -61,9 +65,22 @@ std::string key_list(const std::vector<std::pair<std::string_view, std::string_v
   return text;
 }
 
+/// "kg; mass or density needed", "m/s; default [0, 0, 0]": what a list says of a key beside its meaning.
+std::string facts_text(const Field& field, const Kind& kind) {
+  std::vector<std::string> facts;
+  if (!field.unit.empty()) facts.emplace_back(field.unit);
+  if (field.type == Type::choice) facts.push_back(expected(field));
+  const std::vector<std::string> needed = needed_keys(field, kind);
+  if (needed.size() == 1) facts.emplace_back("needed");
+  if (needed.size() > 1)
+    facts.push_back(listed(std::vector<std::string_view>(needed.begin(), needed.end())) + " needed");
+  if (!field.initial.empty()) facts.push_back(fmt::format("default {}", field.initial));
+  return facts.empty() ? "" : fmt::format(" ({})", fmt::join(facts, "; "));
+}
+
 std::string keys_text(const Kind& kind, std::size_t width) {
-  std::vector<std::pair<std::string_view, std::string_view>> rows;
-  for (const Field& field : kind.fields) rows.emplace_back(field.key, field.doc);
+  std::vector<std::pair<std::string_view, std::string>> rows;
+  for (const Field& field : kind.fields) rows.emplace_back(field.key, std::string(field.doc) + facts_text(field, kind));
   if (kind.also != nullptr) rows.emplace_back(kind.also->key, kind.also->doc);
   return key_list(rows, width);
 }
@@ -92,7 +109,26 @@ std::string row_text(const FieldPlaces& row, const Palette& palette, std::size_t
 std::string kind_text(const Kind& kind, const Palette& palette, std::size_t width) {
   Block block(palette, width);
   block.heading(kind.name, kind.doc);
+  if (const std::vector<std::string> paths = paths_of(kind); !paths.empty())
+    block.line("stands at", listed(paths, paths.size()));
+  block.line("keys", "those below");
   return block.text() + keys_text(kind, width);
+}
+
+std::string word_text(const AbsentWord& word, const Palette& palette, std::size_t width) {
+  Block block(palette, width);
+  block.heading(parts_of(word.words).front(), "no key of the format");
+  block.line("instead", word.meaning);
+  if (!word.see.empty()) {
+    std::vector<std::string> commands;
+    for (const std::string_view key : parts_of(word.see)) commands.push_back(fmt::format("carom explain {}", key));
+    block.line("see", fmt::format("{}", fmt::join(commands, ", ")));
+  }
+  return block.text();
+}
+
+Json word_json(const AbsentWord& word) {
+  return {{"word", parts_of(word.words).front()}, {"instead", word.meaning}, {"see", parts_of(word.see)}};
 }
 
 Json range_json(const Range& range) {
@@ -141,11 +177,23 @@ Json kind_json(const Kind& kind) {
 std::string overview(std::size_t width) {
   std::string text;
   for (const auto family : families()) {
-    std::vector<std::pair<std::string_view, std::string_view>> rows;
+    std::vector<std::pair<std::string_view, std::string>> rows;
     for (const Kind& kind : family) rows.emplace_back(kind.name, kind.doc);
     text += fmt::format("Kinds of maps in a {} file:\n", family.front().name) + key_list(rows, width) + "\n";
   }
   return text + "`carom explain KEY` explains a key (rest_speed, balls.red.mass) or a kind (ball).\n";
+}
+
+/// Whether all that it says is where `defaults` has values for a kind.
+bool is_default_alone(const FieldPlaces& row) {
+  return std::all_of(row.paths.begin(), row.paths.end(),
+                     [](const std::string& path) { return path.starts_with("defaults."); });
+}
+
+/// Several operands may be one term: `carom explain slow motion`.
+std::vector<std::string> asked_words(const std::vector<std::string>& operands) {
+  const std::string term = fmt::format("{}", fmt::join(operands, " "));
+  return operands.size() > 1 && find_absent_word(term) != nullptr ? std::vector<std::string>{term} : operands;
 }
 
 [[noreturn]] void refuse(const std::string& key) {
@@ -164,12 +212,13 @@ const CommandText& explain_text() {
       "  carom explain simulate.rest_speed\n"
       "  carom explain restitution                             every place that has such a key\n"
       "  carom explain balls.red.mass                          a path as --set has it\n"
+      "  carom explain friction                                what there is instead of what is absent\n"
       "  carom explain                                         the kinds of maps in a scene\n"
       "  carom explain --page > format.md                      all keys on a page\n",
       "Exit codes: 0 done, 2 there is no such key.",
       {{"--page"}},
       "KEY",
-      "a key, a path or a kind of map",
+      "a key, a path, a kind of map or a word of the field",
       0};
   return text;
 }
@@ -183,19 +232,26 @@ int explain_command(const Options& options) {
   const Palette palette(wants_color(options.color, STDOUT_FILENO));
   const std::size_t width = terminal_width(STDOUT_FILENO);
   std::vector<std::string> texts;
-  Json fields = Json::array(), all = Json::array();
-  for (const std::string& key : options.operands) {
-    const std::vector<FieldPlaces> rows = find_places(key);
+  Json fields = Json::array(), all = Json::array(), words = Json::array();
+  for (const std::string& key : asked_words(options.operands)) {
+    const AbsentWord* word = find_absent_word(key);
     const Kind* kind = find_kind(key);
-    if (rows.empty() && kind == nullptr) refuse(key);
+    std::vector<FieldPlaces> rows = find_places(key);
+    // `ball` is the kind, not the key of `defaults` that is called like it.
+    if (kind != nullptr) std::erase_if(rows, is_default_alone);
+    if (rows.empty() && kind == nullptr && word == nullptr) refuse(key);
+    if (word != nullptr) {
+      texts.push_back(word_text(*word, palette, width));
+      words.push_back(word_json(*word));
+    }
     for (const FieldPlaces& row : rows) {
       texts.push_back(row_text(row, palette, width));
       fields.push_back(row_json(row));
     }
     // A key that is called like its kind has its keys shown already.
-    const bool told =
+    const bool shown =
         std::any_of(rows.begin(), rows.end(), [&](const FieldPlaces& row) { return held_kind(*row.field) == kind; });
-    if (kind == nullptr || told) continue;
+    if (kind == nullptr || shown) continue;
     texts.push_back(kind_text(*kind, palette, width));
     all.push_back(kind_json(*kind));
   }
@@ -206,7 +262,7 @@ int explain_command(const Options& options) {
     }
   }
   if (options.json) {
-    write_out(document("explain", {{"fields", fields}, {"kinds", all}}));
+    write_out(document("explain", {{"fields", fields}, {"kinds", all}, {"words", words}}));
   } else if (!options.quiet) {
     write_out(fmt::format("{}", fmt::join(texts, "\n")));
   }

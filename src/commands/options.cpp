@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "commands/text.h"
-#include "scene/output.h"
+#include "scene/output_kinds.h"
 #include "yaml/diagnostics.h"
 
 namespace carom {

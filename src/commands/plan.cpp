@@ -17,6 +17,7 @@
 #include "physics/world.h"
 #include "render/mesh.h"
 #include "scene/load.h"
+#include "scene/output_kinds.h"
 #include "scene/scene.h"
 
 namespace carom {

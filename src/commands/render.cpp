@@ -14,7 +14,7 @@
 #include "files/open_folder.h"
 #include "files/publication.h"
 #include "scene/motion_text.h"
-#include "scene/output.h"
+#include "scene/output_kinds.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -107,7 +107,7 @@ class Planner {
       throw ExportError(fmt::format("--set changes one of {}, which render leaves as they are\n  carom run writes them",
                                     fmt::join(tables, ", ")));
     for (const OutputKind& kind : output_kinds())
-      if (kind.asked(output)) kind.add(kept, output);
+      if (kind.asked(output)) kind.member.add(kept, output);
     output = kept;
   }
 

@@ -12,6 +12,7 @@
 #include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/series_folders.h"
+#include "scene/output_kinds.h"
 
 namespace carom {
 

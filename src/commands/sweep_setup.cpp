@@ -15,6 +15,7 @@
 #include "commands/text.h"
 #include "compare/comparison.h"
 #include "render/mesh.h"
+#include "scene/output_kinds.h"
 #include "scene/resolve.h"
 #include "scene/scene.h"
 #include "study/sweep_folder.h"

@@ -15,6 +15,7 @@
 #include "files/open_folder.h"
 #include "files/series.h"
 #include "files/series_folders.h"
+#include "scene/output_kinds.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -60,7 +61,8 @@ struct Exports::Impl {
     for (const OutputKind& kind : output_kinds()) {
       const WriterKind* writer = writer_named(kind.name);
       if (writer == nullptr || !kind.asked(output) || keeps(kind)) continue;
-      const int ticks = kind.every ? timeline.add(Ticks::every(kind.every(output), scene.simulate.duration)) : -1;
+      const int ticks =
+          kind.is_sampled() ? timeline.add(Ticks::every(kind.every(output), scene.simulate.duration)) : -1;
       writers.push_back({writer->open(*folder, scene, makers), ticks});
     }
     if (output.frames) frames.emplace(*folder, frame_files);

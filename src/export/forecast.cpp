@@ -7,6 +7,7 @@
 #include "export/writer.h"
 #include "numerics/whole.h"
 #include "physics/world.h"
+#include "scene/output_kinds.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -34,7 +35,7 @@ Forecast forecast(const Scene& scene) {
   const double bodies = scene.world.body_count(), duration = scene.simulate.duration;
   double rows = 0, frames = 0, bytes = static_cast<double>(scene.resolved.size()) + 2000;
   const auto instants = [&](const OutputKind& kind) {
-    return kind.every ? static_cast<double>(Ticks::every(kind.every(output), duration).count()) : 0;
+    return kind.is_sampled() ? static_cast<double>(Ticks::every(kind.every(output), duration).count()) : 0;
   };
   for (const OutputKind& kind : output_kinds()) {
     if (!kind.asked(output)) continue;

@@ -9,18 +9,12 @@
 namespace carom {
 namespace {
 
-/// What frames and film have in common.
-FramesOutput as_frames(const VideoOutput& video) {
-  return {video.fps, video.size, video.samples, video.from, video.until};
-}
-
-Ticks ticks_of(const FramesOutput& frames, double duration) {
+Ticks ticks_of(const PictureOutput& frames, double duration) {
   return Ticks::rate(frames.fps, frames.from, std::min(frames.until.value_or(duration), duration));
 }
 
-bool same_pictures(const FramesOutput& a, const FramesOutput& b, double duration) {
-  return a.fps == b.fps && a.size.width == b.size.width && a.size.height == b.size.height && a.samples == b.samples &&
-         a.from == b.from &&
+bool same_pictures(const PictureOutput& a, const PictureOutput& b, double duration) {
+  return a.fps == b.fps && a.size == b.size && a.samples == b.samples && a.from == b.from &&
          std::min(a.until.value_or(duration), duration) == std::min(b.until.value_or(duration), duration);
 }
 
@@ -32,9 +26,9 @@ void add(PictureStreams& plan, Size size, int samples, const Ticks& ticks, const
 
 }  // namespace
 
-FramesOutput sheet_model(const Output& output) {
+PictureOutput sheet_model(const Output& output) {
   if (output.frames) return *output.frames;
-  return output.video ? as_frames(*output.video) : FramesOutput{};
+  return output.video ? static_cast<const PictureOutput&>(*output.video) : PictureOutput{};
 }
 
 PictureStreams plan_pictures(const Scene& scene) {
@@ -42,19 +36,18 @@ PictureStreams plan_pictures(const Scene& scene) {
   const double duration = scene.simulate.duration;
   PictureStreams plan;
   if (const auto& frames = output.frames) {
-    const bool film = output.video && same_pictures(*frames, as_frames(*output.video), duration);
+    const bool film = output.video && same_pictures(*frames, *output.video, duration);
     add(plan, frames->size, frames->samples, ticks_of(*frames, duration), {true, film, false});
   }
   if (const auto& video = output.video) {
-    const FramesOutput pictures = as_frames(*video);
-    const Ticks ticks = ticks_of(pictures, duration);
+    const Ticks ticks = ticks_of(*video, duration);
     if (ticks.count() < 1)
       throw ExportError("cannot make " + video->file + ": no picture falls between `from` and `until`");
     if (plan.uses.empty() || !plan.uses.front().film)
       add(plan, video->size, video->samples, ticks, {false, true, false});
   }
   if (output.sheet) {
-    const FramesOutput model = sheet_model(output);
+    const PictureOutput model = sheet_model(output);
     const Sheet sheet(*output.sheet, model.size);
     add(plan, sheet.picture_size(), model.samples, Ticks::even(sheet.count(), duration), {false, false, true});
   }

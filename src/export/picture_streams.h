@@ -32,6 +32,6 @@ struct PictureStreams {
 PictureStreams plan_pictures(const Scene& scene);
 
 /// The shape and quality of the sheet's pictures: those of the frames, else of the film, else the frames' defaults.
-FramesOutput sheet_model(const Output& output);
+PictureOutput sheet_model(const Output& output);
 
 }  // namespace carom

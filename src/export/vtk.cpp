@@ -9,6 +9,7 @@
 
 #include "export/bodies.h"
 #include "physics/world.h"
+#include "scene/output_kinds.h"
 #include "scene/scene.h"
 
 namespace carom {

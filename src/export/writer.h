@@ -14,6 +14,7 @@
 #include "physics/state.h"
 #include "physics/tally.h"
 #include "render/model.h"
+#include "scene/output_kinds.h"
 
 namespace carom {
 

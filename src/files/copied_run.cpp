@@ -14,6 +14,7 @@
 #include "files/open_folder.h"
 #include "files/series_folders.h"
 #include "files/stored_file.h"
+#include "scene/output_kinds.h"
 
 namespace carom {
 namespace {

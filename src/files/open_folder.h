@@ -7,7 +7,7 @@
 #include "files/mesh_copies.h"
 #include "files/output_file.h"
 #include "files/run_folder.h"
-#include "scene/output.h"
+#include "scene/output_kinds.h"
 
 namespace carom {
 

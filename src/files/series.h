@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "files/open_folder.h"
+#include "scene/output_kinds.h"
 
 namespace carom {
 

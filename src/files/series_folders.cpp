@@ -1,6 +1,7 @@
 #include "files/series_folders.h"
 
 #include "files/open_folder.h"
+#include "scene/output_kinds.h"
 
 namespace carom {
 

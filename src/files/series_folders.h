@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "files/output_file.h"
-#include "scene/output.h"
+#include "scene/output_kinds.h"
 
 namespace carom {
 

@@ -1,7 +1,8 @@
 #include "geometry/slab_sum.h"
-#include "physics/world.h"
 
 #include <cmath>
+
+#include "physics/world.h"
 
 namespace carom {
 

@@ -1,7 +1,8 @@
 #include "physics/bounds.h"
-#include "physics/world.h"
 
 #include <algorithm>
+
+#include "physics/world.h"
 
 namespace carom {
 

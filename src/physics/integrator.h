@@ -8,11 +8,11 @@
 namespace carom {
 
 enum class Integrator : std::uint8_t {
+  dop853,  // of Dormand and Prince, with steps of its own (dormand_prince.h); order 8
   euler,   // semi-implicit: v' = v + h a(x, v), x' = x + h v': a parabola, as fast as v + h a/2 at first; order 1
   verlet,  // velocity Verlet (Swope et al., J. Chem. Phys. 76 (1982) 637): at the end of a parabola from v, the
            // velocity goes over to v + h (a + a')/2, a' with the parabola's velocity; order 2
-  rk4,     // the classical method of Runge and Kutta; order 4
-  dop853   // of Dormand and Prince, with steps of its own (dormand_prince.h); order 8
+  rk4      // the classical method of Runge and Kutta; order 4
 };
 
 /// What a step does to a particle: `bend` (m), how far it is off the straight line at its end, and `change` (m/s), of

@@ -1,8 +1,9 @@
 #include "physics/restitution.h"
-#include "physics/world.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "physics/world.h"
 
 namespace carom {
 

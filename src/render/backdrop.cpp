@@ -1,10 +1,11 @@
 #include "render/backdrop.h"
-#include "scene/scene.h"
 
 #include <fmt/format.h>
 
 #include <array>
 #include <vector>
+
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -1,6 +1,4 @@
 #include "render/camera.h"
-#include "physics/world.h"
-#include "scene/scene.h"
 
 #include <algorithm>
 #include <array>
@@ -8,6 +6,9 @@
 #include <limits>
 #include <numbers>
 #include <span>
+
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

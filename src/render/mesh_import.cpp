@@ -1,5 +1,4 @@
 #include "render/mesh_import.h"
-#include "scene/scene.h"
 
 #include <assimp/BaseImporter.h>
 #include <assimp/DefaultIOSystem.h>
@@ -15,6 +14,8 @@
 #include <new>
 #include <stdexcept>
 #include <string_view>
+
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

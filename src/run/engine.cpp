@@ -14,7 +14,7 @@ namespace carom {
 namespace {
 
 /// What a simulator is made of.
-struct Making {
+struct SimulatorRequest {
   const World& world;
   const State& initial;
   const Simulate& simulate;
@@ -22,22 +22,22 @@ struct Making {
   const StepChoice& steps;
 };
 
-ExactOptions exact_options(const Making& making) {
-  const Simulate& simulate = making.simulate;
+ExactOptions exact_options(const SimulatorRequest& request) {
+  const Simulate& simulate = request.simulate;
   ExactOptions options;
   options.duration = simulate.duration;
   options.rest_speed = simulate.rest_speed.value_or(options.rest_speed);
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
-  options.record_collisions = making.recording.collisions;
+  options.record_collisions = request.recording.collisions;
   return options;
 }
 
 /// Along paths in closed form, from event to event.
-std::unique_ptr<Simulator> make_exact(const Making& making) {
-  ExactOptions options = exact_options(making);
-  options.merge = making.simulate.merge;
-  options.record_paths = making.recording.paths && varying_force(making.world) == nullptr;
-  return make_exact_simulator(making.world, making.initial, options);
+std::unique_ptr<Simulator> make_exact(const SimulatorRequest& request) {
+  ExactOptions options = exact_options(request);
+  options.merge = request.simulate.merge;
+  options.record_paths = request.recording.paths && varying_force(request.world) == nullptr;
+  return make_exact_simulator(request.world, request.initial, options);
 }
 
 /// Whether the engine chooses its steps as it goes.
@@ -46,10 +46,10 @@ bool chooses_steps(const Simulate& simulate) {
 }
 
 /// The same, with free flights in steps.
-std::unique_ptr<Simulator> make_stepped(const Making& making) {
-  const Simulate& simulate = making.simulate;
-  const StepChoice& steps = making.steps;
-  ExactOptions options = exact_options(making);
+std::unique_ptr<Simulator> make_stepped(const SimulatorRequest& request) {
+  const Simulate& simulate = request.simulate;
+  const StepChoice& steps = request.steps;
+  ExactOptions options = exact_options(request);
   if (steps.error > 0) options.step_error = steps.error;
   options.integrator = simulate.integrator;
   options.closed_forms = !steps.numerical;
@@ -57,23 +57,24 @@ std::unique_ptr<Simulator> make_stepped(const Making& making) {
   if (step)
     options.step = *step;
   else if (!chooses_steps(simulate))
-    options.step = default_step(making.world, making.initial);
-  return make_exact_simulator(making.world, making.initial, options);
+    options.step = default_step(request.world, request.initial);
+  return make_exact_simulator(request.world, request.initial, options);
 }
 
 /// Frame by frame, as the chapter's listings do.
-std::unique_ptr<Simulator> make_book(const Making& making) {
-  const Simulate& simulate = making.simulate;
+std::unique_ptr<Simulator> make_book(const SimulatorRequest& request) {
+  const Simulate& simulate = request.simulate;
   BookOptions options;
-  options.step = making.steps.length.value_or(simulate.step.value_or(options.step));
+  options.step = request.steps.length.value_or(simulate.step.value_or(options.step));
   options.as_printed = simulate.as_printed;
   options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
-  options.record_collisions = making.recording.collisions;
-  return make_book_simulator(making.world, making.initial, options);
+  options.record_collisions = request.recording.collisions;
+  return make_book_simulator(request.world, request.initial, options);
 }
 
 /// By Engine; what each lacks is in scene/engines.cpp.
-constexpr std::unique_ptr<Simulator> (*makers[])(const Making&) = {nullptr, make_exact, make_stepped, make_book};
+constexpr std::unique_ptr<Simulator> (*makers[])(const SimulatorRequest&) = {nullptr, make_exact, make_stepped,
+                                                                             make_book};
 
 std::string joined(const std::string& why, const std::string& more) {
   return why.empty() ? more : why + "; " + more;

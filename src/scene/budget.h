@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/output.h"
+#include "scene/output_kinds.h"
 
 namespace carom {
 

@@ -10,6 +10,7 @@ namespace carom {
 /// sRGB as authors write it (not linear light), each 0 to 1.
 struct Color {
   double r = 1, g = 1, b = 1;
+  friend bool operator==(const Color&, const Color&) = default;
 };
 
 /// A CSS name (any case), "#rgb" or "#rrggbb".

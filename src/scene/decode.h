@@ -73,11 +73,6 @@ void check_steps(const Node& root, const Scene& scene, const Budget& budget, Dia
 /// Adds an error where the engine that the scene names cannot serve what stands in it. Wants all decoded.
 void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics);
 
-/// Whether `output` asks for this part: a map, or true.
-bool wanted(const View& output, std::string_view part);
-/// The video's keys, with those of frames beneath.
-View video_view(const View& output);
-
 /// The way the height of a wall runs that does not say: y, for a level wall z.
 Vec3 default_up(const Vec3& unit_normal);
 

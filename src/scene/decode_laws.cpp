@@ -107,22 +107,22 @@ std::optional<ForceLaw> decode_acceleration(const View& force, Diagnostics&) {
 std::optional<ForceLaw> decode_drag(const View& force, Diagnostics&) {
   const View view = force.part("drag", "drag");
   if (view.own() == nullptr) return std::nullopt;
-  const Drag drag{view.number("linear").value_or(0), view.number("quadratic").value_or(0),
-                  view.vector("wind").value_or(Vec3(Vec3::Zero()))};
+  Drag drag;
+  fill(&drag, view);
   return drag.linear != 0 || drag.quadratic != 0 ? std::optional<ForceLaw>(drag) : std::nullopt;
 }
 
 std::optional<ForceLaw> decode_spring(const View& force, Diagnostics&) {
   const View view = force.part("spring", "spring");
-  const Spring spring{view.vector("anchor").value_or(Vec3(Vec3::Zero())), view.number("stiffness").value_or(0),
-                      view.number("rest_length").value_or(0), view.number("damping").value_or(0)};
+  Spring spring;
+  fill(&spring, view);
   return spring.stiffness != 0 || spring.damping != 0 ? std::optional<ForceLaw>(spring) : std::nullopt;
 }
 
 std::optional<ForceLaw> decode_attractor(const View& force, Diagnostics&) {
   const View view = force.part("attractor", "attractor");
-  const Attractor attractor{view.vector("center").value_or(Vec3(Vec3::Zero())), view.number("strength").value_or(0),
-                            view.number("softening").value_or(0)};
+  Attractor attractor;
+  fill(&attractor, view);
   return attractor.strength != 0 ? std::optional<ForceLaw>(attractor) : std::nullopt;
 }
 

@@ -8,25 +8,12 @@
 #include "physics/world.h"
 #include "scene/decode.h"
 #include "scene/engines.h"
+#include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "yaml/values.h"
 
 namespace carom {
 namespace {
-
-Size size_of(const View& view, Size fallback) {
-  const Node* node = view.find("size");
-  if (node == nullptr || node->bad || node->items.size() != 2) return fallback;
-  const auto side = [](const Node& item, int otherwise) {
-    const std::optional<std::uint64_t> value = as_whole(&item);
-    return value && *value <= 16384 ? static_cast<int>(*value) : otherwise;
-  };
-  return {side(node->items[0], fallback.width), side(node->items[1], fallback.height)};
-}
-
-int samples_of(const View& view) {
-  return view.text("samples").value_or("4")[0] - '0';
-}
 
 class Requests {
  public:
@@ -46,24 +33,9 @@ class Requests {
   void simulate() {
     const View view = scene_part(root_, "simulate");
     Simulate& s = scene_.simulate;
-    s.duration = view.number("duration").value_or(0);
-    const std::string engine = view.text("engine").value_or("auto");
-    s.engine = engine == "exact"     ? Engine::exact
-               : engine == "stepped" ? Engine::stepped
-               : engine == "book"    ? Engine::book
-                                     : Engine::automatic;
-    s.step = view.number("step");
+    fill(&s, view);
     if (s.engine == Engine::book && view.given("step") == nullptr) s.step = 1.0 / 60;
-    s.tolerance = view.number("tolerance");
-    const std::string integrator = view.text("integrator").value_or(s.step ? "rk4" : "dop853");
-    s.integrator = integrator == "euler"    ? Integrator::euler
-                   : integrator == "verlet" ? Integrator::verlet
-                   : integrator == "dop853" ? Integrator::dop853
-                                            : Integrator::rk4;
-    s.rest_speed = view.number("rest_speed");
-    s.max_collisions = view.whole("max_collisions");
-    s.as_printed = view.flag("as_printed").value_or(false);
-    s.merge = view.text("contact") == "merge";
+    if (view.given("integrator") == nullptr) s.integrator = s.step ? Integrator::rk4 : Integrator::dop853;
     if (s.as_printed && s.engine != Engine::book) {
       diagnostics_.add(view.place("as_printed"), "`as_printed` needs `engine: book`",
                        "only that engine follows the printed listings");
@@ -73,14 +45,9 @@ class Requests {
   void camera() {
     const View view = scene_part(root_, "camera");
     Camera camera;
-    camera.eye = view.vector("eye").value_or(camera.eye);
-    camera.up = view.vector("up").value_or(camera.up);
-    camera.fov = view.number("fov").value_or(camera.fov);
-    camera.fov_horizontal = view.text("fov_axis") == "horizontal";
-    camera.near = view.number("near").value_or(camera.near);
-    camera.far = view.number("far").value_or(camera.far);
+    fill(&camera, view);
     const bool aimed = view.vector("eye") && view.vector("target");
-    camera.target = view.vector("target").value_or(camera.eye + Vec3(0, 0, 1));
+    if (!view.vector("target")) camera.target = camera.eye + Vec3(0, 0, 1);
     const Vec3 sight = camera.target - camera.eye;
     if (aimed && sight.isZero(0)) {
       diagnostics_.add(view.place("target"), "the camera's target is where its eye is", "expected a point to look at");
@@ -107,8 +74,9 @@ class Requests {
         continue;
       }
       const View view(&node->items[i], kind_named("light"), node->keys[i].place);
-      scene_.lights.push_back({node->keys[i].text, view.vector("direction"), view.vector("position"),
-                               view.color("color").value_or(Color{}), view.number("intensity").value_or(1)});
+      Light& light = scene_.lights.emplace_back();
+      light.name = node->keys[i].text;
+      fill(&light, view);
     }
   }
 
@@ -123,30 +91,9 @@ class Requests {
     }
     const Key& key = *root_.find_key("output");
     const View view(node, kind_named("output"), key.place);
-    out.collisions = view.flag("collisions").value_or(false);
-    if (wanted(view, "trajectory")) {
-      const View part = view.part("trajectory", "trajectory");
-      out.trajectory = TrajectoryOutput{part.number("every").value_or(1), part.text("layout") == "wide"};
-    }
-    if (wanted(view, "energy")) out.energy = EnergyOutput{view.part("energy", "energy").number("every").value_or(1)};
-    if (wanted(view, "contacts")) {
-      out.contacts = ContactsOutput{view.part("contacts", "contacts").number("every").value_or(1)};
-    }
-    if (wanted(view, "frames")) {
-      const View part = view.part("frames", "frames");
-      out.frames = FramesOutput{part.number("fps").value_or(30), size_of(part, {}), samples_of(part),
-                                part.number("from").value_or(0), until_of(part)};
-      check_window(part, out.frames->from, out.frames->until);
-    }
-    if (wanted(view, "video")) video(video_view(view));
-    if (wanted(view, "sheet")) {
-      const View part = view.part("sheet", "sheet");
-      out.sheet = SheetOutput{static_cast<int>(part.whole("columns").value_or(4)),
-                              static_cast<int>(part.whole("rows").value_or(3))};
-    }
-    if (wanted(view, "vtk")) out.vtk = VtkOutput{view.part("vtk", "vtk").number("every").value_or(1)};
-    if (wanted(view, "xyz")) out.xyz = XyzOutput{view.part("xyz", "xyz").number("every").value_or(1)};
-    if (wanted(view, "gltf")) out.gltf = GltfOutput{view.part("gltf", "gltf").number("fps").value_or(1)};
+    fill(&out, view);
+    if (out.frames) check_window(view.part("frames", "frames"), *out.frames);
+    if (out.video) check_video(view.part("video", "video"), *out.video);
     flights(view);
   }
 
@@ -159,15 +106,7 @@ class Requests {
                      "expected `flights: false`, or `engine: exact` under forces that are the same everywhere");
   }
 
-  void video(const View& part) {
-    VideoOutput video;
-    video.file = part.text("file").value_or(video.file);
-    video.fps = part.number("fps").value_or(30);
-    video.size = size_of(part, {});
-    video.samples = samples_of(part);
-    video.crf = static_cast<int>(part.whole("crf").value_or(18));
-    video.from = part.number("from").value_or(0);
-    video.until = until_of(part);
+  void check_video(const View& part, VideoOutput& video) {
     const bool plain = std::all_of(video.file.begin(), video.file.end(), [](char c) {
       return static_cast<unsigned char>(c) >= 0x20 && c != '/' && c != '\\';
     });
@@ -181,19 +120,14 @@ class Requests {
                        fmt::format("a video of {} x {} pixels", video.size.width, video.size.height),
                        "expected an even width and height: its colours (yuv420p) are stored for 2 x 2 pixels");
     }
-    check_window(part, video.from, video.until);
-    scene_.output.video = video;
+    check_window(part, video);
   }
 
-  /// No later than the scene's end: there is nothing to see beyond.
-  std::optional<double> until_of(const View& part) const {
-    const std::optional<double> until = part.number("until");
-    return until ? std::optional(std::min(*until, scene_.simulate.duration)) : std::nullopt;
-  }
-
-  void check_window(const View& part, double from, const std::optional<double>& until) {
+  void check_window(const View& part, PictureOutput& pictures) {
     const double duration = scene_.simulate.duration;
     if (!scene_part(root_, "simulate").number("duration")) return;
+    const double from = pictures.from;
+    std::optional<double>& until = pictures.until;
     if (from > duration) {
       diagnostics_.add(part.place("from"),
                        fmt::format("`from` is {} but the scene ends at {} s", shortest(from), shortest(duration)),
@@ -203,10 +137,13 @@ class Requests {
                        fmt::format("`until` is {} but `from` is {}", shortest(*until), shortest(from)),
                        "expected from <= until");
     }
+    // Beyond the scene's end there is nothing to see.
+    if (until) until = std::min(*until, duration);
   }
 
-  double pictures(double fps, double from, const std::optional<double>& until) const {
-    return std::max(0.0, std::floor(until.value_or(scene_.simulate.duration) * fps) - std::ceil(from * fps) + 1);
+  double count(const PictureOutput& pictures) const {
+    const double until = pictures.until.value_or(scene_.simulate.duration);
+    return std::max(0.0, std::floor(until * pictures.fps) - std::ceil(pictures.from * pictures.fps) + 1);
   }
 
   void check_budget() {
@@ -232,20 +169,17 @@ class Requests {
     // Frames and a video of the same pictures share them.
     double total = 0, most = -1;
     std::string_view largest = "frames";
-    const auto count = [&](double n, std::string_view key) {
+    const auto add = [&](double n, std::string_view key) {
       total += n;
       if (n > most) {
         most = n;
         largest = key;
       }
     };
-    if (out.frames) count(pictures(out.frames->fps, out.frames->from, out.frames->until), "frames");
-    const bool shared = out.frames && out.video && out.frames->fps == out.video->fps &&
-                        out.frames->from == out.video->from && out.frames->until == out.video->until &&
-                        out.frames->size.width == out.video->size.width &&
-                        out.frames->size.height == out.video->size.height && out.frames->samples == out.video->samples;
-    if (out.video && !shared) count(pictures(out.video->fps, out.video->from, out.video->until), "video");
-    if (out.sheet) count(static_cast<double>(out.sheet->columns) * out.sheet->rows, "sheet");
+    if (out.frames) add(count(*out.frames), "frames");
+    const bool shared = out.frames && out.video && static_cast<const PictureOutput&>(*out.frames) == *out.video;
+    if (out.video && !shared) add(count(*out.video), "video");
+    if (out.sheet) add(static_cast<double>(out.sheet->columns) * out.sheet->rows, "sheet");
     if (total > static_cast<double>(budget_.frames)) {
       const Key* key = view.own() == nullptr ? nullptr : view.own()->find_key(largest);
       refuse(key == nullptr ? view.where() : view.part(largest, largest).place("fps"), total, "pictures",
@@ -287,20 +221,6 @@ void check_steps(const Node& root, const Scene& scene, const Budget& budget, Dia
                   said ? "expected a longer `step` or a shorter duration, or --force if that is meant"
                        : "steps follow the fastest change of a force: expected forces that change more slowly, a "
                          "`step` or a shorter duration, or --force if that is meant");
-}
-
-bool wanted(const View& output, std::string_view part) {
-  const Node* node = output.given(part);
-  return node != nullptr && !node->bad &&
-         (node->is(Node::Kind::map) || (node->is(Node::Kind::scalar) && node->text == "true"));
-}
-
-View video_view(const View& output) {
-  const Kind& video = kind_named("video");
-  const Node* frames = output.given(video.beneath);
-  const Key* key = output.own() == nullptr ? nullptr : output.own()->find_key("video");
-  return View(output.given("video"), video, key == nullptr ? output.where() : key->place,
-              frames != nullptr && frames->is(Node::Kind::map) ? frames : nullptr);
 }
 
 void decode_requests(const Node& root, const Inventory& inventory, const Budget& budget, Scene& scene,

@@ -14,7 +14,7 @@ struct World;
 
 // In the order of Engine and Integrator.
 inline constexpr std::string_view engine_names = "auto|exact|stepped|book";
-inline constexpr std::string_view integrator_names = "euler|verlet|rk4|dop853";
+inline constexpr std::string_view integrator_names = "dop853|euler|verlet|rk4";
 std::string_view name_of(Engine engine);          // as in scene files
 std::string_view name_of(Integrator integrator);  // as in scene files
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scene/absent_words.h"
 #include "scene/check.h"
 #include "yaml/diagnostics.h"
 #include "yaml/values.h"
@@ -199,6 +200,8 @@ std::string suggest_place(std::string_view key) {
   for (const std::span<const Kind> family : families()) {
     for (const Kind& kind : family) known.push_back(kind.name);
   }
+  for (const AbsentWord& word : absent_words())
+    for (const std::string_view name : parts_of(word.words)) known.push_back(name);
   const std::string near = nearest(said.front(), known);
   return near.empty() ? "" : fmt::format("did you mean {}?", quoted(near));
 }

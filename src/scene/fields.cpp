@@ -1,7 +1,12 @@
 #include "scene/fields.h"
-#include "scene/scene.h"
 
 #include <cstdlib>
+#include <deque>
+
+#include "scene/engines.h"
+#include "scene/member.h"
+#include "scene/output_kinds.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {
@@ -153,123 +158,59 @@ constexpr Field force_fields[] = {
 };
 
 constexpr Field drag_fields[] = {
-    {.key = "linear", .type = Type::number, .unit = "kg/s", .range = from_0, .doc = "Force for each m/s against the medium.", .example = "0.1"},
-    {.key = "quadratic", .type = Type::number, .unit = "kg/m", .range = from_0, .doc = "Force for each (m/s)^2; half of density, drag coefficient and cross-section.", .example = "0.02"},
-    {.key = "wind", .type = Type::vector, .unit = "m/s", .initial = "[0, 0, 0]", .doc = "Velocity of the medium.", .example = "[5, 0, 0]"},
+    {.key = "linear", .type = Type::number, .unit = "kg/s", .range = from_0, .doc = "Force for each m/s against the medium.", .example = "0.1", .member = fills_if_given<Drag, &Drag::linear>},
+    {.key = "quadratic", .type = Type::number, .unit = "kg/m", .range = from_0, .doc = "Force for each (m/s)^2; half of density, drag coefficient and cross-section.", .example = "0.02", .member = fills_if_given<Drag, &Drag::quadratic>},
+    {.key = "wind", .type = Type::vector, .unit = "m/s", .doc = "Velocity of the medium.", .example = "[5, 0, 0]", .member = fills<Drag, &Drag::wind>},
 };
 
 constexpr Field spring_fields[] = {
-    {.key = "anchor", .type = Type::vector, .unit = "m", .needed = true, .doc = "Its fixed end; the other is a body's centre.", .example = "[0, 3, 0]"},
-    {.key = "stiffness", .type = Type::number, .unit = "N/m", .range = from_0, .needed = true, .doc = "Force for each m that it is stretched.", .example = "40"},
-    {.key = "rest_length", .type = Type::number, .unit = "m", .range = from_0, .initial = "0", .doc = "Length at which it neither pulls nor pushes.", .example = "0.5", .title = "Length at rest"},
-    {.key = "damping", .type = Type::number, .unit = "kg/s", .range = from_0, .initial = "0", .doc = "Force for each m/s along it.", .example = "0.2"},
+    {.key = "anchor", .type = Type::vector, .unit = "m", .needed = true, .doc = "Its fixed end; the other is a body's centre.", .example = "[0, 3, 0]", .member = fills<Spring, &Spring::anchor>},
+    {.key = "stiffness", .type = Type::number, .unit = "N/m", .range = from_0, .needed = true, .doc = "Force for each m that it is stretched.", .example = "40", .member = fills<Spring, &Spring::stiffness>},
+    {.key = "rest_length", .type = Type::number, .unit = "m", .range = from_0, .doc = "Length at which it neither pulls nor pushes.", .example = "0.5", .title = "Length at rest", .member = fills<Spring, &Spring::rest_length>},
+    {.key = "damping", .type = Type::number, .unit = "kg/s", .range = from_0, .doc = "Force for each m/s along it.", .example = "0.2", .member = fills<Spring, &Spring::damping>},
 };
 
 constexpr Field attractor_fields[] = {
-    {.key = "center", .type = Type::vector, .unit = "m", .needed = true, .doc = "Where it attracts to.", .example = "[0, 0, 0]"},
-    {.key = "strength", .type = Type::number, .unit = "m^3/s^2", .needed = true, .doc = "Acceleration at 1 m; G M of a mass M. Negative: it repels.", .example = "10"},
-    {.key = "softening", .type = Type::number, .unit = "m", .range = from_0, .initial = "0", .doc = "Added to the distance as sides of a right angle: near the centre the attraction stays finite.", .example = "0.05"},
+    {.key = "center", .type = Type::vector, .unit = "m", .needed = true, .doc = "Where it attracts to.", .example = "[0, 0, 0]", .member = fills<Attractor, &Attractor::center>},
+    {.key = "strength", .type = Type::number, .unit = "m^3/s^2", .needed = true, .doc = "Acceleration at 1 m; G M of a mass M. Negative: it repels.", .example = "10", .member = fills<Attractor, &Attractor::strength>},
+    {.key = "softening", .type = Type::number, .unit = "m", .range = from_0, .doc = "Added to the distance as sides of a right angle: near the centre the attraction stays finite.", .example = "0.05", .member = fills<Attractor, &Attractor::softening>},
 };
 
 constexpr Field simulate_fields[] = {
-    {.key = "duration", .type = Type::number, .unit = "s", .range = from_0, .needed = true, .doc = "How much time passes in the scene.", .example = "2"},
-    {.key = "engine", .type = Type::choice, .initial = "auto", .of = "auto|exact|stepped|book",
-     .doc = "exact: from collision to collision; stepped: in time steps, for any force; book: the source chapter's frame loop; auto: exact where the forces allow it, else stepped.", .example = "exact"},
-    {.key = "step", .type = Type::number, .unit = "s", .range = above_0, .one_of = "step|tolerance", .doc = "Time step of engines that step; with dop853 the longest. Default of euler, verlet and rk4: 1/1000, or shorter where forces change faster; of book: 1/60.", .example = "0.001"},
-    {.key = "as_printed", .type = Type::flag, .initial = "false", .doc = "book only: the chapter's listings with their slips.", .example = "true", .engines = "book"},
-    {.key = "rest_speed", .type = Type::number, .unit = "m/s", .range = from_0, .doc = "Slower impacts under load end in resting contact. Default: on a flat surface as slow as the clock resolves, among bodies in contact 0.03 sqrt(p L).", .example = "0.01"},
-    {.key = "max_collisions", .type = Type::whole, .range = from_1, .doc = "A run with more stops with an error.", .example = "1000000", .title = "Most collisions"},
-    {.key = "integrator", .type = Type::choice, .of = "dop853|euler|verlet|rk4", .doc = "Of engine stepped: Dormand and Prince's method of order 8, which chooses its steps; semi-implicit Euler, velocity Verlet or Runge-Kutta, of order 1, 2 and 4. Default: dop853; with a step: rk4.", .example = "verlet"},
-    {.key = "contact", .type = Type::choice, .initial = "bounce", .of = "bounce|merge", .doc = "Whether bodies that meet bounce or become one; merge is engine exact's.", .example = "merge", .engines = "auto|exact"},
-    {.key = "tolerance", .type = Type::number, .unit = "m", .range = above_0, .one_of = "step|tolerance", .doc = "Instead of step: places are right to this, or the run says until when and by how much not. It is run several times for it.", .example = "0.000001", .engines = "auto|exact|stepped"},
+    {.key = "duration", .type = Type::number, .unit = "s", .range = from_0, .needed = true, .doc = "How much time passes in the scene.", .example = "2", .member = fills<Simulate, &Simulate::duration>},
+    {.key = "engine", .type = Type::choice, .of = engine_names,
+     .doc = "exact: from collision to collision; stepped: in time steps, for any force; book: the source chapter's frame loop; auto: exact where the forces allow it, else stepped.", .example = "exact", .member = fills<Simulate, &Simulate::engine>},
+    {.key = "step", .type = Type::number, .unit = "s", .range = above_0, .one_of = "step|tolerance", .doc = "Time step of engines that step; with dop853 the longest. Default of euler, verlet and rk4: 1/1000, or shorter where forces change faster; of book: 1/60.", .example = "0.001", .member = fills<Simulate, &Simulate::step>},
+    {.key = "as_printed", .type = Type::flag, .doc = "book only: the chapter's listings with their slips.", .example = "true", .engines = "book", .member = fills<Simulate, &Simulate::as_printed>},
+    {.key = "rest_speed", .type = Type::number, .unit = "m/s", .range = from_0, .doc = "Slower impacts under load end in resting contact. Default: on a flat surface as slow as the clock resolves, among bodies in contact 0.03 sqrt(p L).", .example = "0.01", .member = fills<Simulate, &Simulate::rest_speed>},
+    {.key = "max_collisions", .type = Type::whole, .range = from_1, .doc = "A run with more stops with an error.", .example = "1000000", .title = "Most collisions", .member = fills<Simulate, &Simulate::max_collisions>},
+    {.key = "integrator", .type = Type::choice, .of = integrator_names, .doc = "Of engine stepped: Dormand and Prince's method of order 8, which chooses its steps; semi-implicit Euler, velocity Verlet or Runge-Kutta, of order 1, 2 and 4. Default: dop853; with a step: rk4.", .example = "verlet", .member = fills_if_given<Simulate, &Simulate::integrator>},
+    {.key = "contact", .type = Type::choice, .of = "bounce|merge", .doc = "Whether bodies that meet bounce or become one; merge is engine exact's.", .example = "merge", .engines = "auto|exact", .member = fills<Simulate, &Simulate::merge>},
+    {.key = "tolerance", .type = Type::number, .unit = "m", .range = above_0, .one_of = "step|tolerance", .doc = "Instead of step: places are right to this, or the run says until when and by how much not. It is run several times for it.", .example = "0.000001", .engines = "auto|exact|stepped", .member = fills<Simulate, &Simulate::tolerance>},
 };
 
 constexpr Field camera_fields[] = {
-    {.key = "eye", .type = Type::vector, .unit = "m", .needed = true, .doc = "Where it stands.", .example = "[0, 3, -5]", .title = "The camera's place"},
-    {.key = "target", .type = Type::vector, .unit = "m", .needed = true, .doc = "What it looks at.", .example = "[0, 0, 0]"},
-    {.key = "up", .type = Type::direction, .initial = "[0, 1, 0]", .doc = "What is up in the picture.", .example = "[0, 0, 1]", .title = "Up in the picture"},
-    {.key = "fov", .type = Type::number, .unit = "degrees", .range = {0, 180, true, true}, .initial = "45", .doc = "Field of view, the full angle along fov_axis.", .example = "30", .title = "Field of view"},
-    {.key = "fov_axis", .type = Type::choice, .initial = "vertical", .of = "vertical|horizontal", .doc = "The way fov is measured.", .example = "horizontal", .title = "The field of view's axis"},
-    {.key = "near", .type = Type::number, .unit = "m", .range = above_0, .initial = "0.1", .doc = "Nothing nearer is drawn.", .example = "1", .title = "Nearest that is drawn"},
-    {.key = "far", .type = Type::number, .unit = "m", .range = above_0, .initial = "1000", .doc = "Nothing farther is drawn.", .example = "100", .title = "Farthest that is drawn"},
+    {.key = "eye", .type = Type::vector, .unit = "m", .needed = true, .doc = "Where it stands.", .example = "[0, 3, -5]", .title = "The camera's place", .member = fills<Camera, &Camera::eye>},
+    {.key = "target", .type = Type::vector, .unit = "m", .needed = true, .doc = "What it looks at.", .example = "[0, 0, 0]", .member = fills<Camera, &Camera::target>},
+    {.key = "up", .type = Type::direction, .doc = "What is up in the picture.", .example = "[0, 0, 1]", .title = "Up in the picture", .member = fills<Camera, &Camera::up>},
+    {.key = "fov", .type = Type::number, .unit = "degrees", .range = {0, 180, true, true}, .doc = "Field of view, the full angle along fov_axis.", .example = "30", .title = "Field of view", .member = fills<Camera, &Camera::fov>},
+    {.key = "fov_axis", .type = Type::choice, .of = "vertical|horizontal", .doc = "The way fov is measured.", .example = "horizontal", .title = "The field of view's axis", .member = fills<Camera, &Camera::fov_horizontal>},
+    {.key = "near", .type = Type::number, .unit = "m", .range = above_0, .doc = "Nothing nearer is drawn.", .example = "1", .title = "Nearest that is drawn", .member = fills<Camera, &Camera::near>},
+    {.key = "far", .type = Type::number, .unit = "m", .range = above_0, .doc = "Nothing farther is drawn.", .example = "100", .title = "Farthest that is drawn", .member = fills<Camera, &Camera::far>},
 };
 
 constexpr Field ambient{.key = "ambient", .type = Type::color, .doc = "Colour of the light that comes from everywhere.", .example = "dimgray"};
 
 constexpr Field light_fields[] = {
-    {.key = "direction", .type = Type::direction, .one_of = "direction|position", .needed = true, .doc = "The way the light travels, from infinitely far.", .example = "[1, -2, 1]"},
-    {.key = "position", .type = Type::vector, .unit = "m", .one_of = "direction|position", .doc = "Where a lamp stands, instead of direction.", .example = "[0, 5, 0]"},
-    {.key = "color", .type = Type::color, .initial = "white", .doc = "Its colour.", .example = "lightyellow"},
-    {.key = "intensity", .type = Type::number, .range = from_0, .initial = "1", .doc = "How bright; 1 is usual.", .example = "0.8"},
+    {.key = "direction", .type = Type::direction, .one_of = "direction|position", .needed = true, .doc = "The way the light travels, from infinitely far.", .example = "[1, -2, 1]", .member = fills<Light, &Light::direction>},
+    {.key = "position", .type = Type::vector, .unit = "m", .one_of = "direction|position", .doc = "Where a lamp stands, instead of direction.", .example = "[0, 5, 0]", .member = fills<Light, &Light::position>},
+    {.key = "color", .type = Type::color, .doc = "Its colour.", .example = "lightyellow", .member = fills<Light, &Light::color>},
+    {.key = "intensity", .type = Type::number, .range = from_0, .doc = "How bright; 1 is usual.", .example = "0.8", .member = fills<Light, &Light::intensity>},
 };
 
-constexpr Field output_fields[] = {
-    {.key = "trajectory", .type = Type::part_or_flag, .of = "trajectory", .doc = "trajectory.csv: where every body is.", .example = "{every: 0.01}"},
-    {.key = "collisions", .type = Type::flag, .initial = "false", .doc = "collisions.csv: every collision.", .example = "true"},
-    {.key = "energy", .type = Type::part_or_flag, .of = "energy", .doc = "energy.csv: energy and momentum of all bodies.", .example = "{every: 0.01}"},
-    {.key = "contacts", .type = Type::part_or_flag, .of = "contacts", .doc = "contacts.csv: the forces of lasting contact.", .example = "{every: 0.1}"},
-    {.key = "frames", .type = Type::part_or_flag, .of = "frames", .doc = "frames/frame_00000.png and on.", .example = "{fps: 30, size: [1280, 720]}"},
-    {.key = "video", .type = Type::part_or_flag, .of = "video", .doc = "A film, H.264.", .example = "true"},
-    {.key = "sheet", .type = Type::part_or_flag, .of = "sheet", .doc = "sheet.png: pictures from start to end side by side.", .example = "{columns: 4, rows: 3}"},
-    {.key = "vtk", .type = Type::part_or_flag, .of = "vtk", .doc = "For ParaView: trajectory.pvd, vtk/bodies_00000.vtp and on, surfaces.vtp.", .example = "{every: 0.1}"},
-    {.key = "xyz", .type = Type::part_or_flag, .of = "xyz", .doc = "For OVITO: trajectory.xyz, extended XYZ.", .example = "{every: 0.1}"},
-    {.key = "gltf", .type = Type::part_or_flag, .of = "gltf", .doc = "For Blender: animation.glb, the scene and its motion.", .example = "{fps: 24}"},
-    {.key = "flights", .type = Type::flag, .doc = "flights.bin: the paths, from which carom render draws other pictures; where the engine goes along parabolas. Default: true with pictures.", .example = "true"},
-};
-
-constexpr std::string_view thirtieth = "0.03333333333333333";  // 1/30, to the last bit
-constexpr Range image_side{16, 16384};
-
-constexpr Field trajectory_fields[] = {
-    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .initial = thirtieth, .doc = "Time between rows.", .example = "0.01", .title = "Time between rows"},
-    {.key = "layout", .type = Type::choice, .initial = "long", .of = "long|wide", .doc = "long: a row for each body and time; wide: a row for each time.", .example = "wide"},
-};
-
-constexpr Field energy_fields[] = {
-    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .initial = thirtieth, .doc = "Time between rows.", .example = "0.01", .title = "Time between rows"},
-};
-
-constexpr Field contacts_fields[] = {
-    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .initial = thirtieth, .doc = "Time between rows.", .example = "0.1", .title = "Time between rows"},
-};
-
-constexpr Field vtk_fields[] = {
-    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .initial = thirtieth, .doc = "Time between files.", .example = "0.1", .title = "Time between files"},
-};
-
-constexpr Field xyz_fields[] = {
-    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .initial = thirtieth, .doc = "Time between frames.", .example = "0.1", .title = "Time between frames"},
-};
-
-constexpr Field gltf_fields[] = {
-    {.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .initial = "30", .doc = "Keys a second; one more at the end.", .example = "24", .title = "Keys a second"},
-};
-
-constexpr Field fps{.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .initial = "30", .doc = "Pictures a second.", .example = "25", .title = "Pictures a second"};
-constexpr Field size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = image_side, .initial = "[1280, 720]", .doc = "Width and height of a picture.", .example = "[640, 360]", .title = "Width and height"};
-// A film stores its colours for 2 x 2 pixels.
-constexpr Field film_size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = {16, 16384, false, false, true}, .initial = "[1280, 720]", .doc = "Width and height of a picture, both even.", .example = "[640, 360]", .title = "Width and height"};
-constexpr Field samples{.key = "samples", .type = Type::choice, .initial = "4", .of = "1|2|4|8", .doc = "Samples a pixel, against jagged edges.", .example = "8"};
-constexpr Field from{.key = "from", .type = Type::number, .unit = "s", .range = from_0, .initial = "0", .doc = "No picture before.", .example = "0.5", .title = "Start"};
-constexpr Field until{.key = "until", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture after. Default: the duration.", .example = "1.5", .title = "End"};
-
-constexpr Field frames_fields[] = {fps, size, samples, from, until};
-
-constexpr Field video_fields[] = {
-    {.key = "file", .type = Type::text, .initial = "animation.mp4", .doc = "Name of the file, ending in .mp4.", .example = "break.mp4",
-     .pattern = R"(^(?![-.])[^/\\\u0000-\u001f]{1,196}\.mp4$)"},
-    fps, film_size,
-    {.key = "crf", .type = Type::whole, .range = {0, 51}, .initial = "18", .doc = "0: largest and best, 51: smallest and worst.", .example = "23", .title = "Constant rate factor"},
-    samples, from, until,
-};
-
-constexpr Field sheet_fields[] = {
-    {.key = "columns", .type = Type::whole, .range = {1, 100}, .initial = "4", .doc = "Pictures side by side.", .example = "5"},
-    {.key = "rows", .type = Type::whole, .range = {1, 100}, .initial = "3", .doc = "Pictures one below another.", .example = "2"},
-};
 // clang-format on
 
-constexpr Kind all_kinds[] = {
+constexpr Kind rows[] = {
     {"scene", "the", "One scene: what there is, what happens, what is wanted of it.", scene_fields},
     {"restitution", "", "How bodies bounce off one another.", restitution_fields},
     {"pair", "a", "A coefficient of restitution for two bodies, whatever theirs are.", pair_fields},
@@ -293,22 +234,55 @@ constexpr Kind all_kinds[] = {
     {"simulate", "", "For how long and how.", simulate_fields},
     {"camera", "", "Where the pictures are taken from.", camera_fields},
     {"light", "a", "A light.", light_fields, &ambient},
-    {"output", "", "What the run writes; absent parts are not made.", output_fields},
-    {"trajectory", "", "trajectory.csv.", trajectory_fields},
-    {"energy", "", "energy.csv.", energy_fields},
-    {"contacts", "", "contacts.csv.", contacts_fields},
-    {"frames", "", "One PNG a picture.", frames_fields},
-    {"video", "", "A film; what it does not say itself is taken from frames.", video_fields, nullptr, "", "", "frames"},
-    {"sheet", "", "A contact sheet.", sheet_fields},
-    {"vtk", "", "Files for ParaView.", vtk_fields},
-    {"xyz", "", "A file for OVITO.", xyz_fields},
-    {"gltf", "", "An animation for Blender.", gltf_fields},
+};
+
+/// The row of an output among the keys of `output`.
+Field row_of(const OutputKind& kind) {
+  return {.key = kind.name,
+          .type = kind.keys.empty() ? Type::flag : Type::part_or_flag,
+          .of = kind.keys.empty() ? std::string_view() : kind.name,
+          .doc = kind.doc,
+          .example = kind.example,
+          .member = kind.member.key};
+}
+
+/// The rows, with their members' defaults and those of the outputs.
+class FormatTable {
+ public:
+  FormatTable() {
+    for (const Kind& kind : rows) add(kind);
+    std::vector<Field> of_output;
+    for (const OutputKind& kind : output_kinds()) of_output.push_back(row_of(kind));
+    add({"output", "", "What the run writes; absent parts are not made.", of_output});
+    for (const OutputKind& kind : output_kinds()) {
+      if (kind.keys.empty()) continue;
+      Kind map{kind.name, "", kind.keys_doc, kind.keys};
+      map.beneath = kind.beneath;
+      add(map);
+    }
+  }
+
+  std::span<const Kind> kinds() const { return kinds_; }
+
+ private:
+  void add(Kind kind) {
+    std::vector<Field>& fields = fields_.emplace_back(kind.fields.begin(), kind.fields.end());
+    for (Field& field : fields)
+      if (field.member.initial != nullptr) field.initial = texts_.emplace_back(field.member.initial(field));
+    kind.fields = fields;
+    kinds_.push_back(kind);
+  }
+
+  std::deque<std::string> texts_;          // that the rows refer to
+  std::deque<std::vector<Field>> fields_;  // by kind
+  std::vector<Kind> kinds_;
 };
 
 }  // namespace
 
 std::span<const Kind> kinds() {
-  return all_kinds;
+  static const FormatTable table;
+  return table.kinds();
 }
 
 std::vector<std::span<const Kind>> families() {

@@ -1,8 +1,10 @@
 #pragma once
-// The scene format as plain data: every kind of map a scene holds and every key of it. The decoder, the messages about
-// wrong keys and values, and whatever describes the format to people or editors are made from this one table.
+// The scene format as plain data: every kind of map a scene holds and every key of it. From this one table follow the
+// decoder, the messages about wrong keys and values, the resolved scene, --set, the schema, the page of the format and
+// `carom explain`. A key is a row here and, where maps of its kind fill a struct, a member of that (member.h).
 #include <cstdint>
 #include <limits>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,15 +44,26 @@ struct Range {
   bool even = false;       // whole numbers only
 };
 
+struct Field;
+class View;
+
+/// The member that a key fills, of the struct that maps of its kind stand for. Rows get theirs from member.h.
+struct Member {
+  void (*fill)(void* settings, const View& view, const Field& field) = nullptr;  // where the view has a value
+  std::string (*initial)(const Field& field) = nullptr;  // of a new struct, as YAML; empty: absent unless given
+  nlohmann::ordered_json (*json)(const void* settings, const Field& field) = nullptr;
+};
+
 struct Field {
   std::string_view key;
   Type type = Type::number;
   std::string_view unit = {};
   Range range = {};
-  std::string_view initial = {};  // the default as YAML; empty: absent unless given
-  std::string_view of = {};       // kind, or choices
-  std::string_view one_of = {};   // keys of the kind that exclude one another, this one among them, separated by |
-  bool needed = false;            // this or another of `one_of`
+  std::string_view initial =
+      {};                    // the default as YAML; empty: absent unless given. Of a row with a member: the member's
+  std::string_view of = {};  // kind, or choices
+  std::string_view one_of = {};  // keys of the kind that exclude one another, this one among them, separated by |
+  bool needed = false;           // this or another of `one_of`
   std::string_view doc = {};
   std::string_view example = {};  // a value as YAML
   std::string_view title = {};    // empty: the key says it
@@ -58,6 +71,7 @@ struct Field {
   std::string_view engines = {};  // those that know another value than `initial`, separated by |; empty: all
   std::string_view pattern = {};  // of a text or of names, a regular expression for the schema
   bool needs_entries = false;     // of a list: it is not empty
+  Member member = {};             // none: the decoder reads the key itself
 };
 
 struct Kind {
@@ -70,6 +84,11 @@ struct Kind {
   std::string_view any_of = {};    // keys of which at least one is there, separated by |
   std::string_view beneath = {};   // the kind beside it whose values hold where a map of this kind has none
 };
+
+/// Fills a struct with what a map says; its other members stay. `settings`: the struct that the view's kind stands for.
+void fill(void* settings, const View& view);
+/// The struct's members as JSON, in the order of the kind's keys.
+nlohmann::ordered_json json_of(const Kind& kind, const void* settings);
 
 /// Every kind of a scene file, "scene" first.
 std::span<const Kind> kinds();

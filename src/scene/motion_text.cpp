@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <type_traits>
 
 #include "physics/force.h"
 #include "scene/engines.h"
+#include "scene/fields.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -39,12 +41,9 @@ class MotionText {
 
  private:
   void simulate() {
-    const auto& [duration, engine, integrator, step, tolerance, rest_speed, max_collisions, as_printed, merge] =
-        scene_.simulate;
-    const Engine chosen = engine_of(scene_.world, scene_.simulate);
-    line("simulate", duration, "engine", static_cast<int>(chosen), "integrator", static_cast<int>(integrator));
-    line("step", step, "tolerance", tolerance, "rest_speed", rest_speed, "max_collisions", max_collisions);
-    line("as_printed", as_printed, "merge", merge);
+    Simulate simulate = scene_.simulate;
+    simulate.engine = engine_of(scene_.world, simulate);
+    line("simulate", json_of(kind_named("simulate"), &simulate).dump());
   }
 
   void write(const Force& force) {

@@ -1,11 +1,12 @@
 #include "scene/overlaps.h"
-#include "physics/world.h"
-#include "scene/scene.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <tuple>
+
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -1,9 +1,10 @@
 #include "scene/placement.h"
-#include "physics/world.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "physics/world.h"
 
 namespace carom {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "scene/colors.h"
 #include "scene/engines.h"
+#include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "yaml/values.h"
 
@@ -162,22 +163,16 @@ class Resolver {
   void output() {
     const View view(root_.find("output"), kind_named("output"), Place{});
     heading("output", false);
-    const bool unsaid = view.own() == nullptr;
-    for (const Field& field : view.kind().fields) {
-      if (field.key == "collisions") {
-        entry("collisions", scene_.output.collisions ? "true" : "false");
-        continue;
-      }
-      if (field.key == "flights") {
-        if (goes_along_parabolas(scene_.world, scene_.simulate) && (scene_.output.pictures() || scene_.output.flights))
-          entry("flights", scene_.output.flights ? "true" : "false");
-        continue;
-      }
-      const bool is_wanted =
-          wanted(view, field.key) || (unsaid && (field.key == "trajectory" || field.key == "energy"));
-      if (!is_wanted) continue;
-      entry(field.key, flow(field.key == "video" ? video_view(view) : view.part(field.key, field.of)));
+    for (const OutputKind& kind : output_kinds()) {
+      if (!kind.keys.empty() && kind.asked(scene_.output)) entry(kind.name, flow(view.part(kind.name, kind.name)));
+      if (kind.keys.empty() && (kind.name != "flights" || flights_matter()))
+        entry(kind.name, kind.asked(scene_.output) ? "true" : "false");
     }
+  }
+
+  /// Whether there may be any, and their default could be another one.
+  bool flights_matter() const {
+    return goes_along_parabolas(scene_.world, scene_.simulate) && (scene_.output.pictures() || scene_.output.flights);
   }
 
   const Node& root_;

@@ -114,9 +114,18 @@ std::optional<std::string> View::text(std::string_view key) const {
   return node->text;
 }
 
-View View::part(std::string_view key, std::string_view kind) const {
-  const Key* name = own_ == nullptr ? nullptr : own_->find_key(key);
-  return View(given(key), kind_named(kind), name == nullptr ? where_ : name->place);
+View View::part(std::string_view key, std::string_view name) const {
+  const Kind& kind = kind_named(name);
+  const Key* at = own_ == nullptr ? nullptr : own_->find_key(key);
+  const Node* beneath = kind.beneath.empty() ? nullptr : given(kind.beneath);
+  return View(given(key), kind, at == nullptr ? where_ : at->place,
+              beneath != nullptr && beneath->is(Node::Kind::map) ? beneath : nullptr);
+}
+
+bool View::wants(std::string_view key) const {
+  const Node* node = given(key);
+  return node != nullptr && !node->bad &&
+         (node->is(Node::Kind::map) || (node->is(Node::Kind::scalar) && node->text == "true"));
 }
 
 Place View::place(std::string_view key) const {

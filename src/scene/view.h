@@ -35,8 +35,10 @@ class View {
   std::optional<Vec3> vector(std::string_view key) const;
   std::optional<Color> color(std::string_view key) const;
 
-  /// A nested map, its defaults ignored.
+  /// A nested map, its defaults ignored, with that of its kind's `beneath` below it.
   View part(std::string_view key, std::string_view kind) const;
+  /// Whether it is asked for: a map, or true.
+  bool wants(std::string_view key) const;
 
   const Node* own() const { return own_; }
   const Kind& kind() const { return *kind_; }

@@ -1,9 +1,10 @@
 #include "simulate/exact_simulator.h"
-#include "physics/world.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "physics/world.h"
 
 namespace carom {
 

@@ -1,9 +1,10 @@
 #include "simulate/path_log.h"
-#include "physics/world.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "physics/world.h"
 
 namespace carom {
 

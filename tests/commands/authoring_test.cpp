@@ -6,6 +6,8 @@
 
 #include "commands/new.h"
 #include "commands/program.h"
+#include "scene/absent_words.h"
+#include "scene/field_places.h"
 #include "scene/scene.h"
 
 namespace carom::testing {
@@ -197,6 +199,48 @@ TEST(Explain, GivesAProgramUnitRangeDefaultAndExample) {
   EXPECT_EQ(fov["needed"], false);
   const Json engine = Json::parse(here.carom({"explain", "engine", "--json"}).out)["fields"][0];
   EXPECT_EQ(engine["choices"], Json({"auto", "exact", "stepped", "book"}));
+}
+
+TEST(Explain, SaysWhatThereIsInsteadOfWhatIsAbsent) {
+  const Workplace here;
+  EXPECT_EQ(here.carom({"explain", "hinge"}).out,
+            "hinge: no key of the format\n"
+            "  instead     There are no hinges. A stiff spring with a rest length holds a body near a\n"
+            "              circle.\n"
+            "  see         carom explain spring\n");
+  EXPECT_EQ(here.carom({"explain", "slow", "motion"}).out, here.carom({"explain", "Slow-Motion"}).out);
+  for (const char* word : {"friction", "rotation", "spin", "joint", "rope", "hinge", "timestep", "speed", "slow motion",
+                           "bounce", "elasticity", "camera path", "loop", "variable"}) {
+    const Json words = Json::parse(here.carom({"explain", word, "--json"}).out)["words"];
+    ASSERT_EQ(words.size(), 1u) << word;
+    for (const Json& key : words[0]["see"])
+      EXPECT_EQ(here.carom({"explain", key.get<std::string>()}).code, 0) << word << ": " << key;
+  }
+}
+
+TEST(Explain, EveryWordThatIsAbsentStandsInOneRowAndPointsAtKeys) {
+  std::set<std::string_view> words;
+  for (const AbsentWord& row : absent_words()) {
+    for (const std::string_view word : parts_of(row.words)) {
+      EXPECT_TRUE(words.insert(word).second) << word;
+      EXPECT_EQ(find_absent_word(word), &row) << word;
+    }
+    for (const std::string_view key : parts_of(row.see))
+      EXPECT_TRUE(!find_places(key).empty() || find_kind(key) != nullptr) << key;
+  }
+}
+
+TEST(Explain, AKindHasItsKeysWithUnitsAndDefaults) {
+  const Workplace here;
+  for (const char* kind : {"ball", "body", "group", "plane", "wall", "obstacle"}) {
+    const std::string out = here.carom({"explain", kind}).out;
+    EXPECT_TRUE(out.starts_with(std::string(kind) + ": ")) << out;
+    EXPECT_EQ(out.find("needed      no"), std::string::npos) << out;  // no row of `defaults`
+  }
+  const std::string ball = here.carom({"explain", "ball"}).out;
+  EXPECT_NE(ball.find("  stands at   balls.NAME and defaults.ball\n"), std::string::npos) << ball;
+  EXPECT_NE(ball.find("    velocity        Velocity at time 0. (m/s; default [0, 0, 0])\n"), std::string::npos) << ball;
+  EXPECT_NE(ball.find("    mass            Mass. (kg; mass or density needed)\n"), std::string::npos) << ball;
 }
 
 TEST(Explain, AloneListsTheKinds) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "export/exports.h"
+#include "scene/scene.h"
 
 namespace carom::testing_export {
 

@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <functional>
 
-#include "export_testing.h"
+#include "export/export_testing.h"
 #include "scene/scene.h"
 
 namespace carom {

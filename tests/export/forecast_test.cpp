@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "export_testing.h"
+#include "export/export_testing.h"
+#include "export/forecast.h"
 #include "numerics/whole.h"
 #include "scene/scene.h"
 

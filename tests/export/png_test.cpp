@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "export_testing.h"
+#include "export/export_testing.h"
 #include "scene/scene.h"
 
 namespace carom {

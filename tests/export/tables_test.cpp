@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "export_testing.h"
+#include "export/export_testing.h"
 #include "physics/world.h"
 #include "scene/scene.h"
 

@@ -1,5 +1,5 @@
 // The table of outputs, from which --only, the manifest, the folder's files and the names that are taken are made.
-#include "scene/output.h"
+#include "scene/output_kinds.h"
 
 #include <gtest/gtest.h>
 

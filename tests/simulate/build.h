@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "physics/energy.h"
+#include "physics/world.h"
 #include "simulate/book.h"
 #include "simulate/exact.h"
 

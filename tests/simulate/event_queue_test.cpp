@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "physics/world.h"
+#include "simulate/event_predictor.h"
+#include "simulate/exact_collision_times.h"
 #include "simulate/exact_parts.h"
 #include "simulate/region_exit.h"
 

@@ -2,7 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "physics/world.h"
+#include "simulate/collapse_detector.h"
+#include "simulate/exact_group.h"
 #include "simulate/exact_parts.h"
+#include "simulate/exact_simulator.h"
+#include "simulate/flight_changes.h"
+#include "simulate/path_log.h"
+#include "simulate/simultaneous_impacts.h"
 
 namespace carom {
 namespace {

@@ -4,9 +4,16 @@
 
 #include "simulate/body_merging.h"
 #include "simulate/build.h"
+#include "simulate/collapse_detector.h"
 #include "simulate/constrained_motion.h"
+#include "simulate/event_predictor.h"
 #include "simulate/event_prefetch.h"
+#include "simulate/exact_group.h"
 #include "simulate/exact_impacts.h"
+#include "simulate/flight_changes.h"
+#include "simulate/path_log.h"
+#include "simulate/simultaneous_impacts.h"
+#include "simulate/stall_guard.h"
 #include "simulate/time_stepping.h"
 
 namespace carom {

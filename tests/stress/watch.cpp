@@ -1,11 +1,12 @@
 #include "stress/watch.h"
-#include "physics/world.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <memory>
+
+#include "physics/world.h"
 
 namespace carom::stress {
 

@@ -12,8 +12,8 @@
 #include <functional>
 #include <string>
 
+#include "compare/comparison_testing.h"
 #include "files/run_folder.h"
-#include "study/comparison_testing.h"
 
 namespace carom {
 namespace {

@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-#include "compare/outcomes.h"
-#include "study/comparison_testing.h"
+#include "compare/comparison_testing.h"
 
 namespace carom::testing {
 namespace {

@@ -9,7 +9,7 @@
 #include <functional>
 #include <map>
 
-#include "export_testing.h"
+#include "export/export_testing.h"
 #include "files/folder_names.h"
 #include "files/manifest.h"
 #include "files/open_folder.h"

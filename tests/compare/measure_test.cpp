@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "compare/compared_run.h"
+#include "compare/comparison_testing.h"
 #include "scene/scene.h"
-#include "study/comparison_testing.h"
 
 namespace carom::testing {
 namespace {

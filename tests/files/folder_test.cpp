@@ -10,7 +10,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "export_testing.h"
+#include "export/export_testing.h"
 #include "files/csv.h"
 #include "files/failed_run.h"
 #include "files/hash.h"

@@ -1,5 +1,5 @@
 // A run's folder keeps the meshes of its scene.
-#include "export_testing.h"
+#include "export/export_testing.h"
 #include "scene/scene.h"
 
 namespace carom {

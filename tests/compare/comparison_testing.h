@@ -60,7 +60,7 @@ class Place {
 
   /// The workbook of the folder `out`, by openpyxl; brief: without its cells.
   nlohmann::json workbook(const std::string& out, bool brief = false) const {
-    const std::string command = "/usr/bin/python3 '" SOURCE_DIR "/tests/study/workbook_as_json.py' '" +
+    const std::string command = "/usr/bin/python3 '" SOURCE_DIR "/tests/compare/workbook_as_json.py' '" +
                                 (*this / (out + "/comparison.xlsx")) + (brief ? "' brief" : "'") + " > '" +
                                 (*this / "book.json") + "'";
     if (std::system(command.c_str()) != 0) throw std::runtime_error("openpyxl cannot read the workbook");

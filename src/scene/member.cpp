@@ -1,0 +1,115 @@
+#include "scene/member.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "yaml/values.h"
+
+namespace carom {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+template <typename T>
+bool put(const std::optional<T>& found, T& value) {
+  if (found) value = *found;
+  return found.has_value();
+}
+
+}  // namespace
+
+bool take(const View& view, const Field& field, double& value) {
+  return put(view.number(field.key), value);
+}
+
+bool take(const View& view, const Field& field, std::uint64_t& value) {
+  return put(view.whole(field.key), value);
+}
+
+bool take(const View& view, const Field& field, int& value) {
+  const std::optional<std::uint64_t> whole = view.whole(field.key);
+  if (whole) value = static_cast<int>(std::min<std::uint64_t>(*whole, 1 << 30));
+  return whole.has_value();
+}
+
+bool take(const View& view, const Field& field, bool& value) {
+  if (field.type == Type::flag) return put(view.flag(field.key), value);
+  const std::optional<std::size_t> choice = choice_of(view, field);
+  if (choice) value = *choice == 1;
+  return choice.has_value();
+}
+
+bool take(const View& view, const Field& field, std::string& value) {
+  return put(view.text(field.key), value);
+}
+
+bool take(const View& view, const Field& field, Vec3& value) {
+  return put(view.vector(field.key), value);
+}
+
+bool take(const View& view, const Field& field, Size& value) {
+  const Node* node = view.find(field.key);
+  if (node == nullptr || node->bad || node->items.size() != 2) return false;
+  const std::optional<std::uint64_t> width = as_whole(&node->items[0]), height = as_whole(&node->items[1]);
+  if (!width || !height) return false;
+  value = {static_cast<int>(std::min<std::uint64_t>(*width, 1 << 30)),
+           static_cast<int>(std::min<std::uint64_t>(*height, 1 << 30))};
+  return true;
+}
+
+bool take(const View& view, const Field& field, Color& value) {
+  return put(view.color(field.key), value);
+}
+
+std::optional<std::size_t> choice_of(const View& view, const Field& field) {
+  const std::optional<std::string> text = view.text(field.key);
+  const std::vector<std::string_view> all = choices(field);
+  const auto at = text ? std::find(all.begin(), all.end(), *text) : all.end();
+  return at == all.end() ? std::nullopt : std::optional(static_cast<std::size_t>(at - all.begin()));
+}
+
+Json json_value(const Field& field, bool value) {
+  return field.type == Type::flag ? Json(value) : Json(std::string(choices(field)[value ? 1 : 0]));
+}
+
+Json json_value(const Field&, const Vec3& value) {
+  return Json::array({value.x(), value.y(), value.z()});
+}
+
+Json json_value(const Field&, const Size& value) {
+  return Json::array({value.width, value.height});
+}
+
+Json json_value(const Field&, const Color& value) {
+  return Json::array({value.r, value.g, value.b});
+}
+
+std::string yaml_of(double value) {
+  return shortest(value);
+}
+
+std::string yaml_of(const Vec3& value) {
+  return fmt::format("[{}, {}, {}]", shortest(value.x()), shortest(value.y()), shortest(value.z()));
+}
+
+std::string yaml_of(const Color& value) {
+  for (const std::string_view name : color_names())
+    if (*parse_color(name) == value) return std::string(name);
+  return fmt::format("[{}, {}, {}]", shortest(value.r), shortest(value.g), shortest(value.b));
+}
+
+void fill(void* settings, const View& view) {
+  for (const Field& field : view.kind().fields)
+    if (field.member.fill != nullptr) field.member.fill(settings, view, field);
+}
+
+Json json_of(const Kind& kind, const void* settings) {
+  Json json = Json::object();
+  for (const Field& field : kind.fields)
+    if (field.member.json != nullptr) json[std::string(field.key)] = field.member.json(settings, field);
+  return json;
+}
+
+}  // namespace carom

@@ -1,0 +1,125 @@
+#pragma once
+// Joins a row of the table of fields with the member that its key fills. A member's default is the key's default; its
+// type says how the value is read and written.
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+#include "numerics/vec3.h"
+#include "scene/colors.h"
+#include "scene/fields.h"
+#include "scene/output.h"
+#include "scene/view.h"
+
+namespace carom {
+
+// Reading: false where the map has no value, or one that was reported bad; then the member stays as it is.
+bool take(const View& view, const Field& field, double& value);
+bool take(const View& view, const Field& field, std::uint64_t& value);
+bool take(const View& view, const Field& field, int& value);   // a whole number, or a choice of whole numbers
+bool take(const View& view, const Field& field, bool& value);  // a flag, or the second of two choices
+bool take(const View& view, const Field& field, std::string& value);
+bool take(const View& view, const Field& field, Vec3& value);
+bool take(const View& view, const Field& field, Size& value);
+bool take(const View& view, const Field& field, Color& value);
+/// The number of a choice.
+std::optional<std::size_t> choice_of(const View& view, const Field& field);
+
+// Writing, as JSON and as YAML.
+nlohmann::ordered_json json_value(const Field& field, bool value);
+nlohmann::ordered_json json_value(const Field& field, const Vec3& value);
+nlohmann::ordered_json json_value(const Field& field, const Size& value);
+nlohmann::ordered_json json_value(const Field& field, const Color& value);
+std::string yaml_of(double value);
+std::string yaml_of(const Vec3& value);
+std::string yaml_of(const Color& value);
+
+template <typename T>
+inline constexpr bool is_optional = false;
+template <typename T>
+inline constexpr bool is_optional<std::optional<T>> = true;
+
+/// What a map of its own fills.
+template <typename T>
+inline constexpr bool is_settings = std::is_class_v<T> && !(std::is_same_v<T, std::string> || std::is_same_v<T, Vec3> ||
+                                                            std::is_same_v<T, Size> || std::is_same_v<T, Color>);
+
+template <typename T>
+bool take_any(const View& view, const Field& field, T& value) {
+  if constexpr (is_optional<T>) {
+    typename T::value_type inner{};
+    if (!take_any(view, field, inner)) return false;
+    value = inner;
+    return true;
+  } else if constexpr (is_settings<T>) {
+    if (!view.wants(field.key)) return false;
+    fill(&value, view.part(field.key, field.of));
+    return true;
+  } else if constexpr (std::is_enum_v<T>) {
+    const std::optional<std::size_t> choice = choice_of(view, field);
+    if (choice) value = static_cast<T>(*choice);
+    return choice.has_value();
+  } else {
+    return take(view, field, value);
+  }
+}
+
+template <typename T>
+nlohmann::ordered_json json_any(const Field& field, const T& value) {
+  if constexpr (is_optional<T>) {
+    return value ? json_any(field, *value) : nlohmann::ordered_json();
+  } else if constexpr (is_settings<T>) {
+    return json_of(kind_named(field.of), &value);
+  } else if constexpr (std::is_enum_v<T>) {
+    return std::string(choices(field)[static_cast<std::size_t>(value)]);
+  } else if constexpr (std::is_same_v<T, bool> || std::is_class_v<T>) {
+    if constexpr (std::is_same_v<T, std::string>)
+      return value;
+    else
+      return json_value(field, value);
+  } else {
+    return value;
+  }
+}
+
+template <typename T>
+std::string yaml_any(const Field& field, const T& value) {
+  if constexpr (is_optional<T>) {
+    return "";
+  } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Vec3> || std::is_same_v<T, Color>) {
+    return yaml_of(value);
+  } else if constexpr (std::is_same_v<T, std::string>) {
+    return value;
+  } else {
+    const nlohmann::ordered_json json = json_any(field, value);
+    if (json.is_string()) return json.get<std::string>();
+    std::string text = json.dump();
+    if (json.is_array()) text.replace(text.find(','), 1, ", ");
+    return text;
+  }
+}
+
+/// The member of an Owner that a key fills.
+template <typename Owner, auto pointer>
+inline constexpr Member fills = {
+    [](void* settings, const View& view, const Field& field) {
+      take_any(view, field, static_cast<Owner*>(settings)->*pointer);
+    },
+    [](const Field& field) { return field.needed ? std::string() : yaml_any(field, Owner{}.*pointer); },
+    [](const void* settings, const Field& field) {
+      return json_any(field, static_cast<const Owner*>(settings)->*pointer);
+    }};
+
+/// The same without a default that can be told: it depends on other keys, or not being there says more than a number.
+template <typename Owner, auto pointer>
+inline constexpr Member fills_if_given = {fills<Owner, pointer>.fill, nullptr, fills<Owner, pointer>.json};
+
+/// A row that several kinds have, with one's own member.
+constexpr Field with(Field field, Member member) {
+  field.member = member;
+  return field;
+}
+
+}  // namespace carom

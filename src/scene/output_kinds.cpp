@@ -1,0 +1,282 @@
+#include "scene/output_kinds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "scene/member.h"
+
+namespace carom {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Range above_0{0, infinity, true, false};
+constexpr Range from_0{0, infinity, false, false};
+constexpr Range image_side{16, 16384};
+
+// clang-format off
+constexpr Field trajectory_fields[] = {
+    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .doc = "Time between rows.", .example = "0.01", .title = "Time between rows", .member = fills<TrajectoryOutput, &TrajectoryOutput::every>},
+    {.key = "layout", .type = Type::choice, .of = "long|wide", .doc = "long: a row for each body and time; wide: a row for each time.", .example = "wide", .member = fills<TrajectoryOutput, &TrajectoryOutput::wide>},
+};
+
+constexpr Field energy_fields[] = {
+    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .doc = "Time between rows.", .example = "0.01", .title = "Time between rows", .member = fills<EnergyOutput, &EnergyOutput::every>},
+};
+
+constexpr Field contacts_fields[] = {
+    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .doc = "Time between rows.", .example = "0.1", .title = "Time between rows", .member = fills<ContactsOutput, &ContactsOutput::every>},
+};
+
+constexpr Field vtk_fields[] = {
+    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .doc = "Time between files.", .example = "0.1", .title = "Time between files", .member = fills<VtkOutput, &VtkOutput::every>},
+};
+
+constexpr Field xyz_fields[] = {
+    {.key = "every", .type = Type::number, .unit = "s", .range = above_0, .doc = "Time between frames.", .example = "0.1", .title = "Time between frames", .member = fills<XyzOutput, &XyzOutput::every>},
+};
+
+constexpr Field gltf_fields[] = {
+    {.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .doc = "Keys a second; one more at the end.", .example = "24", .title = "Keys a second", .member = fills<GltfOutput, &GltfOutput::fps>},
+};
+
+constexpr Field fps{.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .doc = "Pictures a second.", .example = "25", .title = "Pictures a second"};
+constexpr Field size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = image_side, .doc = "Width and height of a picture.", .example = "[640, 360]", .title = "Width and height"};
+// A film stores its colours for 2 x 2 pixels.
+constexpr Field film_size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = {16, 16384, false, false, true}, .doc = "Width and height of a picture, both even.", .example = "[640, 360]", .title = "Width and height"};
+constexpr Field samples{.key = "samples", .type = Type::choice, .of = "1|2|4|8", .doc = "Samples a pixel, against jagged edges.", .example = "8"};
+constexpr Field from{.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture before.", .example = "0.5", .title = "Start"};
+constexpr Field until{.key = "until", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture after. Default: the duration.", .example = "1.5", .title = "End"};
+
+constexpr Field frames_fields[] = {
+    with(fps, fills<FramesOutput, &FramesOutput::fps>),
+    with(size, fills<FramesOutput, &FramesOutput::size>),
+    with(samples, fills<FramesOutput, &FramesOutput::samples>),
+    with(from, fills<FramesOutput, &FramesOutput::from>),
+    with(until, fills<FramesOutput, &FramesOutput::until>),
+};
+
+constexpr Field video_fields[] = {
+    {.key = "file", .type = Type::text, .doc = "Name of the file, ending in .mp4.", .example = "break.mp4",
+     .pattern = R"(^(?![-.])[^/\\\u0000-\u001f]{1,196}\.mp4$)", .member = fills<VideoOutput, &VideoOutput::file>},
+    with(fps, fills<VideoOutput, &VideoOutput::fps>),
+    with(film_size, fills<VideoOutput, &VideoOutput::size>),
+    with(samples, fills<VideoOutput, &VideoOutput::samples>),
+    {.key = "crf", .type = Type::whole, .range = {0, 51}, .doc = "0: largest and best, 51: smallest and worst.", .example = "23", .title = "Constant rate factor", .member = fills<VideoOutput, &VideoOutput::crf>},
+    with(from, fills<VideoOutput, &VideoOutput::from>),
+    with(until, fills<VideoOutput, &VideoOutput::until>),
+};
+
+constexpr Field sheet_fields[] = {
+    {.key = "columns", .type = Type::whole, .range = {1, 100}, .doc = "Pictures side by side.", .example = "5", .member = fills<SheetOutput, &SheetOutput::columns>},
+    {.key = "rows", .type = Type::whole, .range = {1, 100}, .doc = "Pictures one below another.", .example = "2", .member = fills<SheetOutput, &SheetOutput::rows>},
+};
+// clang-format on
+
+/// s, between the states that an output is written of.
+template <typename Settings>
+requires requires(Settings settings) {
+  settings.every;
+}
+double every_of(const Settings& settings) {
+  return settings.every;
+}
+double every_of(const GltfOutput& settings) {
+  return 1 / settings.fps;
+}
+
+template <auto member>
+constexpr double (*every_in())(const Output&) {
+  using Settings = std::remove_cvref_t<decltype(*(Output{}.*member))>;
+  if constexpr (requires(Settings settings) { every_of(settings); })
+    return [](const Output& output) { return every_of(*(output.*member)); };
+  else
+    return nullptr;
+}
+
+/// An output with settings of its own.
+template <auto member>
+constexpr OutputMember part = {[](const Output& output) { return (output.*member).has_value(); },
+                               [](Output& to, const Output& asked) {
+                                 to.*member = asked.*member;
+                                 if (!(to.*member)) (to.*member).emplace();
+                               },
+                               every_in<member>(), fills_if_given<Output, member>};
+
+/// Pictures: what neither output says is as the other, `like`, has it.
+template <auto member, auto like>
+constexpr OutputMember pictures = {[](const Output& output) { return (output.*member).has_value(); },
+                                   [](Output& to, const Output& asked) {
+                                     to.*member = asked.*member;
+                                     if (to.*member) return;
+                                     PictureOutput& settings = (to.*member).emplace();
+                                     if (asked.*like) settings = *(asked.*like);
+                                   },
+                                   nullptr, fills_if_given<Output, member>};
+
+/// An output that is only there or not.
+template <auto member, const Member& key>
+constexpr OutputMember flag = {[](const Output& output) { return output.*member; },
+                               [](Output& to, const Output&) { to.*member = true; }, nullptr, key};
+
+constexpr OutputKind all_kinds[] = {
+    {.name = "trajectory",
+     .doc = "trajectory.csv: where every body is.",
+     .example = "{every: 0.01}",
+     .keys = trajectory_fields,
+     .keys_doc = "trajectory.csv.",
+     .member = part<&Output::trajectory>,
+     .files = "trajectory.csv",
+     .rows = "rows of trajectory.csv",
+     .spacing = "every"},
+    {.name = "collisions",
+     .doc = "collisions.csv: every collision.",
+     .example = "true",
+     .member = flag<&Output::collisions, fills<Output, &Output::collisions>>,
+     .files = "collisions.csv"},
+    {.name = "energy",
+     .doc = "energy.csv: energy and momentum of all bodies.",
+     .example = "{every: 0.01}",
+     .keys = energy_fields,
+     .keys_doc = "energy.csv.",
+     .member = part<&Output::energy>,
+     .files = "energy.csv"},
+    {.name = "contacts",
+     .doc = "contacts.csv: the forces of lasting contact.",
+     .example = "{every: 0.1}",
+     .keys = contacts_fields,
+     .keys_doc = "contacts.csv.",
+     .member = part<&Output::contacts>,
+     .files = "contacts.csv"},
+    {.name = "frames",
+     .doc = "frames/frame_00000.png and on.",
+     .example = "{fps: 30, size: [1280, 720]}",
+     .keys = frames_fields,
+     .keys_doc = "One PNG a picture.",
+     .member = pictures<&Output::frames, &Output::video>,
+     .series = frame_files,
+     .looks = true},
+    {.name = "video",
+     .doc = "A film, H.264.",
+     .example = "true",
+     .keys = video_fields,
+     .keys_doc = "A film; what it does not say itself is taken from frames.",
+     .beneath = "frames",
+     .member = pictures<&Output::video, &Output::frames>,
+     .named = [](const Output& o) { return o.video->file; },
+     .looks = true},
+    {.name = "sheet",
+     .doc = "sheet.png: pictures from start to end side by side.",
+     .example = "{columns: 4, rows: 3}",
+     .keys = sheet_fields,
+     .keys_doc = "A contact sheet.",
+     .member = part<&Output::sheet>,
+     .files = "sheet.png",
+     .looks = true},
+    {.name = "vtk",
+     .doc = "For ParaView: trajectory.pvd, vtk/bodies_00000.vtp and on, surfaces.vtp.",
+     .example = "{every: 0.1}",
+     .keys = vtk_fields,
+     .keys_doc = "Files for ParaView.",
+     .member = part<&Output::vtk>,
+     .files = "trajectory.pvd|surfaces.vtp",
+     .series = vtk_files,
+     .rows = "points of vtk/",
+     .spacing = "every",
+     .looks = true},
+    {.name = "xyz",
+     .doc = "For OVITO: trajectory.xyz, extended XYZ.",
+     .example = "{every: 0.1}",
+     .keys = xyz_fields,
+     .keys_doc = "A file for OVITO.",
+     .member = part<&Output::xyz>,
+     .files = "trajectory.xyz",
+     .rows = "rows of trajectory.xyz",
+     .spacing = "every",
+     .looks = true},
+    {.name = "gltf",
+     .doc = "For Blender: animation.glb, the scene and its motion.",
+     .example = "{fps: 24}",
+     .keys = gltf_fields,
+     .keys_doc = "An animation for Blender.",
+     .member = part<&Output::gltf>,
+     .files = "animation.glb",
+     .rows = "keys of animation.glb",
+     .spacing = "fps",
+     .in_memory = true,
+     .looks = true},
+    {.name = "flights",
+     .doc = "flights.bin: the paths, from which carom render draws other pictures; where the engine goes along "
+            "parabolas. Default: true with pictures.",
+     .example = "true",
+     .member = flag<&Output::flights, fills_if_given<Output, &Output::flights>>,
+     .files = "flights.bin"},
+};
+
+}  // namespace
+
+std::string FileSeries::name(std::int64_t number) const {
+  return fmt::format("{}{:05}{}", stem, number, ending);
+}
+
+bool FileSeries::has(std::string_view name) const {
+  constexpr std::size_t digits = 5;
+  if (!name.starts_with(stem) || !name.ends_with(ending) || name.size() < stem.size() + digits + ending.size())
+    return false;
+  const std::string_view number = name.substr(stem.size(), name.size() - stem.size() - ending.size());
+  return std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+nlohmann::ordered_json OutputKind::settings(const Output& output) const {
+  return member.key.json(&output, *find_field(kind_named("output"), name));
+}
+
+bool OutputKind::has_file(std::string_view file) const {
+  const std::vector<std::string_view> all = parts_of(files);
+  return std::find(all.begin(), all.end(), file) != all.end();
+}
+
+std::span<const OutputKind> output_kinds() {
+  return all_kinds;
+}
+
+Output restricted(const Output& asked, const std::vector<std::string>& only) {
+  Output output;
+  for (const OutputKind& kind : all_kinds)
+    if (std::find(only.begin(), only.end(), kind.name) != only.end()) kind.member.add(output, asked);
+  return output;
+}
+
+bool holds_all(const Output& asked, const std::vector<std::string>& only) {
+  return std::all_of(only.begin(), only.end(), [&](const std::string& name) {
+    return std::any_of(std::begin(all_kinds), std::end(all_kinds),
+                       [&](const OutputKind& kind) { return kind.name == name && kind.asked(asked); });
+  });
+}
+
+Output with_all(const Output& asked) {
+  Output output;
+  for (const OutputKind& kind : all_kinds) kind.member.add(output, asked);
+  return output;
+}
+
+std::vector<std::string> output_files(const Output& output) {
+  std::vector<std::string> names;
+  for (const OutputKind& kind : all_kinds) {
+    if (!kind.asked(output)) continue;
+    for (const std::string_view name : parts_of(kind.files)) names.emplace_back(name);
+    if (kind.named) names.push_back(kind.named(output));
+  }
+  return names;
+}
+
+bool is_reserved(std::string_view name) {
+  for (const std::string_view always : {"scene.yaml", "summary.csv", "manifest.json"})
+    if (name == always) return true;
+  return std::any_of(std::begin(all_kinds), std::end(all_kinds), [&](const OutputKind& kind) {
+    return kind.has_file(name) || (!kind.series.folder.empty() && kind.series.folder == name);
+  });
+}
+
+}  // namespace carom
