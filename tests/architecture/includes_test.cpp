@@ -1,4 +1,4 @@
-// Every #include below src/ against the README's table of who may include whom.
+// Every #include below src/ against the table in src/README.md of what each folder may include.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -84,11 +84,11 @@ Rule read_rule(const std::string& may_include, const std::string& only_place) {
   return rule;
 }
 
-/// The README's table, by folder.
+/// The table of src/README.md, by folder.
 std::map<std::string, Rule> read_table() {
   std::map<std::string, Rule> table;
   bool inside = false;
-  for (const std::string& line : read_source("README.md").lines()) {
+  for (const std::string& line : read_source("src/README.md").lines()) {
     if (line.starts_with("| folder | may include | the only place that includes |")) {
       inside = true;
     } else if (!line.starts_with("|")) {
@@ -146,10 +146,10 @@ void add_reach(const SourceFile& file, std::set<std::string>& reach) {
   }
 }
 
-TEST(Includes, EveryFolderHasARowInTheReadmesTable) {
+TEST(Includes, EveryFolderHasARowInTheTable) {
   const auto table = read_table();
   ASSERT_FALSE(table.empty())
-      << "README.md has no table that begins | folder | may include | the only place that includes |";
+      << "src/README.md has no table that begins | folder | may include | the only place that includes |";
   for (const SourceFile& file : program_files()) {
     EXPECT_TRUE(table.contains(folder_of(file))) << file.path;
   }
