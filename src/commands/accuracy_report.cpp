@@ -6,7 +6,7 @@
 
 #include "commands/interrupt.h"
 #include "commands/text.h"
-#include "study/accuracy.h"
+#include "run/accuracy.h"
 
 namespace carom {
 

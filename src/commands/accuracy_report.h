@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "study/engine.h"
+#include "run/engine.h"
 
 namespace carom {
 

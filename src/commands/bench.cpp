@@ -5,13 +5,13 @@
 
 #include <new>
 
+#include "bench/bench_folder.h"
 #include "commands/bench_report.h"
 #include "commands/interrupt.h"
 #include "commands/plan.h"
 #include "commands/progress.h"
 #include "commands/report.h"
 #include "commands/text.h"
-#include "study/bench_folder.h"
 
 namespace carom {
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "bench/bench_folder.h"
 #include "commands/text.h"
-#include "study/bench_folder.h"
 
 namespace carom {
 

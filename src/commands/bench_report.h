@@ -2,8 +2,8 @@
 // A bench's result as lines and a table for a person, and as JSON for a program.
 #include <nlohmann/json.hpp>
 
+#include "bench/bench.h"
 #include "commands/report.h"
-#include "study/bench.h"
 
 namespace carom {
 

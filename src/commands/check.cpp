@@ -46,7 +46,7 @@ std::string forces_text(const World& world) {
 
 std::string engine_text(const PlannedScene& planned) {
   const Simulate& simulate = planned.scene->simulate;
-  std::string text = planned.engine.name;
+  std::string text(name_of(planned.engine.engine));
   if (simulate.as_printed) text += ", as printed";
   if (!planned.engine.why.empty()) text += fmt::format(" ({})", planned.engine.why);
   return text + fmt::format(", {} of motion", quantity(simulate.duration, "s"));
@@ -62,7 +62,7 @@ std::string first_collision_text(const PlannedScene& planned, const Foresight& f
   std::string text = fmt::format("{} and {} at {}, at ({:.4g}, {:.4g}, {:.4g}) m, closing at {}", roster.name(c.a),
                                  roster.name(c.b), quantity(c.time, "s"), shown(c.position.x()), shown(c.position.y()),
                                  shown(c.position.z()), quantity(c.approach_speed, "m/s"));
-  if (planned.engine.name == "book") text += " (exact; the book engine sees it at a later frame)";
+  if (planned.engine.engine == Engine::book) text += " (exact; the book engine sees it at a later frame)";
   return text;
 }
 
@@ -244,7 +244,7 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
                 {"walls", scene.world.walls.size()},
                 {"obstacles", scene.world.obstacles.size()},
                 {"forces", scene.world.forces.size()},
-                {"engine", planned.engine.name},
+                {"engine", std::string(name_of(planned.engine.engine))},
                 {"why", planned.engine.why},
                 {"duration_s", scene.simulate.duration}};
   entry["volumes"] = volumes_json(scene);

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "commands/options.h"
-#include "scene/diagnostics.h"
+#include "yaml/diagnostics.h"
 
 namespace carom {
 

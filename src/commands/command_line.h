@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/bench.h"
 #include "commands/terminal.h"
-#include "study/bench.h"
 #include "study/shard.h"
 
 namespace carom {

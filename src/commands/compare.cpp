@@ -11,14 +11,14 @@
 #include "commands/progress.h"
 #include "commands/report.h"
 #include "commands/text.h"
-#include "export/open_folder.h"
-#include "export/publication.h"
-#include "scene/diagnostics.h"
-#include "study/compared_run.h"
+#include "compare/compared_run.h"
+#include "compare/comparison_folder.h"
+#include "files/open_folder.h"
+#include "files/publication.h"
 #include "study/comparison_film.h"
-#include "study/comparison_folder.h"
 #include "study/run_list.h"
 #include "study/sweep_folder.h"
+#include "yaml/diagnostics.h"
 
 namespace carom {
 

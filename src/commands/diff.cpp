@@ -8,7 +8,7 @@
 
 #include "commands/report.h"
 #include "commands/text.h"
-#include "export/run_folder.h"
+#include "files/run_folder.h"
 #include "scene/load.h"
 #include "study/run_difference.h"
 

@@ -8,10 +8,10 @@
 
 #include "commands/report.h"
 #include "commands/text.h"
-#include "scene/diagnostics.h"
 #include "scene/field_places.h"
 #include "scene/format_page.h"
-#include "scene/value_json.h"
+#include "yaml/diagnostics.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 

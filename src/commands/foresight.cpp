@@ -131,7 +131,7 @@ std::optional<double> own_engine_s(const Scene& scene, const EngineChoice& engin
   const double duration = scene.simulate.duration;
   const auto start = Clock::now();
   try {
-    const auto simulator = make_simulator(scene, false, engine.steps);
+    const auto simulator = make_simulator(scene, {}, engine.steps);
     const double made = since(start);
     while (simulator->time() < duration && since(start) < budget) {
       stop_if_interrupted();
@@ -149,11 +149,11 @@ std::optional<double> own_engine_s(const Scene& scene, const EngineChoice& engin
 Foresight foresee(const Scene& scene, const EngineChoice& engine, bool watch, double budget) {
   Trial trial(scene, watch, budget);
   Foresight result = trial.go();
-  const std::string oracle = force_without_closed_form(scene.world) == nullptr ? "exact" : "stepped";
-  if (engine.name != oracle) result.failure.clear();  // of another simulator
+  const Engine oracle = most_exact(scene.world);
+  if (engine.engine != oracle) result.failure.clear();  // of another simulator
   const bool settled = !scene.simulate.tolerance;     // it takes an unknown number of runs
   if (!settled) return result;
-  result.simulate_s = engine.name == oracle ? trial.whole() : own_engine_s(scene, engine, budget);
+  result.simulate_s = engine.engine == oracle ? trial.whole() : own_engine_s(scene, engine, budget);
   return result;
 }
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "physics/collision.h"
+#include "run/engine.h"
 #include "scene/scene.h"
-#include "study/engine.h"
 
 namespace carom {
 

@@ -13,11 +13,11 @@
 #include "commands/sweep_report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
-#include "export/copied_run.h"
-#include "export/failed_run.h"
-#include "export/open_folder.h"
-#include "export/publication.h"
-#include "export/stored_file.h"
+#include "files/copied_run.h"
+#include "files/failed_run.h"
+#include "files/open_folder.h"
+#include "files/publication.h"
+#include "files/stored_file.h"
 #include "study/sweep_folder.h"
 
 namespace carom {

@@ -9,10 +9,10 @@
 #include "commands/report.h"
 #include "commands/terminal.h"
 #include "commands/text.h"
-#include "export/open_folder.h"
-#include "export/stored_file.h"
-#include "scene/diagnostics.h"
+#include "files/open_folder.h"
+#include "files/stored_file.h"
 #include "scene/schema.h"
+#include "yaml/diagnostics.h"
 
 namespace carom {
 

@@ -11,8 +11,8 @@
 #include <limits>
 
 #include "commands/text.h"
-#include "scene/diagnostics.h"
 #include "scene/output.h"
+#include "yaml/diagnostics.h"
 
 namespace carom {
 

@@ -9,13 +9,13 @@
 #include <new>
 #include <utility>
 
+#include "bench/bench_folder.h"
 #include "commands/interrupt.h"
 #include "commands/text.h"
-#include "export/open_folder.h"
-#include "export/publication.h"
+#include "files/open_folder.h"
+#include "files/publication.h"
 #include "render/mesh.h"
 #include "scene/load.h"
-#include "study/bench_folder.h"
 
 namespace carom {
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "commands/command_line.h"
-#include "export/exports.h"
-#include "study/engine.h"
-#include "study/former_run.h"
+#include "export/forecast.h"
+#include "run/engine.h"
+#include "run/former_run.h"
 
 namespace carom {
 

@@ -10,7 +10,7 @@
 #include "commands/manual.h"
 #include "commands/report.h"
 #include "commands/text.h"
-#include "scene/diagnostics.h"
+#include "yaml/diagnostics.h"
 
 namespace carom {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "commands/text.h"
-#include "physics/whole.h"
+#include "numerics/whole.h"
 
 namespace carom {
 

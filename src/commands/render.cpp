@@ -10,9 +10,9 @@
 #include "commands/plan.h"
 #include "commands/run.h"
 #include "commands/text.h"
-#include "export/manifest.h"
-#include "export/open_folder.h"
-#include "export/publication.h"
+#include "files/manifest.h"
+#include "files/open_folder.h"
+#include "files/publication.h"
 #include "scene/motion_text.h"
 #include "scene/output.h"
 

@@ -9,9 +9,9 @@
 #include <map>
 
 #include "commands/text.h"
-#include "export/manifest.h"
-#include "export/open_folder.h"
-#include "export/series_folders.h"
+#include "files/manifest.h"
+#include "files/open_folder.h"
+#include "files/series_folders.h"
 
 namespace carom {
 
@@ -142,7 +142,8 @@ void describe_doubtful(Block& block, std::size_t runs) {
 void describe(Block& block, const PlannedScene& planned, const RunResult& result) {
   const Summary& summary = result.summary;
   const EngineChoice& engine = result.engine;
-  block.line("engine", engine.why.empty() ? engine.name : fmt::format("{} ({})", engine.name, engine.why));
+  const std::string_view name = name_of(engine.engine);
+  block.line("engine", engine.why.empty() ? std::string(name) : fmt::format("{} ({})", name, engine.why));
   block.line("collisions", collisions_text(summary));
   block.line("rest", rest_text(summary));
   if (summary.stepped_contact > 0)

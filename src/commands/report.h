@@ -7,7 +7,7 @@
 
 #include "commands/command_line.h"
 #include "commands/plan.h"
-#include "study/run_scene.h"
+#include "run/run_scene.h"
 
 namespace carom {
 

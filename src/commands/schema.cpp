@@ -7,9 +7,9 @@
 #include "commands/options.h"
 #include "commands/terminal.h"
 #include "commands/text.h"
-#include "scene/diagnostics.h"
 #include "scene/fields.h"
 #include "scene/schema.h"
+#include "yaml/diagnostics.h"
 
 namespace carom {
 

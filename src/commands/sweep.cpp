@@ -12,7 +12,7 @@
 #include "commands/sweep_report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
-#include "export/publication.h"
+#include "files/publication.h"
 #include "study/sweep_folder.h"
 
 namespace carom {

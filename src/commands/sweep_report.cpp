@@ -10,8 +10,8 @@
 #include "commands/report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
-#include "export/failed_run.h"
-#include "scene/value_json.h"
+#include "files/failed_run.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 

@@ -13,9 +13,9 @@
 #include "commands/interrupt.h"
 #include "commands/options.h"
 #include "commands/text.h"
+#include "compare/comparison.h"
 #include "render/mesh.h"
 #include "scene/resolve.h"
-#include "study/comparison.h"
 #include "study/sweep_folder.h"
 
 namespace carom {

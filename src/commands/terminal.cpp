@@ -11,8 +11,8 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "scene/printable.h"
-#include "scene/source.h"
+#include "yaml/printable.h"
+#include "yaml/source.h"
 
 namespace carom {
 

@@ -22,7 +22,7 @@ struct Palette {
 };
 
 /// Whole text to stdout or stderr: the one place where text meets a terminal. Whatever it has from files and names,
-/// unprintable characters are escaped (scene/printable.h), but for line ends, tabs and Palette's sequences; a JSON text
+/// unprintable characters are escaped (yaml/printable.h), but for line ends, tabs and Palette's sequences; a JSON text
 /// keeps its meaning. A failure is kept for finish_output().
 void write_out(std::string_view text);
 void write_err(std::string_view text);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "export/open_folder.h"
+#include "files/open_folder.h"
 
 namespace carom {
 

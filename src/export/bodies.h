@@ -1,6 +1,6 @@
 #pragma once
 // What a body is at an instant, for bodies that merge change.
-#include "export/csv.h"
+#include "files/csv.h"
 #include "physics/state.h"
 #include "scene/scene.h"
 

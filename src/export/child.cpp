@@ -20,7 +20,7 @@
 #include <thread>
 #include <utility>
 
-#include "export/run_folder.h"
+#include "files/run_folder.h"
 
 namespace carom {
 namespace {

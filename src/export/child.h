@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "export/output_file.h"
+#include "files/output_file.h"
 
 namespace carom {
 

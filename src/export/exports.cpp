@@ -5,16 +5,16 @@
 #include <utility>
 
 #include "export/film.h"
-#include "export/manifest.h"
-#include "export/mesh_copies.h"
-#include "export/open_folder.h"
 #include "export/picture_streams.h"
 #include "export/png.h"
-#include "export/series.h"
-#include "export/series_folders.h"
 #include "export/sheet.h"
 #include "export/tables.h"
 #include "export/writer.h"
+#include "files/manifest.h"
+#include "files/mesh_copies.h"
+#include "files/open_folder.h"
+#include "files/series.h"
+#include "files/series_folders.h"
 
 namespace carom {
 namespace {

@@ -7,10 +7,10 @@
 #include <cerrno>
 #include <charconv>
 
-#include "export/folder_names.h"
-#include "export/open_folder.h"
-#include "export/run_folder.h"
-#include "export/stored_file.h"
+#include "files/folder_names.h"
+#include "files/open_folder.h"
+#include "files/run_folder.h"
+#include "files/stored_file.h"
 
 namespace carom {
 namespace {

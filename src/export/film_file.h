@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "export/child.h"
-#include "export/output_file.h"
+#include "files/output_file.h"
 
 namespace carom {
 

@@ -11,8 +11,8 @@
 #include <cstring>
 #include <limits>
 
-#include "export/run_folder.h"
-#include "export/stored_file.h"
+#include "files/run_folder.h"
+#include "files/stored_file.h"
 
 namespace carom {
 namespace {

@@ -1,11 +1,11 @@
 #include <cmath>
 #include <limits>
 
-#include "export/exports.h"
+#include "export/forecast.h"
 #include "export/picture_streams.h"
 #include "export/timeline.h"
 #include "export/writer.h"
-#include "physics/whole.h"
+#include "numerics/whole.h"
 
 namespace carom {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "export/run_folder.h"
 #include "export/sheet.h"
+#include "files/run_folder.h"
 
 namespace carom {
 namespace {

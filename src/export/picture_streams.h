@@ -2,11 +2,17 @@
 // Which pictures are drawn when, and what each one is for.
 #include <vector>
 
-#include "export/exports.h"
 #include "export/timeline.h"
 #include "scene/scene.h"
 
 namespace carom {
+
+/// One sequence of pictures of one size and quality; frames, video and sheet share one where theirs are the same.
+struct PictureStream {
+  Size size;
+  int samples = 4;
+  int timeline_stream = 0;
+};
 
 /// The sinks of one PictureStream.
 struct PictureUse {

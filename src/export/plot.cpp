@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "export/child.h"
-#include "export/run_folder.h"
+#include "files/run_folder.h"
 
 namespace carom {
 

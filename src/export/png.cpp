@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <new>
 
-#include "export/run_folder.h"
+#include "files/run_folder.h"
 
 namespace carom {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "export/run_folder.h"
+#include "files/run_folder.h"
 
 namespace carom {
 namespace {

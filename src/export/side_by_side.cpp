@@ -9,9 +9,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "export/open_folder.h"
-#include "export/run_folder.h"
-#include "physics/whole.h"
+#include "files/open_folder.h"
+#include "files/run_folder.h"
+#include "numerics/whole.h"
 
 namespace carom {
 namespace {

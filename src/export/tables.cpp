@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "export/bodies.h"
-#include "export/exports.h"
-#include "export/manifest.h"
+#include "files/manifest.h"
+#include "files/summary.h"
 #include "physics/energy.h"
 
 namespace carom {

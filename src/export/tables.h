@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "export/conveyor.h"
-#include "export/csv.h"
-#include "export/output_file.h"
 #include "export/writer.h"
+#include "files/conveyor.h"
+#include "files/csv.h"
+#include "files/output_file.h"
 
 namespace carom {
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "physics/whole.h"
+#include "numerics/whole.h"
 
 namespace carom {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "export/series.h"
 #include "export/writer.h"
+#include "files/series.h"
 
 namespace carom {
 

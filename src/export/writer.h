@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "export/open_folder.h"
-#include "export/output_file.h"
+#include "files/open_folder.h"
+#include "files/output_file.h"
 #include "physics/collision.h"
 #include "physics/contact_force.h"
 #include "physics/path_piece.h"

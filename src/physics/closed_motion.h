@@ -4,7 +4,7 @@
 #include <optional>
 #include <variant>
 
-#include "physics/compensated.h"
+#include "numerics/compensated.h"
 #include "physics/kepler_orbit.h"
 #include "physics/oscillation.h"
 #include "physics/world.h"

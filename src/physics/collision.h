@@ -2,7 +2,7 @@
 // A collision that happened. (One that is only predicted is an Event, and private to a simulator.)
 #include <cstdint>
 
-#include "physics/vec3.h"
+#include "numerics/vec3.h"
 #include "physics/world.h"
 
 namespace carom {

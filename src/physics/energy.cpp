@@ -1,6 +1,6 @@
 #include "physics/energy.h"
 
-#include "physics/compensated.h"
+#include "numerics/compensated.h"
 #include "physics/force.h"
 
 namespace carom {

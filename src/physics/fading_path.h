@@ -1,7 +1,7 @@
 #pragma once
 // Flight under constant forces and linear drag: x'' = pull - fade x', a line that bends towards the velocity
 // pull / fade. Its acceleration dies away as exp(-fade t). Of arithmetic, only + - * / reach the result.
-#include "physics/vec3.h"
+#include "numerics/vec3.h"
 
 namespace carom {
 

@@ -2,8 +2,8 @@
 // What a collision does: impulses along the normal, tangential velocity kept (frictionless spheres; chapter 8).
 #include <limits>
 
+#include "numerics/vec3.h"
 #include "physics/collision.h"
-#include "physics/vec3.h"
 #include "physics/world.h"
 
 namespace carom {

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/lu_factors.h"
-#include "physics/radau_points.h"
+#include "numerics/lu_factors.h"
+#include "numerics/radau_points.h"
 
 namespace carom {
 

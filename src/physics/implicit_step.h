@@ -7,8 +7,8 @@
 #include <array>
 #include <functional>
 
+#include "numerics/polynomial_path.h"
 #include "physics/force_jacobian.h"
-#include "physics/polynomial_path.h"
 
 namespace carom {
 

@@ -3,7 +3,7 @@
 // with another acceleration: curved_flights.h has them.
 #include <cstdint>
 
-#include "physics/vec3.h"
+#include "numerics/vec3.h"
 
 namespace carom {
 

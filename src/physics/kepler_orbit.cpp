@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/elementary.h"
+#include "numerics/elementary.h"
 
 // Universal variables (Stumpff; Everhart & Pitkin, Am. J. Phys. 51, 1983, 712; Wisdom & Hernandez, MNRAS 453, 2015,
 // 3015): with beta = 2 mu / r - v^2 and ds = dt / r, every conic obeys r = r0 + eta G1 + zeta G2 and t = r0 s + eta G2

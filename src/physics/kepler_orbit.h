@@ -3,8 +3,8 @@
 // parabola or a hyperbola, for any time at once. Of arithmetic, only + - * / and the square root reach the result.
 #include <cmath>
 
-#include "physics/compensated.h"
-#include "physics/vec3.h"
+#include "numerics/compensated.h"
+#include "numerics/vec3.h"
 
 namespace carom {
 

@@ -1,6 +1,6 @@
 #include "physics/oscillation.h"
 
-#include "physics/elementary.h"
+#include "numerics/elementary.h"
 
 // With p and q the roots of z^2 - fade z + stiffness = 0, S = (exp(-q t) - exp(-p t)) / (p - q), and S' and the
 // integral of S are like it: the damped oscillator of any textbook (Landau & Lifshitz, Mechanics, section 25). These

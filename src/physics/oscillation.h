@@ -3,7 +3,7 @@
 // x'' = a - stiffness (x - x(0)) - fade x'. Of arithmetic, only + - * / and the square root reach the result.
 #include <cmath>
 
-#include "physics/vec3.h"
+#include "numerics/vec3.h"
 
 namespace carom {
 

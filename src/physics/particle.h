@@ -1,6 +1,6 @@
 #pragma once
 // What a force may depend on.
-#include "physics/vec3.h"
+#include "numerics/vec3.h"
 
 namespace carom {
 

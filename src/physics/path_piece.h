@@ -1,8 +1,8 @@
 #pragma once
 // A piece of a body's path as it is recorded: with the pieces of all bodies the state at any instant is known again,
 // bit for bit, without simulating.
-#include "physics/compensated.h"
-#include "physics/vec3.h"
+#include "numerics/compensated.h"
+#include "numerics/vec3.h"
 #include "physics/world.h"
 
 namespace carom {

@@ -3,8 +3,8 @@
 // push turns round at once. A step that is to end there is carried on as if it did not.
 #include <vector>
 
-#include "physics/polynomial_path.h"
-#include "physics/vec3.h"
+#include "numerics/polynomial_path.h"
+#include "numerics/vec3.h"
 #include "physics/world.h"
 
 namespace carom {

@@ -2,7 +2,7 @@
 // What changes during a run: where the bodies are and how they move, at one instant.
 #include <vector>
 
-#include "physics/vec3.h"
+#include "numerics/vec3.h"
 #include "physics/world.h"
 
 namespace carom {

@@ -3,7 +3,7 @@
 // without turning, so a volume is its shape and its half extents about its centre.
 #include <cstdint>
 
-#include "physics/vec3.h"
+#include "numerics/vec3.h"
 
 namespace carom {
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "numerics/vec3.h"
 #include "physics/force_law.h"
-#include "physics/vec3.h"
 #include "physics/volume.h"
 
 namespace carom {

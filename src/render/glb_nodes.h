@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "physics/vec3.h"
+#include "numerics/vec3.h"
 #include "scene/scene.h"
 
 namespace carom {

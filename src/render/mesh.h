@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "physics/vec3.h"
+#include "numerics/vec3.h"
 
 namespace carom {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/whole.h"
+#include "numerics/whole.h"
 
 namespace carom {
 namespace {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "physics/force.h"
+#include "scene/engines.h"
 
 namespace carom {
 
@@ -17,9 +18,7 @@ Budget Budget::without_outputs() const {
 
 std::optional<double> steps_of(const Scene& scene) {
   const Simulate& simulate = scene.simulate;
-  const bool exact = simulate.engine == Engine::exact ||
-                     (simulate.engine == Engine::automatic && force_without_closed_form(scene.world) == nullptr);
-  if (exact || simulate.duration == 0) return std::nullopt;
+  if (engine_of(scene.world, simulate) == Engine::exact || simulate.duration == 0) return std::nullopt;
   if (simulate.step) return std::ceil(simulate.duration / *simulate.step);
   const double fine = default_step(scene.world, scene.initial);
   return std::ceil(simulate.duration / (simulate.tolerance ? 64 * fine : fine));

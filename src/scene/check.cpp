@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "scene/check_values.h"
-#include "scene/values.h"
 #include "scene/view.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {

@@ -2,9 +2,9 @@
 // A tree of nodes against the table of fields: unknown, missing and misplaced keys, wrong types, numbers out of range.
 #include <string>
 
-#include "scene/diagnostics.h"
-#include "scene/document.h"
 #include "scene/fields.h"
+#include "yaml/diagnostics.h"
+#include "yaml/document.h"
 
 namespace carom {
 

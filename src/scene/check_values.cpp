@@ -3,9 +3,16 @@
 #include <fmt/format.h>
 
 #include "scene/colors.h"
-#include "scene/values.h"
+#include "yaml/values.h"
 
 namespace carom {
+namespace {
+
+WantedNumber wanted_number(const Field& field) {
+  return {field.key, field.unit, "expected " + expected(field)};
+}
+
+}  // namespace
 
 void ValueChecker::refuse(Node& node, std::string message, std::string remedy) {
   node.bad = true;
@@ -38,7 +45,7 @@ bool ValueChecker::number(Node& value, const Field& field, const std::string& na
   }
   const std::optional<double> parsed = value.quoted ? std::nullopt : parse_number(value.text);
   if (!parsed) {
-    Complaint complaint = explain_number(value, field);
+    Complaint complaint = explain_number(value, wanted_number(field));
     refuse(value, std::move(complaint.message), std::move(complaint.remedy));
     return false;
   }
@@ -98,7 +105,7 @@ void ValueChecker::choice(Node& value, const Field& field, const std::string& na
   for (const std::string_view one : all) {
     if (value.text != one) continue;
     if (!value.quoted || !parse_number(value.text)) return;
-    Complaint complaint = explain_number(value, field);
+    Complaint complaint = explain_number(value, wanted_number(field));
     refuse(value, std::move(complaint.message), std::move(complaint.remedy));
     return;
   }

@@ -2,9 +2,9 @@
 // One value against its row of the table of fields.
 #include <string>
 
-#include "scene/diagnostics.h"
-#include "scene/document.h"
 #include "scene/fields.h"
+#include "yaml/diagnostics.h"
+#include "yaml/document.h"
 
 namespace carom {
 

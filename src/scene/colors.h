@@ -5,9 +5,12 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/scene.h"
-
 namespace carom {
+
+/// sRGB as authors write it (not linear light), each 0 to 1.
+struct Color {
+  double r = 1, g = 1, b = 1;
+};
 
 /// A CSS name (any case), "#rgb" or "#rrggbb".
 std::optional<Color> parse_color(std::string_view text);

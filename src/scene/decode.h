@@ -6,12 +6,12 @@
 #include <unordered_map>
 #include <vector>
 
-#include "scene/diagnostics.h"
-#include "scene/document.h"
 #include "scene/forms.h"
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "scene/view.h"
+#include "yaml/diagnostics.h"
+#include "yaml/document.h"
 
 namespace carom {
 

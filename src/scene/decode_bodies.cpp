@@ -10,7 +10,7 @@
 #include "scene/overlaps.h"
 #include "scene/placement.h"
 #include "scene/random.h"
-#include "scene/values.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "physics/force.h"
 #include "scene/decode.h"
-#include "scene/unsupported.h"
-#include "scene/values.h"
+#include "scene/engines.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {

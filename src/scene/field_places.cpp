@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "scene/check.h"
-#include "scene/diagnostics.h"
-#include "scene/values.h"
+#include "yaml/diagnostics.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {

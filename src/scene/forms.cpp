@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "scene/check.h"
-#include "scene/values.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {

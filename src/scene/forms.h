@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "physics/fit.h"
+#include "geometry/fit.h"
 #include "physics/volume.h"
-#include "scene/diagnostics.h"
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "scene/view.h"
+#include "yaml/diagnostics.h"
 
 namespace carom {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/prefetch.h"
-#include "physics/touch.h"
-#include "physics/whole.h"
+#include "geometry/touch.h"
+#include "numerics/prefetch.h"
+#include "numerics/whole.h"
 
 namespace carom {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "scene/check.h"
 #include "scene/decode.h"
-#include "scene/values.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {

@@ -8,9 +8,9 @@
 
 #include "scene/check.h"
 #include "scene/decode.h"
-#include "scene/document.h"
 #include "scene/resolve.h"
 #include "scene/settings.h"
+#include "yaml/document.h"
 
 namespace carom {
 namespace {

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "physics/force.h"
+#include "scene/engines.h"
 
 namespace carom {
 namespace {
@@ -39,9 +40,7 @@ class MotionText {
   void simulate() {
     const auto& [duration, engine, integrator, step, tolerance, rest_speed, max_collisions, as_printed, merge] =
         scene_.simulate;
-    const Engine chosen = engine != Engine::automatic                          ? engine
-                          : force_without_closed_form(scene_.world) == nullptr ? Engine::exact
-                                                                               : Engine::stepped;
+    const Engine chosen = engine_of(scene_.world, scene_.simulate);
     line("simulate", duration, "engine", static_cast<int>(chosen), "integrator", static_cast<int>(integrator));
     line("step", step, "tolerance", tolerance, "rest_speed", rest_speed, "max_collisions", max_collisions);
     line("as_printed", as_printed, "merge", merge);

@@ -2,9 +2,9 @@
 // Bodies that stand in one another, or in something fixed, at the start.
 #include <vector>
 
-#include "scene/diagnostics.h"
 #include "scene/grid.h"
 #include "scene/scene.h"
+#include "yaml/diagnostics.h"
 
 namespace carom {
 

@@ -6,7 +6,7 @@
 
 #include "physics/bounds.h"
 #include "scene/decode.h"
-#include "scene/values.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "scene/colors.h"
-#include "scene/unsupported.h"
-#include "scene/values.h"
+#include "scene/engines.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {

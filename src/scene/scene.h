@@ -6,18 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "numerics/vec3.h"
 #include "physics/integrator.h"
 #include "physics/state.h"
-#include "physics/vec3.h"
 #include "physics/world.h"
+#include "scene/colors.h"
 #include "scene/output.h"
 
 namespace carom {
-
-/// sRGB as authors write it (not linear light), each 0 to 1.
-struct Color {
-  double r = 1, g = 1, b = 1;
-};
 
 /// A mesh to draw in place of a volume: a vertex p of the file stands at position + scale * (p - center).
 struct MeshUse {

@@ -3,11 +3,11 @@
 #include <array>
 #include <string_view>
 
-#include "scene/diagnostics.h"
-#include "scene/document.h"
 #include "scene/fields.h"
 #include "scene/load.h"
-#include "scene/values.h"
+#include "yaml/diagnostics.h"
+#include "yaml/document.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "scene/colors.h"
 #include "scene/fields.h"
-#include "scene/value_json.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 

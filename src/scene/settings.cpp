@@ -4,8 +4,8 @@
 
 #include "scene/check.h"
 #include "scene/fields.h"
-#include "scene/values.h"
 #include "scene/view.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/diagnostics.h"
-#include "scene/document.h"
+#include "yaml/diagnostics.h"
+#include "yaml/document.h"
 
 namespace carom {
 

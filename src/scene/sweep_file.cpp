@@ -7,13 +7,13 @@
 #include <optional>
 
 #include "scene/check.h"
-#include "scene/decimal.h"
-#include "scene/document.h"
 #include "scene/resolve.h"
 #include "scene/sweep.h"
-#include "scene/value_json.h"
-#include "scene/values.h"
 #include "scene/view.h"
+#include "yaml/decimal.h"
+#include "yaml/document.h"
+#include "yaml/value_json.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {

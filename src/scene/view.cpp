@@ -3,8 +3,8 @@
 #include <map>
 
 #include "scene/colors.h"
-#include "scene/diagnostics.h"
-#include "scene/values.h"
+#include "yaml/diagnostics.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "scene/document.h"
 #include "scene/fields.h"
 #include "scene/scene.h"
+#include "yaml/document.h"
 
 namespace carom {
 

@@ -15,7 +15,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/contact_time.h"
+#include "geometry/contact_time.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
 #include "simulate/event_log.h"

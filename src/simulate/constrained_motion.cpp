@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
-#include "physics/contact_problem.h"
-#include "physics/cube_root.h"
-#include "physics/disjoint_sets.h"
+#include "geometry/path_time_of_impact.h"
+#include "numerics/cube_root.h"
+#include "numerics/disjoint_sets.h"
 #include "physics/impact.h"
-#include "physics/path_time_of_impact.h"
 #include "physics/restitution.h"
 #include "simulate/tolerances.h"
+#include "solver/contact_problem.h"
 
 namespace carom {
 

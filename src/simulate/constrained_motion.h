@@ -8,11 +8,11 @@
 #include <memory>
 #include <vector>
 
-#include "physics/contact_problem.h"
 #include "simulate/constrained_system.h"
 #include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
 #include "simulate/flight_changes.h"
+#include "solver/contact_problem.h"
 
 namespace carom {
 

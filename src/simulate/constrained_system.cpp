@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "physics/cube_root.h"
-#include "physics/dormand_prince.h"
+#include "numerics/cube_root.h"
+#include "numerics/dormand_prince.h"
+#include "numerics/radau_collocation.h"
 #include "physics/force.h"
-#include "physics/radau_collocation.h"
 #include "simulate/tolerances.h"
 
 namespace carom {

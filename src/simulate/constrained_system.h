@@ -9,10 +9,10 @@
 #include <memory>
 #include <vector>
 
-#include "physics/contact_problem.h"
-#include "physics/dense_motion.h"
-#include "physics/touch.h"
+#include "geometry/touch.h"
+#include "numerics/dense_motion.h"
 #include "simulate/contact_list.h"
+#include "solver/contact_problem.h"
 
 namespace carom {
 

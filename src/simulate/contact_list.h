@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/contact_problem.h"
-#include "physics/touch.h"
+#include "geometry/touch.h"
+#include "solver/contact_problem.h"
 
 namespace carom {
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/dormand_prince.h"
+#include "numerics/dormand_prince.h"
+#include "numerics/whole.h"
 #include "physics/force.h"
 #include "physics/implicit_step.h"
 #include "physics/integrator.h"
 #include "physics/springs_in_line.h"
-#include "physics/whole.h"
 #include "simulate/simulation_error.h"
 #include "simulate/tolerances.h"
 

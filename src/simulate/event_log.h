@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "numerics/compensated.h"
 #include "physics/collision.h"
-#include "physics/compensated.h"
-#include "physics/contact_problem.h"
 #include "physics/tally.h"
+#include "solver/contact_problem.h"
 
 namespace carom {
 

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "physics/path_time_of_impact.h"
+#include "geometry/path_time_of_impact.h"
 #include "simulate/region_exit.h"
 
 namespace carom {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "physics/prefetch.h"
+#include "numerics/prefetch.h"
 
 namespace carom {
 

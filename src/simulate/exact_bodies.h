@@ -8,8 +8,8 @@
 // can change it.
 #include <vector>
 
+#include "geometry/touch.h"
 #include "physics/bounds.h"
-#include "physics/touch.h"
 #include "simulate/event_log.h"
 #include "simulate/exact.h"
 #include "simulate/exact_event.h"

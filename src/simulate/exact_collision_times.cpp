@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/contact_time.h"
-#include "physics/path_time_of_impact.h"
+#include "geometry/contact_time.h"
+#include "geometry/path_time_of_impact.h"
 #include "simulate/tolerances.h"
 
 namespace carom {

@@ -2,7 +2,7 @@
 // A predicted event of the exact simulator, and what is known of the body that it is the first event of.
 #include <cstdint>
 
-#include "physics/contact_time.h"
+#include "geometry/contact_time.h"
 #include "physics/world.h"
 #include "simulate/instant.h"
 

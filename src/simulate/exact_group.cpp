@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "physics/contact_problem.h"
 #include "physics/restitution.h"
 #include "simulate/tolerances.h"
+#include "solver/contact_problem.h"
 
 namespace carom {
 

@@ -3,7 +3,7 @@
 // acceleration.
 #include <span>
 
-#include "physics/contact_problem.h"
+#include "solver/contact_problem.h"
 
 namespace carom {
 

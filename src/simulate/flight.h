@@ -6,9 +6,9 @@
 #include <limits>
 #include <vector>
 
+#include "numerics/polynomial_path.h"
+#include "numerics/vec3.h"
 #include "physics/fading_path.h"
-#include "physics/polynomial_path.h"
-#include "physics/vec3.h"
 #include "physics/world.h"
 #include "simulate/instant.h"
 #include "simulate/large_pages.h"

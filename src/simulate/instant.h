@@ -3,7 +3,7 @@
 // double a ball in a box is off by 1e-6 m after 1e5 s and 4e5 events; in two by 1e-9 m (measured).
 #include <compare>
 
-#include "physics/compensated.h"
+#include "numerics/compensated.h"
 
 namespace carom {
 

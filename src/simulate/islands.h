@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "physics/contact_time.h"
+#include "geometry/contact_time.h"
+#include "numerics/vec3.h"
 #include "physics/path_piece.h"
-#include "physics/vec3.h"
 #include "physics/world.h"
 #include "simulate/instant.h"
 #include "simulate/lazy_array.h"

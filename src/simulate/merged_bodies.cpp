@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "physics/contact_time.h"
-#include "physics/cube_root.h"
+#include "geometry/contact_time.h"
+#include "numerics/cube_root.h"
 #include "physics/force.h"
 
 namespace carom {

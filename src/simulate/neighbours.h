@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/prefetch.h"
+#include "numerics/prefetch.h"
 #include "physics/world.h"
 #include "simulate/large_pages.h"
 #include "simulate/list_pool.h"

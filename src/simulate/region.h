@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "physics/vec3.h"
+#include "numerics/vec3.h"
 
 namespace carom {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "physics/contact_problem.h"
 #include "simulate/tolerances.h"
+#include "solver/contact_problem.h"
 
 namespace carom {
 

@@ -7,11 +7,11 @@
 // next rounding.
 #include <vector>
 
-#include "physics/contact_problem.h"
 #include "simulate/contact_list.h"
 #include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
 #include "simulate/flight_changes.h"
+#include "solver/contact_problem.h"
 
 namespace carom {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/contact_time.h"
-#include "physics/whole.h"
+#include "geometry/contact_time.h"
+#include "numerics/whole.h"
 
 namespace carom {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/contact_problem.h"
-#include "physics/disjoint_sets.h"
+#include "numerics/disjoint_sets.h"
 #include "physics/force.h"
 #include "physics/restitution.h"
 #include "simulate/tolerances.h"
+#include "solver/contact_problem.h"
 
 namespace carom {
 

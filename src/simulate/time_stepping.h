@@ -15,11 +15,11 @@
 // An island that forces hold in balance is put to rest: velocities exactly zero, no more steps, until struck.
 #include <vector>
 
-#include "physics/contact_problem.h"
 #include "simulate/contact_list.h"
 #include "simulate/event_predictor.h"
 #include "simulate/exact_group.h"
 #include "simulate/flight_changes.h"
+#include "solver/contact_problem.h"
 
 namespace carom {
 

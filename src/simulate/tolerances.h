@@ -97,7 +97,7 @@ inline constexpr std::uint32_t many_short_steps = 8;    // ended at once by simu
 
 namespace carom::accuracy_tolerance {
 
-// Which steps meet a tolerance (study/accuracy.h).
+// Which steps meet a tolerance (run/accuracy.h).
 inline constexpr int most_instants = 64;              // of a run, at which two runs are compared,
 inline constexpr double places_kept = 1e6;            // or fewer: of all bodies together
 inline constexpr double golden = 0.6180339887498949;  // where in its part of a run an instant lies

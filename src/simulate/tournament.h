@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "physics/prefetch.h"
+#include "numerics/prefetch.h"
 #include "simulate/large_pages.h"
 
 #ifdef __SSE2__

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "export/manifest.h"
-#include "export/open_folder.h"
-#include "export/run_folder.h"
-#include "study/charts.h"
-#include "study/outcomes.h"
+#include "compare/charts.h"
+#include "compare/outcomes.h"
+#include "files/manifest.h"
+#include "files/open_folder.h"
+#include "files/run_folder.h"
 
 namespace carom {
 namespace {

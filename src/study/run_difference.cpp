@@ -7,9 +7,9 @@
 #include <map>
 #include <tuple>
 
-#include "export/run_folder.h"
-#include "export/stored_file.h"
-#include "study/compared_run.h"
+#include "compare/compared_run.h"
+#include "files/run_folder.h"
+#include "files/stored_file.h"
 
 namespace carom {
 namespace {

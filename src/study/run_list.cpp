@@ -9,16 +9,16 @@
 #include <set>
 #include <tuple>
 
-#include "export/folder_names.h"
-#include "export/manifest.h"
-#include "export/open_folder.h"
-#include "export/publication.h"
-#include "export/run_folder.h"
-#include "export/stored_file.h"
+#include "files/folder_names.h"
+#include "files/manifest.h"
+#include "files/open_folder.h"
+#include "files/publication.h"
+#include "files/run_folder.h"
+#include "files/stored_file.h"
 #include "scene/load.h"
 #include "scene/scene_values.h"
-#include "scene/source.h"
 #include "study/sweep_folder.h"
+#include "yaml/source.h"
 
 namespace carom {
 namespace {

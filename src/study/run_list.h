@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "compare/comparison.h"
 #include "scene/sweep.h"
-#include "study/comparison.h"
 
 namespace carom {
 

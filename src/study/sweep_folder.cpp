@@ -14,16 +14,16 @@
 #include <string_view>
 #include <thread>
 
-#include "export/copied_run.h"
-#include "export/folder_names.h"
-#include "export/manifest.h"
-#include "export/open_folder.h"
-#include "export/publication.h"
-#include "export/stored_file.h"
+#include "files/copied_run.h"
+#include "files/folder_names.h"
+#include "files/manifest.h"
+#include "files/open_folder.h"
+#include "files/publication.h"
+#include "files/stored_file.h"
 #include "scene/path_field.h"
 #include "scene/scene_values.h"
-#include "scene/source.h"
-#include "scene/value_json.h"
+#include "yaml/source.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 

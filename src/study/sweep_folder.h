@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "export/open_folder.h"
-#include "export/output_file.h"
+#include "compare/comparison.h"
+#include "files/open_folder.h"
+#include "files/output_file.h"
 #include "scene/sweep.h"
-#include "study/comparison.h"
 #include "study/sweep_job.h"
 
 namespace carom {

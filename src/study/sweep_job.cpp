@@ -13,15 +13,15 @@
 #include <tuple>
 #include <utility>
 
-#include "export/copied_run.h"
-#include "export/failed_run.h"
-#include "export/hash.h"
-#include "export/mesh_copies.h"
-#include "export/publication.h"
+#include "compare/compared_run.h"
+#include "files/copied_run.h"
+#include "files/failed_run.h"
+#include "files/hash.h"
+#include "files/mesh_copies.h"
+#include "files/publication.h"
+#include "run/engine.h"
+#include "run/run_scene.h"
 #include "scene/motion_text.h"
-#include "study/compared_run.h"
-#include "study/engine.h"
-#include "study/run_scene.h"
 #include "study/sweep_folder.h"
 
 namespace carom {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "export/exports.h"
+#include "files/summary.h"
+#include "run/measure.h"
 #include "scene/load.h"
 #include "scene/sweep.h"
-#include "study/measure.h"
 #include "study/shard.h"
 #include "study/workers.h"
 

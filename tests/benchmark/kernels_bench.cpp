@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "physics/contact_time.h"
+#include "geometry/contact_time.h"
 #include "physics/impact.h"
 
 namespace carom {

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "bench/state_hash.h"
 #include "export/png.h"
 #include "render/renderer.h"
 #include "scene/load.h"
 #include "simulate/exact.h"
-#include "study/state_hash.h"
 
 namespace carom {
 namespace {

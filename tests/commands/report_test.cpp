@@ -22,7 +22,7 @@ RunResult result_with(std::uint64_t collapses, std::uint64_t merges) {
 
 std::string lines_of(const RunResult& result) {
   PlannedScene planned;
-  planned.engine.name = "exact";
+  planned.engine.engine = Engine::exact;
   Block block(Palette(false), 100);
   describe(block, planned, result);
   const std::size_t from = block.text().find("  collisions"), to = block.text().find("  energy");

@@ -1,5 +1,5 @@
 // What a thread of its own does for a file: all of it, in order, with few items, and nothing where there is little.
-#include "export/conveyor.h"
+#include "files/conveyor.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "export/export_testing.h"
-#include "export/open_folder.h"
+#include "files/open_folder.h"
 
 namespace carom {
 namespace {

@@ -10,12 +10,12 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "export/csv.h"
-#include "export/failed_run.h"
-#include "export/hash.h"
-#include "export/manifest.h"
-#include "export/stored_file.h"
 #include "export_testing.h"
+#include "files/csv.h"
+#include "files/failed_run.h"
+#include "files/hash.h"
+#include "files/manifest.h"
+#include "files/stored_file.h"
 
 namespace carom {
 namespace {

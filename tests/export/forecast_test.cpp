@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "export_testing.h"
-#include "physics/whole.h"
+#include "numerics/whole.h"
 
 namespace carom {
 namespace {

@@ -1,10 +1,10 @@
 // manifest.json as it may be found: whatever stands in it, it is read or there is none.
-#include "export/manifest.h"
+#include "files/manifest.h"
 
 #include <fcntl.h>
 
 #include "export/export_testing.h"
-#include "export/open_folder.h"
+#include "files/open_folder.h"
 
 namespace carom {
 namespace {

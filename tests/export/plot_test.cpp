@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <functional>
 
-#include "export/run_folder.h"
+#include "files/run_folder.h"
 
 namespace carom {
 namespace {

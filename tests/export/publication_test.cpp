@@ -1,5 +1,5 @@
 // Files get their names all together: a folder that was left in the middle of it is finished by whatever opens it next.
-#include "export/publication.h"
+#include "files/publication.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -9,11 +9,11 @@
 #include <functional>
 #include <map>
 
-#include "export/folder_names.h"
-#include "export/manifest.h"
-#include "export/open_folder.h"
-#include "export/stored_file.h"
 #include "export_testing.h"
+#include "files/folder_names.h"
+#include "files/manifest.h"
+#include "files/open_folder.h"
+#include "files/stored_file.h"
 
 namespace carom {
 namespace {

@@ -1,12 +1,12 @@
 // Tables read back: from the start with quotes, from the end without the middle.
-#include "export/stored_table.h"
+#include "files/stored_table.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "export/csv.h"
+#include "files/csv.h"
 
 namespace carom {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "export/exports.h"
 #include "export/flights_file.h"
-#include "export/manifest.h"
-#include "export/stored_table.h"
+#include "files/manifest.h"
+#include "files/stored_table.h"
 #include "fuzz/memory_file.h"
 #include "fuzz/targets.h"
 #include "render/mesh_reply.h"

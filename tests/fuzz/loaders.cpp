@@ -5,8 +5,8 @@
 #include "fuzz/memory_file.h"
 #include "fuzz/targets.h"
 #include "scene/load.h"
-#include "scene/source.h"
 #include "scene/sweep.h"
+#include "yaml/source.h"
 
 namespace carom::fuzz {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "export/output_file.h"
+#include "files/output_file.h"
 
 namespace carom::fuzz {
 

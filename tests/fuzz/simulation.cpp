@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "physics/force.h"
-#include "study/engine.h"
+#include "run/engine.h"
 
 namespace carom::fuzz {
 
@@ -26,11 +26,11 @@ class Run {
 
   void run() {
     const EngineChoice engine = choose_engine(scene_);
-    outcome_.engine = engine.name;
-    exact_ = engine.name == "exact" && varying_force(world_) == nullptr;
-    book_ = engine.name == "book";
+    outcome_.engine = name_of(engine.engine);
+    exact_ = engine.engine == Engine::exact && varying_force(world_) == nullptr;
+    book_ = engine.engine == Engine::book;
     try {
-      simulator_ = make_simulator(scene_, true, engine.steps);
+      simulator_ = make_simulator(scene_, {.collisions = true}, engine.steps);
       const long double before = energy();
       if (!go_to(0) || !see()) return;
       for (int k = 1; k <= looks; ++k) {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "run/accuracy.h"
 #include "simulate/random.h"
-#include "study/accuracy.h"
 
 namespace carom {
 namespace {
@@ -62,7 +62,7 @@ Scene random_scene(std::uint64_t seed) {
 double true_error(const Scene& scene, const EngineChoice& engine) {
   StepChoice finest = engine.steps;
   finest.error = 0x1p-52;
-  const auto run = make_simulator(scene, false, engine.steps), truth = make_simulator(scene, false, finest);
+  const auto run = make_simulator(scene, {}, engine.steps), truth = make_simulator(scene, {}, finest);
   double most = 0;
   for (int k = 1; k <= 20; ++k) {
     for (Simulator* one : {run.get(), truth.get()})

@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "physics/contact_cases.h"
-#include "physics/contact_island.h"
-#include "physics/contact_projected_gradients.h"
+#include "solver/contact_island.h"
+#include "solver/contact_projected_gradients.h"
 
 namespace carom {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "physics/contact_problem.h"
+#include "solver/contact_problem.h"
 
 namespace carom::contact_cases {
 

@@ -1,15 +1,15 @@
 // Contact, solved: against closed forms, against quadruple precision, against itself in other units and orders.
-#include "physics/contact_problem.h"
+#include "solver/contact_problem.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 
-#include "physics/active_set.h"
 #include "physics/contact_cases.h"
-#include "physics/contact_interior_point.h"
 #include "physics/contact_reference.h"
+#include "solver/active_set.h"
+#include "solver/contact_interior_point.h"
 
 namespace carom {
 namespace {

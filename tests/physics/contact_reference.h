@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "physics/contact_problem.h"
+#include "solver/contact_problem.h"
 
 namespace carom::contact_cases {
 

@@ -1,4 +1,4 @@
-#include "physics/contact_time.h"
+#include "geometry/contact_time.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "physics/cube_root.h"
+#include "numerics/cube_root.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The method of order 8 against motions in closed form.
-#include "physics/dormand_prince.h"
+#include "numerics/dormand_prince.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Elementary functions, against values of mpmath (100 digits).
-#include "physics/elementary.h"
+#include "numerics/elementary.h"
 
 #include <gtest/gtest.h>
 

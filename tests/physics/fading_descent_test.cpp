@@ -1,5 +1,5 @@
 // Times at which what changes under linear drag comes down through zero.
-#include "physics/fading_descent.h"
+#include "geometry/fading_descent.h"
 
 #include <gtest/gtest.h>
 

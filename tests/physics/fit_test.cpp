@@ -1,5 +1,5 @@
 // The tightest volumes: closed forms, degenerate clouds, and spheres that are known because they were built first.
-#include "physics/fit.h"
+#include "geometry/fit.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "physics/compensated.h"
+#include "numerics/compensated.h"
 #include "physics/energy.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"

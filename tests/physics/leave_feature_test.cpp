@@ -1,7 +1,7 @@
 // When a contact that slides over a face comes to its rim, and what lies beyond.
 #include <gtest/gtest.h>
 
-#include "physics/round_prism.h"
+#include "geometry/round_prism.h"
 #include "volumes_by_hand.h"
 
 namespace carom {

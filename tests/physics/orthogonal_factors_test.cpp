@@ -1,5 +1,5 @@
 // Rows taken in and let go: Q stays orthogonal, and Q R stays what was taken in.
-#include "physics/orthogonal_factors.h"
+#include "numerics/orthogonal_factors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "physics/polynomial.h"
+#include "numerics/polynomial.h"
 
 #include <gtest/gtest.h>
 

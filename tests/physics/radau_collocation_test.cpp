@@ -1,11 +1,11 @@
 // Collocation at Radau's points against motions in closed form and the explicit method of order 8.
-#include "physics/radau_collocation.h"
+#include "numerics/radau_collocation.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "physics/dormand_prince.h"
+#include "numerics/dormand_prince.h"
 
 namespace carom {
 namespace {

@@ -1,7 +1,7 @@
 // When pairs meet: closed forms, symmetries, and what counts as a contact at all.
 #include <gtest/gtest.h>
 
-#include "physics/round_prism.h"
+#include "geometry/round_prism.h"
 #include "volumes_by_hand.h"
 
 namespace carom {

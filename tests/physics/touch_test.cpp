@@ -1,4 +1,4 @@
-#include "physics/touch.h"
+#include "geometry/touch.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "physics/contact_time.h"
-#include "physics/touch.h"
+#include "geometry/contact_time.h"
+#include "geometry/touch.h"
 
 namespace carom::by_hand {
 

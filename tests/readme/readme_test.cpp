@@ -15,14 +15,14 @@
 #include <set>
 #include <sstream>
 
+#include "bench/bench.h"
 #include "physics/energy.h"
 #include "physics/restitution.h"
 #include "readme/pages.h"
+#include "run/engine.h"
 #include "scene/fields.h"
 #include "scene/load.h"
 #include "simulate/book.h"
-#include "study/bench.h"
-#include "study/engine.h"
 
 namespace carom::testing {
 namespace {
@@ -106,7 +106,7 @@ Pixels read_png(const fs::path& path) {
 }
 
 State run_to(const Scene& scene, double time) {
-  const auto simulator = make_simulator(scene, false);
+  const auto simulator = make_simulator(scene);
   while (simulator->time() < time) simulator->advance_to(time);
   return simulator->state();
 }
@@ -230,7 +230,7 @@ TEST(ReadmeFirstScene, IsTheFileWithoutItsComment) {
 
 TEST(ReadmeFirstScene, NumbersAreTheRuns) {
   const Scene scene = load_scene(SCENES_DIR "/two_bowling_balls.yaml");
-  const auto simulator = make_simulator(scene, true);
+  const auto simulator = make_simulator(scene, {.collisions = true});
   const double start = kinetic_energy(scene.world, simulator->state());
   simulator->advance_to(scene.simulate.duration);
   ASSERT_EQ(simulator->collisions().size(), 1u);
@@ -426,7 +426,7 @@ simulate: {duration: 0.5}
 
 TEST(ReadmeAccuracy, IsMeasured) {
   const Scene scene = load_scene(SCENES_DIR "/gas_in_a_room.yaml");
-  const auto simulator = make_simulator(scene, false);
+  const auto simulator = make_simulator(scene);
   while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
   EXPECT_EQ(scene.world.body_count(), said("`scenes/gas_in_a_room.yaml`, "));
   EXPECT_EQ(simulator->tally().collisions(), said("200 balls and "));
@@ -436,7 +436,7 @@ TEST(ReadmeAccuracy, IsMeasured) {
             said("the energy changes by less than "));
   EXPECT_LT(simulator->tally().max_overlap / 0.1, said("overlap by more than "));
   const Scene pi = load_scene(SCENES_DIR "/pi_to_six_digits.yaml");
-  const auto counter = make_simulator(pi, false);
+  const auto counter = make_simulator(pi);
   while (counter->time() < pi.simulate.duration) counter->advance_to(pi.simulate.duration);
   EXPECT_EQ(counter->tally().collisions(), said("`scenes/pi_to_six_digits.yaml`: "));
 }
@@ -444,7 +444,7 @@ TEST(ReadmeAccuracy, IsMeasured) {
 TEST(ReadmeBook, ScenesGiveTheNumbersItNames) {
   const auto last = [](const char* file) {
     const Scene scene = load_scene(std::string(SCENES_DIR "/") + file);
-    const auto simulator = make_simulator(scene, true);
+    const auto simulator = make_simulator(scene, {.collisions = true});
     while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
     return std::pair(simulator->tally(), kinetic_energy(scene.world, simulator->state()));
   };

@@ -1,5 +1,5 @@
 // Evenly spread numbers as decimals.
-#include "scene/decimal.h"
+#include "yaml/decimal.h"
 
 #include <gtest/gtest.h>
 

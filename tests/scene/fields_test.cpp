@@ -4,8 +4,8 @@
 #include <set>
 
 #include "scene/scenes_in_text.h"
-#include "scene/values.h"
 #include "scene/view.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "scene/fields.h"
-#include "scene/value_json.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 namespace {

@@ -6,9 +6,9 @@
 #include <set>
 
 #include "physics/force.h"
+#include "run/engine.h"
 #include "scenes/play.h"
 #include "simulate/exact.h"
-#include "study/engine.h"
 
 namespace carom::testing {
 namespace {
@@ -24,7 +24,7 @@ State end_of(Simulator& simulator, double duration) {
 
 State exact_end(Scene scene) {
   scene.simulate.engine = Engine::exact;
-  return end_of(*make_simulator(scene, false), scene.simulate.duration);
+  return end_of(*make_simulator(scene), scene.simulate.duration);
 }
 
 State stepped_end(const Scene& scene, Integrator integrator, double step) {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "run/engine.h"
 #include "scenes/play.h"
-#include "study/engine.h"
 
 namespace carom::testing {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "physics/energy.h"
 #include "render/mesh.h"
+#include "run/engine.h"
 #include "scene/load.h"
-#include "study/engine.h"
 
 namespace carom::testing {
 
@@ -68,7 +68,7 @@ std::vector<Collision> Played::of(const std::string& name) const {
 
 Played play(const std::string& name, const std::vector<double>& times) {
   Played run{load(name), {}, {}, {}, {}, {}};
-  const auto simulator = make_simulator(run.scene, true);
+  const auto simulator = make_simulator(run.scene, {.collisions = true});
   run.energy_start =
       kinetic_energy(run.scene.world, simulator->state()) + potential_energy(run.scene.world, simulator->state());
   const auto go_to = [&](double time) {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "run/engine.h"
 #include "scenes/play.h"
-#include "study/engine.h"
 
 namespace carom::testing {
 namespace {
@@ -19,7 +19,7 @@ double force(const std::vector<ContactForce>& contacts, Entity a, Entity b) {
 }
 
 std::vector<ContactForce> contacts_at(const Scene& scene, double time) {
-  const auto simulator = make_simulator(scene, false);
+  const auto simulator = make_simulator(scene);
   while (simulator->time() < time) simulator->advance_to(time);
   const auto contacts = simulator->contacts();
   return {contacts.begin(), contacts.end()};

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "numerics/whole.h"
 #include "physics/force.h"
-#include "physics/whole.h"
 #include "simulate/build.h"
 #include "simulate/exact.h"
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "numerics/polynomial.h"
 #include "physics/force_law.h"
-#include "physics/polynomial.h"
 #include "simulate/build.h"
 
 namespace carom {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "physics/vec3.h"
+#include "numerics/vec3.h"
 
 namespace carom {
 

@@ -1,8 +1,8 @@
 // Piles that fall, settle and lie, with free flights in steps of a given length.
 #include <gtest/gtest.h>
 
+#include "numerics/polynomial.h"
 #include "physics/force_law.h"
-#include "physics/polynomial.h"
 #include "simulate/exact.h"
 #include "simulate/pile.h"
 #include "simulate/random.h"

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "physics/contact_time.h"
+#include "geometry/contact_time.h"
 #include "simulate/random.h"
 #include "simulate/straight_times.h"
 #include "simulate/touching.h"

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "physics/vec3.h"
+#include "numerics/vec3.h"
 
 namespace carom {
 

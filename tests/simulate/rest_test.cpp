@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "physics/contact_time.h"
+#include "geometry/contact_time.h"
 #include "physics/force_law.h"
 #include "simulate/build.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/touch.h"
+#include "geometry/touch.h"
 
 namespace carom::stress {
 

@@ -1,5 +1,5 @@
 // What a tolerance gives: steps that meet it, or a word about what is not met.
-#include "study/accuracy.h"
+#include "run/accuracy.h"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ Simulate stepped(double duration, double tolerance, Integrator integrator = Inte
 }
 
 Vec3 end_of(const Scene& scene, const EngineChoice& engine) {
-  const auto simulator = make_simulator(scene, false, engine.steps);
+  const auto simulator = make_simulator(scene, {}, engine.steps);
   while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
   return simulator->state().position[0];
 }

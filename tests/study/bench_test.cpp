@@ -1,5 +1,5 @@
 // Benches of real scenes: errors fall as methods promise, chaos is known, what an engine does not have is said.
-#include "study/bench.h"
+#include "bench/bench.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <map>
 
+#include "bench/bench_folder.h"
 #include "scene/load.h"
 #include "simulate/simulator.h"
-#include "study/bench_folder.h"
 
 namespace carom {
 namespace {

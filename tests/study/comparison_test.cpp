@@ -1,12 +1,12 @@
 // Runs side by side: the table against the runs' own files, the workbook by an independent reader.
-#include "study/comparison.h"
+#include "compare/comparison.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "compare/outcomes.h"
 #include "study/comparison_testing.h"
-#include "study/outcomes.h"
 
 namespace carom::testing {
 namespace {

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "export/open_folder.h"
+#include "compare/comparison.h"
+#include "files/open_folder.h"
+#include "run/run_scene.h"
 #include "scene/load.h"
-#include "study/comparison.h"
-#include "study/run_scene.h"
 
 namespace carom::testing {
 

@@ -1,5 +1,5 @@
 // What counts as an error of a run, and which collisions of two runs are the same.
-#include "study/differences.h"
+#include "bench/differences.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Which run is trusted, and to what: runs of one body whose places are made up.
-#include "study/evidence.h"
+#include "bench/evidence.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // Measures: their names, and their values against the motion.
-#include "study/measure.h"
+#include "run/measure.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "study/compared_run.h"
+#include "compare/compared_run.h"
 #include "study/comparison_testing.h"
 
 namespace carom::testing {

@@ -1,5 +1,5 @@
 // A run again from its record of paths: the same states at any instant, bit for bit.
-#include "study/replay.h"
+#include "run/replay.h"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <random>
 
+#include "bench/state_hash.h"
 #include "render/mesh.h"
+#include "run/engine.h"
 #include "scene/load.h"
-#include "scene/unsupported.h"
+#include "scene/engines.h"
 #include "simulate/exact.h"
 #include "stress/scene.h"
-#include "study/engine.h"
-#include "study/state_hash.h"
 
 namespace carom {
 namespace {
@@ -96,12 +96,12 @@ class EverySceneAgain : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EverySceneAgain, HasTheSimulatorsStateAtAnyInstant) {
   const Scene scene = load(GetParam());
-  const Record run = record(make_simulator(scene, false, {}, true), scene.simulate.duration);
+  const Record run = record(make_simulator(scene, {.paths = true}), scene.simulate.duration);
   if (!goes_along_parabolas(scene.world, scene.simulate)) {
     EXPECT_TRUE(run.pieces.empty());
     return;
   }
-  expect_same_states(scene.world, scene.simulate.duration, run, *make_simulator(scene, false), 500);
+  expect_same_states(scene.world, scene.simulate.duration, run, *make_simulator(scene), 500);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneAgain, ::testing::ValuesIn(scene_files()), [](const auto& parameter) {

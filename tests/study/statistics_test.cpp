@@ -1,5 +1,5 @@
 // What chaotic runs are compared by.
-#include "study/statistics.h"
+#include "bench/statistics.h"
 
 #include <gtest/gtest.h>
 

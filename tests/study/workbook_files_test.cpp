@@ -1,5 +1,5 @@
 // What libxlsxwriter keeps in temporary files is watched, and the workbook is held against it.
-#include "study/workbook_files.h"
+#include "compare/workbook_files.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include <functional>
 #include <string>
 
-#include "export/run_folder.h"
+#include "files/run_folder.h"
 #include "study/comparison_testing.h"
 
 namespace carom {

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "physics/contact_cases.h"
-#include "physics/contact_problem.h"
 #include "physics/contact_reference.h"
+#include "solver/contact_problem.h"
 
 namespace carom::contact_cases {
 namespace {

@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "study/state_hash.h"
+#include "bench/state_hash.h"
 #include "simulate/exact.h"
 
 namespace carom {

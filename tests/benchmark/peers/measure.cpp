@@ -12,8 +12,8 @@
 #include <limits>
 #include <numeric>
 
+#include "bench/state_hash.h"
 #include "physics/energy.h"
-#include "study/state_hash.h"
 
 namespace carom {
 namespace {

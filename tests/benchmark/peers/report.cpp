@@ -8,8 +8,8 @@
 #include <functional>
 #include <iterator>
 
-#include "export/csv.h"
-#include "export/open_folder.h"
+#include "files/csv.h"
+#include "files/open_folder.h"
 
 namespace carom {
 namespace {

@@ -1,0 +1,242 @@
+// Every run is first recorded and held against the reference, then timed bare: without a record, a look or a file, from
+// the making of the simulator to the scene's end. Timed runs of all rows take turns (timing.h).
+//
+// The reference is at first the exact engine, or dop853 where paths have no closed form. All other methods' finest runs
+// are held against it (evidence.h). Where they speak for another one, that is the reference, and rows are compared
+// anew.
+#include "bench/bench.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bench/reference.h"
+#include "bench/shifted.h"
+#include "bench/timing.h"
+#include "numerics/whole.h"
+#include "physics/force.h"
+#include "run/engine.h"
+#include "scene/engines.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+namespace {
+
+constexpr int halvings = 10;
+constexpr int least_repeats = 3;  // that a next row must have room for
+
+/// Of dop853's steps, of a radius and of speeds; the last one is the default.
+constexpr std::array step_errors = {0x1p-16, 0x1p-24, 0x1p-32, exact_tolerance::step_error};
+
+class Bench {
+ public:
+  Bench(const Scene& scene, const BenchOptions& options, const BenchWatch& watch)
+      : scene_(scene), world_(scene.world), options_(options), watch_(watch) {}
+
+  BenchResult go() {
+    choose_steps();
+    try {
+      reference_ = make_reference(scene_, options_, watch_);
+    } catch (const SimulationError& error) {
+      throw named(error);
+    }
+    evidence_.emplace(world_, reference_.instants, reference_.horizon, reference_.rounded, rounding_of(scene_),
+                      Finding{reference_.method, reference_.run, reference_.error});
+    if (reference_.second) evidence_->add(*std::move(reference_.second));
+    left_ = std::max(0.2 * options_.budget, options_.budget - spent());
+    for (const Engine engine : {Engine::exact, Engine::stepped, Engine::book}) {
+      if (const auto lacks = unsupported(world_, with_engine(scene_.simulate, engine)); !lacks.empty())
+        result_.left_out.push_back(fmt::format("{}: {}", name_of(engine), lacks.front().what));
+      else if (engine == Engine::exact)
+        row_of({});
+      else if (engine == Engine::book)
+        rows_of({.engine = engine});
+      else
+        rows_of_stepped();
+    }
+    settle_reference();
+    time_rows();
+    result_.cpu_s = spent();
+    return std::move(result_);
+  }
+
+ private:
+  SimulationError named(const SimulationError& error) const {
+    return error.named([&](Entity body) { return fmt::format("`{}`", scene_.roster.name(body)); });
+  }
+
+  double spent() const { return cpu_time() - start_; }
+
+  /// Powers of two (s), from 1/4 of the duration or 64 default steps down, unless they are given.
+  void choose_steps() {
+    const double duration = scene_.simulate.duration;
+    if (world_.body_count() == 0) throw SimulationError("the scene has no bodies: there is nothing to measure");
+    if (!(duration > 0)) throw SimulationError("the scene lasts 0 s: there is nothing to measure");
+    const double most = std::min(0.25 * duration, 64 * default_step(world_, scene_.initial));
+    const double longest = options_.longest.value_or(std::exp2(std::floor(std::log2(most))));
+    const double shortest = options_.shortest.value_or(std::ldexp(longest, -halvings));
+    for (double step = longest; step >= shortest * (1 - 1e-9); step *= 0.5) steps_.push_back(step);
+  }
+
+  RecordedRun record(const SimulationMethod& method, const std::function<void()>& look) const {
+    return record_run(world_, scene_.initial, settings_of(scene_.simulate, method), method.steps, reference_.instants,
+                      look);
+  }
+
+  void fill(BenchRow& row, const RecordedRun& run) {
+    row.max_overlap = run.tally.max_overlap;
+    row.collisions = run.tally.collisions();
+    row.hash = run.hash;
+    if (reference_.horizon > 0) row.errors = reference_.off(world_, run);
+    if (!reference_.ensemble) return;
+    row.statistics = reference_.statistics(world_, run);
+    row.speed_distance = reference_.ensemble->speed_distance(row.statistics);
+    row.deviation = reference_.ensemble->deviation(row.statistics);
+    row.statistics.speeds = {};
+  }
+
+  void rows_of_stepped() {
+    // Along parabolas dop853 has no steps: the row is engine exact's.
+    if (varying_force(world_) != nullptr)
+      for (const double error : step_errors) row_of(dop853(world_, error));
+    for (const Integrator integrator : {Integrator::euler, Integrator::verlet, Integrator::rk4})
+      rows_of({.engine = Engine::stepped, .integrator = integrator});
+  }
+
+  /// Of a method that chooses its steps.
+  void row_of(const SimulationMethod& method) {
+    BenchRow row;
+    row.method = method;
+    try {
+      const bool recorded = method == reference_.method;
+      const RecordedRun other = recorded ? RecordedRun{} : record(method, look_within(left_, watch_.look));
+      const RecordedRun& run = recorded ? reference_.run : other;
+      fill(row, run);
+      if (method.engine == Engine::exact && !recorded && reference_.horizon > 0)
+        evidence_->add({method, run, reference_.rounded});
+      row.repeats =
+          static_cast<int>(std::clamp<std::int64_t>(whole_below(0.2 * left_ / run.cpu_s), 1, options_.repeat));
+    } catch (const Overrun&) {
+      result_.left_out.push_back(
+          fmt::format("{}: one run takes more than {:.2g} s of CPU time", full_name_of(method), left_));
+      return;
+    } catch (const SimulationError& error) {
+      row.failure = named(error).what();
+    }
+    result_.rows.push_back(std::move(row));
+  }
+
+  /// From the longest step on, until the next one would cost more than this method's share.
+  void rows_of(SimulationMethod method) {
+    double share = left_ / 4, bare = 0, records = 0;  // s: what a run takes, and what recording it takes beside that
+    for (const double step : steps_) {
+      if (records + (2 + least_repeats) * 2 * bare > share) {
+        result_.left_out.push_back(fmt::format("{}: steps below {:.4g} s, for the budget of {:.4g} s of CPU time",
+                                               name_of(method), 2 * step, options_.budget));
+        return;
+      }
+      method.steps.length = step;
+      const double rows = static_cast<double>(result_.rows.size()) / static_cast<double>(4 * steps_.size() + 1);
+      watch_.tell(0.5 * std::max(rows, std::min(1.0, spent() / options_.budget)), full_name_of(method));
+      BenchRow row;
+      row.method = method;
+      try {
+        RecordedRun run = record(method, look_within(0.5 * share, watch_.look));
+        fill(row, run);
+        row.cpu_s = bare = time_once(row);
+        records = std::max(0.0, run.cpu_s - bare);
+        share -= run.cpu_s + bare;
+        row.repeats = static_cast<int>(std::clamp<std::int64_t>(whole_below(share / bare), 0, options_.repeat));
+        share -= row.repeats * bare;
+        // The book's engine is off by what bodies overlap, however smooth their paths are.
+        if (reference_.horizon > 0 && method.engine == Engine::stepped) evidence_->add_halved(method, std::move(run));
+      } catch (const Overrun&) {
+        result_.left_out.push_back(fmt::format("{}: steps of {:.4g} s and shorter, one run takes more than {:.2g} s",
+                                               name_of(method), step, 0.5 * share));
+        return;
+      } catch (const SimulationError& error) {
+        row.failure = named(error).what();
+      }
+      result_.rows.push_back(std::move(row));
+    }
+  }
+
+  void settle_reference() {
+    result_.rounding = reference_.rounding;
+    result_.chaotic = reference_.chaotic;
+    result_.horizon = reference_.horizon;
+    if (reference_.ensemble) {
+      result_.members = reference_.ensemble->size();
+      result_.mean = reference_.ensemble->mean();
+    }
+    if (reference_.horizon > 0) {
+      Verdict verdict = evidence_->verdict(options_.reference.has_value());
+      reference_.error = verdict.error;
+      result_.witnesses = std::move(verdict.witnesses);
+      if (verdict.trusted > 0) take_reference(evidence_->findings()[verdict.trusted]);
+    }
+    result_.reference = reference_.method;
+    result_.reference_error = reference_.error;
+    for (BenchRow& row : result_.rows)
+      if (row.errors && row.method == reference_.method) row.errors = reference_.error;
+  }
+
+  /// In place of the first one.
+  void take_reference(const Finding& finding) {
+    reference_.method = finding.method;
+    reference_.run = finding.run;
+    for (BenchRow& row : result_.rows)
+      if (row.failure.empty()) row.errors = reference_.off(world_, record(row.method, watch_.look));
+  }
+
+  /// Nothing recorded; the result must be the row's. Gives the CPU time (s).
+  double time_once(const BenchRow& row) const {
+    const double start = cpu_time();
+    const SimulationMethod& method = row.method;
+    const Simulate settings = settings_of(scene_.simulate, method);
+    if (bare_run(world_, scene_.initial, settings, method.steps, watch_.look) != row.hash)
+      throw std::runtime_error(fmt::format("the result is another one at each run of {}", full_name_of(method)));
+    return cpu_time() - start;
+  }
+
+  /// A row without repeats has its time already, from the one run that there was time for.
+  void time_rows() {
+    std::vector<BenchRow*> rows;
+    std::vector<TimedTask> tasks;
+    for (BenchRow& row : result_.rows) {
+      if (!row.failure.empty() || row.repeats == 0) continue;
+      rows.push_back(&row);
+      tasks.push_back({[this, &row] { time_once(row); }, row.repeats});
+    }
+    const auto tell = [&](double done) { watch_.tell(0.5 + 0.5 * done, "timed runs"); };
+    const std::vector<double> medians = time_in_turns(tasks, tell);
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k]->cpu_s = medians[k];
+    for (BenchRow& row : result_.rows) row.repeats = std::max(row.repeats, 1);
+  }
+
+  const Scene& scene_;
+  const World& world_;
+  const BenchOptions& options_;
+  const BenchWatch& watch_;
+  const double start_ = cpu_time();
+  double left_ = 0;            // s of CPU time for the rows
+  std::vector<double> steps_;  // s, from the longest
+  Reference reference_;
+  std::optional<Evidence> evidence_;
+  BenchResult result_;
+};
+
+}  // namespace
+
+double rounding_of(const Scene& scene) {
+  return 0x1p-53 * extent(scene.world, scene.initial);
+}
+
+BenchResult run_bench(const Scene& scene, const BenchOptions& options, const BenchWatch& watch) {
+  return Bench(scene, options, watch).go();
+}
+
+}  // namespace carom

@@ -1,0 +1,188 @@
+#include "bench/bench_folder.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "files/csv.h"
+#include "files/manifest.h"
+#include "files/mesh_copies.h"
+#include "run/engine.h"
+
+namespace carom {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double least_deviation = 0.01;  // in the plot
+
+Json outputs_json(const BenchOptions& options) {
+  const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+  return {{"bench",
+           {{"longest_step_s", number(options.longest)},
+            {"shortest_step_s", number(options.shortest)},
+            {"repeat", options.repeat},
+            {"budget_s", options.budget},
+            {"reference", options.reference ? Json(name_of(*options.reference)) : Json()}}}};
+}
+
+Json facts_json(const BenchResult& result) {
+  const Differences& error = result.reference_error;
+  Json reference = method_json(result.reference);
+  reference["position_error_m"] = error.position;
+  reference["velocity_error_m_per_s"] = error.velocity;
+  reference["energy_error_J"] = error.energy;
+  reference["held_against"] = witnesses_json(result.witnesses);
+  return {{"reference", std::move(reference)},
+          {"rounding_m", result.rounding},
+          {"chaotic", result.chaotic},
+          {"compared_until_s", result.horizon},
+          {"ensemble", result.members},
+          {"left_out", result.left_out},
+          {"cpu_s", result.cpu_s}};
+}
+
+void write_table(OutputFile& file, const BenchResult& result) {
+  file.write(
+      "engine,integrator,step_s,cpu_s,position_error_m,velocity_error_m_per_s,energy_error_J,max_overlap_m,"
+      "collisions_missed,collisions_invented,result_hash,status,repeats,collisions,compared_until_s,"
+      "collision_rate_per_s,mean_speed_m_per_s,force_on_fixed_N,speed_distance,deviation,deviation_of,step_error,"
+      "reference_error_m\n");
+  for (const BenchRow& row : result.rows) {
+    const bool done = row.failure.empty(), errors = done && row.errors, statistics = done && result.chaotic;
+    const auto if_any = [](bool there, double value) { return there ? value : nothing; };
+    const Differences e = row.errors.value_or(Differences{});
+    CsvRow cells(file);
+    const SimulationMethod& method = row.method;
+    cells.text(name_of(method.engine)).text(method.engine == Engine::stepped ? name_of(method.integrator) : "");
+    cells.number(method.steps.length.value_or(nothing))
+        .number(if_any(done, row.cpu_s))
+        .number(if_any(errors, e.position));
+    cells.number(if_any(errors, e.velocity)).number(if_any(errors, e.energy)).number(if_any(done, row.max_overlap));
+    cells.number(if_any(errors, static_cast<double>(e.missed)));
+    cells.number(if_any(errors, static_cast<double>(e.invented)));
+    cells.text(done ? fmt::format("{:016x}", row.hash) : "").text(done ? "done" : "failed");
+    cells.number(if_any(done, row.repeats)).number(if_any(done, static_cast<double>(row.collisions)));
+    cells.number(if_any(errors, result.horizon));
+    cells.number(if_any(statistics, row.statistics.collision_rate));
+    cells.number(if_any(statistics, row.statistics.mean_speed));
+    cells.number(if_any(statistics, row.statistics.force_on_fixed));
+    cells.number(if_any(statistics, row.speed_distance)).number(if_any(statistics, row.deviation.value));
+    cells.text(statistics ? row.deviation.of : "").number(if_any(method.steps.error > 0, method.steps.error));
+    cells.number(if_any(errors, result.reference_error.position)).end();
+  }
+}
+
+std::size_t look_of(const SimulationMethod& method) {
+  return method.engine == Engine::exact  ? 0
+         : method.engine == Engine::book ? 5
+                                         : 1 + static_cast<std::size_t>(method.integrator);
+}
+
+std::string plot_subtitle(const BenchResult& result) {
+  if (result.chaotic)
+    return fmt::format("a chaotic scene: from the mean of {} runs by the {} engine that differ by rounding",
+                       result.members, name_of(result.reference.engine));
+  return fmt::format("error: distance from a run by {}; bars: that run's own error", full_name_of(result.reference));
+}
+
+PlotPoint point_of(const BenchRow& row, const BenchResult& result) {
+  PlotPoint point{row.cpu_s, result.chaotic ? row.deviation.value : row.errors->position, steps_text(row.method)};
+  if (result.chaotic) return point;
+  point.low = point.y - result.reference_error.position;
+  point.high = point.y + result.reference_error.position;
+  return point;
+}
+
+bool has_exact_bits(const BenchRow& row, const BenchRow& first) {
+  return row.method.engine == Engine::stepped && first.method.engine == Engine::exact && row.hash == first.hash;
+}
+
+std::vector<PlotLevel> levels_of(const BenchResult& result) {
+  if (result.chaotic) return {{"significant above", significant_deviation}};
+  return {{"limit of rounding", result.rounding}};
+}
+
+}  // namespace
+
+nlohmann::ordered_json method_json(const SimulationMethod& method) {
+  Json json = {{"engine", name_of(method.engine)}};
+  if (method.engine == Engine::stepped) json["integrator"] = name_of(method.integrator);
+  if (method.steps.length) json["step_s"] = *method.steps.length;
+  if (method.steps.error > 0) json["step_error"] = method.steps.error;
+  return json;
+}
+
+nlohmann::ordered_json witnesses_json(const std::vector<Witness>& witnesses) {
+  Json list = Json::array();
+  for (const Witness& witness : witnesses) {
+    Json json = method_json(witness.method);
+    json["apart_m"] = witness.apart;
+    json["agrees"] = witness.agrees;
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
+  Plot plot;
+  plot.title = valid_utf8(scene.title);
+  plot.subtitle = plot_subtitle(result);
+  plot.x_label = "CPU time of the run (s)";
+  plot.y_label = result.chaotic ? "deviation of statistics (1: their spread by rounding)"
+                                : "position error (m), greatest of all bodies and instants";
+  plot.floor = result.chaotic ? least_deviation : rounding_of(scene);
+  plot.levels = levels_of(result);
+  std::set<std::string> exact;  // integrators whose runs have the exact engine's very bits: a point with it
+  for (const BenchRow& row : result.rows) {
+    if (!row.failure.empty() || (!result.chaotic && !row.errors)) continue;
+    if (has_exact_bits(row, result.rows.front())) {
+      exact.insert(name_of(row.method.integrator));
+      continue;
+    }
+    const std::string name = name_of(row.method);
+    if (plot.series.empty() || plot.series.back().name != name) plot.series.push_back({name, look_of(row.method), {}});
+    plot.series.back().points.push_back(point_of(row, result));
+  }
+  if (exact.size() == 3) exact = {"stepped"};
+  for (const std::string& name : exact) plot.series.front().name += ", " + name;
+  // The steps of the first and the last point tell those between.
+  for (PlotSeries& series : plot.series)
+    for (std::size_t k = 1; k + 1 < series.points.size(); ++k) series.points[k].label.clear();
+  return plot;
+}
+
+FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene, const BenchOptions& options) {
+  std::vector<std::string> files = {"scene.yaml"};
+  files.insert(files.end(), bench_files.begin(), bench_files.end());
+  for (const MeshFile& mesh : scene.meshes)
+    if (!mesh.copy.empty()) files.push_back(mesh.copy);
+  Scene nothing_else;  // what a run of the scene would write is no part of a bench
+  nothing_else.resolved = scene.resolved;
+  nothing_else.meshes = scene.meshes;
+  return inspect_folder(folder, nothing_else, outputs_json(options).dump(), files);
+}
+
+void BenchFolder::write(const Scene& scene, const BenchOptions& options, const BenchResult& result) {
+  const PlotPictures pictures = draw_plot(work_precision_plot(scene, result), gnuplot_);
+  std::vector<FileRecord> records = folder_.begin(scene, read_meshes(scene));
+  const FilePlace& place = folder_.place();
+  OutputFile table(place, bench_files[0]), png(place, bench_files[1]), svg(place, bench_files[2]);
+  write_table(table, result);
+  png.write(pictures.png);
+  svg.write(pictures.svg);
+  for (OutputFile* file : {&table, &png, &svg}) {
+    file->complete();
+    records.push_back(file->record());
+  }
+  OutputFile manifest(place, manifest_name);
+  manifest.write(manifest_text(scene, outputs_json(options).dump(), facts_json(result).dump(), records));
+  manifest.complete();
+  folder_.publish({&table, &png, &svg}, manifest);
+}
+
+}  // namespace carom

@@ -1,0 +1,130 @@
+#include "bench/differences.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "numerics/compensated.h"
+#include "physics/force.h"
+
+namespace carom {
+
+namespace {
+
+struct Interval {
+  double from, to;  // s
+};
+
+/// Pairs off two runs' collisions, and tells of each body when the runs are on different sides of one.
+class Matching {
+ public:
+  Matching(const World& world, const RecordedRun& reference, const RecordedRun& run, double until)
+      : world_(world),
+        until_(until),
+        end_(reference.duration),
+        least_speed_(reference.least_speed()),
+        between_(world.body_count()) {
+    auto r = reference.impacts.begin();
+    auto s = run.impacts.begin();
+    while (r != reference.impacts.end() || s != run.impacts.end()) {
+      // The next two things that meet in either run, and all their collisions in both.
+      const bool from_reference = s == run.impacts.end() || (r != reference.impacts.end() && key(*r) <= key(*s));
+      const auto pair = key(from_reference ? *r : *s);
+      const auto r_end = std::find_if(r, reference.impacts.end(), [&](const Impact& i) { return key(i) != pair; });
+      const auto s_end = std::find_if(s, run.impacts.end(), [&](const Impact& i) { return key(i) != pair; });
+      match({r, r_end}, {s, s_end});
+      r = r_end;
+      s = s_end;
+    }
+  }
+
+  std::uint64_t missed() const { return missed_; }
+  std::uint64_t invented() const { return invented_; }
+
+  bool same_side(Entity body, double time) const {
+    const auto& between = between_[body];
+    return std::none_of(between.begin(), between.end(),
+                        [&](const Interval& i) { return i.from <= time && time <= i.to; });
+  }
+
+ private:
+  static std::pair<Entity, Entity> key(const Impact& i) { return {i.a, i.b}; }
+
+  /// s: in which a and b, at this collision's speed, pass through each other.
+  double passage(const Impact& i) const {
+    const double size = world_.radius[i.a] + (world_.is_body(i.b)       ? world_.radius[i.b]
+                                              : world_.is_obstacle(i.b) ? world_.obstacle(i.b).volume.reach()
+                                                                        : 0);
+    return size / i.approach_speed;  // a speed of 0: for ever
+  }
+
+  /// One pair's collisions, in order of time: matched in turn, or else the earlier one has no counterpart.
+  void match(std::span<const Impact> reference, std::span<const Impact> run) {
+    std::size_t i = 0, j = 0;
+    while (i < reference.size() && j < run.size()) {
+      const auto [from, to] = std::minmax(reference[i].time, run[j].time);
+      if (to - from <= passage(reference[i])) {
+        between_[reference[i].a].push_back({from, to});
+        if (world_.is_body(reference[i].b)) between_[reference[i].b].push_back({from, to});
+        ++i, ++j;
+      } else if (reference[i].time < run[j].time) {
+        count(reference[i++], missed_);
+      } else {
+        count(run[j++], invented_);
+      }
+    }
+    for (; i < reference.size(); ++i) count(reference[i], missed_);
+    for (; j < run.size(); ++j) count(run[j], invented_);
+  }
+
+  /// One near the end may have its counterpart beyond it.
+  void count(const Impact& impact, std::uint64_t& sum) const {
+    if (impact.time <= until_ && impact.time + passage(impact) <= end_ && impact.approach_speed >= least_speed_) ++sum;
+  }
+
+  const World& world_;
+  double until_, end_, least_speed_;
+  std::vector<std::vector<Interval>> between_;  // by body
+  std::uint64_t missed_ = 0, invented_ = 0;
+};
+
+}  // namespace
+
+namespace {
+
+/// J: kinetic, and the World's potential there.
+double body_energy(const World& world, const State& state, Entity body) {
+  const double mass = state.mass.empty() ? world.mass[body] : state.mass[body];
+  return 0.5 * mass * state.velocity[body].squaredNorm() + potential(world, body, state.position[body]);
+}
+
+}  // namespace
+
+Differences larger(const Differences& a, const Differences& b) {
+  return {std::max(a.position, b.position), std::max(a.velocity, b.velocity), std::max(a.energy, b.energy),
+          std::max(a.missed, b.missed), std::max(a.invented, b.invented)};
+}
+
+Differences differences(const World& world, const RecordedRun& reference, const RecordedRun& run,
+                        const std::vector<double>& instants, double until) {
+  const Matching matching(world, reference, run, until);
+  Differences most;
+  most.missed = matching.missed();
+  most.invented = matching.invented();
+  for (std::size_t k = 0; k < instants.size() && instants[k] <= until; ++k) {
+    const State &there = reference.states[k], &here = run.states[k];
+    Sum energy;
+    for (Entity body = 0; body < world.body_count(); ++body) {
+      most.position = std::max(most.position, (here.position[body] - there.position[body]).norm());
+      if (!matching.same_side(body, instants[k])) continue;
+      most.velocity = std::max(most.velocity, (here.velocity[body] - there.velocity[body]).norm());
+      energy.add(body_energy(world, here, body));
+      energy.add(-body_energy(world, there, body));
+    }
+    most.energy = std::max(most.energy, std::abs(energy.value()));
+  }
+  return most;
+}
+
+}  // namespace carom

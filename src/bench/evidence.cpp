@@ -1,0 +1,105 @@
+// Two runs by halved steps that agree say nothing of what both have missed, and an engine's faith in its closed forms
+// says nothing of its code. So no method is taken at its own word where another contradicts it (Oberkampf & Roy,
+// Verification and Validation in Scientific Computing, 2010, ch. 5 and 7: code and solution verification).
+#include "bench/evidence.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+constexpr double safety = 10;         // an estimate of an error may be off by so much
+constexpr double rounding_room = 16;  // the same, of what rounding does: a few runs have shown it
+constexpr double converging = 0.6;    // a method of order 1 halves its error with its step
+
+constexpr double told = 0x1p46;  // of a place's last digit, 2^-7 of the extent: a run that is off by more says nothing
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Whether steps are as short as forces ask for, or there are none.
+bool looks_between(const SimulationMethod& method) {
+  return method.engine == Engine::exact || method.is_stepped_by(Integrator::dop853);
+}
+
+}  // namespace
+
+Evidence::Evidence(const World& world, const std::vector<double>& instants, double until, const Differences& rounding,
+                   double last_digit, Finding first)
+    : world_(world), instants_(instants), until_(until), rounding_(rounding), last_digit_(last_digit) {
+  findings_.push_back(std::move(first));
+}
+
+void Evidence::add(Finding finding) {
+  findings_.push_back(std::move(finding));
+}
+
+void Evidence::add_halved(const SimulationMethod& method, RecordedRun run) {
+  if (run.hash == findings_.front().run.hash) return;
+  if (last_ && last_->method.integrator != method.integrator) {
+    last_.reset();
+    best_ = 0;
+  }
+  Finding finding{method, std::move(run), {}};
+  double change = infinite;
+  if (last_) {
+    finding.error = larger(between(last_->run, finding.run), rounding_);
+    // A place is rounded in each step, often in the same direction.
+    change = std::max(finding.error.position, until_ / *method.steps.length * last_digit_);
+    const bool falls = change_ < infinite && change <= converging * change_;
+    // Two runs in a row may be off alike by accident, three hardly.
+    finding.error.position = change_ < infinite ? std::max(change, 0.5 * change_) : change;
+    const bool converges = falls || change <= rounding_room * rounding_.position;
+    if (converges && finding.error.position <= told * last_digit_) keep(finding);
+  }
+  last_ = std::move(finding);
+  change_ = change;
+}
+
+/// The series' best run so far.
+void Evidence::keep(const Finding& finding) {
+  if (best_ == 0) {
+    best_ = findings_.size();
+    findings_.push_back(finding);
+  } else if (finding.error.position < findings_[best_].error.position) {
+    findings_[best_] = finding;
+  }
+}
+
+bool Evidence::agree(const Finding& a, const Finding& b, double apart) const {
+  return apart <= safety * (a.error.position + b.error.position) + rounding_room * rounding_.position;
+}
+
+Verdict Evidence::verdict(bool settled) const {
+  const std::size_t n = findings_.size();
+  Verdict verdict;
+  std::vector<Differences> apart(n * n);
+  std::vector<bool> confirmed(n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 1; j < n; ++j) {
+      apart[i * n + j] = apart[j * n + i] = between(findings_[i].run, findings_[j].run);
+      // Two methods of fixed steps may agree because neither sees what lies between its steps.
+      if (looks_between(findings_[i].method) || looks_between(findings_[j].method))
+        if (agree(findings_[i], findings_[j], apart[i * n + j].position)) confirmed[i] = confirmed[j] = true;
+    }
+  // The first one, unless others agree on something else, or by far more digits.
+  for (std::size_t i = 1; i < n && !settled; ++i) {
+    const double mine = findings_[i].error.position, held = findings_[verdict.trusted].error.position;
+    if (confirmed[i] && (!confirmed[verdict.trusted] || rounding_room * mine < held)) verdict.trusted = i;
+  }
+  const Finding& trusted = findings_[verdict.trusted];
+  verdict.error = trusted.error;
+  Differences least{infinite, infinite, infinite, 0, 0};
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i == verdict.trusted) continue;
+    const Differences& d = apart[verdict.trusted * n + i];
+    verdict.witnesses.push_back({findings_[i].method, d.position, agree(trusted, findings_[i], d.position)});
+    if (d.position < least.position) least = d;
+  }
+  if (n > 1 && !confirmed[verdict.trusted]) verdict.error = larger(verdict.error, least);
+  return verdict;
+}
+
+}  // namespace carom

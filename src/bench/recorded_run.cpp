@@ -1,0 +1,51 @@
+#include "bench/recorded_run.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "bench/state_hash.h"
+#include "bench/timing.h"
+
+namespace carom {
+
+RecordedRun record_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
+                       const std::vector<double>& instants, const std::function<void()>& look) {
+  const double start = cpu_time();
+  RecordedRun run;
+  run.duration = simulate.duration;
+  const auto simulator = make_simulator(world, initial, simulate, {.collisions = true}, steps);
+  const auto go_to = [&](double time) {
+    while (simulator->time() < time) {
+      look();
+      simulator->advance_to(time);
+      for (const Collision& c : simulator->collisions()) {
+        if (c.kind == CollisionKind::rest) continue;
+        run.impacts.push_back({c.time, c.approach_speed, c.a, c.b, c.impulse});
+      }
+    }
+  };
+  for (const double instant : instants) {
+    go_to(instant);
+    run.states.push_back(simulator->state());
+  }
+  go_to(simulate.duration);
+  run.tally = simulator->tally();
+  run.hash = hash_of(simulator->state(), run.tally);
+  std::stable_sort(run.impacts.begin(), run.impacts.end(), [](const Impact& p, const Impact& q) {
+    return std::tie(p.a, p.b, p.time) < std::tie(q.a, q.b, q.time);
+  });
+  run.cpu_s = cpu_time() - start;
+  return run;
+}
+
+std::uint64_t bare_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
+                       const std::function<void()>& look) {
+  const auto simulator = make_simulator(world, initial, simulate, {}, steps);
+  while (simulator->time() < simulate.duration) {
+    look();
+    simulator->advance_to(simulate.duration);
+  }
+  return hash_of(simulator->state(), simulator->tally());
+}
+
+}  // namespace carom

@@ -1,0 +1,174 @@
+#include "bench/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/shifted.h"
+#include "bench/timing.h"
+#include "physics/force.h"
+#include "scene/engines.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+namespace {
+
+using accuracy_tolerance::golden, accuracy_tolerance::most_instants, accuracy_tolerance::places_kept;
+
+constexpr int shifted_runs = 3;
+constexpr int ensemble_runs = 12;
+constexpr double astray = 0.01;  // of the largest radius
+constexpr double last_digit = 0x1p-53, grown = 0x1p14;
+
+std::vector<double> instants_in(double from, double to, std::size_t bodies) {
+  const auto most = static_cast<int>(places_kept / static_cast<double>(std::max<std::size_t>(bodies, 1)));
+  const int count = std::clamp(most, 8, most_instants);
+  std::vector<double> instants(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) instants[static_cast<std::size_t>(k)] = from + (to - from) * (k + golden) / count;
+  return instants;
+}
+
+class Making {
+ public:
+  Making(const Scene& scene, const BenchOptions& options, const BenchWatch& watch)
+      : scene_(scene), world_(scene.world), options_(options), watch_(watch) {}
+
+  Reference go() {
+    watch_.tell(0, "the reference");
+    SimulationMethod& method = reference_.method;
+    const bool exact_runs = unsupported(world_, settings_of(scene_.simulate, method)).empty();
+    method.engine = options_.reference.value_or(exact_runs ? Engine::exact : Engine::stepped);
+    if (method.engine == Engine::stepped) method = dop853(world_, exact_tolerance::step_error);
+    reference_.duration = scene_.simulate.duration;
+    if (const auto lacks = unsupported(world_, settings_of(scene_.simulate, method)); !lacks.empty())
+      throw SimulationError("there is no reference: " + lacks.front().what);
+    try {
+      run();
+    } catch (const Overrun&) {
+      throw SimulationError(
+          fmt::format("the reference, by {}, takes too long for a budget of {} s: give it more (--budget), or "
+                      "shorten simulate.duration",
+                      name_of(reference_.method), options_.budget));
+    }
+    return std::move(reference_);
+  }
+
+ private:
+  double spent() const { return cpu_time() - start_; }
+
+  RecordedRun record(const World& world, const State& initial, const SimulationMethod& method) const {
+    return record_run(world, initial, settings_of(scene_.simulate, method), method.steps, reference_.instants,
+                      look_within(0.5 * options_.budget, watch_.look));
+  }
+
+  void run() {
+    const double duration = scene_.simulate.duration;
+    reference_.instants = instants_in(0, duration, world_.body_count());
+    reference_.run = record(world_, scene_.initial, reference_.method);
+    const double once = reference_.run.cpu_s;
+    std::vector<RecordedRun> others;
+    for (int k = 1; k <= shifted_runs && (k == 1 || (k + 1) * once < 0.2 * options_.budget); ++k)
+      others.push_back(shifted_run(k, reference_.method));
+    judge(others);
+    if (reference_.chaotic) {
+      gather_ensemble();
+    } else {
+      for (const RecordedRun& other : others) take_rounding(other);
+    }
+    reference_.error = reference_.rounded;
+    if (!(reference_.horizon > 0) || varying_force(world_) == nullptr) return;
+    watch_.tell(0, "dop853");
+    const SimulationMethod fine = dop853(world_, exact_tolerance::step_error / accuracy_tolerance::finer);
+    if (reference_.method.engine == Engine::stepped) {
+      reference_.error = larger(reference_.error, reference_.off(world_, record(world_, scene_.initial, fine)));
+    } else {
+      find_another(fine);
+    }
+  }
+
+  /// One that takes too long is none.
+  void find_another(const SimulationMethod& fine) {
+    if (!unsupported(world_, settings_of(scene_.simulate, fine)).empty()) return;
+    try {
+      const RecordedRun coarse = record(world_, scene_.initial, dop853(world_, exact_tolerance::step_error));
+      // Elsewhere, so that what rounding does in so many steps shows.
+      Finding other{fine, shifted_run(1, fine), {}};
+      other.error =
+          larger(reference_.rounded, differences(world_, coarse, other.run, reference_.instants, reference_.horizon));
+      reference_.second = std::move(other);
+    } catch (const Overrun&) {
+    } catch (const SimulationError&) {
+    }
+  }
+
+  RecordedRun shifted_run(int number, const SimulationMethod& method) const {
+    const Vec3 by = shift(extent(world_, scene_.initial), number);
+    const World world = shifted(world_, by);
+    RecordedRun run = record(world, shifted(scene_.initial, by), method);
+    for (State& state : run.states) state = shifted(std::move(state), -by);
+    return run;
+  }
+
+  void take_rounding(const RecordedRun& other) {
+    reference_.rounded = larger(reference_.rounded, reference_.off(world_, other));
+  }
+
+  /// Whether rounding grows until trajectories mean nothing, and until when they do.
+  void judge(const std::vector<RecordedRun>& others) {
+    const double first = last_digit * extent(world_, scene_.initial);
+    double until = 0;
+    for (std::size_t k = 0; k < reference_.instants.size(); ++k) {
+      for (const RecordedRun& other : others)
+        for (Entity i = 0; i < world_.body_count(); ++i)
+          reference_.rounding = std::max(reference_.rounding,
+                                         (other.states[k].position[i] - reference_.run.states[k].position[i]).norm());
+      if (reference_.rounding <= grown * first) until = reference_.instants[k];
+    }
+    reference_.chaotic = reference_.rounding > astray * *std::max_element(world_.radius.begin(), world_.radius.end());
+    reference_.horizon = reference_.chaotic ? until : scene_.simulate.duration;
+  }
+
+  /// The reference itself and more shifted runs, all looked at before the horizon, and then behind it.
+  void gather_ensemble() {
+    std::vector<double>& instants = reference_.instants;
+    instants = instants_in(0, reference_.horizon, world_.body_count());
+    if (!(reference_.horizon > 0)) instants.clear();
+    reference_.trajectory_instants = instants.size();
+    for (const double later : instants_in(reference_.horizon, scene_.simulate.duration, world_.body_count()))
+      instants.push_back(later);
+    reference_.run = record(world_, scene_.initial, reference_.method);
+    std::vector<Statistics> members = {reference_.statistics(world_, reference_.run)};
+    for (int k = 1; k <= ensemble_runs; ++k) {
+      if (k > 3 && spent() + reference_.run.cpu_s > 0.5 * options_.budget) break;
+      watch_.tell(0, "the reference, shifted");
+      const RecordedRun run = shifted_run(k, reference_.method);
+      members.push_back(reference_.statistics(world_, run));
+      take_rounding(run);
+    }
+    reference_.ensemble.emplace(std::move(members));
+  }
+
+  const Scene& scene_;
+  const World& world_;
+  const BenchOptions& options_;
+  const BenchWatch& watch_;
+  const double start_ = cpu_time();
+  Reference reference_;
+};
+
+}  // namespace
+
+std::function<void()> look_within(double share, const std::function<void()>& look) {
+  return [end = cpu_time() + share, &look] {
+    look();
+    if (cpu_time() > end) throw Overrun{};
+  };
+}
+
+Reference make_reference(const Scene& scene, const BenchOptions& options, const BenchWatch& watch) {
+  return Making(scene, options, watch).go();
+}
+
+}  // namespace carom

@@ -1,0 +1,37 @@
+#include "bench/shifted.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace carom {
+
+World shifted(const World& world, const Vec3& by) {
+  World moved = world;
+  for (Plane& plane : moved.planes) plane.point += by;
+  for (Wall& wall : moved.walls) wall.center += by;
+  for (Obstacle& obstacle : moved.obstacles) obstacle.center += by;
+  for (Force& force : moved.forces) {
+    if (auto* spring = std::get_if<Spring>(&force.law)) spring->anchor += by;
+    if (auto* attractor = std::get_if<Attractor>(&force.law)) attractor->center += by;
+  }
+  return moved;
+}
+
+State shifted(State state, const Vec3& by) {
+  for (Vec3& x : state.position) x += by;
+  return state;
+}
+
+double extent(const World& world, const State& initial) {
+  double most = 0;
+  for (Entity i = 0; i < world.body_count(); ++i) most = std::max(most, initial.position[i].norm() + world.radius[i]);
+  return most;
+}
+
+Vec3 shift(double extent, int number) {
+  const auto fraction = [&](double root) { return number * root - std::floor(number * root); };
+  return extent * Vec3(0.5 + fraction(std::sqrt(2.0)), 0.5 + fraction(std::sqrt(3.0)), 0.5 + fraction(std::sqrt(5.0)));
+}
+
+}  // namespace carom

@@ -1,0 +1,103 @@
+#include "bench/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace carom {
+
+Statistics statistics_of(const World& world, const RecordedRun& run, double duration, std::size_t from) {
+  Statistics statistics;
+  std::uint64_t struck = 0;  // bodies, in all
+  double on_fixed = 0;       // N s
+  for (const Impact& impact : run.impacts) {
+    if (impact.approach_speed < run.least_speed()) continue;
+    const bool bodies = world.is_body(impact.b);
+    struck += bodies ? 2 : 1;
+    if (!bodies) on_fixed += impact.impulse;
+  }
+  statistics.collision_rate = static_cast<double>(struck) / (static_cast<double>(world.body_count()) * duration);
+  statistics.force_on_fixed = on_fixed / duration;
+  for (std::size_t k = from; k < run.states.size(); ++k)
+    for (const Vec3& v : run.states[k].velocity) statistics.speeds.push_back(v.norm());
+  std::sort(statistics.speeds.begin(), statistics.speeds.end());
+  statistics.mean_speed = std::accumulate(statistics.speeds.begin(), statistics.speeds.end(), 0.0) /
+                          std::max(1.0, static_cast<double>(statistics.speeds.size()));
+  return statistics;
+}
+
+double distance(std::span<const double> a, std::span<const double> b) {
+  double most = 0;
+  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+    const double x = std::min(a[i], b[j]);
+    while (i < a.size() && a[i] <= x) ++i;
+    while (j < b.size() && b[j] <= x) ++j;
+    most = std::max(most, std::abs(static_cast<double>(i) / static_cast<double>(a.size()) -
+                                   static_cast<double>(j) / static_cast<double>(b.size())));
+  }
+  return most;
+}
+
+namespace {
+
+/// value - mean of the sample over the standard deviation of one more draw; 0 where the sample has no spread.
+double deviation_from(const std::vector<double>& sample, double value) {
+  const auto n = static_cast<double>(sample.size());
+  const double mean = std::accumulate(sample.begin(), sample.end(), 0.0) / n;
+  double squares = 0;
+  for (const double x : sample) squares += (x - mean) * (x - mean);
+  const double spread = std::sqrt(squares / (n - 1) * (1 + 1 / n));
+  return spread > 1e-9 * std::abs(mean) ? (value - mean) / spread : 0;
+}
+
+template <typename Get>
+std::vector<double> each(const std::vector<Statistics>& members, const Get& get) {
+  std::vector<double> values(members.size());
+  std::transform(members.begin(), members.end(), values.begin(), get);
+  return values;
+}
+
+double rate(const Statistics& s) {
+  return s.collision_rate;
+}
+double speed(const Statistics& s) {
+  return s.mean_speed;
+}
+double force(const Statistics& s) {
+  return s.force_on_fixed;
+}
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+Ensemble::Ensemble(std::vector<Statistics> members) : members_(std::move(members)) {
+  mean_.collision_rate = mean_of(each(members_, rate));
+  mean_.mean_speed = mean_of(each(members_, speed));
+  mean_.force_on_fixed = mean_of(each(members_, force));
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    std::vector<double> others;
+    for (std::size_t k = 0; k < members_.size(); ++k)
+      if (k != m) others.insert(others.end(), members_[k].speeds.begin(), members_[k].speeds.end());
+    std::sort(others.begin(), others.end());
+    distances_.push_back(distance(members_[m].speeds, others));
+    speeds_.insert(speeds_.end(), members_[m].speeds.begin(), members_[m].speeds.end());
+  }
+  std::sort(speeds_.begin(), speeds_.end());
+}
+
+Deviation Ensemble::deviation(const Statistics& run) const {
+  Deviation most{0, "collision_rate_per_s"};
+  const auto take = [&](double value, const char* of) {
+    if (value > most.value) most = {value, of};
+  };
+  take(std::abs(deviation_from(each(members_, rate), run.collision_rate)), "collision_rate_per_s");
+  take(std::abs(deviation_from(each(members_, speed), run.mean_speed)), "mean_speed_m_per_s");
+  take(std::abs(deviation_from(each(members_, force), run.force_on_fixed)), "force_on_fixed_N");
+  take(deviation_from(distances_, speed_distance(run)), "speed_distance");
+  return most;
+}
+
+}  // namespace carom

@@ -1,0 +1,57 @@
+#include "bench/timing.h"
+
+#include <algorithm>
+#include <ctime>
+
+namespace carom {
+
+namespace {
+
+constexpr double resolved = 2e-3;  // s: the shortest time that is measured
+constexpr int most_in_a_turn = 100'000;
+
+/// s, of one of `runs` runs.
+double turn(const TimedTask& task, int runs) {
+  const double start = cpu_time();
+  for (int k = 0; k < runs; ++k) task.run();
+  return (cpu_time() - start) / runs;
+}
+
+}  // namespace
+
+double cpu_time() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::vector<double> time_in_turns(const std::vector<TimedTask>& tasks, const std::function<void(double)>& tell) {
+  std::vector<int> runs;  // in a turn
+  std::vector<std::vector<double>> times(tasks.size());
+  int rounds = 0;
+  for (const TimedTask& task : tasks) {
+    int many = 1;
+    // A task that is timed but once takes long enough.
+    while (task.repeats > 1 && many < most_in_a_turn) {
+      const double once = turn(task, many);
+      if (once * many >= resolved) break;
+      const double enough = std::min<double>(most_in_a_turn, resolved / std::max(once, 1e-8));
+      many = std::max(2 * many, static_cast<int>(enough));
+    }
+    runs.push_back(many);
+    rounds = std::max(rounds, task.repeats);
+  }
+  for (int round = 0; round < rounds; ++round) {
+    tell(static_cast<double>(round) / rounds);
+    for (std::size_t k = 0; k < tasks.size(); ++k)
+      if (round < tasks[k].repeats) times[k].push_back(turn(tasks[k], runs[k]));
+  }
+  std::vector<double> medians;
+  for (std::vector<double>& all : times) {
+    std::sort(all.begin(), all.end());
+    medians.push_back(0.5 * (all[(all.size() - 1) / 2] + all[all.size() / 2]));
+  }
+  return medians;
+}
+
+}  // namespace carom

@@ -1,0 +1,102 @@
+#include "commands/batch.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "commands/interrupt.h"
+#include "commands/progress.h"
+#include "study/workers.h"
+
+namespace carom {
+namespace {
+
+int run_in_turn(const Batch& batch, std::vector<PlannedScene>& scenes, const Options& options) {
+  int code = 0;
+  for (PlannedScene& planned : scenes) {
+    try {
+      batch.settle(code != 0                      ? without_run(planned, scene_status::not_run)
+                   : batch.is_up_to_date(planned) ? batch.up_to_date(planned)
+                                                  : batch.run(planned, progress_choice(options)));
+    } catch (const Interrupted& signal) {
+      batch.settle(run_interrupted(planned));
+      code = signal.exit_code();
+    }
+    planned.scene.reset();  // the next one may need the memory
+  }
+  return code;
+}
+
+/// Scenes in processes of their own.
+class Together {
+ public:
+  Together(const Batch& batch, const std::vector<PlannedScene>& scenes, const Options& options,
+           std::string_view command, std::size_t to_do)
+      : batch_(batch),
+        scenes_(scenes),
+        to_do_(to_do),
+        outcomes_(scenes.size()),
+        progress_(progress_choice(options), wants_color(options.color, STDERR_FILENO), std::string(command), 1, 0) {}
+
+  int go(std::size_t jobs) {
+    Tasks tasks;
+    tasks.next = [this] { return next(); };
+    tasks.work = [this](std::size_t i) { return packed(batch_.run(scenes_[i], ProgressChoice::none)); };
+    tasks.done = [this](const TaskOutcome& outcome) { take(outcome); };
+    tasks.look = stop_if_interrupted;
+    share_processors(jobs);
+    int code = 0;
+    try {
+      work_off(tasks, jobs);
+    } catch (const Interrupted& signal) {
+      for (std::size_t i = settled_; i < outcomes_.size(); ++i)
+        if (!outcomes_[i])
+          outcomes_[i] = i < begun_ ? run_interrupted(scenes_[i]) : without_run(scenes_[i], scene_status::not_run);
+      code = signal.exit_code();
+    }
+    settle_in_order();
+    return code;
+  }
+
+ private:
+  std::optional<std::size_t> next() {
+    for (; begun_ < scenes_.size() && batch_.is_up_to_date(scenes_[begun_]); ++begun_)
+      outcomes_[begun_] = batch_.up_to_date(scenes_[begun_]);
+    return begun_ < scenes_.size() ? std::optional(begun_++) : std::nullopt;
+  }
+
+  void take(const TaskOutcome& outcome) {
+    outcomes_[outcome.task] = outcome.kind == TaskOutcome::Kind::done ? unpacked(outcome.text)
+                                                                      : run_failed(scenes_[outcome.task], outcome.text);
+    settle_in_order();
+    progress_.update(++finished_, to_do_, "scenes");
+  }
+
+  void settle_in_order() {
+    for (; settled_ < outcomes_.size() && outcomes_[settled_]; ++settled_) {
+      progress_.clear();
+      batch_.settle(*std::exchange(outcomes_[settled_], SceneOutcome{}));
+    }
+  }
+
+  const Batch& batch_;
+  const std::vector<PlannedScene>& scenes_;
+  const std::size_t to_do_;  // scenes that are not up to date
+  std::size_t begun_ = 0, finished_ = 0, settled_ = 0;
+  std::vector<std::optional<SceneOutcome>> outcomes_;  // by scene
+  Progress progress_;
+};
+
+}  // namespace
+
+int run_batch(const Batch& batch, std::vector<PlannedScene>& scenes, const Options& options, std::string_view command) {
+  const auto to_do = static_cast<std::size_t>(std::count_if(
+      scenes.begin(), scenes.end(), [&](const PlannedScene& planned) { return !batch.is_up_to_date(planned); }));
+  const std::size_t jobs = std::min<std::size_t>(options.jobs.value_or(1), to_do);
+  if (jobs <= 1) return run_in_turn(batch, scenes, options);
+  return Together(batch, scenes, options, command, to_do).go(jobs);
+}
+
+}  // namespace carom

@@ -1,0 +1,23 @@
+#pragma once
+// The scenes of a command line, run one after another or in several processes; what is printed of them comes in their
+// order.
+#include <functional>
+#include <vector>
+
+#include "commands/command_line.h"
+#include "commands/plan.h"
+#include "commands/scene_outcome.h"
+
+namespace carom {
+
+struct Batch {
+  std::function<bool(const PlannedScene&)> is_up_to_date;
+  std::function<SceneOutcome(const PlannedScene&)> up_to_date;
+  std::function<SceneOutcome(const PlannedScene&, ProgressChoice)> run;  // may throw Interrupted
+  std::function<void(SceneOutcome)> settle;                              // prints and counts, in the scenes' order
+};
+
+/// Settles every scene. Gives the exit code of an interrupt, or 0.
+int run_batch(const Batch& batch, std::vector<PlannedScene>& scenes, const Options& options, std::string_view command);
+
+}  // namespace carom

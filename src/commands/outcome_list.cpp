@@ -1,0 +1,41 @@
+#include "commands/outcome_list.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+#include <vector>
+
+#include "commands/report.h"
+#include "commands/text.h"
+
+namespace carom {
+
+void OutcomeList::add(SceneOutcome outcome) {
+  ++counts_[outcome.status];
+  if (!outcome.complaint.empty()) complain(options_, outcome.complaint);
+  entries_.push_back(std::move(outcome.entry));
+  if (options_.json || options_.quiet || outcome.out.empty()) return;
+  write_out(outcome.out);
+  flush_out();
+}
+
+void OutcomeList::end(std::string_view command, double wall) {
+  if (options_.json)
+    write_out(document(command, entries_));
+  else if (entries_.size() > 1 && !options_.quiet)
+    write_out(total(wall));
+}
+
+std::string OutcomeList::total(double wall) {
+  std::vector<std::string> parts;
+  std::size_t rest = entries_.size();
+  for (const char* status : {scene_status::done, scene_status::up_to_date, scene_status::failed}) {
+    if (counts_[status] > 0) parts.push_back(fmt::format("{} {}", counts_[status], status));
+    rest -= counts_[status];
+  }
+  if (rest > 0) parts.push_back(fmt::format("{} not finished", rest));
+  return fmt::format("{} scenes: {}, in {}\n", entries_.size(), fmt::join(parts, ", "), wait_text(wall));
+}
+
+}  // namespace carom

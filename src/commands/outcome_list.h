@@ -1,0 +1,30 @@
+#pragma once
+// What is printed of all scenes of a command line: each as it ends, and at the end the document of --json or a line
+// that counts them.
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "commands/scene_outcome.h"
+
+namespace carom {
+
+class OutcomeList {
+ public:
+  explicit OutcomeList(const Options& options) : options_(options) {}
+
+  void add(SceneOutcome outcome);
+  /// `wall`: s, of all of them.
+  void end(std::string_view command, double wall);
+  std::size_t count(const std::string& status) { return counts_[status]; }
+
+ private:
+  std::string total(double wall);
+
+  const Options& options_;
+  nlohmann::ordered_json entries_ = nlohmann::ordered_json::array();
+  std::map<std::string, std::size_t> counts_;  // of scenes, by status
+};
+
+}  // namespace carom

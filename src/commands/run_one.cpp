@@ -1,0 +1,54 @@
+#include "commands/run_one.h"
+
+#include <fmt/format.h>
+
+#include <new>
+
+#include "commands/interrupt.h"
+#include "commands/text.h"
+
+namespace carom {
+namespace {
+
+Show show_of(const PlannedScene& planned) {
+  Show show{planned.scene.get(), planned.folder, planned.load_s};
+  if (planned.former && planned.former->folder == planned.folder) show.renewed = &planned.former->manifest;
+  return show;
+}
+
+/// Of a former run the motion is taken from its flights, and its warnings and measures as they are.
+RunSettings settings_of(const PlannedScene& planned, bool quiet) {
+  RunSettings settings;
+  if (!planned.former) return settings;
+  const FormerRun& former = *planned.former;
+  settings.warnings = former.manifest.warnings;
+  if (former.has_flights())
+    settings.simulator = [&former](const Scene& scene) { return former.motion(scene); };
+  else if (!quiet)
+    write_err(fmt::format("{}: no flights are stored there: simulating again\n", printable(former.folder)));
+  settings.measure = [&former](const Scene&, const State&, const Summary& summary) {
+    if (summary.collisions != former.manifest.collisions)
+      throw ExportError(fmt::format("the motion is another one: {} collisions, not {}", summary.collisions,
+                                    former.manifest.collisions));
+    return former.manifest.measures;
+  };
+  return settings;
+}
+
+}  // namespace
+
+SceneOutcome run_one(const PlannedScene& planned, const Options& options, const Style& style, Progress& progress) {
+  const RunWatch watch{stop_if_interrupted, [&](double time, std::uint64_t collisions, std::uint64_t pictures) {
+                         progress.update(time, collisions, pictures);
+                       }};
+  try {
+    return run_done(planned, run_scene(show_of(planned), planned.engine, settings_of(planned, options.quiet), watch),
+                    options, style);
+  } catch (const std::bad_alloc&) {
+    return run_failed(planned, "not enough memory");
+  } catch (const std::exception& error) {
+    return run_failed(planned, error.what());
+  }
+}
+
+}  // namespace carom

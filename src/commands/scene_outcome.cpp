@@ -1,0 +1,101 @@
+#include "commands/scene_outcome.h"
+
+#include <fmt/format.h>
+
+#include "commands/accuracy_report.h"
+#include "commands/interrupt.h"
+#include "commands/text.h"
+
+namespace carom {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json begin(const PlannedScene& planned, std::string_view status) {
+  return {{"scene", planned.file}, {"status", std::string(status)}, {"folder", planned.folder}};
+}
+
+std::string doubtful_text(const PlannedScene& planned, const std::vector<Warning>& warnings) {
+  std::string text;
+  for (const Warning& warning : warnings)
+    text += fmt::format("{}{}: doubtful: {}", text.empty() ? "" : "\ncarom: ", printable(planned.file), warning.text);
+  return text;
+}
+
+/// The run's members of the document.
+void add_members(Json& entry, const PlannedScene& planned, const RunResult& result) {
+  entry["summary"] = summary_json(result.summary);
+  entry["contact"] = contact_json(result.summary);
+  if (!result.summary.energy.of_forces.empty()) entry["work"] = work_json(result.summary);
+  entry["warnings"] = warnings_json(result.summary.warnings);
+  entry["files"] = files_in(planned.folder);
+  entry["time"] = facts_json(result);
+}
+
+}  // namespace
+
+SceneOutcome without_run(const PlannedScene& planned, std::string_view status) {
+  return {std::string(status), begin(planned, status), {}, {}};
+}
+
+SceneOutcome wrong_scene(const PlannedScene& planned) {
+  SceneOutcome outcome = without_run(planned, "wrong");
+  outcome.entry["error"] = planned.error;
+  return outcome;
+}
+
+SceneOutcome run_done(const PlannedScene& planned, const RunResult& result, const Options& options,
+                      const Style& style) {
+  SceneOutcome outcome = without_run(planned, scene_status::done);
+  add_members(outcome.entry, planned, result);
+  Block block(style.palette, style.width);
+  block.heading(planned.name, planned.scene->title);
+  describe(block, planned, result);
+  if (options.accuracy) {
+    const AccuracyReport accuracy = report_accuracy(*planned.scene, result.engine);
+    outcome.entry["accuracy"] = accuracy.json;
+    for (const auto& [label, text] : accuracy.lines) block.line(label, text);
+  }
+  outcome.out = block.text();
+  if (options.quiet) outcome.complaint = doubtful_text(planned, result.summary.warnings);
+  return outcome;
+}
+
+SceneOutcome run_up_to_date(const PlannedScene& planned, const Style& style) {
+  SceneOutcome outcome = without_run(planned, scene_status::up_to_date);
+  outcome.entry["files"] = files_in(planned.folder);
+  const std::vector<Warning> warnings = warnings_in(planned.folder);
+  outcome.entry["warnings"] = warnings_json(warnings);
+  Block block(style.palette, style.width);
+  block.heading(planned.name, planned.scene->title);
+  block.line("up to date", printable(planned.folder));
+  describe(block, warnings);
+  outcome.out = block.text();
+  return outcome;
+}
+
+SceneOutcome run_failed(const PlannedScene& planned, std::string_view text) {
+  SceneOutcome outcome = without_run(planned, scene_status::failed);
+  outcome.entry["error"] = std::string(text);
+  outcome.complaint = fmt::format("{}: the run failed: {}", printable(planned.file), text);
+  return outcome;
+}
+
+SceneOutcome run_interrupted(const PlannedScene& planned) {
+  SceneOutcome outcome = without_run(planned, scene_status::interrupted);
+  outcome.complaint = fmt::format("{}: interrupted; the same command runs what is missing", printable(planned.file));
+  return outcome;
+}
+
+std::string packed(const SceneOutcome& outcome) {
+  return Json::array({outcome.status, outcome.entry, outcome.out, outcome.complaint})
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+SceneOutcome unpacked(const std::string& text) {
+  Json parts = Json::parse(text);
+  return {parts[0], std::move(parts[1]), parts[2], parts[3]};
+}
+
+}  // namespace carom

@@ -1,0 +1,43 @@
+#pragma once
+// What became of a scene of a command line: for the terminal, and as an entry of the document of --json.
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "commands/command_line.h"
+#include "commands/plan.h"
+#include "commands/report.h"
+#include "run/run_scene.h"
+
+namespace carom {
+
+namespace scene_status {
+inline constexpr const char *done = "done", *up_to_date = "up to date", *failed = "failed",
+                            *interrupted = "interrupted", *not_run = "not run";
+}
+
+struct SceneOutcome {
+  std::string status;
+  nlohmann::ordered_json entry;  // of the document of --json
+  std::string out;               // for stdout
+  std::string complaint;         // for stderr; empty: none
+};
+
+/// How stdout is written to.
+struct Style {
+  Palette palette;
+  std::size_t width;  // columns
+};
+
+SceneOutcome without_run(const PlannedScene& planned, std::string_view status);
+SceneOutcome wrong_scene(const PlannedScene& planned);  // its error, which the terminal has already
+SceneOutcome run_done(const PlannedScene& planned, const RunResult& result, const Options& options, const Style& style);
+SceneOutcome run_up_to_date(const PlannedScene& planned, const Style& style);
+SceneOutcome run_failed(const PlannedScene& planned, std::string_view text);
+SceneOutcome run_interrupted(const PlannedScene& planned);
+
+/// As text from process to process.
+std::string packed(const SceneOutcome& outcome);
+SceneOutcome unpacked(const std::string& text);
+
+}  // namespace carom

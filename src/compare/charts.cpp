@@ -1,0 +1,146 @@
+#include "compare/charts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <utility>
+
+namespace carom {
+namespace {
+
+constexpr std::size_t most_default_charts = 6, most_default_lines = 10, most_lines = 24;
+constexpr std::size_t most_charted = 2000;  // points of a chart: it has fewer pixels
+
+std::optional<std::size_t> find_measure(const std::vector<Measure>& measures, std::string_view name) {
+  for (std::size_t k = 0; k < measures.size(); ++k)
+    if (measures[k].name == name) return k;
+  return std::nullopt;
+}
+
+/// What stands along x: a number or a text for each point.
+struct XAxis {
+  std::string label;
+  bool numeric = true, chosen = true;  // chosen: by a parameter, not measured
+  std::function<Cell(std::size_t)> of_point;
+};
+
+XAxis x_axis(const Chart& chart, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+             const Outcomes& outcomes) {
+  XAxis axis;
+  const auto parameter = find_parameter(plan, chart.x);
+  const auto measure = find_measure(measures, chart.x);
+  if (parameter && parameter != plan.seed) {
+    const Varied& varied = outcomes.varied()[*parameter];
+    axis.label = label_of(plan.parameters[*parameter]);
+    axis.numeric = varied.numeric;
+    axis.of_point = [&varied](std::size_t i) { return varied.values[varied.of_point[i]]; };
+  } else if (measure) {
+    axis.label = label_of(chart.x);
+    axis.chosen = false;
+    axis.of_point = [&outcomes, m = *measure](std::size_t i) { return Cell{{}, outcomes.spread(i, m).mean()}; };
+  } else {
+    axis.label = "run";
+    axis.numeric = false;
+    axis.of_point = [&outcomes](std::size_t i) { return Cell{std::string(outcomes.id(i))}; };
+  }
+  return axis;
+}
+
+}  // namespace
+
+std::optional<std::size_t> find_parameter(const ComparisonPlan& plan, std::string_view path) {
+  for (std::size_t p = 0; p < plan.parameters.size(); ++p)
+    if (plan.parameters[p].path == path) return p;
+  return std::nullopt;
+}
+
+std::string label_of(const Parameter& parameter) {
+  return parameter.unit.empty() ? parameter.path : fmt::format("{} ({})", parameter.path, parameter.unit);
+}
+
+std::string name_of_value(const Parameter& parameter, const std::string& value) {
+  return fmt::format("{} = {}{}{}", parameter.path, value, parameter.unit.empty() ? "" : " ", parameter.unit);
+}
+
+std::vector<Chart> chosen_charts(const ComparisonPlan& plan, const std::vector<Measure>& measures,
+                                 const Outcomes& outcomes) {
+  if (!plan.charts.empty()) return plan.charts;
+  std::vector<std::size_t> independent = outcomes.independent();
+  const auto values = [&](std::size_t p) { return outcomes.varied()[p].values.size(); };
+  std::string x, by;
+  if (!independent.empty()) {
+    // The one with few values makes the lines.
+    if (independent.size() > 1 && values(independent[1]) > most_default_lines &&
+        values(independent[0]) <= most_default_lines)
+      std::swap(independent[0], independent[1]);
+    x = plan.parameters[independent[0]].path;
+    if (independent.size() > 1 && values(independent[1]) <= most_default_lines)
+      by = plan.parameters[independent[1]].path;
+  }
+  std::vector<Chart> charts;
+  for (std::size_t k = 0; k < measures.size() && k < most_default_charts; ++k)
+    charts.push_back({x, measures[k].name, by});
+  return charts;
+}
+
+ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+                     const Outcomes& outcomes) {
+  const XAxis axis = x_axis(chart, plan, measures, outcomes);
+  const std::size_t y = find_measure(measures, chart.y).value_or(0);
+  const auto by = chart.by.empty() ? std::nullopt : find_parameter(plan, chart.by);
+  const Varied* lines = by && by != plan.seed ? &outcomes.varied()[*by] : nullptr;
+  ChartData data;
+  data.x_label = axis.label;
+  data.y_label = label_of(chart.y);
+  data.title = fmt::format("{} by {}", data.y_label, axis.label);
+  data.numeric = axis.numeric;
+
+  const std::size_t all = lines == nullptr ? 1 : lines->values.size();
+  data.lines.resize(std::min(all, most_lines));
+  if (all > most_lines) data.note = fmt::format("{} of {} values of {}", most_lines, all, chart.by);
+  for (std::size_t line = 0; lines != nullptr && line < data.lines.size(); ++line)
+    data.lines[line].name = name_of_value(plan.parameters[*by], lines->values[line].text);
+
+  // A row for each x; several where a line has several points there.
+  const auto line_of = [&](std::size_t i) -> std::size_t { return lines == nullptr ? 0 : lines->of_point[i]; };
+  std::vector<std::size_t> points_of_line(data.lines.size());
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < outcomes.points(); ++i) shown += line_of(i) < data.lines.size() ? 1 : 0;
+  const std::size_t every = 1 + (std::max<std::size_t>(shown, 1) - 1) / most_charted;
+  if (every * outcomes.every() > 1)
+    data.note += fmt::format("{}one of {} runs", data.note.empty() ? "" : ", ", every * outcomes.every());
+  using Row = std::pair<std::pair<double, std::size_t>, std::size_t>;  // x, or the order of its text; how often before
+  std::map<Row, std::vector<std::pair<std::size_t, std::size_t>>> rows;  // line and point
+  std::map<std::string, std::size_t> texts;
+  std::map<std::pair<std::size_t, std::pair<double, std::size_t>>, std::size_t> seen;
+  for (std::size_t i = 0; i < outcomes.points(); ++i) {
+    const std::size_t line = line_of(i);
+    // Each line is thinned by itself, so that none is left out.
+    if (line >= data.lines.size() || points_of_line[line]++ % every != 0) continue;
+    const Cell x = axis.of_point(i);
+    if (axis.numeric && !x.is_number()) continue;
+    const std::pair<double, std::size_t> key =
+        axis.numeric ? std::pair(x.number, std::size_t{0}) : std::pair(0.0, texts.emplace(x.text, i).first->second);
+    rows[{key, seen[{line, key}]++}].emplace_back(line, i);
+  }
+  for (ChartLine& line : data.lines) {
+    line.y.assign(rows.size(), std::nan(""));
+    if (plan.seed) line.spread = line.y;
+  }
+  data.joined = axis.chosen;
+  for (const auto& [key, points] : rows) {
+    for (const auto& [line, point] : points) {
+      const Spread spread = outcomes.spread(point, y);
+      data.lines[line].y[data.x.size()] = spread.mean();
+      if (plan.seed) data.lines[line].spread[data.x.size()] = spread.sd();
+    }
+    data.x.push_back(axis.of_point(points.front().second));
+    data.joined = data.joined && key.second == 0;
+  }
+  return data;
+}
+
+}  // namespace carom

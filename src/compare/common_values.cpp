@@ -1,0 +1,72 @@
+#include "compare/common_values.h"
+
+#include <algorithm>
+
+#include "files/stored_file.h"
+#include "scene/load.h"
+#include "yaml/source.h"
+
+namespace carom {
+namespace {
+
+/// The text up to the next separator, and the rest.
+std::string_view take(std::string_view& rest, char separator) {
+  const std::size_t end = std::min(rest.find(separator), rest.size());
+  const std::string_view part = rest.substr(0, end);
+  rest.remove_prefix(std::min(end + 1, rest.size()));
+  return part;
+}
+
+}  // namespace
+
+void CommonValues::add(const RunRecord& run) {
+  if (!run.done) return;
+  const auto text = read_text(run.folder.get(), "scene.yaml", max_source_bytes);
+  if (!text) return;
+  if (text_.empty()) {
+    folder_ = run.run.folder;
+    text_ = *text;
+    same_.assign(text_.size(), true);
+  } else if (text_ != *text) {
+    compare(*text);
+  }
+}
+
+// Resolved scenes have a line for each thing and a comma between its values: no need to parse ten thousand of them.
+void CommonValues::compare(std::string_view other) {
+  if (std::count(text_.begin(), text_.end(), '\n') != std::count(other.begin(), other.end(), '\n')) {
+    same_.assign(text_.size(), false);
+    return;
+  }
+  const auto differ = [&](std::string_view part) {
+    const auto from = same_.begin() + (part.data() - text_.data());
+    std::fill(from, from + static_cast<std::ptrdiff_t>(part.size()), false);
+  };
+  for (std::string_view rest = text_; !rest.empty();) {
+    std::string_view line = take(rest, '\n'), other_line = take(other, '\n');
+    if (line == other_line) continue;
+    if (std::count(line.begin(), line.end(), ',') != std::count(other_line.begin(), other_line.end(), ',')) {
+      differ(line);
+      continue;
+    }
+    while (!line.empty()) {
+      const std::string_view value = take(line, ',');
+      if (value != take(other_line, ',')) differ(value);
+    }
+  }
+}
+
+std::vector<SceneValue> CommonValues::values() const {
+  std::vector<SceneValue> common;
+  if (text_.empty()) return common;
+  for (SceneValue& value : scene_values(folder_ + "/scene.yaml", text_)) {
+    // A text or a list may have commas of its own, and parts that differ behind them.
+    const std::size_t length = value.text.find(',') == std::string::npos ? 1 : value.text.size();
+    const auto from = same_.begin() + static_cast<std::ptrdiff_t>(std::min(value.offset, same_.size()));
+    const auto until = from + std::min(static_cast<std::ptrdiff_t>(length), same_.end() - from);
+    if (std::find(from, until, false) == until) common.push_back(std::move(value));
+  }
+  return common;
+}
+
+}  // namespace carom

@@ -1,0 +1,26 @@
+#pragma once
+// What the scenes of many runs have in common, found with one scene in memory.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compare/compared_run.h"
+#include "scene/scene_values.h"
+
+namespace carom {
+
+class CommonValues {
+ public:
+  /// Takes the run's scene.yaml.
+  void add(const RunRecord& run);
+  /// The values that every scene so far has; none if their texts differ in more than values.
+  std::vector<SceneValue> values() const;
+
+ private:
+  void compare(std::string_view other);
+
+  std::string folder_, text_;  // of the first run
+  std::vector<bool> same_;     // by byte of text_
+};
+
+}  // namespace carom

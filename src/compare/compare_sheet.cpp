@@ -1,0 +1,259 @@
+#include "compare/compare_sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace carom {
+namespace {
+
+constexpr double column_width = 13;  // characters: 96 pixels
+constexpr std::size_t columns_of_chart = 7, rows_of_chart = 20, charts_across = 2;
+constexpr std::uint32_t chart_width = 650, chart_height = 385;  // pixels
+constexpr std::size_t most_bars = 120;                          // error bars of a chart: each is a series of its own
+constexpr std::size_t most_marked = 200;                        // points of a line that are marked
+constexpr std::size_t most_runs_over_time = 12;
+
+// Told apart by people who see few colours too (Okabe and Ito 2008).
+constexpr std::array<lxw_color_t, 8> colors = {0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7,
+                                               0xE69F00, 0x56B4E9, 0x595959, 0x8C510A};
+
+lxw_color_t color_of(std::size_t number) {
+  return colors[number % colors.size()];
+}
+
+struct CellRange {
+  const char* sheet;
+  std::size_t first_row, column, last_row;
+};
+
+lxw_chart_series* add_series(lxw_chart* chart, const CellRange& x, const CellRange& y, const std::string& name) {
+  lxw_chart_series* series = chart_add_series(chart, nullptr, nullptr);
+  const auto row = [](std::size_t n) { return static_cast<lxw_row_t>(n); };
+  const auto column = [](std::size_t n) { return static_cast<lxw_col_t>(n); };
+  chart_series_set_categories(series, x.sheet, row(x.first_row), column(x.column), row(x.last_row), column(x.column));
+  chart_series_set_values(series, y.sheet, row(y.first_row), column(y.column), row(y.last_row), column(y.column));
+  if (!name.empty()) chart_series_set_name(series, name.c_str());
+  return series;
+}
+
+void set_line(lxw_chart_series* series, std::size_t number, bool drawn) {
+  lxw_chart_line line{};
+  line.color = color_of(number);
+  line.dash_type =
+      static_cast<std::uint8_t>(number < colors.size() ? LXW_CHART_LINE_DASH_SOLID : LXW_CHART_LINE_DASH_DASH);
+  line.width = 1.75F;
+  line.none = drawn ? LXW_FALSE : LXW_TRUE;
+  chart_series_set_line(series, &line);
+}
+
+void set_marker(lxw_chart_series* series, std::size_t number, bool drawn) {
+  chart_series_set_marker_type(series, drawn ? LXW_CHART_MARKER_CIRCLE : LXW_CHART_MARKER_NONE);
+  if (!drawn) return;
+  lxw_chart_fill fill{};
+  fill.color = color_of(number);
+  lxw_chart_line edge{};
+  edge.color = fill.color;
+  chart_series_set_marker_size(series, 5);
+  chart_series_set_marker_fill(series, &fill);
+  chart_series_set_marker_line(series, &edge);
+}
+
+void set_texts(lxw_chart* chart, const std::string& title, const std::string& x, const std::string& y, bool legend) {
+  lxw_chart_font large{}, small{};
+  large.size = 12;
+  large.bold = LXW_TRUE;
+  small.size = 10;
+  small.bold = LXW_EXPLICIT_FALSE;
+  chart_title_set_name(chart, title.c_str());
+  chart_title_set_name_font(chart, &large);
+  chart_axis_set_name(chart->x_axis, x.c_str());
+  chart_axis_set_name_font(chart->x_axis, &small);
+  chart_axis_set_name(chart->y_axis, y.c_str());
+  chart_axis_set_name_font(chart->y_axis, &small);
+  // Beside the picture, not along an axis that may cross it.
+  chart_axis_set_label_position(chart->x_axis, LXW_CHART_AXIS_LABEL_POSITION_LOW);
+  chart_axis_set_label_position(chart->y_axis, LXW_CHART_AXIS_LABEL_POSITION_LOW);
+  lxw_chart_line grid{};
+  grid.color = 0xD9D9D9;
+  grid.width = 0.75F;
+  chart_axis_major_gridlines_set_line(chart->y_axis, &grid);
+  chart_legend_set_position(chart, legend ? LXW_CHART_LEGEND_BOTTOM : LXW_CHART_LEGEND_NONE);
+}
+
+/// A standard deviation up and down from one point: a series of its own, for a series' error bars have one length.
+void add_bar(lxw_chart* chart, const CellRange& x, const CellRange& y, std::size_t row, double length,
+             std::size_t number) {
+  lxw_chart_series* point = add_series(chart, {x.sheet, row, x.column, row}, {y.sheet, row, y.column, row}, "");
+  set_line(point, number, false);
+  set_marker(point, number, false);
+  lxw_chart_line line{};
+  line.color = color_of(number);
+  line.width = 1.25F;
+  chart_series_set_error_bars(point->y_error_bars, LXW_CHART_ERROR_BAR_TYPE_FIXED, length);
+  chart_series_set_error_bars_line(point->y_error_bars, &line);
+}
+
+/// Where an axis ends so that it holds `low` to `high`: a spreadsheet does not count error bars, and begins columns
+/// anywhere. Zero is on it if that costs less than half of it.
+void set_ends(lxw_chart_axis* axis, double low, double high) {
+  if (!(high > low)) return;
+  if (low > 0 && low < 0.5 * high) low = 0;
+  if (high < 0 && high > 0.5 * low) high = 0;
+  // A step of 1, 2 or 5 times a power of ten, four to ten of them.
+  double step = 1;
+  while (step * 10 < high - low) step *= 10;
+  while (step > high - low) step /= 10;
+  for (const double part : {0.5, 0.4, 0.5})
+    if ((high - low) / step < 4) step *= part;
+  chart_axis_set_min(axis, step * std::floor(low / step));
+  chart_axis_set_max(axis, step * std::ceil(high / step));
+  chart_axis_set_major_unit(axis, step);
+}
+
+/// Least and greatest of what is drawn, error bars included.
+std::pair<double, double> ends_of(const ChartData& data) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const ChartLine& line : data.lines)
+    for (std::size_t row = 0; row < line.y.size(); ++row) {
+      if (!std::isfinite(line.y[row])) continue;
+      const double sd = line.spread.empty() || !(line.spread[row] > 0) ? 0 : line.spread[row];
+      low = std::min(low, line.y[row] - sd);
+      high = std::max(high, line.y[row] + sd);
+    }
+  return {low, high};
+}
+
+std::size_t bars_of(const ChartData& data) {
+  std::size_t bars = 0;
+  for (const ChartLine& line : data.lines)
+    bars += static_cast<std::size_t>(
+        std::count_if(line.spread.begin(), line.spread.end(), [](double sd) { return sd > 0; }));
+  return bars;
+}
+
+}  // namespace
+
+void CompareSheet::place(lxw_chart* chart, std::size_t number) {
+  lxw_chart_options options{};
+  options.x_scale = chart_width / 480.0;  // of the library's own size, 480 x 288 pixels
+  options.y_scale = chart_height / 288.0;
+  options.object_position = LXW_OBJECT_MOVE_DONT_SIZE;
+  worksheet_insert_chart_opt(sheet_.get(), static_cast<lxw_row_t>(charts_row_ + number / charts_across * rows_of_chart),
+                             static_cast<lxw_col_t>(number % charts_across * columns_of_chart), chart, &options);
+}
+
+void CompareSheet::draw(const ChartData& data, std::size_t number, std::size_t first_row, std::size_t first_column) {
+  const std::size_t last_row = first_row + data.x.size() - 1;
+  const std::size_t bars = bars_of(data);
+  const bool barred = data.numeric && bars > 0 && bars <= most_bars;
+  // Texts along x stand in their order, under columns.
+  lxw_chart* chart = book_.add_chart(data.numeric ? LXW_CHART_SCATTER : LXW_CHART_COLUMN);
+  const CellRange x{"Compare", first_row, first_column, last_row};
+  for (std::size_t k = 0; k < data.lines.size(); ++k) {
+    lxw_chart_series* series =
+        add_series(chart, x, {"Compare", first_row, first_column + 1 + k, last_row}, data.lines[k].name);
+    if (data.numeric) {
+      set_line(series, k, data.joined && data.x.size() > 1);
+      set_marker(series, k, data.x.size() <= most_marked || !data.joined);
+    } else {
+      lxw_chart_fill fill{};
+      fill.color = color_of(k);
+      chart_series_set_fill(series, &fill);
+    }
+  }
+  std::vector<std::int16_t> unnamed;
+  for (std::size_t k = 0; barred && k < data.lines.size(); ++k)
+    for (std::size_t row = 0; row < data.x.size(); ++row)
+      if (const double sd = data.lines[k].spread[row]; sd > 0) {
+        unnamed.push_back(static_cast<std::int16_t>(data.lines.size() + unnamed.size()));
+        add_bar(chart, x, {"Compare", first_row, first_column + 1 + k, last_row}, first_row + row, sd, k);
+      }
+  unnamed.push_back(-1);
+  std::string title = data.title;
+  if (barred) title += ", mean ± standard deviation";
+  if (!data.note.empty()) title += fmt::format(" ({})", data.note);
+  set_texts(chart, title, data.x_label, data.y_label, data.lines.size() > 1);
+  if (unnamed.size() > 1) chart_legend_delete_series(chart, unnamed.data());
+  chart_show_blanks_as(chart, LXW_CHART_BLANKS_AS_CONNECTED);
+  const auto [low, high] = ends_of(data);
+  if (barred) set_ends(chart->y_axis, low, high);
+  if (!data.numeric && low >= 0) chart_axis_set_min(chart->y_axis, 0);
+  place(chart, number);
+}
+
+void CompareSheet::draw_over_time(const std::vector<PlacedSeries>& series, std::size_t number) {
+  lxw_chart* chart = book_.add_chart(LXW_CHART_SCATTER_STRAIGHT);
+  const std::string& name = series.front().name;
+  std::size_t drawn = 0, all = 0;
+  for (const PlacedSeries& one : series) {
+    if (one.name != name || ++all > most_runs_over_time) continue;
+    lxw_chart_series* line =
+        add_series(chart, {"Series", 1, one.time_column, one.rows}, {"Series", 1, one.value_column, one.rows}, one.run);
+    set_line(line, drawn, true);
+    set_marker(line, 0, false);
+    ++drawn;
+  }
+  std::string title = fmt::format("{} over time", label_of(name));
+  if (all > drawn) title += fmt::format(" ({} of {} runs)", drawn, all);
+  set_texts(chart, title, "time (s)", label_of(name), drawn > 1);
+  place(chart, number);
+}
+
+void CompareSheet::write_data(const std::vector<ChartData>& charts, std::size_t first_row) {
+  // Row by row across all charts, for the sheet may be streamed.
+  std::size_t rows = 0, columns = 0;
+  for (const ChartData& chart : charts) {
+    rows = std::max(rows, chart.x.size());
+    sheet_.text(first_row, columns, chart.title, CellStyle::note);
+    columns += chart.lines.size() + 2;
+  }
+  constexpr double head_height = 45;  // points: three lines
+  worksheet_set_row(sheet_.get(), static_cast<lxw_row_t>(first_row + 1), head_height, nullptr);
+  std::size_t column = 0;
+  for (const ChartData& chart : charts) {
+    sheet_.text(first_row + 1, column, chart.x_label, CellStyle::swept_header);
+    for (std::size_t k = 0; k < chart.lines.size(); ++k) {
+      const std::string& name = chart.lines[k].name;
+      sheet_.text(first_row + 1, column + 1 + k, name.empty() ? chart.y_label : name, CellStyle::header);
+    }
+    column += chart.lines.size() + 2;
+  }
+  for (std::size_t row = 0; row < rows; ++row) {
+    column = 0;
+    for (const ChartData& chart : charts) {
+      if (row < chart.x.size()) {
+        sheet_.cell(first_row + 2 + row, column, chart.x[row], CellStyle::swept);
+        for (std::size_t k = 0; k < chart.lines.size(); ++k)
+          sheet_.number(first_row + 2 + row, column + 1 + k, chart.lines[k].y[row]);
+      }
+      column += chart.lines.size() + 2;
+    }
+  }
+  worksheet_set_column(sheet_.get(), 0, static_cast<lxw_col_t>(std::max(columns, charts_across * columns_of_chart)),
+                       column_width, nullptr);
+}
+
+void CompareSheet::write(const std::string& title, const std::vector<std::string>& lines,
+                         const std::vector<ChartData>& charts, const std::vector<PlacedSeries>& series) {
+  sheet_.text(0, 0, title, CellStyle::title);
+  for (std::size_t k = 0; k < lines.size(); ++k) sheet_.text(1 + k, 0, lines[k], CellStyle::note);
+  charts_row_ = lines.size() + 2;
+  const std::size_t all = charts.size() + (series.empty() ? 0 : 1);
+  const std::size_t data_row = charts_row_ + (all + charts_across - 1) / charts_across * rows_of_chart + 1;
+  write_data(charts, data_row);
+  std::size_t column = 0;
+  for (std::size_t k = 0; k < charts.size(); ++k) {
+    if (!charts[k].x.empty()) draw(charts[k], k, data_row + 2, column);
+    column += charts[k].lines.size() + 2;
+  }
+  if (!series.empty()) draw_over_time(series, charts.size());
+  worksheet_gridlines(sheet_.get(), LXW_HIDE_ALL_GRIDLINES);
+  sheet_.print_wide();
+}
+
+}  // namespace carom

@@ -1,0 +1,81 @@
+#include "compare/comparison_folder.h"
+
+#include <fcntl.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "files/folder_names.h"
+#include "files/manifest.h"
+#include "files/stored_file.h"
+
+namespace carom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* request_key = "comparison";
+
+bool is_comparison_file(const std::string& name) {
+  const std::array<std::string_view, 4> names = {summary_name, repeats_name, workbook_name, comparison_film_name};
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_comparison(const Manifest& manifest) {
+  const Json outputs = Json::parse(manifest.outputs, nullptr, false);
+  return outputs.is_object() && outputs.contains(request_key);
+}
+
+}  // namespace
+
+std::string request_text(const ComparisonPlan& plan, const std::string& runs, bool video) {
+  Json charts = Json::array();
+  for (const Chart& chart : plan.charts) charts.push_back({{"x", chart.x}, {"y", chart.y}, {"by", chart.by}});
+  const Json request = {{request_key,
+                         {{"title", valid_utf8(plan.title)},
+                          {"runs_sha256", runs},
+                          {"measures", plan.measures},
+                          {"charts", std::move(charts)},
+                          {"video", video}}}};
+  return request.dump();
+}
+
+FolderContent inspect_comparison_folder(const std::string& path, const std::string& request) {
+  const FoundFolder found = look_into(path);
+  const Descriptor& folder = found.folder;
+  if (found.names.empty()) return found.content;
+  if (!found.has(manifest_name)) {
+    // A comparison that was killed while it was written, or while its files got their names.
+    const bool ours = std::all_of(found.names.begin(), found.names.end(),
+                                  [](const auto& name) { return is_part_name(name) || is_comparison_file(name); });
+    return ours ? FolderContent::incomplete : FolderContent::other_run;
+  }
+  const auto manifest = read_manifest(folder.get(), manifest_name);
+  if (!manifest || !is_comparison(*manifest)) return FolderContent::other_run;
+  const bool whole = std::all_of(manifest->files.begin(), manifest->files.end(), [&](const FileRecord& file) {
+    const auto stored = read_record(folder.get(), file.name);
+    return stored && stored->bytes == file.bytes && stored->sha256 == file.sha256;
+  });
+  return whole && manifest->version == CAROM_VERSION && manifest->outputs == request ? FolderContent::this_run
+                                                                                     : FolderContent::incomplete;
+}
+
+void ComparisonFolder::publish(const std::vector<std::unique_ptr<OutputFile>>& files, SideBySide* film,
+                               const std::string& request) {
+  std::vector<PartFile*> all;
+  std::vector<FileRecord> records;
+  for (const auto& file : files) {
+    all.push_back(file.get());
+    records.push_back(file->record());
+  }
+  if (film != nullptr) {
+    all.push_back(&film->file());
+    records.push_back(film->record());
+  }
+  OutputFile manifest(folder_.place(), manifest_name);
+  manifest.write(manifest_text(request, "{}", records));
+  manifest.complete();
+  folder_.publish(std::move(all), manifest);
+}
+
+}  // namespace carom

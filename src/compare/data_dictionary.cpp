@@ -1,0 +1,108 @@
+#include "compare/data_dictionary.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace carom {
+namespace {
+
+constexpr std::array<ColumnText, 15> collisions = {
+    {{"time_s", "when they met"},
+     {"kind", "body-body, body-fixed, rest (bounces ended) or merge (two became one)"},
+     {"a", "the body; of two the first"},
+     {"b", "the other body, or the fixed thing"},
+     {"x_m", "x coordinate of the point of contact"},
+     {"y_m", "y coordinate of the point of contact"},
+     {"z_m", "z coordinate of the point of contact"},
+     {"nx", "the normal's x part; it points from a to b"},
+     {"ny", "the normal's y part"},
+     {"nz", "the normal's z part"},
+     {"approach_speed_m_per_s", "relative speed along the normal before; above 0: approaching"},
+     {"separation_speed_m_per_s", "the same after; above 0: separating"},
+     {"restitution", "the pair's coefficient"},
+     {"impulse_N_s", "along the normal"},
+     {"energy_lost_J", "by this collision; below 0: made"}}};
+
+constexpr std::array<ColumnText, 3> series = {{{"time_s", "instant of the columns to its right, up to the next time_s"},
+                                               {"kinetic_J", "kinetic energy of all bodies"},
+                                               {"total_J", "kinetic and potential energy of all bodies"}}};
+
+struct SheetText {
+  const char *name, *text;
+};
+constexpr SheetText sheets[] = {
+    {"Compare", "charts of the measures by what was varied; beneath them the numbers that they draw"},
+    {"Summary", "a row a run: summary.csv of each run, what was varied (tinted), further measures"},
+    {"Repeats",
+     "a row a scenario: mean, standard deviation (n - 1), least and greatest of its repeats; where there are"},
+    {"Pivot", "means of the measures by two parameters; where two vary"},
+    {"Series", "energy and bodies' motion over time, thinned; a column for each run"},
+    {"Collisions", "the collisions of all runs"},
+    {"Parameters", "what was varied, run by run, and what all runs have in common"},
+    {"About", "this sheet"}};
+
+std::string meaning_of(const Measure& measure) {
+  return measure.column != nullptr
+             ? std::string(measure.column->meaning)
+             : fmt::format("{} of {} at the run's end", meaning_of(measure.quantity), measure.body);
+}
+
+}  // namespace
+
+std::span<const ColumnText> collision_columns() {
+  return collisions;
+}
+
+void write_about(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+                 const std::vector<std::string>& remarks) {
+  std::size_t row = 0;
+  const auto section = [&](const char* title) {
+    ++row;
+    sheet.text(row++, 0, title, CellStyle::title);
+  };
+  const auto column = [&](const char* where, std::string_view name, std::string_view unit, std::string_view meaning) {
+    sheet.text(row, 0, where);
+    sheet.text(row, 1, name);
+    sheet.text(row, 2, unit);
+    sheet.text(row++, 3, meaning, CellStyle::wrapped);
+  };
+  sheet.text(row++, 0, plan.title, CellStyle::title);
+  sheet.text(row++, 0,
+             "written by carom " CAROM_VERSION
+             "; SI units, right-handed axes, y is up; numbers have 16 digits here and "
+             "all of theirs in the CSV files",
+             CellStyle::note);
+  section("Sheets");
+  for (const SheetText& text : sheets) {
+    sheet.text(row, 0, text.name);
+    sheet.text(row++, 1, text.text, CellStyle::note);
+  }
+  if (!remarks.empty()) {
+    section("Left out");
+    for (const std::string& remark : remarks) sheet.text(row++, 0, remark, CellStyle::note);
+  }
+  section("Columns");
+  for (std::size_t k = 0; const char* head : {"sheet", "column", "unit", "meaning"})
+    sheet.text(row, k++, head, CellStyle::header);
+  ++row;
+  for (const SummaryColumn& text : summary_columns()) column("Summary", text.name, unit_of(text.name), text.meaning);
+  for (const Parameter& parameter : plan.parameters)
+    column("Summary", parameter.path, parameter.unit, "varied: this value of the scene");
+  for (const Measure& measure : measures)
+    if (measure.column == nullptr) column("Summary", measure.name, unit_of(measure.name), meaning_of(measure));
+  if (plan.seed) {
+    column("Repeats", "n", "", "whole runs of the scenario");
+    for (const Measure& measure : measures)
+      column("Repeats", measure.name + ".mean, .sd, .min, .max", unit_of(measure.name), meaning_of(measure));
+  }
+  for (const ColumnText& text : series) column("Series", text.name, unit_of(text.name), text.meaning);
+  for (const ColumnText& text : collision_columns()) column("Collisions", text.name, unit_of(text.name), text.meaning);
+  sheet.fit(0, 12, 20);
+  sheet.fit(1, 20, 48);
+  sheet.fit(2, 8, 10);
+  sheet.fit(3, 80, 80);
+  sheet.print_wide();
+}
+
+}  // namespace carom

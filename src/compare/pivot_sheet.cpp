@@ -1,0 +1,125 @@
+#include "compare/pivot_sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/charts.h"
+
+namespace carom {
+namespace {
+
+constexpr std::size_t most_blocks = 6, most_values = 250, most_formulas = 2500;
+
+/// Mean over the points that have both values; by row, then column. Points that stand for more runs weigh more.
+struct Mean {
+  double sum = 0;
+  std::size_t count = 0;
+};
+
+std::string range_of(std::size_t column, std::size_t rows) {
+  char name[LXW_MAX_COL_NAME_LENGTH];
+  lxw_col_to_name(name, static_cast<lxw_col_t>(column), LXW_TRUE);
+  return fmt::format("Summary!{0}$2:{0}${1}", name, rows + 1);
+}
+
+std::string cell_name(std::size_t row, std::size_t column, bool row_fixed) {
+  char name[LXW_MAX_COL_NAME_LENGTH];
+  lxw_col_to_name(name, static_cast<lxw_col_t>(column), row_fixed ? LXW_FALSE : LXW_TRUE);
+  return fmt::format("{}{}{}", name, row_fixed ? "$" : "", row + 1);
+}
+
+/// Whether a formula's criterion takes the value for what it is: no wildcard, no comparison.
+bool is_literal(const Cell& cell) {
+  return cell.is_number() || (!cell.text.empty() && cell.text.find_first_of("<>=*?~'") == std::string::npos);
+}
+
+void add_scale(Worksheet& sheet, std::size_t row, std::size_t rows, std::size_t columns) {
+  lxw_conditional_format scale{};
+  scale.type = LXW_CONDITIONAL_2_COLOR_SCALE;
+  scale.min_color = 0xFFFFFF;
+  scale.max_color = 0x8FBFE0;
+  worksheet_conditional_format_range(sheet.get(), static_cast<lxw_row_t>(row), 1,
+                                     static_cast<lxw_row_t>(row + rows - 1), static_cast<lxw_col_t>(columns), &scale);
+}
+
+}  // namespace
+
+std::optional<std::pair<std::size_t, std::size_t>> pivot_parameters(const ComparisonPlan& plan,
+                                                                    const Outcomes& outcomes) {
+  const auto varies = [&](std::optional<std::size_t> p) {
+    return p && p != plan.seed && outcomes.varied()[*p].values.size() > 1;
+  };
+  for (const Chart& chart : plan.charts) {
+    const auto x = find_parameter(plan, chart.x), by = find_parameter(plan, chart.by);
+    if (varies(x) && varies(by) && x != by) return std::pair(*x, *by);
+  }
+  const std::vector<std::size_t> independent = outcomes.independent();
+  if (independent.size() < 2) return std::nullopt;
+  return std::pair(independent[0], independent[1]);
+}
+
+void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
+                 const Outcomes& outcomes, std::pair<std::size_t, std::size_t> parameters,
+                 const std::vector<std::size_t>& parameter_columns, const std::vector<std::size_t>& measure_columns,
+                 std::size_t rows) {
+  const Varied &down = outcomes.varied()[parameters.first], &across = outcomes.varied()[parameters.second];
+  const std::size_t height = std::min(down.values.size(), most_values);
+  const std::size_t width = std::min(across.values.size(), most_values);
+  const std::size_t blocks = std::min(measures.size(), most_blocks);
+  const bool literal = std::all_of(down.values.begin(), down.values.end(), is_literal) &&
+                       std::all_of(across.values.begin(), across.values.end(), is_literal);
+  const bool formulas = rows > 0 && literal && blocks * height * width <= most_formulas;
+  sheet.text(0, 0, "Means of the runs by two parameters", CellStyle::title);
+  sheet.text(
+      1, 0,
+      fmt::format("down: {}; across: {}{}{}", label_of(plan.parameters[parameters.first]),
+                  label_of(plan.parameters[parameters.second]), formulas ? "; formulas on the sheet Summary" : "",
+                  height < down.values.size() || width < across.values.size()
+                      ? fmt::format("; only the first {} values of each", most_values)
+                      : ""),
+      CellStyle::note);
+  std::size_t row = 3;
+  for (std::size_t block = 0; block < blocks; ++block) {
+    std::vector<Mean> means(height * width);
+    for (std::size_t i = 0; i < outcomes.points(); ++i) {
+      if (down.of_point[i] >= height || across.of_point[i] >= width) continue;
+      const Spread spread = outcomes.spread(i, block);
+      if (spread.count() == 0) continue;
+      Mean& mean = means[down.of_point[i] * width + across.of_point[i]];
+      mean.sum += spread.mean() * static_cast<double>(spread.count());
+      mean.count += spread.count();
+    }
+    sheet.text(row++, 0, label_of(measures[block].name), CellStyle::title);
+    const std::size_t head = row++;
+    sheet.text(head, 0,
+               fmt::format("{} \\ {}", plan.parameters[parameters.first].path, plan.parameters[parameters.second].path),
+               CellStyle::header);
+    for (std::size_t k = 0; k < width; ++k) sheet.cell(head, 1 + k, across.values[k], CellStyle::swept_header);
+    for (std::size_t i = 0; i < height; ++i, ++row) {
+      sheet.cell(row, 0, down.values[i], CellStyle::swept);
+      for (std::size_t k = 0; k < width; ++k) {
+        const Mean& mean = means[i * width + k];
+        if (mean.count == 0) continue;
+        const double value = mean.sum / static_cast<double>(mean.count);
+        if (!formulas) {
+          sheet.number(row, 1 + k, value);
+          continue;
+        }
+        sheet.formula(row, 1 + k,
+                      fmt::format("=AVERAGEIFS({},{},{},{},{})", range_of(measure_columns[block], rows),
+                                  range_of(parameter_columns[parameters.first], rows), cell_name(row, 0, false),
+                                  range_of(parameter_columns[parameters.second], rows), cell_name(head, 1 + k, true)),
+                      value);
+      }
+    }
+    if (height > 0 && width > 0) add_scale(sheet, row - height, height, width);
+    ++row;
+  }
+  sheet.fit_all(11, 50);
+  sheet.freeze(0, 1);
+  sheet.print_wide();
+}
+
+}  // namespace carom

@@ -1,0 +1,233 @@
+#include "compare/workbook.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <new>
+
+#include "files/manifest.h"
+#include "files/run_folder.h"
+#include "files/stored_table.h"
+
+namespace carom {
+namespace {
+
+constexpr std::size_t longest_text = 32'767;  // characters of a cell
+constexpr lxw_color_t tint = 0xFFF2CC, header_tint = 0xD9E1F2, swept_header_tint = 0xF4B183, grey = 0x595959;
+constexpr lxw_color_t doubtful_tint = 0xFFE699, failed_tint = 0xF8CBAD;
+
+/// The first `most` characters; a cut is seen.
+std::string shortened(std::string_view text, std::size_t most) {
+  std::size_t characters = 0, end = 0, last = 0;
+  for (; end < text.size(); ++end) {
+    if ((static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) continue;
+    if (++characters == most) last = end;
+    if (characters > most) break;
+  }
+  return end == text.size() ? std::string(text) : std::string(text.substr(0, last)) + "…";
+}
+
+/// Characters, a code point counted as one.
+std::size_t length_of(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+/// What the library gives back where there is no memory.
+template <typename Made>
+Made* made(Made* thing) {
+  if (thing == nullptr) throw std::bad_alloc();
+  return thing;
+}
+
+lxw_format* make_format(lxw_workbook* book, CellStyle look) {
+  lxw_format* format = made(workbook_add_format(book));
+  switch (look) {
+    case CellStyle::whole:
+      format_set_num_format(format, "#,##0");
+      break;
+    case CellStyle::rounding:
+      format_set_num_format(format, "0.00E+00");
+      break;
+    case CellStyle::swept:
+      format_set_bg_color(format, tint);
+      break;
+    case CellStyle::header:
+    case CellStyle::swept_header:
+      format_set_bold(format);
+      format_set_bg_color(format, look == CellStyle::header ? header_tint : swept_header_tint);
+      format_set_bottom(format, LXW_BORDER_THIN);
+      format_set_text_wrap(format);
+      format_set_align(format, LXW_ALIGN_VERTICAL_CENTER);
+      break;
+    case CellStyle::title:
+      format_set_bold(format);
+      format_set_font_size(format, 14);
+      break;
+    case CellStyle::note:
+      format_set_font_color(format, grey);
+      break;
+    case CellStyle::wrapped:
+      format_set_text_wrap(format);
+      format_set_align(format, LXW_ALIGN_VERTICAL_TOP);
+      break;
+    case CellStyle::doubtful:
+      format_set_bg_color(format, doubtful_tint);
+      break;
+    case CellStyle::failed:
+      format_set_bg_color(format, failed_tint);
+      break;
+    case CellStyle::plain:
+    case CellStyle::count_:
+      break;
+  }
+  return format;
+}
+
+/// A cell that is not written must not be missing without a word.
+void must(lxw_error error) {
+  if (error == LXW_ERROR_MEMORY_MALLOC_FAILED) throw std::bad_alloc();
+  if (error != LXW_NO_ERROR)
+    throw ExportError(fmt::format("cannot write a cell of a workbook: {}", lxw_strerror(error)));
+}
+
+}  // namespace
+
+Cell cell_of(std::string_view text) {
+  Cell cell{std::string(text)};
+  // A double has 53 bits: longer whole numbers, seeds for one, stay text.
+  const bool whole = text.find_first_not_of("-0123456789") == std::string_view::npos;
+  constexpr std::size_t exact = 16;  // digits and sign
+  if (const auto number = number_in(text); number && !(whole && text.size() > exact)) cell.number = *number;
+  return cell;
+}
+
+std::string without_guard(std::string_view text) {
+  const bool guarded = text.size() > 1 && text[0] == '\'' && std::string_view("=+-@\t\r").find(text[1]) != text.npos;
+  return std::string(text.substr(guarded ? 1 : 0));
+}
+
+void Worksheet::widen(std::size_t column, std::size_t characters, CellStyle look) {
+  if (look == CellStyle::title || look == CellStyle::note) return;
+  if (widths_.size() <= column) widths_.resize(column + 1);
+  widths_[column] = std::max(widths_[column], characters);
+}
+
+void Worksheet::text(std::size_t row, std::size_t column, std::string_view text, CellStyle look) {
+  if (text.empty() && look == CellStyle::plain) return;
+  const std::string shown = shortened(text, longest_text);
+  widen(column, length_of(shown), look);
+  must(worksheet_write_string(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), shown.c_str(),
+                              look == CellStyle::plain ? nullptr : format(look)));
+}
+
+void Worksheet::number(std::size_t row, std::size_t column, double value, CellStyle look) {
+  lxw_format* const how = look == CellStyle::plain ? nullptr : format(look);
+  if (!std::isfinite(value)) {
+    if (how != nullptr)
+      must(worksheet_write_blank(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), how));
+    return;
+  }
+  widen(column, 11, look);  // digits that a spreadsheet shows of itself
+  must(worksheet_write_number(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column),
+                              value == 0 ? 0.0 : value, how));
+}
+
+void Worksheet::cell(std::size_t row, std::size_t column, const Cell& cell, CellStyle look) {
+  if (cell.is_number())
+    number(row, column, cell.number, look);
+  else
+    text(row, column, without_guard(cell.text), look);
+}
+
+void Worksheet::formula(std::size_t row, std::size_t column, const std::string& formula, double value, CellStyle look) {
+  widen(column, 11, look);
+  must(worksheet_write_formula_num(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), formula.c_str(),
+                                   look == CellStyle::plain ? nullptr : format(look), value));
+}
+
+void Worksheet::fit(std::size_t column, double least, double most, double more) {
+  const double wanted = column < widths_.size() ? static_cast<double>(widths_[column]) + 1 + more : least;
+  const auto number = static_cast<lxw_col_t>(column);
+  worksheet_set_column(sheet_, number, number, std::clamp(wanted, least, most), nullptr);
+}
+
+void Worksheet::fit_all(double least, double most, double more) {
+  for (std::size_t column = 0; column < widths_.size(); ++column) fit(column, least, most, more);
+}
+
+void Worksheet::freeze(std::size_t rows, std::size_t columns) {
+  worksheet_freeze_panes(sheet_, static_cast<lxw_row_t>(rows), static_cast<lxw_col_t>(columns));
+}
+
+void Worksheet::print_wide() {
+  worksheet_set_landscape(sheet_);
+  worksheet_set_paper(sheet_, 9);  // A4
+  worksheet_fit_to_pages(sheet_, 1, 0);
+}
+
+void Worksheet::print_table() {
+  worksheet_set_landscape(sheet_);
+  worksheet_set_paper(sheet_, 9);  // A4
+  worksheet_set_print_scale(sheet_, 75);
+  worksheet_repeat_rows(sheet_, 0, 0);
+  worksheet_repeat_columns(sheet_, 0, 0);
+}
+
+Workbook::Workbook(const FilePlace& place, std::string name, const std::string& title)
+    : place_(place), name_(std::move(name)), files_(place_, name_), scratch_(nameless_file(place_)) {
+  const std::string file = fmt::format("/proc/self/fd/{}", scratch_.get());
+  lxw_workbook_options options{};
+  options.use_zip64 = LXW_FALSE;
+  book_ = workbook_new_opt(file.c_str(), &options);
+  if (book_ == nullptr) fail("write", place_, name_, "libxlsxwriter has no memory");
+
+  const std::string subject = valid_utf8(title);
+  lxw_doc_properties properties{};
+  properties.title = const_cast<char*>(subject.c_str());
+  properties.comments = const_cast<char*>("carom " CAROM_VERSION);
+  properties.created = 946'684'800;  // 2000-01-01: no clock, so that the same runs give the same bytes
+  workbook_set_properties(book_, &properties);
+  for (int look = 0; look < static_cast<int>(CellStyle::count_); ++look)
+    formats_.push_back(make_format(book_, static_cast<CellStyle>(look)));
+}
+
+Workbook::~Workbook() {
+  if (book_ != nullptr) lxw_workbook_free(book_);
+}
+
+Worksheet& Workbook::add(const char* name, bool streamed) {
+  book_->options.constant_memory = streamed ? LXW_TRUE : LXW_FALSE;
+  lxw_worksheet* sheet = workbook_add_worksheet(book_, name);
+  if (sheet == nullptr) fail("write", place_, name_, fmt::format("no sheet {} can be made", name));
+  if (sheets_.empty()) worksheet_activate(sheet);
+  return sheets_.emplace_back(sheet, formats_);
+}
+
+lxw_chart* Workbook::add_chart(lxw_chart_type type) {
+  return made(workbook_add_chart(book_, static_cast<std::uint8_t>(type)));
+}
+
+void Workbook::write(OutputFile& file) {
+  files_.begin_parts();
+  const lxw_error error = workbook_close(book_);
+  book_ = nullptr;  // closing frees it, well or not
+  files_.check();
+  if (error != LXW_NO_ERROR) fail("write", place_, name_, lxw_strerror(error));
+  files_.check_archive(scratch_.get());
+  std::vector<char> piece(std::size_t{256} * 1024);
+  off_t at = 0;
+  for (;;) {
+    const ssize_t n = pread(scratch_.get(), piece.data(), piece.size(), at);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail("read", place_, name_);
+    if (n == 0) break;
+    file.write({piece.data(), static_cast<std::size_t>(n)});
+    at += n;
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,187 @@
+// lxw_tmpfile is the library's one maker of temporary files. A program's own function of that name is called in its
+// place, as the rules of shared libraries have it; check_archive() finds out where it is not.
+#include "compare/workbook_files.h"
+
+#include <fmt/format.h>
+#include <minizip/unzip.h>
+#include <unistd.h>
+#include <xlsxwriter.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <new>
+#include <string_view>
+#include <tuple>
+
+#include "files/run_folder.h"
+
+namespace carom {
+namespace {
+
+using File = WorkbookFiles::File;
+
+WorkbookFiles* current = nullptr;
+
+ssize_t failed() {
+  current->remember(errno);
+  return -1;
+}
+
+// What stdio calls.
+
+ssize_t read_file(void* cookie, char* to, std::size_t size) {
+  File& file = *static_cast<File*>(cookie);
+  ssize_t n;
+  do n = pread(file.descriptor.get(), to, size, static_cast<off_t>(file.at));
+  while (n < 0 && errno == EINTR);
+  if (n < 0) return failed();
+  const std::uint64_t wanted = std::min<std::uint64_t>(size, file.size - std::min(file.at, file.size));
+  if (n == 0 && wanted > 0) {
+    errno = EIO;  // it has become shorter
+    return failed();
+  }
+  file.at += static_cast<std::uint64_t>(n);
+  return n;
+}
+
+ssize_t write_file(void* cookie, const char* from, std::size_t size) {
+  File& file = *static_cast<File*>(cookie);
+  if (file.at != file.size) {
+    errno = ESPIPE;  // all is written in order
+    failed();
+    return 0;
+  }
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t n = pwrite(file.descriptor.get(), from + done, size - done, static_cast<off_t>(file.size + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) {
+      failed();
+      return 0;
+    }
+    done += static_cast<std::size_t>(n);
+  }
+  file.crc = static_cast<std::uint32_t>(
+      crc32(file.crc, reinterpret_cast<const unsigned char*>(from), static_cast<unsigned>(size)));
+  file.at = file.size += size;
+  return static_cast<ssize_t>(size);
+}
+
+int seek_file(void* cookie, off64_t* offset, int whence) {
+  File& file = *static_cast<File*>(cookie);
+  const auto from = static_cast<off64_t>(whence == SEEK_CUR ? file.at : whence == SEEK_END ? file.size : 0);
+  if (from + *offset < 0) return -1;
+  *offset += from;
+  file.at = static_cast<std::uint64_t>(*offset);
+  return 0;
+}
+
+int close_file(void* cookie) {
+  File& file = *static_cast<File*>(cookie);
+  file.descriptor.reset();
+  file.stream = nullptr;
+  return 0;
+}
+
+/// What of an archive's entry is held against what was written.
+struct Entry {
+  std::uint64_t size;
+  std::uint32_t crc;
+  friend bool operator<(const Entry& a, const Entry& b) { return std::tie(a.size, a.crc) < std::tie(b.size, b.crc); }
+  friend bool operator==(const Entry& a, const Entry& b) = default;
+};
+
+/// All entries of an archive, each read to its end; `whole` becomes false where one cannot be.
+std::vector<Entry> entries_of(const std::string& path, bool& whole) {
+  std::vector<Entry> entries;
+  const unzFile archive = unzOpen64(path.c_str());
+  whole = archive != nullptr;
+  if (!whole) return entries;
+  unz_global_info64 all{};
+  whole = unzGetGlobalInfo64(archive, &all) == UNZ_OK;
+  std::vector<char> piece(std::size_t{64} * 1024);
+  int code = unzGoToFirstFile(archive);
+  for (; whole && code == UNZ_OK; code = unzGoToNextFile(archive)) {
+    unz_file_info64 info{};
+    whole = unzGetCurrentFileInfo64(archive, &info, nullptr, 0, nullptr, 0, nullptr, 0) == UNZ_OK &&
+            unzOpenCurrentFile(archive) == UNZ_OK;
+    if (!whole) break;
+    int n;
+    while ((n = unzReadCurrentFile(archive, piece.data(), static_cast<unsigned>(piece.size()))) > 0) {
+    }
+    // Closing holds the bytes against the entry's sum.
+    whole = unzCloseCurrentFile(archive) == UNZ_OK && n == 0;
+    entries.push_back({info.uncompressed_size, static_cast<std::uint32_t>(info.crc)});
+  }
+  whole = whole && code == UNZ_END_OF_LIST_OF_FILE && entries.size() == all.number_entry;
+  unzClose(archive);
+  return entries;
+}
+
+/// Whether an archive's last record ends the file: minizip reads one that is cut within it.
+bool ends_whole(int archive) {
+  constexpr std::string_view signature = "PK\x05\x06";
+  constexpr off_t record = 22;  // bytes, without a comment
+  char begin[signature.size()] = {};
+  const off_t size = lseek(archive, 0, SEEK_END);
+  return size >= record && pread(archive, begin, sizeof begin, size - record) == static_cast<ssize_t>(sizeof begin) &&
+         std::string_view(begin, sizeof begin) == signature;
+}
+
+}  // namespace
+
+WorkbookFiles::WorkbookFiles(const FilePlace& place, std::string name) : place_(place), name_(std::move(name)) {
+  current = this;
+}
+
+WorkbookFiles::~WorkbookFiles() {
+  // Of a workbook that was given up the library leaves files open.
+  for (const auto& file : files_)
+    if (file->stream != nullptr) std::fclose(file->stream);
+  current = nullptr;
+}
+
+void WorkbookFiles::begin_parts() {
+  rows_ = files_.size();
+}
+
+void WorkbookFiles::check() const {
+  if (error_ != 0) fail("write", place_, name_, std::strerror(error_));
+}
+
+void WorkbookFiles::check_archive(int archive) const {
+  bool whole = true;
+  std::vector<Entry> found = entries_of(fmt::format("/proc/self/fd/{}", archive), whole);
+  std::vector<Entry> wanted;
+  for (std::size_t i = rows_; i < files_.size(); ++i) wanted.push_back({files_[i]->size, files_[i]->crc});
+  std::sort(found.begin(), found.end());
+  std::sort(wanted.begin(), wanted.end());
+  if (!whole || !ends_whole(archive) || found != wanted)
+    fail("write", place_, name_, "the workbook is not what was written to it");
+}
+
+FILE* WorkbookFiles::make() {
+  try {
+    auto file = std::make_unique<File>();
+    file->descriptor = nameless_file(place_);
+    file->stream = fopencookie(file.get(), "w+", {read_file, write_file, seek_file, close_file});
+    if (file->stream == nullptr) throw std::bad_alloc();
+    return files_.emplace_back(std::move(file))->stream;
+  } catch (const ExportError&) {
+    remember(errno != 0 ? errno : EIO);
+  } catch (const std::bad_alloc&) {
+    remember(ENOMEM);
+  }
+  return nullptr;
+}
+
+void WorkbookFiles::remember(int error) {
+  if (error_ == 0) error_ = error;
+}
+
+}  // namespace carom
+
+extern "C" FILE* lxw_tmpfile(char*) {
+  return carom::current != nullptr ? carom::current->make() : nullptr;
+}

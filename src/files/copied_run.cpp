@@ -1,0 +1,73 @@
+#include "files/copied_run.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <map>
+#include <optional>
+
+#include "files/folder_names.h"
+#include "files/manifest.h"
+#include "files/open_folder.h"
+#include "files/series_folders.h"
+#include "files/stored_file.h"
+
+namespace carom {
+namespace {
+
+/// Its bytes and its hash must be those of the record.
+void copy_file(const FileSpot& from, const FilePlace& to, const FileRecord& record) {
+  const std::string& name = from.name;
+  const Descriptor source = open_stored(from.folder, name);
+  if (!source) fail("copy", to, name, "the run that it is a copy of does not have it any more");
+  OutputFile file(to, name);
+  std::array<char, 65536> buffer{};
+  ssize_t n;
+  while ((n = read(source.get(), buffer.data(), buffer.size())) != 0) {
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail("copy", to, name);
+    file.write({buffer.data(), static_cast<std::size_t>(n)});
+  }
+  file.complete();
+  if (file.record().sha256 != record.sha256) fail("copy", to, name, "the run that it is a copy of has changed");
+  file.publish();
+}
+
+}  // namespace
+
+void copy_run(const std::string& from, const std::string& to) {
+  const Descriptor source = open_folder(AT_FDCWD, from, true);
+  const std::optional<Manifest> manifest = source ? read_manifest(source.get(), manifest_name) : std::nullopt;
+  const std::optional<std::string> text =
+      manifest ? read_text(source.get(), manifest_name, largest_manifest) : std::nullopt;
+  if (!text) fail("copy", {-1, from}, "", "it holds no whole run");
+  OpenFolder folder(to, Durability::deferred);
+  remove_files_of_run(folder.place());
+  SeriesFolders from_series(source.get());
+  std::map<const OutputKind*, FilePlace> to_series;
+  for (const FileRecord& record : manifest->files) {
+    const FileSpot spot = from_series.spot(record.name);
+    if (spot.folder < 0) fail("copy", {-1, from}, record.name, "it is not there");
+    const OutputKind* series = series_of(record.name);
+    if (series != nullptr && !to_series.contains(series)) to_series[series] = folder.series(series->series);
+    copy_file(spot, series == nullptr ? folder.place() : to_series[series], record);
+  }
+  OutputFile last(folder.place(), manifest_name);
+  last.write(*text);
+  last.publish();
+  folder.keep();
+}
+
+void remove_run(const std::string& path) {
+  const Descriptor folder = open_folder(AT_FDCWD, path, false);
+  if (!folder) return;
+  remove_files_of_run({folder.get(), path});
+  // Of what no run wrote the folder stays.
+  if (rmdir(path.c_str()) != 0 && errno != ENOTEMPTY && errno != EEXIST && !is_absent(errno))
+    fail("remove", {-1, path}, "");
+}
+
+}  // namespace carom

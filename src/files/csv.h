@@ -1,0 +1,57 @@
+#pragma once
+// RFC 4180 cells: shortest digits that read back to the same double, text that no spreadsheet runs. Lines end in LF.
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "files/output_file.h"
+
+namespace carom {
+
+/// The most characters that a number's cell takes: -1.7976931348623157e+308.
+inline constexpr std::size_t number_size = 24;
+
+/// Writes a number's cell; gives its end. Minus zero is 0; what is not finite is undefined, an empty cell.
+inline char* put_number(char* to, double value) {
+  if (!std::isfinite(value)) return to;
+  return std::to_chars(to, to + number_size, value == 0 ? 0.0 : value).ptr;
+}
+inline char* put_number(char* to, std::uint64_t value) {
+  return std::to_chars(to, to + number_size, value).ptr;
+}
+
+inline char* put_text(char* to, std::string_view text) {
+  return to + text.copy(to, text.size());
+}
+
+/// A number's cell.
+inline std::string number_cell(double value) {
+  char text[number_size];
+  return {text, put_number(text, value)};
+}
+
+/// Any text as a cell: in quotes where it must be; led by an apostrophe where a spreadsheet would take it for a
+/// formula.
+std::string text_cell(std::string_view text);
+
+/// One row at a time, cell by cell, for tables whose rows are few. (The trajectory writes into its file's buffer
+/// itself.)
+class CsvRow {
+ public:
+  explicit CsvRow(OutputFile& file) : file_(file) {}
+  CsvRow& text(std::string_view text);
+  CsvRow& number(double value);
+  CsvRow& count(std::uint64_t value);
+  void end();
+
+ private:
+  void separate();
+
+  OutputFile& file_;
+  bool first_ = true;
+};
+
+}  // namespace carom

@@ -1,0 +1,33 @@
+#include "files/failed_run.h"
+
+#include <fcntl.h>
+
+#include "files/open_folder.h"
+#include "files/stored_file.h"
+
+namespace carom {
+namespace {
+
+constexpr std::uint64_t longest_reason = 1 << 20;  // bytes
+
+}  // namespace
+
+void store_failure(const std::string& path, const std::string& why) {
+  OpenFolder folder(path, Durability::deferred);
+  remove_files_of_run(folder.place());
+  OutputFile file(folder.place(), failure_file);
+  file.write(why);
+  file.write("\n");
+  file.publish();
+  folder.keep();
+}
+
+std::string stored_failure(const std::string& path) {
+  const Descriptor folder = open_folder(AT_FDCWD, path, true);
+  if (!folder) return "";
+  std::string text = read_text(folder.get(), failure_file, longest_reason).value_or("");
+  while (text.ends_with('\n')) text.pop_back();
+  return text;
+}
+
+}  // namespace carom

@@ -1,0 +1,83 @@
+#include "files/folder_names.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <optional>
+
+namespace carom {
+namespace {
+
+constexpr std::string_view tail = ".part";
+
+/// None, with errno: the folder cannot be read.
+std::optional<std::vector<std::string>> read_names(int folder) {
+  // Opened anew: reading moves a position that descriptors made by dup() share.
+  Descriptor copy(openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  DIR* stream = copy ? fdopendir(copy.get()) : nullptr;
+  if (!stream) return std::nullopt;
+  copy.release();
+  std::vector<std::string> names;
+  errno = 0;
+  while (const dirent* entry = readdir(stream)) {
+    const std::string_view name = entry->d_name;
+    if (name != "." && name != "..") names.emplace_back(name);
+  }
+  const int error = errno;
+  closedir(stream);
+  errno = error;
+  if (error != 0) return std::nullopt;
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> folder_names(int folder) {
+  auto names = read_names(folder);
+  if (!names) fail("read", place_of(folder), "");
+  return std::move(*names);
+}
+
+bool try_to_remove(int folder, const std::string& name) {
+  // A program whose run was killed may still be making files in a folder of its own: more than one attempt.
+  for (int attempt = 0; attempt < 10; ++attempt) {
+    if (unlinkat(folder, name.c_str(), 0) == 0 || is_absent(errno)) return true;
+    if (errno != EISDIR && errno != EPERM) return false;
+    const Descriptor inner(openat(folder, name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+    if (!inner) return is_absent(errno);
+    const auto names = read_names(inner.get());
+    if (!names) return false;
+    for (const std::string& entry : *names)
+      if (unlinkat(inner.get(), entry.c_str(), 0) != 0 && !is_absent(errno)) return false;
+    if (unlinkat(folder, name.c_str(), AT_REMOVEDIR) == 0) return true;
+    if (errno != ENOTEMPTY && errno != EEXIST) return is_absent(errno);
+  }
+  return false;
+}
+
+void remove_entry(const FilePlace& place, const std::string& name) {
+  if (!try_to_remove(place.folder, name)) fail("remove", place, name);
+}
+
+void remove_parts(const FilePlace& place, std::string_view spared) {
+  for (const std::string& name : folder_names(place.folder))
+    if (is_part_name(name) && name != spared) remove_entry(place, name);
+}
+
+void remove_file(const FilePlace& place, const std::string& name) {
+  if (unlinkat(place.folder, name.c_str(), 0) != 0 && !is_absent(errno)) fail("remove", place, name);
+}
+
+bool is_part_name(std::string_view name) {
+  return name.size() > 1 + tail.size() && name.starts_with('.') && name.ends_with(tail);
+}
+
+std::string name_of_part(std::string_view part) {
+  return std::string(part.substr(1, part.size() - 1 - tail.size()));
+}
+
+}  // namespace carom

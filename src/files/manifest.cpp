@@ -1,0 +1,177 @@
+#include "files/manifest.h"
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "files/hash.h"
+#include "files/mesh_copies.h"
+#include "files/series_folders.h"
+#include "files/stored_file.h"
+
+namespace carom {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* tool = "carom";
+
+std::string to_text(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json outputs_json(const Output& output) {
+  Json json = Json::object();
+  for (const OutputKind& kind : output_kinds())
+    if (kind.asked(output)) json[std::string(kind.name)] = kind.settings(output);
+  return json;
+}
+
+/// A member that is text; empty if there is none.
+std::string text_member(const Json& json, const char* key) {
+  if (!json.is_object()) return {};
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+/// A member that is a whole number; 0 if there is none.
+std::uint64_t whole_member(const Json& json, const char* key) {
+  if (!json.is_object()) return 0;
+  const auto found = json.find(key);
+  return found != json.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
+}
+
+/// Whether brackets are open within one another deeper than in any manifest: writing such a value as text again goes as
+/// deep into the stack.
+bool is_too_deep(std::string_view text) {
+  constexpr int deepest = 64;
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '\\') ++i;
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    if (depth > deepest) return true;
+  }
+  return false;
+}
+
+std::optional<FileRecord> file_record(const Json& json) {
+  FileRecord record{text_member(json, "name"), 0, text_member(json, "sha256")};
+  if (!is_run_file(record.name) || record.sha256.size() != 64) return std::nullopt;
+  const auto bytes = json.find("bytes");
+  if (bytes == json.end() || !bytes->is_number_unsigned()) return std::nullopt;
+  record.bytes = bytes->get<std::uint64_t>();
+  return record;
+}
+
+std::string whole_text(const Json& of_scene, const std::string& outputs, const Json& meshes, const std::string& facts,
+                       const std::vector<FileRecord>& files) {
+  Json json;
+  json["tool"] = tool;
+  json["version"] = CAROM_VERSION;
+  json.update(of_scene);
+  json["outputs"] = Json::parse(outputs);
+  json.update(meshes);
+  json.update(Json::parse(facts));
+  Json list = Json::array();
+  for (const FileRecord& file : files)
+    list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
+  json["files"] = std::move(list);
+  return to_text(json, 2) + "\n";
+}
+
+}  // namespace
+
+std::string outputs_text(const Output& output) {
+  return to_text(outputs_json(output), -1);
+}
+
+std::string manifest_text(const Scene& scene, const std::string& outputs, const std::string& facts,
+                          const std::vector<FileRecord>& files) {
+  Json of_scene;
+  of_scene["scene"] = {{"file", std::filesystem::path(scene.file).filename().string()},
+                       {"title", scene.title},
+                       {"sha256", sha256(scene.resolved)}};
+  Json meshes = Json::object();
+  if (!scene.meshes.empty()) meshes["meshes"] = Json::parse(meshes_text(scene));
+  return whole_text(of_scene, outputs, meshes, facts, files);
+}
+
+std::string manifest_text(const std::string& outputs, const std::string& facts, const std::vector<FileRecord>& files) {
+  return whole_text(Json::object(), outputs, Json::object(), facts, files);
+}
+
+std::string manifest_text(const Scene& scene, const Summary& summary, const RunFacts& facts,
+                          const std::vector<FileRecord>& files) {
+  Json json;
+  json["counts"] = {{"bodies", summary.bodies}, {"collisions", summary.collisions}, {"frames", summary.frames}};
+  json["wall_times_s"] = {
+      {"load", facts.load_s}, {"simulate", facts.simulate_s}, {"render", facts.render_s}, {"export", facts.export_s}};
+  json["peak_memory_bytes"] = facts.peak_memory;
+  for (const Measured& measure : facts.measures)
+    json["measures"][measure.name] = std::isfinite(measure.value) ? Json(measure.value) : Json();
+  for (const LeftOut& file : facts.left_out) json["left_out"][file.name] = file.why;
+  json["status"] = summary.status;
+  for (const Warning& warning : summary.warnings)
+    json["warnings"].push_back({{"code", warning.code}, {"text", warning.text}});
+  return manifest_text(scene, outputs_text(scene.output), to_text(json, -1), files);
+}
+
+std::optional<Manifest> read_manifest(int folder, const std::string& name) {
+  const auto text = read_text(folder, name, largest_manifest);
+  if (!text || is_too_deep(*text)) return std::nullopt;
+  const Json json = Json::parse(*text, nullptr, false);
+  if (!json.is_object() || text_member(json, "tool") != tool) return std::nullopt;
+  const auto outputs = json.find("outputs"), files = json.find("files");
+  if (outputs == json.end() || files == json.end() || !files->is_array()) return std::nullopt;
+  Manifest manifest{text_member(json, "version"),
+                    text_member(json.value("scene", Json()), "sha256"),
+                    to_text(*outputs, -1),
+                    "[]",
+                    {}};
+  if (const auto meshes = json.find("meshes"); meshes != json.end()) manifest.meshes = to_text(*meshes, -1);
+  manifest.collisions = whole_member(json.value("counts", Json()), "collisions");
+  manifest.scene_file = text_member(json.value("scene", Json()), "file");
+  if (const auto left_out = json.find("left_out"); left_out != json.end() && left_out->is_object())
+    for (const auto& [file, why] : left_out->items())
+      manifest.left_out.push_back({file, why.is_string() ? why.get<std::string>() : ""});
+  if (const auto measures = json.find("measures"); measures != json.end() && measures->is_object())
+    for (const auto& [measure, value] : measures->items())
+      manifest.measures.push_back({measure, value.is_number() ? value.get<double>() : std::nan("")});
+  if (const auto warnings = json.find("warnings"); warnings != json.end() && warnings->is_array())
+    for (const Json& warning : *warnings)
+      manifest.warnings.push_back({text_member(warning, "code"), text_member(warning, "text")});
+  if (const auto failed = json.find("failed"); failed != json.end() && failed->is_array())
+    for (const Json& id : *failed)
+      if (id.is_string()) manifest.failed.push_back(id.get<std::string>());
+  for (const Json& entry : *files) {
+    auto record = file_record(entry);
+    if (!record) return std::nullopt;
+    manifest.files.push_back(std::move(*record));
+  }
+  return manifest;
+}
+
+bool is_run_file(std::string_view name) {
+  return series_of(name) != nullptr || is_plain_name(name);
+}
+
+std::vector<std::string> run_files(const Scene& scene, const Output& output) {
+  std::vector<std::string> names = {"scene.yaml", "summary.csv"};
+  for (const MeshFile& mesh : scene.meshes) {
+    if (!mesh.copy.empty()) names.push_back(mesh.copy);
+  }
+  for (std::string& name : output_files(output)) names.push_back(std::move(name));
+  return names;
+}
+
+std::string valid_utf8(const std::string& text) {
+  return Json::parse(to_text(text, -1)).get<std::string>();
+}
+
+}  // namespace carom

@@ -1,0 +1,238 @@
+#include "files/open_folder.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <vector>
+
+#include "files/folder_names.h"
+#include "files/manifest.h"
+#include "files/publication.h"
+#include "files/run_folder.h"
+#include "files/series_folders.h"
+#include "files/stored_file.h"
+
+namespace carom {
+namespace {
+
+/// Where a manifest is kept while the files that it names are removed, so that an interrupted removal can go on.
+constexpr const char* former_manifest = ".manifest.json.former";
+
+void add_files(std::vector<std::string>& names, const std::optional<Manifest>& manifest) {
+  if (!manifest) return;
+  for (const FileRecord& file : manifest->files) names.push_back(file.name);
+}
+
+/// The files that an interrupted run of this scene may have left without a manifest that names them.
+void add_remains(std::vector<std::string>& names, int folder, const Scene& scene) {
+  for (std::string& name : run_files(scene, with_all(scene.output))) names.push_back(std::move(name));
+  names.insert(names.end(), bench_files.begin(), bench_files.end());
+  SeriesFolders folders(folder);
+  for (const std::string& series : series_folder_names())
+    if (const int inner = folders.open(series); inner >= 0)
+      for (const std::string& name : folder_names(inner)) names.push_back(series + "/" + name);
+}
+
+}  // namespace
+
+Descriptor open_folder(int parent, const std::string& name, bool follow) {
+  Descriptor folder(openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | (follow ? 0 : O_NOFOLLOW)));
+  if (!folder && !is_absent(errno) && (follow || errno != ELOOP)) fail("open", place_of(parent), name);
+  return folder;
+}
+
+Standing what_stands(const std::string& path) {
+  struct stat info {};
+  if (stat(path.c_str(), &info) == 0) return S_ISDIR(info.st_mode) ? Standing::folder : Standing::other;
+  if (!is_absent(errno)) fail("look at", {AT_FDCWD, ""}, path);
+  return Standing::nothing;
+}
+
+bool is_same_folder(const std::string& a, const std::string& b) {
+  const Descriptor one = open_folder(AT_FDCWD, a, true), other = open_folder(AT_FDCWD, b, true);
+  if (!one || !other) return false;
+  struct stat first {
+  }, second{};
+  if (fstat(one.get(), &first) != 0) fail("look at", {AT_FDCWD, ""}, a);
+  if (fstat(other.get(), &second) != 0) fail("look at", {AT_FDCWD, ""}, b);
+  return first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+}
+
+std::string canonical(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(path.empty() ? "." : path, error);
+  if (error) fail("look at", {AT_FDCWD, ""}, path, error.message());
+  return whole.string();
+}
+
+std::string absolute(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::absolute(path, error);
+  if (error) fail("look at", {AT_FDCWD, ""}, path, error.message());
+  return whole.string();
+}
+
+bool lock_folder(const FilePlace& place, LockKind kind) {
+  int code = 0;
+  do code = flock(place.folder, (kind == LockKind::alone ? LOCK_EX : LOCK_SH) | LOCK_NB);
+  while (code != 0 && errno == EINTR);
+  if (code == 0) return true;
+  if (errno == EWOULDBLOCK) return false;
+  if (errno != ENOTSUP && errno != ENOLCK && errno != ENOSYS && errno != EINVAL) fail("lock", place, "");
+  return true;
+}
+
+void remove_files_of_run(const FilePlace& place) {
+  const int folder = place.folder;
+  std::vector<std::string> names;
+  for (const char* manifest : {manifest_name, former_manifest, next_manifest})
+    add_files(names, read_manifest(folder, manifest));
+  if (names.empty() && stored_size(folder, "scene.yaml")) add_remains(names, folder, Scene());
+  std::erase(names, "scene.yaml");
+  // scene.yaml last: until then the folder is known to be an unfinished run.
+  remove_file(place, next_manifest);
+  remove_file(place, manifest_name);
+  remove_files(place, names);
+  remove_leavings(place);
+  remove_file(place, former_manifest);
+  remove_file(place, "scene.yaml");
+}
+
+OpenFolder::OpenFolder(const std::string& path, Durability durability) : durability_(durability) {
+  place_.path = path.empty() ? "." : path;
+  while (place_.path.size() > 1 && place_.path.ends_with('/')) place_.path.pop_back();
+  std::error_code error;
+  const auto parent = std::filesystem::path(place_.path).parent_path();
+  if (!parent.empty()) std::filesystem::create_directories(parent, error);
+  if (error) fail("make", {-1, parent.string()}, "", error.message());
+  try {
+    lock();
+    finish_publication(place_, durability_);
+  } catch (...) {
+    if (made_) rmdir(place_.path.c_str());
+    throw;
+  }
+}
+
+void OpenFolder::lock() {
+  // A run that fails removes the folder that it made; another one may just have opened it then. So: again.
+  for (int attempt = 0; attempt < 10; ++attempt) {
+    made_ = mkdir(place_.path.c_str(), 0777) == 0;
+    if (!made_ && errno != EEXIST) fail("make", place_, "");
+    folder_ = open_folder(AT_FDCWD, place_.path, true);
+    if (!folder_ && errno == ENOENT) continue;
+    if (!folder_) fail("open", place_, "");
+    place_.folder = folder_.get();
+    if (!lock_folder(place_, LockKind::alone))
+      fail("write", place_, "", "another run is writing into it; wait for it, or name another folder with -o");
+    struct stat info {};
+    if (fstat(folder_.get(), &info) != 0) fail("open", place_, "");
+    if (info.st_nlink > 0) return;
+    folder_.reset();
+  }
+  fail("open", place_, "", "it is a link to nothing, or something else removes it");
+}
+
+OpenFolder::~OpenFolder() {
+  if (renews_) {
+    first_files_.clear();
+    // Nothing was decided: what is left of the parts goes.
+    for (const std::string& series : series_folder_names()) try_to_remove(place_.folder, part_name(series));
+    return;
+  }
+  if (keep_) return;
+  if (!begun_.empty()) {
+    for (const std::string& series : series_folder_names())
+      unlinkat(place_.folder, series.c_str(), AT_REMOVEDIR);  // if it is empty
+  }
+  for (const FileRecord& file : begun_) unlinkat(place_.folder, file.name.c_str(), 0);
+  if (made_) rmdir(place_.path.c_str());
+}
+
+/// Where a folder stands in a file's place, or a file in a series', no name could be given at the end.
+void OpenFolder::refuse_folders(const Scene& scene) const {
+  for (const std::string& name : run_files(scene, scene.output)) refuse_folder(place_, name);
+  for (const OutputKind& kind : output_kinds()) {
+    if (kind.series.folder.empty() || !kind.asked(scene.output)) continue;
+    const std::string series(kind.series.folder);
+    if (!open_folder(place_.folder, series, false) && errno != ENOENT)
+      fail("open", place_, series, "it is no folder, or a link; remove it");
+  }
+}
+
+std::vector<FileRecord> OpenFolder::begin(const Scene& scene, const std::vector<MeshCopy>& meshes) {
+  refuse_folders(scene);
+  const int folder = place_.folder;
+  std::vector<std::string> names;
+  const auto manifest = read_manifest(folder, manifest_name);
+  add_files(names, manifest);
+  add_files(names, read_manifest(folder, former_manifest));
+  const auto stored_scene = read_record(folder, "scene.yaml");
+  if (!manifest && stored_scene && stored_scene->sha256 == sha256(scene.resolved)) add_remains(names, folder, scene);
+  std::erase(names, "scene.yaml");
+
+  // First of all the folder stops being a whole run; then it becomes an unfinished one of this scene; then the old
+  // goes.
+  if (manifest)
+    give_name(folder, manifest_name, place_, former_manifest);
+  else
+    remove_file(place_, manifest_name);
+  const auto put = [&](const std::string& name, const std::string& bytes) {
+    OutputFile file(place_, name);
+    file.write(bytes);
+    file.publish();
+    begun_.push_back(file.record());
+  };
+  put("scene.yaml", scene.resolved);
+  remove_files(place_, names);
+  remove_leavings(place_);
+  remove_file(place_, former_manifest);
+  for (const MeshCopy& mesh : meshes) put(mesh.name, mesh.bytes);
+  return begun_;
+}
+
+std::vector<FileRecord> OpenFolder::renew(const Scene& scene, const std::vector<MeshCopy>& meshes) {
+  refuse_folders(scene);
+  renews_ = true;
+  remove_leavings(place_);
+  std::vector<FileRecord> records;
+  const auto put = [&](const std::string& name, const std::string& bytes) {
+    OutputFile& file = *first_files_.emplace_back(std::make_unique<OutputFile>(place_, name));
+    file.write(bytes);
+    file.complete();
+    records.push_back(file.record());
+  };
+  put("scene.yaml", scene.resolved);
+  for (const MeshCopy& mesh : meshes) put(mesh.name, mesh.bytes);
+  return records;
+}
+
+FilePlace OpenFolder::series(const FileSeries& series) {
+  const std::string name = renews_ ? part_name(series.folder) : std::string(series.folder);
+  const FilePlace place{-1, place_.path + "/" + name};
+  if (mkdirat(place_.folder, name.c_str(), 0777) != 0 && errno != EEXIST) fail("make", place, "");
+  Descriptor folder = open_folder(place_.folder, name, false);
+  if (!folder) fail("open", place, "", "it is no folder, or a link; remove it");
+  series_.push_back(std::move(folder));
+  return {series_.back().get(), place.path};
+}
+
+void OpenFolder::publish(std::vector<PartFile*> files, OutputFile& manifest) {
+  for (const auto& file : first_files_) files.push_back(file.get());
+  try {
+    carom::publish(place_, durability_, files, manifest);
+  } catch (...) {
+    if (manifest.is_handed_over()) decide();  // else all of it is taken back
+    throw;
+  }
+  decide();
+}
+
+}  // namespace carom

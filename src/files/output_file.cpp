@@ -1,0 +1,92 @@
+#include "files/output_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "files/run_folder.h"
+
+namespace carom {
+namespace {
+
+/// Large enough that system calls cost nothing, small enough to stay in a processor's cache while it is hashed.
+constexpr std::size_t piece_size = std::size_t{256} * 1024;
+
+/// After so many pieces a file is worth a thread.
+constexpr std::uint64_t pieces_alone = 8;
+
+/// So much is left to the system before it is asked to begin writing, so that the sync at the end has little to wait
+/// for.
+constexpr std::uint64_t early_size = std::uint64_t{32} * 1024 * 1024;
+
+}  // namespace
+
+OutputFile::OutputFile(const FilePlace& place, std::string name)
+    : PartFile(place, std::move(name)), pieces_([this](const Piece& piece) { put(piece); }, pieces_alone) {
+  file_ = Descriptor(openat(place.folder, part().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666));
+  if (!file_) fail("write", place, record_.name);
+}
+
+void OutputFile::write(std::string_view bytes) {
+  while (used_ + bytes.size() > size_) {
+    if (used_ == size_) make_room(1);
+    const std::size_t now = std::min(bytes.size(), size_ - used_);
+    std::memcpy(data_ + used_, bytes.data(), now);
+    used_ += now;
+    bytes.remove_prefix(now);
+  }
+  if (bytes.empty()) return;
+  std::memcpy(data_ + used_, bytes.data(), bytes.size());
+  used_ += bytes.size();
+}
+
+void OutputFile::make_room(std::size_t size) {
+  flush();
+  std::vector<char>& bytes = pieces_.item().bytes;
+  if (bytes.size() < size) bytes.resize(std::max(size, piece_size));
+  data_ = bytes.data();
+  size_ = bytes.size();
+}
+
+void OutputFile::flush() {
+  if (used_ == 0) return;
+  pieces_.item().used = used_;
+  used_ = 0;
+  size_ = 0;
+  pieces_.send();
+}
+
+void OutputFile::put(const Piece& piece) {
+  hash_.add({piece.bytes.data(), piece.used});
+  for (std::size_t done = 0; done < piece.used;) {
+    const ssize_t n = ::write(file_.get(), piece.bytes.data() + done, piece.used - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) fail("write", place_, record_.name);
+    done += static_cast<std::size_t>(n);
+  }
+  record_.bytes += piece.used;
+  if (const std::uint64_t more = record_.bytes - on_the_way_; more >= early_size) {
+    // Where a file system cannot, the sync at the end does it all.
+    sync_file_range(file_.get(), static_cast<off_t>(on_the_way_), static_cast<off_t>(more), SYNC_FILE_RANGE_WRITE);
+    on_the_way_ = record_.bytes;
+  }
+}
+
+void OutputFile::complete() {
+  if (!file_) return;
+  flush();
+  pieces_.finish();
+  record_.sha256 = hash_.hex();
+  // Some file systems own up to a full disk only here.
+  if (close(file_.release()) != 0) fail("write", place_, record_.name);
+}
+
+void OutputFile::publish() {
+  complete();
+  PartFile::publish();
+}
+
+}  // namespace carom

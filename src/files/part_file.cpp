@@ -1,0 +1,116 @@
+#include "files/part_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "files/folder_names.h"
+#include "files/run_folder.h"
+
+namespace carom {
+namespace {
+
+constexpr const char* folder_there = "a folder of that name stands there; remove it";
+
+}  // namespace
+
+Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {
+  if (this != &other) {
+    reset();
+    number_ = other.release();
+  }
+  return *this;
+}
+
+int Descriptor::release() {
+  const int number = number_;
+  number_ = -1;
+  return number;
+}
+
+void Descriptor::reset() {
+  if (number_ >= 0) close(number_);
+  number_ = -1;
+}
+
+FilePlace place_of(int descriptor) {
+  if (descriptor == AT_FDCWD) return {descriptor, ""};
+  std::array<char, 4096> path{};
+  const ssize_t size = readlink(fmt::format("/proc/self/fd/{}", descriptor).c_str(), path.data(), path.size());
+  return {descriptor, size > 0 ? std::string(path.data(), static_cast<std::size_t>(size)) : "a file"};
+}
+
+bool is_plain_name(std::string_view name) {
+  if (name.empty() || name.size() > 200 || name.front() == '.') return false;
+  return std::none_of(name.begin(), name.end(),
+                      [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ' || c == 127; });
+}
+
+std::string part_name(std::string_view name) {
+  return fmt::format(".{}.part", name);
+}
+
+bool is_absent(int error) {
+  return error == ENOENT || error == ENOTDIR || error == ENAMETOOLONG;
+}
+
+void fail(const std::string& what, const FilePlace& place, std::string_view name, const std::string& reason) {
+  const std::string why = reason.empty() ? std::strerror(errno) : reason;
+  const std::string slash = name.empty() || place.path.empty() || place.path.ends_with('/') ? "" : "/";
+  throw ExportError("cannot " + what + " " + place.path + slash + std::string(name) + ": " + why);
+}
+
+void refuse_folder(const FilePlace& place, const std::string& name) {
+  struct stat info {};
+  if (fstatat(place.folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) {
+    if (!is_absent(errno)) fail("write", place, name);
+  } else if (S_ISDIR(info.st_mode)) {
+    fail("write", place, name, folder_there);
+  }
+}
+
+void give_name(int from, const std::string& part, const FilePlace& place, const std::string& name) {
+  if (renameat(from, part.c_str(), place.folder, name.c_str()) == 0) return;
+  fail("write", place, name, errno == EISDIR ? folder_there : "");
+}
+
+Descriptor nameless_file(const FilePlace& place) {
+  Descriptor file(openat(place.folder, ".", O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
+  if (file) return file;
+  if (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT && errno != EINVAL)
+    fail("write", place, "", std::string("a temporary file: ") + std::strerror(errno));
+  // A file system that has none: a part, for a moment.
+  const std::string part = part_name("temporary");
+  remove_entry(place, part);
+  file = Descriptor(openat(place.folder, part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
+  if (!file) fail("write", place, part);
+  remove_entry(place, part);
+  return file;
+}
+
+PartFile::PartFile(const FilePlace& place, std::string name) : place_(place) {
+  if (!is_plain_name(name))
+    fail("write", place, name, "a file's name may hold no slash, no control character and no dot at its start");
+  record_.name = std::move(name);
+  refuse_folder(place_, record_.name);
+  // A part that an interrupted run left is another file: removed, never written through, for it may be a link.
+  remove_entry(place_, part());
+}
+
+PartFile::~PartFile() {
+  if (!handed_over_) try_to_remove(place_.folder, part());
+}
+
+void PartFile::publish() {
+  give_name(place_.folder, part(), place_, record_.name);
+  handed_over_ = true;
+}
+
+}  // namespace carom

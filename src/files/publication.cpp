@@ -1,0 +1,123 @@
+#include "files/publication.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <set>
+
+#include "files/folder_names.h"
+#include "files/manifest.h"
+#include "files/open_folder.h"
+#include "files/series_folders.h"
+
+namespace carom {
+namespace {
+
+void sync_all(const FilePlace& place, Durability durability) {
+  if (durability == Durability::deferred) return;
+  if (syncfs(place.folder) != 0) fail("write", place, "");
+}
+
+void sync_names(const FilePlace& place, Durability durability) {
+  if (durability == Durability::deferred) return;
+  // Some file systems cannot sync a folder, and need not.
+  if (fsync(place.folder) != 0 && errno != EINVAL && errno != ENOTSUP) fail("write", place, "");
+}
+
+/// Gives the files of a series, which were written in a folder of their own, their place.
+void name_series(const FilePlace& place, const std::string& part, const std::set<std::string>& names) {
+  const std::string series = name_of_part(part);
+  const FilePlace inner{-1, place.path + "/" + series};
+  const Descriptor from = open_folder(place.folder, part, false);
+  if (!from) return;
+  if (mkdirat(place.folder, series.c_str(), 0777) != 0 && errno != EEXIST) fail("make", inner, "");
+  const Descriptor to = open_folder(place.folder, series, false);
+  if (!to) fail("open", inner, "", "it is no folder, or a link; remove it");
+  for (const std::string& name : folder_names(from.get()))
+    if (names.contains(series + "/" + name)) give_name(from.get(), name, {to.get(), inner.path}, name);
+}
+
+void name_parts(const FilePlace& place, const Manifest& next) {
+  std::set<std::string> names;
+  for (const FileRecord& file : next.files) names.insert(file.name);
+  const std::vector<std::string> series = series_folder_names();
+  for (const std::string& part : folder_names(place.folder)) {
+    if (!is_part_name(part) || part == next_manifest) continue;
+    const std::string name = name_of_part(part);
+    if (names.contains(name)) give_name(place.folder, part, place, name);
+    if (std::find(series.begin(), series.end(), name) != series.end()) name_series(place, part, names);
+  }
+}
+
+/// What the former state had and the next one has not.
+void remove_former(const FilePlace& place, const Manifest& next) {
+  const auto former = read_manifest(place.folder, manifest_name);
+  if (!former) return;
+  std::set<std::string_view> stays;
+  for (const FileRecord& file : next.files) stays.insert(file.name);
+  std::vector<std::string> names;
+  for (const FileRecord& file : former->files)
+    if (!stays.contains(file.name)) names.push_back(file.name);
+  remove_files(place, names);
+}
+
+}  // namespace
+
+void remove_files(const FilePlace& place, const std::vector<std::string>& names) {
+  SeriesFolders folders(place.folder);
+  for (const std::string& name : names) {
+    if (!is_run_file(name)) continue;
+    const FileSpot spot = folders.spot(name);
+    if (spot.folder >= 0) remove_file({spot.folder, place.path}, spot.name);
+  }
+}
+
+void remove_leavings(const FilePlace& place, std::string_view spared) {
+  remove_parts(place, spared);
+  remove_file(place, failure_file);
+  SeriesFolders folders(place.folder);
+  for (const std::string& series : series_folder_names()) {
+    const int inner = folders.open(series);
+    if (inner < 0) continue;
+    remove_parts({inner, place.path + "/" + series});
+    if (unlinkat(place.folder, series.c_str(), AT_REMOVEDIR) != 0 && errno != ENOTEMPTY && errno != EEXIST &&
+        !is_absent(errno))
+      fail("remove", place, series);
+  }
+}
+
+void publish(const FilePlace& place, Durability durability, const std::vector<PartFile*>& files, OutputFile& manifest) {
+  sync_all(place, durability);
+  give_name(place.folder, part_name(manifest_name), place, next_manifest);  // this decides
+  manifest.hand_over();
+  for (PartFile* file : files) file->hand_over();
+  sync_names(place, durability);
+  finish_publication(place, durability);
+}
+
+void finish_publication(const FilePlace& place, Durability durability) {
+  const auto next = read_manifest(place.folder, next_manifest);
+  if (!next) return;
+  name_parts(place, *next);
+  remove_former(place, *next);
+  remove_leavings(place, next_manifest);
+  sync_names(place, durability);
+  give_name(place.folder, next_manifest, place, manifest_name);
+  sync_names(place, durability);
+}
+
+void settle_folder(const std::string& path) {
+  const Descriptor folder = open_folder(AT_FDCWD, path.empty() ? "." : path, true);
+  if (!folder) return;
+  struct stat info {};
+  if (fstatat(folder.get(), next_manifest, &info, AT_SYMLINK_NOFOLLOW) != 0) {
+    if (!is_absent(errno)) fail("read", {folder.get(), path}, next_manifest);
+    return;
+  }
+  if (lock_folder({folder.get(), path}, LockKind::alone)) finish_publication({folder.get(), path}, Durability::synced);
+}
+
+}  // namespace carom

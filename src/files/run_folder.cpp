@@ -1,0 +1,156 @@
+#include "files/run_folder.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <tuple>
+#include <vector>
+
+#include "files/folder_names.h"
+#include "files/manifest.h"
+#include "files/mesh_copies.h"
+#include "files/open_folder.h"
+#include "files/series_folders.h"
+#include "files/stored_file.h"
+
+namespace carom {
+namespace {
+
+/// Calls `check(spot, record)` for each file of the manifest until one fails.
+template <typename Check>
+bool all_files(int folder, const Manifest& manifest, const Check& check) {
+  SeriesFolders folders(folder);
+  return std::all_of(manifest.files.begin(), manifest.files.end(), [&](const FileRecord& file) {
+    const FileSpot spot = folders.spot(file.name);
+    return spot.folder >= 0 && check(spot, file);
+  });
+}
+
+bool has_size(const FileSpot& spot, const FileRecord& file) {
+  return stored_size(spot.folder, spot.name) == file.bytes;
+}
+
+bool has_hash(const FileSpot& spot, const FileRecord& file) {
+  const auto stored = read_record(spot.folder, spot.name);
+  return stored && stored->bytes == file.bytes && stored->sha256 == file.sha256;
+}
+
+bool names_all(const Manifest& manifest, const std::vector<std::string>& names) {
+  return std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+    const auto has_name = [&](const auto& file) { return file.name == name; };
+    return std::any_of(manifest.files.begin(), manifest.files.end(), has_name) ||
+           std::any_of(manifest.left_out.begin(), manifest.left_out.end(), has_name);
+  });
+}
+
+/// Sizes before hashes: what is cut off is found without reading gigabytes.
+bool is_whole(int folder, const Manifest& manifest, const std::string& outputs, const std::vector<std::string>& names) {
+  return manifest.version == CAROM_VERSION && manifest.outputs == outputs && names_all(manifest, names) &&
+         all_files(folder, manifest, has_size) && all_files(folder, manifest, has_hash);
+}
+
+/// Whether the folder has a file of this tool's run that a run of the scene's outputs would not write anew.
+bool has_more(int folder, const Manifest& manifest, const Scene& scene, const std::vector<std::string>& names) {
+  if (manifest.version != CAROM_VERSION) return false;
+  SeriesFolders folders(folder);
+  return std::any_of(manifest.files.begin(), manifest.files.end(), [&](const FileRecord& file) {
+    const OutputKind* kind = series_of(file.name);
+    const bool anew =
+        kind ? kind->asked(scene.output) : std::find(names.begin(), names.end(), file.name) != names.end();
+    if (anew) return false;
+    const FileSpot spot = folders.spot(file.name);
+    return spot.folder >= 0 && stored_size(spot.folder, spot.name).has_value();
+  });
+}
+
+/// When anything about a file was changed last: content, name, owner; no program can set it back.
+std::optional<timespec> changed(const FileSpot& spot) {
+  struct stat info {};
+  if (fstatat(spot.folder, spot.name.c_str(), &info, AT_SYMLINK_NOFOLLOW) == 0) return info.st_ctim;
+  if (!is_absent(errno)) fail("read", place_of(spot.folder), spot.name);
+  return std::nullopt;
+}
+
+bool is_before(const timespec& a, const timespec& b) {
+  return std::tie(a.tv_sec, a.tv_nsec) < std::tie(b.tv_sec, b.tv_nsec);
+}
+
+}  // namespace
+
+bool is_whole_since(const std::string& path, const std::string& mark) {
+  const timespec marked = changed({AT_FDCWD, mark}).value_or(timespec{});
+  const Descriptor folder = open_folder(AT_FDCWD, path, true);
+  const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : std::nullopt;
+  if (!manifest || manifest->version != CAROM_VERSION) return false;
+  if (!mark.empty()) {
+    const std::optional<timespec> made = changed({folder.get(), manifest_name});
+    if (!made || !is_before(*made, marked)) return false;
+  }
+  const auto unchanged = [&](const FileSpot& spot, const FileRecord& file) {
+    const std::optional<timespec> when = changed(spot);
+    return when && has_size(spot, file) && (is_before(*when, marked) || has_hash(spot, file));
+  };
+  return all_files(folder.get(), *manifest, unchanged);
+}
+
+std::string wrong_file(int folder, const Manifest& manifest) {
+  SeriesFolders folders(folder);
+  for (const FileRecord& file : manifest.files) {
+    if (is_picture(file.name)) continue;
+    const FileSpot spot = folders.spot(file.name);
+    if (spot.folder < 0 || !has_size(spot, file) || !has_hash(spot, file)) return file.name;
+  }
+  return {};
+}
+
+void sync_file_system(const std::string& path) {
+  const Descriptor folder = open_folder(AT_FDCWD, path, true);
+  if (!folder || syncfs(folder.get()) != 0) fail("write", {-1, path}, "");
+}
+
+bool FoundFolder::has(const std::string& name) const {
+  return std::binary_search(names.begin(), names.end(), name);
+}
+
+FoundFolder look_into(const std::string& path) {
+  FoundFolder found{open_folder(AT_FDCWD, path.empty() ? "." : path, true), {}, FolderContent::nothing};
+  if (!found.folder) {
+    if (errno == ENOTDIR) found.content = FolderContent::other_run;
+    return found;
+  }
+  found.names = folder_names(found.folder.get());
+  const auto says_nothing = [](const std::string& name) { return is_part_name(name) || name == failure_file; };
+  if (!found.names.empty())
+    found.content = std::all_of(found.names.begin(), found.names.end(), says_nothing) ? FolderContent::incomplete
+                                                                                      : FolderContent::other_run;
+  return found;
+}
+
+FolderContent inspect_folder(const std::string& path, const Scene& scene) {
+  return inspect_folder(path, scene, outputs_text(scene.output), run_files(scene, scene.output));
+}
+
+FolderContent inspect_folder(const std::string& path, const Scene& scene, const std::string& outputs,
+                             const std::vector<std::string>& files) {
+  const FoundFolder found = look_into(path);
+  const Descriptor& folder = found.folder;
+  const std::string hash = sha256(scene.resolved);
+  if (found.has(manifest_name)) {
+    const auto manifest = read_manifest(folder.get(), manifest_name);
+    if (!manifest || manifest->scene_sha256 != hash || manifest->meshes != meshes_text(scene)) {
+      return FolderContent::other_run;
+    }
+    if (is_whole(folder.get(), *manifest, outputs, files)) return FolderContent::this_run;
+    return has_more(folder.get(), *manifest, scene, files) ? FolderContent::more : FolderContent::incomplete;
+  }
+  if (found.has("scene.yaml")) {
+    const auto stored = read_record(folder.get(), "scene.yaml");
+    return stored && stored->sha256 == hash ? FolderContent::incomplete : FolderContent::other_run;
+  }
+  return found.content;  // incomplete: a run that was killed before its first file was whole, or that failed
+}
+
+}  // namespace carom

@@ -1,0 +1,14 @@
+#include "files/series.h"
+
+namespace carom {
+
+void Series::put(std::int64_t number, std::string_view bytes) {
+  OutputFile file(place_, files_.name(number));
+  file.write(bytes);
+  file.publish();
+  folder_.keep();
+  records_.push_back(file.record());
+  records_.back().name.insert(0, std::string(files_.folder) + "/");
+}
+
+}  // namespace carom

@@ -1,0 +1,76 @@
+#include "files/stored_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <vector>
+
+namespace carom {
+namespace {
+
+constexpr std::size_t piece_size = std::size_t{64} * 1024;
+
+/// Whether openat() says that no regular file of this name is there: a link, or a socket, is none.
+bool is_no_file(int error) {
+  return is_absent(error) || error == ELOOP || error == ENXIO;
+}
+
+}  // namespace
+
+std::size_t read_some(int file, char* to, std::size_t size) {
+  ssize_t n;
+  do n = read(file, to, size);
+  while (n < 0 && errno == EINTR);
+  if (n < 0) fail("read", place_of(file), "");
+  return static_cast<std::size_t>(n);
+}
+
+Descriptor open_stored(int folder, const std::string& name) {
+  // O_NONBLOCK: opening a named pipe must not wait for its writer.
+  Descriptor file(openat(folder, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (!file && !is_no_file(errno)) fail("read", place_of(folder), name);
+  struct stat info {};
+  if (file && fstat(file.get(), &info) != 0) fail("read", place_of(folder), name);
+  if (file && !S_ISREG(info.st_mode)) file.reset();
+  return file;
+}
+
+std::optional<std::uint64_t> stored_size(int folder, const std::string& name) {
+  struct stat info {};
+  if (fstatat(folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) {
+    if (!is_absent(errno)) fail("read", place_of(folder), name);
+    return std::nullopt;
+  }
+  if (!S_ISREG(info.st_mode)) return std::nullopt;
+  return static_cast<std::uint64_t>(info.st_size);
+}
+
+std::optional<FileRecord> read_record(int folder, const std::string& name) {
+  const Descriptor file = open_stored(folder, name);
+  if (!file) return std::nullopt;
+  FileRecord record{name, 0, {}};
+  Sha256 hash;
+  std::vector<char> buffer(4 * piece_size);
+  while (const std::size_t n = read_some(file.get(), buffer.data(), buffer.size())) {
+    hash.add({buffer.data(), n});
+    record.bytes += n;
+  }
+  record.sha256 = hash.hex();
+  return record;
+}
+
+std::optional<std::string> read_text(int folder, const std::string& name, std::uint64_t most) {
+  const Descriptor file = open_stored(folder, name);
+  if (!file) return std::nullopt;
+  std::string text;
+  std::vector<char> buffer(piece_size);
+  while (const std::size_t n = read_some(file.get(), buffer.data(), buffer.size())) {
+    text.append(buffer.data(), n);
+    if (text.size() > most) return std::nullopt;
+  }
+  return text;
+}
+
+}  // namespace carom

@@ -1,0 +1,113 @@
+// Where a box or an upright cylinder and a wall at an angle to it are nearest. Two convex things that do not overlap
+// are nearest where a corner of one faces the other or where an edge crosses an edge; there are few enough to try all.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "geometry/pair.h"
+
+namespace carom {
+
+namespace {
+
+/// A box's or a cylinder's nearest point to p, both from its centre.
+Vec3 clamped(const Volume& v, const Vec3& p) {
+  if (v.shape == Shape::box) return p.cwiseMax(-v.half).cwiseMin(v.half);
+  const double rho = std::sqrt(p.x() * p.x() + p.z() * p.z());
+  const double shrink = rho > v.half.x() ? v.half.x() / rho : 1;
+  return {shrink * p.x(), std::clamp(p.y(), -v.half.y(), v.half.y()), shrink * p.z()};
+}
+
+struct Segment {
+  Vec3 from, along;
+};
+
+/// Parameters in [0, 1] at which two segments are nearest. Ericson, Real-Time Collision Detection (2005), 5.1.9.
+std::array<double, 2> closest_parameters(const Segment& p, const Segment& q) {
+  const Vec3 r = p.from - q.from;
+  const double a = p.along.squaredNorm(), e = q.along.squaredNorm(), b = p.along.dot(q.along);
+  const double c = p.along.dot(r), f = q.along.dot(r), det = a * e - b * b;
+  double s = det > 0 ? std::clamp((b * f - c * e) / det, 0.0, 1.0) : 0.5;
+  double t = (b * s + f) / e;
+  if (t < 0 || t > 1) {
+    t = std::clamp(t, 0.0, 1.0);
+    s = std::clamp((b * t - c) / a, 0.0, 1.0);
+  }
+  return {s, t};
+}
+
+/// The parameter at which a segment comes nearest to a cylinder: the distance is convex, its slope is bisected.
+double nearest_parameter(const Segment& p, const Volume& cylinder) {
+  double low = 0, high = 1;
+  const auto slope = [&](double s) {
+    const Vec3 x = p.from + s * p.along;
+    return (x - clamped(cylinder, x)).dot(p.along);
+  };
+  if (slope(low) >= 0) return low;
+  if (slope(high) <= 0) return high;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (slope(middle) < 0 ? low : high) = middle;
+  }
+  return high;
+}
+
+}  // namespace
+
+ClosestPoints closest_points(const Volume& a, const Vec3& xa, const Wall& wall, const Vec3& xb) {
+  // All from a's centre.
+  const Vec3 center = xb - xa, right = wall.half_width * wall.right, up = wall.half_height * wall.up;
+  std::vector<ClosestPoints> all;
+  std::array<Segment, 4> edges;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double s = k % 2 == 0 ? 1 : -1, t = k / 2 == 0 ? 1 : -1;
+    const Vec3 corner = center + s * right + t * up;
+    all.push_back({clamped(a, corner), corner});
+    edges[k] = k / 2 == 0 ? Segment{center + s * right - up, 2 * up} : Segment{center + s * up - right, 2 * right};
+  }
+  const auto on_wall = [&](const Vec3& p) -> Vec3 {
+    const Vec3 e = p - center;
+    return center + std::clamp(e.dot(wall.right), -wall.half_width, wall.half_width) * wall.right +
+           std::clamp(e.dot(wall.up), -wall.half_height, wall.half_height) * wall.up;
+  };
+  if (a.shape == Shape::box) {
+    for (int k = 0; k < 8; ++k) {
+      const Vec3 corner = a.half.cwiseProduct(Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
+      all.push_back({corner, on_wall(corner)});
+      for (int axis = 0; axis < 3; ++axis) {
+        if (corner[axis] > 0) continue;
+        const Segment edge{corner, 2 * a.half[axis] * Vec3::Unit(axis)};
+        for (const Segment& other : edges) {
+          const auto [s, t] = closest_parameters(edge, other);
+          all.push_back({edge.from + s * edge.along, other.from + t * other.along});
+        }
+      }
+    }
+  } else {
+    // The cylinder's foremost point towards the wall's plane, and the wall's edges.
+    const Vec3 n = wall.normal.dot(center) > 0 ? wall.normal : Vec3(-wall.normal);
+    const double level = std::sqrt(n.x() * n.x() + n.z() * n.z());
+    Vec3 foremost(0, n.y() > 0 ? a.half.y() : n.y() < 0 ? -a.half.y() : 0, 0);
+    if (level > 0) foremost += a.half.x() / level * Vec3(n.x(), 0, n.z());
+    all.push_back({foremost, on_wall(foremost)});
+    for (const Segment& edge : edges) {
+      const Vec3 p = edge.from + nearest_parameter(edge, a) * edge.along;
+      all.push_back({clamped(a, p), p});
+    }
+  }
+  double least = never;
+  for (const ClosestPoints& p : all) least = std::min(least, (p.on_b - p.on_a).norm());
+  const double tie = least + 0x1p-48 * (a.half.sum() + wall.half_width + wall.half_height);
+  ClosestPoints middle{Vec3::Zero(), Vec3::Zero()};
+  int count = 0;
+  for (const ClosestPoints& p : all) {
+    if (!((p.on_b - p.on_a).norm() <= tie)) continue;
+    middle.on_a += p.on_a;
+    middle.on_b += p.on_b;
+    ++count;
+  }
+  return {xa + middle.on_a / count, xa + middle.on_b / count};
+}
+
+}  // namespace carom

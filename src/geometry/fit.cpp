@@ -1,0 +1,171 @@
+#include "geometry/fit.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace carom {
+namespace {
+
+using Points = std::span<const Vec3>;
+
+/// Up to four points and the weights with which they make the centre of their smallest sphere.
+struct Basis {
+  std::array<Vec3, 4> points;
+  std::array<double, 4> weights{};
+  int count = 0;
+  Vec3 center = Vec3::Zero();
+  double square = 0;
+};
+
+// The smallest sphere by its dual: for all weights w >= 0 of sum 1 and c = sum w p,
+//   sum w |p - c|^2 <= R^2,
+// with equality for the points that hold the smallest sphere, and the weights of its centre among them. So weights that
+// are wrong by rounding, as those of points nearly in a line or a plane are, give a smaller value and never win; and
+// the farthest point's distance from c bounds R from above.
+void weigh(Basis& basis) {
+  double sum = 0;
+  for (int i = 0; i < basis.count; ++i) sum += basis.weights[i];
+  basis.center.setZero();
+  for (int i = 0; i < basis.count; ++i) {
+    basis.weights[i] /= sum;
+    basis.center += basis.weights[i] * basis.points[i];
+  }
+  basis.square = 0;
+  for (int i = 0; i < basis.count; ++i)
+    basis.square += basis.weights[i] * (basis.points[i] - basis.center).squaredNorm();
+}
+
+/// Weights of the point equally far from all of the basis's points, in their affine hull. False: it is not between
+/// them, so that fewer of them hold the sphere.
+bool solve(Basis& basis) {
+  const int n = basis.count - 1;
+  if (n == 0) {
+    basis.weights[0] = 1;
+    weigh(basis);
+    return true;
+  }
+  // With V = (p_i - p_0) = Q R: c = V m, V^T c = |p_i - p_0|^2 / 2; so R^T (Q^T c) = |..|^2 / 2, R m = Q^T c.
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> edges(3, n);
+  for (int i = 0; i < n; ++i) edges.col(i) = basis.points[i + 1] - basis.points[0];
+  const Eigen::ColPivHouseholderQR<decltype(edges)> qr(edges);
+  if (qr.rank() < n) return false;
+  using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
+  const auto triangle = qr.matrixR().topLeftCorner(n, n).template triangularView<Eigen::Upper>();
+  Column m = qr.colsPermutation().transpose() * Column(0.5 * edges.colwise().squaredNorm().transpose());
+  triangle.transpose().solveInPlace(m);
+  triangle.solveInPlace(m);
+  m = qr.colsPermutation() * m;
+  basis.weights[0] = 1 - m.sum();
+  for (int i = 0; i < n; ++i) basis.weights[i + 1] = m[i];
+  for (int i = 0; i < basis.count; ++i)
+    if (!(basis.weights[i] >= 0)) return false;
+  weigh(basis);
+  return true;
+}
+
+/// The smallest sphere around the basis's points and one more, outside of it: the largest of the smallest spheres
+/// around their subsets. Only those with the new point can have grown.
+Basis joined(const Basis& basis, const Vec3& point) {
+  Basis best = basis;
+  for (unsigned subset = 0; subset < 1U << basis.count; ++subset) {
+    Basis candidate;
+    candidate.points[0] = point;
+    candidate.count = 1;
+    for (int i = 0; i < basis.count && candidate.count < 5; ++i) {
+      if (!(subset >> i & 1U)) continue;
+      if (candidate.count < 4) candidate.points[candidate.count] = basis.points[i];
+      ++candidate.count;
+    }
+    if (candidate.count < 5 && solve(candidate) && candidate.square > best.square) best = candidate;
+  }
+  return best;
+}
+
+/// Centre of the smallest sphere. Each pass takes in the farthest point (Gärtner 1999): the radius grows until no point
+/// is outside by more than rounding; a dozen passes are many.
+Vec3 sphere_center(Points points) {
+  Basis basis;
+  basis.points[0] = points.front();
+  basis.count = 1;
+  solve(basis);
+  Vec3 best = basis.center;
+  double best_square = std::numeric_limits<double>::infinity();
+  while (true) {
+    double square = -1;
+    const Vec3* farthest = nullptr;
+    for (const Vec3& p : points) {
+      const double s = (p - basis.center).squaredNorm();
+      if (s > square) square = s, farthest = &p;
+    }
+    if (square < best_square) best_square = square, best = basis.center;
+    if (square <= basis.square) return best;
+    const Basis next = joined(basis, *farthest);
+    if (!(next.square > basis.square)) return best;
+    basis = next;
+  }
+}
+
+double farthest_from(const Vec3& center, Points points) {
+  double square = 0;
+  for (const Vec3& p : points) square = std::max(square, (p - center).squaredNorm());
+  // Rounded up, so that no point is outside by the rounding of its own distance.
+  return std::sqrt(square) * (1 + 2 * std::numeric_limits<double>::epsilon());
+}
+
+}  // namespace
+
+Fit tightest(Shape shape, Points points) {
+  if (points.empty()) throw std::invalid_argument("there are no points to fit a volume around");
+  Vec3 low = points.front(), high = points.front();
+  for (const Vec3& p : points) {
+    if (!p.allFinite()) throw std::invalid_argument("a point is not finite");
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const Vec3 extent = high - low, middle = low + 0.5 * extent;
+  if (!extent.allFinite()) throw std::invalid_argument("the points are too far apart");
+  const double size = extent.maxCoeff();
+  if (!(size > 0)) throw std::invalid_argument("all points are in one place: a volume around them has no size");
+
+  // Near the origin and near size 1 no square is lost to the exponent's range.
+  const double across = shape == Shape::cylinder ? std::max(extent.x(), extent.z()) : size;
+  if (!(across > 0))
+    throw std::invalid_argument("the points have no extent along x and z: a cylinder around them has no radius");
+  const double unit = std::ldexp(1.0, std::ilogb(across));
+  std::vector<Vec3> near;
+  if (shape != Shape::box) {
+    near.reserve(points.size());
+    const Vec3 seen = shape == Shape::sphere ? Vec3(1, 1, 1) : Vec3(1, 0, 1);  // a cylinder's, from above
+    for (const Vec3& p : points) near.push_back(((p - middle) / unit).cwiseProduct(seen));
+  }
+  Fit fit{{shape, Vec3::Zero()}, middle};
+  if (shape != Shape::box) {
+    const Vec3 center = sphere_center(near);
+    fit.center += center * unit;
+    for (std::size_t i = 0; i < points.size(); ++i) {  // from the centre as rounded
+      near[i] = (points[i] - fit.center) / unit;
+      if (shape == Shape::cylinder) near[i].y() = 0;
+    }
+    const double radius = farthest_from(Vec3::Zero(), near) * unit;
+    fit.volume = shape == Shape::sphere ? Volume::sphere(radius) : Volume::cylinder(radius, 0);
+  }
+  if (shape != Shape::sphere) {
+    const bool box = shape == Shape::box;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!box && axis != 1) continue;
+      if (extent[axis] == 0)
+        throw std::invalid_argument(std::string("the points have no extent along ") + "xyz"[axis] + ": a " +
+                                    (box ? "box" : "cylinder") + " around them has no thickness");
+      fit.volume.half[axis] = std::max(high[axis] - fit.center[axis], fit.center[axis] - low[axis]);
+    }
+  }
+  return fit;
+}
+
+}  // namespace carom

@@ -1,0 +1,121 @@
+#include "geometry/path_time_of_impact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "geometry/conservative_advancement.h"
+#include "geometry/pair.h"
+#include "geometry/relative_way.h"
+#include "numerics/cube_root.h"
+
+namespace carom {
+
+namespace {
+
+/// Of volumes that are round or flat where they meet. speeds: m/s, what velocities are rounded by.
+template <typename Way>
+FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3& from_a, Entity b, const Vec3& xb,
+                       double speeds, std::uint8_t left, double horizon) {
+  const double far = from_a.cwiseAbs().sum() + xb.cwiseAbs().sum() + world.radius[a];
+  const double closed = 0x1p-49 * far, noise = 0x1p-48 * speeds;
+  double t = 0;
+  for (int look = 0; look < 500 && t <= horizon; ++look) {
+    const Vec3 xa = from_a - way.displacement(t);  // b stands still
+    const bool leaving = t == 0 && left != no_feature;
+    const Touch there = touch(world, a, xa, b, xb, leaving ? left : no_feature);
+    const Vec3 w = way.velocity(t);
+    const Vec3& n = there.normal;
+    double gap = there.gap, rate = n.dot(w);
+    double least = 0;  // s, that the path is surely outside for
+    if (!(gap > closed) || leaving) {
+      const Vec3 bend = way.acceleration(t);
+      const double acceleration = n.dot(bend), unsure = 0x1p-48 * bend.cwiseAbs().sum();
+      if (std::abs(rate) <= noise) rate = 0;
+      if (rate < 0) return {t, there.feature};
+      if (rate == 0 && acceleration < 0 && -acceleration <= unsure) {
+        least = std::sqrt(closed / unsure);  // what is rounding takes it no deeper than rounding
+      } else if (rate == 0 && (acceleration < 0 || way.descent(n, t, 0, 0, horizon - t) == 0)) {
+        if (acceleration + bending(world, a, xa, b, xb, there, w) <= 0) return {t, there.feature};
+        // The surface turns away faster than the path bends towards it.
+        const double size = world.radius[a];
+        least = 0x1p-26 * std::min(size / w.norm(), std::sqrt(size / std::abs(acceleration)));
+      }
+      gap = 0;
+    }
+    const double on = std::max(way.descent(n, t, gap, rate, std::max(horizon - t, least)), least);
+    if (on == never) return {never, no_feature};
+    if (t + on == t && there.gap > closed) return {t, there.feature};  // the clock is too coarse to come nearer
+    t += on;
+  }
+  return {never, no_feature};
+}
+
+template <typename Way>
+FeatureTime time_of_impact_along(const Way& way, const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb,
+                                 double speeds, std::uint8_t left, double horizon) {
+  const RelativeMotion start{xb - xa, way.velocity(0), way.acceleration(0), speeds, left != no_feature};
+  const double far = xa.cwiseAbs().sum() + xb.cwiseAbs().sum();
+  switch (pair_kind(world, a, b)) {
+    case PairKind::spheres:
+    case PairKind::half_space:
+    case PairKind::sphere_wall:
+      return meet_round(way, world, a, xa, b, xb, speeds, left, horizon);
+    case PairKind::prism: {
+      const PairPrism pair = pair_prism(world, a, b);
+      return ConservativeAdvancement(pair.sum, in_frame(pair.frame, start), way.in(pair.frame), far, horizon).run(left);
+    }
+    case PairKind::box_wall: {
+      const SlabSum sum = slab_sum(world, a, b);
+      return ConservativeAdvancement(sum, start, way, far, horizon).run(left);
+    }
+    case PairKind::cylinder_wall: {
+      const TiltedSum sum = tilted_sum(world, a, b);
+      return ConservativeAdvancement(sum, start, way, far, horizon).run(left);
+    }
+  }
+  return {never, no_feature};
+}
+
+}  // namespace
+
+FeatureTime time_of_impact(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,
+                           double speeds, std::uint8_t left, double horizon) {
+  return time_of_impact_along(FadingWay(pa, pb), world, a, pa.x, b, pb.x, speeds, left, horizon);
+}
+
+FeatureTime time_of_impact(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb,
+                           const PolynomialPath::Terms& displacement, double length, double speeds, std::uint8_t left,
+                           double horizon) {
+  return time_of_impact_along(PolynomialWay(displacement, length), world, a, xa, b, xb, speeds, left, horizon);
+}
+
+FeatureTime leave_feature(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,
+                          std::uint8_t feature, double horizon) {
+  const FadingWay way(pa, pb);
+  const double least = 0x1p-50 * world.radius[a];
+  double room = 0x1p-20 * world.radius[a];  // m, that a parabola may leave the path by
+  double t = 0, before = 0;
+  while (t < horizon) {
+    const Vec3 w = way.velocity(t);
+    const double jerk = way.jerk(t);
+    const double length = jerk > 0 ? std::min(horizon - t, cube_root(6 * room / jerk)) : horizon - t;
+    const RelativeMotion m{pb.x - pa.x + way.displacement(t), w, way.acceleration(t), w.cwiseAbs().sum(), true};
+    const FeatureTime rim = leave_feature(world, a, b, feature, m, length);
+    if (rim.time == never) {
+      before = t;
+      t += length;
+    } else if (rim.time == 0 && before < t && room > least) {  // it was within the last parabola's error
+      t = before;
+      room *= 0x1p-9;
+    } else if (jerk * rim.time * rim.time * rim.time <= 6 * least) {
+      return {t + rim.time, rim.feature};
+    } else {
+      before = t;
+      t += 0.75 * rim.time;
+    }
+  }
+  return {never, no_feature};
+}
+
+}  // namespace carom

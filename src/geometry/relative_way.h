@@ -1,0 +1,101 @@
+#pragma once
+// The way of one thing as seen from another, on paths of different kinds: what a search by separating planes asks of
+// it. Lengths and times are from the instant at which it begins; displacements are those of b less those of a.
+#include <utility>
+
+#include "geometry/contact_time.h"
+#include "geometry/fading_descent.h"
+#include "numerics/polynomial_path.h"
+
+namespace carom {
+
+/// Of parabolas.
+class ParabolicWay {
+ public:
+  static constexpr bool parabola = true;
+  explicit ParabolicWay(const RelativeMotion& m) : w_(m.w), a_(m.a) {}
+
+  Vec3 displacement(double t) const { return t * (w_ + 0.5 * t * a_); }
+  Vec3 velocity(double t) const { return w_ + t * a_; }
+  const Vec3& acceleration(double) const { return a_; }
+  /// s, after t: when the distance along n, which is `gap` (m) and changes at `rate` (m/s), comes down through zero.
+  double descent(const Vec3& n, double, double gap, double rate, double) const {
+    return plane_contact_time(gap, rate, n.dot(a_), 0, false, never);
+  }
+  /// s, after t: when one that leaves from zero at `rate` (at least 0) is back, or `never`.
+  double back(const Vec3& n, double, double rate, double) const {
+    const double acceleration = n.dot(a_);
+    return acceleration >= 0 ? never : 2 * rate / -acceleration;
+  }
+  ParabolicWay in(const auto& frame) const {
+    return ParabolicWay({Vec3::Zero(), frame.to(w_), frame.to(a_), 0, false});
+  }
+
+ private:
+  Vec3 w_, a_;  // m/s, m/s^2
+};
+
+/// Of paths that linear drag bends.
+class FadingWay {
+ public:
+  static constexpr bool parabola = false;
+  FadingWay(const FadingPath& pa, const FadingPath& pb) : pa_(pa), pb_(pb) {
+    pa_.x = pb_.x = Vec3::Zero();
+    if (pa.fade != pb.fade) return;
+    pb_.v -= std::exchange(pa_.v, Vec3::Zero());  // what they have in common takes no digits
+    pb_.a -= std::exchange(pa_.a, Vec3::Zero());
+  }
+
+  Vec3 displacement(double t) const { return pb_.position(t) - pa_.position(t); }
+  Vec3 velocity(double t) const { return pb_.velocity(t) - pa_.velocity(t); }
+  Vec3 acceleration(double t) const { return pb_.acceleration(t) - pa_.acceleration(t); }
+  /// m/s^3, how fast, at most, the acceleration changes from t on.
+  double jerk(double t) const { return pa_.fade * pa_.acceleration(t).norm() + pb_.fade * pb_.acceleration(t).norm(); }
+  double descent(const Vec3& n, double t, double gap, double rate, double horizon) const {
+    return first_descent(
+        {gap, rate, {{{-n.dot(pa_.acceleration(t)), pa_.fade}, {n.dot(pb_.acceleration(t)), pb_.fade}}}}, horizon);
+  }
+  double back(const Vec3& n, double t, double rate, double horizon) const { return descent(n, t, 0, rate, horizon); }
+  FadingWay in(const auto& frame) const {
+    FadingWay way = *this;
+    for (Vec3* v : {&way.pa_.v, &way.pa_.a, &way.pb_.v, &way.pb_.a}) *v = frame.to(*v);
+    return way;
+  }
+
+ private:
+  FadingPath pa_, pb_;
+};
+
+/// Of polynomial paths.
+class PolynomialWay {
+ public:
+  static constexpr bool parabola = false;
+  /// displacement: m, of s = t / length (s).
+  PolynomialWay(const PolynomialPath::Terms& displacement, double length) : terms_(displacement), length_(length) {}
+
+  Vec3 displacement(double t) const { return PolynomialPath::value(terms_, t / length_); }
+  Vec3 velocity(double t) const { return PolynomialPath::slope(terms_, t / length_) / length_; }
+  Vec3 acceleration(double t) const { return PolynomialPath::bend(terms_, t / length_) / (length_ * length_); }
+  double descent(const Vec3& n, double t, double gap, double rate, double horizon) const {
+    const PolynomialPath::Terms on = PolynomialPath::shifted(terms_, t / length_, 1);
+    Polynomial distance;
+    distance.degree = PolynomialPath::terms;
+    distance.c[0] = gap;
+    distance.c[1] = rate * length_;
+    for (std::size_t k = 1; k < PolynomialPath::terms; ++k) distance.c[k + 1] = n.dot(on[k]);
+    const double s = first_descent(distance, horizon / length_);
+    return s == never ? never : s * length_;
+  }
+  double back(const Vec3& n, double t, double rate, double horizon) const { return descent(n, t, 0, rate, horizon); }
+  PolynomialWay in(const auto& frame) const {
+    PolynomialWay way = *this;
+    for (Vec3& term : way.terms_) term = frame.to(term);
+    return way;
+  }
+
+ private:
+  PolynomialPath::Terms terms_;  // m
+  double length_;                // s
+};
+
+}  // namespace carom

@@ -1,0 +1,60 @@
+#pragma once
+// The Minkowski sum of an upright cylinder and a wall at any angle: a disc drawn out along three segments (the
+// cylinder's axis, the wall's width and height). Its surface has two caps, three pairs of flat faces that two segments
+// span, and round patches that are the disc's rim drawn along one segment. Seen along that segment, in the disc's
+// plane, the sum's shadow is a parallelogram with round corners: there a patch is an arc of a circle, however oblique.
+#include <array>
+
+#include "geometry/contact_time.h"
+#include "geometry/separation.h"
+#include "geometry/touch.h"
+
+namespace carom {
+
+class TiltedSum {
+ public:
+  // Features: faces 0, 1 spanned by axis and width; 2, 3 by axis and height; 4, 5 by width and height; 6, 7 the caps
+  // (even: along the normal); then the patches along axis, width and height, four corners each.
+  static constexpr std::uint8_t caps = 6, patches = 8;
+
+  TiltedSum(double radius, double half_height, const Wall& wall);
+
+  /// The gap along the best of the surface's normals: at most the distance.
+  Separation nearest(const Vec3& p) const;
+  Separation at(const Vec3& p, std::uint8_t feature) const;
+  double displaced_gap(const Vec3& p, std::uint8_t feature, double gap, const Vec3& displacement) const;
+  double bending(const Vec3& p, std::uint8_t feature, const Vec3& w) const;
+  bool flat(std::uint8_t feature) const { return feature < patches; }
+  bool as_spheres(std::uint8_t feature, const RelativeMotion& motion, RelativeMotion& reduced, double& radius) const;
+  FeatureTime leave(std::uint8_t feature, const RelativeMotion& motion, double horizon) const;
+  double curvature_radius(const Vec3& p, std::uint8_t feature) const;
+  double size() const { return size_; }
+
+  bool sharp(std::uint8_t) const { return false; }
+  Vec3 within(const Vec3& p, std::uint8_t) const { return p; }
+  std::uint8_t foremost_face(const Vec3&, std::uint8_t feature) const { return feature; }
+  bool rim_gap(std::uint8_t, const RelativeMotion&, double, double&) const { return false; }
+  template <typename Visit>
+  void for_each_face(std::uint8_t, Visit) const {}
+
+ private:
+  struct Patch {
+    int along;    // which segment
+    Vec3 center;  // m, of the arc: the sum of the other two segments, with the corner's signs
+  };
+  Patch patch(std::uint8_t feature) const;
+  Vec3 shadow(const Vec3& p, int along) const;
+  Vec3 slanted(const Vec3& level, int along) const;
+  double support(const Vec3& n) const;
+  std::uint8_t nearest_corner(const Vec3& p, int along) const;
+  Vec3 face_normal(std::uint8_t feature) const;
+  Separation nearest_but(const Vec3& p, int without) const;
+
+  double radius_;                     // m
+  std::array<Vec3, 3> segments_;      // m, halves
+  std::array<bool, 3> casts_;         // whether the segment leaves the disc's plane
+  std::array<Vec3, 3> face_normals_;  // unit; zero where two segments are parallel
+  double size_;                       // m
+};
+
+}  // namespace carom

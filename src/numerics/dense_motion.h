@@ -1,0 +1,39 @@
+#pragma once
+// The motion of many points in one step of a method, known at every instant of the step.
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "numerics/vec3.h"
+
+namespace carom {
+
+class DenseMotion {
+ public:
+  virtual ~DenseMotion() = default;
+
+  /// m, from the start, and m/s: point k's at t (s) after it, 0 <= t <= length().
+  virtual Vec3 displacement(std::size_t k, double t) const = 0;
+  virtual Vec3 velocity(std::size_t k, double t) const = 0;
+
+  /// All points' positions (m) and velocities (m/s) at t (s).
+  void at(double t, std::vector<Vec3>& x, std::vector<Vec3>& v) const {
+    x.resize(size());
+    v.resize(size());
+    for (std::size_t k = 0; k < size(); ++k) {
+      x[k] = start(k) + displacement(k, t);
+      v[k] = velocity(k, t);
+    }
+  }
+  double length() const { return length_; }                 // s
+  const Vec3& start(std::size_t k) const { return x_[k]; }  // m
+  std::size_t size() const { return x_.size(); }
+
+ protected:
+  DenseMotion(std::vector<Vec3> x, std::vector<Vec3> v) : x_(std::move(x)), v_(std::move(v)) {}
+
+  std::vector<Vec3> x_, v_;  // m, m/s: at the start
+  double length_ = 0;        // s
+};
+
+}  // namespace carom

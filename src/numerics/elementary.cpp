@@ -1,0 +1,129 @@
+#include "numerics/elementary.h"
+
+#include <algorithm>
+
+// Sine, cosine and exponential: Taylor's series of an argument reduced by Cody & Waite's method (Software Manual for
+// the Elementary Functions, 1980, chapters 6 and 8), the reduced one in two doubles. Logarithm and angle: a guess g
+// from a short series, then one step with exp(-g) or sin(g), cos(g), which is right to the rounding of those. Tables
+// and minimax polynomials would be faster; series can be checked by reading.
+
+namespace carom {
+
+namespace {
+
+constexpr double pi = 0x1.921fb54442d18p+1;
+constexpr double half_pi_parts[] = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54, -0x1.f1976b7ed8fbcp-110};
+constexpr double ln2_hi = 0x1.62e42fee00000p-1;  // 32 bits, so that a multiple by less than 2^21 is exact
+constexpr double ln2_lo = 0x1.a39ef35793c76p-33;
+
+/// sin(r) and cos(r) for |r| <= pi/4 and a little more.
+SinCos sin_cos_reduced(DoubleDouble r) {
+  const double square = r.hi * r.hi;
+  double s = 0, c = 0;  // sin(r) = r - r^3 s, cos(r) = 1 - r^2/2 + r^4 c
+  for (std::size_t n = 17; n >= 3; n -= 2) s = inverse_factorial[n] - square * s;
+  for (std::size_t n = 18; n >= 4; n -= 2) c = inverse_factorial[n] - square * c;
+  // The derivative takes in the lower part; 1 - r^2/2 is rounded once, and what that loses is added again.
+  const double sine = r.hi - (r.hi * square * s - r.lo * (1 - 0.5 * square));
+  const double half = 0.5 * square, w = 1 - half;
+  return {sine, w + ((1 - w - half) + (square * square * c - r.hi * r.lo))};
+}
+
+/// exp(-r) - 1 for |r| <= ln(2)/2 and a little more.
+double exp_change_reduced(double r) {
+  double p = 0;  // exp(-r) = 1 - r + r^2 p
+  for (std::size_t n = 14; n >= 2; --n) p = inverse_factorial[n] - r * p;
+  return r * r * p - r;
+}
+
+struct Halvings {
+  int count;
+  double rest;
+};
+/// z = count ln 2 + rest, |rest| <= ln(2)/2, for 0 <= z < 1e5.
+Halvings halvings(double z) {
+  const double count = std::floor(z * (1 / (ln2_hi + ln2_lo)) + 0.5);
+  return {static_cast<int>(count), (z - count * ln2_hi) - count * ln2_lo};
+}
+
+/// log(1 + y) to 1e-7 of itself, for y >= 0: 2 atanh(w) = 2 (w + w^3/3 + ...) for y = 2 w / (1 - w).
+double log_one_plus_guess(double y) {
+  int exponent = 0;
+  double w = y / (2 + y);
+  if (y > 0.41) {
+    const double m = std::frexp(1 + y, &exponent) * std::sqrt(2.0);  // in [1/sqrt(2), sqrt(2))
+    w = (m - 1) / (m + 1);
+  }
+  const double square = w * w;
+  return (exponent == 0 ? 0 : (exponent - 0.5) * ln2_hi) +
+         2 * w * (1 + square * (1.0 / 3 + square * (0.2 + square * (1.0 / 7 + square / 9))));
+}
+
+/// The angle to 1e-5 of itself: twice the one whose tangent is u = y / (1 + sqrt(1 + y^2)), by u - u^3/3 + ...
+double arc_tangent_guess(double y, double x) {
+  const double ax = std::abs(x), ay = std::abs(y);
+  const double slope = std::min(ax, ay) / std::max(ax, ay), u = slope / (1 + std::sqrt(1 + slope * slope));
+  const double square = u * u;
+  double angle =
+      2 * u * (1 - square * (1.0 / 3 - square * (0.2 - square * (1.0 / 7 - square * (1.0 / 9 - square / 11)))));
+  if (ay > ax) angle = 0.5 * pi - angle;
+  if (x < 0) angle = pi - angle;
+  return std::copysign(angle, y);
+}
+
+}  // namespace
+
+SinCos sin_cos(DoubleDouble z) {
+  if (!(std::abs(z.hi) < 0x1p52)) return {0, 1};
+  const double sign = std::copysign(1.0, z.hi);
+  DoubleDouble r = {sign * z.hi, sign * z.lo};
+  const double quarters = std::floor(r.hi * (2 / pi) + 0.5);
+  if (quarters != 0) {
+    r = r - two_product(quarters, half_pi_parts[0]) - two_product(quarters, half_pi_parts[1]);
+    r = r - DoubleDouble{quarters * half_pi_parts[2], 0};
+  }
+  const SinCos of = sin_cos_reduced(r);
+  const double quarter = quarters - 4 * std::floor(0.25 * quarters);
+  if (quarter == 0) return {sign * of.sin, of.cos};
+  if (quarter == 1) return {sign * of.cos, -of.sin};
+  if (quarter == 2) return {-sign * of.sin, -of.cos};
+  return {-sign * of.cos, of.sin};
+}
+
+double exp_minus(double z) {
+  if (!(z < 746)) return 0;
+  const Halvings h = halvings(z);
+  return std::ldexp(1 + exp_change_reduced(h.rest), -h.count);
+}
+
+double exp_loss(double z) {
+  if (!(z < 64)) return 1;
+  const Halvings h = halvings(z);
+  if (h.count == 0) return -exp_change_reduced(z);
+  const double share = std::ldexp(1.0, -h.count);
+  return (1 - share) - share * exp_change_reduced(h.rest);
+}
+
+double log_one_plus(double y) {
+  if (!(y < 0x1p900)) return y < INFINITY ? log_one_plus(std::ldexp(y, -512)) + 512 * (ln2_hi + ln2_lo) : INFINITY;
+  const double guess = log_one_plus_guess(y);
+  // (1 + y) exp(-guess) - 1
+  const double rest = (two_product(exp_minus(guess), y) - DoubleDouble{exp_loss(guess), 0}).value();
+  return guess + rest * (1 - 0.5 * rest);
+}
+
+double arc_sinh(double y) {
+  const double a = std::abs(y);
+  if (a > 0x1p500) return std::copysign(log_one_plus(2 * std::min(a, 0x1p1022)), y);
+  return std::copysign(log_one_plus(a + a * (a / (1 + std::sqrt(1 + a * a)))), y);
+}
+
+double arc_tangent(double y, double x) {
+  if (x == 0 && y == 0) return 0;
+  const double guess = arc_tangent_guess(y, x);
+  const SinCos of = sin_cos(guess);
+  // The tangent of what is missing.
+  const double rest = difference_of_products(y, of.cos, x, of.sin).value() / (x * of.cos + y * of.sin);
+  return guess + rest * (1 - rest * rest / 3);
+}
+
+}  // namespace carom

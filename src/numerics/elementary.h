@@ -1,0 +1,45 @@
+#pragma once
+// Sines, exponentials, logarithms and angles with the same bits on every machine, which <cmath> does not promise: of
+// arithmetic, only + - * / and the square root reach a result. Each is within 2.5 units in the last place.
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "numerics/compensated.h"
+
+namespace carom {
+
+struct SinCos {
+  double sin, cos;
+};
+
+/// Of z (rad). Beyond 2^52 a double does not hold a phase any more: then, and for NaN, those of 0.
+SinCos sin_cos(DoubleDouble z);
+inline SinCos sin_cos(double z) {
+  return sin_cos(DoubleDouble{z, 0});
+}
+
+/// exp(-z) for z >= 0; 0 where that is less than the least double.
+double exp_minus(double z);
+
+/// 1 - exp(-z) for z >= 0, to its own last place for any z.
+double exp_loss(double z);
+
+/// log(1 + y) for y >= 0, to its own last place for any y.
+double log_one_plus(double y);
+
+/// The u with sinh(u) = y.
+double arc_sinh(double y);
+
+/// rad, in [-pi, pi]: the angle of (x, y) with the x axis; 0 at (0, 0).
+double arc_tangent(double y, double x);
+
+/// 1 / n!
+inline constexpr std::array<double, 32> inverse_factorial = [] {
+  std::array<double, 32> of{1};
+  double factorial = 1;
+  for (std::size_t n = 1; n < of.size(); ++n) of[n] = 1 / (factorial *= static_cast<double>(n));
+  return of;
+}();
+
+}  // namespace carom

@@ -1,0 +1,143 @@
+#include "numerics/orthogonal_factors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+// Sums in four lanes, whatever the processor: the same bits everywhere.
+constexpr std::size_t width = 4;
+
+double dot(const double* a, const double* b, std::size_t count) {
+  double lane[width] = {};
+  std::size_t k = 0;
+  for (; k + width <= count; k += width)
+    for (std::size_t l = 0; l < width; ++l) lane[l] += a[k + l] * b[k + l];
+  double sum = (lane[0] + lane[2]) + (lane[1] + lane[3]);
+  for (; k < count; ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+void add(double* a, double t, const double* b, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) a[k] += t * b[k];
+}
+
+/// c a + s b and c b - s a.
+void rotate(double c, double s, double& a, double& b) {
+  const double p = c * a + s * b;
+  b = c * b - s * a;
+  a = p;
+}
+
+}  // namespace
+
+void OrthogonalFactors::reset(std::size_t n) {
+  n_ = stride_ = n;
+  rank_ = 0;
+  q_.assign(n * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) q_[i * stride_ + i] = 1;
+  if (r_.size() < n * n) r_.resize(n * n);
+  reflector_.resize(n);
+}
+
+void OrthogonalFactors::transform(const std::size_t* at, const double* values, std::size_t count, double* d) {
+  std::fill(d, d + n_, 0.0);
+  for (std::size_t block = 0; block < count; ++block)
+    for (std::size_t k = 0; k < 3; ++k) add(d, values[3 * block + k], &q_[(at[block] + k) * stride_], n_);
+}
+
+void OrthogonalFactors::to_q(const double* v, double* d) const {
+  std::fill(d, d + n_, 0.0);
+  for (std::size_t i = 0; i < n_; ++i) add(d, v[i], &q_[i * stride_], n_);
+}
+
+void OrthogonalFactors::from_q(const double* d, double* v) const {
+  for (std::size_t i = 0; i < n_; ++i) v[i] = dot(&q_[i * stride_], d, n_);
+}
+
+double OrthogonalFactors::tail(const double* d) const {
+  return std::sqrt(dot(d + rank_, d + rank_, n_ - rank_));
+}
+
+void OrthogonalFactors::tail_direction(const double* d, double* v) const {
+  for (std::size_t i = 0; i < n_; ++i) v[i] = dot(&q_[i * stride_ + rank_], d + rank_, n_ - rank_);
+}
+
+double OrthogonalFactors::least_diagonal() const {
+  double least = 1;
+  for (std::size_t j = 0; j < rank_; ++j) least = std::min(least, std::abs(r_[j * stride_ + j]));
+  return least;
+}
+
+void OrthogonalFactors::solve(double* d) const {
+  for (std::size_t j = rank_; j-- > 0;) {
+    const double* column = &r_[j * stride_];
+    d[j] /= column[j];
+    add(d, -d[j], column, j);
+  }
+}
+
+void OrthogonalFactors::solve_transposed(double* d) const {
+  for (std::size_t j = 0; j < rank_; ++j) {
+    const double* column = &r_[j * stride_];
+    d[j] = (d[j] - dot(column, d, j)) / column[j];
+  }
+}
+
+void OrthogonalFactors::append(double* d) {
+  const std::size_t rest = n_ - rank_;
+  double* h = reflector_.data();
+  std::copy(d + rank_, d + n_, h);
+  // What begins with 0 says nothing of the reflection's sign, which a mirror would have to turn: begin with what does.
+  if (h[0] == 0 && rest > 1) {
+    std::size_t k = 1;
+    for (std::size_t j = 2; j < rest; ++j)
+      if (std::abs(h[j]) > std::abs(h[k])) k = j;
+    std::swap(h[0], h[k]);
+    for (std::size_t i = 0; i < n_; ++i) std::swap(q_[i * stride_ + rank_], q_[i * stride_ + rank_ + k]);
+  }
+  const double length = std::sqrt(dot(h, h, rest)), head = h[0] > 0 ? -length : length;
+  h[0] -= head;  // no cancellation
+  // 1 - 2 h h^T / |h|^2 takes the tail of d to (head, 0, ...).
+  const double square = dot(h, h, rest);
+  if (rest > 1 && square > 0) {
+    const double factor = -2 / square;
+    for (std::size_t i = 0; i < n_; ++i) {
+      double* row = &q_[i * stride_ + rank_];
+      add(row, factor * dot(row, h, rest), h, rest);
+    }
+    std::fill(d + rank_ + 1, d + n_, 0.0);
+    d[rank_] = head;
+  }
+  std::copy(d, d + rank_ + 1, &r_[rank_ * stride_]);
+  ++rank_;
+}
+
+void OrthogonalFactors::remove(std::size_t place, double* d) {
+  for (std::size_t j = place + 1; j < rank_; ++j)
+    std::copy(&r_[j * stride_], &r_[j * stride_] + j + 1, &r_[(j - 1) * stride_]);
+  --rank_;
+  // What is below the diagonal now: one number a column.
+  std::vector<double>& cosine = reflector_;
+  std::vector<double>& sine = sine_;
+  sine.resize(n_);
+  for (std::size_t j = place; j < rank_; ++j) {
+    double* column = &r_[j * stride_];
+    const double p = column[j], q = column[j + 1], length = std::sqrt(p * p + q * q);
+    const double c = length == 0 ? 1 : p / length, s = length == 0 ? 0 : q / length;
+    cosine[j - place] = c;
+    sine[j - place] = s;
+    column[j] = length;
+    for (std::size_t k = j + 1; k < rank_; ++k) rotate(c, s, r_[k * stride_ + j], r_[k * stride_ + j + 1]);
+    rotate(c, s, d[j], d[j + 1]);
+  }
+  for (std::size_t i = 0; i < n_; ++i) {
+    double* row = &q_[i * stride_ + place];
+    for (std::size_t j = 0; j + place < rank_; ++j) rotate(cosine[j], sine[j], row[j], row[j + 1]);
+  }
+}
+
+}  // namespace carom

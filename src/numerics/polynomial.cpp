@@ -1,0 +1,134 @@
+#include "numerics/polynomial.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "numerics/compensated.h"
+
+namespace carom {
+
+double Polynomial::operator()(double t) const {
+  double value = c[static_cast<std::size_t>(degree)];
+  for (int k = degree - 1; k >= 0; --k) value = value * t + c[static_cast<std::size_t>(k)];
+  return value;
+}
+
+Polynomial Polynomial::derivative() const {
+  Polynomial d;
+  for (int k = 1; k <= degree; ++k) d.c[static_cast<std::size_t>(k - 1)] = k * c[static_cast<std::size_t>(k)];
+  d.degree = degree > 0 ? degree - 1 : 0;
+  return d;
+}
+
+namespace {
+
+/// The root of f between l and r, where f is monotone and f(l), f(r) differ in sign. Newton's steps, and
+/// bisection wherever such a step would leave the bracket or shrinks it too slowly.
+double refine(const Polynomial& f, const Polynomial& df, double l, double r, bool falling) {
+  double t = l + 0.5 * (r - l);
+  double step = r - l;
+  for (int iteration = 0; iteration < 200; ++iteration) {
+    const double value = f(t);
+    if (value == 0) return t;
+    ((value > 0) == falling ? l : r) = t;
+    const double newton = t - value / df(t);
+    double next = newton;
+    if (!(newton > l && newton < r) || std::abs(newton - t) > 0.5 * std::abs(step)) next = l + 0.5 * (r - l);
+    step = next - t;
+    if (next == t || next == l || next == r) return next;
+    t = next;
+  }
+  return t;
+}
+
+/// In closed form, the discriminant without cancellation. False: its products would underflow or overflow.
+bool add_quadratic_roots(const Polynomial& f, double low, double high, Roots& roots) {
+  const double a = f.c[2], b = f.c[1], c = f.c[0];
+  const double size = b * b + std::abs(4 * a * c);
+  if (!(size > 0x1p-900 && size < 0x1p900)) return false;
+  const double disc = difference_of_products(b, b, 4 * a, c).value();
+  if (disc <= 0) return true;
+  const double q = -0.5 * (b + std::copysign(std::sqrt(disc), b));
+  const double one = q / a, other = c / q;
+  for (const double t : {std::min(one, other), std::max(one, other)})
+    if (t > low && t < high) roots.at[static_cast<std::size_t>(roots.count++)] = t;
+  return true;
+}
+
+int true_degree(const Polynomial& f) {
+  int degree = f.degree;
+  while (degree > 0 && f.c[static_cast<std::size_t>(degree)] == 0) --degree;
+  return degree;
+}
+
+}  // namespace
+
+Roots roots_between(const Polynomial& polynomial, double low, double high) {
+  Polynomial f = polynomial;
+  f.degree = true_degree(f);
+  Roots roots;
+  if (f.degree == 0) return roots;
+  if (f.degree == 1) {
+    const double t = -f.c[0] / f.c[1];
+    if (t > low && t < high) roots.at[static_cast<std::size_t>(roots.count++)] = t;
+    return roots;
+  }
+  if (f.degree == 2 && add_quadratic_roots(f, low, high, roots)) return roots;
+  const Polynomial df = f.derivative();
+  const Roots turning = roots_between(df, low, high);
+  double l = low;
+  double f_l = f(l);
+  for (int k = 0; k <= turning.count; ++k) {
+    const double r = k < turning.count ? turning.at[static_cast<std::size_t>(k)] : high;
+    const double f_r = f(r);
+    if (f_r == 0 && r < high) {
+      roots.at[static_cast<std::size_t>(roots.count++)] = r;
+    } else if ((f_l > 0 && f_r < 0) || (f_l < 0 && f_r > 0)) {
+      roots.at[static_cast<std::size_t>(roots.count++)] = refine(f, df, l, r, f_l > 0);
+    }
+    l = r;
+    f_l = f_r;
+  }
+  return roots;
+}
+
+Descents::Descents(const Polynomial& polynomial, double horizon) : f_(polynomial), horizon_(horizon) {
+  f_.degree = true_degree(f_);
+  if (f_.degree == 0 || !(horizon >= 0)) return;
+  slope_ = f_.derivative();
+  turning_ = roots_between(slope_, 0, horizon);
+  at_left_ = f_(0);
+  ended_ = false;
+}
+
+bool Descents::next(Piece& piece) {
+  while (!ended_) {
+    const bool last = piece_ == turning_.count;
+    const double l = left_, r = last ? horizon_ : turning_.at[static_cast<std::size_t>(piece_)];
+    const double f_l = at_left_, f_r = f_(r);
+    left_ = r;
+    at_left_ = f_r;
+    ++piece_;
+    ended_ = last;
+    if (!(f_r < f_l)) continue;  // this piece rises
+    if (f_l <= 0) {
+      piece = {l, r};
+    } else if (f_r < 0) {
+      piece = {refine(f_, slope_, l, r, true), r};
+    } else if (f_r == 0 && last) {
+      piece = {r, r};
+    } else {
+      continue;
+    }
+    return true;
+  }
+  return false;
+}
+
+double first_descent(const Polynomial& f, double horizon) {
+  Descents descents(f, horizon);
+  Descents::Piece piece;
+  return descents.next(piece) ? piece.from : never;
+}
+
+}  // namespace carom

@@ -1,0 +1,88 @@
+#include "run/account.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "numerics/compensated.h"
+#include "physics/energy.h"
+#include "physics/force.h"
+
+namespace carom {
+namespace {
+
+// Momentum just after the impulses given at time 0.
+Vec3 starting_momentum(const Scene& scene) {
+  Vec3 sum = momentum(scene.world, scene.initial);
+  for (const Vec3& impulse : scene.world.impulse) sum += impulse;
+  return sum;
+}
+
+/// A force that acts for ever gives what its potential loses; the rest is in the tally. That is not known of a run
+/// told by its record.
+std::vector<ForceWork> work_of_forces(const Scene& scene, const State& end, const Tally& tally) {
+  const World& world = scene.world;
+  std::vector<ForceWork> all;
+  if (world.forces.empty() || tally.force_work.empty()) return all;
+  Sum fallen;
+  for (Entity i = 0; i < world.body_count(); ++i)
+    fallen.add(world.mass[i] * world.gravity.dot(end.position[i] - scene.initial.position[i]));
+  if (!world.gravity.isZero(0)) all.push_back({"gravity", fallen.value()});
+  for (std::size_t k = 0; k < world.forces.size(); ++k) {
+    Sum work;
+    work.add(tally.force_work[k]);
+    for (Entity i = 0; i < world.body_count(); ++i) {
+      work.add(potential(world, world.forces[k], i, scene.initial.position[i]));
+      work.add(-potential(world, world.forces[k], i, end.position[i]));
+    }
+    all.push_back({fmt::format("forces.{}.{}", k, name_of(world.forces[k].law)), work.value()});
+  }
+  // What lifts joint bodies out of what they reach into is no force's.
+  if (tally.merges > 0)
+    all.push_back(
+        {"merging", std::accumulate(tally.force_work.begin(), tally.force_work.end(), tally.work, std::minus())});
+  return all;
+}
+
+}  // namespace
+
+StoredEnergy stored_energy(const Scene& scene, const State& state) {
+  return {kinetic_energy(scene.world, state), potential_energy(scene.world, state)};
+}
+
+// The energy at the start is that of energy.csv's first row: the exact engine's bodies have their impulses by then, the
+// book engine's get theirs as a force of the first frame, whose work counts. What energy the impacts, work and
+// motion do not account for is the residual: the method's own error, and rounding.
+Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredEnergy& start, const State& end,
+                   const Tally& tally) {
+  Summary summary;
+  summary.title = scene.title;
+  summary.engine = name_of(engine.engine);
+  summary.duration = scene.simulate.duration;
+  summary.bodies = scene.world.body_count();
+  summary.collisions = tally.collisions();
+  summary.body_body = tally.body_body;
+  summary.body_fixed = tally.body_fixed;
+  summary.first_collision = tally.first_collision;
+  summary.last_collision = tally.last_collision;
+  const StoredEnergy last = stored_energy(scene, end);
+  summary.energy.start = start.total();
+  summary.energy.end = last.total();
+  summary.energy.lost = tally.energy_lost;
+  summary.energy.work = tally.work;
+  summary.energy.residual = summary.energy.end - summary.energy.start - summary.energy.work + summary.energy.lost;
+  summary.energy.turnover = start.kinetic + last.kinetic + std::abs(last.potential - start.potential) +
+                            std::abs(tally.energy_lost) + std::abs(tally.work);
+  summary.momentum_drift = (momentum(scene.world, end) - starting_momentum(scene)).norm();
+  summary.max_overlap = tally.max_overlap;
+  summary.max_speed = tally.max_speed;
+  summary.resting = tally.resting;
+  summary.stepped_contact = tally.stepped_contact;
+  summary.contact = {tally.merges, tally.collapses, tally.taken_up};
+  summary.energy.of_forces = work_of_forces(scene, end, tally);
+  return summary;
+}
+
+}  // namespace carom

@@ -1,0 +1,297 @@
+// A run cannot tell its own error from one other run of the same kind: both may step over the same encounter. So a run
+// with steps of one length is held against a method of another order that chooses its own (dop853), and that against
+// itself with a smaller error in each step. A disturbance by rounding in the finer run shows what no step can mend.
+// Agreement of two runs by halved steps, which was not taken, says nothing of what both have missed.
+#include "run/accuracy.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "physics/force.h"
+#include "simulate/tolerances.h"
+
+namespace carom {
+
+namespace {
+
+using namespace accuracy_tolerance;
+
+/// Where all bodies are: by instant, by body (m).
+using Track = std::vector<std::vector<Vec3>>;
+
+/// s: `end`, and before it instants that no period of the scene's own has.
+std::vector<double> instants_of(const Scene& scene, double end) {
+  const double bodies = std::max<double>(scene.world.body_count(), 1);
+  const int count = static_cast<int>(std::clamp(places_kept / bodies, 8.0, double{most_instants}));
+  std::vector<double> instants;
+  for (int k = 0; k + 1 < count; ++k) instants.push_back(end * (k + golden) / count);
+  instants.push_back(end);
+  return instants;
+}
+
+/// Runs of one scene, looked at at the same instants.
+class Runs {
+ public:
+  Runs(const Scene& scene, const std::function<void()>& look) : Runs(scene, look, scene.simulate.duration) {}
+  /// As far as `end` (s).
+  Runs(const Scene& scene, const std::function<void()>& look, double end)
+      : scene_(scene), look_(look), instants_(instants_of(scene, end)) {}
+
+  /// `tally`: gets the run's sums, unless null.
+  Track track(const Simulate& way, const StepChoice& steps, double disturbance = 0, Tally* tally = nullptr) const {
+    if (disturbance == 0) return carry(scene_.world, scene_.initial, way, steps, tally);
+    const Perturbed other = perturbed(scene_.world, scene_.initial, disturbance);
+    return carry(other.world, other.initial, way, steps, tally);
+  }
+  const std::vector<double>& instants() const { return instants_; }
+
+  /// m, by instant: the greatest distance so far of a body from where it is in the other run.
+  static std::vector<double> differences(const Track& a, const Track& b) {
+    std::vector<double> most;
+    double greatest = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      for (std::size_t i = 0; i < a[k].size(); ++i) greatest = std::max(greatest, (a[k][i] - b[k][i]).norm());
+      most.push_back(greatest);
+    }
+    return most;
+  }
+
+ private:
+  Track carry(const World& world, const State& initial, const Simulate& way, const StepChoice& steps,
+              Tally* tally) const {
+    const auto simulator = make_simulator(world, initial, way, {}, steps);
+    Track track;
+    for (const double time : instants_) {
+      while (simulator->time() < time) {
+        look_();
+        simulator->advance_to(time);
+      }
+      track.push_back(simulator->state().position);
+    }
+    if (tally != nullptr) *tally = simulator->tally();
+    return track;
+  }
+
+  const Scene& scene_;
+  const std::function<void()>& look_;
+  std::vector<double> instants_;  // s
+};
+
+/// How many instants there are before differences are more than a tolerance (m).
+std::size_t within(const std::vector<double>& differences, double tolerance) {
+  const auto beyond = std::find_if(differences.begin(), differences.end(), [&](double d) { return !(d <= tolerance); });
+  return static_cast<std::size_t>(beyond - differences.begin());
+}
+
+/// Steps whose errors are plainly smaller.
+StepChoice finer_steps(const Scene& scene, const Simulate& way, StepChoice steps) {
+  if (way.engine == Engine::stepped && way.integrator == Integrator::dop853) {
+    steps.error = std::max((steps.error > 0 ? steps.error : exact_tolerance::step_error) / finer, finest_error);
+  } else {
+    const double usual = way.engine == Engine::book ? 1.0 / 60 : default_step(scene.world, scene.initial);
+    steps.length = 0.5 * steps.length.value_or(way.step.value_or(usual));
+  }
+  return steps;
+}
+
+class Settling {
+ public:
+  Settling(const Scene& scene, const Simulate& way, double tolerance, const std::function<void()>& look)
+      : scene_(scene), way_(way), tolerance_(tolerance), runs_(scene, look) {}
+
+  Accuracy go() {
+    if (way_.duration == 0) return accuracy_;
+    if (way_.engine == Engine::exact)
+      settle_exact();
+    else if (way_.integrator == Integrator::dop853)
+      settle_adaptive(tolerance_);
+    else
+      settle_fixed();
+    return accuracy_;
+  }
+
+ private:
+  /// Two runs of a kind differ so much: until when is the tolerance met?
+  void note(const std::vector<double>& differences) {
+    const std::size_t good = within(differences, tolerance_);
+    accuracy_.right_until = std::numeric_limits<double>::infinity();
+    accuracy_.difference = good > 0 ? differences[good - 1] : 0;
+    accuracy_.beyond = differences.back();
+    if (good < differences.size()) accuracy_.right_until = good > 0 ? runs_.instants()[good - 1] : 0;
+  }
+
+  void settle_exact() { note(Runs::differences(runs_.track(way_, {}), runs_.track(way_, {}, disturbance))); }
+
+  /// Gives the finer of the last two runs.
+  Track settle_adaptive(double tolerance) {
+    double least = std::numeric_limits<double>::infinity();  // m
+    for (const double radius : scene_.world.radius) least = std::min(least, radius);
+    StepChoice steps{way_.step, std::clamp(first_share * tolerance / least, finest_error, coarsest_error)};
+    for (;;) {
+      const Track coarse = runs_.track(way_, steps);
+      const bool finest = steps.error <= finest_error * finer;
+      steps.error = std::max(steps.error / finer, finest_error);
+      Track fine = runs_.track(way_, steps, disturbance);
+      const std::vector<double> differences = Runs::differences(coarse, fine);
+      accuracy_.steps = steps;
+      note(differences);
+      if (differences.back() <= tolerance || finest) return fine;
+      steps.error *= std::min(1.0, tolerance / differences.back());  // what is still missing, of it
+      steps.error = std::max(steps.error, finest_error * finer);
+    }
+  }
+
+  /// Halves the step until a run agrees with dop853's, as long as that is known.
+  void settle_fixed() {
+    Simulate finer_way = way_;
+    finer_way.integrator = Integrator::dop853;
+    finer_way.step.reset();
+    const Simulate own = std::exchange(way_, finer_way);
+    const Track reference = settle_adaptive(reference_share * tolerance_);
+    way_ = own;
+    const std::size_t known = accuracy_.right_until < scene_.simulate.duration
+                                  ? within(runs_.instants(), accuracy_.right_until)
+                                  : runs_.instants().size();
+    accuracy_.reached = false;
+    accuracy_.difference = std::numeric_limits<double>::infinity();
+    accuracy_.steps = {};
+    std::string trouble;
+    double before = 0, coarse = 0;  // m: with twice the step, and with four times that
+    double step = std::min(way_.duration, longest_choice * default_step(scene_.world, scene_.initial));
+    const double bodies = static_cast<double>(scene_.world.body_count());
+    for (int vain = 0; vain < most_vain_halvings && way_.duration / step * bodies <= most_steps; step *= 0.5) {
+      std::vector<double> off;
+      try {
+        off = Runs::differences(runs_.track(way_, {step, 0}), reference);
+      } catch (const SimulationError& error) {  // too long a step for these forces, perhaps
+        trouble = error.what();
+        continue;
+      }
+      const double difference = known > 0 ? off[known - 1] : 0;
+      const double steps = way_.duration / step * bodies;
+      const bool out_of_reach = steps > few_steps && steps_to_go(coarse, difference) * steps > most_steps;
+      coarse = std::exchange(before, difference);
+      vain = difference <= gain * accuracy_.difference ? 0 : vain + 1;
+      if (!(difference < accuracy_.difference)) continue;
+      accuracy_.difference = difference;
+      accuracy_.steps = {step, 0};
+      if ((accuracy_.reached = difference <= tolerance_)) return;
+      if (out_of_reach) break;
+    }
+    if (accuracy_.steps.length) return;
+    if (!trouble.empty()) throw SimulationError(trouble);
+    throw SimulationError(fmt::format(
+        "the forces change so fast that even steps of {:.4g} s take more than {:g} steps of bodies: shorten "
+        "simulate.duration, or name a simulate.step in place of the tolerance",
+        step, most_steps));
+  }
+
+  /// How many times as many steps the tolerance takes as these, whose difference (m) was so much with a quarter of
+  /// them.
+  double steps_to_go(double coarse, double difference) const {
+    if (!(difference > tolerance_) || !(coarse > difference)) return 1;
+    return std::exp2(2 * std::log(difference / tolerance_) / std::log(coarse / difference));
+  }
+
+  const Scene& scene_;
+  Simulate way_;
+  double tolerance_;  // m
+  Runs runs_;
+  Accuracy accuracy_;
+};
+
+/// So many instants at which a disturbance is small tell how it grows.
+std::size_t enough(const std::vector<double>& apart) {
+  return std::min(least_small, apart.size() / 2);
+}
+
+/// From how far apart (m) two runs are at instants (s); it is small at the first so many of these.
+void measure_growth(const std::vector<double>& instants, const std::vector<double>& apart, std::size_t small,
+                    Growth& growth) {
+  const auto first = std::find_if(apart.begin(), apart.end(), [](double d) { return d > 0; });
+  if (first == apart.end()) return;
+  growth.factor = apart.back() / *first;
+  if (small < enough(apart)) return;
+  const std::size_t half = small / 2 - 1, between = (half + small - 1) / 2, end = small - 1;
+  // How much faster than the third power of time from one instant to another: its logarithm.
+  const auto excess = [&](std::size_t from, std::size_t to) {
+    if (!(apart[from] > 0)) return 0.0;
+    return std::log(apart[to] / apart[from]) - 3 * std::log(instants[to] / instants[from]);
+  };
+  growth.chaotic = excess(half, between) > 0 && excess(between, end) > 0;
+  if (growth.chaotic) growth.lyapunov_time = (instants[end] - instants[half]) / std::log(apart[end] / apart[half]);
+}
+
+/// In [-1, -1/2] or [1/2, 1], of the k-th number: irrational steps around a circle.
+double irregular(double k) {
+  const double x = k * golden, fraction = x - std::floor(x);
+  return fraction < 0.5 ? fraction - 1 : fraction;
+}
+
+}  // namespace
+
+Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double tolerance, const std::function<void()>& look) {
+  return Settling(scene, way, tolerance, look).go();
+}
+
+Perturbed perturbed(const World& world, const State& initial, double share) {
+  Perturbed other{world, initial};
+  double k = 0;
+  for (Vec3& v : other.initial.velocity)
+    for (double& component : v) component *= 1 + share * irregular(++k);
+  for (double& mass : other.world.mass) mass *= 1 + share * irregular(++k);
+  for (double& component : other.world.gravity) component *= 1 + share * irregular(++k);
+  return other;
+}
+
+Assessment assess(const Scene& scene, const EngineChoice& engine, const std::function<void()>& look) {
+  Assessment assessment;
+  Simulate way = scene.simulate;
+  way.engine = engine.engine;
+  const double least = *std::min_element(scene.world.radius.begin(), scene.world.radius.end());
+  assessment.tolerance = way.tolerance.value_or(told_radius * least);
+  const Runs runs(scene, look);
+  Tally tally;
+  const Track track = runs.track(way, engine.steps, 0, &tally);
+  assessment.stepped_contact = tally.stepped_contact;
+  assessment.method_error = tally.method_error;
+  std::vector<double> off = Runs::differences(track, runs.track(way, engine.steps, disturbance));
+  assessment.rounding = off.back();
+  if (way.engine != Engine::exact && force_without_closed_form(scene.world) != nullptr) {
+    const std::vector<double> finer_off =
+        Runs::differences(track, runs.track(way, finer_steps(scene, way, engine.steps)));
+    assessment.integrator = finer_off.back();
+    for (std::size_t k = 0; k < off.size(); ++k) off[k] = std::max(off[k], finer_off[k]);
+  }
+  if (const std::size_t good = within(off, assessment.tolerance); good < off.size())
+    assessment.right_until = good > 0 ? runs.instants()[good - 1] : 0;
+  assessment.growth = growth_of(scene, way, engine.steps, look);
+  return assessment;
+}
+
+Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& steps, const std::function<void()>& look) {
+  Growth growth;
+  if (way.duration == 0 || scene.world.body_count() == 0) return growth;
+  const double large = saturated * *std::max_element(scene.world.radius.begin(), scene.world.radius.end());
+  // Only while it is small: from as large as bodies on it cannot grow. That may be over long before the run is.
+  for (double end = way.duration;;) {
+    const Runs runs(scene, look, end);
+    const std::vector<double> apart =
+        Runs::differences(runs.track(way, steps), runs.track(way, steps, carried_disturbance));
+    const std::size_t small = within(apart, large);
+    if (small < apart.size()) {
+      growth.large_at = runs.instants()[small];
+      if (small < enough(apart) && growth.large_at > clock_share * way.duration) {
+        end = growth.large_at;
+        continue;
+      }
+    }
+    measure_growth(runs.instants(), apart, small, growth);
+    return growth;
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,177 @@
+#include "run/engine.h"
+
+#include <fmt/format.h>
+
+#include "physics/force.h"
+#include "run/accuracy.h"
+#include "simulate/book.h"
+#include "simulate/exact.h"
+
+namespace carom {
+
+namespace {
+
+/// What a simulator is made of.
+struct Making {
+  const World& world;
+  const State& initial;
+  const Simulate& simulate;
+  Recording recording;
+  const StepChoice& steps;
+};
+
+ExactOptions exact_options(const Making& making) {
+  const Simulate& simulate = making.simulate;
+  ExactOptions options;
+  options.duration = simulate.duration;
+  options.rest_speed = simulate.rest_speed.value_or(options.rest_speed);
+  options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
+  options.record_collisions = making.recording.collisions;
+  return options;
+}
+
+/// Along paths in closed form, from event to event.
+std::unique_ptr<Simulator> make_exact(const Making& making) {
+  ExactOptions options = exact_options(making);
+  options.merge = making.simulate.merge;
+  options.record_paths = making.recording.paths && varying_force(making.world) == nullptr;
+  return make_exact_simulator(making.world, making.initial, options);
+}
+
+/// Whether the engine chooses its steps as it goes.
+bool chooses_steps(const Simulate& simulate) {
+  return simulate.integrator == Integrator::dop853;
+}
+
+/// The same, with free flights in steps.
+std::unique_ptr<Simulator> make_stepped(const Making& making) {
+  const Simulate& simulate = making.simulate;
+  const StepChoice& steps = making.steps;
+  ExactOptions options = exact_options(making);
+  if (steps.error > 0) options.step_error = steps.error;
+  options.integrator = simulate.integrator;
+  options.closed_forms = !steps.numerical;
+  const std::optional<double> step = steps.length ? steps.length : simulate.step;
+  if (step)
+    options.step = *step;
+  else if (!chooses_steps(simulate))
+    options.step = default_step(making.world, making.initial);
+  return make_exact_simulator(making.world, making.initial, options);
+}
+
+/// Frame by frame, as the chapter's listings do.
+std::unique_ptr<Simulator> make_book(const Making& making) {
+  const Simulate& simulate = making.simulate;
+  BookOptions options;
+  options.step = making.steps.length.value_or(simulate.step.value_or(options.step));
+  options.as_printed = simulate.as_printed;
+  options.max_collisions = simulate.max_collisions.value_or(options.max_collisions);
+  options.record_collisions = making.recording.collisions;
+  return make_book_simulator(making.world, making.initial, options);
+}
+
+/// By Engine; what each lacks is in scene/engines.cpp.
+constexpr std::unique_ptr<Simulator> (*makers[])(const Making&) = {nullptr, make_exact, make_stepped, make_book};
+
+std::string joined(const std::string& why, const std::string& more) {
+  return why.empty() ? more : why + "; " + more;
+}
+
+}  // namespace
+
+Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator) {
+  simulate.engine = engine;
+  simulate.integrator = integrator;
+  simulate.step.reset();
+  simulate.tolerance.reset();
+  return simulate;
+}
+
+EngineChoice choose_engine(const Scene& scene) {
+  EngineChoice choice{engine_of(scene.world, scene.simulate)};
+  if (scene.simulate.engine == Engine::automatic) {
+    const Force* open = force_without_closed_form(scene.world);
+    choice.why = open == nullptr ? "auto: every path of this scene has a closed form"
+                                 : fmt::format("auto: under {} paths have no closed form", open_force_text(*open));
+  }
+  if (choice.engine != Engine::stepped || scene.simulate.tolerance) return choice;
+  if (chooses_steps(scene.simulate)) {
+    const std::string limit = scene.simulate.step ? fmt::format(", {:.4g} s at most", *scene.simulate.step) : "";
+    choice.why = joined(choice.why, "dop853, steps of its own" + limit);
+  } else {
+    choice.steps.length = scene.simulate.step.value_or(default_step(scene.world, scene.initial));
+    choice.why = joined(choice.why,
+                        fmt::format("{}, steps of {:.4g} s", name_of(scene.simulate.integrator), *choice.steps.length));
+  }
+  return choice;
+}
+
+namespace {
+
+/// How a run that does not meet its tolerance falls short of it.
+std::string shortfall_of(const Scene& scene, const Simulate& way, const Accuracy& accuracy, const Growth& growth) {
+  const double tolerance = *scene.simulate.tolerance;
+  std::string text;
+  if (!accuracy.reached)
+    text = fmt::format(
+        "not converged: with the shortest steps that were tried, {:.3g} s, places are off by {:.2g} m, not {} m",
+        *accuracy.steps.length, accuracy.difference, tolerance);
+  if (!(accuracy.right_until < way.duration)) return text;
+  const std::string since =
+      fmt::format("places are told to {} m until {:.4g} s, and differ by up to {:.2g} m later: ", tolerance,
+                  accuracy.right_until, accuracy.beyond);
+  const std::string why = growth.chaotic
+                              ? fmt::format("chaotic, a disturbance grows e-fold in {:.3g} s", growth.lyapunov_time)
+                              : std::string(
+                                    "not converged, though not chaotic: rounding is grown by the motion, or forces are "
+                                    "too sharp for doubles");
+  return joined(text, since + why);
+}
+
+}  // namespace
+
+void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<void()>& look) {
+  if (!scene.simulate.tolerance || engine.engine == Engine::book) return;
+  Simulate way = scene.simulate;
+  way.engine = engine.engine;
+  const Accuracy accuracy = settle_accuracy(scene, way, *way.tolerance, look);
+  engine.steps = accuracy.steps;
+  if (engine.engine == Engine::stepped)
+    engine.why =
+        joined(engine.why, chooses_steps(way)
+                               ? fmt::format("dop853, steps that err by {:.1g} of a radius", engine.steps.error)
+                               : fmt::format("{}, steps of {:.4g} s", name_of(way.integrator), *engine.steps.length));
+  const bool known = accuracy.right_until >= way.duration;
+  if (accuracy.reached && known)
+    engine.why = joined(engine.why, fmt::format("places agree within {:.2g} m with a finer run", accuracy.difference));
+  if (!known) engine.growth = growth_of(scene, way, engine.steps, look);
+  engine.right_until = accuracy.right_until;
+  engine.shortfall = shortfall_of(scene, way, accuracy, engine.growth);
+}
+
+std::unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
+                                          Recording recording, const StepChoice& steps) {
+  return makers[static_cast<std::size_t>(engine_of(world, simulate))]({world, initial, simulate, recording, steps});
+}
+
+std::unique_ptr<Simulator> make_simulator(const Scene& scene, Recording recording, const StepChoice& steps) {
+  return make_simulator(scene.world, scene.initial, scene.simulate, recording, steps);
+}
+
+void check_flights(const Scene& scene) {
+  if (!scene.output.flights || goes_along_parabolas(scene.world, scene.simulate)) return;
+  throw SimulationError("flights are parabolas from impact to impact, which this scene has not: leave them out");
+}
+
+Engine most_exact(const World& world) {
+  return engine_of(world, {});
+}
+
+std::unique_ptr<Simulator> make_oracle(const Scene& scene) {
+  Simulate simulate = scene.simulate;
+  simulate.engine = most_exact(scene.world);
+  if (simulate.engine == Engine::stepped) simulate = with_engine(simulate, Engine::stepped, Integrator::dop853);
+  return make_simulator(scene.world, scene.initial, simulate, {.collisions = true});
+}
+
+}  // namespace carom

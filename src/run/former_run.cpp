@@ -1,0 +1,88 @@
+#include "run/former_run.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "export/flights_file.h"
+#include "files/hash.h"
+#include "files/open_folder.h"
+#include "files/run_folder.h"
+#include "files/stored_file.h"
+#include "run/replay.h"
+
+namespace carom {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& reason, const std::string& remedy) {
+  throw ExportError(fmt::format("{}\n  {}", reason, remedy));
+}
+
+[[noreturn]] void refuse_damaged(const std::string& folder, const std::string& reason) {
+  refuse(reason, fmt::format("carom run {}/scene.yaml -o {} --force makes the run anew", folder, folder));
+}
+
+/// Its manifest's names of outputs.
+std::vector<std::string> output_names_of(const Manifest& manifest) {
+  std::vector<std::string> names;
+  const auto json = nlohmann::json::parse(manifest.outputs, nullptr, false);
+  if (json.is_object())
+    for (const auto& [name, settings] : json.items()) names.push_back(name);
+  return names;
+}
+
+}  // namespace
+
+std::string former_scene_file(const std::string& folder) {
+  const Standing stands = what_stands(folder);
+  if (stands == Standing::nothing) refuse("there is no such folder", "name the folder of a run");
+  if (stands == Standing::other) refuse("it is no folder", "name the folder of a run, which has a manifest.json");
+  const std::string file = (std::filesystem::path(folder) / "scene.yaml").string();
+  const bool has_scene = what_stands(file) != Standing::nothing;
+  if (!has_scene && what_stands((std::filesystem::path(folder) / "runs").string()) == Standing::folder)
+    refuse("it holds many runs", fmt::format("name one of them or more: {}/runs/r0001", folder));
+  if (what_stands((std::filesystem::path(folder) / manifest_name).string()) == Standing::nothing)
+    refuse("it holds no whole run: there is no manifest.json",
+           has_scene ? fmt::format("carom run {} -o {} finishes it", file, folder) : "name the folder of a run");
+  return file;
+}
+
+FormerRun read_former_run(const std::string& folder, SceneFile& file) {
+  FormerRun run;
+  run.folder = folder;
+  const Descriptor opened = open_folder(AT_FDCWD, folder, true);
+  const auto manifest = opened ? read_manifest(opened.get(), manifest_name) : std::nullopt;
+  if (!manifest) refuse_damaged(folder, "its manifest.json is none that carom wrote, or damaged");
+  run.manifest = *manifest;
+  if (manifest->version != CAROM_VERSION)
+    refuse_damaged(folder, fmt::format("carom {} made it, and this is {}", manifest->version, CAROM_VERSION));
+  run.scene = file.scene();
+  if (sha256(run.scene.resolved) != manifest->scene_sha256)
+    refuse_damaged(folder, "its scene.yaml is not the one that was run");
+  run.scene.output = restricted(run.scene.output, output_names_of(*manifest));
+  if (outputs_text(run.scene.output) != manifest->outputs)
+    refuse("it holds no run", "name a folder that carom run has written");
+  if (const std::string wrong = wrong_file(opened.get(), *manifest); !wrong.empty())
+    refuse_damaged(folder, fmt::format("{} is missing or has changed", wrong));
+  run.scene.file = manifest->scene_file;
+  return run;
+}
+
+bool FormerRun::has_flights() const {
+  return std::any_of(manifest.files.begin(), manifest.files.end(),
+                     [](const FileRecord& file) { return file.name == flights_name; });
+}
+
+std::unique_ptr<Simulator> FormerRun::motion(const Scene& of) const {
+  const Descriptor opened = open_folder(AT_FDCWD, folder, true);
+  const auto reader = std::make_shared<FlightsReader>(opened.get(), folder, of);
+  return std::make_unique<Replay>(
+      of.world, [reader](PathPiece& piece) { return reader->next(piece); }, reader->tally());
+}
+
+}  // namespace carom

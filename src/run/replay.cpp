@@ -1,0 +1,92 @@
+#include "run/replay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "simulate/flight.h"
+
+namespace carom {
+
+namespace {
+
+constexpr std::size_t path_buffer = 4096;
+
+Instant instant(const DoubleDouble& time) {
+  return {time.hi, time.lo};
+}
+
+}  // namespace
+
+Replay::Replay(const World& world, NextPiece next, const Tally& tally)
+    : world_(world), next_(std::move(next)), tally_(tally), now_(world.body_count()) {
+  more_ = next_(coming_);
+  std::vector<PathPiece> first;  // at time 0, all together
+  do {
+    advance_to(0);
+    first.insert(first.end(), passed_.begin(), passed_.end());
+  } while (more_ && coming_.from <= 0);
+  passed_ = std::move(first);
+}
+
+void Replay::advance_to(double time) {
+  fresh_ = false;
+  passed_.clear();
+  while (more_ && coming_.from <= time) {
+    if (passed_.size() >= path_buffer) {  // stops short of what is to come, in the middle of an instant perhaps
+      time_ = std::max(time_, std::nextafter(coming_.from, 0));
+      return;
+    }
+    take(coming_);
+    passed_.push_back(coming_);
+    more_ = next_(coming_);
+  }
+  time_ = std::max(time, time_);
+}
+
+void Replay::take(const PathPiece& piece) {
+  now_[piece.body] = piece;
+  const bool merges = piece.joint || piece.part_of != no_entity;
+  if (!merges) return;
+  if (part_of_.empty()) {
+    part_of_.resize(world_.body_count());
+    std::iota(part_of_.begin(), part_of_.end(), Entity{0});
+    mass_ = world_.mass;
+    radius_ = world_.radius;
+    volume_ = world_.volume;
+  }
+  if (piece.part_of != no_entity) part_of_[piece.body] = piece.part_of;
+  if (!piece.joint) return;
+  mass_[piece.body] = piece.mass;
+  radius_[piece.body] = piece.radius;
+  if (!volume_.empty()) volume_[piece.body].half = piece.half;
+}
+
+const State& Replay::state() {
+  if (fresh_) return state_;
+  state_.time = time_;
+  state_.position.resize(now_.size());
+  state_.velocity.resize(now_.size());
+  const Instant at{time_, 0};
+  for (std::size_t i = 0; i < now_.size(); ++i) {
+    const PathPiece& piece = now_[i];
+    const Flight flight{instant(piece.start), piece.x, piece.v, piece.a};
+    const double t = at - flight.start;
+    state_.position[i] = flight.position(t);
+    state_.velocity[i] = flight.velocity(t);
+    if (piece.kicked) state_.velocity[i] = without_kick(state_.velocity[i], at, instant(piece.until), piece.kick);
+    state_.velocity[i] += piece.bend.at(t);
+  }
+  if (!part_of_.empty()) {
+    state_.mass = mass_;
+    state_.radius = radius_;
+    state_.volume = volume_;
+    state_.part_of = part_of_;
+    state_.join_parts();
+  }
+  fresh_ = true;
+  return state_;
+}
+
+}  // namespace carom

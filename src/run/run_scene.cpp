@@ -1,0 +1,186 @@
+// The loop of a run: the simulator is carried from one instant of the folders' timelines to the next; what is due there
+// is written and drawn; at the end every folder gets its summary, its manifest and its files' names.
+#include "run/run_scene.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "run/account.h"
+#include "run/stopwatch.h"
+#include "run/warnings.h"
+
+namespace carom {
+namespace {
+
+std::uint64_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+class Run {
+ public:
+  Run(std::span<const Show> shows, const EngineChoice& engine, const RunSettings& settings, const RunWatch& watch)
+      : shows_(shows), settings_(settings), watch_(watch), engine_(engine), results_(shows.size()) {
+    for (std::size_t i = 0; i < shows.size(); ++i) {
+      stages_.emplace_back();
+      guarded(i, [&] {
+        check_flights(*shows[i].scene);
+        stages_[i] = std::make_unique<Stage>(shows[i], settings.durability);
+      });
+    }
+    const Stopwatch stopwatch(simulate_s_);
+    if (!settings.simulator) settle_steps(scene(), engine_, watch_.look);
+    const bool collisions =
+        std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.collisions; });
+    const bool paths =
+        std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.flights; });
+    simulator_ =
+        settings.simulator ? settings.simulator(scene()) : make_simulator(scene(), {collisions, paths}, engine_.steps);
+    record({}, simulator_->paths());
+    start_ = stored_energy(scene(), simulator_->state());
+  }
+
+  void go() {
+    while (const std::optional<double> time = next_instant()) {
+      carry_to(*time);
+      for (std::size_t i = 0; i < stages_.size(); ++i) {
+        if (stages_[i] && stages_[i]->more && stages_[i]->time() <= *time)
+          guarded(i, [&] { stages_[i]->sample(*simulator_, {watch_.look, [this] { tell(); }}); });
+      }
+    }
+  }
+
+  std::vector<RunResult> finish() {
+    for (std::size_t i = 0; i < stages_.size(); ++i)
+      if (stages_[i]) guarded(i, [&] { finish(i); });
+    return std::move(results_);
+  }
+
+ private:
+  const Scene& scene() const { return *shows_.front().scene; }  // whose motion it is
+
+  /// What fails for one of several shows is no other's failure.
+  template <typename Work>
+  void guarded(std::size_t i, const Work& work) {
+    try {
+      work();
+    } catch (const std::exception&) {
+      watch_.look();  // ffmpeg hears a Ctrl-C too and ends first: what looks like an error of writing is the interrupt
+      if (shows_.size() == 1) throw;
+      results_[i].failure = std::current_exception();
+      stages_[i].reset();
+    }
+  }
+
+  std::optional<double> next_instant() const {
+    std::optional<double> next;
+    for (const auto& stage : stages_)
+      if (stage && stage->more && !(next && *next <= stage->time())) next = stage->time();
+    return next;
+  }
+
+  // In slices, so that a signal is heard and progress shown where no output is due for long. Looking moves nothing, so
+  // the slices change no bit of the motion.
+  void carry_to(double time) {
+    const double slice = scene().simulate.duration / 1000;
+    watch_.look();
+    while (simulator_->time() < time) {
+      const double before = simulator_->time();
+      const std::uint64_t collisions_before = simulator_->tally().collisions();
+      const double next = std::min(time, before + slice);
+      {
+        const Stopwatch watch(simulate_s_);
+        simulator_->advance_to(next > before ? next : time);
+      }
+      const std::span<const Collision> collisions = simulator_->collisions();
+      const std::span<const PathPiece> paths = simulator_->paths();
+      record(collisions, paths);
+      if (collisions.empty() && paths.empty() && !(simulator_->time() > before) &&
+          simulator_->tally().collisions() == collisions_before)
+        throw SimulationError("the simulator does not go on");
+      watch_.look();
+      tell();
+    }
+  }
+
+  void record(std::span<const Collision> collisions, std::span<const PathPiece> paths) {
+    if (collisions.empty() && paths.empty()) return;
+    for (std::size_t i = 0; i < stages_.size(); ++i) {
+      if (!stages_[i]) continue;
+      guarded(i, [&] {
+        const Stopwatch watch(stages_[i]->facts.export_s);
+        stages_[i]->exports.record(collisions);
+        stages_[i]->exports.record_paths(paths);
+      });
+    }
+  }
+
+  void tell() const {
+    std::uint64_t pictures = 0;
+    for (const auto& stage : stages_)
+      if (stage) pictures += stage->exports.frames();
+    watch_.tell(simulator_->time(), simulator_->tally().collisions(), pictures);
+  }
+
+  void finish(std::size_t i) {
+    Stage& stage = *stages_[i];
+    RunResult& result = results_[i];
+    const State& end = simulator_->state();
+    result.engine = engine_;
+    result.summary = account_of(stage.scene, engine_, start_, end, simulator_->tally());
+    result.summary.warnings = settings_.warnings
+                                  ? *settings_.warnings
+                                  : warnings_of(stage.scene, engine_, end, result.summary, simulator_->tally());
+    result.summary.status = result.summary.warnings.empty() ? "done" : "doubtful";
+    result.summary.frames = stage.exports.frames();
+    result.facts = stage.facts;
+    result.facts.simulate_s = simulate_s_;
+    result.facts.peak_memory = peak_memory();
+    result.facts.left_out = stage.exports.end(simulator_->tally());
+    if (settings_.measure) result.facts.measures = settings_.measure(stage.scene, end, result.summary);
+    stage.exports.finish(result.summary, result.facts);
+  }
+
+  std::span<const Show> shows_;
+  const RunSettings& settings_;
+  const RunWatch& watch_;
+  EngineChoice engine_;
+  std::vector<RunResult> results_;              // by show
+  std::vector<std::unique_ptr<Stage>> stages_;  // by show; none: it has failed
+  std::unique_ptr<Simulator> simulator_;
+  StoredEnergy start_;     // at time 0
+  double simulate_s_ = 0;  // wall time
+};
+
+}  // namespace
+
+std::vector<RunResult> run_shows(std::span<const Show> shows, const EngineChoice& engine, const RunSettings& settings,
+                                 const RunWatch& watch) {
+  double wall_s = 0;
+  std::vector<RunResult> results;
+  {
+    const Stopwatch wall(wall_s);
+    try {
+      Run run(shows, engine, settings, watch);
+      run.go();
+      results = run.finish();
+    } catch (const SimulationError& error) {
+      const Roster& roster = shows.front().scene->roster;
+      throw error.named([&](Entity body) { return fmt::format("`{}`", roster.name(body)); });
+    }
+  }
+  for (RunResult& result : results) result.wall_s = wall_s;
+  return results;
+}
+
+RunResult run_scene(const Show& show, const EngineChoice& engine, const RunSettings& settings, const RunWatch& watch) {
+  return std::move(run_shows({&show, 1}, engine, settings, watch).front());
+}
+
+}  // namespace carom

@@ -1,0 +1,61 @@
+#include "run/summary_columns.h"
+
+#include <algorithm>
+#include <array>
+
+namespace carom {
+namespace {
+
+template <auto Member>
+double number_of(const Summary& summary) {
+  return static_cast<double>(summary.*Member);
+}
+
+template <auto Member>
+double energy_of(const Summary& summary) {
+  return summary.energy.*Member;
+}
+
+constexpr std::array<SummaryColumn, 22> columns = {{
+    {"run", "the run's name"},
+    {"title", "the scene's title"},
+    {"engine", "the simulator: exact, stepped or book"},
+    {"status",
+     "done; doubtful: a warning in manifest.json says why figures may be wrong; failed: only the parameters are known"},
+    {"duration_s", "simulated time", number_of<&Summary::duration>},
+    {"bodies", "movable bodies", number_of<&Summary::bodies>},
+    {"collisions", "all collisions", number_of<&Summary::collisions>},
+    {"body_body", "collisions between two bodies", number_of<&Summary::body_body>},
+    {"body_fixed", "collisions with planes, walls and obstacles", number_of<&Summary::body_fixed>},
+    {"first_collision_s", "time of the first collision", number_of<&Summary::first_collision>},
+    {"last_collision_s", "time of the last collision", number_of<&Summary::last_collision>},
+    {"energy_start_J", "kinetic and potential energy at the start", energy_of<&EnergyTotals::start>},
+    {"energy_end_J", "kinetic and potential energy at the end", energy_of<&EnergyTotals::end>},
+    {"energy_lost_J", "energy that impacts took, those that contact took up included; below 0: made",
+     energy_of<&EnergyTotals::lost>},
+    {"work_J", "work of forces without a potential", energy_of<&EnergyTotals::work>},
+    {"energy_residual_J", "energy that neither work nor impacts account for: the method's own error, and rounding",
+     energy_of<&EnergyTotals::residual>},
+    {"momentum_drift_kg_m_per_s", "change of the whole momentum, gravity's and surfaces' share included",
+     number_of<&Summary::momentum_drift>},
+    {"max_overlap_m", "deepest overlap seen", number_of<&Summary::max_overlap>},
+    {"max_speed_m_per_s", "greatest speed of a body", number_of<&Summary::max_speed>},
+    {"resting", "bodies in resting contact at the end", number_of<&Summary::resting>},
+    {"frames", "pictures drawn", number_of<&Summary::frames>},
+    {"stepped_contact_s", "lasting contact that time stepping has told, summed over bodies; 0: all of it is exact",
+     number_of<&Summary::stepped_contact>},
+}};
+
+}  // namespace
+
+std::span<const SummaryColumn> summary_columns() {
+  return columns;
+}
+
+const SummaryColumn* find_summary_column(std::string_view name) {
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const SummaryColumn& column) { return column.name == name; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+}  // namespace carom

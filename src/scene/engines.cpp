@@ -1,0 +1,88 @@
+#include "scene/engines.h"
+
+#include <fmt/format.h>
+
+#include "physics/force.h"
+#include "scene/fields.h"
+
+namespace carom {
+
+namespace {
+
+using Lacks = std::vector<Unsupported>;
+
+void exact_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
+  if (const Force* open = force_without_closed_form(world))
+    lacks.push_back(
+        {"engine",
+         fmt::format("under {} paths have no closed form, which `engine: exact` follows", open_force_text(*open)),
+         "expected `engine: stepped`, or `auto`"});
+  if (const Force* bending = bending_force(world); bending != nullptr && simulate.merge)
+    lacks.push_back(
+        {"contact",
+         fmt::format("`contact: merge` is for parabolas and linear drag, not for `{}`", name_of(bending->law)),
+         "expected `contact: bounce`"});
+}
+
+void stepped_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
+  if (!simulate.merge) return;
+  // Where `auto` stands for it, the force is what is in the way.
+  const Force* bending = simulate.engine == Engine::automatic ? bending_force(world) : nullptr;
+  lacks.push_back(
+      {"contact",
+       bending == nullptr
+           ? "`engine: stepped` has no `contact: merge`"
+           : fmt::format("`contact: merge` is for parabolas and linear drag, not for `{}`", name_of(bending->law)),
+       "expected `contact: bounce`"});
+}
+
+// The chapter's listings know spheres, planes and walls, gravity and the impulses of the first frame.
+void book_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
+  const auto lack = [&](const char* at, const char* what, const char* instead) {
+    lacks.push_back({at, fmt::format("`engine: book` has no {}", what), fmt::format("expected {}", instead)});
+  };
+  if (simulate.merge) lack("contact", "`contact: merge`", "`engine: exact`");
+  if (simulate.tolerance) lack("tolerance", "`tolerance`", "`step`");
+  if (!world.volume.empty()) lack("engine", "cylinders and boxes: its bodies are spheres", "`engine: exact`");
+  if (!world.obstacles.empty()) lack("obstacles", "obstacles", "`engine: exact`");
+  if (!world.forces.empty())
+    lack("forces", "forces beside gravity", varying_force(world) == nullptr ? "`engine: exact`" : "`engine: stepped`");
+}
+
+}  // namespace
+
+std::string_view name_of(Engine engine) {
+  return parts_of(engine_names)[static_cast<std::size_t>(engine)];
+}
+
+std::string_view name_of(Integrator integrator) {
+  return parts_of(integrator_names)[static_cast<std::size_t>(integrator)];
+}
+
+Engine engine_of(const World& world, const Simulate& simulate) {
+  if (simulate.engine != Engine::automatic) return simulate.engine;
+  return force_without_closed_form(world) == nullptr ? Engine::exact : Engine::stepped;
+}
+
+bool goes_along_parabolas(const World& world, const Simulate& simulate) {
+  return engine_of(world, simulate) == Engine::exact && varying_force(world) == nullptr;
+}
+
+std::string open_force_text(const Force& force) {
+  if (const Spring* spring = std::get_if<Spring>(&force.law); spring != nullptr)
+    if (spring->rest_length != 0 || spring->damping != 0) return "a `spring` with a rest length or damping";
+  if (const Attractor* attractor = std::get_if<Attractor>(&force.law); attractor != nullptr)
+    return attractor->softening != 0 ? "a softened `attractor`" : "an `attractor` beside other forces";
+  return std::holds_alternative<Drag>(force.law) ? "quadratic `drag`"
+                                                 : fmt::format("a `{}` beside other forces", name_of(force.law));
+}
+
+Lacks unsupported(const World& world, const Simulate& simulate) {
+  static constexpr void (*of_engine[])(const World&, const Simulate&, Lacks&) = {nullptr, exact_lacks, stepped_lacks,
+                                                                                 book_lacks};
+  Lacks lacks;
+  of_engine[static_cast<std::size_t>(engine_of(world, simulate))](world, simulate, lacks);
+  return lacks;
+}
+
+}  // namespace carom

@@ -1,0 +1,385 @@
+#include "solver/active_set.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace carom {
+
+namespace {
+
+constexpr double dependent = 0x1p-43;    // of a row of unit length: what others span but for rounding
+constexpr double pulling = 8 * 0x1p-53;  // of the greatest force: a negative one that is only rounding
+constexpr double refined_change =
+    4 * 0x1p-53;  // of a row's scale: what is rounding of the data where residuals are exact
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+/// Q^T of row c, in row_.
+void DualActiveSet::transform(const ContactIsland& island, std::uint32_t c) {
+  const ContactIsland::Row& r = island.rows[c];
+  const std::size_t at[2] = {3 * r.a, 3 * static_cast<std::size_t>(r.moves_b() ? r.b : 0)};
+  const double values[6] = {-r.left.x(), -r.left.y(), -r.left.z(), r.right.x(), r.right.y(), r.right.z()};
+  factors_.transform(at, values, r.moves_b() ? 2 : 1, row_.data());
+}
+
+/// Takes row c in without a force. False: others span it.
+bool DualActiveSet::append(const ContactIsland& island, std::uint32_t c) {
+  if (factors_.rank() == factors_.columns()) return false;
+  transform(island, c);
+  if (factors_.tail(row_.data()) <= dependent_) return false;
+  factors_.append(row_.data());
+  place_[c] = static_cast<std::uint32_t>(active_.size());
+  active_.push_back(c);
+  force_.push_back(0);
+  fixed_.push_back(island.rows[c].bilateral);
+  return true;
+}
+
+/// Lets go of the active row at `place`; row_ goes along.
+void DualActiveSet::drop(std::size_t place) {
+  factors_.remove(place, row_.data());
+  place_[active_[place]] = none;
+  const auto at = static_cast<std::ptrdiff_t>(place);
+  active_.erase(active_.begin() + at);
+  force_.erase(force_.begin() + at);
+  fixed_.erase(fixed_.begin() + at);
+  for (std::size_t k = place; k < active_.size(); ++k) place_[active_[k]] = static_cast<std::uint32_t>(k);
+}
+
+/// New factors, of the bilateral rows and then of these.
+void DualActiveSet::rebuild(const ContactIsland& island, const std::vector<std::uint32_t>& rows) {
+  factors_.reset(island.unknowns());
+  active_.clear();
+  force_.clear();
+  fixed_.clear();
+  place_.assign(island.rows.size(), none);
+  if (!island.unilateral)
+    for (std::uint32_t c = 0; c < island.rows.size(); ++c)
+      if (island.rows[c].bilateral) append(island, c);
+  for (const std::uint32_t c : rows)
+    if (place_[c] == none) append(island, c);
+}
+
+/// The motion that keeps the active rows exactly, and their forces.
+void DualActiveSet::balance(const ContactIsland& island) {
+  const std::size_t k = active_.size();
+  std::fill(step_.begin(), step_.end(), 0.0);
+  for (std::size_t j = 0; j < k; ++j) {
+    const ContactIsland::Row& r = island.rows[active_[j]];
+    step_[j] = r.scale * r.target - r.dot(free_.data());
+  }
+  factors_.solve_transposed(step_.data());
+  factors_.from_q(step_.data(), y_.data());
+  for (std::size_t i = 0; i < y_.size(); ++i) y_[i] += free_[i];
+  factors_.solve(step_.data());
+  std::copy(step_.begin(), step_.begin() + static_cast<std::ptrdiff_t>(k), force_.begin());
+}
+
+/// Goes back to the motion that the active rows make, without those that pull.
+void DualActiveSet::settle(const ContactIsland& island) {
+  do balance(island);
+  while (drop_one_that_pulls(0));
+}
+
+/// Lets go of the row that pulls most, if one does.
+bool DualActiveSet::drop_one_that_pulls(double tolerance) {
+  double greatest = 0, least = 0;
+  std::size_t which = none;
+  for (std::size_t k = 0; k < active_.size(); ++k) {
+    greatest = std::max(greatest, std::abs(force_[k]));
+    if (!fixed_[k] && force_[k] < least) {
+      least = force_[k];
+      which = k;
+    }
+  }
+  if (which == none || !(least < -tolerance * greatest)) return false;
+  drop(which);
+  return true;
+}
+
+/// How far row_'s force may grow before that of an active row is gone: the first of them.
+double DualActiveSet::blocking(std::size_t& first) const {
+  double most = infinite;
+  for (std::size_t k = 0; k < active_.size(); ++k)
+    if (!fixed_[k] && step_[k] > 0 && force_[k] < most * step_[k]) {
+      most = force_[k] / step_[k];
+      first = k;
+    }
+  return most;
+}
+
+/// Lets row c, which is short by this much, press until it is kept. False: it cannot be.
+bool DualActiveSet::take_in(const ContactIsland& island, std::uint32_t c, double shortfall) {
+  double force = 0;
+  transform(island, c);
+  for (;;) {
+    const bool full = factors_.rank() == factors_.columns();
+    const double tail = full ? 0 : factors_.tail(row_.data());
+    const bool free = tail > dependent_;
+    // How the active rows' forces change for each unit of this one's.
+    std::copy(row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(active_.size()), step_.begin());
+    factors_.solve(step_.data());
+    std::size_t first = none;
+    const double most = blocking(first), enough = free ? std::max(shortfall, 0.0) / (tail * tail) : infinite;
+    if (!free && first == none) return false;
+    const double step = std::min(most, enough);
+    for (std::size_t k = 0; k < active_.size(); ++k) {
+      force_[k] -= step * step_[k];
+      if (!fixed_[k]) force_[k] = std::max(force_[k], 0.0);
+    }
+    force += step;
+    if (free) {
+      factors_.tail_direction(row_.data(), work_.data());
+      for (std::size_t i = 0; i < y_.size(); ++i) y_[i] += step * work_[i];
+      shortfall -= step * tail * tail;
+    }
+    if (enough <= most) {
+      factors_.append(row_.data());
+      place_[c] = static_cast<std::uint32_t>(active_.size());
+      active_.push_back(c);
+      force_.push_back(force);
+      fixed_.push_back(0);
+      return true;
+    }
+    if (first == none) return false;  // no number
+    drop(first);
+  }
+}
+
+/// Until no row is shorter of its target than rounding makes it. The answer's energy grows with every row that is taken
+/// in; where it does not, for as many as there are, nothing but rounding is left.
+void DualActiveSet::take_in_violated(const ContactIsland& island) {
+  double energy = 0;
+  std::size_t idle = 0;
+  std::vector<double>& load = load_;  // by body, the speed that forces give it one by one
+  load.resize(island.free.size());
+  for (;;) {
+    std::fill(load.begin(), load.end(), 0.0);
+    for (std::size_t k = 0; k < active_.size(); ++k) {
+      const ContactIsland::Row& r = island.rows[active_[k]];
+      load[r.a] += std::abs(force_[k]) * r.scale * island.inverse_mass[r.a];
+      if (r.moves_b()) load[r.b] += std::abs(force_[k]) * r.scale * island.inverse_mass[r.b];
+    }
+    std::uint32_t worst = none;
+    double least = 0;
+    for (std::uint32_t c = 0; c < island.rows.size(); ++c) {
+      if (place_[c] != none || aside_[c]) continue;
+      const ContactIsland::Row& r = island.rows[c];
+      const double w = r.dot(y_.data()) - r.scale * r.target;
+      if (!(w < least)) continue;
+      const double noise = island.noise_scale(r) + r.scale * (load[r.a] + (r.moves_b() ? load[r.b] : 0));
+      if (w >= -accepted_change * noise) continue;
+      least = w;
+      worst = c;
+    }
+    if (worst == none) return;
+    if (!take_in(island, worst, -least)) {
+      aside_[worst] = 1;
+      settle(island);
+      continue;
+    }
+    const double more = 0.5 * least * least;  // at least, for rows of unit length
+    idle = more > 0x1p-50 * energy ? 0 : idle + 1;
+    energy += more;
+    if (idle > island.rows.size()) return;
+  }
+}
+
+/// Newton's method on the active rows: the factors are rounded, the residuals are not.
+void DualActiveSet::refine(const ContactIsland& island, ContactAnswer& answer) {
+  const std::size_t n = island.unknowns(), k = active_.size();
+  answer.motion.resize(n);
+  answer.force.assign(island.rows.size(), DoubleDouble{0, 0});
+  if (k == 0) {
+    for (std::size_t i = 0; i < n; ++i) answer.motion[i] = {island.free[i / 3][static_cast<int>(i % 3)], 0};
+    y_ = free_;
+    return;
+  }
+  for (std::size_t i = 0; i < n; ++i) answer.motion[i] = {island.root[i / 3] * y_[i], 0};
+  for (std::size_t j = 0; j < k; ++j) answer.force[active_[j]] = {island.rows[active_[j]].scale * force_[j], 0};
+  double all = 0;
+  for (const double y : y_) all = std::max(all, std::abs(y));
+  // What the rows are off by and what the forces lack, each for as long as there is less and less of it.
+  double off = infinite, unbalanced = infinite;
+  std::vector<double>&p = row_, &g = step_, &dy = work_;
+  const auto greatest = [](const std::vector<double>& v) {
+    double most = 0;
+    for (const double x : v) most = std::max(most, std::abs(x));
+    return most;
+  };
+  // A round leaves as much of it as the factors' rounding makes: where that is little the next one need not be looked
+  // at.
+  const double left = 0x1p-50 / (factors_.least_diagonal() * factors_.least_diagonal()), enough = 0x1p-92 * all;
+  while (off > 0 || unbalanced > 0) {
+    std::fill(g.begin(), g.end(), 0.0);
+    std::fill(p.begin(), p.end(), 0.0);
+    if (off > 0) {
+      for (std::size_t j = 0; j < k; ++j) {
+        const ContactIsland::Row& r = island.rows[active_[j]];
+        g[j] = -r.scale * excess(r, answer.motion);
+      }
+      factors_.solve_transposed(g.data());
+      const double now = greatest(g);
+      if (!(now < 0.5 * off)) std::fill(g.begin(), g.end(), 0.0);
+      off = now < 0.5 * off && left * now > enough ? now : 0;
+    }
+    if (unbalanced > 0) {
+      find_imbalance(island, answer);
+      std::vector<double>& lacking = answer.lacking;
+      for (std::size_t i = 0; i < n; ++i) lacking[i] /= island.root[i / 3];
+      const double now = greatest(lacking);
+      if (now < 0.5 * unbalanced) factors_.to_q(lacking.data(), p.data());
+      unbalanced = now < 0.5 * unbalanced && left * now > enough ? now : 0;
+    }
+    std::copy(p.begin() + static_cast<std::ptrdiff_t>(k), p.end(), g.begin() + static_cast<std::ptrdiff_t>(k));
+    factors_.from_q(g.data(), dy.data());
+    for (std::size_t j = 0; j < k; ++j) g[j] -= p[j];
+    factors_.solve(g.data());
+    for (std::size_t i = 0; i < n; ++i)
+      answer.motion[i] = answer.motion[i] + DoubleDouble{island.root[i / 3] * dy[i], 0};
+    for (std::size_t j = 0; j < k; ++j) {
+      DoubleDouble& x = answer.force[active_[j]];
+      x = x + DoubleDouble{island.rows[active_[j]].scale * g[j], 0};
+    }
+  }
+  for (std::size_t i = 0; i < n; ++i) y_[i] = answer.motion[i].hi / island.root[i / 3];
+  for (std::size_t j = 0; j < k; ++j) force_[j] = answer.force[active_[j]].hi / island.rows[active_[j]].scale;
+}
+
+/// Of the rows that are not taken in the one that is shortest of its target by more than rounding of the data.
+std::uint32_t DualActiveSet::worst_after_refining(const ContactIsland& island, const ContactAnswer& answer,
+                                                  double& shortfall) const {
+  std::uint32_t worst = none;
+  shortfall = 0;
+  for (std::uint32_t c = 0; c < island.rows.size(); ++c) {
+    if (place_[c] != none || aside_[c] > 1) continue;
+    const ContactIsland::Row& r = island.rows[c];
+    if (r.dot(y_.data()) - r.scale * r.target > 0x1p-40 * island.noise_scale(r)) continue;  // surely not
+    const double w = r.scale * excess(r, answer.motion);
+    if (w >= -shortfall || w >= -refined_change * island.noise_scale(r)) continue;
+    shortfall = -w;
+    worst = c;
+  }
+  return worst;
+}
+
+/// Of the set of active rows, whatever their order.
+std::uint64_t DualActiveSet::signature() const {
+  std::uint64_t sum = active_.size();
+  for (const std::uint32_t c : active_) {
+    std::uint64_t x = c + 0x9e3779b97f4a7c15u;
+    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+    sum += x ^ x >> 31;
+  }
+  return sum;
+}
+
+/// Takes in, lets go and refines until neither has anything left to do, or a set of rows comes back.
+void DualActiveSet::run(const ContactIsland& island, ContactAnswer& answer) {
+  std::vector<std::uint64_t> seen;
+  infeasible_ = false;
+  std::fill(aside_.begin(), aside_.end(), 0);
+  settle(island);
+  take_in_violated(island);
+  for (;;) {
+    refine(island, answer);
+    double shortfall = 0;
+    if (drop_one_that_pulls(pulling)) {
+      const std::uint64_t now = signature();
+      if (std::find(seen.begin(), seen.end(), now) != seen.end()) return;
+      seen.push_back(now);
+      settle(island);
+      take_in_violated(island);
+      continue;
+    }
+    const std::uint32_t worst = worst_after_refining(island, answer, shortfall);
+    if (worst == none) return;
+    if (!take_in(island, worst, shortfall)) {
+      infeasible_ = true;
+      aside_[worst] = 2;
+      settle(island);
+      take_in_violated(island);
+      continue;
+    }
+    const std::uint64_t now = signature();
+    if (std::find(seen.begin(), seen.end(), now) != seen.end()) return;
+    seen.push_back(now);
+  }
+}
+
+void DualActiveSet::prepare(const ContactIsland& island) {
+  const std::size_t n = island.unknowns();
+  dependent_ = dependent;
+  for (std::vector<double>* v : {&y_, &free_, &row_, &step_, &work_}) v->assign(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) free_[i] = island.free[i / 3][static_cast<int>(i % 3)] / island.root[i / 3];
+  aside_.assign(island.rows.size(), 0);
+}
+
+DualActiveSet::Result DualActiveSet::solve(const ContactIsland& island, ContactAnswer& answer) {
+  prepare(island);
+  std::vector<std::uint32_t> rows;
+  for (std::uint32_t c = 0; c < island.rows.size(); ++c)
+    if (island.rows[c].force > 0 && !island.rows[c].bilateral) rows.push_back(c);
+  std::sort(rows.begin(), rows.end(), [&](std::uint32_t p, std::uint32_t q) {
+    const double fp = island.rows[p].force / island.rows[p].scale, fq = island.rows[q].force / island.rows[q].scale;
+    return fp != fq ? fp > fq : p < q;
+  });
+  rebuild(island, rows);
+  return finish(island, answer);
+}
+
+DualActiveSet::Result DualActiveSet::solve_again(const ContactIsland& island, std::span<const std::uint32_t> now,
+                                                 ContactAnswer& answer) {
+  prepare(island);
+  for (std::size_t k = active_.size(); k-- > 0;) {
+    active_[k] = now[active_[k]];
+    if (active_[k] != none) continue;
+    factors_.remove(k, row_.data());
+    active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+  force_.assign(active_.size(), 0);
+  fixed_.resize(active_.size());
+  place_.assign(island.rows.size(), none);
+  for (std::size_t k = 0; k < active_.size(); ++k) {
+    place_[active_[k]] = static_cast<std::uint32_t>(k);
+    fixed_[k] = island.rows[active_[k]].bilateral;
+  }
+  for (std::uint32_t c = 0; c < island.rows.size(); ++c)
+    if (island.rows[c].bilateral && place_[c] == none) append(island, c);
+  return finish(island, answer);
+}
+
+/// From the rows that are active to the answer, if need be with other ideas of which rows depend on one another.
+DualActiveSet::Result DualActiveSet::finish(const ContactIsland& island, ContactAnswer& answer) {
+  Result best;
+  best.judgement = {infinite, false};
+  ContactAnswer& attempt = attempt_;
+  for (const double looser : {1.0, 32.0, 1.0 / 16, 1024.0}) {
+    if (looser != 1) {
+      dependent_ = looser * dependent;
+      std::vector<std::uint32_t> rows(active_);
+      std::sort(rows.begin(), rows.end(), [&](std::uint32_t p, std::uint32_t q) {
+        const double fp = answer.force[p].hi / island.rows[p].scale, fq = answer.force[q].hi / island.rows[q].scale;
+        return fp != fq ? fp > fq : p < q;
+      });
+      rebuild(island, rows);
+    }
+    run(island, attempt);
+    for (std::size_t c = 0; c < island.rows.size(); ++c)  // negative by rounding alone
+      if (!island.rows[c].bilateral && attempt.force[c].hi < 0) attempt.force[c] = {0, 0};
+    const Result result{judge(island, attempt), infeasible_};
+    if (looser == 1 || result.judgement.change < best.judgement.change) {
+      best = result;
+      std::swap(answer, attempt);
+    }
+    if (best.judgement.within_slack) break;
+  }
+  best.infeasible = best.infeasible && !best.judgement.within_slack;
+  return best;
+}
+
+}  // namespace carom

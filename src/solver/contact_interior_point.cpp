@@ -1,0 +1,415 @@
+#include "solver/contact_interior_point.h"
+
+#include <Eigen/Sparse>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace carom {
+
+namespace {
+
+using Row = ContactIsland::Row;
+using Vector = std::vector<double>;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double loosest = 1,
+                 tightest = 1e-8;     // of a row's own effect on itself: by what a force may change the motion
+constexpr int guess_worth = 16;       // factorisations, half of what takes an island without a guess: then it was none
+constexpr double handed_over = 1e-8;  // of the motion: where the interior point hands over
+
+/// 1 + J^T D J and its factors: a block for every body and one for every pair of bodies.
+class ContactMatrix {
+ public:
+  explicit ContactMatrix(const ContactIsland& island) : island_(island), places_(island.rows.size()) {
+    const auto n = static_cast<int>(island.unknowns());
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto block = [&](std::uint32_t i, std::uint32_t j) {
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l)
+          if (i > j || k >= l) entries.emplace_back(3 * static_cast<int>(i) + k, 3 * static_cast<int>(j) + l, 0.0);
+    };
+    for (std::uint32_t i = 0; i < island.free.size(); ++i) block(i, i);
+    for (const Row& r : island.rows)
+      if (r.moves_b()) block(std::max(r.a, r.b), std::min(r.a, r.b));
+    matrix_.resize(n, n);
+    matrix_.setFromTriplets(entries.begin(), entries.end());
+    diagonal_.resize(island.free.size());
+    for (std::uint32_t i = 0; i < diagonal_.size(); ++i)
+      for (int k = 0, m = 0; k < 3; ++k)
+        for (int l = 0; l <= k; ++l) diagonal_[i][static_cast<std::size_t>(m++)] = place(i, k, i, l);
+    for (std::size_t c = 0; c < island.rows.size(); ++c) {
+      const Row& r = island.rows[c];
+      if (!r.moves_b()) continue;
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l)
+          places_[c][static_cast<std::size_t>(3 * k + l)] = place(std::max(r.a, r.b), k, std::min(r.a, r.b), l);
+    }
+    factors_.analyzePattern(matrix_);
+  }
+
+  double operations() const { return factors_.operations(); }
+  int factorisations() const { return count_; }
+
+  /// With D = weight, by row. False: it is not positive in numbers.
+  bool factorise(const Vector& weight) {
+    double* value = matrix_.valuePtr();
+    std::fill(value, value + matrix_.nonZeros(), 0.0);
+    for (const auto& d : diagonal_)
+      for (std::size_t k : {0u, 2u, 5u}) value[d[k]] = 1;
+    for (std::size_t c = 0; c < weight.size(); ++c) {
+      if (weight[c] == 0) continue;
+      const Row& r = island_.rows[c];
+      add_square(value, r.a, weight[c], r.left);
+      if (!r.moves_b()) continue;
+      add_square(value, r.b, weight[c], r.right);
+      const Vec3 &high = r.a > r.b ? r.left : r.right, &low = r.a > r.b ? r.right : r.left;
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l)
+          value[places_[c][static_cast<std::size_t>(3 * k + l)]] -= weight[c] * high[k] * low[l];
+    }
+    ++count_;
+    factors_.factorize(matrix_);
+    return factors_.info() == Eigen::Success;
+  }
+
+  void solve(Vector& r) const {
+    Eigen::Map<Eigen::VectorXd> v(r.data(), static_cast<Eigen::Index>(r.size()));
+    v = factors_.solve(v).eval();
+  }
+
+ private:
+  struct Factors : Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> {
+    double operations() const {
+      double sum = 0;
+      for (Eigen::Index k = 0; k < m_nonZerosPerCol.size(); ++k)
+        sum += static_cast<double>(m_nonZerosPerCol[k]) * m_nonZerosPerCol[k];
+      return sum;
+    }
+  };
+
+  void add_square(double* value, std::uint32_t i, double weight, const Vec3& v) const {
+    for (int k = 0, m = 0; k < 3; ++k)
+      for (int l = 0; l <= k; ++l) value[diagonal_[i][static_cast<std::size_t>(m++)]] += weight * v[k] * v[l];
+  }
+  int place(std::uint32_t i, int k, std::uint32_t j, int l) const {
+    const int* inner = matrix_.innerIndexPtr();
+    const int column = 3 * static_cast<int>(j) + l;
+    const int *first = inner + matrix_.outerIndexPtr()[column], *last = inner + matrix_.outerIndexPtr()[column + 1];
+    return static_cast<int>(std::lower_bound(first, last, 3 * static_cast<int>(i) + k) - inner);
+  }
+
+  const ContactIsland& island_;
+  Eigen::SparseMatrix<double> matrix_;  // lower half
+  std::vector<std::array<int, 6>> diagonal_;
+  std::vector<std::array<int, 9>> places_;  // of a row's block off the diagonal, among the matrix's values
+  Factors factors_;
+  int count_ = 0;
+};
+
+/// Of the rows that press: the same for all.
+double weight_of(const Vector& weight) {
+  return weight.empty() ? 0 : *std::max_element(weight.begin(), weight.end());
+}
+
+double greatest(const Vector& v) {
+  double most = 0;
+  for (const double x : v) most = std::max(most, std::abs(x));
+  return most;
+}
+
+}  // namespace
+
+/// Unknowns: y, and by row z, its force, and w, its excess.
+class ContactInteriorPoint::Method {
+ public:
+  explicit Method(const ContactIsland& island)
+      : island_(island), matrix_(island), free_(island.unknowns()), y_(free_.size()), z_(island.rows.size(), 0.0) {
+    for (std::size_t i = 0; i < free_.size(); ++i)
+      free_[i] = island.free[i / 3][static_cast<int>(i % 3)] / island.root[i / 3];
+    y_ = free_;
+  }
+
+  const ContactMatrix& matrix() const { return matrix_; }
+
+  Judgement solve(ContactAnswer& answer) {
+    // From forces that were right a moment ago the proximal Newton method alone is there in a few factorisations.
+    bool guessed = false;
+    for (std::size_t c = 0; c < rows(); ++c) {
+      const Row& r = island_.rows[c];
+      z_[c] = r.bilateral ? 0 : r.force / r.scale;
+      guessed = guessed || z_[c] > 0;
+    }
+    if (guessed) {
+      y_ = image(z_);
+      if (find_pressing(tightest, guess_worth)) {
+        refine(answer);
+        if (const Judgement judgement = judge(island_, answer); judgement.within_slack) return judgement;
+      }
+      std::fill(z_.begin(), z_.end(), 0.0);
+      y_ = free_;
+    }
+    if (!approach()) std::fill(z_.begin(), z_.end(), 0.0);
+    for (double rho = loosest; rho > 0.5 * tightest; rho *= 1e-2)
+      if (!find_pressing(rho)) break;
+    refine(answer);
+    return judge(island_, answer);
+  }
+
+ private:
+  std::size_t rows() const { return z_.size(); }
+  double excess_of(const Vector& y, std::size_t c) const {
+    const Row& r = island_.rows[c];
+    return r.dot(y.data()) - r.scale * r.target;
+  }
+
+  /// Newton's method on y = free + J^T z, w = J y + d, z w = less and less, until it is nearly there or gets no
+  /// further. False: it got nowhere.
+  bool approach() {
+    const std::size_t m = rows();
+    double worst = 0, size = greatest(free_);
+    for (std::size_t c = 0; c < m; ++c) {
+      const double e = excess_of(y_, c);
+      worst = std::max(worst, island_.rows[c].bilateral ? std::abs(e) : -e);
+    }
+    if (worst == 0) return true;
+    size = std::max(size, worst);
+    Vector w(m), weight(m);
+    for (std::size_t c = 0; c < m; ++c) {
+      w[c] = std::max(excess_of(y_, c), worst);
+      z_[c] = island_.rows[c].bilateral ? 0 : worst;
+    }
+    double least_mean = infinite, least_off = infinite;
+    for (int idle = 0;;) {
+      double gap = 0, off = 0;
+      std::size_t count = 0;
+      Vector lacking = image(z_);
+      for (std::size_t i = 0; i < y_.size(); ++i) {
+        lacking[i] -= y_[i];
+        off = std::max(off, std::abs(lacking[i]));
+      }
+      for (std::size_t c = 0; c < m; ++c) {
+        if (island_.rows[c].bilateral) {
+          weight[c] = 1 / tightest;
+          continue;
+        }
+        weight[c] = z_[c] / w[c];
+        gap += z_[c] * w[c];
+        off = std::max(off, std::abs(excess_of(y_, c) - w[c]));
+        ++count;
+      }
+      if (count == 0) return true;
+      const double mean = gap / static_cast<double>(count);
+      if (mean <= handed_over * handed_over * size * size && off <= handed_over * size) return true;
+      // Forces grow through a stack, and the mean with them, while the motion comes to be what they make it.
+      idle = mean < 0.9 * least_mean || off < 0.9 * least_off ? 0 : idle + 1;
+      least_mean = std::min(least_mean, mean);
+      least_off = std::min(least_off, off);
+      if (idle > 4) return true;
+      const Vector before_y = y_, before_z = z_;
+      if (!matrix_.factorise(weight) || !step(lacking, w, gap, count)) {
+        y_ = before_y;
+        z_ = before_z;
+        return std::isfinite(greatest(y_));
+      }
+    }
+  }
+
+  /// One of Mehrotra's steps.
+  bool step(const Vector& lacking, Vector& w, double gap, std::size_t count) {
+    const std::size_t m = rows();
+    Vector missing(m), product(m), dz(m), dw(m), dy;
+    for (std::size_t c = 0; c < m; ++c) {
+      missing[c] = excess_of(y_, c) - (island_.rows[c].bilateral ? 0 : w[c]);
+      product[c] = -z_[c] * w[c];
+    }
+    const auto solve = [&] {
+      dy = lacking;
+      for (std::size_t c = 0; c < m; ++c) {
+        const Row& r = island_.rows[c];
+        r.add_to(dy.data(), r.bilateral ? -missing[c] / tightest : (product[c] - z_[c] * missing[c]) / w[c]);
+      }
+      matrix_.solve(dy);
+      for (std::size_t c = 0; c < m; ++c) {
+        const Row& r = island_.rows[c];
+        const double rate = r.dot(dy.data()) + missing[c];
+        dz[c] = r.bilateral ? -rate / tightest : (product[c] - z_[c] * rate) / w[c];
+        dw[c] = rate;
+      }
+    };
+    const auto room = [&] {
+      double length = infinite;
+      for (std::size_t c = 0; c < m; ++c) {
+        if (island_.rows[c].bilateral) continue;
+        if (dz[c] < 0) length = std::min(length, -z_[c] / dz[c]);
+        if (dw[c] < 0) length = std::min(length, -w[c] / dw[c]);
+      }
+      return length;
+    };
+    solve();  // straight at the goal: how far does that get?
+    double length = std::min(1.0, room()), left = 0;
+    for (std::size_t c = 0; c < m; ++c)
+      if (!island_.rows[c].bilateral) left += (z_[c] + length * dz[c]) * (w[c] + length * dw[c]);
+    const double ratio = left / gap, aim = ratio * ratio * ratio * gap / static_cast<double>(count);
+    for (std::size_t c = 0; c < m; ++c) product[c] += aim - dz[c] * dw[c];
+    solve();
+    length = std::min(1.0, 0.9995 * room());
+    if (!(length > 0)) return false;
+    for (std::size_t c = 0; c < m; ++c) {
+      z_[c] += length * dz[c];
+      if (island_.rows[c].bilateral) continue;
+      w[c] += length * dw[c];
+      if (!(z_[c] > 0) || !(w[c] > 0)) return false;
+    }
+    for (std::size_t i = 0; i < y_.size(); ++i) y_[i] += length * dy[i];
+    return true;
+  }
+
+  /// free + J^T z.
+  Vector image(const Vector& z) const {
+    Vector y = free_;
+    for (std::size_t c = 0; c < rows(); ++c)
+      if (z[c] != 0) island_.rows[c].add_to(y.data(), z[c]);
+    return y;
+  }
+
+  /// The nearest motion where contacts yield: min |y - free|^2 / 2 + sum max(0, t_c)^2 / (2 rho), t = rho z - w, by
+  /// Newton's method with exact steps along its ways, which come to an end when the set of t > 0 is right; and the
+  /// forces t / rho. False: it gets no further, or not with so many factorisations.
+  bool find_pressing(double rho, int most = std::numeric_limits<int>::max()) {
+    const std::size_t m = rows();
+    Vector t(m), slope(m), weight(m), former, dy;
+    for (double last = infinite; matrix_.factorisations() < most;) {
+      Vector forces(m);
+      double merit = 0;
+      for (std::size_t c = 0; c < m; ++c) {
+        t[c] = rho * z_[c] - excess_of(y_, c);
+        const bool presses = t[c] > 0 || island_.rows[c].bilateral;
+        weight[c] = presses ? 1 / rho : 0;
+        forces[c] = presses ? t[c] / rho : 0;
+        merit += t[c] * forces[c];
+      }
+      for (std::size_t i = 0; i < y_.size(); ++i) merit += (y_[i] - free_[i]) * (y_[i] - free_[i]);
+      dy = image(forces);
+      for (std::size_t i = 0; i < dy.size(); ++i) dy[i] -= y_[i];
+      const double off = greatest(dy);
+      if (former == weight && off <= 1e-9 * (greatest(y_) + greatest(free_))) break;
+      if (!(merit < last)) break;
+      last = merit;
+      if (former != weight && !matrix_.factorise(weight)) return false;
+      former = weight;
+      matrix_.solve(dy);
+      for (std::size_t c = 0; c < m; ++c) slope[c] = island_.rows[c].dot(dy.data());
+      const double length = best_length(dy, t, slope, rho);
+      if (!std::isfinite(length)) return false;
+      for (std::size_t i = 0; i < dy.size(); ++i) y_[i] += length * dy[i];
+    }
+    for (std::size_t c = 0; c < m; ++c) {
+      const double force = z_[c] - excess_of(y_, c) / rho;
+      z_[c] = island_.rows[c].bilateral ? force : std::max(force, 0.0);
+    }
+    return matrix_.factorisations() < most;
+  }
+
+  /// Where along dy the sum is least: its derivative is linear between the points where a row begins or ends to press.
+  double best_length(const Vector& dy, const Vector& t, const Vector& slope, double rho) const {
+    double at = 0, rise = 0;  // the derivative at 0, and how it grows
+    for (std::size_t i = 0; i < dy.size(); ++i) {
+      at += dy[i] * (y_[i] - free_[i]);
+      rise += dy[i] * dy[i];
+    }
+    std::vector<std::pair<double, std::size_t>> turns;
+    const auto presses = [&](std::size_t c) {
+      return t[c] > 0 || (t[c] == 0 && slope[c] < 0) || island_.rows[c].bilateral;
+    };
+    for (std::size_t c = 0; c < t.size(); ++c) {
+      if (presses(c)) {
+        at -= t[c] * slope[c] / rho;
+        rise += slope[c] * slope[c] / rho;
+      }
+      if (island_.rows[c].bilateral || slope[c] == 0) continue;
+      if (const double turn = t[c] / slope[c]; turn > 0) turns.emplace_back(turn, c);
+    }
+    std::sort(turns.begin(), turns.end());
+    double from = 0;
+    for (const auto& [turn, c] : turns) {
+      const double there = at + rise * (turn - from);
+      if (there >= 0) break;
+      at = there;
+      from = turn;
+      rise += (t[c] > 0 ? -1 : 1) * slope[c] * slope[c] / rho;
+    }
+    return from - at / rise;
+  }
+
+  /// The same proximal steps with residuals in twice as many digits. Each leaves rho / (rho + lambda) of what was off,
+  /// lambda the least eigenvalue among the rows that press, and what the factors' rounding makes, about eps / rho:
+  /// where the first is slow contacts are made to yield less.
+  void refine(ContactAnswer& answer) {
+    constexpr double stiffest = 1e-13;
+    const std::size_t n = y_.size(), m = rows();
+    answer.motion.resize(n);
+    answer.force.resize(m);
+    for (std::size_t i = 0; i < n; ++i) answer.motion[i] = {island_.root[i / 3] * y_[i], 0};
+    for (std::size_t c = 0; c < m; ++c) answer.force[c] = {island_.rows[c].scale * z_[c], 0};
+    Vector weight(m), former, lacking, short_by(m);
+    double last = infinite, rho = tightest;
+    for (int idle = 0;;) {
+      for (std::size_t c = 0; c < m; ++c) {
+        const Row& r = island_.rows[c];
+        short_by[c] = -r.scale * excess(r, answer.motion);
+        const bool presses = r.bilateral || answer.force[c].hi / r.scale + short_by[c] / rho > 0;
+        weight[c] = presses ? 1 / rho : 0;
+        if (!presses) answer.force[c] = {0, 0};
+      }
+      find_imbalance(island_, answer);
+      lacking = answer.lacking;
+      for (std::size_t i = 0; i < n; ++i) lacking[i] /= island_.root[i / 3];
+      for (std::size_t c = 0; c < m; ++c)
+        if (weight[c] != 0) island_.rows[c].add_to(lacking.data(), short_by[c] / rho);
+      const bool same = former == weight;
+      if (!same && !matrix_.factorise(weight)) return;
+      former = weight;
+      matrix_.solve(lacking);
+      const double size = greatest(lacking);
+      if (!std::isfinite(size)) return;
+      idle = size < 0.5 * last ? 0 : idle + 1;
+      const double used = weight_of(weight);
+      if (!(size < 0.1 * last) && rho > stiffest) {
+        rho *= 1e-1;
+        idle = 0;
+      }
+      if (idle > (same ? 2 : 8)) return;
+      last = std::min(last, size);
+      for (std::size_t i = 0; i < n; ++i)
+        answer.motion[i] = answer.motion[i] + DoubleDouble{island_.root[i / 3] * lacking[i], 0};
+      for (std::size_t c = 0; c < m; ++c) {
+        if (weight[c] == 0) continue;
+        const Row& r = island_.rows[c];
+        const double dz = (short_by[c] - r.dot(lacking.data())) * used;
+        answer.force[c] = answer.force[c] + DoubleDouble{r.scale * dz, 0};
+        if (!r.bilateral && answer.force[c].hi < 0) answer.force[c] = {0, 0};
+      }
+      if (size <= 0x1p-92 * greatest(y_)) return;
+    }
+  }
+
+  const ContactIsland& island_;
+  ContactMatrix matrix_;
+  Vector free_, y_, z_;
+};
+
+ContactInteriorPoint::ContactInteriorPoint(const ContactIsland& island) : method_(std::make_unique<Method>(island)) {}
+ContactInteriorPoint::~ContactInteriorPoint() = default;
+double ContactInteriorPoint::operations() const {
+  return method_->matrix().operations();
+}
+Judgement ContactInteriorPoint::solve(ContactAnswer& answer) {
+  return method_->solve(answer);
+}
+
+}  // namespace carom

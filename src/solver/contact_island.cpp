@@ -1,0 +1,151 @@
+#include "solver/contact_island.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace carom {
+
+namespace {
+
+int exponent_of(double x) {
+  int exponent = 0;
+  std::frexp(x, &exponent);
+  return exponent;
+}
+
+/// sum += a b, about as well as in double-double (Ogita, Rump & Oishi's Dot2) and in half of the operations.
+void add_product(DoubleDouble& sum, double a, const DoubleDouble& b) {
+  const DoubleDouble p = two_product(a, b.hi), s = two_sum(sum.hi, p.hi);
+  sum.hi = s.hi;
+  sum.lo += s.lo + (p.lo + a * b.lo);
+}
+
+}  // namespace
+
+void ContactIsland::scale() {
+  double most = 0, lightest = 0, heaviest = std::numeric_limits<double>::infinity();
+  for (const Vec3& u : free) most = std::max(most, u.cwiseAbs().maxCoeff());
+  for (const Row& r : rows) most = std::max(most, std::abs(r.target));
+  for (const double w : inverse_mass) {
+    lightest = std::max(lightest, w);
+    heaviest = std::min(heaviest, w);
+  }
+  mass_ratio = lightest / heaviest;
+  motion_exponent = exponent_of(most);
+  mass_exponent = exponent_of(lightest);
+  const PowerOfTwo motion(-motion_exponent), mass(-mass_exponent), force(mass_exponent - motion_exponent);
+  speed = 0;
+  root.resize(inverse_mass.size());
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    inverse_mass[i] = mass * inverse_mass[i];
+    root[i] = std::sqrt(inverse_mass[i]);
+    free[i] = motion * free[i];
+    speed = std::max(speed, free[i].norm());
+  }
+  unilateral = true;
+  for (Row& r : rows) {
+    r.target = motion * r.target;
+    r.slack = motion * r.slack;
+    r.force = force * r.force;
+    r.scale = 1 / std::sqrt(r.normal.squaredNorm() * (inverse_mass[r.a] + (r.moves_b() ? inverse_mass[r.b] : 0)));
+    r.left = r.scale * root[r.a] * r.normal;
+    r.right = r.moves_b() ? Vec3(r.scale * root[r.b] * r.normal) : Vec3(Vec3::Zero());
+    speed = std::max(speed, std::abs(r.target));
+    unilateral = unilateral && !r.bilateral;
+  }
+}
+
+std::size_t ContactIsland::reach() const {
+  // The rows of every body, one body after the other.
+  std::vector<std::uint32_t> first(free.size() + 1, 0), of;
+  for (const Row& r : rows) {
+    ++first[r.a];
+    if (r.moves_b()) ++first[r.b];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  of.resize(first.back());
+  for (std::uint32_t c = 0; c < rows.size(); ++c) {
+    of[--first[rows[c].a]] = c;
+    if (rows[c].moves_b()) of[--first[rows[c].b]] = c;
+  }
+  std::vector<std::uint32_t> order, distance;
+  const auto search_from = [&](std::uint32_t start) {
+    distance.assign(rows.size(), ContactConstraint::fixed);
+    order.assign(1, start);
+    distance[start] = 0;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const Row& r = rows[order[k]];
+      for (const std::uint32_t body : {r.a, r.moves_b() ? r.b : r.a})
+        for (std::uint32_t at = first[body]; at < first[body + 1]; ++at)
+          if (distance[of[at]] == ContactConstraint::fixed) {
+            distance[of[at]] = distance[order[k]] + 1;
+            order.push_back(of[at]);
+          }
+    }
+    return order.back();
+  };
+  return distance[search_from(search_from(0))];
+}
+
+double excess(const ContactIsland::Row& r, const std::vector<DoubleDouble>& motion) {
+  const DoubleDouble* const u = &motion[3 * r.a];
+  const DoubleDouble* const v = r.moves_b() ? &motion[3 * r.b] : nullptr;
+  DoubleDouble sum{-r.target, 0};
+  for (int k = 0; k < 3; ++k) {
+    if (r.normal[k] == 0) continue;
+    add_product(sum, -r.normal[k], u[k]);
+    if (v != nullptr) add_product(sum, r.normal[k], v[k]);
+  }
+  return sum.value();
+}
+
+void find_imbalance(const ContactIsland& island, ContactAnswer& answer) {
+  std::vector<DoubleDouble>& push = answer.push;
+  push.assign(island.unknowns(), DoubleDouble{0, 0});
+  for (std::size_t c = 0; c < island.rows.size(); ++c) {
+    const DoubleDouble& x = answer.force[c];
+    if (x.hi == 0) continue;
+    const ContactIsland::Row& r = island.rows[c];
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const double n = r.normal[static_cast<int>(k)];
+      if (n == 0) continue;
+      add_product(push[3 * r.a + k], -n, x);
+      if (r.moves_b()) add_product(push[3 * r.b + k], n, x);
+    }
+  }
+  answer.lacking.resize(island.unknowns());
+  for (std::size_t i = 0; i < push.size(); ++i) {
+    DoubleDouble sum{island.free[i / 3][static_cast<int>(i % 3)], 0};
+    add_product(sum, -1, answer.motion[i]);
+    add_product(sum, island.inverse_mass[i / 3], push[i]);
+    answer.lacking[i] = sum.value();
+  }
+}
+
+Judgement judge(const ContactIsland& island, ContactAnswer& answer) {
+  Judgement judgement;
+  const auto differ = [&](double change) { judgement.change = std::max(judgement.change, change); };
+  for (std::size_t c = 0; c < island.rows.size(); ++c) {
+    const ContactIsland::Row& r = island.rows[c];
+    const double w = excess(r, answer.motion);
+    const double off = answer.force[c].hi != 0 || r.bilateral ? std::abs(w) : std::max(-w, 0.0);
+    const double change = off == 0 ? 0 : r.scale * off / island.noise_scale(r);
+    if (!(change <= accepted_change) && !(off <= r.slack)) judgement.within_slack = false;
+    if (std::isnan(change)) judgement.change = std::numeric_limits<double>::infinity();
+    differ(change);
+  }
+  find_imbalance(island, answer);
+  const std::vector<double>& lacking = answer.lacking;
+  for (std::size_t i = 0; i < lacking.size(); ++i) {
+    if (lacking[i] == 0) continue;
+    const DoubleDouble* const u = &answer.motion[i - i % 3];
+    const double speed = std::max({island.speed, std::abs(u[0].hi), std::abs(u[1].hi), std::abs(u[2].hi)});
+    const double change = std::abs(lacking[i]) / speed;
+    if (!(change <= accepted_change)) judgement.within_slack = false;
+    differ(change);
+  }
+  return judgement;
+}
+
+}  // namespace carom

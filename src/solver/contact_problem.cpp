@@ -1,0 +1,333 @@
+#include "solver/contact_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "numerics/disjoint_sets.h"
+#include "solver/active_set.h"
+#include "solver/contact_interior_point.h"
+#include "solver/contact_island.h"
+#include "solver/contact_projected_gradients.h"
+
+namespace carom {
+
+namespace {
+
+/// Contacts that share bodies, islands one after the other; `fixed` things do not connect.
+struct ContactIslands {
+  std::vector<std::uint32_t> contacts;  // by island, ascending
+  std::vector<std::uint32_t> first;     // of each island among contacts; and their number
+
+  void find(std::size_t bodies, std::span<const ContactConstraint> all) {
+    DisjointSets sets(bodies);
+    for (const ContactConstraint& c : all)
+      if (c.b != ContactConstraint::fixed) sets.join(c.a, c.b);
+    // Sorted by root: how many contacts each has, and then where the next one goes.
+    next_.assign(bodies, 0);
+    for (const ContactConstraint& c : all) ++next_[sets.root(c.a)];
+    first.assign(1, 0);
+    for (std::uint32_t& next : next_) {
+      const std::uint32_t count = next;
+      next = first.back();
+      if (count > 0) first.push_back(next + count);
+    }
+    contacts.resize(all.size());
+    for (std::uint32_t k = 0; k < all.size(); ++k) contacts[next_[sets.root(all[k].a)]++] = k;
+  }
+
+ private:
+  std::vector<std::uint32_t> next_;  // by root
+};
+
+/// What is known of an island since it was last solved.
+struct Known {
+  DualActiveSet method;
+  std::vector<double> inverse_mass;
+  std::vector<ContactIsland::Row> rows;  // with their forces
+  std::vector<std::uint32_t> now;        // by row: which of the present island's it is, or DualActiveSet::gone()
+
+  bool resembles(const ContactIsland& island);
+};
+
+/// Whether factors, or the forces, of last time are a start: the same masses, and few of the rows are others.
+bool Known::resembles(const ContactIsland& island) {
+  constexpr std::size_t few = 16;  // of a number of rows, one in so many
+  if (island.inverse_mass != inverse_mass || rows.empty()) return false;
+  const auto key = [](const ContactIsland::Row& r) { return std::uint64_t{r.a} << 32 | r.b; };
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
+  for (std::uint32_t c = 0; c < island.rows.size(); ++c) order.emplace_back(key(island.rows[c]), c);
+  std::sort(order.begin(), order.end());
+  now.assign(rows.size(), DualActiveSet::gone());
+  std::vector<std::uint8_t> taken(island.rows.size(), 0);
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const ContactIsland::Row& r = rows[k];
+    auto it = std::lower_bound(order.begin(), order.end(), std::pair(key(r), std::uint32_t{0}));
+    for (; it != order.end() && it->first == key(r); ++it) {
+      const ContactIsland::Row& is = island.rows[it->second];
+      if (taken[it->second] || is.bilateral != r.bilateral || is.left != r.left || is.right != r.right) continue;
+      now[k] = it->second;
+      taken[it->second] = 1;
+      ++found;
+      break;
+    }
+  }
+  const std::size_t others = (rows.size() - found) + (island.rows.size() - found);
+  return others <= 1 + rows.size() / few;
+}
+
+/// The commonest problem by far, one contact, needs no method: twice, the second time for what rounding has left.
+/// False: it is left as it was, for there is more to it.
+bool solve_single(const ContactProblem& problem, ContactConstraint& c, Certificate& certificate) {
+  const bool fixed = c.b == ContactConstraint::fixed;
+  const Vec3 none = Vec3::Zero();
+  const double of_a = problem.inverse_mass[c.a], of_b = fixed ? 0 : problem.inverse_mass[c.b];
+  const double per_force = c.normal.squaredNorm() * (of_a + of_b);
+  Vec3 a = problem.motion[c.a], b = fixed ? none : problem.motion[c.b];
+  const double scale = std::abs(c.target) + (fixed ? 1 : 2) * std::max(a.norm(), b.norm());
+  const auto excess = [&] { return c.normal.dot(b - a) - c.target; };
+  double w = excess(), force = 0;
+  if (c.bilateral || !(w >= 0))
+    for (int pass = 0; pass < 2; ++pass) {
+      const double more = -w / per_force;
+      force += more;
+      a -= of_a * more * c.normal;
+      b += of_b * more * c.normal;
+      w = excess();
+    }
+  const double change = force == 0 ? 0 : std::abs(w) / scale;
+  if (!(change <= accepted_change)) return false;
+  certificate = {Certificate::Verdict::solved, change};
+  c.force = force;
+  problem.motion[c.a] = a;
+  if (!fixed) problem.motion[c.b] = b;
+  return true;
+}
+
+/// Whether the free motion is what contact allows.
+bool nothing_presses(const ContactProblem& problem, std::span<const std::uint32_t> contacts) {
+  return std::all_of(contacts.begin(), contacts.end(), [&](std::uint32_t k) {
+    const ContactConstraint& c = problem.contacts[k];
+    const Vec3 b = c.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : problem.motion[c.b];
+    return !c.bilateral && c.normal.dot(b - problem.motion[c.a]) >= c.target;
+  });
+}
+
+/// What an exact answer would cost, ns on one core: only what it is to other costs matters. Orthogonal factors take
+/// three in unknowns for every row, sparse ones some thirty factorisations and a set-up that finds their pattern.
+class ExactCost {
+ public:
+  explicit ExactCost(const ContactIsland& island) : island_(island) {
+    constexpr double rows_taken_in = 1.3, per_row = 1500, per_operation = 0.1;
+    constexpr double per_entry_set_up = 300, per_entry = 60;
+    const double n = static_cast<double>(island.unknowns()), m = static_cast<double>(island.rows.size());
+    const double taken = std::min(m, n), rows = rows_taken_in * taken;
+    dense_ = rows * (per_row + per_operation * 6 * n * (n - 0.5 * taken));
+    least_sparse_ = (per_entry_set_up + factorisations * per_entry) * (n + m);
+  }
+
+  double dense() const { return dense_; }
+  /// At least what the sparse method costs, whatever its factors' fill.
+  double least_sparse() const { return least_sparse_; }
+  double sparse() {
+    constexpr double per_operation = 0.35;
+    return least_sparse_ + factorisations * per_operation * method().operations();
+  }
+  /// The sparse method, set up once it is asked for.
+  ContactInteriorPoint& method() {
+    if (!method_) method_.emplace(island_);
+    return *method_;
+  }
+
+ private:
+  static constexpr double factorisations = 35;
+  const ContactIsland& island_;
+  std::optional<ContactInteriorPoint> method_;
+  double dense_, least_sparse_;
+};
+
+}  // namespace
+
+struct ContactSolver::Workspace {
+  std::map<std::uint32_t, Known> known;  // by the lowest body of an island
+  Known unknown;                         // where nothing is remembered
+  ContactIslands islands;
+  ContactIsland island;
+  ContactProjectedGradients gradients;
+  ContactAnswer answer, attempt;
+  std::vector<std::uint32_t> place;   // by body: its number in the island
+  std::vector<std::uint32_t> bodies;  // by number in the island
+  bool remembers = true;
+
+  void take_island(const ContactProblem& problem, std::span<const std::uint32_t> contacts);
+  void give_back(const ContactProblem& problem, std::span<const std::uint32_t> contacts) const;
+  Certificate solve_exactly(ExactCost& cost, Known& last);
+  Certificate solve_to_slack(ContactAccuracy accuracy);
+  Certificate solve_island(const ContactProblem& problem, std::span<const std::uint32_t> contacts);
+  Certificate solve(const ContactProblem& problem);
+};
+
+void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::span<const std::uint32_t> contacts) {
+  island.inverse_mass.clear();
+  island.free.clear();
+  island.rows.clear();
+  bodies.clear();
+  for (const std::uint32_t c : contacts)
+    for (const std::uint32_t body : {problem.contacts[c].a, problem.contacts[c].b})
+      if (body != ContactConstraint::fixed && place[body] == ContactConstraint::fixed) {
+        place[body] = 0;
+        bodies.push_back(body);
+      }
+  std::sort(bodies.begin(), bodies.end());
+  for (std::uint32_t k = 0; k < bodies.size(); ++k) {
+    place[bodies[k]] = k;
+    island.inverse_mass.push_back(problem.inverse_mass[bodies[k]]);
+    island.free.push_back(problem.motion[bodies[k]]);
+  }
+  for (const std::uint32_t c : contacts) {
+    const ContactConstraint& from = problem.contacts[c];
+    ContactIsland::Row& row = island.rows.emplace_back();
+    row.a = place[from.a];
+    row.b = from.b == ContactConstraint::fixed ? from.b : place[from.b];
+    row.bilateral = from.bilateral;
+    row.normal = from.normal;
+    row.target = from.target;
+    row.slack = problem.accuracy == ContactAccuracy::rounding ? 0 : from.slack;
+    row.force = from.bilateral ? 0 : std::max(from.force, 0.0);
+  }
+  for (const std::uint32_t body : bodies) place[body] = ContactConstraint::fixed;
+  island.scale();
+}
+
+/// What contact leaves of a speed is nothing if doubled precision does not resolve it.
+void ContactSolver::Workspace::give_back(const ContactProblem& problem, std::span<const std::uint32_t> contacts) const {
+  const double nothing = 0x1p-96 * island.speed;
+  const PowerOfTwo unit(island.motion_exponent), unit_of_force(island.motion_exponent - island.mass_exponent);
+  for (std::size_t k = 0; k < bodies.size(); ++k)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double u = answer.motion[3 * k + static_cast<std::size_t>(axis)].value();
+      const bool stopped = std::abs(u) <= nothing && u != island.free[k][axis];
+      problem.motion[bodies[k]][axis] = stopped ? 0 : unit * u;
+    }
+  for (std::size_t k = 0; k < contacts.size(); ++k)
+    problem.contacts[contacts[k]].force = unit_of_force * answer.force[k].value();
+}
+
+/// Here and in solve_to_slack a method is chosen: by what each would cost, and orthogonal factors where masses are too
+/// unequal for sparse ones. Where the one fails the other comes next, and then orthogonal factors from nothing.
+Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, Known& last) {
+  constexpr double worth_while = 8;  // solutions: factors for which one pays once pay for so many
+  Certificate best{Certificate::Verdict::doubtful, std::numeric_limits<double>::infinity()};
+  // Whether that was it.
+  const auto take = [&](const Judgement& judgement, bool infeasible) {
+    if (answer.motion.empty() || judgement.within_slack || judgement.change < best.change) {
+      std::swap(answer, attempt);
+      best.change = judgement.change;
+    }
+    if (infeasible) best.verdict = Certificate::Verdict::infeasible;
+    if (judgement.within_slack) best.verdict = Certificate::Verdict::solved;
+    return judgement.within_slack;
+  };
+  const auto by_active_set = [&] {
+    const DualActiveSet::Result result = last.method.solve(island, attempt);
+    return take(result.judgement, result.infeasible);
+  };
+  answer.motion.clear();
+  const bool alike = remembers && last.resembles(island);
+  if (alike && last.method.has_factors()) {
+    const DualActiveSet::Result result = last.method.solve_again(island, last.now, attempt);
+    if (take(result.judgement, result.infeasible)) return best;
+  }
+  if (alike)
+    for (std::size_t k = 0; k < last.rows.size(); ++k)
+      if (last.now[k] != DualActiveSet::gone() && !last.rows[k].bilateral)
+        island.rows[last.now[k]].force = last.rows[k].force;
+  const bool unequal = island.mass_ratio > 1e6 && island.unknowns() <= 1500;
+  const double times = alike ? worth_while : 1;
+  const bool dense = unequal || cost.dense() <= times * cost.least_sparse() || cost.dense() <= times * cost.sparse();
+  if (dense && by_active_set()) return best;
+  last.method.forget();
+  if (take(cost.method().solve(attempt), false)) return best;
+  for (std::size_t c = 0; c < island.rows.size(); ++c)
+    island.rows[c].force = island.rows[c].bilateral ? 0 : std::max(answer.force[c].hi, 0.0);
+  if (by_active_set()) return best;
+  for (ContactIsland::Row& r : island.rows) r.force = 0;
+  by_active_set();
+  return best;
+}
+
+/// By projected gradients, until they have cost as much as an exact answer would, which is found then. So the two cost
+/// at most about twice what the cheaper one does.
+Certificate ContactSolver::Workspace::solve_to_slack(ContactAccuracy accuracy) {
+  ExactCost cost(island);
+  gradients.start(island);
+  bool done = gradients.run(accuracy, std::min(cost.dense(), cost.least_sparse()));
+  if (!done && cost.least_sparse() < cost.dense())
+    done = gradients.run(accuracy, std::min(cost.dense(), cost.sparse()));
+  if (done) return {Certificate::Verdict::solved, gradients.finish(answer)};
+  gradients.guess(island);
+  return solve_exactly(cost, unknown);
+}
+
+Certificate ContactSolver::Workspace::solve_island(const ContactProblem& problem,
+                                                   std::span<const std::uint32_t> contacts) {
+  Certificate certificate;
+  if (nothing_presses(problem, contacts)) {
+    for (const std::uint32_t c : contacts) problem.contacts[c].force = 0;
+    return certificate;
+  }
+  if (contacts.size() == 1 && solve_single(problem, problem.contacts[contacts.front()], certificate))
+    return certificate;
+  take_island(problem, contacts);
+  if (island.speed == 0) {
+    for (const std::uint32_t c : contacts) problem.contacts[c].force = 0;
+    return certificate;
+  }
+  if (problem.accuracy != ContactAccuracy::rounding && island.unilateral) {
+    certificate = solve_to_slack(problem.accuracy);
+  } else {
+    Known& last = remembers ? known[bodies.front()] : unknown;
+    ExactCost cost(island);
+    certificate = solve_exactly(cost, last);
+    if (remembers) {
+      last.inverse_mass = island.inverse_mass;
+      last.rows = island.rows;
+      for (std::size_t c = 0; c < last.rows.size(); ++c) last.rows[c].force = answer.force[c].hi;
+    }
+  }
+  give_back(problem, contacts);
+  return certificate;
+}
+
+Certificate ContactSolver::Workspace::solve(const ContactProblem& problem) {
+  Certificate all;
+  place.resize(std::max(place.size(), problem.motion.size()), ContactConstraint::fixed);
+  islands.find(problem.motion.size(), problem.contacts);
+  for (std::size_t k = 0; k + 1 < islands.first.size(); ++k) {
+    const std::size_t first = islands.first[k], count = islands.first[k + 1] - first;
+    all.merge(solve_island(problem, std::span(islands.contacts).subspan(first, count)));
+  }
+  return all;
+}
+
+ContactSolver::ContactSolver() : workspace_(std::make_unique<Workspace>()) {}
+ContactSolver::~ContactSolver() = default;
+ContactSolver::ContactSolver(ContactSolver&&) noexcept = default;
+ContactSolver& ContactSolver::operator=(ContactSolver&&) noexcept = default;
+
+Certificate ContactSolver::solve(const ContactProblem& problem) {
+  return workspace_->solve(problem);
+}
+
+Certificate solve(const ContactProblem& problem) {
+  // Nothing of a problem but room for the next one stays.
+  thread_local ContactSolver::Workspace room;
+  room.remembers = false;
+  return room.solve(problem);
+}
+
+}  // namespace carom

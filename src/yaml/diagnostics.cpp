@@ -1,0 +1,200 @@
+#include "yaml/diagnostics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "yaml/printable.h"
+
+namespace carom {
+namespace {
+
+constexpr std::size_t max_shown = 50;   // errors
+constexpr std::size_t max_width = 100;  // characters of a line that are shown
+constexpr std::size_t lead_width = 60;  // of them before the caret, at most
+
+/// Cells a character takes on a terminal: 2 for East Asian wide ones, 0 for combining ones.
+int cells(char32_t c) {
+  if ((c >= 0x0300 && c <= 0x036F) || (c >= 0x200B && c <= 0x200F) || (c >= 0x20D0 && c <= 0x20FF) ||
+      (c >= 0xFE00 && c <= 0xFE0F)) {
+    return 0;
+  }
+  const bool wide = (c >= 0x1100 && c <= 0x115F) || (c >= 0x2E80 && c <= 0xA4CF) || (c >= 0xAC00 && c <= 0xD7A3) ||
+                    (c >= 0xF900 && c <= 0xFAFF) || (c >= 0xFE30 && c <= 0xFE6F) || (c >= 0xFF00 && c <= 0xFF60) ||
+                    (c >= 0xFFE0 && c <= 0xFFE6) || (c >= 0x1F300 && c <= 0x1FAFF) || (c >= 0x20000 && c <= 0x3FFFD);
+  return wide ? 2 : 1;
+}
+
+struct Character {
+  std::string text;  // as shown: '?' for what cannot be
+  int width;         // cells
+  std::size_t at;    // byte offset in the line
+};
+
+std::vector<Character> characters(std::string_view line) {
+  std::vector<Character> out;
+  for (std::size_t i = 0; i < line.size();) {
+    char32_t code = 0;
+    const int length = utf8_length(line, i, code);
+    if (length == 0 || is_unprintable(code)) {
+      out.push_back({code == '\t' ? " " : "?", 1, i});
+      i += static_cast<std::size_t>(std::max(length, 1));
+    } else {
+      out.push_back({std::string(line.substr(i, static_cast<std::size_t>(length))), cells(code), i});
+      i += static_cast<std::size_t>(length);
+    }
+  }
+  return out;
+}
+
+/// Bytes of a character that was cut in front of `text`.
+std::size_t first_whole_character(std::string_view text) {
+  std::size_t i = 0;
+  while (i < std::min<std::size_t>(text.size(), 3) && (static_cast<unsigned char>(text[i]) & 0xC0) == 0x80) ++i;
+  return i;
+}
+
+std::string paint(std::string_view text, std::string_view code, bool color) {
+  return color ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : std::string(text);
+}
+
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+}
+
+/// Letters inserted, removed, replaced or swapped with their neighbour to make b of a (optimal string alignment).
+std::size_t edits(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    now[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
+      if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1])) {
+        now[j] = std::min(now[j], before[j - 2] + 1);
+      }
+    }
+    before.swap(last);
+    last.swap(now);
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+std::size_t count_characters(std::string_view text) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < text.size(); ++count) {
+    char32_t code = 0;
+    i += static_cast<std::size_t>(std::max(utf8_length(text, i, code), 1));
+  }
+  return count;
+}
+
+std::string quoted(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  const std::vector<Character> all = characters(text);
+  std::string out = "`";
+  for (std::size_t i = 0; i < std::min(all.size(), longest); ++i) out += all[i].text;
+  return out + (all.size() > longest ? "...`" : "`");
+}
+
+std::string nearest(std::string_view name, const std::vector<std::string_view>& candidates) {
+  if (name.empty() || name.size() > 64) return {};
+  std::size_t best = std::min<std::size_t>(3, (name.size() + 2) / 3);
+  std::string_view found;
+  for (const std::string_view candidate : candidates) {
+    if (candidate.size() > name.size() + best || name.size() > candidate.size() + best) continue;
+    const std::size_t distance = edits(name, candidate);
+    const bool nothing_kept = distance >= std::max(name.size(), candidate.size());
+    if (!nothing_kept && (distance < best || (distance == best && found.empty()))) {
+      best = distance;
+      found = candidate;
+    }
+  }
+  return std::string(found);
+}
+
+void Diagnostics::add(Place place, std::string message, std::string remedy) {
+  errors_.push_back({true, place, {}, std::move(message), std::move(remedy)});
+}
+
+void Diagnostics::add_unplaced(std::string name, std::string message, std::string remedy) {
+  errors_.push_back({false, {}, std::move(name), std::move(message), std::move(remedy)});
+}
+
+std::string Diagnostics::show(const Error& error, bool color) const {
+  const std::string label = paint("error:", "1;31", color);
+  std::string gutter = "   ";
+  std::string out;
+  if (!error.placed) {
+    out = fmt::format("{}: {} {}\n", paint(printable(error.name), "1", color), label, error.message);
+  } else {
+    // The line that holds the place, and how many characters of it come before.
+    const Source& source = sources_[error.place.source];
+    const std::string_view text = source.text;
+    const std::size_t offset = std::min<std::size_t>(error.place.offset, text.size());
+    const std::size_t begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;  // npos + 1 is 0
+    const std::size_t end = std::min(text.find('\n', offset), text.size());
+    const auto line_number = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
+    // A long line is shown through a window around the caret; its other characters are only counted.
+    const std::string_view before = text.substr(begin, offset - begin), after = text.substr(offset, end - offset);
+    const std::size_t column = 1 + count_characters(before);
+    const std::string_view near = before.substr(before.size() - std::min(before.size(), 4 * max_width));
+    std::vector<Character> left = characters(near.substr(first_whole_character(near)));
+    std::vector<Character> right = characters(after.substr(0, 4 * max_width));
+
+    const std::string where =
+        source.option ? printable(source.name) : fmt::format("{}:{}:{}", printable(source.name), line_number, column);
+    out = fmt::format("{}: {} {}\n", paint(where, "1", color), label, error.message);
+
+    const bool fits =
+        near.size() == before.size() && after.size() <= 4 * max_width && left.size() + right.size() <= max_width;
+    const bool cut_left = !fits && (near.size() < before.size() || left.size() > lead_width);
+    if (cut_left) left.erase(left.begin(), left.end() - static_cast<std::ptrdiff_t>(std::min(left.size(), lead_width)));
+    const std::size_t room = max_width - std::min(left.size(), lead_width);
+    const bool cut_right = !fits && (after.size() > 4 * max_width || right.size() > room);
+    if (cut_right) right.resize(std::min(right.size(), room));
+
+    std::string shown = cut_left ? "..." : "", under = cut_left ? "   " : "", marks;
+    for (const Character& c : left) {
+      shown += c.text;
+      under.append(static_cast<std::size_t>(c.width), ' ');
+    }
+    for (const Character& c : right) {
+      shown += c.text;
+      if (c.at < error.place.length) marks.append(static_cast<std::size_t>(c.width), '~');
+    }
+    if (cut_right) shown += "...";
+    if (marks.empty()) marks = "~";
+    marks[0] = '^';
+    const std::string number = source.option ? "" : std::to_string(line_number);
+    gutter = std::string(std::max<std::size_t>(number.size(), 4), ' ');
+    out += fmt::format("{:>4} | {}\n", number, shown);
+    out += fmt::format("{} | {}{}\n", gutter, under, paint(marks, "1;32", color));
+  }
+  for (std::size_t i = 0; i < error.remedy.size();) {
+    const std::size_t end = std::min(error.remedy.find('\n', i), error.remedy.size());
+    out += fmt::format("{} = {}\n", gutter, std::string_view(error.remedy).substr(i, end - i));
+    i = end + 1;
+  }
+  return out;
+}
+
+std::string Diagnostics::text(bool color) const {
+  std::vector<const Error*> order;
+  for (const Error& error : errors_) order.push_back(&error);
+  // Errors of the file as a whole come first, then the file's in its order, then those of each --set.
+  std::stable_sort(order.begin(), order.end(), [](const Error* a, const Error* b) {
+    return std::tuple(a->placed, a->place.source, a->place.offset) <
+           std::tuple(b->placed, b->place.source, b->place.offset);
+  });
+  std::string out;
+  for (std::size_t i = 0; i < std::min(order.size(), max_shown); ++i) out += show(*order[i], color);
+  if (order.size() > max_shown) out += fmt::format("and {} more errors\n", order.size() - max_shown);
+  return out;
+}
+
+}  // namespace carom

@@ -1,0 +1,58 @@
+#pragma once
+// Errors with places, collected, sorted and shown: place, line, caret, remedy.
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "yaml/source.h"
+
+namespace carom {
+
+class Diagnostics {
+ public:
+  /// The texts that places point into; the file first, then one per --set. Must outlive this.
+  explicit Diagnostics(const std::vector<Source>& sources) : sources_(sources) {}
+
+  /// `remedy`: what was expected, or did you mean; several lines are several remedies.
+  void add(Place place, std::string message, std::string remedy = {});
+  /// An error of a file as a whole: "path: error: message".
+  void add_unplaced(std::string name, std::string message, std::string remedy = {});
+  /// Errors that exist but are not shown one by one.
+  void add_uncounted(std::size_t more) { more_ += more; }
+
+  bool empty() const { return errors_.empty(); }
+  std::size_t count() const { return errors_.size() + more_; }
+
+  /// All errors in the order of the file, each
+  ///   path:line:column: error: message
+  ///    line | text of the line
+  ///         |      ^~~~
+  ///         = remedy
+  /// Lines and columns count from 1, columns in characters.
+  std::string text(bool color) const;
+
+ private:
+  struct Error {
+    bool placed;
+    Place place;
+    std::string name, message, remedy;
+  };
+  std::string show(const Error& error, bool color) const;
+
+  const std::vector<Source>& sources_;
+  std::vector<Error> errors_;
+  std::size_t more_ = 0;
+};
+
+/// Characters of UTF-8; a byte that is none counts as one.
+std::size_t count_characters(std::string_view text);
+
+/// `text` between backticks, shortened and free of control characters, for use inside a message.
+std::string quoted(std::string_view text);
+
+/// The name in `candidates` that `name` was probably meant to be: few letters apart (two swapped letters count as one).
+/// Empty: none is near. The first of equally near ones wins.
+std::string nearest(std::string_view name, const std::vector<std::string_view>& candidates);
+
+}  // namespace carom

@@ -1,0 +1,211 @@
+// Reading with O_NONBLOCK and fstat rather than std::ifstream: a FIFO would block, a directory or a device would be
+// read.
+#include "yaml/source.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "yaml/diagnostics.h"
+
+namespace carom {
+namespace {
+
+constexpr std::uint64_t max_brackets = 4'000'000;  // and quotes, at about 200 bytes each while scanning
+constexpr int max_open_brackets = 1000;            // more than the depth cap, so that the cap's own message comes first
+constexpr int max_shown_tabs = 10;
+
+struct OpenFile {
+  int fd;
+  ~OpenFile() {
+    if (fd >= 0) close(fd);
+  }
+};
+
+void refuse_file(Diagnostics& diagnostics, const std::string& path, const std::string& why,
+                 const std::string& remedy = {}) {
+  diagnostics.add_unplaced(path, why, remedy);
+}
+
+/// The raw bytes without byte order mark; "\r\n" becomes "\n", so that columns and shown lines need no care for it.
+void normalise(std::string& text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  if (text.find('\r') == std::string::npos) return;
+  std::size_t to = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n') continue;
+    text[to++] = text[i];
+  }
+  text.resize(to);
+}
+
+/// False: the file looks like UTF-16 or UTF-32 (which yaml-cpp would decode behind our back).
+bool looks_like_utf8(std::string_view text) {
+  return !text.starts_with("\xFF\xFE") && !text.starts_with("\xFE\xFF") &&
+         !(text.size() >= 2 && (text[0] == 0) != (text[1] == 0)) &&
+         !text.starts_with(std::string_view("\0\0\xFE\xFF", 4));
+}
+
+Place one_byte(std::uint32_t index, std::size_t offset) {
+  return {index, static_cast<std::uint32_t>(offset), 1};
+}
+
+}  // namespace
+
+int utf8_length(std::string_view text, std::size_t i, char32_t& code) {
+  const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+  const unsigned char first = byte(i);
+  if (first < 0x80) {
+    code = first;
+    return 1;
+  }
+  const int length = first >= 0xC2 && first <= 0xDF   ? 2
+                     : first >= 0xE0 && first <= 0xEF ? 3
+                     : first >= 0xF0 && first <= 0xF4 ? 4
+                                                      : 0;
+  if (length == 0 || i + static_cast<std::size_t>(length) > text.size()) return 0;
+  code = first & (0x7F >> length);
+  for (int k = 1; k < length; ++k) {
+    const unsigned char next = byte(i + static_cast<std::size_t>(k));
+    if ((next & 0xC0) != 0x80) return 0;
+    code = (code << 6) | (next & 0x3F);
+  }
+  // Overlong forms, surrogates, beyond U+10FFFF.
+  if ((length == 3 && code < 0x800) || (length == 4 && (code < 0x10000 || code > 0x10FFFF))) return 0;
+  if (code >= 0xD800 && code <= 0xDFFF) return 0;
+  return length;
+}
+
+bool is_control(char32_t code) {
+  return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x2028 || code == 0x2029 || code == 0xFEFF ||
+         (code & 0xFFFE) == 0xFFFE || (code >= 0xFDD0 && code <= 0xFDEF);
+}
+
+bool read_source(const std::string& path, Source& source, Diagnostics& diagnostics) {
+  source.name = path;
+  if (path.find('\0') != std::string::npos) {
+    refuse_file(diagnostics, path, "no such file");
+    return false;
+  }
+  const OpenFile file{open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)};
+  struct stat info {};
+  if (file.fd < 0 || fstat(file.fd, &info) != 0) {
+    const int error = errno;
+    if (error == ENOENT || error == ENOTDIR) {
+      refuse_file(diagnostics, path, "no such file");
+    } else {
+      refuse_file(diagnostics, path, fmt::format("cannot be opened: {}", std::strerror(error)));
+    }
+    return false;
+  }
+  if (S_ISDIR(info.st_mode)) {
+    refuse_file(diagnostics, path, "this is a folder, not a scene file", "name the scene file in it");
+    return false;
+  }
+  if (!S_ISREG(info.st_mode)) {
+    refuse_file(diagnostics, path, "this is not a regular file", "write the scene to a file and name that");
+    return false;
+  }
+
+  // The size can change while we read, so the cap holds for what is read, not for what was promised.
+  std::string& text = source.text;
+  text.clear();
+  const auto too_big = [&] {
+    refuse_file(diagnostics, path, fmt::format("the file is larger than {} MiB", max_source_bytes >> 20),
+                "many balls of one kind are a group: `groups`");
+    return false;
+  };
+  if (static_cast<std::uint64_t>(info.st_size) > max_source_bytes) return too_big();
+  text.reserve(static_cast<std::size_t>(info.st_size) + 8);
+  char buffer[1 << 16];
+  for (;;) {
+    const ssize_t got = read(file.fd, buffer, sizeof buffer);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) {
+      refuse_file(diagnostics, path, fmt::format("cannot be read: {}", std::strerror(errno)));
+      return false;
+    }
+    if (got == 0) break;
+    text.append(buffer, static_cast<std::size_t>(got));
+    if (text.size() > max_source_bytes) return too_big();
+  }
+  if (!looks_like_utf8(text)) {
+    refuse_file(diagnostics, path, "this is not UTF-8 text (it looks like UTF-16 or UTF-32, or is no text at all)",
+                "save it as UTF-8");
+    return false;
+  }
+  normalise(text);
+  return true;
+}
+
+std::string why_no_file(const std::string& path) {
+  struct stat info {};
+  if (stat(path.c_str(), &info) == 0) return S_ISREG(info.st_mode) ? "" : "this is no regular file:";
+  if (errno == ENOENT || errno == ENOTDIR) return "there is no file";
+  return fmt::format("cannot be looked at ({}):", std::strerror(errno));
+}
+
+bool check_text(Source& source, std::uint32_t index, Diagnostics& diagnostics) {
+  std::string& text = source.text;
+  bool can_go_on = true;
+  int tab_lines = 0;
+  std::uint64_t brackets = 0;
+  int open_brackets = 0;
+  bool indenting = true;  // only spaces so far in this line
+  bool tab_in_line = false;
+  for (std::size_t i = 0; i < text.size();) {
+    char32_t code = 0;
+    const int length = utf8_length(text, i, code);
+    if (length == 0) {
+      diagnostics.add(one_byte(index, i),
+                      fmt::format("byte 0x{:02X} is not valid UTF-8", static_cast<unsigned char>(text[i])),
+                      "save the file as UTF-8");
+      return false;
+    }
+    if (code == '\t') {
+      if (!tab_in_line && ++tab_lines <= max_shown_tabs) {
+        diagnostics.add(one_byte(index, i), "a tab",
+                        "expected spaces: YAML does not allow tabs for indentation, and a scene has none at all");
+      }
+      tab_in_line = true;
+      if (indenting) can_go_on = false;  // what it was meant to line up with is anybody's guess
+      text[i] = ' ';
+    } else if (code == '\n') {
+      indenting = true;
+      tab_in_line = false;
+    } else if (is_control(code)) {
+      diagnostics.add({index, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(length)},
+                      fmt::format("control character U+{:04X}", static_cast<std::uint32_t>(code)), "remove it");
+      return false;
+    } else if (code != ' ') {
+      indenting = false;
+    }
+    if (code < 0x80 && std::strchr("[]{},:?\"'*&!", static_cast<int>(code)) != nullptr && code != 0) {
+      ++brackets;
+      if (code == '[' || code == '{') ++open_brackets;
+      if ((code == ']' || code == '}') && open_brackets > 0) --open_brackets;
+      if (open_brackets > max_open_brackets) {
+        diagnostics.add(one_byte(index, i), fmt::format("{} brackets are open here", open_brackets),
+                        "expected a scene");
+        return false;
+      }
+      if (brackets > max_brackets) {
+        diagnostics.add(one_byte(index, i),
+                        fmt::format("more than {} brackets, quotes, commas and colons", max_brackets),
+                        "many balls of one kind are a group: `groups`");
+        return false;
+      }
+    }
+    i += static_cast<std::size_t>(length);
+  }
+  if (tab_lines > max_shown_tabs) {
+    diagnostics.add_unplaced(source.name, fmt::format("tabs in {} more lines", tab_lines - max_shown_tabs));
+  }
+  return can_go_on;
+}
+
+}  // namespace carom

@@ -1,0 +1,209 @@
+#include "yaml/syntax.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "yaml/diagnostics.h"
+
+namespace carom {
+namespace {
+
+/// A bracket or quote that has no partner.
+struct Unpaired {
+  std::size_t open = std::string::npos;
+  std::size_t close = std::string::npos;  // the bracket that closes another kind; npos: the text ends
+};
+
+/// Walks brackets, quotes and comments as YAML sees them (blocks of text aside). What it finds only serves a message.
+Unpaired find_unpaired(std::string_view text, std::size_t begin) {
+  std::vector<std::size_t> open;
+  for (std::size_t i = begin; i < text.size(); ++i) {
+    const char c = text[i];
+    const char before = i == begin ? '\n' : text[i - 1];
+    const bool token_start =
+        before == ' ' || before == '\n' || before == '[' || before == '{' || before == ',' || before == ':';
+    if (c == '#' && (before == ' ' || before == '\n')) {
+      i = std::min(text.find('\n', i), text.size());
+    } else if ((c == '"' || c == '\'') && token_start) {
+      std::size_t j = i + 1;
+      for (; j < text.size(); ++j) {
+        if (c == '"' && text[j] == '\\') {
+          ++j;
+        } else if (text[j] == c) {
+          if (c == '\'' && j + 1 < text.size() && text[j + 1] == '\'') {
+            ++j;
+          } else {
+            break;
+          }
+        }
+      }
+      if (j >= text.size()) return {i, std::string::npos};
+      i = j;
+    } else if ((c == '[' || c == '{') && (token_start || !open.empty())) {
+      open.push_back(i);
+    } else if ((c == ']' || c == '}') && !open.empty()) {
+      if ((c == ']') != (text[open.back()] == '[')) return {open.back(), i};
+      open.pop_back();
+    }
+  }
+  if (!open.empty()) return {open.back(), std::string::npos};
+  return {};
+}
+
+std::size_t line_start(std::string_view text, std::size_t i) {
+  return i == 0 ? 0 : text.rfind('\n', i - 1) + 1;
+}
+
+std::string_view line_at(std::string_view text, std::size_t i) {
+  const std::size_t begin = line_start(text, i);
+  return text.substr(begin, std::min(text.find('\n', begin), text.size()) - begin);
+}
+
+bool has_colon(std::string_view line) {
+  return line.find(": ") != std::string_view::npos || line.ends_with(':');
+}
+
+/// What one of the parser's complaints means.
+struct SyntaxCause {
+  std::string_view complaint;  // a part of it
+  std::string_view message, remedy;
+};
+
+constexpr std::string_view no_tags = "remove it: the key decides what kind of value it has";
+constexpr std::string_view own_lines = "expected lists as [a, b], or `- ` in lines of their own";
+
+constexpr SyntaxCause causes_in_values[] = {
+    {"anchor is not defined", "an alias", "expected the value itself: scenes have no anchors and aliases"},
+    {"multiple anchors", "a tag or anchor", no_tags},
+    {"tag", "a tag or anchor", no_tags},
+};
+constexpr SyntaxCause causes_in_brackets[] = {
+    {"illegal flow end", "this bracket closes nothing", "remove it"},
+    {"flow not found", "a value ends and another thing begins",
+     "expected ',' or the closing bracket; is a ',' missing?"},
+};
+constexpr SyntaxCause causes_in_lines[] = {
+    {"end of map not found", "this does not fit the lines above",
+     "expected `key: value` at the indentation of one of them"},
+    {"end of sequence not found", "this does not fit the list above",
+     "expected `- ` at its indentation, or a key further left"},
+    {"block entry", "a list entry cannot begin here", own_lines},
+    {"sequence entr", "a list entry cannot begin here", own_lines},
+    {"bad file", "values are nested too deep", "expected a scene"},
+};
+
+/// A failure of the parser. Its functions add an error where they know the cause, and say whether they do.
+class ParseFailure {
+ public:
+  ParseFailure(const Source& source, std::uint32_t index, std::size_t begin, std::size_t noticed,
+               const std::string& complaint, Diagnostics& diagnostics)
+      : text_(source.text),
+        index_(index),
+        begin_(begin),
+        noticed_(noticed),
+        complaint_(complaint),
+        diagnostics_(diagnostics) {}
+
+  void explain() {
+    const bool known = explain_by(causes_in_values) || explain_character() || explain_unpaired() ||
+                       explain_by(causes_in_brackets) || explain_map_value() || explain_by(causes_in_lines);
+    if (!known) add(noticed_, fmt::format("this is not YAML: {}", complaint_), "expected `key: value`");
+  }
+
+ private:
+  void add(std::size_t offset, std::string message, std::string remedy, std::size_t length = 1) {
+    const Place place{index_, static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(length)};
+    diagnostics_.add(place, std::move(message), std::move(remedy));
+  }
+  bool says(std::string_view part) const { return complaint_.find(part) != std::string::npos; }
+
+  bool explain_by(std::span<const SyntaxCause> causes) {
+    for (const SyntaxCause& cause : causes) {
+      if (!says(cause.complaint)) continue;
+      add(noticed_, std::string(cause.message), std::string(cause.remedy));
+      return true;
+    }
+    return false;
+  }
+
+  bool explain_character() {
+    if (says("unknown token")) {
+      const char c = noticed_ < text_.size() ? text_[noticed_] : ' ';
+      add(noticed_, fmt::format("plain text cannot begin with {}", quoted(std::string(1, c))),
+          "put the text in quotes");
+      return true;
+    }
+    if (says("unknown escape")) {
+      add(noticed_ > 0 ? noticed_ - 1 : 0, "an unknown escape in a text in double quotes",
+          "in single quotes a backslash is just a backslash", 2);
+      return true;
+    }
+    return false;
+  }
+
+  bool explain_unpaired() {
+    const Unpaired unpaired = find_unpaired(text_, begin_);
+    if (unpaired.open == std::string::npos) return false;
+    const char c = text_[unpaired.open];
+    const std::string open = quoted(text_.substr(unpaired.open, 1));
+    const std::string closing = c == '[' ? "]" : c == '{' ? "}" : std::string(1, c);
+    if (unpaired.close != std::string::npos) {
+      const auto before = text_.begin() + static_cast<std::ptrdiff_t>(unpaired.open);
+      add(unpaired.close,
+          fmt::format("{} cannot close the {} of line {}", quoted(text_.substr(unpaired.close, 1)), open,
+                      1 + std::count(text_.begin(), before, '\n')),
+          fmt::format("expected {}", quoted(closing)));
+    } else {
+      add(unpaired.open, fmt::format("this {} is never closed", open),
+          fmt::format("expected {} before the next key", quoted(closing)));
+    }
+    return true;
+  }
+
+  /// Two ": " in a line, or a line above that lacks its own and was read on.
+  bool explain_map_value() {
+    if (!says("illegal map value")) return false;
+    const std::size_t start = line_start(text_, noticed_);
+    if (text_.substr(start, noticed_ - start).find(": ") != std::string_view::npos) {
+      add(noticed_, "a second ':' in this line", "expected one `key: value` a line; text that holds ': ' needs quotes");
+      return true;
+    }
+    std::size_t above = start;
+    while (above > begin_) {
+      above = line_start(text_, above - 1);
+      const std::string_view line = line_at(text_, above);
+      const std::size_t word = line.find_first_not_of(' ');
+      if (word == std::string_view::npos || line[word] == '#') continue;
+      if (!has_colon(line)) {
+        add(above + word, "this line has no ':'", "expected `key: value`", line.find_last_not_of(' ') + 1 - word);
+      } else {
+        const std::string_view here = line_at(text_, noticed_);
+        const std::size_t first = std::min(here.find_first_not_of(' '), noticed_ - start);
+        add(start + first, "this line is indented further than the line above, which has its value already",
+            "expected the same indentation");
+      }
+      return true;
+    }
+    return false;
+  }
+
+  const std::string_view text_;
+  const std::uint32_t index_;
+  const std::size_t begin_, noticed_;
+  const std::string& complaint_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+void explain_syntax(const Source& source, std::uint32_t index, std::size_t begin, std::size_t noticed,
+                    const std::string& complaint, Diagnostics& diagnostics) {
+  ParseFailure(source, index, begin, noticed, complaint, diagnostics).explain();
+}
+
+}  // namespace carom

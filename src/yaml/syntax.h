@@ -1,0 +1,16 @@
+#pragma once
+// What is wrong with text that is no YAML, said where the author will look.
+#include <cstdint>
+#include <string>
+
+#include "yaml/source.h"
+
+namespace carom {
+
+/// Adds one error for a parse failure that the parser noticed at byte `noticed` of `source` and calls `complaint`.
+/// The parser notices late: an open bracket at the end of the file, a missing ':' at the next one. This looks for the
+/// cause.
+void explain_syntax(const Source& source, std::uint32_t index, std::size_t begin, std::size_t noticed,
+                    const std::string& complaint, Diagnostics& diagnostics);
+
+}  // namespace carom

@@ -1,0 +1,60 @@
+#include "yaml/value_json.h"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "yaml/diagnostics.h"
+#include "yaml/values.h"
+
+namespace carom {
+
+using Json = nlohmann::ordered_json;
+
+Json number_json(double value) {
+  constexpr double whole_below = 9007199254740992.0;
+  if (std::floor(value) == value && std::fabs(value) < whole_below) return static_cast<std::int64_t>(value);
+  return value;
+}
+
+Json json_of(const Node& node) {
+  Json out;
+  switch (node.kind) {
+    case Node::Kind::null:
+      break;
+    case Node::Kind::scalar:
+      if (!node.quoted && (node.text == "true" || node.text == "false")) return node.text == "true";
+      if (const std::optional<double> number = parse_number(node.text); number && !node.quoted)
+        return number_json(*number);
+      return node.text;
+    case Node::Kind::sequence:
+      out = Json::array();
+      for (const Node& item : node.items) out.push_back(json_of(item));
+      break;
+    case Node::Kind::map:
+      out = Json::object();
+      for (std::size_t i = 0; i < node.keys.size(); ++i) out[node.keys[i].text] = json_of(node.items[i]);
+      break;
+  }
+  return out;
+}
+
+Json json_of_yaml(std::string_view yaml) {
+  std::vector<Source> sources(1);
+  sources[0].text = yaml;
+  Diagnostics diagnostics(sources);
+  const std::optional<Node> node = parse_document(sources, 0, 0, diagnostics);
+  return node ? json_of(*node) : Json();
+}
+
+std::string cell_text(std::string_view yaml) {
+  if (yaml.starts_with('+')) {
+    const auto number = parse_number(yaml);
+    return number ? shortest(*number) : std::string(yaml);
+  }
+  if (!yaml.starts_with('"') && !yaml.starts_with('\'')) return std::string(yaml);
+  const Json json = json_of_yaml(yaml);
+  return json.is_string() ? json.get<std::string>() : std::string(yaml);
+}
+
+}  // namespace carom
