@@ -17,8 +17,10 @@
 #include "bench/timing.h"
 #include "numerics/whole.h"
 #include "physics/force.h"
+#include "physics/world.h"
 #include "run/engine.h"
 #include "scene/engines.h"
+#include "scene/scene.h"
 #include "simulate/tolerances.h"
 
 namespace carom {

@@ -6,20 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "bench/bench_options.h"
 #include "bench/differences.h"
 #include "bench/evidence.h"
 #include "bench/method.h"
 #include "bench/statistics.h"
-#include "scene/scene.h"
 
 namespace carom {
 
-struct BenchOptions {
-  std::optional<double> longest, shortest;  // s, of the steps; none: by the scene
-  int repeat = 5;                           // timed runs of each row, at most
-  double budget = 20;                       // s of CPU time for the whole scene, roughly
-  std::optional<Engine> reference;          // exact or stepped; none: exact if it has all that the scene asks for
-};
+struct Scene;
 
 /// A method, what it costs and how far off it is.
 struct BenchRow {

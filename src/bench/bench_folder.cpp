@@ -10,6 +10,7 @@
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
 #include "run/engine.h"
+#include "scene/scene.h"
 
 namespace carom {
 
@@ -141,7 +142,7 @@ Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
   for (const BenchRow& row : result.rows) {
     if (!row.failure.empty() || (!result.chaotic && !row.errors)) continue;
     if (has_exact_bits(row, result.rows.front())) {
-      exact.insert(name_of(row.method.integrator));
+      exact.emplace(name_of(row.method.integrator));
       continue;
     }
     const std::string name = name_of(row.method);

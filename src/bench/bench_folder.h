@@ -10,6 +10,8 @@
 
 namespace carom {
 
+struct Scene;
+
 /// What stands in a folder; of a bench of this scene, with whatever options: this_run or incomplete.
 FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene, const BenchOptions& options);
 

@@ -7,6 +7,7 @@
 
 #include "numerics/compensated.h"
 #include "physics/force.h"
+#include "physics/world.h"
 
 namespace carom {
 

@@ -2,6 +2,7 @@
 // says nothing of its code. So no method is taken at its own word where another contradicts it (Oberkampf & Roy,
 // Verification and Validation in Scientific Computing, 2010, ch. 5 and 7: code and solution verification).
 #include "bench/evidence.h"
+#include "physics/world.h"
 
 #include <algorithm>
 #include <limits>

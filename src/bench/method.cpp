@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "physics/force.h"
+#include "physics/world.h"
 
 namespace carom {
 
 std::string name_of(const SimulationMethod& method) {
   return method.engine == Engine::stepped ? fmt::format("stepped {}", name_of(method.integrator))
-                                          : name_of(method.engine);
+                                          : std::string(name_of(method.engine));
 }
 
 std::string full_name_of(const SimulationMethod& method) {

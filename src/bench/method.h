@@ -2,8 +2,9 @@
 // One way to simulate a scene: an engine, and how it goes through paths that have no closed form.
 #include <string>
 
+#include "physics/world.h"
 #include "run/engine.h"
-#include "scene/scene.h"
+#include "scene/simulate_settings.h"
 
 namespace carom {
 

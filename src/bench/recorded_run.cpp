@@ -5,6 +5,7 @@
 
 #include "bench/state_hash.h"
 #include "bench/timing.h"
+#include "physics/world.h"
 
 namespace carom {
 

@@ -4,13 +4,16 @@
 #include <functional>
 #include <vector>
 
+#include "physics/entity.h"
 #include "physics/state.h"
 #include "physics/tally.h"
 #include "physics/world.h"
 #include "run/engine.h"
-#include "scene/scene.h"
+#include "scene/simulate_settings.h"
 
 namespace carom {
+
+struct World;
 
 /// What is compared of a collision. (The end of bounces is none, and is not kept.)
 struct Impact {

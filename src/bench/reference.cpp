@@ -8,7 +8,9 @@
 #include "bench/shifted.h"
 #include "bench/timing.h"
 #include "physics/force.h"
+#include "physics/world.h"
 #include "scene/engines.h"
+#include "scene/scene.h"
 #include "simulate/tolerances.h"
 
 namespace carom {

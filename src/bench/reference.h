@@ -15,9 +15,11 @@
 #include "bench/method.h"
 #include "bench/recorded_run.h"
 #include "bench/statistics.h"
-#include "scene/scene.h"
+#include "physics/world.h"
 
 namespace carom {
+
+struct Scene;
 
 /// A run takes more CPU time than it may.
 struct Overrun {};

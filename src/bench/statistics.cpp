@@ -1,4 +1,5 @@
 #include "bench/statistics.h"
+#include "physics/world.h"
 
 #include <algorithm>
 #include <cmath>

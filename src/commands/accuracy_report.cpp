@@ -6,7 +6,9 @@
 
 #include "commands/interrupt.h"
 #include "commands/text.h"
+#include "physics/world.h"
 #include "run/accuracy.h"
+#include "scene/scene.h"
 
 namespace carom {
 

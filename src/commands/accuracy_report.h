@@ -9,6 +9,8 @@
 
 namespace carom {
 
+struct Scene;
+
 struct AccuracyReport {
   std::vector<std::pair<std::string, std::string>> lines;  // label, text
   nlohmann::ordered_json json;                             // an object; null: there is nothing to tell

@@ -8,6 +8,7 @@
 
 #include "commands/interrupt.h"
 #include "commands/progress.h"
+#include "scene/scene.h"
 #include "study/workers.h"
 
 namespace carom {

@@ -12,6 +12,7 @@
 #include "commands/progress.h"
 #include "commands/report.h"
 #include "commands/text.h"
+#include "scene/scene.h"
 
 namespace carom {
 

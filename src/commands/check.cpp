@@ -13,6 +13,8 @@
 #include "commands/report.h"
 #include "commands/text.h"
 #include "commands/volumes.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 

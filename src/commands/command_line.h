@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/bench.h"
+#include "bench/bench_options.h"
 #include "commands/terminal.h"
 #include "study/shard.h"
 

@@ -15,6 +15,7 @@
 #include "compare/comparison_folder.h"
 #include "files/open_folder.h"
 #include "files/publication.h"
+#include "scene/scene.h"
 #include "study/comparison_film.h"
 #include "study/run_list.h"
 #include "study/sweep_folder.h"

@@ -10,7 +10,9 @@
 #include "commands/preview.h"
 #include "export/timeline.h"
 #include "physics/force.h"
+#include "physics/world.h"
 #include "render/camera.h"
+#include "scene/scene.h"
 
 namespace carom {
 
@@ -151,7 +153,7 @@ Foresight foresee(const Scene& scene, const EngineChoice& engine, bool watch, do
   Foresight result = trial.go();
   const Engine oracle = most_exact(scene.world);
   if (engine.engine != oracle) result.failure.clear();  // of another simulator
-  const bool settled = !scene.simulate.tolerance;     // it takes an unknown number of runs
+  const bool settled = !scene.simulate.tolerance;       // it takes an unknown number of runs
   if (!settled) return result;
   result.simulate_s = engine.engine == oracle ? trial.whole() : own_engine_s(scene, engine, budget);
   return result;

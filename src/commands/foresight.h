@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "physics/collision.h"
+#include "physics/entity.h"
 #include "run/engine.h"
-#include "scene/scene.h"
 
 namespace carom {
+
+struct Scene;
 
 /// A body comes into the picture or leaves it between the instant before and this one.
 struct Crossing {

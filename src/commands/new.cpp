@@ -11,6 +11,7 @@
 #include "commands/text.h"
 #include "files/open_folder.h"
 #include "files/stored_file.h"
+#include "scene/scene.h"
 #include "scene/schema.h"
 #include "yaml/diagnostics.h"
 

@@ -14,8 +14,10 @@
 #include "commands/text.h"
 #include "files/open_folder.h"
 #include "files/publication.h"
+#include "physics/world.h"
 #include "render/mesh.h"
 #include "scene/load.h"
+#include "scene/scene.h"
 
 namespace carom {
 

@@ -8,6 +8,7 @@
 
 #include "commands/command_line.h"
 #include "export/forecast.h"
+#include "files/run_folder.h"
 #include "run/engine.h"
 #include "run/former_run.h"
 

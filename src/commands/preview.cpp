@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/world.h"
 #include "render/camera.h"
+#include "scene/scene.h"
 
 namespace carom {
 

@@ -3,9 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
+#include "physics/entity.h"
 
 namespace carom {
+
+struct Scene;
 
 struct CameraPreview {
   std::string plus_x;               // where +x points in the picture: "right", "left", "up", "down", "away", "toward"

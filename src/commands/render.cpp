@@ -15,6 +15,7 @@
 #include "files/publication.h"
 #include "scene/motion_text.h"
 #include "scene/output.h"
+#include "scene/scene.h"
 
 namespace carom {
 

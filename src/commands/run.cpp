@@ -11,6 +11,7 @@
 #include "commands/report.h"
 #include "commands/run_one.h"
 #include "commands/text.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {
@@ -62,7 +63,7 @@ int run_planned(const Options& options, std::string_view command, std::vector<Pl
   refuse_other_content(scenes, options);
   if (const std::string errors = error_count(scenes); !errors.empty()) return refuse(options, command, scenes, errors);
   const auto start = std::chrono::steady_clock::now();
-  const Style style{wants_color(options.color, STDOUT_FILENO), terminal_width(STDOUT_FILENO)};
+  const Style style{Palette(wants_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO)};
   OutcomeList list(options);
   Batch batch;
   batch.is_up_to_date = [&](const PlannedScene& planned) {

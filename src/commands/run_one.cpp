@@ -6,6 +6,7 @@
 
 #include "commands/interrupt.h"
 #include "commands/text.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -5,6 +5,7 @@
 #include "commands/accuracy_report.h"
 #include "commands/interrupt.h"
 #include "commands/text.h"
+#include "scene/scene.h"
 
 namespace carom {
 

@@ -8,6 +8,7 @@
 #include "commands/terminal.h"
 #include "commands/text.h"
 #include "scene/fields.h"
+#include "scene/scene.h"
 #include "scene/schema.h"
 #include "yaml/diagnostics.h"
 

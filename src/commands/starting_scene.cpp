@@ -1,4 +1,5 @@
 #include "commands/new.h"
+#include "scene/scene.h"
 
 namespace carom {
 

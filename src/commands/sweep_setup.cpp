@@ -16,6 +16,7 @@
 #include "compare/comparison.h"
 #include "render/mesh.h"
 #include "scene/resolve.h"
+#include "scene/scene.h"
 #include "study/sweep_folder.h"
 
 namespace carom {

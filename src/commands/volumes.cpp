@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "commands/text.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 

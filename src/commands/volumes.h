@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "scene/scene.h"
-
 namespace carom {
+
+struct Scene;
 
 /// "low and high each a box of 1 x 1 x 1 m; post a cylinder of radius 0.1 m and height 2 m": of all obstacles and of
 /// all bodies that are no plain balls, at most ten kinds; empty: there are none.

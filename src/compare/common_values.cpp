@@ -4,6 +4,7 @@
 
 #include "files/stored_file.h"
 #include "scene/load.h"
+#include "scene/scene.h"
 #include "yaml/source.h"
 
 namespace carom {

@@ -10,8 +10,10 @@
 #include "files/open_folder.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
+#include "physics/world.h"
 #include "render/mesh.h"
 #include "scene/load.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -6,6 +6,7 @@
 #include "compare/comparison.h"
 #include "files/output_file.h"
 #include "files/stored_table.h"
+#include "scene/scene.h"
 
 namespace carom {
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "files/csv.h"
+#include "files/run_folder.h"
 #include "run/summary_columns.h"
 
 namespace carom {

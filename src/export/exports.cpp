@@ -15,6 +15,7 @@
 #include "files/open_folder.h"
 #include "files/series.h"
 #include "files/series_folders.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

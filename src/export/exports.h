@@ -18,9 +18,10 @@
 #include "physics/tally.h"
 #include "render/image.h"
 #include "render/model.h"
-#include "scene/scene.h"
 
 namespace carom {
+
+struct Scene;
 
 struct Manifest;
 

@@ -4,7 +4,7 @@
 
 #include "export/film_file.h"
 #include "render/image.h"
-#include "scene/scene.h"
+#include "scene/output.h"
 
 namespace carom {
 

@@ -13,6 +13,8 @@
 
 #include "files/run_folder.h"
 #include "files/stored_file.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

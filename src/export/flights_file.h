@@ -28,6 +28,8 @@
 
 namespace carom {
 
+struct Scene;
+
 inline constexpr const char* flights_name = "flights.bin";
 
 /// Bytes; of a run with more no flights are kept.

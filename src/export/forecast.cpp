@@ -6,6 +6,8 @@
 #include "export/timeline.h"
 #include "export/writer.h"
 #include "numerics/whole.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -2,9 +2,9 @@
 // What a run of a scene will write, said before it starts.
 #include <cstdint>
 
-#include "scene/scene.h"
-
 namespace carom {
+
+struct Scene;
 
 /// How many trajectory rows, pictures and, roughly, bytes a run of this scene will write, and how long that and drawing
 /// may take.

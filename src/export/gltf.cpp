@@ -1,6 +1,8 @@
 #include "export/gltf.h"
 
 #include "export/bodies.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 

@@ -6,6 +6,8 @@
 
 namespace carom {
 
+struct Scene;
+
 class GltfWriter : public Writer {
  public:
   GltfWriter(OpenFolder& folder, const Scene& scene, const ModelMakers& makers)

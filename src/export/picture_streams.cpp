@@ -4,6 +4,7 @@
 
 #include "export/sheet.h"
 #include "files/run_folder.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -3,9 +3,11 @@
 #include <vector>
 
 #include "export/timeline.h"
-#include "scene/scene.h"
+#include "scene/output.h"
 
 namespace carom {
+
+struct Scene;
 
 /// One sequence of pictures of one size and quality; frames, video and sheet share one where theirs are the same.
 struct PictureStream {

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "render/image.h"
-#include "scene/scene.h"
+#include "scene/output.h"
 
 namespace carom {
 

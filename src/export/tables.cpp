@@ -9,6 +9,8 @@
 #include "files/manifest.h"
 #include "files/summary.h"
 #include "physics/energy.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -11,6 +11,10 @@
 
 namespace carom {
 
+struct Roster;
+struct Scene;
+struct World;
+
 struct Summary;
 
 /// trajectory.csv. Long: a row a body and instant, by time then body. Wide: a row an instant, six columns a body:

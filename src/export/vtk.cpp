@@ -8,6 +8,8 @@
 #include <cstring>
 
 #include "export/bodies.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

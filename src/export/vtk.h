@@ -10,6 +10,8 @@
 
 namespace carom {
 
+struct Scene;
+
 class VtkWriter : public Writer {
  public:
   VtkWriter(OpenFolder& folder, const Scene& scene, const ModelMakers& makers);

@@ -5,6 +5,8 @@
 #include "export/tables.h"
 #include "export/vtk.h"
 #include "export/xyz.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

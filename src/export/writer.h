@@ -14,9 +14,10 @@
 #include "physics/state.h"
 #include "physics/tally.h"
 #include "render/model.h"
-#include "scene/scene.h"
 
 namespace carom {
+
+struct Scene;
 
 class Writer {
  public:

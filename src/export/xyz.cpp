@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "export/bodies.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -8,6 +8,8 @@
 
 namespace carom {
 
+struct Scene;
+
 class XyzWriter : public Writer {
  public:
   XyzWriter(OpenFolder& folder, const Scene& scene);

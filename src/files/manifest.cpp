@@ -9,6 +9,7 @@
 #include "files/mesh_copies.h"
 #include "files/series_folders.h"
 #include "files/stored_file.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -8,9 +8,11 @@
 
 #include "files/output_file.h"
 #include "files/summary.h"
-#include "scene/scene.h"
+#include "scene/output.h"
 
 namespace carom {
+
+struct Scene;
 
 inline constexpr const char* manifest_name = "manifest.json";
 inline constexpr std::uint64_t largest_manifest = 256 << 20;  // bytes; 100,000 frames take 14 million

@@ -8,6 +8,7 @@
 #include "files/hash.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

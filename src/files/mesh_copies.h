@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
-
 namespace carom {
+
+struct Scene;
 
 struct MeshCopy {
   std::string name, bytes;

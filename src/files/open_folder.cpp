@@ -18,6 +18,7 @@
 #include "files/run_folder.h"
 #include "files/series_folders.h"
 #include "files/stored_file.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

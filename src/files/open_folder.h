@@ -7,9 +7,11 @@
 #include "files/mesh_copies.h"
 #include "files/output_file.h"
 #include "files/run_folder.h"
-#include "scene/scene.h"
+#include "scene/output.h"
 
 namespace carom {
+
+struct Scene;
 
 /// A folder's descriptor; none, with errno, if it is not there, or no folder, or (unless `follow`) a link. Throws
 /// ExportError where that cannot be said.

@@ -15,6 +15,7 @@
 #include "files/open_folder.h"
 #include "files/series_folders.h"
 #include "files/stored_file.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

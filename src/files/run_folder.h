@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "files/output_file.h"
-#include "scene/scene.h"
 
 namespace carom {
+
+struct Scene;
 
 /// Writing cannot go on, or must not begin. The text is for the user.
 struct ExportError : std::runtime_error {

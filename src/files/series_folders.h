@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "files/output_file.h"
-#include "scene/scene.h"
+#include "scene/output.h"
 
 namespace carom {
 

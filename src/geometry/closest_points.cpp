@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/pair.h"
+#include "physics/world.h"
 
 namespace carom {
 

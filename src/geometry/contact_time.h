@@ -6,9 +6,10 @@
 
 #include "numerics/polynomial.h"
 #include "numerics/vec3.h"
-#include "physics/world.h"
 
 namespace carom {
+
+struct Wall;
 
 /// Two points' relative motion: d = x_b - x_a (m), w = v_b - v_a (m/s), a = a_b - a_a (m/s^2).
 struct RelativeMotion {

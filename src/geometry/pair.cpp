@@ -1,4 +1,5 @@
 #include "geometry/pair.h"
+#include "physics/world.h"
 
 namespace carom {
 

@@ -8,6 +8,7 @@
 #include "geometry/pair.h"
 #include "geometry/relative_way.h"
 #include "numerics/cube_root.h"
+#include "physics/world.h"
 
 namespace carom {
 

@@ -1,4 +1,5 @@
 #include "geometry/slab_sum.h"
+#include "physics/world.h"
 
 #include <cmath>
 

@@ -1,4 +1,5 @@
 #include "geometry/tilted_sum.h"
+#include "physics/world.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 #include "geometry/conservative_advancement.h"
 #include "geometry/pair.h"
+#include "physics/world.h"
 
 namespace carom {
 

@@ -5,6 +5,7 @@
 
 #include "geometry/pair.h"
 #include "numerics/compensated.h"
+#include "physics/world.h"
 
 namespace carom {
 

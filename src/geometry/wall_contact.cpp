@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/contact_time.h"
+#include "physics/world.h"
 
 namespace carom {
 

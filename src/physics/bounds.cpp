@@ -1,4 +1,5 @@
 #include "physics/bounds.h"
+#include "physics/world.h"
 
 #include <algorithm>
 

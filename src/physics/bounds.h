@@ -3,9 +3,11 @@
 // it, and contact there means little. Beyond, nothing is computed: the loader refuses, and a run ends.
 #include <limits>
 
-#include "physics/world.h"
+#include "numerics/vec3.h"
 
 namespace carom {
+
+struct World;
 
 /// The largest place (m), and the longest path (m), by the smallest size (m).
 inline constexpr double farthest_by_size = 1e12;

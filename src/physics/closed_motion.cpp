@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "physics/force.h"
+#include "physics/world.h"
 
 namespace carom {
 

@@ -5,11 +5,13 @@
 #include <variant>
 
 #include "numerics/compensated.h"
+#include "physics/entity.h"
 #include "physics/kepler_orbit.h"
 #include "physics/oscillation.h"
-#include "physics/world.h"
 
 namespace carom {
+
+struct World;
 
 /// What forces such a motion: either springs and drag, or an attractor alone.
 struct ClosedForces {

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "numerics/vec3.h"
-#include "physics/world.h"
+#include "physics/entity.h"
 
 namespace carom {
 

@@ -1,6 +1,6 @@
 #pragma once
 // Lasting contact as it is reported.
-#include "physics/world.h"
+#include "physics/entity.h"
 
 namespace carom {
 

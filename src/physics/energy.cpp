@@ -2,6 +2,7 @@
 
 #include "numerics/compensated.h"
 #include "physics/force.h"
+#include "physics/world.h"
 
 namespace carom {
 

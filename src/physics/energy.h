@@ -1,9 +1,10 @@
 #pragma once
 // Conserved sums of a State. Summed with compensation, in the order of the bodies.
 #include "physics/state.h"
-#include "physics/world.h"
 
 namespace carom {
+
+struct World;
 
 double kinetic_energy(const World& world, const State& state);    // J
 double potential_energy(const World& world, const State& state);  // J, of gravity and forces (force.h)

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "physics/closed_motion.h"
+#include "physics/world.h"
 
 namespace carom {
 

@@ -3,7 +3,7 @@
 // bit for bit, without simulating.
 #include "numerics/compensated.h"
 #include "numerics/vec3.h"
-#include "physics/world.h"
+#include "physics/entity.h"
 
 namespace carom {
 

@@ -1,4 +1,5 @@
 #include "physics/restitution.h"
+#include "physics/world.h"
 
 #include <algorithm>
 #include <cmath>

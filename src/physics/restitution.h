@@ -1,8 +1,11 @@
 #pragma once
 // The coefficient of restitution of a pair (chapter 8: a body has its own; the pair's is made of both).
+#include "physics/entity.h"
 #include "physics/world.h"
 
 namespace carom {
+
+struct World;
 
 /// e of two coefficients; masses (kg) matter to mass_weighted only. `book` is e1 e2 / 2, listing 8.4 as printed.
 double combine_restitution(Combine rule, double e1, double m1, double e2, double m2);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "physics/force.h"
+#include "physics/world.h"
 
 namespace carom {
 

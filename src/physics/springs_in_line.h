@@ -5,9 +5,11 @@
 
 #include "numerics/polynomial_path.h"
 #include "numerics/vec3.h"
-#include "physics/world.h"
+#include "physics/entity.h"
 
 namespace carom {
+
+struct World;
 
 class SpringsInLine {
  public:

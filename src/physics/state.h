@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "numerics/vec3.h"
-#include "physics/world.h"
+#include "physics/entity.h"
+#include "physics/volume.h"
 
 namespace carom {
 

@@ -2,19 +2,15 @@
 // What never changes during a run. What does change is State (state.h).
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "numerics/vec3.h"
+#include "physics/entity.h"
 #include "physics/force_law.h"
 #include "physics/volume.h"
 
 namespace carom {
-
-/// A body or a fixed thing, by number: bodies are 0 .. body_count()-1, then the planes, the walls, the obstacles.
-using Entity = std::uint32_t;
-inline constexpr Entity no_entity = std::numeric_limits<Entity>::max();
 
 /// An unbounded one-sided surface. Free space is where (x - point) . normal > 0.
 struct Plane {

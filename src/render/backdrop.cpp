@@ -1,4 +1,5 @@
 #include "render/backdrop.h"
+#include "scene/scene.h"
 
 #include <fmt/format.h>
 

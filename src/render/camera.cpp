@@ -1,4 +1,6 @@
 #include "render/camera.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <array>

@@ -14,12 +14,14 @@
 #include <tuple>
 #include <utility>
 
+#include "physics/world.h"
 #include "render/camera.h"
 #include "render/glb_nodes.h"
 #include "render/lighting.h"
 #include "render/renderer.h"
 #include "render/shapes.h"
 #include "render/still_things.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

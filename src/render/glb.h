@@ -7,6 +7,8 @@
 
 namespace carom {
 
+struct Scene;
+
 /// Bodies have a translation a key, exact to float, and straight lines between; from a merge on the smaller body has
 /// scale 0, the joint one its new size. Colours are in linear light, y is up, times in seconds. Throws RenderError.
 std::string glb(const Scene& scene, const KeyedMotion& motion);

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "numerics/vec3.h"
-#include "scene/scene.h"
 
 namespace carom {
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/renderer.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -5,11 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "numerics/vec3.h"
 #include "render/eye.h"
 #include "render/gl.h"
-#include "scene/scene.h"
+#include "scene/colors.h"
 
 namespace carom {
+
+struct Scene;
 
 /// An authored colour in linear light (IEC 61966-2-1).
 std::array<float, 3> linear(const Color& srgb);

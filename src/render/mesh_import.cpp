@@ -1,4 +1,5 @@
 #include "render/mesh_import.h"
+#include "scene/scene.h"
 
 #include <assimp/BaseImporter.h>
 #include <assimp/DefaultIOSystem.h>

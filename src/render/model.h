@@ -9,11 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "numerics/vec3.h"
+#include "physics/entity.h"
 #include "physics/volume.h"
 #include "render/mesh.h"
-#include "scene/scene.h"
+#include "scene/colors.h"
 
 namespace carom {
+
+struct Scene;
 
 /// A plane, a wall or an obstacle that a picture shows.
 struct StillThing {

@@ -13,6 +13,7 @@
 #include "render/solids.h"
 #include "render/spheres.h"
 #include "render/things.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -6,9 +6,11 @@
 
 #include "physics/state.h"
 #include "render/image.h"
-#include "scene/scene.h"
+#include "scene/output.h"
 
 namespace carom {
+
+struct Scene;
 
 /// Drawing cannot go on. The text is for the user.
 struct RenderError : std::runtime_error {

@@ -5,9 +5,11 @@
 #include <map>
 #include <utility>
 
+#include "physics/world.h"
 #include "render/renderer.h"
 #include "render/shapes.h"
 #include "render/surfaces.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

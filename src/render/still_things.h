@@ -7,6 +7,9 @@
 
 namespace carom {
 
+struct MeshUse;
+struct Scene;
+
 /// The planes, walls and obstacles that are visible, in the order of the file. A plane is cut off at a cube around
 /// `seen`, the walls and the obstacles, and where other visible planes have their backs. Throws RenderError for a mesh
 /// that cannot be read.

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "physics/world.h"
 #include "render/lighting.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/world.h"
 #include "render/lighting.h"
 #include "render/mesh_shadows.h"
 #include "render/surfaces.h"
+#include "scene/scene.h"
 
 namespace carom {
 

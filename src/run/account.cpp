@@ -9,6 +9,8 @@
 #include "numerics/compensated.h"
 #include "physics/energy.h"
 #include "physics/force.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

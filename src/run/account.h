@@ -1,10 +1,12 @@
 #pragma once
 // A run's account at its end: where its energy and momentum went, and what it counted.
 #include "files/summary.h"
+#include "physics/state.h"
 #include "run/engine.h"
-#include "scene/scene.h"
 
 namespace carom {
+
+struct Scene;
 
 /// The energy of all bodies at an instant.
 struct StoredEnergy {

@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "physics/force.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 #include "simulate/tolerances.h"
 
 namespace carom {

@@ -5,10 +5,14 @@
 #include <optional>
 #include <vector>
 
+#include "physics/state.h"
+#include "physics/world.h"
 #include "run/engine.h"
-#include "scene/scene.h"
+#include "scene/simulate_settings.h"
 
 namespace carom {
+
+struct Scene;
 
 /// What a run is to be carried with so that places are right to a tolerance.
 struct Accuracy {

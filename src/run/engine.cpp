@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "physics/force.h"
+#include "physics/world.h"
 #include "run/accuracy.h"
+#include "scene/scene.h"
 #include "simulate/book.h"
 #include "simulate/exact.h"
 

@@ -7,10 +7,14 @@
 #include <string>
 
 #include "scene/engines.h"
-#include "scene/scene.h"
 #include "simulate/simulator.h"
 
 namespace carom {
+
+struct World;
+
+struct Scene;
+struct State;
 
 /// Of engine stepped.
 struct StepChoice {

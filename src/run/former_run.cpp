@@ -14,6 +14,7 @@
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "run/replay.h"
+#include "scene/scene.h"
 
 namespace carom {
 

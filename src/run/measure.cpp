@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "physics/world.h"
+#include "scene/scene.h"
 #include "yaml/diagnostics.h"
 
 namespace carom {

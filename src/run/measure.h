@@ -6,11 +6,13 @@
 #include <string_view>
 
 #include "files/summary.h"
+#include "numerics/vec3.h"
 #include "physics/state.h"
 #include "run/summary_columns.h"
-#include "scene/scene.h"
 
 namespace carom {
+
+struct Scene;
 
 enum class Quantity { x, y, z, vx, vy, vz, speed, kinetic };
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "physics/world.h"
 #include "simulate/flight.h"
 
 namespace carom {

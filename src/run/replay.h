@@ -8,6 +8,8 @@
 
 namespace carom {
 
+struct World;
+
 /// Gives the next piece of a record, in its order; false: there is none. May throw.
 using NextPiece = std::function<bool(PathPiece&)>;
 

@@ -13,6 +13,7 @@
 #include "run/account.h"
 #include "run/stopwatch.h"
 #include "run/warnings.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -13,6 +13,8 @@
 
 namespace carom {
 
+struct Scene;
+
 struct RunWatch {
   std::function<void()> look;  // called often; may throw
   /// How far it is: simulated time (s), collisions, pictures of all shows.

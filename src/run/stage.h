@@ -11,6 +11,9 @@
 
 namespace carom {
 
+struct Manifest;
+struct Scene;
+
 /// What is to be seen of a motion, and where it is written. Scenes that share a motion differ in their pictures and
 /// outputs alone.
 struct Show {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "physics/bounds.h"
+#include "scene/scene.h"
 
 namespace carom {
 

@@ -3,11 +3,13 @@
 #include <vector>
 
 #include "files/summary.h"
+#include "physics/state.h"
 #include "physics/tally.h"
 #include "run/engine.h"
-#include "scene/scene.h"
 
 namespace carom {
+
+struct Scene;
 
 /// Of a run with this end and these sums. Where there are any, its status is `doubtful`.
 std::vector<Warning> warnings_of(const Scene& scene, const EngineChoice& engine, const State& end,

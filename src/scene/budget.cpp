@@ -7,6 +7,7 @@
 
 #include "physics/force.h"
 #include "scene/engines.h"
+#include "scene/scene.h"
 
 namespace carom {
 

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "scene/output.h"
-#include "scene/scene.h"
 
 namespace carom {
+
+struct Scene;
 
 /// How much a scene may ask for before anything is allocated for it.
 struct Budget {

@@ -6,14 +6,18 @@
 #include <unordered_map>
 #include <vector>
 
+#include "numerics/vec3.h"
+#include "physics/entity.h"
+#include "physics/volume.h"
 #include "scene/forms.h"
 #include "scene/load.h"
-#include "scene/scene.h"
 #include "scene/view.h"
 #include "yaml/diagnostics.h"
 #include "yaml/document.h"
 
 namespace carom {
+
+struct Scene;
 
 /// One ball, body or group, in the order of the file.
 struct BodyEntry {

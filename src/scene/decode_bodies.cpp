@@ -4,12 +4,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "physics/world.h"
 #include "scene/colors.h"
 #include "scene/decode.h"
 #include "scene/grid.h"
 #include "scene/overlaps.h"
 #include "scene/placement.h"
 #include "scene/random.h"
+#include "scene/scene.h"
 #include "yaml/values.h"
 
 namespace carom {

@@ -1,7 +1,9 @@
 #include <cmath>
 
+#include "physics/world.h"
 #include "scene/colors.h"
 #include "scene/decode.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

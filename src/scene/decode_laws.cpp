@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "physics/world.h"
 #include "scene/decode.h"
+#include "scene/scene.h"
 #include "yaml/values.h"
 
 namespace carom {

@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "physics/force.h"
+#include "physics/world.h"
 #include "scene/decode.h"
 #include "scene/engines.h"
+#include "scene/scene.h"
 #include "yaml/values.h"
 
 namespace carom {

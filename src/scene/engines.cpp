@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "physics/force.h"
+#include "physics/world.h"
 #include "scene/fields.h"
+#include "scene/scene.h"
 
 namespace carom {
 
@@ -28,12 +30,11 @@ void stepped_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
   if (!simulate.merge) return;
   // Where `auto` stands for it, the force is what is in the way.
   const Force* bending = simulate.engine == Engine::automatic ? bending_force(world) : nullptr;
-  lacks.push_back(
-      {"contact",
-       bending == nullptr
-           ? "`engine: stepped` has no `contact: merge`"
-           : fmt::format("`contact: merge` is for parabolas and linear drag, not for `{}`", name_of(bending->law)),
-       "expected `contact: bounce`"});
+  lacks.push_back({"contact",
+                   bending == nullptr ? "`engine: stepped` has no `contact: merge`"
+                                      : fmt::format("`contact: merge` is for parabolas and linear drag, not for `{}`",
+                                                    name_of(bending->law)),
+                   "expected `contact: bounce`"});
 }
 
 // The chapter's listings know spheres, planes and walls, gravity and the impulses of the first frame.

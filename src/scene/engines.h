@@ -5,9 +5,12 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/simulate_settings.h"
 
 namespace carom {
+
+struct Force;
+struct World;
 
 // In the order of Engine and Integrator.
 inline constexpr std::string_view engine_names = "auto|exact|stepped|book";

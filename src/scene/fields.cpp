@@ -1,4 +1,5 @@
 #include "scene/fields.h"
+#include "scene/scene.h"
 
 #include <cstdlib>
 

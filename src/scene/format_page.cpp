@@ -5,6 +5,7 @@
 #include "physics/bounds.h"
 #include "scene/budget.h"
 #include "scene/field_places.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

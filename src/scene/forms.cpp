@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "scene/check.h"
+#include "scene/scene.h"
 #include "yaml/values.h"
 
 namespace carom {

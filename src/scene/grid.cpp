@@ -6,6 +6,7 @@
 #include "geometry/touch.h"
 #include "numerics/prefetch.h"
 #include "numerics/whole.h"
+#include "physics/world.h"
 
 namespace carom {
 namespace {

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "numerics/vec3.h"
+#include "physics/entity.h"
 #include "physics/world.h"
 
 namespace carom {

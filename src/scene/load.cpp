@@ -9,6 +9,7 @@
 #include "scene/check.h"
 #include "scene/decode.h"
 #include "scene/resolve.h"
+#include "scene/scene.h"
 #include "scene/settings.h"
 #include "yaml/document.h"
 

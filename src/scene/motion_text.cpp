@@ -8,6 +8,7 @@
 
 #include "physics/force.h"
 #include "scene/engines.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

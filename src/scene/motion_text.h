@@ -2,9 +2,9 @@
 // What of a scene determines its motion, apart from how the motion is looked at and written.
 #include <string>
 
-#include "scene/scene.h"
-
 namespace carom {
+
+struct Scene;
 
 /// A canonical text of the world, the initial state and the settings of the simulator. Scenes with the same text move
 /// alike, bit for bit. Names, title, colours, what is drawn, camera, lights, background and output are not in it, nor

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/fields.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -1,4 +1,6 @@
 #include "scene/overlaps.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 #include <fmt/format.h>
 

@@ -2,11 +2,13 @@
 // Bodies that stand in one another, or in something fixed, at the start.
 #include <vector>
 
+#include "physics/entity.h"
 #include "scene/grid.h"
-#include "scene/scene.h"
 #include "yaml/diagnostics.h"
 
 namespace carom {
+
+struct Scene;
 
 /// A body that the scene places itself.
 struct SingleBody {

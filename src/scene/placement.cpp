@@ -1,4 +1,5 @@
 #include "scene/placement.h"
+#include "physics/world.h"
 
 #include <algorithm>
 #include <array>

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/world.h"
+#include "physics/entity.h"
 #include "scene/grid.h"
 #include "scene/random.h"
 
 namespace carom {
+
+struct World;
 
 enum class Arrange : std::uint8_t { random, lattice, hexagonal };
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 
 #include "physics/bounds.h"
+#include "physics/world.h"
 #include "scene/decode.h"
+#include "scene/scene.h"
 #include "yaml/values.h"
 
 namespace carom {

@@ -7,6 +7,7 @@
 
 #include "scene/colors.h"
 #include "scene/engines.h"
+#include "scene/scene.h"
 #include "yaml/values.h"
 
 namespace carom {

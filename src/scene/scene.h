@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "numerics/vec3.h"
-#include "physics/integrator.h"
 #include "physics/state.h"
 #include "physics/world.h"
 #include "scene/colors.h"
 #include "scene/output.h"
+#include "scene/simulate_settings.h"
 
 namespace carom {
 
@@ -51,20 +51,6 @@ struct Roster {
   std::vector<FixedName> fixed;                  // by entity: the planes, the walls, the obstacles
   std::string name(Entity e) const;              // "red", "gas.17", "lane"
   const BodyRange& range_of(Entity body) const;  // the range that holds this body
-};
-
-enum class Engine : std::uint8_t { automatic, exact, stepped, book };
-
-struct Simulate {
-  double duration = 0;  // s
-  Engine engine = Engine::automatic;
-  Integrator integrator = Integrator::rk4;  // stepped only
-  std::optional<double> step;               // s
-  std::optional<double> tolerance;          // m; stepped only: the step is chosen for it
-  std::optional<double> rest_speed;         // m/s
-  std::optional<std::uint64_t> max_collisions;
-  bool as_printed = false;  // book only
-  bool merge = false;       // bodies that meet become one
 };
 
 struct Camera {

@@ -5,8 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "numerics/vec3.h"
+#include "scene/colors.h"
 #include "scene/fields.h"
-#include "scene/scene.h"
 #include "yaml/document.h"
 
 namespace carom {

@@ -3,6 +3,12 @@
 #include <algorithm>
 
 #include "physics/impact.h"
+#include "physics/world.h"
+#include "simulate/event_predictor.h"
+#include "simulate/event_queue.h"
+#include "simulate/flat_contacts.h"
+#include "simulate/flight_changes.h"
+#include "simulate/path_log.h"
 
 namespace carom {
 

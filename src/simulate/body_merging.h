@@ -3,11 +3,18 @@
 // mass, momentum, volume and the centre of mass; it goes by the name of the heavier of the two (of the first, if they
 // weigh the same) and has its shape. Where the joint volume reaches into a third body, the two have met as well; where
 // it reaches into something fixed, it is moved out.
-#include "simulate/event_predictor.h"
-#include "simulate/event_queue.h"
-#include "simulate/flight_changes.h"
 
+#include "physics/entity.h"
 namespace carom {
+
+struct ExactBodies;
+class FlatContacts;
+class PathLog;
+struct Touch;
+
+class EventPredictor;
+class EventQueue;
+class FlightChanges;
 
 class BodyMerging {
  public:

@@ -18,6 +18,7 @@
 #include "geometry/contact_time.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
+#include "physics/world.h"
 #include "simulate/event_log.h"
 #include "simulate/tolerances.h"
 

@@ -7,6 +7,8 @@
 
 namespace carom {
 
+struct World;
+
 struct BookOptions {
   double step = 1.0 / 60;            // s, of a frame
   bool as_printed = false;           // listings 8.3 and 8.4 with their slips

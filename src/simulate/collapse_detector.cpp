@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "physics/world.h"
 #include "simulate/tolerances.h"
 
 namespace carom {

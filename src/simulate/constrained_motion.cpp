@@ -9,6 +9,12 @@
 #include "numerics/disjoint_sets.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
+#include "physics/world.h"
+#include "simulate/collapse_detector.h"
+#include "simulate/event_predictor.h"
+#include "simulate/exact_group.h"
+#include "simulate/flat_contacts.h"
+#include "simulate/flight_changes.h"
 #include "simulate/tolerances.h"
 #include "solver/contact_problem.h"
 

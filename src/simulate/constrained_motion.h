@@ -8,13 +8,23 @@
 #include <memory>
 #include <vector>
 
+#include "physics/contact_force.h"
 #include "simulate/constrained_system.h"
-#include "simulate/event_predictor.h"
-#include "simulate/exact_group.h"
-#include "simulate/flight_changes.h"
+#include "simulate/flat_contacts.h"
+#include "simulate/instant.h"
+#include "simulate/lazy_array.h"
 #include "solver/contact_problem.h"
 
 namespace carom {
+
+class CollapseDetector;
+struct ExactBodies;
+class FlatContacts;
+struct Island;
+
+class EventPredictor;
+class ExactGroup;
+class FlightChanges;
 
 class ConstrainedMotion {
  public:

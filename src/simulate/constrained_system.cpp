@@ -8,6 +8,7 @@
 #include "numerics/dormand_prince.h"
 #include "numerics/radau_collocation.h"
 #include "physics/force.h"
+#include "physics/world.h"
 #include "simulate/tolerances.h"
 
 namespace carom {

@@ -11,6 +11,7 @@
 #include "physics/implicit_step.h"
 #include "physics/integrator.h"
 #include "physics/springs_in_line.h"
+#include "physics/world.h"
 #include "simulate/simulation_error.h"
 #include "simulate/tolerances.h"
 

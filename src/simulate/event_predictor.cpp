@@ -6,6 +6,10 @@
 #include <utility>
 
 #include "geometry/path_time_of_impact.h"
+#include "physics/world.h"
+#include "simulate/event_queue.h"
+#include "simulate/exact_group.h"
+#include "simulate/flat_contacts.h"
 #include "simulate/region_exit.h"
 
 namespace carom {

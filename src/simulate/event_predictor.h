@@ -4,13 +4,14 @@
 #include <span>
 #include <vector>
 
-#include "simulate/event_queue.h"
 #include "simulate/exact_collision_times.h"
-#include "simulate/exact_group.h"
-#include "simulate/flat_contacts.h"
 #include "simulate/straight_times.h"
 
 namespace carom {
+
+class EventQueue;
+class ExactGroup;
+class FlatContacts;
 
 class EventPredictor {
  public:

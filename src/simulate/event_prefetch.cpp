@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "numerics/prefetch.h"
+#include "physics/world.h"
 
 namespace carom {
 

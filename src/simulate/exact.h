@@ -10,6 +10,8 @@
 
 namespace carom {
 
+struct World;
+
 struct ExactOptions {
   double duration = 0;  // s; nothing later is scheduled
   double rest_speed =

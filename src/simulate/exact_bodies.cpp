@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "physics/force.h"
+#include "physics/world.h"
 #include "simulate/tolerances.h"
 
 namespace carom {

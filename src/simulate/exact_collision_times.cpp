@@ -5,6 +5,7 @@
 
 #include "geometry/contact_time.h"
 #include "geometry/path_time_of_impact.h"
+#include "physics/world.h"
 #include "simulate/tolerances.h"
 
 namespace carom {

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "geometry/contact_time.h"
-#include "physics/world.h"
+#include "physics/entity.h"
 #include "simulate/instant.h"
 
 namespace carom {

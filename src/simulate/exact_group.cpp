@@ -5,6 +5,10 @@
 #include <utility>
 
 #include "physics/restitution.h"
+#include "physics/world.h"
+#include "simulate/collapse_detector.h"
+#include "simulate/flat_contacts.h"
+#include "simulate/path_log.h"
 #include "simulate/tolerances.h"
 #include "solver/contact_problem.h"
 

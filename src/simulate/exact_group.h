@@ -5,12 +5,13 @@
 // what impacts do to them between steps.
 #include <vector>
 
-#include "simulate/collapse_detector.h"
 #include "simulate/exact_bodies.h"
-#include "simulate/flat_contacts.h"
-#include "simulate/path_log.h"
 
 namespace carom {
+
+class CollapseDetector;
+class FlatContacts;
+class PathLog;
 
 /// One end of a contact with a force: the lower body's list has the other one.
 struct PressingContact {

@@ -6,6 +6,15 @@
 
 #include "physics/impact.h"
 #include "physics/restitution.h"
+#include "physics/world.h"
+#include "simulate/body_merging.h"
+#include "simulate/collapse_detector.h"
+#include "simulate/event_predictor.h"
+#include "simulate/exact_group.h"
+#include "simulate/flat_contacts.h"
+#include "simulate/flight_changes.h"
+#include "simulate/simultaneous_impacts.h"
+#include "simulate/stall_guard.h"
 #include "simulate/tolerances.h"
 
 namespace carom {

@@ -1,14 +1,24 @@
 #pragma once
 // What impacts do to velocities: of two bodies, and of a body and a fixed thing. One pair at a time.
-#include "simulate/body_merging.h"
-#include "simulate/collapse_detector.h"
-#include "simulate/event_predictor.h"
-#include "simulate/exact_group.h"
-#include "simulate/flight_changes.h"
-#include "simulate/simultaneous_impacts.h"
-#include "simulate/stall_guard.h"
 
+#include "geometry/touch.h"
+#include "numerics/vec3.h"
+#include "physics/entity.h"
 namespace carom {
+
+struct Collision;
+struct ExactBodies;
+struct FlatContact;
+class FlatContacts;
+struct Flight;
+
+class BodyMerging;
+class CollapseDetector;
+class EventPredictor;
+class ExactGroup;
+class FlightChanges;
+class SimultaneousImpacts;
+class StallGuard;
 
 /// The parts of the simulator that an impact changes.
 struct ImpactParts {

@@ -1,4 +1,5 @@
 #include "simulate/exact_simulator.h"
+#include "physics/world.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,6 +5,8 @@
 
 #include "physics/impact.h"
 #include "physics/restitution.h"
+#include "physics/world.h"
+#include "simulate/collapse_detector.h"
 #include "simulate/flat_contact_problems.h"
 #include "simulate/tolerances.h"
 

@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "physics/contact_force.h"
-#include "simulate/collapse_detector.h"
 #include "simulate/exact_bodies.h"
 
 namespace carom {
+
+class CollapseDetector;
 
 /// A flat surface that carries a body.
 struct FlatContact {

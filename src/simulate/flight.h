@@ -8,8 +8,8 @@
 
 #include "numerics/polynomial_path.h"
 #include "numerics/vec3.h"
+#include "physics/entity.h"
 #include "physics/fading_path.h"
-#include "physics/world.h"
 #include "simulate/instant.h"
 #include "simulate/large_pages.h"
 #include "simulate/lazy_array.h"

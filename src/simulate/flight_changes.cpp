@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "physics/force.h"
+#include "physics/world.h"
+#include "simulate/flat_contacts.h"
+#include "simulate/path_log.h"
 #include "simulate/tolerances.h"
 
 namespace carom {

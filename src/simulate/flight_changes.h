@@ -2,10 +2,11 @@
 // Begins flights, and books what forces did on those that end.
 #include "simulate/curved_flights.h"
 #include "simulate/exact_bodies.h"
-#include "simulate/flat_contacts.h"
-#include "simulate/path_log.h"
 
 namespace carom {
+
+class FlatContacts;
+class PathLog;
 
 class FlightChanges {
  public:

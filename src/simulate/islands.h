@@ -10,8 +10,8 @@
 
 #include "geometry/contact_time.h"
 #include "numerics/vec3.h"
+#include "physics/entity.h"
 #include "physics/path_piece.h"
-#include "physics/world.h"
 #include "simulate/instant.h"
 #include "simulate/lazy_array.h"
 

@@ -5,6 +5,7 @@
 #include "geometry/contact_time.h"
 #include "numerics/cube_root.h"
 #include "physics/force.h"
+#include "physics/world.h"
 
 namespace carom {
 

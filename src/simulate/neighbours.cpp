@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "physics/world.h"
 #include "simulate/touching.h"
 
 namespace carom {

@@ -1,4 +1,5 @@
 #include "simulate/path_log.h"
+#include "physics/world.h"
 
 #include <algorithm>
 #include <cmath>

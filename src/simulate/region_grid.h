@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "physics/world.h"
+#include "physics/entity.h"
 #include "simulate/large_pages.h"
 #include "simulate/region.h"
 

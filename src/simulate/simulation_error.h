@@ -6,7 +6,7 @@
 #include <string>
 
 #include "physics/bounds.h"
-#include "physics/world.h"
+#include "physics/entity.h"
 
 namespace carom {
 

@@ -9,7 +9,6 @@
 #include "physics/path_piece.h"
 #include "physics/state.h"
 #include "physics/tally.h"
-#include "physics/world.h"
 #include "simulate/simulation_error.h"
 
 namespace carom {

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "physics/world.h"
+#include "simulate/event_predictor.h"
+#include "simulate/exact_group.h"
+#include "simulate/flight_changes.h"
 #include "simulate/tolerances.h"
 #include "solver/contact_problem.h"
 

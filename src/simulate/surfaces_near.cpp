@@ -5,6 +5,7 @@
 
 #include "geometry/contact_time.h"
 #include "numerics/whole.h"
+#include "physics/world.h"
 
 namespace carom {
 

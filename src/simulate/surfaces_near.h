@@ -5,9 +5,12 @@
 #include <unordered_map>
 #include <vector>
 
-#include "physics/world.h"
+#include "numerics/vec3.h"
+#include "physics/entity.h"
 
 namespace carom {
+
+struct World;
 
 class SurfacesNear {
  public:

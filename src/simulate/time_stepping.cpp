@@ -6,6 +6,10 @@
 #include "numerics/disjoint_sets.h"
 #include "physics/force.h"
 #include "physics/restitution.h"
+#include "physics/world.h"
+#include "simulate/event_predictor.h"
+#include "simulate/exact_group.h"
+#include "simulate/flight_changes.h"
 #include "simulate/tolerances.h"
 #include "solver/contact_problem.h"
 

@@ -16,12 +16,16 @@
 #include <vector>
 
 #include "simulate/contact_list.h"
-#include "simulate/event_predictor.h"
-#include "simulate/exact_group.h"
-#include "simulate/flight_changes.h"
 #include "solver/contact_problem.h"
 
 namespace carom {
+
+struct ExactBodies;
+struct Island;
+
+class EventPredictor;
+class ExactGroup;
+class FlightChanges;
 
 class TimeStepping {
  public:

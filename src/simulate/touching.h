@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "physics/world.h"
+#include "physics/entity.h"
 #include "simulate/region.h"
 
 namespace carom {

@@ -16,6 +16,7 @@
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "scene/load.h"
+#include "scene/scene.h"
 #include "scene/scene_values.h"
 #include "study/sweep_folder.h"
 #include "yaml/source.h"

@@ -21,6 +21,7 @@
 #include "files/publication.h"
 #include "files/stored_file.h"
 #include "scene/path_field.h"
+#include "scene/scene.h"
 #include "scene/scene_values.h"
 #include "yaml/source.h"
 #include "yaml/value_json.h"

@@ -22,6 +22,7 @@
 #include "run/engine.h"
 #include "run/run_scene.h"
 #include "scene/motion_text.h"
+#include "scene/scene.h"
 #include "study/sweep_folder.h"
 
 namespace carom {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "files/run_folder.h"
 #include "files/summary.h"
 #include "run/measure.h"
 #include "scene/load.h"

@@ -10,6 +10,8 @@
 
 namespace carom {
 
+class Diagnostics;
+
 struct Key {
   std::string text;
   Place place;

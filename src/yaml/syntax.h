@@ -7,6 +7,8 @@
 
 namespace carom {
 
+class Diagnostics;
+
 /// Adds one error for a parse failure that the parser noticed at byte `noticed` of `source` and calls `complaint`.
 /// The parser notices late: an open bracket at the end of the file, a missing ':' at the next one. This looks for the
 /// cause.

@@ -6,6 +6,7 @@
 
 #include "geometry/contact_time.h"
 #include "physics/impact.h"
+#include "physics/world.h"
 
 namespace carom {
 namespace {

@@ -12,6 +12,7 @@
 #include "export/png.h"
 #include "render/renderer.h"
 #include "scene/load.h"
+#include "scene/scene.h"
 #include "simulate/exact.h"
 
 namespace carom {

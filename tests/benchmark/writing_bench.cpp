@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "export/tables.h"
+#include "physics/world.h"
 #include "scene/load.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "commands/new.h"
 #include "commands/program.h"
+#include "scene/scene.h"
 
 namespace carom::testing {
 namespace {

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "commands/program.h"
+#include "scene/scene.h"
 
 namespace carom::testing {
 namespace {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/program.h"
+#include "scene/scene.h"
 
 namespace carom::testing {
 namespace {

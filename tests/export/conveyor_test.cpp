@@ -14,6 +14,8 @@
 
 #include "export/export_testing.h"
 #include "export/tables.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -14,6 +14,7 @@
 #include <functional>
 
 #include "export_testing.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "export/export_testing.h"
 #include "files/open_folder.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -16,6 +16,7 @@
 #include "files/hash.h"
 #include "files/manifest.h"
 #include "files/stored_file.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -2,6 +2,7 @@
 
 #include "export_testing.h"
 #include "numerics/whole.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -1,5 +1,6 @@
 // A run's folder keeps the meshes of its scene.
 #include "export_testing.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

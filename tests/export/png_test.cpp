@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "export_testing.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

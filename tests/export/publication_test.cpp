@@ -14,6 +14,7 @@
 #include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/stored_file.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

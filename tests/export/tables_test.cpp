@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "export_testing.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

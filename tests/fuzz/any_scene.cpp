@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "physics/world.h"
+#include "scene/scene.h"
 #include "stress/make_scene.h"
 
 namespace carom::fuzz {

@@ -9,7 +9,9 @@
 #include "files/stored_table.h"
 #include "fuzz/memory_file.h"
 #include "fuzz/targets.h"
+#include "physics/world.h"
 #include "render/mesh_reply.h"
+#include "scene/scene.h"
 
 namespace carom::fuzz {
 

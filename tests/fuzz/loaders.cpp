@@ -4,7 +4,9 @@
 
 #include "fuzz/memory_file.h"
 #include "fuzz/targets.h"
+#include "physics/world.h"
 #include "scene/load.h"
+#include "scene/scene.h"
 #include "scene/sweep.h"
 #include "yaml/source.h"
 

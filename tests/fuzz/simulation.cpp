@@ -8,7 +8,9 @@
 #include <memory>
 
 #include "physics/force.h"
+#include "physics/world.h"
 #include "run/engine.h"
+#include "scene/scene.h"
 
 namespace carom::fuzz {
 

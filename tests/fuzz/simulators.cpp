@@ -4,6 +4,7 @@
 #include "fuzz/simulation.h"
 #include "fuzz/targets.h"
 #include "scene/load.h"
+#include "scene/scene.h"
 
 namespace carom::fuzz {
 

@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "physics/world.h"
 #include "run/accuracy.h"
+#include "scene/scene.h"
 #include "simulate/random.h"
 
 namespace carom {

@@ -2,6 +2,7 @@
 // proved by a plane between the two volumes and a point that belongs to both.
 #include <gtest/gtest.h>
 
+#include "physics/world.h"
 #include "volumes_by_hand.h"
 
 namespace carom {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/world.h"
 #include "volumes_by_hand.h"
 
 namespace carom {

@@ -9,6 +9,7 @@
 #include "physics/energy.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
+#include "physics/world.h"
 
 namespace carom {
 namespace {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/round_prism.h"
+#include "physics/world.h"
 #include "volumes_by_hand.h"
 
 namespace carom {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "physics/world.h"
 #include "volumes_by_hand.h"
 
 namespace carom {

@@ -18,10 +18,12 @@
 #include "bench/bench.h"
 #include "physics/energy.h"
 #include "physics/restitution.h"
+#include "physics/world.h"
 #include "readme/pages.h"
 #include "run/engine.h"
 #include "scene/fields.h"
 #include "scene/load.h"
+#include "scene/scene.h"
 #include "simulate/book.h"
 
 namespace carom::testing {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "render/scenes.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -9,6 +9,7 @@
 
 #include "render/mesh.h"
 #include "render/outlines.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

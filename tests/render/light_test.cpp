@@ -4,6 +4,7 @@
 #include "render/eye.h"
 #include "render/lighting.h"
 #include "render/scenes.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -7,9 +7,11 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "physics/world.h"
 #include "render/glb.h"
 #include "render/glb_nodes.h"
 #include "render/still_things.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

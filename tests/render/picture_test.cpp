@@ -1,8 +1,10 @@
 // Pictures checked for what they show: where discs are, what hides what, what is drawn at all.
 #include <gtest/gtest.h>
 
+#include "physics/world.h"
 #include "render/eye.h"
 #include "render/scenes.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "render/scenes.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

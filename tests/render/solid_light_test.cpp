@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "render/outlines.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -3,7 +3,9 @@
 
 #include <tuple>
 
+#include "physics/world.h"
 #include "render/outlines.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "physics/world.h"
+#include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 
 namespace carom {

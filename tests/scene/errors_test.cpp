@@ -1,4 +1,5 @@
 // The texts of errors, whole: what an author sees is designed, not left to chance.
+#include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 
 namespace carom {

@@ -1,4 +1,6 @@
 // Forces, and what the engines have of them.
+#include "physics/world.h"
+#include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 
 namespace carom {

@@ -1,7 +1,9 @@
 // Balls made by rule, and the random numbers they are made with.
 #include <cmath>
 
+#include "physics/world.h"
 #include "scene/random.h"
+#include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 
 namespace carom {

@@ -1,7 +1,9 @@
 // Whatever the bytes: a Scene or a SceneError, soon, and no crash.
 #include <sys/stat.h>
 
+#include "physics/world.h"
 #include "scene/random.h"
+#include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 
 namespace carom {

@@ -3,6 +3,7 @@
 
 #include "physics/bounds.h"
 #include "scene/fields.h"
+#include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 
 namespace carom {

@@ -1,6 +1,8 @@
 // What a scene file means.
 #include <cmath>
 
+#include "physics/world.h"
+#include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 
 namespace carom {

@@ -1,4 +1,6 @@
 // Scene::resolved: a scene that says everything itself and means the same.
+#include "physics/world.h"
+#include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 
 namespace carom {

@@ -14,6 +14,7 @@
 
 #include "scene/fields.h"
 #include "scene/format_page.h"
+#include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 #include "scene/variations.h"
 

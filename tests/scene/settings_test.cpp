@@ -1,4 +1,6 @@
 // --set path=value.
+#include "physics/world.h"
+#include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 
 namespace carom {

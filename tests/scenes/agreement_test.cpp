@@ -7,6 +7,7 @@
 
 #include "physics/force.h"
 #include "run/engine.h"
+#include "scene/scene.h"
 #include "scenes/play.h"
 #include "simulate/exact.h"
 

@@ -6,7 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "physics/energy.h"
+#include "physics/world.h"
 #include "render/camera.h"
+#include "scene/scene.h"
 #include "scenes/play.h"
 
 namespace carom::testing {

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "physics/energy.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 #include "scenes/play.h"
 
 namespace carom::testing {

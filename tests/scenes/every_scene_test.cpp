@@ -6,7 +6,9 @@
 #include <set>
 
 #include "physics/energy.h"
+#include "physics/world.h"
 #include "render/renderer.h"
+#include "scene/scene.h"
 #include "scenes/play.h"
 
 namespace carom::testing {

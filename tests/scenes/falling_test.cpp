@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include "physics/energy.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 #include "scenes/play.h"
 
 namespace carom::testing {

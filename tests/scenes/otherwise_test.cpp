@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "physics/world.h"
+#include "scene/scene.h"
 #include "scenes/play.h"
 #include "stress/seen_otherwise.h"
 

@@ -8,9 +8,11 @@
 #include <fstream>
 
 #include "physics/energy.h"
+#include "physics/world.h"
 #include "render/mesh.h"
 #include "run/engine.h"
 #include "scene/load.h"
+#include "scene/scene.h"
 
 namespace carom::testing {
 

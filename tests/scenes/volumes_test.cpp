@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "run/engine.h"
+#include "scene/scene.h"
 #include "scenes/play.h"
 
 namespace carom::testing {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "physics/world.h"
 #include "simulate/build.h"
 
 namespace carom {

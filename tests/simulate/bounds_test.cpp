@@ -5,6 +5,7 @@
 
 #include "numerics/whole.h"
 #include "physics/force.h"
+#include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/exact.h"
 

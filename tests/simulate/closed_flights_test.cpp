@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 
+#include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/long_kepler.h"
 

@@ -5,6 +5,7 @@
 
 #include "numerics/polynomial.h"
 #include "physics/force_law.h"
+#include "physics/world.h"
 #include "simulate/build.h"
 
 namespace carom {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "physics/force_law.h"
+#include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/constrained_reference.h"
 #include "simulate/random.h"

@@ -3,6 +3,7 @@
 
 #include "numerics/polynomial.h"
 #include "physics/force_law.h"
+#include "physics/world.h"
 #include "simulate/exact.h"
 #include "simulate/pile.h"
 #include "simulate/random.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "physics/world.h"
 #include "simulate/build.h"
 
 namespace carom {

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/exact.h"
 #include "simulate/random.h"

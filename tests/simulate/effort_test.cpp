@@ -1,6 +1,7 @@
 // What a scene does not need is not done: pairs and surfaces asked when they meet, events and regions, counted.
 #include <gtest/gtest.h>
 
+#include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "physics/impact.h"
+#include "physics/world.h"
 #include "simulate/simulation_error.h"
 
 namespace carom {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "physics/world.h"
 #include "simulate/exact_parts.h"
 #include "simulate/region_exit.h"
 

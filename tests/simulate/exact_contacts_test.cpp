@@ -1,6 +1,7 @@
 // The exact simulator's contacts and impacts, part by part.
 #include <gtest/gtest.h>
 
+#include "physics/world.h"
 #include "simulate/exact_parts.h"
 
 namespace carom {

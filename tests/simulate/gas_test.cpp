@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
 

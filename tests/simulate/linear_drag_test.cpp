@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/force.h"
+#include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/exact.h"
 #include "simulate/pile.h"

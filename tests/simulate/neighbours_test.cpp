@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "physics/world.h"
 #include "simulate/neighbours.h"
 #include "simulate/random.h"
 #include "simulate/tournament.h"

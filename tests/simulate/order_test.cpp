@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/exact.h"
 

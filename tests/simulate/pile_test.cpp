@@ -1,5 +1,6 @@
 // A pile jams, and then it is at rest: no motion at all, all forces in balance.
 #include "simulate/pile.h"
+#include "physics/world.h"
 
 namespace carom {
 namespace {

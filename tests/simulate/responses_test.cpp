@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
 

@@ -6,6 +6,7 @@
 
 #include "geometry/contact_time.h"
 #include "physics/force_law.h"
+#include "physics/world.h"
 #include "simulate/build.h"
 
 namespace carom {

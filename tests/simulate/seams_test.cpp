@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "physics/force_law.h"
+#include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/floors.h"
 

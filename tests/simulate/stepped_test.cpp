@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "physics/force.h"
+#include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/pile.h"
 

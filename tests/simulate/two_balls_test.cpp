@@ -1,6 +1,7 @@
 // Two balls, against 60-digit references (data/references/two_ball_oblique.json).
 #include <gtest/gtest.h>
 
+#include "physics/world.h"
 #include "simulate/build.h"
 
 namespace carom {

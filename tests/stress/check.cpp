@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "physics/world.h"
 #include "stress/gaps.h"
 #include "stress/paths.h"
 #include "stress/watch.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "physics/world.h"
 #include "simulate/exact.h"
 #include "stress/check.h"
 #include "stress/gaps.h"

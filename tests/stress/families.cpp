@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "physics/bounds.h"
+#include "physics/world.h"
 #include "stress/make_scene.h"
 
 namespace carom::stress {

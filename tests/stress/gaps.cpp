@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/touch.h"
+#include "physics/world.h"
 
 namespace carom::stress {
 

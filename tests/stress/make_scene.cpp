@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "physics/world.h"
 #include "stress/gaps.h"
 
 namespace carom::stress {

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "physics/force.h"
+#include "physics/world.h"
 #include "simulate/exact.h"
 #include "simulate/random.h"
 #include "stress/scene.h"

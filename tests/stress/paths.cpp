@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <set>
 
+#include "physics/world.h"
 #include "stress/gaps.h"
 
 namespace carom::stress {

@@ -1,4 +1,5 @@
 #include "stress/watch.h"
+#include "physics/world.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "physics/world.h"
 #include "stress/scene.h"
 
 namespace carom::stress {

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <tuple>
 
+#include "physics/world.h"
 #include "scene/load.h"
+#include "scene/scene.h"
 #include "simulate/long_kepler.h"
 
 namespace carom {

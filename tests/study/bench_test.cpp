@@ -9,6 +9,7 @@
 
 #include "bench/bench_folder.h"
 #include "scene/load.h"
+#include "scene/scene.h"
 #include "simulate/simulator.h"
 
 namespace carom {

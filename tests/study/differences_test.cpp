@@ -1,5 +1,6 @@
 // What counts as an error of a run, and which collisions of two runs are the same.
 #include "bench/differences.h"
+#include "physics/world.h"
 
 #include <gtest/gtest.h>
 

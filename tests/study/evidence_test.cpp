@@ -1,5 +1,6 @@
 // Which run is trusted, and to what: runs of one body whose places are made up.
 #include "bench/evidence.h"
+#include "physics/world.h"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compare/compared_run.h"
+#include "scene/scene.h"
 #include "study/comparison_testing.h"
 
 namespace carom::testing {

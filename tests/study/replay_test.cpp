@@ -8,10 +8,12 @@
 #include <random>
 
 #include "bench/state_hash.h"
+#include "physics/world.h"
 #include "render/mesh.h"
 #include "run/engine.h"
-#include "scene/load.h"
 #include "scene/engines.h"
+#include "scene/load.h"
+#include "scene/scene.h"
 #include "simulate/exact.h"
 #include "stress/scene.h"
 

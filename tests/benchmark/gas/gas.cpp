@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "bench/state_hash.h"
+#include "physics/world.h"
 #include "simulate/exact.h"
 
 namespace carom {

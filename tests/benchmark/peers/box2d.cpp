@@ -3,6 +3,8 @@
 #include <box2d/box2d.h>
 
 #include "benchmark/peers/peer.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -9,6 +9,8 @@
 
 #include "BulletCollision/NarrowPhaseCollision/btPersistentManifold.h"
 #include "benchmark/peers/peer.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

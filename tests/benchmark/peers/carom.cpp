@@ -1,5 +1,6 @@
 // carom itself: from event to event.
 #include "benchmark/peers/peer.h"
+#include "scene/scene.h"
 #include "simulate/exact.h"
 
 namespace carom {

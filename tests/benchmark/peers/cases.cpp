@@ -3,7 +3,9 @@
 #include <cmath>
 #include <memory>
 
+#include "physics/world.h"
 #include "scene/load.h"
+#include "scene/scene.h"
 #include "simulate/exact.h"
 
 namespace carom {

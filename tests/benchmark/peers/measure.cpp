@@ -14,6 +14,8 @@
 
 #include "bench/state_hash.h"
 #include "physics/energy.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

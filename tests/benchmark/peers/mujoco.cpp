@@ -13,6 +13,8 @@
 
 #include "benchmark/peers/peer.h"
 #include "benchmark/peers/soft.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

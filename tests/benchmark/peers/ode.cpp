@@ -4,6 +4,8 @@
 #include <ode/ode.h>
 
 #include "benchmark/peers/peer.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

@@ -1,6 +1,8 @@
 #include <stdexcept>
 
 #include "benchmark/peers/peer.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 

@@ -10,6 +10,8 @@
 
 #include "files/csv.h"
 #include "files/open_folder.h"
+#include "physics/world.h"
+#include "scene/scene.h"
 
 namespace carom {
 namespace {

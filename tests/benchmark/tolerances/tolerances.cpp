@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "benchmark/tolerances/varied.h"
+#include "physics/world.h"
 #include "simulate/exact.h"
 #include "simulate/pile.h"
 

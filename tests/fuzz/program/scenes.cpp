@@ -18,12 +18,13 @@
 #include "fuzz/memory_file.h"
 #include "fuzz/simulation.h"
 #include "scene/load.h"
+#include "scene/scene.h"
 
 namespace carom::fuzz {
 namespace {
 
 constexpr double patience = 10;  // s of CPU time
-constexpr unsigned hang = 120;  // s of the clock
+constexpr unsigned hang = 120;   // s of the clock
 
 /// What came of a scene, in one line through a pipe.
 struct Line {

@@ -1,0 +1,12 @@
+#pragma once
+// The number of a body or a fixed thing.
+#include <cstdint>
+#include <limits>
+
+namespace carom {
+
+/// A body or a fixed thing, by number: bodies are 0 .. body_count()-1, then the planes, the walls, the obstacles.
+using Entity = std::uint32_t;
+inline constexpr Entity no_entity = std::numeric_limits<Entity>::max();
+
+}  // namespace carom
