@@ -1,4 +1,4 @@
-// Every #include below src/ against the table of src/README.md of who may include whom.
+// Every #include below src/ against the table in src/README.md of what each folder may include.
 #include <gtest/gtest.h>
 
 #include <algorithm>

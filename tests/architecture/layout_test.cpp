@@ -1,4 +1,4 @@
-// The tree against the README's layout, and what no file may hold.
+// The tree against its layout, and what no file may hold.
 #include <gtest/gtest.h>
 
 #include <algorithm>

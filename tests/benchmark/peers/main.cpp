@@ -1,7 +1,7 @@
 // carom side by side with other libraries on the same scenes: errors and CPU time, each at several steps. A run is made
 // in a process of its own; peers take turns, three rounds of them, and CPU times are medians.
 //
-//   carom_peers [CASE]    all cases or those whose names begin so: the README's tables, and build/peers.csv with all
+//   carom_peers [CASE]    all cases or those whose names begin so: tests/README.md has the tables; build/peers.csv has all
 //   rows
 #include <fmt/format.h>
 

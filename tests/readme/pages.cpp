@@ -1,0 +1,159 @@
+#include "readme/pages.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+
+namespace carom::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+Page read_page(const std::string& path) {
+  std::ifstream in(SOURCE_DIR "/" + path, std::ios::binary);
+  return {path, {std::istreambuf_iterator<char>(in), {}}};
+}
+
+std::vector<Page> read_pages() {
+  std::vector<std::string> paths;
+  for (const std::string folder : {"output", "scenes"}) paths.push_back(folder + "/README.md");
+  paths.push_back("scenes/format.md");
+  for (const std::string folder : {"src", "tests"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(SOURCE_DIR "/" + folder))
+      if (entry.path().extension() == ".md") paths.push_back(fs::relative(entry.path(), SOURCE_DIR).generic_string());
+  }
+  std::sort(paths.begin(), paths.end());
+  paths.insert(paths.begin(), "README.md");
+  std::vector<Page> all;
+  for (const std::string& path : paths) all.push_back(read_page(path));
+  return all;
+}
+
+/// 2 of "## Units"; 0: no heading.
+std::size_t level_of(const std::string& line) {
+  const std::size_t level = line.find_first_not_of('#');
+  return level != std::string::npos && level > 0 && line[level] == ' ' ? level : 0;
+}
+
+/// Lower case, spaces as hyphens, no other marks.
+std::string anchor_of(const std::string& heading) {
+  std::string anchor;
+  for (const char c : heading) {
+    if (c == ' ')
+      anchor += '-';
+    else if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_')
+      anchor += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return anchor;
+}
+
+/// A page's lines outside of fenced blocks.
+std::vector<std::string> prose_lines(const Page& page) {
+  std::vector<std::string> lines;
+  std::istringstream in(page.text);
+  bool fenced = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("```"))
+      fenced = !fenced;
+    else if (!fenced)
+      lines.push_back(line);
+  }
+  return lines;
+}
+
+}  // namespace
+
+std::string Page::folder() const {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "" : path.substr(0, slash);
+}
+
+std::vector<PageBlock> Page::blocks() const {
+  std::vector<PageBlock> found;
+  std::istringstream in(text);
+  bool inside = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("```")) {
+      inside = !inside;
+      if (inside) found.push_back({line.substr(3), ""});
+    } else if (inside) {
+      found.back().text += line + "\n";
+    }
+  }
+  EXPECT_FALSE(inside) << path << " leaves a block open";
+  return found;
+}
+
+std::vector<std::string> Page::blocks(const std::string& language) const {
+  std::vector<std::string> found;
+  for (const PageBlock& block : blocks())
+    if (block.language == language) found.push_back(block.text);
+  return found;
+}
+
+std::string Page::section(const std::string& heading) const {
+  std::string found;
+  std::size_t level = 0;
+  for (const std::string& line : prose_lines(*this)) {
+    const std::size_t other = level_of(line);
+    if (level > 0 && other > 0 && other <= level) break;
+    if (other > 0 && line.substr(other + 1) == heading) level = other;
+    if (level > 0) found += line + "\n";
+  }
+  EXPECT_GT(level, 0u) << path << " has no section " << heading;
+  return found;
+}
+
+std::vector<std::string> Page::anchors() const {
+  std::vector<std::string> found;
+  std::map<std::string, int> times;
+  for (const std::string& line : prose_lines(*this)) {
+    const std::size_t level = level_of(line);
+    if (level == 0) continue;
+    const std::string anchor = anchor_of(line.substr(level + 1));
+    const int before = times[anchor]++;
+    found.push_back(before == 0 ? anchor : anchor + "-" + std::to_string(before));
+  }
+  return found;
+}
+
+const std::vector<Page>& pages() {
+  static const std::vector<Page> all = read_pages();
+  return all;
+}
+
+const Page& page_at(const std::string& path) {
+  for (const Page& one : pages())
+    if (one.path == path) return one;
+  throw std::runtime_error("there is no page " + path);
+}
+
+std::string one_line(const std::string& text) {
+  return std::regex_replace(text, std::regex("\\s+"), " ");
+}
+
+double said(const std::string& phrase) {
+  std::vector<std::string> found;  // what follows the phrase
+  for (const Page& one : pages()) {
+    if (one.generated()) continue;
+    const std::string line = one_line(one.text);
+    for (std::size_t at = line.find(phrase); at != std::string::npos; at = line.find(phrase, at + 1))
+      found.push_back(line.substr(at + phrase.size(), 40));
+  }
+  if (found.size() != 1) {
+    ADD_FAILURE() << "on all pages " << found.size() << " times, not once: " << phrase;
+    return std::nan("");
+  }
+  return std::stod(found[0]);
+}
+
+}  // namespace carom::testing
