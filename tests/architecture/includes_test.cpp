@@ -23,8 +23,10 @@ struct Rule {
 };
 
 /// The table's words for single headers, and for libraries with the start of what is included.
-const std::map<std::string, std::string> header_words = {
-    {"scene's types", "scene/scene.h"}, {"render's Image", "render/image.h"}, {"render's Model", "render/model.h"}};
+const std::map<std::string, std::vector<std::string>> header_words = {
+    {"scene's types", {"scene/scene.h", "scene/colors.h", "scene/output.h"}},
+    {"render's Image", {"render/image.h"}},
+    {"render's Model", {"render/model.h"}}};
 const std::map<std::string, std::vector<std::string>> library_words = {
     {"Eigen", {"Eigen/"}},
     {"vector intrinsics", {"immintrin.h"}},
@@ -68,7 +70,7 @@ Rule read_rule(const std::string& may_include, const std::string& only_place) {
       rule.all = true;
       rule.folders.insert(word.substr(8));
     } else if (header_words.contains(word)) {
-      rule.headers.insert(header_words.at(word));
+      rule.headers.insert(header_words.at(word).begin(), header_words.at(word).end());
     } else if (std::filesystem::is_directory(SOURCE_DIR "/src/" + word)) {
       rule.folders.insert(word);
     } else {
