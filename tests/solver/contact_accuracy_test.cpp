@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "physics/contact_cases.h"
+#include "solver/contact_cases.h"
 #include "solver/contact_island.h"
 #include "solver/contact_projected_gradients.h"
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "physics/contact_cases.h"
-#include "physics/contact_reference.h"
 #include "solver/active_set.h"
+#include "solver/contact_cases.h"
 #include "solver/contact_interior_point.h"
+#include "solver/contact_reference.h"
 
 namespace carom {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "physics/contact_cases.h"
+#include "solver/contact_cases.h"
 
 namespace carom {
 namespace {

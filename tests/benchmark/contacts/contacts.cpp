@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "physics/contact_cases.h"
-#include "physics/contact_reference.h"
+#include "solver/contact_cases.h"
 #include "solver/contact_problem.h"
+#include "solver/contact_reference.h"
 
 namespace carom::contact_cases {
 namespace {
