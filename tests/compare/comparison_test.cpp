@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compare/comparison_testing.h"
+#include "compare/outcomes.h"
 
 namespace carom::testing {
 namespace {
