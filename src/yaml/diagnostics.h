@@ -24,7 +24,7 @@ class Diagnostics {
   bool empty() const { return errors_.empty(); }
   std::size_t count() const { return errors_.size() + more_; }
 
-  /// All errors in the order of the file, each
+  /// All errors in the order of the file. Each error has this form:
   ///   path:line:column: error: message
   ///    line | text of the line
   ///         |      ^~~~
