@@ -1,4 +1,4 @@
-// What the rows of the table mean in words.
+// Describes the rows of the table in words.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -50,8 +50,8 @@ struct Range {
 struct Field;
 class View;
 
-/// The struct member that a key fills. The struct is the one that maps of the kind stand for. Rows get it from
-/// member.h.
+/// The struct member that a key fills. The struct is the one that maps of the kind stand for.
+/// Rows get it from member.h.
 struct Member {
   /// Fills the member if the view has a value.
   void (*fill)(void* settings, const View& view, const Field& field) = nullptr;
@@ -65,9 +65,8 @@ struct Field {
   Type type = Type::number;
   std::string_view unit = {};
   Range range = {};
-  std::string_view initial =
-      /// The default as YAML. Empty: absent unless given. A row with a member takes the member's default.
-      {};
+  /// The default as YAML. Empty: absent unless given. A row with a member takes the member's default.
+  std::string_view initial = {};
   std::string_view of = {};  // kind, or choices
   /// Keys of the kind that exclude one another, including this one, separated by |.
   std::string_view one_of = {};
@@ -121,9 +120,8 @@ std::string describe(const Range& range);
 bool contains(const Range& range, double value);
 
 /// The largest number of a unit, whatever the field, and the smallest where numbers must be above 0.
-/// Within these limits every energy, every distance to the eighth power, and every quotient of two of them fits a
-/// double.
-/// Every length fits the floats of grids and pictures.
+/// Within these limits doubles hold every energy, distance to the eighth power, and quotient of two of them.
+/// Floats hold every length that grids and pictures use.
 struct UnitLimit {
   std::string_view unit;
   double smallest, largest;

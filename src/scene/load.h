@@ -20,7 +20,7 @@ struct LoadOptions {
   bool color = false;  // colour in the texts of errors
 
   /// Reads the vertices of a mesh file, in the file's own units.
-  /// Throws std::runtime_error whose text describes the fault of the file. Unset: scenes with meshes are refused.
+  /// Throws std::runtime_error with a text that describes the fault of the file. Unset: scenes with meshes are refused.
   std::function<std::vector<Vec3>(const std::string& path)> mesh_points;
 };
 

@@ -28,7 +28,7 @@ class Random {
 };
 
 /// Natural logarithm of x, 0 < x <= 1, with a relative error below 2.5 * 2^-52.
-/// ln x = e ln 2 + 2 artanh((m - 1) / (m + 1)) with x = m 2^e.
+/// It is computed as ln x = e ln 2 + 2 artanh((m - 1) / (m + 1)) with x = m 2^e.
 double reproducible_log(double x);
 
 }  // namespace carom

@@ -78,7 +78,7 @@ class Sweep {
 };
 
 inline constexpr std::size_t most_runs = 1'000'000;
-inline constexpr std::size_t most_values = 10'000'000;  // of all paths given as ranges
+inline constexpr std::size_t most_values = 10'000'000;  // of all paths of a zip together
 
 /// Reads and checks a sweep file, as far as possible without its base. Throws SceneError, which holds every error.
 /// `color`: use colour in the texts of errors.
