@@ -1,3 +1,4 @@
+// Merges outputs with equal pictures into one stream, so that each picture is drawn once.
 #include "export/picture_streams.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SHA-256 by nettle.
 #include "files/hash.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// Writes each file of a series through OutputFile, so that every file is complete as soon as its name exists.
 #include "files/series.h"
 
 namespace carom {
