@@ -1,3 +1,4 @@
+// Names and settings of a method. dop853 integrates numerically only where closed forms would replace it.
 #include "bench/method.h"
 
 #include <fmt/format.h>

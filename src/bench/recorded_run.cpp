@@ -1,3 +1,4 @@
+// Advances a simulator from instant to instant and keeps states and collisions, or only the final hash.
 #include "bench/recorded_run.h"
 
 #include <algorithm>

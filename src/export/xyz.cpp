@@ -1,4 +1,4 @@
-// Writes extended XYZ with one species, because ASE accepts only the names of elements.
+// Writes extended XYZ with the species X for all bodies, because ASE accepts no names of bodies as species.
 #include "export/xyz.h"
 
 #include <fmt/format.h>
@@ -45,7 +45,8 @@ char* put_vector(char* to, const Vec3& vector) {
 
 }  // namespace
 
-// The species is not a chemical element. ASE accepts no other names; OVITO takes colours and sizes from the columns.
+// The species X is not a chemical element. ASE accepts no other such name. OVITO takes colours and sizes from the
+// columns.
 XyzWriter::XyzWriter(OpenFolder& folder, const Scene& scene)
     : scene_(scene), solids_(has_solids(scene.world)), file_(folder.place(), "trajectory.xyz") {
   cell_ = cell_text(scene) +

@@ -30,7 +30,7 @@ class OutputFile : public PartFile {
   /// on.
   void complete();
   /// Completes the file and renames it to its final name.
-  /// To survive a power failure, the caller must sync the file system before.
+  /// For the file to survive a power failure, the caller must sync the file system before.
   void publish();
 
  private:
