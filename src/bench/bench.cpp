@@ -134,7 +134,7 @@ class Bench {
 
   /// Adds rows from the longest step on, until the next one would exceed this method's share of the time.
   void rows_of(SimulationMethod method) {
-    // s: the time of a run, and the additional time of recording it.
+    // In s: the time of a run, and the additional time of recording it.
     double share = left_ / 4, bare = 0, records = 0;
     for (const double step : steps_) {
       if (records + (2 + least_repeats) * 2 * bare > share) {

@@ -21,7 +21,8 @@ struct BenchRow {
   SimulationMethod method;
   /// Empty: the run reached its end, and all other members are set.
   std::string failure;
-  double cpu_s = 0;  // of one run, the median of `repeats`
+  /// Of one run, the median of `repeats`.
+  double cpu_s = 0;
   int repeats = 0;
   /// None: the motion has no unique trajectory at any instant.
   std::optional<Differences> errors;
@@ -38,25 +39,29 @@ struct BenchResult {
   SimulationMethod reference;
   Differences reference_error;     // an estimate (evidence.h)
   std::vector<Witness> witnesses;  // comparisons with other methods
-  double rounding = 0;             // m: the greatest difference of runs in shifted coordinates, at any instant
+  /// In m: the greatest difference of runs in shifted coordinates, at any instant.
+  double rounding = 0;
   bool chaotic = false;
-  double horizon = 0;       // s: trajectories are compared until then
-  std::size_t members = 0;  // of the ensemble of a chaotic scene, including the reference
-  Statistics mean;          // of the ensemble
+  double horizon = 0;  // s: trajectories are compared until then
+  /// Of the ensemble of a chaotic scene, including the reference.
+  std::size_t members = 0;
+  Statistics mean;  // of the ensemble
   std::vector<BenchRow> rows;
-  std::vector<std::string> left_out;  // a line for each engine, or for an engine's steps, without a row
-  double cpu_s = 0;                   // of the whole bench
+  /// A line for each engine, or for an engine's steps, without a row.
+  std::vector<std::string> left_out;
+  double cpu_s = 0;  // of the whole bench
 };
 
 struct BenchWatch {
-  std::function<void()> look;                                      // called often; may throw
+  /// Called often. May throw.
+  std::function<void()> look;
   std::function<void(double done, const std::string& what)> tell;  // done: 0 to 1
 };
 
 /// Throws SimulationError if there is no reference, and std::runtime_error if a repeated run has a different result.
 BenchResult run_bench(const Scene& scene, const BenchOptions& options, const BenchWatch& watch);
 
-/// m: 2^-53 of the scene's extent. Smaller distances are rounding.
+/// In m: 2^-53 of the scene's extent. Smaller distances are rounding.
 double rounding_of(const Scene& scene);
 
 }  // namespace carom

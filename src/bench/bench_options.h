@@ -7,9 +7,12 @@
 namespace carom {
 
 struct BenchOptions {
-  std::optional<double> longest, shortest;  // s, the limits of the steps; none: chosen by the scene
-  int repeat = 5;                           // maximum of timed runs of each row
-  double budget = 20;                       // s of CPU time for the whole scene, approximate
+  /// In s, the limits of the steps. None: chosen by the scene.
+  std::optional<double> longest, shortest;
+  /// Maximum of timed runs of each row.
+  int repeat = 5;
+  /// In s of CPU time for the whole scene, approximate.
+  double budget = 20;
   /// exact or stepped. None: exact if it supports the whole scene.
   std::optional<Engine> reference;
 };

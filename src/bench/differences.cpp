@@ -54,7 +54,7 @@ class Matching {
  private:
   static std::pair<Entity, Entity> key(const Impact& i) { return {i.a, i.b}; }
 
-  /// s: the time in which a and b pass through each other at this collision's speed.
+  /// In s: the time in which a and b pass through each other at this collision's speed.
   double passage(const Impact& i) const {
     const double size = world_.radius[i.a] + (world_.is_body(i.b)       ? world_.radius[i.b]
                                               : world_.is_obstacle(i.b) ? world_.obstacle(i.b).volume.reach()
@@ -97,7 +97,7 @@ class Matching {
 
 namespace {
 
-/// J: kinetic energy, and potential energy in the World.
+/// In J: kinetic energy, and potential energy in the World.
 double body_energy(const World& world, const State& state, Entity body) {
   const double mass = state.mass.empty() ? world.mass[body] : state.mass[body];
   return 0.5 * mass * state.velocity[body].squaredNorm() + potential(world, body, state.position[body]);

@@ -8,9 +8,11 @@
 namespace carom {
 
 struct Differences {
-  double position = 0;                     // m: the greatest distance of a body from its position in the reference
-  double velocity = 0;                     // m/s, likewise
-  double energy = 0;                       // J: the greatest difference of the bodies' kinetic and potential energy
+  /// In m: the greatest distance of a body from its position in the reference.
+  double position = 0;
+  double velocity = 0;  // m/s, likewise
+  /// In J: the greatest difference of the bodies' kinetic and potential energy.
+  double energy = 0;
   std::uint64_t missed = 0, invented = 0;  // collisions
 };
 

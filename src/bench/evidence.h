@@ -70,9 +70,10 @@ class Evidence {
   std::vector<Finding> findings_;
   // The present series of halved steps:
   std::optional<Finding> last_;
-  /// m: the difference from the previous run. Infinity: there is none.
+  /// In m: the difference from the previous run. Infinity: there is none.
   double change_ = 0;
-  std::size_t best_ = 0;  // index of the series' finding; 0: none so far
+  /// Index of the series' finding. 0: none so far.
+  std::size_t best_ = 0;
 };
 
 }  // namespace carom

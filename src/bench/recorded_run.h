@@ -24,14 +24,15 @@ struct Impact {
 };
 
 struct RecordedRun {
-  std::vector<State> states;    // at the requested instants
-  std::vector<Impact> impacts;  // sorted by a, then b, then time
-  double duration = 0;          // s
-  Tally tally;                  // of the whole run
-  std::uint64_t hash = 0;       // of the result (state_hash.h)
+  std::vector<State> states;  // at the requested instants
+  /// Sorted by a, then b, then time.
+  std::vector<Impact> impacts;
+  double duration = 0;     // s
+  Tally tally;             // of the whole run
+  std::uint64_t hash = 0;  // of the result (state_hash.h)
   double cpu_s = 0;
 
-  /// m/s: the limit below which collisions are bounces that die away. Their number differs between engines.
+  /// In m/s: the limit below which collisions are bounces that die away. Their number differs between engines.
   double least_speed() const { return 0.01 * tally.max_speed; }
 };
 

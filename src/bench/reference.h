@@ -32,18 +32,22 @@ std::function<void()> look_within(double share, const std::function<void()>& loo
 struct Reference {
   SimulationMethod method;  // exact, or stepped with dop853
   double duration = 0;      // s, of the scene
-  /// s. Of a chaotic scene those before the horizon, then those after it.
+  /// In s. Of a chaotic scene those before the horizon, then those after it.
   std::vector<double> instants;
-  std::size_t trajectory_instants = 0;  // of a chaotic scene: the number before the horizon
+  /// Of a chaotic scene: the number before the horizon.
+  std::size_t trajectory_instants = 0;
   RecordedRun run;
-  double rounding = 0;  // m: the greatest difference of shifted runs, at any instant
+  /// In m: the greatest difference of shifted runs, at any instant.
+  double rounding = 0;
   bool chaotic = false;
   double horizon = 0;   // s: trajectories are compared until then
   Differences rounded;  // the effect of rounding until then
-  Differences error;    // the same; of a stepped reference, also the effect of smaller step errors
+  /// The same. Of a stepped reference, also the effect of smaller step errors.
+  Differences error;
   /// By dop853 where paths have closed forms. None: they are parabolas.
   std::optional<Finding> second;
-  std::optional<Ensemble> ensemble;  // of a chaotic scene, including the reference
+  /// Of a chaotic scene, including the reference.
+  std::optional<Ensemble> ensemble;
 
   Differences off(const World& world, const RecordedRun& other) const {
     return differences(world, run, other, instants, horizon);

@@ -10,10 +10,10 @@ namespace carom {
 World shifted(const World& world, const Vec3& by);
 State shifted(State state, const Vec3& by);
 
-/// m: the greatest distance of any point of a body from the origin at the start.
+/// In m: the greatest distance of any point of a body from the origin at the start.
 double extent(const World& world, const State& initial);
 
-/// m: 0.5 to 1.5 extents along each axis, by irrational numbers. Each `number`, from 1 on, gives another shift.
+/// In m: 0.5 to 1.5 extents along each axis, by irrational numbers. Each `number`, from 1 on, gives another shift.
 Vec3 shift(double extent, int number);
 
 }  // namespace carom

@@ -12,7 +12,7 @@ namespace {
 constexpr double resolved = 2e-3;  // s: the shortest time that is measured
 constexpr int most_in_a_turn = 100'000;
 
-/// s, of one of `runs` executions.
+/// In s, of one of `runs` executions.
 double turn(const TimedTask& task, int runs) {
   const double start = cpu_time();
   for (int k = 0; k < runs; ++k) task.run();

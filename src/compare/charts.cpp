@@ -26,7 +26,8 @@ std::optional<std::size_t> find_measure(const std::vector<Measure>& measures, st
 /// The x axis: a number or a text for each point.
 struct XAxis {
   std::string label;
-  bool numeric = true, chosen = true;  // chosen: a parameter and not a measure
+  // `chosen`: a parameter and not a measure.
+  bool numeric = true, chosen = true;
   std::function<Cell(std::size_t)> of_point;
 };
 

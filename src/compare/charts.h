@@ -8,9 +8,11 @@
 namespace carom {
 
 struct ChartLine {
-  std::string name;            // "balls.red.position.z = 0.025 m"; empty: the only line
-  std::vector<double> y;       // by row of ChartData::x; NaN: the line has no such point
-  std::vector<double> spread;  // likewise, standard deviations; empty: no repeats
+  std::string name;  // "balls.red.position.z = 0.025 m"; empty: the only line
+  /// By row of ChartData::x. NaN: the line has no such point.
+  std::vector<double> y;
+  /// Likewise, standard deviations. Empty: no repeats.
+  std::vector<double> spread;
 };
 
 struct ChartData {
@@ -20,7 +22,8 @@ struct ChartData {
   bool numeric = true;  // whether x is a number
   /// Whether a line joins its points. It does if no two have the same x, and x is a parameter.
   bool joined = true;
-  std::string note;  // describes what is left out; empty: nothing
+  /// Describes what is left out. Empty: nothing.
+  std::string note;
 };
 
 /// The plan's charts, or, if it has none, default charts of what varies.

@@ -12,7 +12,8 @@ namespace carom {
 
 struct RunRecord {
   ComparedRun run;
-  bool done = false;                 // false: it failed, and the members below are empty
+  /// False: it failed, and the members below are empty.
+  bool done = false;
   Descriptor folder;                 // the open run folder
   std::vector<std::string> summary;  // cells, by summary_columns()
   std::vector<double> measures;      // NaN: undefined
@@ -33,8 +34,10 @@ bool has_file(const RunRecord& run, const char* name);
 
 /// The columns of trajectory.csv with the six numbers of a body's motion.
 struct MotionColumns {
-  std::size_t body = 0;            // long form: the column of the name; the numbers follow it
-  std::vector<std::size_t> first;  // wide form, by body: the first of the six; 0: absent
+  /// Long form: the column of the name. The numbers follow it.
+  std::size_t body = 0;
+  /// Wide form, by body: the first of the six. 0: absent.
+  std::vector<std::size_t> first;
   bool wide = false;
 };
 /// `bodies`: names as in trajectory.csv.

@@ -22,9 +22,10 @@ struct Parameter {
 
 /// One chart of the workbook.
 struct Chart {
-  std::string x;   // a parameter, or a measure
-  std::string y;   // a measure
-  std::string by;  // a parameter, with a line for each of its values; empty: one line
+  std::string x;  // a parameter, or a measure
+  std::string y;  // a measure
+  /// A parameter, with a line for each of its values. Empty: one line.
+  std::string by;
 };
 
 struct ComparisonPlan {
@@ -50,9 +51,12 @@ std::vector<Measure> measures_of(const ComparisonPlan& plan);
 void check_charts(const ComparisonPlan& plan);
 
 struct ComparisonWatch {
-  std::function<void()> look = [] {};                              // called for each run; may throw
-  std::function<void(std::size_t)> done = [](std::size_t) {};      // the number of runs read so far
-  std::function<void(std::size_t)> doubtful = [](std::size_t) {};  // the number of doubtful runs, at the end
+  /// Called for each run. May throw.
+  std::function<void()> look = [] {};
+  /// The number of runs read so far.
+  std::function<void(std::size_t)> done = [](std::size_t) {};
+  /// The number of doubtful runs, at the end.
+  std::function<void(std::size_t)> doubtful = [](std::size_t) {};
 };
 
 /// The names of the files of a comparison.

@@ -20,7 +20,8 @@ class Spread {
   std::size_t count() const { return count_; }
   // Undefined (NaN) for too few values: none for the mean, one for sd.
   double mean() const { return count_ > 0 ? mean_ : std::numeric_limits<double>::quiet_NaN(); }
-  double sd() const;  // with n - 1 in the denominator
+  /// With n - 1 in the denominator.
+  double sd() const;
   double min() const { return count_ > 0 ? min_ : std::numeric_limits<double>::quiet_NaN(); }
   double max() const { return count_ > 0 ? max_ : std::numeric_limits<double>::quiet_NaN(); }
 
@@ -73,7 +74,8 @@ class Outcomes {
   std::vector<std::uint32_t> runs_;  // by point, as the members below
   std::string ids_;                  // concatenated
   std::vector<std::size_t> id_ends_;
-  std::vector<double> values_;   // of measures; empty for repeats
+  /// Of measures. Empty for repeats.
+  std::vector<double> values_;
   std::vector<Spread> spreads_;  // of repeats
 };
 

@@ -99,7 +99,8 @@ class Workbook {
   FilePlace place_;
   std::string name_;
   WorkbookFiles files_;
-  Descriptor scratch_;  // the file in which libxlsxwriter assembles it
+  /// The file in which libxlsxwriter assembles it.
+  Descriptor scratch_;
   lxw_workbook* book_ = nullptr;
   std::vector<lxw_format*> formats_;  // by CellStyle
   std::list<Worksheet> sheets_;

@@ -35,7 +35,8 @@ class WorkbookFiles {
     Descriptor descriptor;
     FILE* stream = nullptr;          // while it is open
     std::uint64_t at = 0, size = 0;  // bytes
-    std::uint32_t crc = 0;           // checksum of all bytes, as in zip archives
+    /// Checksum of all bytes, as in zip archives.
+    std::uint32_t crc = 0;
   };
   /// A new file, or null on failure. check() then reports the failure.
   FILE* make();
@@ -46,8 +47,9 @@ class WorkbookFiles {
   FilePlace place_;
   std::string name_;
   std::vector<std::unique_ptr<File>> files_;
-  std::size_t rows_ = 0;  // the number of files with rows, which come first
-  int error_ = 0;         // the first error
+  /// The number of files with rows, which come first.
+  std::size_t rows_ = 0;
+  int error_ = 0;  // the first error
 };
 
 }  // namespace carom

@@ -99,8 +99,10 @@ struct Exports::Impl {
   Timeline timeline;
   PictureStreams plan;
   std::uint64_t pictures = 0;
-  std::vector<FileRecord> kept;           // files of the former run that stay
-  std::vector<FileRecord> first_records;  // files in the folder from the start
+  // Files of the former run that stay.
+  std::vector<FileRecord> kept;
+  // Files in the folder from the start.
+  std::vector<FileRecord> first_records;
   // Declared before all that writes into it, so that it is destroyed last and can clean up.
   std::optional<OpenFolder> folder;
   std::optional<Series> frames;

@@ -41,8 +41,10 @@ class Exports {
   Exports& operator=(const Exports&) = delete;
 
   Timeline& timeline();
-  bool wants_state() const;     // whether any output is due at the timeline's present instant
-  bool wants_contacts() const;  // the same for outputs of contact forces
+  /// Whether any output is due at the timeline's present instant.
+  bool wants_state() const;
+  /// The same for outputs of contact forces.
+  bool wants_contacts() const;
   void record(std::span<const Collision> collisions);
   void record_paths(std::span<const PathPiece> pieces);
   /// Writes the rows that are due. `contacts`: sorted by a, then b; read only if wants_contacts().

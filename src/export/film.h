@@ -13,7 +13,8 @@ class Film {
  public:
   Film(const FilePlace& place, const VideoOutput& video, FilmTools tools, const FilmPatience& patience = {});
 
-  void add(const Image& image);  // throws ExportError, as all functions of this class do
+  /// Throws ExportError, as all functions of this class do.
+  void add(const Image& image);
   std::uint64_t frames() const { return frames_; }
 
   /// Waits for ffmpeg and verifies the number of frames in the film.

@@ -71,10 +71,12 @@ class FlightsReader {
   std::string path_;  // of the folder, for messages
   Descriptor file_;
   std::vector<char> buffer_;
-  std::size_t at_ = 0, end_ = 0;    // the unread range of the buffer
-  std::uint64_t left_ = 0;          // bytes of the file not yet in the buffer, without the tail
-  std::uint64_t entries_ = 0;       // entries not yet read
-  double last_ = 0;                 // s, the time from which the previous entry holds
+  std::size_t at_ = 0, end_ = 0;  // the unread range of the buffer
+  /// Bytes of the file not yet in the buffer, without the tail.
+  std::uint64_t left_ = 0;
+  std::uint64_t entries_ = 0;  // entries not yet read
+  /// In s, the time from which the previous entry holds.
+  double last_ = 0;
   std::vector<Vec3> acceleration_;  // m/s^2, by body: that of its previous entry
   Tally tally_;
 };

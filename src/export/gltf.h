@@ -21,7 +21,8 @@ class GltfWriter : public Writer {
   const ModelMakers& makers_;
   OutputFile file_;
   KeyedMotion motion_;
-  std::vector<std::optional<Volume>> volumes_;  // at the previous keyframe, once one has changed
+  /// At the previous keyframe, once one has changed.
+  std::vector<std::optional<Volume>> volumes_;
 };
 
 }  // namespace carom

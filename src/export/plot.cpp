@@ -20,8 +20,10 @@ namespace carom {
 namespace {
 
 constexpr auto patience = std::chrono::minutes(1);
-constexpr double shortest_bar = 1.2;               // the ratio of its upper to its lower end
-constexpr std::size_t most_bytes = (1 << 20) - 1;  // of a picture, as much as Child::output() keeps
+/// The ratio of its upper to its lower end.
+constexpr double shortest_bar = 1.2;
+/// Of a picture, as much as Child::output() keeps.
+constexpr std::size_t most_bytes = (1 << 20) - 1;
 
 /// Colours that are distinct for every kind of colour vision (Okabe & Ito 2008), and gnuplot's numbers of marks.
 struct PlotStyle {

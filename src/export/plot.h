@@ -10,7 +10,8 @@ namespace carom {
 
 struct PlotPoint {
   double x, y;
-  std::string label{};  // beside the point; empty: none
+  /// Beside the point. Empty: none.
+  std::string label{};
   // The ends of a bar through the point. NaN: no bar.
   double low = std::numeric_limits<double>::quiet_NaN(), high = low;
 };
@@ -19,9 +20,11 @@ struct PlotPoint {
 inline constexpr std::size_t plot_looks = 8;
 
 struct PlotSeries {
-  std::string name;               // in the legend
-  std::size_t look;               // index of its colour and mark, below plot_looks
-  std::vector<PlotPoint> points;  // joined by a line, in this order
+  std::string name;  // in the legend
+  /// Index of its colour and mark, below plot_looks.
+  std::size_t look;
+  /// Joined by a line, in this order.
+  std::vector<PlotPoint> points;
 };
 
 /// A height to compare with.
@@ -32,7 +35,8 @@ struct PlotLevel {
 
 struct Plot {
   std::string title;
-  std::string subtitle;  // smaller, below the title; empty: none
+  /// Smaller, below the title. Empty: none.
+  std::string subtitle;
   std::string x_label, y_label;
   std::vector<PlotSeries> series;
   std::vector<PlotLevel> levels;

@@ -29,7 +29,8 @@ class TrajectoryTable : public Writer {
 
  private:
   struct Motion {
-    Vec3 position, velocity;  // m, m/s; not finite: the body has merged into another
+    /// In m and m/s. Not finite: the body has merged into another.
+    Vec3 position, velocity;
   };
   /// The motions of bodies first, first + 1, ... at one instant.
   struct Part {

@@ -24,18 +24,21 @@ class Ticks {
 
  private:
   std::int64_t first_ = 0, last_ = -1;
-  double numerator_ = 1, denominator_ = 1;  // tick i is at i * numerator / denominator
-  std::optional<double> end_;               // the last tick's own time
+  /// Tick i is at i * numerator / denominator.
+  double numerator_ = 1, denominator_ = 1;
+  std::optional<double> end_;  // the last tick's own time
 };
 
 /// The instants of all outputs in order. The last instant is the duration, even if no output is due then.
 class Timeline {
  public:
   explicit Timeline(double duration);
-  int add(const Ticks& ticks);                        // returns the stream's number
-  bool advance();                                     // to the next instant; false: none is left
-  double time() const { return time_; }               // s
-  std::optional<std::int64_t> due(int stream) const;  // the tick's number if this stream is due
+  int add(const Ticks& ticks);  // returns the stream's number
+  /// To the next instant. False: none is left.
+  bool advance();
+  double time() const { return time_; }  // s
+  /// The tick's number if this stream is due.
+  std::optional<std::int64_t> due(int stream) const;
 
  private:
   struct Stream {

@@ -28,7 +28,8 @@ class VtkWriter : public Writer {
   bool solids_;
   Series bodies_;
   OutputFile collection_, surfaces_;
-  Extent extent_;  // of the bodies at all instants so far
+  /// Of the bodies at all instants so far.
+  Extent extent_;
 };
 
 }  // namespace carom

@@ -20,8 +20,10 @@ class XyzWriter : public Writer {
  private:
   const Scene& scene_;
   bool solids_;
-  std::string cell_;                 // part of the comment line: the room, the columns
-  std::vector<std::string> colors_;  // by range of bodies, each after a space
+  /// Part of the comment line: the room, the columns.
+  std::string cell_;
+  /// By range of bodies, each after a space.
+  std::vector<std::string> colors_;
   OutputFile file_;
 };
 

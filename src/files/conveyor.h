@@ -105,7 +105,8 @@ class Conveyor {
   std::array<Item, items> items_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::uint64_t sent_ = 0, used_ = 0;  // changed under the mutex once the thread runs
+  /// Changed under the mutex once the thread runs.
+  std::uint64_t sent_ = 0, used_ = 0;
   std::exception_ptr failure_;
   bool end_ = false;
   std::thread thread_;

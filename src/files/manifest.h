@@ -20,17 +20,20 @@ inline constexpr std::uint64_t largest_manifest = 256 << 20;
 
 /// The content of a manifest, by which a run is recognised as the same as another one.
 struct Manifest {
-  std::string version;       // of the program
-  std::string scene_sha256;  // of scene.yaml; empty: the manifest belongs to no scene
-  std::string outputs;       // outputs_text()
-  std::string meshes;        // meshes_text()
+  std::string version;  // of the program
+  /// Of scene.yaml. Empty: the manifest belongs to no scene.
+  std::string scene_sha256;
+  std::string outputs;  // outputs_text()
+  std::string meshes;   // meshes_text()
   std::vector<FileRecord> files;
-  std::string scene_file{};         // the file name, without a folder
-  std::vector<LeftOut> left_out{};  // files of the outputs that were given up
+  std::string scene_file{};  // the file name, without a folder
+  /// Files of the outputs that were given up.
+  std::vector<LeftOut> left_out{};
   std::vector<Measured> measures{};
   std::vector<Warning> warnings{};
   std::uint64_t collisions = 0;
-  std::vector<std::string> failed{};  // ids of the failed runs of a sweep
+  /// Ids of the failed runs of a sweep.
+  std::vector<std::string> failed{};
 };
 
 /// The chosen outputs as JSON. The scene's text does not determine them, because the command line may exclude some.

@@ -44,7 +44,8 @@ class OutputFile : public PartFile {
 
   Descriptor file_;
   Sha256 hash_;
-  std::uint64_t on_the_way_ = 0;  // bytes that the system was requested to write to disk
+  /// Bytes that the system was requested to write to disk.
+  std::uint64_t on_the_way_ = 0;
   // The piece being filled.
   char* data_ = nullptr;
   std::size_t size_ = 0, used_ = 0;

@@ -25,7 +25,8 @@ class Descriptor {
 /// An open folder. Everything in it is accessed through its descriptor, so that no name leads out of it.
 struct FilePlace {
   int folder = -1;
-  std::string path;  // for messages, as given by the user
+  /// For messages, as given by the user.
+  std::string path;
 };
 
 /// The place of an open file or folder, from its descriptor alone.

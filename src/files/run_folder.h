@@ -34,7 +34,8 @@ enum class FolderContent {
   incomplete,
   /// A run of this scene with outputs that this run does not write and would remove.
   more,
-  other_run  // a run of another scene, or files that no run wrote
+  /// A run of another scene, or files that no run wrote.
+  other_run
 };
 
 /// Whether the run in `folder` is complete according to its manifest. Every file must have its size.

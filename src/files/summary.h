@@ -30,7 +30,8 @@ struct EnergyTotals {
 
 /// The reason why a result may be wrong, and the remedy.
 struct Warning {
-  std::string code;  // one word, for programs: energy, step, tolerance, contact, place, speed
+  /// One word, for programs: energy, step, tolerance, contact, place, speed.
+  std::string code;
   std::string text;
 };
 
@@ -51,7 +52,7 @@ struct Summary {
   double momentum_drift = 0;  // kg m/s, |p(end) - p(start)|
   double max_overlap = 0, max_speed = 0;
   std::uint64_t resting = 0, frames = 0;
-  /// s, summed over bodies: the time in lasting contact that was computed by time stepping.
+  /// In s, summed over bodies: the time in lasting contact that was computed by time stepping.
   double stepped_contact = 0;
 
   ContactCounts contact;
@@ -66,8 +67,9 @@ struct Measured {
 
 /// The course of a run, only for manifest.json. Nothing here may appear in a CSV file.
 struct RunFacts {
-  double load_s = 0, simulate_s = 0, render_s = 0, export_s = 0;  // wall times, of the thread that runs the scene
-  std::uint64_t peak_memory = 0;                                  // bytes
+  /// Wall times, of the thread that runs the scene.
+  double load_s = 0, simulate_s = 0, render_s = 0, export_s = 0;
+  std::uint64_t peak_memory = 0;  // bytes
   std::vector<Measured> measures{};
   std::vector<LeftOut> left_out{};
 };

@@ -25,7 +25,7 @@ using namespace accuracy_tolerance;
 /// The positions of all bodies: by instant, by body (m).
 using Track = std::vector<std::vector<Vec3>>;
 
-/// s: instants at irrational fractions of `end`, which no period of the scene matches, and `end` itself.
+/// In s: instants at irrational fractions of `end`, which no period of the scene matches, and `end` itself.
 std::vector<double> instants_of(const Scene& scene, double end) {
   const double bodies = std::max<double>(scene.world.body_count(), 1);
   const int count = static_cast<int>(std::clamp(places_kept / bodies, 8.0, double{most_instants}));
@@ -51,7 +51,7 @@ class Runs {
   }
   const std::vector<double>& instants() const { return instants_; }
 
-  /// m, by instant: the greatest distance so far between a body's positions in the two runs.
+  /// In m, by instant: the greatest distance so far between a body's positions in the two runs.
   static std::vector<double> differences(const Track& a, const Track& b) {
     std::vector<double> most;
     double greatest = 0;
@@ -163,7 +163,7 @@ class Settling {
     accuracy_.difference = std::numeric_limits<double>::infinity();
     accuracy_.steps = {};
     std::string trouble;
-    // m: with twice the step, and with four times the step.
+    // In m: with twice the step, and with four times the step.
     double before = 0, coarse = 0;
     double step = std::min(way_.duration, longest_choice * default_step(scene_.world, scene_.initial));
     const double bodies = static_cast<double>(scene_.world.body_count());

@@ -18,15 +18,17 @@ struct Scene;
 /// The steps with which positions are within a tolerance, and how far that holds.
 struct Accuracy {
   StepChoice steps;  // of the stepped engine
-  /// m: the greatest difference of its positions from those of a finer run, within the time that both are reliable.
+  /// In m: the greatest difference of its positions from those of a finer run, within the time that both are reliable.
   double difference = 0;
-  // s: the time after which no steps give positions within the tolerance. Infinity: never.
+  // In s: the time after which no steps give positions within the tolerance. Infinity: never.
   double right_until = std::numeric_limits<double>::infinity();
-  double beyond = 0;    // m: the difference of the finest runs after that
-  bool reached = true;  // whether the tolerance is met until then
+  /// In m: the difference of the finest runs after that.
+  double beyond = 0;
+  /// Whether the tolerance is met until then.
+  bool reached = true;
 };
 
-/// The method depends on the engine. `way`: its engine must be exact or stepped.
+/// Finds the steps with which positions are within `tolerance` (m). `way`: its engine must be exact or stepped.
 /// - dop853: runs with ever smaller step errors, until one agrees with a finer one, which is then used.
 /// - integrators of fixed steps: steps are halved until a run agrees with that of dop853.
 /// - exact engine: only the effect of rounding is measured.
@@ -41,11 +43,13 @@ Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& step
 
 /// The expected error of a run, split by its causes.
 struct Assessment {
-  double tolerance = 0;  // m: the scene's, or a hundredth of its smallest radius
-  /// s: the time until which positions are within the tolerance. Infinity: to the end.
+  /// In m: the scene's, or a hundredth of its smallest radius.
+  double tolerance = 0;
+  /// In s: the time until which positions are within the tolerance. Infinity: to the end.
   double right_until = std::numeric_limits<double>::infinity();
-  double rounding = 0;  // m: the effect of a perturbation by rounding on positions
-  /// m: the difference of two accuracies of steps. None: all paths have closed forms.
+  /// In m: the effect of a perturbation by rounding on positions.
+  double rounding = 0;
+  /// In m: the difference of two accuracies of steps. None: all paths have closed forms.
   std::optional<double> integrator{};
   double stepped_contact = 0;  // s, summed over bodies
   double method_error = 0;     // J: energy that lasting contact removed, besides impacts

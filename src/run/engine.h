@@ -18,7 +18,7 @@ struct State;
 
 /// The steps of the stepped engine.
 struct StepChoice {
-  /// s. For dop853 the longest step. None: determined by the forces, or adaptive.
+  /// In s. For dop853 the longest step. None: determined by the forces, or adaptive.
   std::optional<double> length{};
   /// For dop853, the error of each step, as a share of a radius and of speeds. 0: the default.
   double error = 0;
@@ -31,21 +31,26 @@ struct StepChoice {
 struct Growth {
   bool chaotic = false;
   double lyapunov_time =
-      std::numeric_limits<double>::infinity();  // s, the time of e-fold growth; infinity: regular motion
-  double factor = 1;                            // the greatest growth
-  /// s, the time at which it is as large as the bodies. Infinity: never.
+      /// In s, the time of e-fold growth. Infinity: regular motion.
+      std::numeric_limits<double>::infinity();
+  double factor = 1;  // the greatest growth
+  /// In s, the time at which it is as large as the bodies. Infinity: never.
   double large_at = std::numeric_limits<double>::infinity();
 };
 
 struct EngineChoice {
   Engine engine = Engine::exact;  // never automatic
-  std::string why{};              // one line: the reason for this engine, and its steps
+  /// One line: the reason for this engine, and its steps.
+  std::string why{};
   /// Empty for a scene with a tolerance, until settle_steps finds them.
   StepChoice steps{};
   // The following are of a scene with a tolerance.
-  std::string shortfall{};                                       // how the tolerance is missed; empty: it is met
-  double right_until = std::numeric_limits<double>::infinity();  // s, until when it is met; infinity: to the end
-  Growth growth{};                                               // if it is not met to the end
+  /// How the tolerance is missed. Empty: it is met.
+  std::string shortfall{};
+  /// In s, until when it is met. Infinity: to the end.
+  double right_until = std::numeric_limits<double>::infinity();
+  /// If it is not met to the end.
+  Growth growth{};
 };
 
 /// The engine of the scene, or the choice of `auto` (scene/engines.h).

@@ -13,7 +13,8 @@ namespace carom {
 struct FormerRun {
   std::string folder;
   Manifest manifest;
-  Scene scene;  // from its scene.yaml, with the outputs that the folder has
+  /// From its scene.yaml, with the outputs that the folder has.
+  Scene scene;
 
   /// Whether the run stored the paths of its bodies (export/flights_file.h).
   bool has_flights() const;

@@ -29,9 +29,10 @@ struct MeasureError : std::runtime_error {
 /// "energy_lost_J", "balls.red.speed_m_per_s", "groups.gas.17.x_m".
 struct Measure {
   std::string name;
-  const SummaryColumn* column = nullptr;  // null: a quantity of a body, with:
-  std::string kind;                       // "balls", "bodies" or "groups"
-  std::string body;                       // as in trajectory.csv: "red", "gas.17"
+  /// Null: a quantity of a body, with the members below.
+  const SummaryColumn* column = nullptr;
+  std::string kind;  // "balls", "bodies" or "groups"
+  std::string body;  // as in trajectory.csv: "red", "gas.17"
   Quantity quantity = Quantity::x;
 };
 

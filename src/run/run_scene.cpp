@@ -154,8 +154,9 @@ class Run {
   const RunSettings& settings_;
   const RunWatch& watch_;
   EngineChoice engine_;
-  std::vector<RunResult> results_;              // by show
-  std::vector<std::unique_ptr<Stage>> stages_;  // by show; null: it has failed
+  std::vector<RunResult> results_;  // by show
+  /// By show. Null: it has failed.
+  std::vector<std::unique_ptr<Stage>> stages_;
   std::unique_ptr<Simulator> simulator_;
   StoredEnergy start_;     // at time 0
   double simulate_s_ = 0;  // wall time

@@ -16,7 +16,8 @@ namespace carom {
 struct Scene;
 
 struct RunWatch {
-  std::function<void()> look;  // called often; may throw
+  /// Called often. May throw.
+  std::function<void()> look;
   /// Reports progress: simulated time (s), collisions, pictures of all shows.
   std::function<void(double time, std::uint64_t collisions, std::uint64_t pictures)> tell;
 };
@@ -35,7 +36,8 @@ struct RunResult {
   Summary summary;
   RunFacts facts;
   EngineChoice engine{};  // with its steps settled
-  double wall_s = 0;      // the whole run, including finishing the files
+  /// The whole run, including finishing the files.
+  double wall_s = 0;
   /// The error of this show alone: RenderError or ExportError. If it is set, all other members are meaningless.
   std::exception_ptr failure{};
 };

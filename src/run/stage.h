@@ -19,7 +19,8 @@ struct Scene;
 struct Show {
   const Scene* scene = nullptr;
   std::string folder;
-  double load_s = 0;  // wall time of loading the scene, for the manifest
+  /// Wall time of loading the scene, for the manifest.
+  double load_s = 0;
   /// The manifest of the run in the folder, if only its pictures are replaced (exports.h).
   const Manifest* renewed = nullptr;
 };

@@ -18,7 +18,7 @@ namespace {
 constexpr double residual_share = 1e-3;
 /// Of energies. A smaller difference is rounding.
 constexpr double energy_rounding = 0x1p-40;
-/// rad, of a step. Forces that turn faster are not resolved.
+/// In rad, of a step. Forces that turn faster are not resolved.
 constexpr double longest_phase = 1;
 constexpr double place_rounding = 0x1p-53;  // of coordinates
 /// Of the smallest size. The resolution that positions must have.

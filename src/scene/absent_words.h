@@ -8,9 +8,11 @@
 namespace carom {
 
 struct AbsentWord {
-  std::string_view words;    // separated by |, in lower case; the first is shown
+  /// Separated by |, in lower case. The first is shown.
+  std::string_view words;
   std::string_view meaning;  // the alternative, in sentences
-  std::string_view see;      // keys or kinds for `carom explain`, separated by |; empty: none
+  /// Keys or kinds for `carom explain`, separated by |. Empty: none.
+  std::string_view see;
 };
 
 std::span<const AbsentWord> absent_words();

@@ -90,8 +90,8 @@ std::optional<double> mass_of(const View& body, const Volume& volume, Diagnostic
 /// A key of the scene as a View. The view is empty if the key is absent.
 View scene_part(const Node& root, std::string_view key);
 
-/// Views with the scene's defaults beneath.
-View body_view(const Node& root, const BodyEntry& entry);  // of a ball, a body or a group
+/// A ball, a body or a group as a View, with the scene's defaults beneath. The same holds for the two below.
+View body_view(const Node& root, const BodyEntry& entry);
 View member_view(const Node& root, const View& group);
 View fixed_view(const Node& root, const FixedEntry& entry);
 

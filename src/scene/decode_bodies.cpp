@@ -158,8 +158,9 @@ class Bodies {
   Scene& scene_;
   World& world_;
   Diagnostics& diagnostics_;
-  std::vector<SingleBody> singles_;       // those without errors, by number
-  std::vector<const BodyEntry*> groups_;  // those with members and without errors in their balls
+  std::vector<SingleBody> singles_;  // those without errors, by number
+  /// Those with members and without errors in their balls.
+  std::vector<const BodyEntry*> groups_;
   BodyGrid grid_;
   double default_restitution_ = 1;
 };

@@ -277,7 +277,8 @@ class FormatTable {
     kinds_.push_back(kind);
   }
 
-  std::deque<std::string> texts_;          // the texts that the rows refer to
+  /// The texts that the rows refer to.
+  std::deque<std::string> texts_;
   std::deque<std::vector<Field>> fields_;  // by kind
   std::vector<Kind> kinds_;
 };

@@ -83,7 +83,8 @@ struct Field {
   /// A regular expression for the schema, for a text or for names.
   std::string_view pattern = {};
   bool needs_entries = false;  // a list must not be empty
-  Member member = {};          // absent: the decoder reads the key itself
+  /// Absent: the decoder reads the key itself.
+  Member member = {};
 };
 
 struct Kind {
@@ -96,7 +97,8 @@ struct Kind {
   const Field* also = nullptr;
   /// The key of `defaults` that supplies values missing in maps of this kind.
   std::string_view defaults = {};
-  std::string_view any_of = {};  // keys of which at least one must be present, separated by |
+  /// Keys of which at least one must be present, separated by |.
+  std::string_view any_of = {};
   /// The neighbouring kind that supplies values missing in maps of this kind.
   std::string_view beneath = {};
 };

@@ -45,7 +45,8 @@ class Forms {
   std::string folder_;
   const LoadOptions& options_;
   Diagnostics& diagnostics_;
-  std::map<std::string, std::vector<Vec3>> points_;                   // by path; empty: unusable
+  /// By path. Empty: unusable.
+  std::map<std::string, std::vector<Vec3>> points_;
   std::map<std::pair<std::string, Shape>, std::optional<Fit>> fits_;  // none: unusable
   std::vector<std::string> order_;                                    // paths
 };

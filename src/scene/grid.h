@@ -71,7 +71,8 @@ class BodyGrid {
   const World* world_;
   struct Link {
     Member member;
-    std::uint32_t next;  // next in the chain of its bucket
+    /// Next in the chain of its bucket.
+    std::uint32_t next;
   };
   std::vector<Link> members_;
   std::vector<std::uint32_t> level_;  // index into levels_, by member

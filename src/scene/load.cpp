@@ -84,7 +84,8 @@ struct SceneFile::Impl {
 
   std::string path;
   LoadOptions options;
-  std::vector<Source> sources;  // the file, then one for each setting
+  // The file, then one for each setting.
+  std::vector<Source> sources;
   /// Errors of the text after which parsing could continue.
   Diagnostics parsing;
   Node root;

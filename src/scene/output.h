@@ -62,7 +62,8 @@ struct Output {
   std::optional<VtkOutput> vtk;
   std::optional<XyzOutput> xyz;
   std::optional<GltfOutput> gltf;
-  bool flights = false;  // only of an engine that moves bodies along parabolas
+  /// Only of an engine that moves bodies along parabolas.
+  bool flights = false;
   bool pictures() const { return frames || video || sheet; }
 };
 

@@ -38,17 +38,20 @@ struct OutputMember {
 };
 
 struct OutputKind {
-  std::string_view name;  // the key in `output` and the name for --only
+  /// The key in `output` and the name for --only.
+  std::string_view name;
   std::string_view doc;
-  std::string_view example;          // a value, as YAML
-  std::span<const Field> keys = {};  // keys of its map; empty: a flag
-  std::string_view keys_doc = {};    // describes the map
+  std::string_view example;  // a value, as YAML
+  /// Keys of its map. Empty: a flag.
+  std::span<const Field> keys = {};
+  std::string_view keys_doc = {};  // describes the map
   /// The output that supplies values missing in the map of this one.
   std::string_view beneath = {};
   OutputMember member = {};
   /// The file name that the scene gives to this output.
   std::string (*named)(const Output& output) = nullptr;
-  std::string_view files = {};  // names of the other files, separated by |
+  /// Names of the other files, separated by |.
+  std::string_view files = {};
   FileSeries series = {};
   /// What it holds of every body at every instant, and in which file. Empty: nothing of the kind.
   std::string_view rows = {};

@@ -13,7 +13,8 @@ struct Scene;
 /// A body that the scene places individually.
 struct SingleBody {
   Entity body;
-  Place position;  // the place of its position in the file
+  /// The place of its position in the file.
+  Place position;
 };
 
 /// Adds an error for each body that overlaps another body, a plane, a wall or an obstacle.

@@ -15,7 +15,8 @@ enum class Arrange : std::uint8_t { random, lattice, hexagonal };
 
 struct Placing {
   std::uint64_t count = 0;
-  Entity first = 0;   // first ball of the group; all are alike
+  /// First ball of the group. All are alike.
+  Entity first = 0;
   double radius = 0;  // m
   Vec3 min, max;      // m, the box that contains every ball entirely
   Arrange arrange = Arrange::random;
@@ -23,7 +24,8 @@ struct Placing {
 
 struct Placed {
   std::vector<Vec3> centers;  // m; as many as requested, or none
-  std::uint64_t fit = 0;      // if `centers` is empty: the number that would fit
+  /// If `centers` is empty: the number that would fit.
+  std::uint64_t fit = 0;
 };
 
 /// Places balls clear of one another, of `others` (bodies and obstacles) and of the world's planes and walls.

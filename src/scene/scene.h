@@ -42,7 +42,8 @@ struct BodyRange {
 };
 
 struct FixedName {
-  std::string name;  // room.x_min etc. for the planes of a room
+  /// room.x_min etc. for the planes of a room.
+  std::string name;
   Color color;
   bool visible = true;
   std::optional<MeshUse> mesh = std::nullopt;  // only of an obstacle
@@ -50,8 +51,9 @@ struct FixedName {
 
 /// The names of bodies and fixed things, in the order of the file. Every output has this order.
 struct Roster {
-  std::vector<BodyRange> bodies;                 // ordered by first body
-  std::vector<FixedName> fixed;                  // by entity: the planes, the walls, the obstacles
+  std::vector<BodyRange> bodies;  // ordered by first body
+  /// By entity: the planes, the walls, the obstacles.
+  std::vector<FixedName> fixed;
   std::string name(Entity e) const;              // "red", "gas.17", "lane"
   const BodyRange& range_of(Entity body) const;  // the range that holds this body
 };

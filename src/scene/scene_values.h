@@ -10,8 +10,9 @@ struct SceneValue {
   std::string path;  // as --set takes it: "balls.red.position.z", "forces.0.acceleration.x"
   /// A number with its shortest digits, any other value as written.
   std::string text;
-  std::string unit;        // "m"; empty: none
-  std::size_t offset = 0;  // bytes, from the start of the text to the value
+  std::string unit;  // "m"; empty: none
+  /// Bytes, from the start of the text to the value.
+  std::size_t offset = 0;
 };
 
 /// All values of a scene file's text, in its order, without defaults. `name`: the file's name, for errors.

@@ -14,7 +14,7 @@ struct Simulate {
   Engine engine = Engine::automatic;
   Integrator integrator = Integrator::rk4;  // stepped only
   std::optional<double> step;               // s
-  /// m. Only of the stepped engine, which chooses its step for this error.
+  /// In m. Only of the stepped engine, which chooses its step for this error.
   std::optional<double> tolerance;
   std::optional<double> rest_speed;  // m/s
   std::optional<std::uint64_t> max_collisions;

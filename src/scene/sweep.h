@@ -48,9 +48,11 @@ struct SweepMeasure {
 
 /// One run of a sweep.
 struct SweepRun {
-  std::string id;                                  // "r0001"
-  std::vector<std::optional<std::string>> values;  // by Sweep::paths, as YAML; none: the base's own
-  std::vector<Setting> settings;                   // those of all runs, then its own
+  std::string id;  // "r0001"
+  /// By Sweep::paths, as YAML. None: the base's own.
+  std::vector<std::optional<std::string>> values;
+  /// Those of all runs, then its own.
+  std::vector<Setting> settings;
 };
 
 /// The content of a sweep file, with its ranges expanded. Run numbers, ids and values depend on it alone.
@@ -58,14 +60,17 @@ class Sweep {
  public:
   std::string file;  // as given on the command line
   std::string title;
-  std::string base;                    // the scene file, relative to the working folder
+  /// The scene file, relative to the working folder.
+  std::string base;
   std::vector<SweepValue> set_values;  // "path=value", applied to every run
   /// The paths that vary, in the order of the file. With repeats the last one is `seed`.
   std::vector<std::string> paths;
   std::vector<SweepBlock> blocks;
-  std::uint64_t seeds = 0;  // for each combination; 0: no repeats
+  /// For each combination. 0: no repeats.
+  std::uint64_t seeds = 0;
   std::optional<std::uint64_t> first_seed;
-  std::vector<SweepValue> only;  // outputs; empty: those of the base
+  /// Outputs. Empty: those of the base.
+  std::vector<SweepValue> only;
   std::vector<SweepMeasure> measures;
   std::vector<SweepChart> charts;
 
@@ -78,7 +83,8 @@ class Sweep {
 };
 
 inline constexpr std::size_t most_runs = 1'000'000;
-inline constexpr std::size_t most_values = 10'000'000;  // of all paths of a zip together
+/// Of all paths of a zip together.
+inline constexpr std::size_t most_values = 10'000'000;
 
 /// Reads and checks a sweep file, as far as possible without its base. Throws SceneError, which holds every error.
 /// `color`: use colour in the texts of errors.

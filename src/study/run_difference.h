@@ -16,15 +16,17 @@ struct ValueDifference {
 
 /// The displayed cells of a row of collisions.csv.
 struct CollisionFacts {
-  double time = 0;              // s
-  std::string kind, a, b;       // a and b: the two things that collide
+  double time = 0;  // s
+  /// `a` and `b`: the two things that collide.
+  std::string kind, a, b;
   double separation_speed = 0;  // m/s, along the normal
 };
 
 /// Compares collisions in their order. Two are the same if kind, a, b and time are equal.
 /// Their outcomes are the same if the rest of the row is.
 struct CollisionDifference {
-  std::uint64_t same = 0;                  // number of equal collisions from the start
+  /// Number of equal collisions from the start.
+  std::uint64_t same = 0;
   std::uint64_t count_a = 0, count_b = 0;  // number of all collisions
   /// Whether the runs differ after the equal collisions. The next collision of each run then follows.
   bool part = false;

@@ -29,7 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t longest_hashed = 256 << 20;  // bytes
-constexpr std::size_t most_told = 10;                // maximum number of bad folders in the message
+/// Maximum number of bad folders in the message.
+constexpr std::size_t most_told = 10;
 
 /// The names in a path, from its end: "r0001", "runs", "sweep".
 std::vector<std::string> names_of(const std::string& path) {
@@ -187,7 +188,8 @@ RunSet::RunSet(std::vector<ListedRun> runs, const std::function<void()>& look) :
   // Of all scenes, each path once, in the order of the first scene with it.
   std::vector<SceneValue> all;
   std::map<std::string, std::size_t> known;  // its paths
-  std::vector<std::size_t> seen;             // by path: the number of scenes with it
+  // By path: the number of scenes with it.
+  std::vector<std::size_t> seen;
   std::set<std::size_t> varying;
   std::size_t scenes = 0;
   for (const ListedRun& run : runs_) {

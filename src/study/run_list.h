@@ -14,7 +14,8 @@ namespace carom {
 /// A run's folder, and its id among the runs.
 struct ListedRun {
   std::string id, folder;
-  bool done = false;  // false: it failed, according to its error.txt
+  /// False: it failed, according to its error.txt.
+  bool done = false;
 };
 
 /// The runs of folders. Each is the folder of a run, or of a sweep, which stands for its runs/*.
@@ -50,7 +51,8 @@ class RunSet {
   std::map<std::string, std::size_t> numbers_;  // indices of parameters, by path
   std::optional<std::size_t> seed_;
   std::optional<Sweep> sweep_;
-  std::vector<std::size_t> in_sweep_;  // by run: its number in the sweep
+  /// By run: its number in the sweep.
+  std::vector<std::size_t> in_sweep_;
 };
 
 /// The sweep of this folder, if all these runs belong to it. None: it is not a sweep's folder, or a run is not of it.

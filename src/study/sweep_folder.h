@@ -18,11 +18,13 @@ inline constexpr const char* stored_sweep = "sweep.yaml";
 inline constexpr const char* stored_base = "base.yaml";
 
 enum class SweepContent {
-  nothing,     // absent or empty
-  this_sweep,  // this very sweep, complete: nothing to do
+  nothing,  // absent or empty
+  /// This very sweep, complete: nothing to do.
+  this_sweep,
   /// All or some runs of this sweep, perhaps with another comparison.
   incomplete,
-  other  // another sweep's, or files that no sweep wrote
+  /// Another sweep's, or files that no sweep wrote.
+  other
 };
 
 /// The content of `folder`. `base_text`: the text of the base scene. Changes nothing. Throws ExportError.
@@ -43,8 +45,10 @@ ComparisonPlan comparison_plan(const Sweep& sweep);
 class SweepFolder {
  public:
   enum class Use {
-    alone,  // exclusive: no other process may write into it
-    part    // shared with other parts of the same sweep
+    /// Exclusive: no other process may write into it.
+    alone,
+    /// Shared with other parts of the same sweep.
+    part
   };
   /// Makes the folder if needed and locks it. Writes sweep.yaml and base.yaml unless they exist.
   /// Runs of another sweep are removed. Waits up to 30 s for other processes that do the same.

@@ -38,7 +38,8 @@ constexpr std::size_t most_shows = 8;
 /// Batches with errors. Planning stops after this number.
 constexpr std::size_t most_wrong = 16;
 constexpr std::size_t errors_shown = 20;
-constexpr char right = '+';       // first character of a report without errors
+/// First character of a report without errors.
+constexpr char right = '+';
 constexpr double sync_every = 2;  // s
 
 /// Removes repeated errors, and keeps each under the first run that has it.

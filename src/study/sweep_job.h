@@ -23,7 +23,8 @@ struct SweepSettings {
   Shard shard;
   bool force = false;                                           // also run what is done
   std::function<Output(const Output&, const Sweep&)> restrict;  // selects the outputs to write
-  std::function<void()> look;                                   // called often, in every process; may throw
+  /// Called often, in every process. May throw.
+  std::function<void()> look;
 };
 
 /// Whether a scenario may have a mesh, which is a file that can change independently of the sweep.
@@ -41,7 +42,8 @@ struct PlannedRun {
 };
 
 struct SweepProgress {
-  std::size_t done = 0, failed = 0, of = 0;  // numbers of runs to do in this shard
+  /// Numbers of runs to do in this shard.
+  std::size_t done = 0, failed = 0, of = 0;
 };
 
 class SweepJob {
@@ -84,7 +86,8 @@ class SweepJob {
  private:
   struct Unit {
     std::vector<std::vector<std::size_t>> scenarios;  // for each scenario its runs
-    std::size_t like = none;                          // a finished run of the (only) scenario
+    /// A finished run of the (only) scenario.
+    std::size_t like = none;
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 

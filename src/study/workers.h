@@ -20,7 +20,8 @@ struct TaskOutcome {
 struct Tasks {
   std::function<std::optional<std::size_t>()> next;  // the next task, or none
   std::function<std::string(std::size_t)> work;      // executed in a worker process
-  std::function<void(const TaskOutcome&)> done;      // executed in this process, in the order in which tasks end
+  /// Executed in this process, in the order in which tasks end.
+  std::function<void(const TaskOutcome&)> done;
   /// Executed in this process, often. If it throws, all workers are ended.
   std::function<void()> look;
 };

@@ -30,9 +30,10 @@ int cells(char32_t c) {
 }
 
 struct Character {
-  std::string text;  // as shown, with '?' for an unprintable character
-  int width;         // cells
-  std::size_t at;    // byte offset in the line
+  // As shown, with '?' for an unprintable character.
+  std::string text;
+  int width;       // cells
+  std::size_t at;  // byte offset in the line
 };
 
 std::vector<Character> characters(std::string_view line) {

@@ -105,7 +105,8 @@ class DocumentBuilder : public YAML::EventHandler {
   /// A collection that is being read.
   struct Open {
     Node node;
-    std::optional<Key> pending;                         // a map's key that waits for its value
+    // A map's key that waits for its value.
+    std::optional<Key> pending;
     std::unordered_map<std::string, std::size_t> seen;  // keys, once there are many
   };
 

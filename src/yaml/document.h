@@ -27,9 +27,10 @@ struct Node {
   bool bad = false;
   /// The place of the value. A value without a place of its own (null, a block below its key) has that of its key.
   Place place;
-  std::string text;         // of a scalar
-  std::vector<Key> keys;    // of a map
-  std::vector<Node> items;  // of a sequence, or of a map: as many as keys
+  std::string text;       // of a scalar
+  std::vector<Key> keys;  // of a map
+  /// Of a sequence, or of a map: as many as keys.
+  std::vector<Node> items;
 
   bool is(Kind k) const { return kind == k; }
   const Node* find(std::string_view key) const;

@@ -15,9 +15,12 @@ struct Place {
 
 /// One text that errors point into.
 struct Source {
-  std::string name;     // the path as given by the user, or "--set path=value"
-  std::string text;     // UTF-8, no byte order mark, lines end in LF
-  bool option = false;  // a --set: one line, no line numbers
+  /// The path as given by the user, or "--set path=value".
+  std::string name;
+  /// UTF-8, no byte order mark, lines end in LF.
+  std::string text;
+  /// A --set option, which is one line and has no line numbers.
+  bool option = false;
 };
 
 class Diagnostics;
