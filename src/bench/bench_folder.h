@@ -15,8 +15,8 @@ struct Scene;
 /// The content of a folder. A bench of this scene with any options is this_run or incomplete.
 FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene, const BenchOptions& options);
 
-/// The work-precision plot: CPU time of a run against its error, or against the deviation of a chaotic scene's
-/// statistics.
+/// The work-precision plot: CPU time of a run against its error,
+/// or against the deviation of a chaotic scene's statistics.
 Plot work_precision_plot(const Scene& scene, const BenchResult& result);
 
 /// The members in manifest.json: engine, integrator, step_s, step_error.
@@ -26,8 +26,8 @@ nlohmann::ordered_json witnesses_json(const std::vector<Witness>& witnesses);
 
 class BenchFolder {
  public:
-  /// Makes and locks the folder. Its content stays until write(). Throws ExportError, as all functions of this class
-  /// do.
+  /// Makes and locks the folder. Its content stays until write().
+  /// Throws ExportError, as all functions of this class do.
   BenchFolder(const std::string& path, std::string gnuplot) : folder_(path), gnuplot_(std::move(gnuplot)) {}
   void write(const Scene& scene, const BenchOptions& options, const BenchResult& result);
 

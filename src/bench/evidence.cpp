@@ -1,8 +1,8 @@
 // The agreement of two runs by halved steps does not show what both have missed.
 // Closed forms do not prove that the code which uses them is correct.
 // Therefore no method's own estimate is accepted where another method contradicts it.
-// See Oberkampf & Roy, Verification and Validation in Scientific Computing, 2010, ch. 5 and 7: code and solution
-// verification.
+// See Oberkampf & Roy, Verification and Validation in Scientific Computing, 2010,
+// ch. 5 and 7: code and solution verification.
 #include "bench/evidence.h"
 
 #include <algorithm>

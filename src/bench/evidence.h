@@ -3,8 +3,8 @@
 //
 // Each method's finest run has an estimate of its own error.
 // The estimate is the effect of rounding, and the difference of a coarser run of the method.
-// Two runs agree if these estimates explain their difference. The reference is the finest run that another method
-// confirms.
+// Two runs agree if these estimates explain their difference.
+// The reference is the finest run that another method confirms.
 // Where no two agree, the first run is the reference, with at least the smallest difference as its error.
 #include <optional>
 #include <vector>

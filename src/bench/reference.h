@@ -3,8 +3,8 @@
 //
 // Rounding: the scene is run again in shifted coordinates (shifted.h), where every position has other last digits.
 // The difference of the runs is the effect of rounding.
-// If it moves a body by more than a hundredth of the largest radius, later collisions are others, and the scene is
-// chaotic.
+// If it moves a body by more than a hundredth of the largest radius, later collisions are others,
+// and the scene is chaotic.
 // Trajectories of a chaotic scene are compared until rounding has grown 2^14-fold.
 // Beyond that, statistics are compared, and more shifted runs show how much these vary.
 #include <functional>

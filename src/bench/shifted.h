@@ -1,6 +1,6 @@
 #pragma once
-// The same scene at another place. Its motion is the same except for rounding, so a run of it shows the effect of
-// rounding.
+// The same scene at another place.
+// Its motion is the same except for rounding, so a run of it shows the effect of rounding.
 #include "physics/state.h"
 #include "physics/world.h"
 

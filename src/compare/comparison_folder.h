@@ -21,12 +21,12 @@ FolderContent inspect_comparison_folder(const std::string& folder, const std::st
 
 class ComparisonFolder {
  public:
-  /// Makes and locks the folder. Its content stays until publish(). Throws ExportError, as all functions of this class
-  /// do.
+  /// Makes and locks the folder. Its content stays until publish().
+  /// Throws ExportError, as all functions of this class do.
   explicit ComparisonFolder(const std::string& path) : folder_(path) {}
   const FilePlace& place() const { return folder_.place(); }
-  /// Renames the files, removes obsolete ones of a former comparison, and writes the manifest last. `film`: may be
-  /// null.
+  /// Renames the files, removes obsolete ones of a former comparison, and writes the manifest last.
+  /// `film`: may be null.
   void publish(const std::vector<std::unique_ptr<OutputFile>>& files, SideBySide* film, const std::string& request);
 
  private:

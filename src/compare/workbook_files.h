@@ -14,8 +14,8 @@ namespace carom {
 
 class WorkbookFiles {
  public:
-  /// While this object lives, the library's files are in the file system of `place`. `name`: the workbook's, for
-  /// messages.
+  /// While this object lives, the library's files are in the file system of `place`.
+  /// `name`: the workbook's, for messages.
   /// Only one object may exist at a time.
   WorkbookFiles(const FilePlace& place, std::string name);
   ~WorkbookFiles();

@@ -57,10 +57,10 @@ class Exports {
 
   /// Ends the run, after which nothing is recorded or sampled. Returns the files that were given up.
   std::vector<LeftOut> end(const Tally& tally);
-  /// Completes every file, then renames all of them. summary.csv is included, and manifest.json is last. Throws
-  /// ExportError.
-  /// scene.yaml is in the folder from the start, so that the folder of an interrupted run is recognised as this
-  /// scene's.
+  /// Completes every file, then renames all of them. summary.csv is included, and manifest.json is last.
+  /// Throws ExportError.
+  /// scene.yaml is in the folder from the start,
+  /// so that the folder of an interrupted run is recognised as this scene's.
   void finish(const Summary& summary, const RunFacts& facts);
 
  private:

@@ -1,4 +1,5 @@
 // Feeds raw RGB pictures to ffmpeg, which converts them to limited-range BT.709.
+// The flags of the conversion are fixed, so that the same pictures give the same bytes.
 #include "export/film.h"
 
 #include <charconv>

@@ -1,4 +1,5 @@
-// Estimates rows, pictures, bytes and wall time from the scene alone, with constants measured on typical runs.
+// Estimates rows, pictures, bytes and wall time from the scene alone, with typical constants.
+// The time of the simulation itself is not included.
 #include <cmath>
 #include <limits>
 

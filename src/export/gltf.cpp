@@ -1,4 +1,5 @@
 // Collects positions as floats, which is what glTF stores, and the changes of volume of bodies that merge.
+// The file needs all keyframes at once, so they stay in memory until the run's end.
 #include "export/gltf.h"
 
 #include "export/bodies.h"

@@ -9,8 +9,8 @@ namespace carom {
 
 class Sheet {
  public:
-  /// Pictures with the aspect ratio of `shape`. A row of them is up to 1920 pixels wide, and each is at most 480 pixels
-  /// wide.
+  /// Pictures with the aspect ratio of `shape`.
+  /// A row of them is up to 1920 pixels wide, and each is at most 480 pixels wide.
   /// Throws ExportError if the sheet would be too large.
   Sheet(const SheetOutput& sheet, Size shape);
 

@@ -22,8 +22,8 @@ constexpr const char* font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr int widest = 3840, highest = 2160;  // pixels, of the whole film
 constexpr int crf = 18;
 
-/// The layout in columns and rows, and a tile's size in pixels. Both sides are even, because colour has half the
-/// resolution.
+/// The layout in columns and rows, and a tile's size in pixels.
+/// Both sides are even, because colour has half the resolution.
 struct Grid {
   int columns, rows, width, height;
 };

@@ -19,8 +19,8 @@ inline constexpr std::size_t most_tiles = 16;
 
 /// H.264 as for every film. The same films give the same bytes. Time is simulated time.
 /// A film that begins later shows its first frame until then, and one that ends earlier keeps its last.
-/// Films of different sizes keep their aspect ratios. The highest frame rate applies to all. The grid is as square as
-/// possible.
+/// Films of different sizes keep their aspect ratios. The highest frame rate applies to all.
+/// The grid is as square as possible.
 class SideBySide {
  public:
   /// Reads the properties of the films.

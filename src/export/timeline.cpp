@@ -28,8 +28,8 @@ struct Ratio {
 };
 
 /// `value` as the short decimal m/10^k that an author wrote, if it is one.
-/// Both parts are exact doubles. Their quotient, and that of any multiple, is therefore the double nearest to the
-/// decimal.
+/// Both parts are exact doubles.
+/// Their quotient, and that of any multiple, is therefore the double nearest to the decimal.
 std::optional<Ratio> as_decimal(double value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific).ptr;

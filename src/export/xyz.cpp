@@ -1,4 +1,5 @@
 // Writes extended XYZ with the species X for all bodies, because ASE accepts no names of bodies as species.
+// The room, if there is one, becomes the cell, without periodic boundaries.
 #include "export/xyz.h"
 
 #include <fmt/format.h>
@@ -45,8 +46,8 @@ char* put_vector(char* to, const Vec3& vector) {
 
 }  // namespace
 
-// The species X is not a chemical element. ASE accepts no other such name. OVITO takes colours and sizes from the
-// columns.
+// The species X is not a chemical element. ASE accepts no other such name.
+// OVITO takes colours and sizes from the columns.
 XyzWriter::XyzWriter(OpenFolder& folder, const Scene& scene)
     : scene_(scene), solids_(has_solids(scene.world)), file_(folder.place(), "trajectory.xyz") {
   cell_ = cell_text(scene) +

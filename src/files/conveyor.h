@@ -21,8 +21,8 @@ class Conveyor {
   static constexpr std::size_t items = 4;
 
   /// `use` is called once for each item sent, and leaves the item ready to be filled again.
-  /// The sender calls it for the first `alone` items, so that little work starts no thread. The thread calls it for the
-  /// others.
+  /// The sender calls it for the first `alone` items, so that little work starts no thread.
+  /// The thread calls it for the others.
   Conveyor(std::function<void(Item&)> use, std::uint64_t alone) : use_(std::move(use)), alone_(alone) {}
   /// Items that were sent and not yet used are dropped.
   ~Conveyor() {

@@ -1,6 +1,6 @@
 #pragma once
-// RFC 4180 cells: numbers with the shortest digits that read back to the same double, and text that no spreadsheet
-// runs.
+// RFC 4180 cells: numbers with the shortest digits that read back to the same double,
+// and text that no spreadsheet runs.
 // Lines end in LF.
 #include <charconv>
 #include <cmath>
@@ -35,8 +35,8 @@ inline std::string number_cell(double value) {
   return {text, put_number(text, value)};
 }
 
-/// Any text as a cell, in quotes where needed. A text that a spreadsheet would take for a formula gets an apostrophe in
-/// front.
+/// Any text as a cell, in quotes where needed.
+/// A text that a spreadsheet would take for a formula gets an apostrophe in front.
 std::string text_cell(std::string_view text);
 
 /// One row at a time, cell by cell, for tables with few rows. The trajectory writes into its file's buffer directly.

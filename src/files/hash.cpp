@@ -1,4 +1,3 @@
-// SHA-256 by nettle.
 #include "files/hash.h"
 
 #include <array>

@@ -39,8 +39,8 @@ struct Manifest {
 /// The chosen outputs as JSON. The scene's text does not determine them, because the command line may exclude some.
 std::string outputs_text(const Output& output);
 
-/// The text of a manifest of any kind. `outputs` and `facts` are JSON objects. The members of `facts` are copied
-/// unchanged.
+/// The text of a manifest of any kind. `outputs` and `facts` are JSON objects.
+/// The members of `facts` are copied unchanged.
 std::string manifest_text(const Scene& scene, const std::string& outputs, const std::string& facts,
                           const std::vector<FileRecord>& files);
 

@@ -14,8 +14,8 @@ namespace carom {
 struct Scene;
 
 /// Opens a folder.
-/// Returns none, with errno set, if it is absent, no folder, or a link without `follow`. Throws ExportError on other
-/// errors.
+/// Returns none, with errno set, if it is absent, no folder, or a link without `follow`.
+/// Throws ExportError on other errors.
 Descriptor open_folder(int parent, const std::string& name, bool follow);
 
 enum class Standing { nothing, folder, other };

@@ -26,8 +26,8 @@ class OutputFile : public PartFile {
   }
   void written(const char* end) { used_ = static_cast<std::size_t>(end - data_); }
 
-  /// Passes all bytes to the system and closes the file, which keeps its temporary name. record() is valid from here
-  /// on.
+  /// Passes all bytes to the system and closes the file,
+  /// which keeps its temporary name. record() is valid from here on.
   void complete();
   /// Completes the file and renames it to its final name.
   /// For the file to survive a power failure, the caller must sync the file system before.

@@ -57,8 +57,8 @@ StoredEnergy stored_energy(const Scene& scene, const State& state) {
   return {kinetic_energy(scene.world, state), potential_energy(scene.world, state)};
 }
 
-// The energy at the start is that of the first row of energy.csv. By then bodies of the exact engine have their
-// impulses.
+// The energy at the start is that of the first row of energy.csv.
+// By then bodies of the exact engine have their impulses.
 // Bodies of the book engine receive theirs as a force in the first frame, which counts as work.
 // The residual is what impacts, work and motion do not account for: the error of the method, and rounding.
 Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredEnergy& start, const State& end,

@@ -1,6 +1,6 @@
 #pragma once
-// The accuracy of a scene's run: the steps that meet its tolerance, until when they do, and whether the motion is
-// chaotic.
+// The accuracy of a scene's run: the steps that meet its tolerance, until when they do,
+// and whether the motion is chaotic.
 #include <functional>
 #include <limits>
 #include <optional>
@@ -59,8 +59,8 @@ struct Assessment {
 /// Assesses runs of this scene by `engine`, which must have its steps settled. Throws as settle_accuracy() does.
 Assessment assess(const Scene& scene, const EngineChoice& engine, const std::function<void()>& look);
 
-/// A scene's World and state with velocities, masses and gravity changed by up to `share` of themselves, each
-/// differently.
+/// A scene's World and state with velocities, masses and gravity changed by up to `share` of themselves,
+/// each differently.
 /// Bodies at rest or in contact stay so.
 struct Perturbed {
   World world;

@@ -1,4 +1,5 @@
 // Evaluates the recorded pieces with the formulas of Flight, as the simulator does, so that states agree bit for bit.
+// Pieces are read as time advances, so that the record never has to fit into memory.
 #include "run/replay.h"
 
 #include <algorithm>

@@ -43,8 +43,8 @@ struct RunResult {
 };
 
 /// Simulates once, and draws and writes each show.
-/// Throws SimulationError, what `watch.look` throws, and, for a single show, its failure. Then only complete files
-/// stay.
+/// Throws SimulationError, what `watch.look` throws, and, for a single show, its failure.
+/// Then only complete files stay.
 std::vector<RunResult> run_shows(std::span<const Show> shows, const EngineChoice& engine, const RunSettings& settings,
                                  const RunWatch& watch);
 

@@ -37,8 +37,8 @@ class Stage {
 
   double time() { return exports.timeline().time(); }  // s, of its next instant
 
-  /// Writes and draws what is due at the next instant, which must be the simulator's time. Throws ExportError,
-  /// RenderError.
+  /// Writes and draws what is due at the next instant, which must be the simulator's time.
+  /// Throws ExportError, RenderError.
   void sample(Simulator& simulator, const StageWatch& watch);
 
   const Scene& scene;

@@ -74,8 +74,8 @@ void check_reach(const Node& root, const Inventory& inventory, const Scene& scen
 /// Adds an error where the run takes more time steps than `budget` allows. The whole scene must be decoded before.
 void check_steps(const Node& root, const Scene& scene, const Budget& budget, Diagnostics& diagnostics);
 
-/// Adds an error where the engine of the scene lacks something that the scene uses. The whole scene must be decoded
-/// before.
+/// Adds an error where the engine of the scene lacks something that the scene uses.
+/// The whole scene must be decoded before.
 void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics);
 
 /// The default direction of a wall's height: y, or z for a level wall.

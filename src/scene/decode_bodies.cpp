@@ -1,7 +1,7 @@
 // Decodes bodies in two passes: all single bodies in the order of the file, then the members of groups.
 // Groups are placed only after every single body and obstacle is in the grid, so that members avoid them.
-// Each group draws from random streams of its own name, so that editing one group leaves the numbers of the others
-// unchanged.
+// Each group draws from random streams of its own name,
+// so that editing one group leaves the numbers of the others unchanged.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -212,8 +212,8 @@ class Placer {
     return placed;
   }
 
-  /// A random choice of close-packed sites. Each ball is displaced within the part of its site that no neighbour
-  /// reaches.
+  /// A random choice of close-packed sites.
+  /// Each ball is displaced within the part of its site that no neighbour reaches.
   Placed jittered() const {
     double spacing = 0;
     std::vector<Vec3> sites = free_sites<Hexagonal>(spacing);

@@ -22,8 +22,8 @@ struct MeshUse {
   double scale = 1;            // m per unit of the file
 };
 
-/// A mesh file of the scene. The run's folder keeps a copy that the resolved text names. The folder then runs by
-/// itself.
+/// A mesh file of the scene. The run's folder keeps a copy that the resolved text names.
+/// The folder then runs by itself.
 struct MeshFile {
   std::string file;  // as in MeshUse
   /// A plain file name, distinct from every other output's.

@@ -5,8 +5,8 @@
 
 namespace carom {
 
-/// A JSON Schema, draft-07, of files that are a map of the kind `root` ("scene"). The loader refuses all that it
-/// refuses.
+/// A JSON Schema, draft-07, of files that are a map of the kind `root` ("scene").
+/// The loader refuses all that it refuses.
 /// The loader also refuses errors that types, ranges and keys cannot express.
 /// These are unknown names, contradictory values, overlaps and missing files.
 std::string json_schema(std::string_view root);

@@ -67,8 +67,8 @@ class SweepReader {
   /// "file:line:column"
   std::string where(const Place& place) const {
     if (sources_.front().option) return sources_.front().name;
-    // A file may be one line of a million values, or have as many lines. Counting therefore continues from the last
-    // place.
+    // A file may be one line of a million values, or have as many lines.
+    // Counting therefore continues from the last place.
     const std::string_view text = sources_.front().text;
     const std::size_t offset = std::min<std::size_t>(place.offset, text.size());
     if (offset < counted_) counted_ = 0, line_ = column_ = 1;

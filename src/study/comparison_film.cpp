@@ -1,4 +1,5 @@
 // Takes the name and the start of each film from the manifest of its run, and labels it with its varied values.
+// A label lists only parameters that vary independently, because the others follow from them.
 #include "study/comparison_film.h"
 
 #include <fcntl.h>

@@ -1,5 +1,5 @@
-// Decimal numbers as 128-bit integers with a count of decimal places, so that 0.1 steps give 0.3 and not
-// 0.30000000000000004.
+// Decimal numbers as 128-bit integers with a count of decimal places,
+// so that 0.1 steps give 0.3 and not 0.30000000000000004.
 // Sums of doubles would drift, and their texts would differ from what an author writes.
 // A quotient without a finite expansion falls back to the nearest double.
 #include "yaml/decimal.h"

@@ -24,8 +24,8 @@ std::optional<Decimal> parse_decimal(std::string_view text);
 std::string to_text(const Decimal& value);
 
 /// `count` evenly spread numbers from `from` to `to`, ends included. A single number is `from`.
-/// A number with a finite decimal expansion of at most 18 digits is exact. Any other is the shortest text of the
-/// nearest double.
+/// A number with a finite decimal expansion of at most 18 digits is exact.
+/// Any other is the shortest text of the nearest double.
 std::vector<std::string> spread(const Decimal& from, const Decimal& to, std::uint64_t count);
 
 /// The numbers from, from + step, ... up to `to`, exact.

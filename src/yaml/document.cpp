@@ -1,6 +1,6 @@
 // Builds the tree from yaml-cpp's events and not with YAML::Load. One pass checks and builds.
-// A hostile file is refused before memory is spent on it, aliases never expand, and quoted text stays distinct from
-// plain text.
+// A hostile file is refused before memory is spent on it, aliases never expand,
+// and quoted text stays distinct from plain text.
 // YAML::Load would also keep duplicate keys, ignore a second document, and lose the place of an implicit null.
 #include "yaml/document.h"
 

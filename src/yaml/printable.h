@@ -6,8 +6,8 @@
 namespace carom {
 
 /// Whether a character is invisible or changes how others are shown.
-/// These are control characters, line separators, marks of text direction, and marks that join or split letters
-/// invisibly.
+/// These are control characters, line separators, marks of text direction,
+/// and marks that join or split letters invisibly.
 /// They are Unicode's categories Cc, Cf, Zl and Zp without the few visible characters of Cf.
 bool is_unprintable(char32_t code);
 

@@ -8,8 +8,8 @@
 
 namespace carom {
 
-/// Plain scalars that are written as numbers, true or false become these. Other scalars become text, and null stays
-/// null.
+/// Plain scalars that are written as numbers, true or false become these.
+/// Other scalars become text, and null stays null.
 nlohmann::ordered_json json_of(const Node& node);
 
 /// The same of one line of YAML: a default or an example of the table of fields, or a value of a sweep.
