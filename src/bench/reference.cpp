@@ -92,7 +92,7 @@ class Making {
     }
   }
 
-  /// Adds a run by dop853 as a second opinion. One that takes too long or fails is left out.
+  /// Adds a run by dop853 as an independent check. One that takes too long or fails is left out.
   void find_another(const SimulationMethod& fine) {
     if (!unsupported(world_, settings_of(scene_.simulate, fine)).empty()) return;
     try {

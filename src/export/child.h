@@ -14,8 +14,8 @@
 namespace carom {
 
 /// Sets a function that is called 20 times a second while waiting for any child process.
-/// It may throw, and the function that waits passes the exception on. It is set once, at the program's start. Default:
-/// none.
+/// It may throw, and the function that waits passes the exception on.
+/// It is set once, at the program's start. By default nothing is called.
 void look_while_waiting(std::function<void()> look);
 
 /// The absolute path of a program on PATH, or none. Throws ExportError if the search fails.

@@ -21,6 +21,7 @@ constexpr double png_bytes_per_pixel = 0.3;
 constexpr double film_bytes_per_pixel = 0.02;
 
 // Wall times, in s, on two cores of 3 GHz.
+
 // Until the first picture.
 constexpr double first_picture_s = 0.3;
 // For a pixel.

@@ -13,6 +13,7 @@ namespace carom {
 namespace {
 
 // Typical sizes, in bytes.
+
 // The six numbers of a motion.
 constexpr double motion_bytes = 114;
 // A time.

@@ -30,9 +30,8 @@ struct StepChoice {
 /// The growth of a small perturbation of a motion.
 struct Growth {
   bool chaotic = false;
-  double lyapunov_time =
-      /// In s, the time of e-fold growth. Infinity: regular motion.
-      std::numeric_limits<double>::infinity();
+  /// In s, the time of e-fold growth. Infinity: regular motion.
+  double lyapunov_time = std::numeric_limits<double>::infinity();
   double factor = 1;  // the greatest growth
   /// In s, the time at which it is as large as the bodies. Infinity: never.
   double large_at = std::numeric_limits<double>::infinity();
@@ -59,9 +58,9 @@ EngineChoice choose_engine(const Scene& scene);
 /// The settings with another engine and integrator, and without a step or tolerance.
 Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator = Integrator::rk4);
 
-/// Finds the steps that meet the scene's tolerance, if it has one, by repeated runs (accuracy.h).
-/// Otherwise determines by how much the tolerance is missed. `look` is called from time to time, and may throw.
-/// Throws SimulationError.
+/// For a scene with a tolerance, finds the steps that meet it, by repeated runs (accuracy.h).
+/// If none do, determines by how much the tolerance is missed.
+/// `look` is called from time to time, and may throw. Throws SimulationError.
 void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<void()>& look);
 
 /// Throws SimulationError if the scene's output has flights and its engine records no paths.

@@ -1,4 +1,5 @@
 // Decodes the requests of a scene: how to simulate, what to show, what to write.
+// The table of fields fills the structs. The checks here concern several keys at once, or the budget.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // Numbers and counts all things of a scene before memory is allocated for bodies.
+// The budget can thus refuse a huge group at no cost.
 #include <fmt/format.h>
 
 #include "scene/check.h"

@@ -189,7 +189,7 @@ class Placer {
       }
       if (best.size() >= p_.count || s <= closest) return best;
       // With fewer free sites than balls, narrow by about the fourth root of the ratio.
-      // The cube root would overshoot.
+      // The cube root, which the number of sites suggests, could overshoot.
       const double shrink = std::sqrt(std::sqrt(std::max<double>(1, static_cast<double>(best.size())) / count));
       s = std::max(closest, s * std::clamp(shrink, 0.5, 0.98));
       if (Sites(edge_, s).capacity() > most_sites) return best;

@@ -60,7 +60,7 @@ double reproducible_log(double x) {
     m *= 2;
     --exponent;
   }
-  // z| < 0.172, so each term of the series is smaller by a factor of at least 33.
+  // |z| < 0.172, so each term of the series is smaller by a factor of at least 33.
   const double z = (m - 1) / (m + 1);
   const double z2 = z * z;
   double sum = 0;
