@@ -41,7 +41,8 @@ struct ComparedRun {
   std::string id;
   std::string folder;
   std::vector<std::string> values;  // of the parameters, as text
-  bool failed = false;              // whatever its folder holds
+  /// Whether the run failed, whatever its folder holds.
+  bool failed = false;
 };
 
 /// All measures of the plan and of its charts, each once. Throws MeasureError.
