@@ -1,9 +1,9 @@
-// Every run is first recorded and held against the reference, then timed bare: without a record, a look or a file, from
-// the making of the simulator to the scene's end. Timed runs of all rows take turns (timing.h).
+// Every run is first recorded and compared with the reference, and then timed without records, samples and files.
+// The timed part is from making the simulator to the scene's end. Timed runs of all rows take turns (timing.h).
 //
-// The reference is at first the exact engine, or dop853 where paths have no closed form. All other methods' finest runs
-// are held against it (evidence.h). Where they speak for another one, that is the reference, and rows are compared
-// anew.
+// The first reference is the exact engine, or dop853 where paths have no closed form.
+// The finest runs of all other methods are compared with it (evidence.h).
+// If they confirm another one, that becomes the reference, and all rows are compared again.
 #include "bench/bench.h"
 
 #include <fmt/format.h>
@@ -28,9 +28,10 @@ namespace carom {
 namespace {
 
 constexpr int halvings = 10;
-constexpr int least_repeats = 3;  // that a next row must have room for
+// The minimum of repeats for which a next row must have time left.
+constexpr int least_repeats = 3;
 
-/// Of dop853's steps, of a radius and of speeds; the last one is the default.
+/// The errors of dop853's steps, as a share of a radius and of speeds. The last one is the default.
 constexpr std::array step_errors = {0x1p-16, 0x1p-24, 0x1p-32, exact_tolerance::step_error};
 
 class Bench {
@@ -72,7 +73,7 @@ class Bench {
 
   double spent() const { return cpu_time() - start_; }
 
-  /// Powers of two (s), from 1/4 of the duration or 64 default steps down, unless they are given.
+  /// Steps are powers of two (s), from 1/4 of the duration or 64 default steps down, unless they are given.
   void choose_steps() {
     const double duration = scene_.simulate.duration;
     if (world_.body_count() == 0) throw SimulationError("the scene has no bodies: there is nothing to measure");
@@ -101,14 +102,14 @@ class Bench {
   }
 
   void rows_of_stepped() {
-    // Along parabolas dop853 has no steps: the row is engine exact's.
+    // Along parabolas dop853 has no steps, so its row would be that of the exact engine.
     if (varying_force(world_) != nullptr)
       for (const double error : step_errors) row_of(dop853(world_, error));
     for (const Integrator integrator : {Integrator::euler, Integrator::verlet, Integrator::rk4})
       rows_of({.engine = Engine::stepped, .integrator = integrator});
   }
 
-  /// Of a method that chooses its steps.
+  /// Adds the row of a method that chooses its own steps.
   void row_of(const SimulationMethod& method) {
     BenchRow row;
     row.method = method;
@@ -131,9 +132,10 @@ class Bench {
     result_.rows.push_back(std::move(row));
   }
 
-  /// From the longest step on, until the next one would cost more than this method's share.
+  /// Adds rows from the longest step on, until the next one would exceed this method's share of the time.
   void rows_of(SimulationMethod method) {
-    double share = left_ / 4, bare = 0, records = 0;  // s: what a run takes, and what recording it takes beside that
+    // In s: the time of a run, and the additional time of recording it.
+    double share = left_ / 4, bare = 0, records = 0;
     for (const double step : steps_) {
       if (records + (2 + least_repeats) * 2 * bare > share) {
         result_.left_out.push_back(fmt::format("{}: steps below {:.4g} s, for the budget of {:.4g} s of CPU time",
@@ -153,7 +155,7 @@ class Bench {
         share -= run.cpu_s + bare;
         row.repeats = static_cast<int>(std::clamp<std::int64_t>(whole_below(share / bare), 0, options_.repeat));
         share -= row.repeats * bare;
-        // The book's engine is off by what bodies overlap, however smooth their paths are.
+        // The error of the book's engine comes from overlaps of bodies, however smooth their paths are.
         if (reference_.horizon > 0 && method.engine == Engine::stepped) evidence_->add_halved(method, std::move(run));
       } catch (const Overrun&) {
         result_.left_out.push_back(fmt::format("{}: steps of {:.4g} s and shorter, one run takes more than {:.2g} s",
@@ -186,7 +188,7 @@ class Bench {
       if (row.errors && row.method == reference_.method) row.errors = reference_.error;
   }
 
-  /// In place of the first one.
+  /// Replaces the first reference.
   void take_reference(const Finding& finding) {
     reference_.method = finding.method;
     reference_.run = finding.run;
@@ -194,7 +196,7 @@ class Bench {
       if (row.failure.empty()) row.errors = reference_.off(world_, record(row.method, watch_.look));
   }
 
-  /// Nothing recorded; the result must be the row's. Gives the CPU time (s).
+  /// Runs without records. The result must equal the row's. Returns the CPU time (s).
   double time_once(const BenchRow& row) const {
     const double start = cpu_time();
     const SimulationMethod& method = row.method;
@@ -204,7 +206,7 @@ class Bench {
     return cpu_time() - start;
   }
 
-  /// A row without repeats has its time already, from the one run that there was time for.
+  /// A row without repeats already has its time, from the only run that the budget allowed.
   void time_rows() {
     std::vector<BenchRow*> rows;
     std::vector<TimedTask> tasks;

@@ -1,5 +1,5 @@
 #pragma once
-// Run time against error: one scene by every engine, integrator and step, held against a reference.
+// Run time against error: one scene by every engine, integrator and step, compared with a reference.
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -16,46 +16,52 @@ namespace carom {
 
 struct Scene;
 
-/// A method, what it costs and how far off it is.
+/// A method, its cost and its error.
 struct BenchRow {
   SimulationMethod method;
-  std::string failure;  // empty: the run came to its end, and all of the rest is there
-  double cpu_s = 0;     // of one run, the median of `repeats`
+  /// Empty: the run reached its end, and all other members are set.
+  std::string failure;
+  /// Of one run, the median of `repeats`.
+  double cpu_s = 0;
   int repeats = 0;
-  std::optional<Differences> errors;  // none: at no instant has the motion one trajectory only
-  double max_overlap = 0;             // m
+  /// None: the motion has no unique trajectory at any instant.
+  std::optional<Differences> errors;
+  double max_overlap = 0;  // m
   std::uint64_t collisions = 0;
   std::uint64_t hash = 0;
-  // Of a chaotic scene:
+  // The following are of a chaotic scene.
   Statistics statistics;      // without speeds
-  double speed_distance = 0;  // Kolmogorov and Smirnov's, from the ensemble's speeds
+  double speed_distance = 0;  // Kolmogorov-Smirnov distance from the ensemble's speeds
   Deviation deviation;        // from the ensemble's means
 };
 
 struct BenchResult {
   SimulationMethod reference;
   Differences reference_error;     // an estimate (evidence.h)
-  std::vector<Witness> witnesses;  // what other methods say of it
-  double rounding = 0;             // m: by how much runs in shifted coordinates differ, anywhere at any instant
+  std::vector<Witness> witnesses;  // comparisons with other methods
+  /// In m: the greatest difference of runs in shifted coordinates, at any instant.
+  double rounding = 0;
   bool chaotic = false;
-  double horizon = 0;       // s: trajectories are compared until then
-  std::size_t members = 0;  // of the ensemble of a chaotic scene, the reference included
-  Statistics mean;          // of the ensemble
+  double horizon = 0;  // s: trajectories are compared until then
+  /// Of the ensemble of a chaotic scene, including the reference.
+  std::size_t members = 0;
+  Statistics mean;  // of the ensemble
   std::vector<BenchRow> rows;
-  std::vector<std::string> left_out;  // a line for each engine, or engine's steps, that have no row
-  double cpu_s = 0;                   // of it all
+  /// A line for each engine, or for an engine's steps, without a row.
+  std::vector<std::string> left_out;
+  double cpu_s = 0;  // of the whole bench
 };
 
 struct BenchWatch {
-  std::function<void()> look;                                      // called often; may throw
+  /// Called often. May throw.
+  std::function<void()> look;
   std::function<void(double done, const std::string& what)> tell;  // done: 0 to 1
 };
 
-/// Throws SimulationError where there is no reference; std::runtime_error where a run's result is not that of the one
-/// before.
+/// Throws SimulationError if there is no reference, and std::runtime_error if a repeated run has a different result.
 BenchResult run_bench(const Scene& scene, const BenchOptions& options, const BenchWatch& watch);
 
-/// m: 2^-53 of the scene's extent, below which a distance is rounding.
+/// In m: 2^-53 of the scene's extent. Smaller distances are rounding.
 double rounding_of(const Scene& scene);
 
 }  // namespace carom

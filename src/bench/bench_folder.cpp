@@ -1,3 +1,5 @@
+// Writes the rows and the work-precision plot of a bench, and its manifest.
+// Points of the stepped engine with the same bits as the exact engine's are left out, because they are that engine's.
 #include "bench/bench_folder.h"
 
 #include <fmt/format.h>
@@ -19,7 +21,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double least_deviation = 0.01;  // in the plot
+// In the plot.
+constexpr double least_deviation = 0.01;
 
 Json outputs_json(const BenchOptions& options) {
   const auto number = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
@@ -138,7 +141,8 @@ Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
                                 : "position error (m), greatest of all bodies and instants";
   plot.floor = result.chaotic ? least_deviation : rounding_of(scene);
   plot.levels = levels_of(result);
-  std::set<std::string> exact;  // integrators whose runs have the exact engine's very bits: a point with it
+  // Integrators of which runs have the same bits as the exact engine's. They share its point.
+  std::set<std::string> exact;
   for (const BenchRow& row : result.rows) {
     if (!row.failure.empty() || (!result.chaotic && !row.errors)) continue;
     if (has_exact_bits(row, result.rows.front())) {
@@ -151,7 +155,7 @@ Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
   }
   if (exact.size() == 3) exact = {"stepped"};
   for (const std::string& name : exact) plot.series.front().name += ", " + name;
-  // The steps of the first and the last point tell those between.
+  // The labels of the first and the last point suffice for those between.
   for (PlotSeries& series : plot.series)
     for (std::size_t k = 1; k + 1 < series.points.size(); ++k) series.points[k].label.clear();
   return plot;
@@ -162,7 +166,8 @@ FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene
   files.insert(files.end(), bench_files.begin(), bench_files.end());
   for (const MeshFile& mesh : scene.meshes)
     if (!mesh.copy.empty()) files.push_back(mesh.copy);
-  Scene nothing_else;  // what a run of the scene would write is no part of a bench
+  // The outputs of a run of the scene are not part of a bench.
+  Scene nothing_else;
   nothing_else.resolved = scene.resolved;
   nothing_else.meshes = scene.meshes;
   return inspect_folder(folder, nothing_else, outputs_json(options).dump(), files);

@@ -1,5 +1,5 @@
 #pragma once
-// What a bench times, and for how long.
+// Options of a bench: the steps, and the time limits.
 #include <optional>
 
 #include "scene/simulate_settings.h"
@@ -7,10 +7,14 @@
 namespace carom {
 
 struct BenchOptions {
-  std::optional<double> longest, shortest;  // s, of the steps; none: by the scene
-  int repeat = 5;                           // timed runs of each row, at most
-  double budget = 20;                       // s of CPU time for the whole scene, roughly
-  std::optional<Engine> reference;          // exact or stepped; none: exact if it has all that the scene asks for
+  /// In s, the limits of the steps. None: chosen by the scene.
+  std::optional<double> longest, shortest;
+  /// Maximum of timed runs of each row.
+  int repeat = 5;
+  /// In s of CPU time for the whole scene, approximate.
+  double budget = 20;
+  /// exact or stepped. None: exact if it supports the whole scene.
+  std::optional<Engine> reference;
 };
 
 }  // namespace carom

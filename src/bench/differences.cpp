@@ -1,3 +1,5 @@
+// Matches the collisions of two runs pair by pair in order of time, within the time of passing through each other.
+// A fixed tolerance of time would not suit both slow and fast collisions.
 #include "bench/differences.h"
 
 #include <algorithm>
@@ -17,7 +19,7 @@ struct Interval {
   double from, to;  // s
 };
 
-/// Pairs off two runs' collisions, and tells of each body when the runs are on different sides of one.
+/// Matches two runs' collisions, and determines for each body when the runs are on different sides of one.
 class Matching {
  public:
   Matching(const World& world, const RecordedRun& reference, const RecordedRun& run, double until)
@@ -29,7 +31,7 @@ class Matching {
     auto r = reference.impacts.begin();
     auto s = run.impacts.begin();
     while (r != reference.impacts.end() || s != run.impacts.end()) {
-      // The next two things that meet in either run, and all their collisions in both.
+      // The next pair that collides in either run, and all its collisions in both.
       const bool from_reference = s == run.impacts.end() || (r != reference.impacts.end() && key(*r) <= key(*s));
       const auto pair = key(from_reference ? *r : *s);
       const auto r_end = std::find_if(r, reference.impacts.end(), [&](const Impact& i) { return key(i) != pair; });
@@ -52,15 +54,16 @@ class Matching {
  private:
   static std::pair<Entity, Entity> key(const Impact& i) { return {i.a, i.b}; }
 
-  /// s: in which a and b, at this collision's speed, pass through each other.
+  /// In s: the time in which a and b pass through each other at this collision's speed.
   double passage(const Impact& i) const {
     const double size = world_.radius[i.a] + (world_.is_body(i.b)       ? world_.radius[i.b]
                                               : world_.is_obstacle(i.b) ? world_.obstacle(i.b).volume.reach()
                                                                         : 0);
-    return size / i.approach_speed;  // a speed of 0: for ever
+    // A speed of 0 gives infinity.
+    return size / i.approach_speed;
   }
 
-  /// One pair's collisions, in order of time: matched in turn, or else the earlier one has no counterpart.
+  /// Matches one pair's collisions in order of time. Of two that are too far apart the earlier one has no counterpart.
   void match(std::span<const Impact> reference, std::span<const Impact> run) {
     std::size_t i = 0, j = 0;
     while (i < reference.size() && j < run.size()) {
@@ -79,7 +82,7 @@ class Matching {
     for (; j < run.size(); ++j) count(run[j], invented_);
   }
 
-  /// One near the end may have its counterpart beyond it.
+  /// A collision near the end may have its counterpart after it and does not count.
   void count(const Impact& impact, std::uint64_t& sum) const {
     if (impact.time <= until_ && impact.time + passage(impact) <= end_ && impact.approach_speed >= least_speed_) ++sum;
   }
@@ -94,7 +97,7 @@ class Matching {
 
 namespace {
 
-/// J: kinetic, and the World's potential there.
+/// In J: kinetic energy, and potential energy in the World.
 double body_energy(const World& world, const State& state, Entity body) {
   const double mass = state.mass.empty() ? world.mass[body] : state.mass[body];
   return 0.5 * mass * state.velocity[body].squaredNorm() + potential(world, body, state.position[body]);

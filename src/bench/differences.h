@@ -1,5 +1,5 @@
 #pragma once
-// By how much a run is off a reference.
+// The differences of a run from a reference.
 #include <cstdint>
 #include <vector>
 
@@ -8,26 +8,28 @@
 namespace carom {
 
 struct Differences {
-  double position = 0;                     // m: the greatest distance of a body from where the reference has it
-  double velocity = 0;                     // m/s, the same
-  double energy = 0;                       // J: the greatest difference of the bodies' kinetic and potential energy
+  /// In m: the greatest distance of a body from its position in the reference.
+  double position = 0;
+  double velocity = 0;  // m/s, likewise
+  /// In J: the greatest difference of the bodies' kinetic and potential energy.
+  double energy = 0;
   std::uint64_t missed = 0, invented = 0;  // collisions
 };
 
-/// The larger one of each.
+/// The larger value of each member.
 Differences larger(const Differences& a, const Differences& b);
 
-/// At `instants` (s), both runs' own, and over all collisions before the last of them; those after `until` (s) do not
-/// count.
+/// Compares two runs at `instants` (s), which both must have, and all collisions before the last of them.
+/// Instants and collisions after `until` (s) do not count.
 ///
-/// Two collisions of the same two things are one and the same if their times are nearer to each other than the two
-/// need to pass through each other (the sum of their radii over their speed of approach), each to one only, in turn.
-/// Those of the reference that are left are missed, those of the run invented, but for two kinds: slow ones, of less
-/// than 1/100 of the greatest speed (bounces that die away, of which no two engines see the same number), and those so
-/// near the end of the run that their counterpart may lie beyond it.
+/// Two collisions of the same two things match if their times are close enough, each with one only, in order.
+/// Close enough is the time in which the two would pass through each other: the sum of their radii over their speed.
+/// Unmatched collisions of the reference are missed, those of the run are invented. Two kinds do not count:
+/// - slow ones, of less than 1/100 of the greatest speed, which are bounces that die away and differ between engines;
+/// - those so near the end of the run that their counterpart may come after it.
 ///
-/// The velocity and energy of a body count as long as both runs are on the same side of its collisions: not between the
-/// times that the two give for the same collision, where they differ by all that the collision changes.
+/// A body's velocity and energy count only while both runs are on the same side of its collisions.
+/// Between the two times of a matched collision they differ by the whole change of the collision.
 Differences differences(const World& world, const RecordedRun& reference, const RecordedRun& run,
                         const std::vector<double>& instants, double until);
 

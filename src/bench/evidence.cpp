@@ -1,6 +1,8 @@
-// Two runs by halved steps that agree say nothing of what both have missed, and an engine's faith in its closed forms
-// says nothing of its code. So no method is taken at its own word where another contradicts it (Oberkampf & Roy,
-// Verification and Validation in Scientific Computing, 2010, ch. 5 and 7: code and solution verification).
+// The agreement of two runs by halved steps does not show what both have missed.
+// Closed forms do not prove that the code which uses them is correct.
+// Therefore no method's own estimate is accepted where another method contradicts it.
+// See Oberkampf & Roy, Verification and Validation in Scientific Computing, 2010,
+// ch. 5 and 7: code and solution verification.
 #include "bench/evidence.h"
 
 #include <algorithm>
@@ -13,15 +15,19 @@ namespace carom {
 
 namespace {
 
-constexpr double safety = 10;         // an estimate of an error may be off by so much
-constexpr double rounding_room = 16;  // the same, of what rounding does: a few runs have shown it
-constexpr double converging = 0.6;    // a method of order 1 halves its error with its step
+/// An estimate of an error may be wrong by this factor.
+constexpr double safety = 10;
+/// The same for the effect of rounding, which is estimated from a few runs.
+constexpr double rounding_room = 16;
+/// The ratio of successive changes that counts as convergence. A method of order 1 halves its error with its step.
+constexpr double converging = 0.6;
 
-constexpr double told = 0x1p46;  // of a place's last digit, 2^-7 of the extent: a run that is off by more says nothing
+/// In units of a position's last digit: 2^-7 of the extent. A run with a larger error is no evidence.
+constexpr double told = 0x1p46;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Whether steps are as short as forces ask for, or there are none.
+/// Whether steps are as short as forces require, or there are none.
 bool looks_between(const SimulationMethod& method) {
   return method.engine == Engine::exact || method.is_stepped_by(Integrator::dop853);
 }
@@ -48,10 +54,10 @@ void Evidence::add_halved(const SimulationMethod& method, RecordedRun run) {
   double change = infinite;
   if (last_) {
     finding.error = larger(between(last_->run, finding.run), rounding_);
-    // A place is rounded in each step, often in the same direction.
+    // A position is rounded in each step, often in the same direction.
     change = std::max(finding.error.position, until_ / *method.steps.length * last_digit_);
     const bool falls = change_ < infinite && change <= converging * change_;
-    // Two runs in a row may be off alike by accident, three hardly.
+    // Two successive runs may have the same error by accident, but three hardly do.
     finding.error.position = change_ < infinite ? std::max(change, 0.5 * change_) : change;
     const bool converges = falls || change <= rounding_room * rounding_.position;
     if (converges && finding.error.position <= told * last_digit_) keep(finding);
@@ -60,7 +66,7 @@ void Evidence::add_halved(const SimulationMethod& method, RecordedRun run) {
   change_ = change;
 }
 
-/// The series' best run so far.
+/// Keeps the best run of the series so far.
 void Evidence::keep(const Finding& finding) {
   if (best_ == 0) {
     best_ = findings_.size();
@@ -82,11 +88,11 @@ Verdict Evidence::verdict(bool settled) const {
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 1; j < n; ++j) {
       apart[i * n + j] = apart[j * n + i] = between(findings_[i].run, findings_[j].run);
-      // Two methods of fixed steps may agree because neither sees what lies between its steps.
+      // Two methods of fixed steps may agree because neither resolves what happens between its steps.
       if (looks_between(findings_[i].method) || looks_between(findings_[j].method))
         if (agree(findings_[i], findings_[j], apart[i * n + j].position)) confirmed[i] = confirmed[j] = true;
     }
-  // The first one, unless others agree on something else, or by far more digits.
+  // The first finding is trusted unless others confirm a different one, or confirm one with far smaller error.
   for (std::size_t i = 1; i < n && !settled; ++i) {
     const double mine = findings_[i].error.position, held = findings_[verdict.trusted].error.position;
     if (confirmed[i] && (!confirmed[verdict.trusted] || rounding_room * mine < held)) verdict.trusted = i;

@@ -1,9 +1,11 @@
 #pragma once
-// Which of several methods' runs of one scene is to be the reference that all are held against.
+// Chooses, from several methods' runs of one scene, the reference for all others.
 //
-// Each method's finest run comes with an estimate of its own error: what rounding does, and by how much a coarser run
-// of the method differs. Two runs agree if they differ by no more than these explain. The reference is the finest run
-// that another method agrees with. Where no two agree it is the first, trusted to no less than the smallest difference.
+// Each method's finest run has an estimate of its own error.
+// The estimate is the effect of rounding, and the difference of a coarser run of the method.
+// Two runs agree if these estimates explain their difference.
+// The reference is the finest run that another method confirms.
+// Where no two agree, the first run is the reference, with at least the smallest difference as its error.
 #include <optional>
 #include <vector>
 
@@ -13,42 +15,44 @@
 
 namespace carom {
 
-/// What a method's finest run says.
+/// The result of a method's finest run.
 struct Finding {
   SimulationMethod method;
   RecordedRun run;
-  Differences error;  // an estimate, of its own making
+  Differences error;  // the method's own estimate
 };
 
-/// Another method's run, held against the reference.
+/// Another method's run, compared with the reference.
 struct Witness {
   SimulationMethod method;
-  double apart = 0;  // m: at most
+  double apart = 0;  // m: the greatest difference
   bool agrees = false;
 };
 
-/// What the findings come to.
+/// The conclusion from all findings.
 struct Verdict {
-  std::size_t trusted = 0;         // a finding's number
+  std::size_t trusted = 0;         // index of a finding
   Differences error;               // of its run
   std::vector<Witness> witnesses;  // all others
 };
 
 class Evidence {
  public:
-  /// Runs are compared at `instants` (s) until `until` (s). `rounding`: what it does to the first finding's run, and,
-  /// in m, to a place (`last_digit`). The first finding is the reference unless others speak against it.
+  /// Runs are compared at `instants` (s) until `until` (s).
+  /// `rounding`: the effect of rounding on the first finding's run. `last_digit`: its effect on a position, m.
+  /// The first finding is the reference unless others contradict it.
   Evidence(const World& world, const std::vector<double>& instants, double until, const Differences& rounding,
            double last_digit, Finding first);
 
-  /// Another method's run.
+  /// Adds another method's run.
   void add(Finding finding);
-  /// A run with half the step of the one before, unless the method changes. A finding of a method that converges is
-  /// its run that differs least from the one before. A run with the very bits of the first finding is none.
+  /// Adds a run with half the step of the previous one, unless the method changes.
+  /// For a converging method, its finding is the run that differs least from the previous one.
+  /// A run with the same bits as the first finding is ignored.
   void add_halved(const SimulationMethod& method, RecordedRun run);
 
   const std::vector<Finding>& findings() const { return findings_; }
-  /// settled: the first finding is the reference whatever others say.
+  /// `settled`: the first finding is the reference whatever the others show.
   Verdict verdict(bool settled = false) const;
 
  private:
@@ -64,10 +68,12 @@ class Evidence {
   Differences rounding_;
   double last_digit_;  // m
   std::vector<Finding> findings_;
-  // The series of halved steps that is going on:
+  // The present series of halved steps:
   std::optional<Finding> last_;
-  double change_ = 0;     // m: by which it differs from the run before; infinity: it is the first
-  std::size_t best_ = 0;  // the finding that it has made; 0: none so far
+  /// In m: the difference from the previous run. Infinity: there is none.
+  double change_ = 0;
+  /// Index of the series' finding. 0: none so far.
+  std::size_t best_ = 0;
 };
 
 }  // namespace carom

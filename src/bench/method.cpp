@@ -1,3 +1,5 @@
+// Names and settings of a method.
+// The method dop853 ignores closed forms only if all paths have them. Otherwise the engine uses them where they exist.
 #include "bench/method.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Advances a simulator from instant to instant and keeps states and collisions, or only the final hash.
+// Recording costs time, so timed runs use bare_run().
 #include "bench/recorded_run.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #pragma once
-// One run, with what must be known of it to hold it against another one.
+// One run, with the data needed to compare it with another one.
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -15,7 +15,7 @@ namespace carom {
 
 struct World;
 
-/// What is compared of a collision. (The end of bounces is none, and is not kept.)
+/// The compared data of a collision. The end of bounces is not a collision and is left out.
 struct Impact {
   double time;            // s
   double approach_speed;  // m/s
@@ -24,23 +24,24 @@ struct Impact {
 };
 
 struct RecordedRun {
-  std::vector<State> states;    // at the instants asked for
-  std::vector<Impact> impacts;  // by a, then b, then time
-  double duration = 0;          // s
-  Tally tally;                  // of the whole run
-  std::uint64_t hash = 0;       // of the result (state_hash.h)
+  std::vector<State> states;  // at the requested instants
+  /// Sorted by a, then b, then time.
+  std::vector<Impact> impacts;
+  double duration = 0;     // s
+  Tally tally;             // of the whole run
+  std::uint64_t hash = 0;  // of the result (state_hash.h)
   double cpu_s = 0;
 
-  /// m/s: slower collisions are bounces that die away, of which no two engines see the same number.
+  /// In m/s: the limit below which collisions are bounces that die away. Their number differs between engines.
   double least_speed() const { return 0.01 * tally.max_speed; }
 };
 
-/// Runs from `initial` on to the end of simulate.duration, and looks at `instants` (s, ascending). `look` is called
-/// now and then, and may throw. Throws SimulationError.
+/// Runs from `initial` to simulate.duration, and samples at `instants` (s, ascending).
+/// `look` is called from time to time, and may throw. Throws SimulationError.
 RecordedRun record_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
                        const std::vector<double>& instants, const std::function<void()>& look);
 
-/// The same run, neither looked at nor recorded: what is timed. Gives the result's hash.
+/// The same run without samples and records, for timing. Returns the result's hash.
 std::uint64_t bare_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
                        const std::function<void()>& look);
 

@@ -1,3 +1,5 @@
+// Runs the reference method at its place and in shifted coordinates, and compares the runs to measure rounding.
+// In shifted coordinates every position has other last digits, while the exact motion is the same.
 #include "bench/reference.h"
 
 #include <fmt/format.h>
@@ -90,12 +92,12 @@ class Making {
     }
   }
 
-  /// One that takes too long is none.
+  /// Adds a run by dop853 as an independent check. One that takes too long or fails is left out.
   void find_another(const SimulationMethod& fine) {
     if (!unsupported(world_, settings_of(scene_.simulate, fine)).empty()) return;
     try {
       const RecordedRun coarse = record(world_, scene_.initial, dop853(world_, exact_tolerance::step_error));
-      // Elsewhere, so that what rounding does in so many steps shows.
+      // In shifted coordinates, so that the effect of rounding in this many steps shows.
       Finding other{fine, shifted_run(1, fine), {}};
       other.error =
           larger(reference_.rounded, differences(world_, coarse, other.run, reference_.instants, reference_.horizon));
@@ -117,7 +119,7 @@ class Making {
     reference_.rounded = larger(reference_.rounded, reference_.off(world_, other));
   }
 
-  /// Whether rounding grows until trajectories mean nothing, and until when they do.
+  /// Determines whether rounding grows until trajectories are meaningless, and until when they are comparable.
   void judge(const std::vector<RecordedRun>& others) {
     const double first = last_digit * extent(world_, scene_.initial);
     double until = 0;
@@ -132,7 +134,7 @@ class Making {
     reference_.horizon = reference_.chaotic ? until : scene_.simulate.duration;
   }
 
-  /// The reference itself and more shifted runs, all looked at before the horizon, and then behind it.
+  /// Samples the reference and more shifted runs before the horizon, and then after it.
   void gather_ensemble() {
     std::vector<double>& instants = reference_.instants;
     instants = instants_in(0, reference_.horizon, world_.body_count());

@@ -1,10 +1,12 @@
 #pragma once
-// What a scene's runs are held against, what rounding does to it, and how far off it may be itself.
+// The reference of a scene's runs, the effect of rounding on it, and its own error.
 //
-// Rounding. The scene is run again in shifted coordinates (shifted.h), where every place has other last digits. What
-// differs then is what rounding does. Where it moves a body by more than a hundredth of the largest radius, others meet
-// in the end than would have met, and the scene is chaotic: its trajectories are compared only until rounding has grown
-// 2^14-fold; beyond, its statistics are, and more shifted runs say how much these may differ.
+// Rounding: the scene is run again in shifted coordinates (shifted.h), where every position has other last digits.
+// The difference of the runs is the effect of rounding.
+// If it moves a body by more than a hundredth of the largest radius, later collisions are others,
+// and the scene is chaotic.
+// Trajectories of a chaotic scene are compared until rounding has grown 2^14-fold.
+// Beyond that, statistics are compared, and more shifted runs show how much these vary.
 #include <functional>
 #include <optional>
 #include <vector>
@@ -21,25 +23,31 @@ namespace carom {
 
 struct Scene;
 
-/// A run takes more CPU time than it may.
+/// Thrown when a run exceeds its CPU time.
 struct Overrun {};
 
-/// Calls `look`, and throws Overrun once more than `share` (s) of CPU time have gone by since now.
+/// Calls `look`, and throws Overrun once `share` (s) of CPU time has passed since this call.
 std::function<void()> look_within(double share, const std::function<void()>& look);
 
 struct Reference {
-  SimulationMethod method;              // exact, or stepped by dop853
-  double duration = 0;                  // s, of the scene
-  std::vector<double> instants;         // s; of a chaotic scene those before the horizon, then those behind it
-  std::size_t trajectory_instants = 0;  // of a chaotic scene: how many lie before the horizon
+  SimulationMethod method;  // exact, or stepped with dop853
+  double duration = 0;      // s, of the scene
+  /// In s. Of a chaotic scene those before the horizon, then those after it.
+  std::vector<double> instants;
+  /// Of a chaotic scene: the number before the horizon.
+  std::size_t trajectory_instants = 0;
   RecordedRun run;
-  double rounding = 0;  // m: by how much shifted runs differ, anywhere at any instant
+  /// In m: the greatest difference of shifted runs, at any instant.
+  double rounding = 0;
   bool chaotic = false;
-  double horizon = 0;                // s: trajectories are compared until then
-  Differences rounded;               // what rounding does until then,
-  Differences error;                 // and, of a stepped one, smaller step errors
-  std::optional<Finding> second;     // by dop853 where paths have closed forms; none: they are parabolas
-  std::optional<Ensemble> ensemble;  // of a chaotic scene, itself included
+  double horizon = 0;   // s: trajectories are compared until then
+  Differences rounded;  // the effect of rounding until then
+  /// The same. Of a stepped reference, also the effect of smaller step errors.
+  Differences error;
+  /// By dop853 where paths have closed forms. None: they are parabolas.
+  std::optional<Finding> second;
+  /// Of a chaotic scene, including the reference.
+  std::optional<Ensemble> ensemble;
 
   Differences off(const World& world, const RecordedRun& other) const {
     return differences(world, run, other, instants, horizon);
@@ -49,8 +57,8 @@ struct Reference {
   }
 };
 
-/// By options.reference, or the exact engine if it has all that the scene asks for; a stepped one by dop853. Throws
-/// SimulationError.
+/// By options.reference, or by the exact engine if it supports the whole scene. A stepped reference uses dop853.
+/// Throws SimulationError.
 Reference make_reference(const Scene& scene, const BenchOptions& options, const BenchWatch& watch);
 
 }  // namespace carom

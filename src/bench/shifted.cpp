@@ -1,3 +1,5 @@
+// Moves bodies, fixed things, anchors of springs and centres of attractors by an irrational share of the extent.
+// All digits of their positions then change.
 #include "bench/shifted.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #pragma once
-// A result in one number, which stands beside its time: the same number is the same result, bit for bit.
+// A hash of a result, reported beside its time. Equal hashes mean equal results, bit for bit.
 #include <bit>
 #include <cstdint>
 #include <initializer_list>
@@ -14,7 +14,7 @@ inline void add_to_hash(std::uint64_t& hash, std::uint64_t word) {
   hash = (hash ^ word) * 0x100000001b3;
 }
 
-/// Over the bits of all positions and velocities.
+/// The hash of the bits of all positions and velocities.
 inline std::uint64_t hash_of(const State& state) {
   std::uint64_t hash = 0xcbf29ce484222325;
   for (const auto* vectors : {&state.position, &state.velocity})
@@ -23,7 +23,7 @@ inline std::uint64_t hash_of(const State& state) {
   return hash;
 }
 
-/// Over these, and over how many collisions there were, and when the first and the last one.
+/// The same with the number of collisions and the times of the first and the last one.
 inline std::uint64_t hash_of(const State& state, const Tally& tally) {
   std::uint64_t hash = hash_of(state);
   for (const std::uint64_t count : {tally.body_body, tally.body_fixed, tally.merges, tally.collapses})

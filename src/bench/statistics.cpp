@@ -1,3 +1,5 @@
+// Means and spreads over an ensemble of runs that differ by rounding, and a run's deviation from them.
+// The spread is that of one more member, so that the mean's own uncertainty is included.
 #include "bench/statistics.h"
 
 #include <algorithm>
@@ -10,7 +12,7 @@ namespace carom {
 
 Statistics statistics_of(const World& world, const RecordedRun& run, double duration, std::size_t from) {
   Statistics statistics;
-  std::uint64_t struck = 0;  // bodies, in all
+  std::uint64_t struck = 0;  // number of bodies, over all collisions
   double on_fixed = 0;       // N s
   for (const Impact& impact : run.impacts) {
     if (impact.approach_speed < run.least_speed()) continue;
@@ -42,7 +44,7 @@ double distance(std::span<const double> a, std::span<const double> b) {
 
 namespace {
 
-/// value - mean of the sample over the standard deviation of one more draw; 0 where the sample has no spread.
+/// (value - mean of the sample) / (standard deviation of one more draw). 0 for a sample without spread.
 double deviation_from(const std::vector<double>& sample, double value) {
   const auto n = static_cast<double>(sample.size());
   const double mean = std::accumulate(sample.begin(), sample.end(), 0.0) / n;

@@ -1,5 +1,5 @@
 #pragma once
-// What is left to compare of a chaotic motion, in which no two runs have the same trajectories.
+// Statistics of a chaotic motion, for runs without common trajectories.
 #include <span>
 #include <vector>
 
@@ -8,20 +8,21 @@
 namespace carom {
 
 struct Statistics {
-  double collision_rate = 0;   // 1/s, collisions of a body, but for slow ones (RecordedRun::least_speed)
+  double collision_rate = 0;   // 1/s, for each body, without slow collisions (RecordedRun::least_speed)
   double mean_speed = 0;       // m/s
-  double force_on_fixed = 0;   // N, their impulse on fixed things by time
+  double force_on_fixed = 0;   // N, the impulse on fixed things over time
   std::vector<double> speeds;  // m/s, of all bodies at all instants, ascending
 };
 
-/// `from`: the first of the run's instants whose speeds count.
+/// `from`: the first of the run's instants at which speeds count.
 Statistics statistics_of(const World& world, const RecordedRun& run, double duration, std::size_t from);
 
-/// Kolmogorov and Smirnov's distance of two samples, each ascending: the greatest difference of their distribution
-/// functions, 0 to 1.
+/// The Kolmogorov-Smirnov distance of two samples, each ascending.
+/// It is the greatest difference of their distribution functions, 0 to 1.
 double distance(std::span<const double> a, std::span<const double> b);
 
-/// A deviation (see below) that rounding alone shows once in fifty runs, at twelve members (Student's t, four numbers).
+/// A deviation (see below) that rounding alone exceeds once in fifty runs.
+/// It assumes twelve members (Student's t, four numbers).
 inline constexpr double significant_deviation = 3.5;
 
 struct Deviation {
@@ -29,15 +30,15 @@ struct Deviation {
   const char* of = "collision_rate_per_s";  // the column that deviates most
 };
 
-/// Runs that differ by rounding alone, and how far apart chaos has brought them.
+/// Runs that differ by rounding alone, and the spread that chaos gives them.
 class Ensemble {
  public:
   explicit Ensemble(std::vector<Statistics> members);  // at least 3
 
-  /// Of a run's speeds from those of all members.
+  /// The distance of a run's speeds from those of all members.
   double speed_distance(const Statistics& run) const { return distance(run.speeds, speeds_); }
-  /// The deviation of a run from the members' mean over what one more member would show (a standard deviation): the
-  /// greatest of collision rate, mean speed, force on fixed things and speed distance.
+  /// The deviation of a run from the members' mean, in standard deviations of one more member.
+  /// It is the greatest of those of collision rate, mean speed, force on fixed things and speed distance.
   Deviation deviation(const Statistics& run) const;
   std::size_t size() const { return members_.size(); }
   const Statistics& mean() const { return mean_; }
@@ -45,7 +46,7 @@ class Ensemble {
  private:
   std::vector<Statistics> members_;
   Statistics mean_;                // without speeds
-  std::vector<double> speeds_;     // of all
+  std::vector<double> speeds_;     // of all members
   std::vector<double> distances_;  // of each member from the others
 };
 

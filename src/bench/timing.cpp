@@ -1,3 +1,5 @@
+// Measures CPU time and not wall time, in rounds over all tasks, and takes medians.
+// The number of executions in a turn is doubled or more until the turn lasts long enough for the clock.
 #include "bench/timing.h"
 
 #include <algorithm>
@@ -10,7 +12,7 @@ namespace {
 constexpr double resolved = 2e-3;  // s: the shortest time that is measured
 constexpr int most_in_a_turn = 100'000;
 
-/// s, of one of `runs` runs.
+/// In s, of one of `runs` executions.
 double turn(const TimedTask& task, int runs) {
   const double start = cpu_time();
   for (int k = 0; k < runs; ++k) task.run();
@@ -26,12 +28,12 @@ double cpu_time() {
 }
 
 std::vector<double> time_in_turns(const std::vector<TimedTask>& tasks, const std::function<void(double)>& tell) {
-  std::vector<int> runs;  // in a turn
+  std::vector<int> runs;  // executions in a turn
   std::vector<std::vector<double>> times(tasks.size());
   int rounds = 0;
   for (const TimedTask& task : tasks) {
     int many = 1;
-    // A task that is timed but once takes long enough.
+    // A task that is timed only once takes long enough.
     while (task.repeats > 1 && many < most_in_a_turn) {
       const double once = turn(task, many);
       if (once * many >= resolved) break;

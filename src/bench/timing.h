@@ -1,5 +1,5 @@
 #pragma once
-// How long things take, on a machine that has other things to do.
+// CPU times, measured so that other work on the machine affects all tasks alike.
 #include <functional>
 #include <vector>
 
@@ -10,12 +10,13 @@ double cpu_time();
 
 struct TimedTask {
   std::function<void()> run;
-  int repeats;  // how often it is timed, at least once
+  int repeats;  // number of timings, at least 1
 };
 
-/// s of CPU time that each task takes once: the median of its repeats. The tasks take turns, so that a machine that is
-/// slow for a while is slow for all; one too short for the clock runs several times in a turn. `tell` is called before
-/// each round of turns, with the part that is done, 0 to 1.
+/// The CPU time (s) of one execution of each task: the median of its repeats.
+/// Tasks take turns, so that a machine that is slow for a while is slow for all.
+/// A task too short for the clock is executed several times in a turn.
+/// `tell` is called before each round of turns, with the share done, 0 to 1.
 std::vector<double> time_in_turns(const std::vector<TimedTask>& tasks, const std::function<void(double)>& tell);
 
 }  // namespace carom

@@ -1,3 +1,5 @@
+// Chooses the default charts, and collects the points of each chart in rows with a common x.
+// Without a choice of the user, x is the first independent parameter, and the second one makes the lines.
 #include "compare/charts.h"
 
 #include <fmt/format.h>
@@ -12,7 +14,8 @@ namespace carom {
 namespace {
 
 constexpr std::size_t most_default_charts = 6, most_default_lines = 10, most_lines = 24;
-constexpr std::size_t most_charted = 2000;  // points of a chart: it has fewer pixels
+/// Points of a chart, which has fewer pixels than that.
+constexpr std::size_t most_charted = 2000;
 
 std::optional<std::size_t> find_measure(const std::vector<Measure>& measures, std::string_view name) {
   for (std::size_t k = 0; k < measures.size(); ++k)
@@ -20,10 +23,11 @@ std::optional<std::size_t> find_measure(const std::vector<Measure>& measures, st
   return std::nullopt;
 }
 
-/// What stands along x: a number or a text for each point.
+/// The x axis: a number or a text for each point.
 struct XAxis {
   std::string label;
-  bool numeric = true, chosen = true;  // chosen: by a parameter, not measured
+  // `chosen`: a parameter and not a measure.
+  bool numeric = true, chosen = true;
   std::function<Cell(std::size_t)> of_point;
 };
 
@@ -72,7 +76,7 @@ std::vector<Chart> chosen_charts(const ComparisonPlan& plan, const std::vector<M
   const auto values = [&](std::size_t p) { return outcomes.varied()[p].values.size(); };
   std::string x, by;
   if (!independent.empty()) {
-    // The one with few values makes the lines.
+    // The parameter with few values makes the lines.
     if (independent.size() > 1 && values(independent[1]) > most_default_lines &&
         values(independent[0]) <= most_default_lines)
       std::swap(independent[0], independent[1]);
@@ -104,7 +108,7 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const std::
   for (std::size_t line = 0; lines != nullptr && line < data.lines.size(); ++line)
     data.lines[line].name = name_of_value(plan.parameters[*by], lines->values[line].text);
 
-  // A row for each x; several where a line has several points there.
+  // Make a row for each x, and several rows if a line has several points there.
   const auto line_of = [&](std::size_t i) -> std::size_t { return lines == nullptr ? 0 : lines->of_point[i]; };
   std::vector<std::size_t> points_of_line(data.lines.size());
   std::size_t shown = 0;
@@ -112,13 +116,14 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const std::
   const std::size_t every = 1 + (std::max<std::size_t>(shown, 1) - 1) / most_charted;
   if (every * outcomes.every() > 1)
     data.note += fmt::format("{}one of {} runs", data.note.empty() ? "" : ", ", every * outcomes.every());
-  using Row = std::pair<std::pair<double, std::size_t>, std::size_t>;  // x, or the order of its text; how often before
+  // x, or the order of its text; the number of earlier points with it.
+  using Row = std::pair<std::pair<double, std::size_t>, std::size_t>;
   std::map<Row, std::vector<std::pair<std::size_t, std::size_t>>> rows;  // line and point
   std::map<std::string, std::size_t> texts;
   std::map<std::pair<std::size_t, std::pair<double, std::size_t>>, std::size_t> seen;
   for (std::size_t i = 0; i < outcomes.points(); ++i) {
     const std::size_t line = line_of(i);
-    // Each line is thinned by itself, so that none is left out.
+    // Each line is thinned separately, so that no line is lost.
     if (line >= data.lines.size() || points_of_line[line]++ % every != 0) continue;
     const Cell x = axis.of_point(i);
     if (axis.numeric && !x.is_number()) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// Which charts a comparison shows, and what is in them.
+// The charts of a comparison and their data.
 #include <string>
 #include <vector>
 
@@ -8,21 +8,25 @@
 namespace carom {
 
 struct ChartLine {
-  std::string name;            // "balls.red.position.z = 0.025 m"; empty: the only line
-  std::vector<double> y;       // by row of ChartData::x; not a number: the line has no such point
-  std::vector<double> spread;  // the same, standard deviations; empty: no repeats
+  std::string name;  // "balls.red.position.z = 0.025 m"; empty: the only line
+  /// By row of ChartData::x. NaN: the line has no such point.
+  std::vector<double> y;
+  /// Likewise, standard deviations. Empty: no repeats.
+  std::vector<double> spread;
 };
 
 struct ChartData {
   std::string title, x_label, y_label;
   std::vector<Cell> x;
   std::vector<ChartLine> lines;
-  bool numeric = true;  // x is
-  bool joined = true;   // a line goes through its points: no two have the same x, and x was chosen
-  std::string note;     // what is left out; empty: nothing
+  bool numeric = true;  // whether x is a number
+  /// Whether a line joins its points. It does if no two have the same x, and x is a parameter.
+  bool joined = true;
+  /// Describes what is left out. Empty: nothing.
+  std::string note;
 };
 
-/// The plan's charts; if it has none, those that what varies suggests.
+/// The plan's charts, or, if it has none, default charts of what varies.
 std::vector<Chart> chosen_charts(const ComparisonPlan& plan, const std::vector<Measure>& measures,
                                  const Outcomes& outcomes);
 
@@ -35,7 +39,7 @@ std::string label_of(const Parameter& parameter);
 /// "balls.red.position.z = 0.025 m".
 std::string name_of_value(const Parameter& parameter, const std::string& value);
 
-/// A parameter's number in the plan; none if it is not there.
+/// The index of a parameter in the plan, or none.
 std::optional<std::size_t> find_parameter(const ComparisonPlan& plan, std::string_view path);
 
 }  // namespace carom

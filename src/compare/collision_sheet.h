@@ -1,5 +1,5 @@
 #pragma once
-// The collisions of all runs, one below the other.
+// The sheet with the collisions of all runs, one run below the other.
 #include "compare/compared_run.h"
 #include "compare/workbook.h"
 
@@ -10,12 +10,12 @@ class CollisionSheet {
   static constexpr std::size_t most = 100'000;  // rows
 
   explicit CollisionSheet(Worksheet& sheet);
-  /// Appends the run's collisions, as far as there is room.
+  /// Appends the run's collisions as far as rows are left.
   void add(const RunRecord& run);
   void finish();
 
   std::size_t rows() const { return rows_; }
-  bool full() const { return full_; }  // some had no room
+  bool full() const { return full_; }  // whether some were left out
 
  private:
   Worksheet& sheet_;

@@ -1,3 +1,5 @@
+// Compares texts of resolved scenes line by line and value by value, instead of parsing each of them.
+// The first scene's text is kept with a flag for each byte, and is parsed once at the end.
 #include "compare/common_values.h"
 
 #include <algorithm>
@@ -10,7 +12,7 @@
 namespace carom {
 namespace {
 
-/// The text up to the next separator, and the rest.
+/// Returns the text up to the next separator and removes it from `rest`.
 std::string_view take(std::string_view& rest, char separator) {
   const std::size_t end = std::min(rest.find(separator), rest.size());
   const std::string_view part = rest.substr(0, end);
@@ -33,7 +35,7 @@ void CommonValues::add(const RunRecord& run) {
   }
 }
 
-// Resolved scenes have a line for each thing and a comma between its values: no need to parse ten thousand of them.
+// A resolved scene has a line for each thing and a comma between its values. Ten thousand scenes need not be parsed.
 void CommonValues::compare(std::string_view other) {
   if (std::count(text_.begin(), text_.end(), '\n') != std::count(other.begin(), other.end(), '\n')) {
     same_.assign(text_.size(), false);
@@ -61,7 +63,7 @@ std::vector<SceneValue> CommonValues::values() const {
   std::vector<SceneValue> common;
   if (text_.empty()) return common;
   for (SceneValue& value : scene_values(folder_ + "/scene.yaml", text_)) {
-    // A text or a list may have commas of its own, and parts that differ behind them.
+    // A text or a list may contain commas, and differ after them.
     const std::size_t length = value.text.find(',') == std::string::npos ? 1 : value.text.size();
     const auto from = same_.begin() + static_cast<std::ptrdiff_t>(std::min(value.offset, same_.size()));
     const auto until = from + std::min(static_cast<std::ptrdiff_t>(length), same_.end() - from);

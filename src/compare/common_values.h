@@ -1,5 +1,5 @@
 #pragma once
-// What the scenes of many runs have in common, found with one scene in memory.
+// The values that the scenes of many runs have in common, found with one scene in memory.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,9 +11,9 @@ namespace carom {
 
 class CommonValues {
  public:
-  /// Takes the run's scene.yaml.
+  /// Reads the run's scene.yaml.
   void add(const RunRecord& run);
-  /// The values that every scene so far has; none if their texts differ in more than values.
+  /// The values common to all scenes so far. None if their texts differ in more than values.
   std::vector<SceneValue> values() const;
 
  private:

@@ -1,3 +1,5 @@
+// Draws the charts with libxlsxwriter and writes their data below them.
+// Axis ends are computed here, because a spreadsheet ignores error bars when it chooses them.
 #include "compare/compare_sheet.h"
 
 #include <fmt/format.h>
@@ -14,11 +16,12 @@ namespace {
 constexpr double column_width = 13;  // characters: 96 pixels
 constexpr std::size_t columns_of_chart = 7, rows_of_chart = 20, charts_across = 2;
 constexpr std::uint32_t chart_width = 650, chart_height = 385;  // pixels
-constexpr std::size_t most_bars = 120;                          // error bars of a chart: each is a series of its own
-constexpr std::size_t most_marked = 200;                        // points of a line that are marked
+/// Error bars of a chart. Each is a series of its own.
+constexpr std::size_t most_bars = 120;
+constexpr std::size_t most_marked = 200;  // points of a line with markers
 constexpr std::size_t most_runs_over_time = 12;
 
-// Told apart by people who see few colours too (Okabe and Ito 2008).
+// Distinct for people with colour vision deficiency, too (Okabe and Ito 2008).
 constexpr std::array<lxw_color_t, 8> colors = {0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7,
                                                0xE69F00, 0x56B4E9, 0x595959, 0x8C510A};
 
@@ -75,7 +78,7 @@ void set_texts(lxw_chart* chart, const std::string& title, const std::string& x,
   chart_axis_set_name_font(chart->x_axis, &small);
   chart_axis_set_name(chart->y_axis, y.c_str());
   chart_axis_set_name_font(chart->y_axis, &small);
-  // Beside the picture, not along an axis that may cross it.
+  // Beside the plot and not along an axis that may cross it.
   chart_axis_set_label_position(chart->x_axis, LXW_CHART_AXIS_LABEL_POSITION_LOW);
   chart_axis_set_label_position(chart->y_axis, LXW_CHART_AXIS_LABEL_POSITION_LOW);
   lxw_chart_line grid{};
@@ -85,7 +88,8 @@ void set_texts(lxw_chart* chart, const std::string& title, const std::string& x,
   chart_legend_set_position(chart, legend ? LXW_CHART_LEGEND_BOTTOM : LXW_CHART_LEGEND_NONE);
 }
 
-/// A standard deviation up and down from one point: a series of its own, for a series' error bars have one length.
+/// Draws a standard deviation up and down from one point.
+/// It is a series of its own, because the error bars of one series all have the same length.
 void add_bar(lxw_chart* chart, const CellRange& x, const CellRange& y, std::size_t row, double length,
              std::size_t number) {
   lxw_chart_series* point = add_series(chart, {x.sheet, row, x.column, row}, {y.sheet, row, y.column, row}, "");
@@ -98,13 +102,14 @@ void add_bar(lxw_chart* chart, const CellRange& x, const CellRange& y, std::size
   chart_series_set_error_bars_line(point->y_error_bars, &line);
 }
 
-/// Where an axis ends so that it holds `low` to `high`: a spreadsheet does not count error bars, and begins columns
-/// anywhere. Zero is on it if that costs less than half of it.
+/// Sets the ends of an axis so that it contains `low` to `high`.
+/// A spreadsheet ignores error bars and lets columns begin anywhere.
+/// Zero is included if that takes less than half of the axis.
 void set_ends(lxw_chart_axis* axis, double low, double high) {
   if (!(high > low)) return;
   if (low > 0 && low < 0.5 * high) low = 0;
   if (high < 0 && high > 0.5 * low) high = 0;
-  // A step of 1, 2 or 5 times a power of ten, four to ten of them.
+  // Choose a step of 1, 2 or 5 times a power of ten, with four to ten steps.
   double step = 1;
   while (step * 10 < high - low) step *= 10;
   while (step > high - low) step /= 10;
@@ -115,7 +120,7 @@ void set_ends(lxw_chart_axis* axis, double low, double high) {
   chart_axis_set_major_unit(axis, step);
 }
 
-/// Least and greatest of what is drawn, error bars included.
+/// The least and the greatest value drawn, including error bars.
 std::pair<double, double> ends_of(const ChartData& data) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const ChartLine& line : data.lines)
@@ -140,7 +145,8 @@ std::size_t bars_of(const ChartData& data) {
 
 void CompareSheet::place(lxw_chart* chart, std::size_t number) {
   lxw_chart_options options{};
-  options.x_scale = chart_width / 480.0;  // of the library's own size, 480 x 288 pixels
+  // In units of the library's size, 480 x 288 pixels.
+  options.x_scale = chart_width / 480.0;
   options.y_scale = chart_height / 288.0;
   options.object_position = LXW_OBJECT_MOVE_DONT_SIZE;
   worksheet_insert_chart_opt(sheet_.get(), static_cast<lxw_row_t>(charts_row_ + number / charts_across * rows_of_chart),
@@ -151,7 +157,7 @@ void CompareSheet::draw(const ChartData& data, std::size_t number, std::size_t f
   const std::size_t last_row = first_row + data.x.size() - 1;
   const std::size_t bars = bars_of(data);
   const bool barred = data.numeric && bars > 0 && bars <= most_bars;
-  // Texts along x stand in their order, under columns.
+  // Texts along x are drawn as columns, in their order.
   lxw_chart* chart = book_.add_chart(data.numeric ? LXW_CHART_SCATTER : LXW_CHART_COLUMN);
   const CellRange x{"Compare", first_row, first_column, last_row};
   for (std::size_t k = 0; k < data.lines.size(); ++k) {
@@ -205,14 +211,15 @@ void CompareSheet::draw_over_time(const std::vector<PlacedSeries>& series, std::
 }
 
 void CompareSheet::write_data(const std::vector<ChartData>& charts, std::size_t first_row) {
-  // Row by row across all charts, for the sheet may be streamed.
+  // Write row by row across all charts, because the sheet may be streamed.
   std::size_t rows = 0, columns = 0;
   for (const ChartData& chart : charts) {
     rows = std::max(rows, chart.x.size());
     sheet_.text(first_row, columns, chart.title, CellStyle::note);
     columns += chart.lines.size() + 2;
   }
-  constexpr double head_height = 45;  // points: three lines
+  // Points, for three lines of text.
+  constexpr double head_height = 45;
   worksheet_set_row(sheet_.get(), static_cast<lxw_row_t>(first_row + 1), head_height, nullptr);
   std::size_t column = 0;
   for (const ChartData& chart : charts) {

@@ -1,5 +1,5 @@
 #pragma once
-// The workbook's first sheet: charts, and beneath them the numbers that they draw.
+// The first sheet of the workbook: charts, and beneath them their numbers.
 #include <string>
 #include <vector>
 
@@ -13,7 +13,7 @@ class CompareSheet {
  public:
   explicit CompareSheet(Workbook& book, bool streamed) : book_(book), sheet_(book.add("Compare", streamed)) {}
 
-  /// `lines`: what there is to say above the charts. `series`: as placed on the sheet Series.
+  /// `lines`: the text above the charts. `series`: their places on the sheet Series.
   void write(const std::string& title, const std::vector<std::string>& lines, const std::vector<ChartData>& charts,
              const std::vector<PlacedSeries>& series);
 

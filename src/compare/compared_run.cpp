@@ -1,3 +1,5 @@
+// Reads a run by its manifest, summary.csv and, for measures of bodies, the measures in the manifest.
+// A measure that the run did not compute is derived from the last rows of trajectory.csv.
 #include "compare/compared_run.h"
 
 #include <fcntl.h>
@@ -37,7 +39,7 @@ std::vector<std::string> read_summary(const RunRecord& run) {
   return cells;
 }
 
-/// A measure that the run computed itself; null: it did not.
+/// A measure computed by the run itself, or null.
 const Measured* find_measured(const std::optional<Manifest>& manifest, const std::string& name) {
   if (!manifest) return nullptr;
   const auto found = std::find_if(manifest->measures.begin(), manifest->measures.end(),
@@ -45,14 +47,14 @@ const Measured* find_measured(const std::optional<Manifest>& manifest, const std
   return found == manifest->measures.end() ? nullptr : &*found;
 }
 
-/// Of a body of which all that is known is its motion at the end.
+/// A measure of a body that is derived from its motion at the end alone.
 double from_motion(const Measure& measure, const std::vector<EndMotion>& motions, const std::optional<Scene>& scene) {
   const auto motion =
       std::find_if(motions.begin(), motions.end(), [&](const EndMotion& m) { return m.body == measure.body; });
   if (motion == motions.end()) return undefined;
   double mass = 1;
   if (measure.quantity == Quantity::kinetic) {
-    // Once bodies have merged, a trajectory does not tell what a joint body weighs.
+    // Once bodies have merged, a trajectory does not contain the mass of a merged body.
     if (!scene || motions.size() != scene->world.body_count()) return undefined;
     mass = scene->world.mass[static_cast<std::size_t>(motion - motions.begin())];
   }

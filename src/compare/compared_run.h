@@ -1,5 +1,5 @@
 #pragma once
-// What a comparison reads of one run's folder.
+// The data of one run that a comparison reads from its folder.
 #include <string>
 #include <vector>
 
@@ -12,45 +12,49 @@ namespace carom {
 
 struct RunRecord {
   ComparedRun run;
-  bool done = false;                 // false: it failed, and all below is empty
-  Descriptor folder;                 // open
+  /// False: it failed, and the members below are empty.
+  bool done = false;
+  Descriptor folder;                 // the open run folder
   std::vector<std::string> summary;  // cells, by summary_columns()
-  std::vector<double> measures;      // not a number: undefined
+  std::vector<double> measures;      // NaN: undefined
 };
 
-/// Throws ExportError where there is neither a whole run nor a failed one, or a measure cannot be known; its text names
-/// the remedy.
+/// Reads a run.
+/// Throws ExportError if the folder has neither a complete nor a failed run, or if a measure cannot be determined.
+/// The text names the remedy.
 RunRecord read_run(ComparedRun run, const std::vector<Measure>& measures);
 
-/// Whether all measures can be known of the whole run in this folder.
+/// Whether all measures can be determined from the complete run in this folder.
 bool tells(const std::string& folder, const std::vector<Measure>& measures);
 
-/// A table of the run; throws ExportError where it is not there.
+/// A table of the run. Throws ExportError if it is absent.
 StoredTable open_table(const RunRecord& run, const char* name);
-/// Whether it is there.
+/// Whether the file exists.
 bool has_file(const RunRecord& run, const char* name);
 
-/// Where the six numbers of a body's motion stand in a row of trajectory.csv.
+/// The columns of trajectory.csv with the six numbers of a body's motion.
 struct MotionColumns {
-  std::size_t body = 0;            // long: the column of the name; the numbers follow it
-  std::vector<std::size_t> first;  // wide, by body: the first of the six; none there: 0
+  /// Long form: the column of the name. The numbers follow it.
+  std::size_t body = 0;
+  /// Wide form, by body: the first of the six. 0: absent.
+  std::vector<std::size_t> first;
   bool wide = false;
 };
 /// `bodies`: names as in trajectory.csv.
 MotionColumns motion_columns(const StoredTable& trajectory, const std::vector<std::string>& bodies);
 
-/// Reads six numbers from cell `first` on. False: a cell is empty, for the body has become part of another.
+/// Reads six numbers from cell `first` on. False: a cell is empty, because the body has merged into another.
 bool read_motion(const std::vector<std::string_view>& cells, std::size_t first, Vec3& position, Vec3& velocity);
 
-/// A body's motion at the end.
+/// The motion of a body at the end of a run.
 struct EndMotion {
   std::string body;
   Vec3 position, velocity;  // m, m/s
 };
-/// All bodies of the last instant, in the order of the file. Only the file's end is read.
+/// All bodies at the last instant, in the order of the file. Only the end of the file is read.
 std::vector<EndMotion> end_of_trajectory(const RunRecord& run);
 
-/// The scene that the run's folder keeps. Throws SceneError.
+/// The scene in the run's folder. Throws SceneError.
 Scene load_run_scene(const std::string& folder);
 
 }  // namespace carom

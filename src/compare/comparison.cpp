@@ -1,5 +1,5 @@
-// Runs are read one after the other and go to every file and sheet at once. What grows with their number is a few
-// numbers a run, for the charts: the sheets' rows go to files.
+// Reads one run after the other and writes it to every file and sheet at once. The rows of sheets go to files.
+// Only a few numbers for each run stay in memory, for the charts.
 #include "compare/comparison.h"
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@
 namespace carom {
 namespace {
 
-/// What is compared where nothing is said.
+/// The default measures.
 constexpr const char* usual_measures[] = {"energy_lost_J", "collisions", "max_speed_m_per_s"};
 
 ComparisonPlan titled(ComparisonPlan plan, std::size_t count) {
@@ -70,7 +70,7 @@ class Comparison {
     parameters_.add(run.run);
   }
 
-  std::size_t doubtful() const { return doubtful_; }  // runs so far
+  std::size_t doubtful() const { return doubtful_; }  // so far
 
   std::vector<std::unique_ptr<OutputFile>> finish() {
     outcomes_.finish();
@@ -151,7 +151,7 @@ class Comparison {
   CommonValues common_;
 };
 
-/// Whether two parameters vary by themselves: sheets are made in their order, before the runs are read.
+/// Whether two parameters vary independently. Sheets are made in their order, before the runs are read.
 bool do_two_vary(const ComparisonPlan& plan, std::size_t count, const std::function<ComparedRun(std::size_t)>& run,
                  const ComparisonWatch& watch) {
   if (plan.parameters.size() < 2) return false;

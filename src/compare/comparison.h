@@ -1,6 +1,7 @@
 #pragma once
-// Many runs side by side: a table with a row a run, and a workbook with charts. All is read from the runs' folders, one
-// at a time, so that shards that were gathered give the bytes of a sweep that was never divided.
+// Compares many runs: a table with a row for each run, and a workbook with charts.
+// All data is read from the runs' folders, one at a time.
+// Gathered parts of a sweep thus give the same bytes as an undivided sweep.
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -13,54 +14,61 @@
 
 namespace carom {
 
-/// A value of the scene in which the runs differ.
+/// A value of the scene that differs between runs.
 struct Parameter {
   std::string path;  // "balls.red.position.z"
-  std::string unit;  // "m"; empty: none, or text
+  std::string unit;  // "m"; empty: no unit, or text
 };
 
 /// One chart of the workbook.
 struct Chart {
-  std::string x;   // a parameter, or a measure
-  std::string y;   // a measure
-  std::string by;  // a parameter, a line for each of its values; empty: one line
+  std::string x;  // a parameter, or a measure
+  std::string y;  // a measure
+  /// A parameter, with a line for each of its values. Empty: one line.
+  std::string by;
 };
 
 struct ComparisonPlan {
   std::string title;
   std::vector<Parameter> parameters;
-  std::vector<std::string> measures;  // names that parse_measure reads
-  std::vector<Chart> charts;          // none: chosen by what varies
-  std::optional<std::size_t> seed;    // the parameter that tells repeats apart, if there are repeats
+  std::vector<std::string> measures;  // names accepted by parse_measure
+  std::vector<Chart> charts;          // empty: default charts of what varies
+  /// The parameter that distinguishes repeats, if there are repeats.
+  std::optional<std::size_t> seed;
 };
 
 struct ComparedRun {
   std::string id;
   std::string folder;
   std::vector<std::string> values;  // of the parameters, as text
-  bool failed = false;              // known to have failed, whatever its folder holds
+  /// Whether the run failed, whatever its folder holds.
+  bool failed = false;
 };
 
-/// All measures that the plan wants of a run: its own and its charts', each once. Throws MeasureError.
+/// All measures of the plan and of its charts, each once. Throws MeasureError.
 std::vector<Measure> measures_of(const ComparisonPlan& plan);
 
-/// Throws MeasureError where a chart names what is no parameter and no measure.
+/// Throws MeasureError if a chart names neither a parameter nor a measure.
 void check_charts(const ComparisonPlan& plan);
 
 struct ComparisonWatch {
-  std::function<void()> look = [] {};                              // called for each run; may throw
-  std::function<void(std::size_t)> done = [](std::size_t) {};      // so many runs are read
-  std::function<void(std::size_t)> doubtful = [](std::size_t) {};  // so many of them are doubtful: at the end
+  /// Called for each run. May throw.
+  std::function<void()> look = [] {};
+  /// The number of runs read so far.
+  std::function<void(std::size_t)> done = [](std::size_t) {};
+  /// The number of doubtful runs, at the end.
+  std::function<void(std::size_t)> doubtful = [](std::size_t) {};
 };
 
-/// What a comparison writes.
+/// The names of the files of a comparison.
 inline constexpr const char* summary_name = "summary.csv";
 inline constexpr const char* repeats_name = "repeats.csv";
 inline constexpr const char* workbook_name = "comparison.xlsx";
 
-/// Writes summary.csv, comparison.xlsx and, of repeats, repeats.csv into `place`, complete but without their names yet.
-/// `run` gives run 0 to count - 1, whenever it is asked. A folder without a whole run but with error.txt is a failed
-/// run. Throws ExportError, which says what a folder lacks, and MeasureError.
+/// Writes summary.csv, comparison.xlsx and, for repeats, repeats.csv into `place`, complete but with temporary names.
+/// `run` returns run 0 to count - 1 and may be called repeatedly.
+/// A folder without a complete run but with error.txt is a failed run.
+/// Throws MeasureError, and ExportError with a text that names what a folder lacks.
 std::vector<std::unique_ptr<OutputFile>> write_comparison(const FilePlace& place, const ComparisonPlan& plan,
                                                           std::size_t count,
                                                           const std::function<ComparedRun(std::size_t)>& run,

@@ -1,3 +1,5 @@
+// A folder without manifest is replaced only if all its files are those of a comparison, or temporary.
+// A folder with a manifest of another kind belongs to another run.
 #include "compare/comparison_folder.h"
 
 #include <fcntl.h>
@@ -45,7 +47,7 @@ FolderContent inspect_comparison_folder(const std::string& path, const std::stri
   const Descriptor& folder = found.folder;
   if (found.names.empty()) return found.content;
   if (!found.has(manifest_name)) {
-    // A comparison that was killed while it was written, or while its files got their names.
+    // A comparison that was killed during writing, or while its files were renamed.
     const bool ours = std::all_of(found.names.begin(), found.names.end(),
                                   [](const auto& name) { return is_part_name(name) || is_comparison_file(name); });
     return ours ? FolderContent::incomplete : FolderContent::other_run;

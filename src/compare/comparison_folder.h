@@ -1,5 +1,5 @@
 #pragma once
-// The folder of a comparison: what is in it already, and the files that a comparison leaves there.
+// The folder of a comparison: its present content, and its files.
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,20 +13,20 @@ namespace carom {
 
 inline constexpr const char* comparison_film_name = "comparison.mp4";
 
-/// What a comparison was asked for, as JSON: the runs (by their digest), measures, charts, film.
+/// The request of a comparison as JSON: the runs (by their digest), measures, charts, film.
 std::string request_text(const ComparisonPlan& plan, const std::string& runs, bool video);
 
-/// What stands in a folder: of this very comparison, whole: this_run; of any other comparison: incomplete, to be
-/// replaced.
+/// The content of a folder. this_run: this very comparison, complete. incomplete: any other comparison, to be replaced.
 FolderContent inspect_comparison_folder(const std::string& folder, const std::string& request);
 
 class ComparisonFolder {
  public:
-  /// Makes and locks the folder; what is in it stays until publish(). Throws ExportError, as all of this class does.
+  /// Makes and locks the folder. Its content stays until publish().
+  /// Throws ExportError, as all functions of this class do.
   explicit ComparisonFolder(const std::string& path) : folder_(path) {}
   const FilePlace& place() const { return folder_.place(); }
-  /// Names the files, removes those of a former comparison that are no more, and writes the manifest last. `film`: may
-  /// be null.
+  /// Renames the files, removes obsolete ones of a former comparison, and writes the manifest last.
+  /// `film`: may be null.
   void publish(const std::vector<std::unique_ptr<OutputFile>>& files, SideBySide* film, const std::string& request);
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What the columns of a comparison mean.
+// Descriptions of the columns of a comparison.
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,8 +17,8 @@ struct ColumnText {
 /// In the order of collisions.csv.
 std::span<const ColumnText> collision_columns();
 
-/// The sheet About: how to read the workbook, and a row for each column of it: name, unit, meaning. `remarks`: what is
-/// left out, and why.
+/// The sheet About: how to read the workbook, and a row for each column of it: name, unit, meaning.
+/// `remarks`: what is left out, and why.
 void write_about(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
                  const std::vector<std::string>& remarks);
 

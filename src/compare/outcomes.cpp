@@ -1,3 +1,5 @@
+// Keeps a few numbers for each point, with values of parameters as indices into their distinct values.
+// Repeats are accumulated in one pass (Spread), so that their runs need not be kept.
 #include "compare/outcomes.h"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 #pragma once
-// What was varied, run by run, and what all runs have in common.
+// The sheet with the varied values of each run, and the common values of all runs.
 #include <vector>
 
 #include "compare/outcomes.h"

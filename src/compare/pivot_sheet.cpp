@@ -1,3 +1,5 @@
+// Writes means as AVERAGEIFS formulas on the sheet Summary, with their present results, as long as the table is small.
+// A formula needs literal criteria. With other values, or in a large table, plain numbers are written.
 #include "compare/pivot_sheet.h"
 
 #include <fmt/format.h>
@@ -12,7 +14,7 @@ namespace {
 
 constexpr std::size_t most_blocks = 6, most_values = 250, most_formulas = 2500;
 
-/// Mean over the points that have both values; by row, then column. Points that stand for more runs weigh more.
+/// The mean over the points with both values, by row, then column. A point counts as often as it has runs.
 struct Mean {
   double sum = 0;
   std::size_t count = 0;
@@ -30,7 +32,7 @@ std::string cell_name(std::size_t row, std::size_t column, bool row_fixed) {
   return fmt::format("{}{}{}", name, row_fixed ? "$" : "", row + 1);
 }
 
-/// Whether a formula's criterion takes the value for what it is: no wildcard, no comparison.
+/// Whether a formula's criterion takes the value literally: no wildcard, no comparison.
 bool is_literal(const Cell& cell) {
   return cell.is_number() || (!cell.text.empty() && cell.text.find_first_of("<>=*?~'") == std::string::npos);
 }

@@ -1,17 +1,17 @@
 #pragma once
-// A measure by two parameters: the mean of the runs that have both values, as formulas where there are few.
+// A measure by two parameters: the mean of the runs with both values. Small tables use formulas.
 #include <utility>
 
 #include "compare/outcomes.h"
 
 namespace carom {
 
-/// The two parameters across which it goes: those of the first chart that has two, else the first two that vary by
-/// themselves. None: fewer than two vary.
+/// The two parameters of the table: those of the first chart that has two, else the first two that vary independently.
+/// None: fewer than two vary.
 std::optional<std::pair<std::size_t, std::size_t>> pivot_parameters(const ComparisonPlan& plan,
                                                                     const Outcomes& outcomes);
 
-/// `columns`: of the sheet Summary, by parameter and by measure; `rows`: of its data, 0: no formulas.
+/// `columns`: of the sheet Summary, by parameter and by measure. `rows`: of its data; 0: no formulas.
 void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
                  const Outcomes& outcomes, std::pair<std::size_t, std::size_t> parameters,
                  const std::vector<std::size_t>& parameter_columns, const std::vector<std::size_t>& measure_columns,

@@ -1,3 +1,5 @@
+// Thins the series of each run to a common limit, which depends on the number of runs and columns.
+// Runs with equal instants share one column of times.
 #include "compare/series.h"
 
 #include <fmt/format.h>
@@ -11,7 +13,8 @@ namespace carom {
 namespace {
 
 constexpr std::size_t fewest_points = 100;
-constexpr std::uint64_t longest_file = 64 << 20;  // bytes; a longer one is not read for a picture of 2,000 points
+/// Bytes. A longer file is not read for a chart of 2,000 points.
+constexpr std::uint64_t longest_file = 64 << 20;
 
 bool is_short(const RunRecord& run, const char* name) {
   const auto size = stored_size(run.folder.get(), name);
@@ -64,7 +67,7 @@ SeriesGroup read_bodies(const RunRecord& run, const std::vector<Measure>& measur
   return group;
 }
 
-/// At most `most` rows, evenly chosen, the first and the last among them.
+/// Keeps at most `most` evenly spaced rows, including the first and the last.
 void thin(SeriesGroup& group, std::size_t most) {
   const std::size_t rows = group.times.size();
   if (rows <= most) return;
@@ -80,7 +83,7 @@ void thin(SeriesGroup& group, std::size_t most) {
 }  // namespace
 
 SeriesGatherer::SeriesGatherer(std::size_t runs, const std::vector<Measure>& measures) {
-  // A trajectory does not tell a mass, and so no kinetic energy.
+  // A trajectory has no masses, and so no kinetic energies.
   for (const Measure& measure : measures)
     if (measure.column == nullptr && measure.quantity != Quantity::kinetic) bodies_.push_back(measure);
   const std::size_t columns = 2 + bodies_.size();
@@ -103,7 +106,7 @@ void SeriesGatherer::add(const RunRecord& run) {
   if (bodies) take(run.run.id, read_bodies(run, bodies_));
 }
 
-/// Where no measure of a body is chosen, and there is nothing else: the first few bodies' speeds.
+/// Without measures of bodies and without energies, follows the speeds of the first few bodies.
 void SeriesGatherer::follow_first(const RunRecord& run) {
   constexpr std::size_t few = 3;
   for (const EndMotion& motion : end_of_trajectory(run)) {

@@ -1,5 +1,5 @@
 #pragma once
-// What changes over time in many runs, thinned so that a spreadsheet and its charts can hold it.
+// Time series of many runs, thinned to what a spreadsheet and its charts can hold.
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -9,14 +9,14 @@
 
 namespace carom {
 
-/// One column over time.
+/// One column of values over time.
 struct SeriesColumn {
-  std::string run;   // its id
+  std::string run;   // id of the run
   std::string name;  // "kinetic_J", "balls.red.speed_m_per_s"
   std::vector<double> values;
 };
 
-/// Columns that share their instants.
+/// Columns with the same instants.
 struct SeriesGroup {
   std::vector<double> times;  // s
   std::vector<SeriesColumn> columns;
@@ -27,14 +27,15 @@ class SeriesGatherer {
   static constexpr std::size_t most_points = 2000;  // of a run
   static constexpr std::size_t most_cells = 250'000, most_columns = 4000;
 
-  /// Of `runs` runs; the bodies of `measures` are followed over time.
+  /// For `runs` runs. The bodies of `measures` are followed over time.
   SeriesGatherer(std::size_t runs, const std::vector<Measure>& measures);
-  /// Takes energy.csv and trajectory.csv of a run, as far as they are there and there is room.
+  /// Reads energy.csv and trajectory.csv of a run, if they exist and there is room.
   void add(const RunRecord& run);
 
   const std::vector<SeriesGroup>& groups() const { return groups_; }
-  std::size_t points() const { return points_; }      // of a run, at most
-  std::size_t left_out() const { return left_out_; }  // runs for which there was no room, or whose files are too long
+  std::size_t points() const { return points_; }  // maximum for each run
+  /// The number of runs without room, or with files that are too long.
+  std::size_t left_out() const { return left_out_; }
 
  private:
   void follow_first(const RunRecord& run);
@@ -45,13 +46,13 @@ class SeriesGatherer {
   std::vector<SeriesGroup> groups_;
 };
 
-/// Where a column of values and its times went on the sheet.
+/// The place of a column of values and its times on the sheet.
 struct PlacedSeries {
   std::string run, name;
-  std::size_t time_column, value_column, rows;  // first row: 1
+  std::size_t time_column, value_column, rows;  // the first row is 1
 };
 
-/// The sheet: a column of times for each group, then its columns, "r0001.kinetic_J".
+/// Writes the sheet: a column of times for each group, then its columns, "r0001.kinetic_J".
 std::vector<PlacedSeries> write_series(Worksheet& sheet, const SeriesGatherer& series);
 
 }  // namespace carom

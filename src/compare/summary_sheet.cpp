@@ -1,3 +1,5 @@
+// Writes summary.csv and the sheet Summary together, one row for each run.
+// A table needs its rows in memory, so more runs than most_in_table are streamed with filters instead.
 #include "compare/summary_sheet.h"
 
 #include <fmt/format.h>
@@ -14,7 +16,7 @@
 namespace carom {
 namespace {
 
-/// A table's names of columns.
+/// The maximum length of a table's column names.
 constexpr std::size_t longest_name = 255;
 
 CellStyle head_of(CellStyle look) {
@@ -56,7 +58,7 @@ SummarySheet::SummarySheet(const FilePlace& place, Workbook& book, const Compari
 
 void SummarySheet::write_heads() {
   CsvRow row(*table_);
-  // A table's names differ in more than their letters' case, and are not long.
+  // The column names of a table must differ in more than the case of letters, and must not be long.
   std::map<std::string, int> taken;
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     row.text(columns_[k].name);
@@ -100,12 +102,13 @@ void SummarySheet::finish() {
     worksheet_autofilter(sheet_.get(), 0, 0, last_row, last_column);
   }
   if (rows > 0) mark_rows(last_row, last_column);
-  sheet_.fit_all(9, 60, 3);  // room for the filters' buttons
+  // With room for the filters' buttons.
+  sheet_.fit_all(9, 60, 3);
   sheet_.freeze(1, 1);
   sheet_.print_table();
 }
 
-/// Rows that are not `done` are tinted, however they are sorted.
+/// Tints rows that are not `done`, in any order of sorting.
 void SummarySheet::mark_rows(lxw_row_t last_row, lxw_col_t last_column) {
   const auto status =
       std::find_if(columns_.begin(), columns_.end(), [](const Column& c) { return c.name == "status"; });

@@ -1,5 +1,5 @@
 #pragma once
-// A row a run: the sheet Summary, and summary.csv with the same columns.
+// The sheet Summary with a row for each run, and summary.csv with the same columns.
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -14,22 +14,22 @@ namespace carom {
 
 class SummarySheet {
  public:
-  /// Up to so many runs the sheet is a table; of more it is streamed, with filters.
+  /// The maximum number of runs for which the sheet is a table. With more runs it is streamed, with filters.
   static constexpr std::size_t most_in_table = 2000;
   static bool is_table(std::size_t count) { return count <= most_in_table; }
 
-  /// Of `count` runs. Adds the sheet to `book` and opens summary.csv in `place`. Throws ExportError where the columns
-  /// are more than a sheet holds.
+  /// For `count` runs. Adds the sheet to `book` and opens summary.csv in `place`.
+  /// Throws ExportError if there are more columns than a sheet can hold.
   SummarySheet(const FilePlace& place, Workbook& book, const ComparisonPlan& plan, const std::vector<Measure>& measures,
                std::size_t count);
 
-  /// The first row of both. Before the first run.
+  /// Writes the first row of both. To be called before the first run.
   void write_heads();
-  /// The row of run `number`, from 0 on. Runs come in order.
+  /// Writes the row of run `number`, from 0 on. Runs must come in order.
   void add(std::size_t number, const RunRecord& run);
-  /// After the last run. summary.csv is complete without it.
+  /// To be called after the last run. summary.csv is complete without it.
   void finish();
-  /// Gives summary.csv away.
+  /// Passes the ownership of summary.csv to the caller.
   std::unique_ptr<OutputFile> take_table();
 
   bool is_table() const { return is_table(count_); }
@@ -39,7 +39,7 @@ class SummarySheet {
   std::vector<std::size_t> measure_columns() const;
 
  private:
-  /// A column, and where its cells come from: one of `summary`, `parameter`, `measure`.
+  /// A column and the source of its cells: one of `summary`, `parameter`, `measure`.
   struct Column {
     std::string name;
     CellStyle look = CellStyle::plain;

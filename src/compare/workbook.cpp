@@ -1,3 +1,5 @@
+// Writes cells with libxlsxwriter and checks every error.
+// The date of creation is fixed, and the archive is compared with the parts written to it before it is copied.
 #include "compare/workbook.h"
 
 #include <fmt/format.h>
@@ -19,7 +21,7 @@ constexpr std::size_t longest_text = 32'767;  // characters of a cell
 constexpr lxw_color_t tint = 0xFFF2CC, header_tint = 0xD9E1F2, swept_header_tint = 0xF4B183, grey = 0x595959;
 constexpr lxw_color_t doubtful_tint = 0xFFE699, failed_tint = 0xF8CBAD;
 
-/// The first `most` characters; a cut is seen.
+/// The first `most` characters. A cut is marked with an ellipsis.
 std::string shortened(std::string_view text, std::size_t most) {
   std::size_t characters = 0, end = 0, last = 0;
   for (; end < text.size(); ++end) {
@@ -30,13 +32,13 @@ std::string shortened(std::string_view text, std::size_t most) {
   return end == text.size() ? std::string(text) : std::string(text.substr(0, last)) + "…";
 }
 
-/// Characters, a code point counted as one.
+/// The number of characters, with a code point counted as one.
 std::size_t length_of(std::string_view text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
-/// What the library gives back where there is no memory.
+/// The library returns null when it is out of memory.
 template <typename Made>
 Made* made(Made* thing) {
   if (thing == nullptr) throw std::bad_alloc();
@@ -87,7 +89,7 @@ lxw_format* make_format(lxw_workbook* book, CellStyle look) {
   return format;
 }
 
-/// A cell that is not written must not be missing without a word.
+/// A failed write of a cell must not go unnoticed.
 void must(lxw_error error) {
   if (error == LXW_ERROR_MEMORY_MALLOC_FAILED) throw std::bad_alloc();
   if (error != LXW_NO_ERROR)
@@ -98,7 +100,7 @@ void must(lxw_error error) {
 
 Cell cell_of(std::string_view text) {
   Cell cell{std::string(text)};
-  // A double has 53 bits: longer whole numbers, seeds for one, stay text.
+  // A double has 53 bits. Longer whole numbers, such as seeds, stay text.
   const bool whole = text.find_first_not_of("-0123456789") == std::string_view::npos;
   constexpr std::size_t exact = 16;  // digits and sign
   if (const auto number = number_in(text); number && !(whole && text.size() > exact)) cell.number = *number;
@@ -131,7 +133,8 @@ void Worksheet::number(std::size_t row, std::size_t column, double value, CellSt
       must(worksheet_write_blank(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), how));
     return;
   }
-  widen(column, 11, look);  // digits that a spreadsheet shows of itself
+  // The number of digits that a spreadsheet shows by default.
+  widen(column, 11, look);
   must(worksheet_write_number(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column),
                               value == 0 ? 0.0 : value, how));
 }
@@ -189,7 +192,8 @@ Workbook::Workbook(const FilePlace& place, std::string name, const std::string& 
   lxw_doc_properties properties{};
   properties.title = const_cast<char*>(subject.c_str());
   properties.comments = const_cast<char*>("carom " CAROM_VERSION);
-  properties.created = 946'684'800;  // 2000-01-01: no clock, so that the same runs give the same bytes
+  // 2000-01-01 and not the clock, so that the same runs give the same bytes.
+  properties.created = 946'684'800;
   workbook_set_properties(book_, &properties);
   for (int look = 0; look < static_cast<int>(CellStyle::count_); ++look)
     formats_.push_back(make_format(book_, static_cast<CellStyle>(look)));
@@ -214,7 +218,8 @@ lxw_chart* Workbook::add_chart(lxw_chart_type type) {
 void Workbook::write(OutputFile& file) {
   files_.begin_parts();
   const lxw_error error = workbook_close(book_);
-  book_ = nullptr;  // closing frees it, well or not
+  // Closing frees it, even on failure.
+  book_ = nullptr;
   files_.check();
   if (error != LXW_NO_ERROR) fail("write", place_, name_, lxw_strerror(error));
   files_.check_archive(scratch_.get());

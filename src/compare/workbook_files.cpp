@@ -1,5 +1,6 @@
-// lxw_tmpfile is the library's one maker of temporary files. A program's own function of that name is called in its
-// place, as the rules of shared libraries have it; check_archive() finds out where it is not.
+// lxw_tmpfile is the only function of the library that makes temporary files.
+// By the rules of shared libraries, a function of that name in the program replaces it.
+// check_archive() detects the case in which it does not.
 #include "compare/workbook_files.h"
 
 #include <fmt/format.h>
@@ -29,7 +30,7 @@ ssize_t failed() {
   return -1;
 }
 
-// What stdio calls.
+// The callbacks of stdio.
 
 ssize_t read_file(void* cookie, char* to, std::size_t size) {
   File& file = *static_cast<File*>(cookie);
@@ -39,7 +40,8 @@ ssize_t read_file(void* cookie, char* to, std::size_t size) {
   if (n < 0) return failed();
   const std::uint64_t wanted = std::min<std::uint64_t>(size, file.size - std::min(file.at, file.size));
   if (n == 0 && wanted > 0) {
-    errno = EIO;  // it has become shorter
+    // The file has become shorter.
+    errno = EIO;
     return failed();
   }
   file.at += static_cast<std::uint64_t>(n);
@@ -49,7 +51,8 @@ ssize_t read_file(void* cookie, char* to, std::size_t size) {
 ssize_t write_file(void* cookie, const char* from, std::size_t size) {
   File& file = *static_cast<File*>(cookie);
   if (file.at != file.size) {
-    errno = ESPIPE;  // all is written in order
+    // All writing is sequential.
+    errno = ESPIPE;
     failed();
     return 0;
   }
@@ -84,7 +87,7 @@ int close_file(void* cookie) {
   return 0;
 }
 
-/// What of an archive's entry is held against what was written.
+/// The properties of an archive's entry that are compared with what was written.
 struct Entry {
   std::uint64_t size;
   std::uint32_t crc;
@@ -92,7 +95,7 @@ struct Entry {
   friend bool operator==(const Entry& a, const Entry& b) = default;
 };
 
-/// All entries of an archive, each read to its end; `whole` becomes false where one cannot be.
+/// All entries of an archive, each read to its end. `whole` becomes false if one cannot be read.
 std::vector<Entry> entries_of(const std::string& path, bool& whole) {
   std::vector<Entry> entries;
   const unzFile archive = unzOpen64(path.c_str());
@@ -110,7 +113,7 @@ std::vector<Entry> entries_of(const std::string& path, bool& whole) {
     int n;
     while ((n = unzReadCurrentFile(archive, piece.data(), static_cast<unsigned>(piece.size()))) > 0) {
     }
-    // Closing holds the bytes against the entry's sum.
+    // Closing compares the bytes with the entry's checksum.
     whole = unzCloseCurrentFile(archive) == UNZ_OK && n == 0;
     entries.push_back({info.uncompressed_size, static_cast<std::uint32_t>(info.crc)});
   }
@@ -119,10 +122,11 @@ std::vector<Entry> entries_of(const std::string& path, bool& whole) {
   return entries;
 }
 
-/// Whether an archive's last record ends the file: minizip reads one that is cut within it.
+/// Whether an archive's last record ends the file. minizip accepts an archive that is cut within that record.
 bool ends_whole(int archive) {
   constexpr std::string_view signature = "PK\x05\x06";
-  constexpr off_t record = 22;  // bytes, without a comment
+  // Bytes, without a comment.
+  constexpr off_t record = 22;
   char begin[signature.size()] = {};
   const off_t size = lseek(archive, 0, SEEK_END);
   return size >= record && pread(archive, begin, sizeof begin, size - record) == static_cast<ssize_t>(sizeof begin) &&
@@ -136,7 +140,7 @@ WorkbookFiles::WorkbookFiles(const FilePlace& place, std::string name) : place_(
 }
 
 WorkbookFiles::~WorkbookFiles() {
-  // Of a workbook that was given up the library leaves files open.
+  // The library leaves files open if a workbook is abandoned.
   for (const auto& file : files_)
     if (file->stream != nullptr) std::fclose(file->stream);
   current = nullptr;

@@ -1,7 +1,8 @@
 #pragma once
-// libxlsxwriter's temporary files, in place of those that it would make itself. It keeps a sheet's rows and each part
-// of a workbook in such files and looks at no error of theirs. These have no name, remember every failure, and know
-// what was written to them, which the finished workbook is held against.
+// Replaces the temporary files of libxlsxwriter.
+// The library keeps the rows of a sheet and the parts of a workbook in temporary files, and ignores their errors.
+// These files have no names, record every failure, and record a checksum of what was written to them.
+// The finished workbook is compared with these checksums.
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -13,39 +14,42 @@ namespace carom {
 
 class WorkbookFiles {
  public:
-  /// The library's files are in `place`'s file system while this lives; `name`: the workbook's, for messages. There is
-  /// one at a time.
+  /// While this object lives, the library's files are in the file system of `place`.
+  /// `name`: the workbook's, for messages.
+  /// Only one object may exist at a time.
   WorkbookFiles(const FilePlace& place, std::string name);
   ~WorkbookFiles();
   WorkbookFiles(const WorkbookFiles&) = delete;
   WorkbookFiles& operator=(const WorkbookFiles&) = delete;
 
-  /// Files that are made from here on are the workbook's parts; the former ones have rows.
+  /// Files made from here on are parts of the workbook. The earlier ones hold rows.
   void begin_parts();
 
   /// Throws ExportError if a file could not be made, written or read.
   void check() const;
-  /// Throws ExportError unless the workbook, a zip archive, has exactly the parts that were written, to the byte.
+  /// Throws ExportError unless the workbook, a zip archive, has exactly the parts that were written, byte for byte.
   void check_archive(int archive) const;
 
-  /// One of the files.
+  /// One temporary file.
   struct File {
     Descriptor descriptor;
-    FILE* stream = nullptr;          // as long as it is open
+    FILE* stream = nullptr;          // while it is open
     std::uint64_t at = 0, size = 0;  // bytes
-    std::uint32_t crc = 0;           // of all bytes, as zip archives have it
+    /// Checksum of all bytes, as in zip archives.
+    std::uint32_t crc = 0;
   };
-  /// A new file; none: it cannot be made, as check() says then.
+  /// A new file, or null on failure. check() then reports the failure.
   FILE* make();
-  /// What became of it: errno.
+  /// Records an error by its errno.
   void remember(int error);
 
  private:
   FilePlace place_;
   std::string name_;
   std::vector<std::unique_ptr<File>> files_;
-  std::size_t rows_ = 0;  // so many of them, the first, have rows
-  int error_ = 0;         // the first one
+  /// The number of files with rows, which come first.
+  std::size_t rows_ = 0;
+  int error_ = 0;  // the first error
 };
 
 }  // namespace carom

@@ -1,12 +1,12 @@
 #pragma once
-// What a body is at an instant, for bodies that merge change.
+// The properties of a body at an instant. Bodies that merge change.
 #include "files/csv.h"
 #include "physics/state.h"
 #include "scene/scene.h"
 
 namespace carom {
 
-/// Whether it has become part of another body, which stands for both.
+/// Whether the body has merged into another body, which represents both.
 inline bool is_part_of_another(const State& state, Entity body) {
   return !state.part_of.empty() && state.part_of[body] != body;
 }
@@ -20,17 +20,17 @@ inline Volume volume_now(const World& world, const State& state, Entity body) {
   return state.radius.empty() ? world.volume_of(body) : Volume::sphere(state.radius[body]);
 }
 
-/// Whether there are boxes or cylinders.
+/// Whether the world has boxes or cylinders.
 inline bool has_solids(const World& world) {
   for (const Volume& volume : world.volume)
     if (volume.shape != Shape::sphere) return true;
   return false;
 }
 
-/// The most characters of a member's name behind its group's: a dot and the member's number.
+/// The maximum number of characters after the group's name in a member's name: a dot and the member's number.
 inline constexpr std::size_t member_size = 1 + number_size;
 
-/// Writes a body's name; gives its end. Names are [A-Za-z_][A-Za-z0-9_-]*, so that they are cells as they stand.
+/// Writes a body's name and returns its end. Names are [A-Za-z_][A-Za-z0-9_-]* and need no quotes in a cell.
 inline char* put_member(char* to, const BodyRange& range, Entity body) {
   to = put_text(to, range.name);
   if (!range.group) return to;

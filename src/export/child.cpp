@@ -1,3 +1,6 @@
+// Starts programs with posix_spawn from a list of arguments, without a shell.
+// Outputs go to memory files and not to pipes, so that the program never blocks on a reader and no thread has to read.
+// Input goes through a socket, because sending with MSG_NOSIGNAL raises no SIGPIPE.
 #include "export/child.h"
 
 #include <fcntl.h>
@@ -27,7 +30,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A file in memory: a program can write any amount to it and never waits for a reader.
+/// A file in memory. A program can write any amount to it and never waits for a reader.
 Descriptor memory_file() {
   Descriptor file(memfd_create("carom", MFD_CLOEXEC));
   if (!file) throw ExportError(std::string("cannot start a program: ") + std::strerror(errno));
@@ -48,14 +51,14 @@ std::string text_of(int file) {
   return text;
 }
 
-constexpr auto glance = std::chrono::milliseconds(50);  // between two looks
+constexpr auto glance = std::chrono::milliseconds(50);  // between two calls of look()
 
 std::function<void()>& look() {
   static std::function<void()> function = [] {};
   return function;
 }
 
-/// A signal's default action for a program that is started: this one ignores these.
+/// This program ignores these signals. A started program gets their default actions.
 constexpr int ignored[] = {SIGPIPE, SIGXFSZ};
 
 }  // namespace
@@ -86,7 +89,7 @@ std::optional<std::string> find_program(const std::string& name) {
 
 Child::Child(const std::vector<std::string>& arguments, int folder, bool fed)
     : output_(memory_file()), errors_(memory_file()) {
-  // A socket rather than a pipe: sending to it need not raise SIGPIPE, so that no handler need be touched.
+  // A socket and not a pipe, because sending to it can avoid SIGPIPE without a signal handler.
   Descriptor theirs;
   if (fed) {
     int pair[2];
@@ -105,7 +108,7 @@ Child::Child(const std::vector<std::string>& arguments, int folder, bool fed)
   posix_spawn_file_actions_adddup2(&actions, output_.get(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, errors_.get(), STDERR_FILENO);
 
-  // Signals as a program expects them, whatever this one ignores or blocks.
+  // The program gets an empty signal mask and default actions, whatever this one ignores or blocks.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t none, defaults;
@@ -158,7 +161,7 @@ Child::Sent Child::send(const void* bytes, std::size_t size, std::chrono::millis
 }
 
 void Child::end_input() {
-  // The end is heard whatever becomes of the descriptor.
+  // Shut down first. The program then reads the end even if the descriptor has copies.
   if (input_) shutdown(input_.get(), SHUT_RDWR);
   input_.reset();
 }
@@ -170,7 +173,8 @@ bool Child::has_ended() {
   if (ended == id_)
     exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   else if (ended < 0 && errno != EINTR)
-    exit_code_ = 127;  // another part of the program has waited for it
+    // Another part of this program has already waited for it.
+    exit_code_ = 127;
   return exit_code_.has_value();
 }
 

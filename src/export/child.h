@@ -1,5 +1,5 @@
 #pragma once
-// Another program at work: started from a list of arguments, never by a shell; fed, timed, listened to.
+// A child process: started from a list of arguments and never by a shell, with input, time limits and captured output.
 #include <sys/types.h>
 
 #include <chrono>
@@ -13,37 +13,40 @@
 
 namespace carom {
 
-/// What is called 20 times a second while any other program is waited for; it may throw, to be heard by what waits. Set
-/// once, where this program begins; without it waiting hears nothing.
+/// Sets a function that is called 20 times a second while waiting for any child process.
+/// It may throw, and the function that waits passes the exception on.
+/// It is set once, at the program's start. By default nothing is called.
 void look_while_waiting(std::function<void()> look);
 
-/// The absolute path of a program on PATH; none if it is not there. Throws ExportError where that cannot be said.
+/// The absolute path of a program on PATH, or none. Throws ExportError if the search fails.
 std::optional<std::string> find_program(const std::string& name);
 
 class Child {
  public:
-  /// Starts the program arguments[0] (a path) within the folder `folder` (a descriptor). It inherits nothing but its
-  /// standard streams: an input that send() feeds, or an empty one, and outputs that are kept. Throws ExportError.
+  /// Starts the program arguments[0] (a path) in the folder `folder` (a descriptor). Throws ExportError.
+  /// It inherits only its standard streams: an input that send() feeds or an empty one, and outputs that are captured.
   Child(const std::vector<std::string>& arguments, int folder, bool fed);
-  /// Kills the program if it still runs.
+  /// Kills the program if it is still running.
   ~Child();
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
   enum class Sent { all, closed, stuck };
-  /// Hands bytes to the program's standard input: all of them; or it has closed its input (mostly: ended); or it took
-  /// nothing for `patience`. Throws what the look throws.
+  /// Sends bytes to the program's standard input. Throws what the function of look_while_waiting throws.
+  /// - all: all bytes were taken.
+  /// - closed: the program closed its input, in most cases because it ended.
+  /// - stuck: it took nothing for `patience`.
   Sent send(const void* bytes, std::size_t size, std::chrono::milliseconds patience);
   void end_input();
 
-  /// Waits for the program's end: its exit code, 128 + the number of the signal that ended it, or none: still running.
-  /// Throws what the look throws.
+  /// Waits for the program's end and returns its exit code, or 128 + the number of the signal that ended it.
+  /// None: still running. Throws what the function of look_while_waiting throws.
   std::optional<int> wait(std::chrono::milliseconds patience);
   void kill();
 
-  // Of these the first megabyte. Throw ExportError.
-  std::string output() const;  // what it wrote to its standard output so far
-  std::string errors() const;  // and to its standard error
+  // The first megabyte of each output stream. Both throw ExportError.
+  std::string output() const;  // the standard output so far
+  std::string errors() const;  // the standard error so far
 
  private:
   bool has_ended();

@@ -1,3 +1,6 @@
+// Joins timelines, writers, frames, film and sheet for one run.
+// Everything that can be refused is checked before the folder is changed.
+// No file gets its final name until all bytes of all files are written. Then all are renamed together.
 #include "export/exports.h"
 
 #include <algorithm>
@@ -21,7 +24,7 @@
 namespace carom {
 namespace {
 
-/// The film's name comes from the scene: it must not be another file's.
+/// The film's name is given by the scene and must not be another file's.
 void check_film_name(const Scene& scene) {
   const Output& output = scene.output;
   if (!output.video) return;
@@ -39,10 +42,10 @@ void append(std::vector<FileRecord>& to, const std::vector<FileRecord>& records)
 struct Exports::Impl {
   struct OpenWriter {
     std::unique_ptr<Writer> writer;
-    int timeline_stream;  // -1: it is written of no states
+    int timeline_stream;  // -1: it writes no states
   };
 
-  // What can be refused is refused here, before the folder is touched.
+  // Refuse what can be refused here, before the folder is changed.
   Impl(const Scene& the_scene, const std::string& path, Durability durability, ModelMakers the_makers,
        const Manifest* renewed)
       : scene(the_scene),
@@ -71,7 +74,7 @@ struct Exports::Impl {
     for (std::size_t i = 0; i < plan.streams.size(); ++i) plan.streams[i].timeline_stream = timeline.add(plan.ticks[i]);
   }
 
-  /// The files of a run that are not drawn, and still asked for.
+  /// The files of a former run that are not drawn and are still requested.
   std::vector<FileRecord> kept_files(const Manifest& run) const {
     std::vector<FileRecord> files;
     for (const FileRecord& file : run.files) {
@@ -96,12 +99,14 @@ struct Exports::Impl {
   Timeline timeline;
   PictureStreams plan;
   std::uint64_t pictures = 0;
-  std::vector<FileRecord> kept;           // of the run that stood there
-  std::vector<FileRecord> first_records;  // of what stands there from the beginning
-  // What writes into the folder is gone before the folder is put in order.
+  // Files of the former run that stay.
+  std::vector<FileRecord> kept;
+  // Files in the folder from the start.
+  std::vector<FileRecord> first_records;
+  // Declared before all that writes into it, so that it is destroyed last and can clean up.
   std::optional<OpenFolder> folder;
   std::optional<Series> frames;
-  std::string frame;  // the last one, as PNG
+  std::string frame;  // the previous one, as PNG
   std::vector<OpenWriter> writers;
   std::optional<Film> film;
   std::optional<Sheet> sheet;
@@ -173,10 +178,11 @@ std::vector<LeftOut> Exports::end(const Tally& tally) {
 
 void Exports::finish(const Summary& summary, const RunFacts& facts) {
   const FilePlace& place = impl_->folder->place();
-  std::vector<FileRecord> records = impl_->first_records;  // in the order of the files of a run that keeps none
+  // In the order of the files of a run that keeps none.
+  std::vector<FileRecord> records = impl_->first_records;
   std::vector<OutputFile*> files;
 
-  // All bytes of all files, the manifest's included, still under the names of parts.
+  // Write all bytes of all files, including the manifest, under temporary names.
   OutputFile summary_file(place, "summary.csv");
   write_summary(summary_file, summary);
   files.push_back(&summary_file);

@@ -1,5 +1,5 @@
 #pragma once
-// What a scene asked for -> files. Only what it asked for is made: no table, no buffer, no picture else.
+// Writes the files that a scene requests. Tables, buffers and pictures exist only for what it requests.
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -27,36 +27,40 @@ struct Manifest;
 
 class Exports {
  public:
-  /// Opens only what scene.output asks for, in `folder`, which is made if need be and locked against other runs.
-  /// Removes what a former run left there (by its manifest). What can be known to fail is refused before anything is
-  /// touched: ffmpeg missing, a video without pictures, a sheet too large. `scene` must outlive this. `makers`: what
-  /// vtk and gltf want of render/. Throws ExportError.
-  /// `renewed`: what the folder holds now, a whole run of the same motion: all its files but what is drawn, summary.csv
-  /// and scene.yaml are kept as they are, and until finish() all of them.
+  /// Opens only what scene.output requests, in `folder`, which is made if needed and locked against other runs.
+  /// Files of a former run there are removed, by its manifest.
+  /// Predictable failures come before any change: ffmpeg missing, a video without pictures, a sheet too large.
+  /// `scene` must outlive this object. `makers`: the functions of render/ for vtk and gltf. Throws ExportError.
+  /// `renewed`: the manifest of the complete run of the same motion that the folder holds.
+  /// Of that run all files stay except drawn ones, summary.csv and scene.yaml. Until finish() all of them stay.
   Exports(const Scene& scene, const std::string& folder, Durability durability = Durability::synced,
           ModelMakers makers = {}, const Manifest* renewed = nullptr);
-  /// Without finish(): what was not whole is removed; frames that are whole stay.
+  /// Without finish(), incomplete files are removed. Complete frames stay.
   ~Exports();
   Exports(const Exports&) = delete;
   Exports& operator=(const Exports&) = delete;
 
   Timeline& timeline();
-  bool wants_state() const;     // at the timeline's present instant: anything due at all
-  bool wants_contacts() const;  // at the timeline's present instant: the forces of contact too
+  /// Whether any output is due at the timeline's present instant.
+  bool wants_state() const;
+  /// The same for outputs of contact forces.
+  bool wants_contacts() const;
   void record(std::span<const Collision> collisions);
   void record_paths(std::span<const PathPiece> pieces);
-  /// Writes the rows that are due now. `contacts`: by a, then b; looked at only if wants_contacts().
+  /// Writes the rows that are due. `contacts`: sorted by a, then b; read only if wants_contacts().
   void sample(const State& state, std::span<const ContactForce> contacts = {});
   const std::vector<PictureStream>& pictures() const;
-  /// The picture due now of pictures()[stream]. `again`: it is the stream's last one once more.
+  /// Takes the picture that is due for pictures()[stream]. `again`: it equals the stream's previous one.
   void picture(std::size_t stream, const Image& image, bool again = false);
-  std::uint64_t frames() const;  // pictures taken so far for frames and video; the sheet's do not count
+  /// The pictures taken so far for frames and video. Those of the sheet do not count.
+  std::uint64_t frames() const;
 
-  /// The run is at its end. Gives what it has given up; nothing is recorded or sampled any more.
+  /// Ends the run, after which nothing is recorded or sampled. Returns the files that were given up.
   std::vector<LeftOut> end(const Tally& tally);
-  /// Completes every file, then gives them their names, summary.csv's too and last manifest.json's. (scene.yaml stands
-  /// there from the beginning, so that the folder of an interrupted run is known to be this scene's.) Throws
-  /// ExportError.
+  /// Completes every file, then renames all of them. summary.csv is included, and manifest.json is last.
+  /// Throws ExportError.
+  /// scene.yaml is in the folder from the start,
+  /// so that the folder of an interrupted run is recognised as this scene's.
   void finish(const Summary& summary, const RunFacts& facts);
 
  private:

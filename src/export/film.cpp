@@ -1,3 +1,5 @@
+// Feeds raw RGB pictures to ffmpeg, which converts them to limited-range BT.709.
+// The flags of the conversion are fixed, so that the same pictures give the same bytes.
 #include "export/film.h"
 
 #include <charconv>
@@ -10,11 +12,11 @@ std::string decimal(double value) {
   return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
 }
 
-/// The pictures are full-range sRGB; a film is limited-range Y'CbCr by BT.709, and says so.
+/// The pictures are full-range sRGB. The film is limited-range Y'CbCr by BT.709 and is marked so.
 std::string film_filter(Size size) {
   std::string filter =
       "scale=in_range=pc:out_range=tv:out_color_matrix=bt709:flags=accurate_rnd+full_chroma_int+bitexact";
-  // Colour has half the resolution, so that both sides must be even: an odd one repeats its last pixel.
+  // Colour has half the resolution, so both sides must be even. An odd side repeats its last pixel.
   const int right = size.width % 2, bottom = size.height % 2;
   if (right || bottom) {
     filter = "pad=" + std::to_string(size.width + right) + ":" + std::to_string(size.height + bottom) +

@@ -1,3 +1,6 @@
+// Runs ffmpeg with a fixed number of threads and without version numbers, for reproducible bytes.
+// The film is made in a temporary folder, and its frames are counted by ffprobe before it is accepted.
+// Exit codes are not sufficient: ffmpeg may succeed with a part of the frames.
 #include "export/film_file.h"
 
 #include <sys/stat.h>
@@ -15,10 +18,10 @@
 namespace carom {
 namespace {
 
-/// The film's name in ffmpeg's own folder. (The name it will have is the scene's and never stands on a command line.)
+/// The film's name in ffmpeg's folder. Its final name comes from the scene and never appears on a command line.
 constexpr const char* film_name = "film.mp4";
 
-/// The last lines of what a program complained of, on one line.
+/// The last lines of a program's error output, on one line.
 std::string complaint(const std::string& text) {
   const std::size_t most = 600;
   std::string tail = text.size() > most ? "..." + text.substr(text.size() - most) : text;
@@ -27,7 +30,7 @@ std::string complaint(const std::string& text) {
   return tail.empty() ? "it said nothing" : tail;
 }
 
-/// What ffprobe says of a film's only stream, its values separated by commas.
+/// The properties of a film's only stream as printed by ffprobe, separated by commas.
 std::string probed(const FilmTools& tools, int folder, const std::string& name, bool counted,
                    const std::string& entries, std::string& error) {
   std::vector<std::string> arguments = {tools.ffprobe, "-v", "error", "-select_streams", "v:0"};
@@ -39,7 +42,7 @@ std::string probed(const FilmTools& tools, int folder, const std::string& name, 
   return probe.output();
 }
 
-/// Reads a whole number from the front of `text` and takes it and the separator behind it off.
+/// Removes a whole number and the separator after it from the front of `text`, and returns the number.
 std::uint64_t take_number(std::string_view& text) {
   std::uint64_t value = 0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value).ptr;
@@ -78,8 +81,8 @@ void FilmFile::fail_with(const std::string& reason) const {
 FilePlace FilmFile::workshop() {
   const std::string folder = workshop_name();
   if (!workshop_) {
-    // ffmpeg opens its file by name, more than once, and outlives a run that is killed. In a folder of its own it meets
-    // no link, and once the next run has removed that folder it can touch nothing any more.
+    // ffmpeg opens its file by name, more than once, and survives a run that is killed.
+    // A folder of its own contains no link. Once the next run has removed that folder, ffmpeg cannot write anywhere.
     remove_entry(place_, folder);
     if (mkdirat(place_.folder, folder.c_str(), 0777) != 0) fail("write", place_, record_.name);
     workshop_ = open_folder(place_.folder, folder, false);
@@ -93,7 +96,7 @@ void FilmFile::start(const std::vector<std::string>& input, const std::vector<st
   arguments.insert(arguments.end(), input.begin(), input.end());
   arguments.emplace_back("-an");
   arguments.insert(arguments.end(), filter.begin(), filter.end());
-  // As many threads everywhere and no version numbers, for the same bytes everywhere.
+  // A fixed number of threads and no version numbers give the same bytes on every machine.
   const std::string quality = std::to_string(crf), out = std::string("file:") + film_name;
   for (const std::string_view argument :
        {"-c:v",         "libx264",   "-preset",          "medium",     "-crf",       quality.c_str(),

@@ -1,5 +1,5 @@
 #pragma once
-// A film while ffmpeg writes it, in a folder of its own beside the film's place, until it is whole.
+// A film that ffmpeg writes in a temporary folder beside the film's place until it is complete.
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -11,15 +11,15 @@
 
 namespace carom {
 
-/// The programs that make a film and look into it.
+/// The programs that make and inspect a film.
 struct FilmTools {
   std::string ffmpeg, ffprobe;  // absolute paths
 };
 
-/// Finds them on PATH. Throws ExportError, which names the remedy.
+/// Finds them on PATH. Throws ExportError with a text that names the remedy.
 FilmTools find_film_tools();
 
-/// How long ffmpeg may take nothing, and how long it may take to end once it has everything.
+/// Time limits: how long ffmpeg may take no input, and how long it may run after the last input.
 struct FilmPatience {
   std::chrono::milliseconds each = std::chrono::minutes(2);
   std::chrono::milliseconds end = std::chrono::minutes(10);
@@ -27,21 +27,21 @@ struct FilmPatience {
 
 class FilmFile : public PartFile {
  public:
-  /// Throws ExportError, as all of this class does.
+  /// Throws ExportError, as all functions of this class do.
   FilmFile(const FilePlace& place, const std::string& name, FilmTools tools, const FilmPatience& patience);
-  /// ffmpeg is stopped, and its folder goes.
+  /// Stops ffmpeg and removes its folder.
   ~FilmFile();
 
-  /// ffmpeg's own folder; made by the first call.
+  /// The temporary folder of ffmpeg. The first call makes it.
   FilePlace workshop();
-  /// Starts ffmpeg there: `input` says what comes, `filter` (an option and its value) what is done to it. The rest,
-  /// H.264 in yuv420p and BT.709, index in front, the same pictures the same bytes, is every film's.
+  /// Starts ffmpeg there. `input`: the options of the input. `filter`: an option and its value.
+  /// The other options are those of every film: H.264 in yuv420p and BT.709, index in front, reproducible bytes.
   void start(const std::vector<std::string>& input, const std::vector<std::string>& filter, int crf, bool fed);
   bool started() const { return ffmpeg_ != nullptr; }
   void send(const void* bytes, std::size_t size);
 
-  /// Waits for ffmpeg's end and counts the frames in the film: ffmpeg may end content with half of them. The film is
-  /// the part that publish() names.
+  /// Waits for ffmpeg's end and verifies the number of frames, because ffmpeg may succeed with half of them.
+  /// The film then has its temporary name, and publish() renames it.
   void complete(std::uint64_t frames);
 
   [[noreturn]] void fail_with(const std::string& reason) const;
@@ -55,13 +55,13 @@ class FilmFile : public PartFile {
   std::unique_ptr<Child> ffmpeg_;
 };
 
-/// What there is to know of a stored film.
+/// The properties of a stored film.
 struct FilmFacts {
   int width = 0, height = 0;        // pixels
-  std::uint64_t rate = 0, per = 1;  // frames a second: rate / per
+  std::uint64_t rate = 0, per = 1;  // frame rate in 1/s: rate / per
   std::uint64_t frames = 0;
 };
-/// Asks ffprobe. Throws ExportError.
+/// Reads the properties with ffprobe. Throws ExportError.
 FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const std::string& name);
 
 }  // namespace carom

@@ -1,3 +1,6 @@
+// Writes entries while they happen and reads them back in order, in pieces of constant size.
+// An entry stores only what differs from the previous one, which keeps the common entry at 72 bytes.
+// The reader checks every entry, because a wrong path would give wrong results without notice.
 #include "export/flights_file.h"
 
 #include <fmt/format.h>
@@ -36,17 +39,17 @@ enum Has : std::uint32_t {
 constexpr std::size_t header_size = 32, tail_size = 8 + 16 * 8;
 constexpr std::size_t largest_entry = 8 + (8 + 3 + 1 + 5 + 1 + 5 + 6) * 8;
 
-/// What from is where an entry does not say it.
+/// The default of `from` where an entry has none.
 double first_double(const DoubleDouble& start) {
   return start.lo > 0 ? std::nextafter(start.hi, std::numeric_limits<double>::infinity()) : start.hi;
 }
 
-/// Unlike ==, which takes -0 for 0.
+/// Bitwise equality. Unlike ==, it distinguishes -0 from 0.
 bool same_bits(const Vec3& a, const Vec3& b) {
   return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0;
 }
 
-/// Bytes in place.
+/// Writes values into a buffer in place.
 class InPlace {
  public:
   explicit InPlace(char* to) : to_(to) {}
@@ -238,7 +241,7 @@ bool FlightsReader::next(PathPiece& piece) {
   return true;
 }
 
-/// Has `size` bytes in the buffer, or all that are left.
+/// Ensures that the buffer has `size` bytes, or all that are left.
 void FlightsReader::fill(std::size_t size) {
   if (end_ - at_ >= size) return;
   std::memmove(buffer_.data(), buffer_.data() + at_, end_ - at_);

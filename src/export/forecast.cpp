@@ -1,3 +1,5 @@
+// Estimates rows, pictures, bytes and wall time from the scene alone, with typical constants.
+// The time of the simulation itself is not included.
 #include <cmath>
 #include <limits>
 
@@ -13,12 +15,25 @@
 namespace carom {
 namespace {
 
-// Bytes: what a pixel of a rendered picture takes as PNG, and in a film at crf 18, which halves for each 6 more.
-constexpr double png_bytes_per_pixel = 0.3, film_bytes_per_pixel = 0.02;
-// Wall times, s, of two cores of 3 GHz: until the first picture; a pixel, and each of its samples; a pixel's PNG; a
-// pixel of a film; a byte of a table.
-constexpr double first_picture_s = 0.3, pixel_s = 8e-9, sample_s = 3e-9, png_pixel_s = 5e-8, film_pixel_s = 4.5e-8,
-                 table_byte_s = 1e-8;
+// Bytes of a pixel of a rendered picture as PNG.
+constexpr double png_bytes_per_pixel = 0.3;
+// Bytes of a pixel of a picture in a film at crf 18. They halve for each 6 more.
+constexpr double film_bytes_per_pixel = 0.02;
+
+// Wall times, in s, on two cores of 3 GHz.
+
+// Until the first picture.
+constexpr double first_picture_s = 0.3;
+// For a pixel.
+constexpr double pixel_s = 8e-9;
+// For each sample of a pixel.
+constexpr double sample_s = 3e-9;
+// For a pixel as PNG.
+constexpr double png_pixel_s = 5e-8;
+// For a pixel of a film.
+constexpr double film_pixel_s = 4.5e-8;
+// For a byte of a table.
+constexpr double table_byte_s = 1e-8;
 
 std::uint64_t whole(double x) {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(nearest_whole(x), 0));

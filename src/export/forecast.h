@@ -1,13 +1,12 @@
 #pragma once
-// What a run of a scene will write, said before it starts.
+// Predicts what a run of a scene will write.
 #include <cstdint>
 
 namespace carom {
 
 struct Scene;
 
-/// How many trajectory rows, pictures and, roughly, bytes a run of this scene will write, and how long that and drawing
-/// may take.
+/// The numbers of trajectory rows and pictures, a rough estimate of the bytes, and of the time for writing and drawing.
 struct Forecast {
   std::uint64_t rows = 0, frames = 0, bytes = 0;
   double seconds = 0;

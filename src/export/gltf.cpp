@@ -1,3 +1,5 @@
+// Collects positions as floats, which is what glTF stores, and the changes of volume of bodies that merge.
+// The file needs all keyframes at once, so they stay in memory until the run's end.
 #include "export/gltf.h"
 
 #include "export/bodies.h"
@@ -34,7 +36,8 @@ std::vector<OutputFile*> GltfWriter::files() {
 }
 
 double GltfWriter::bytes(const Scene& scene, double instants) {
-  constexpr double key_bytes = 16, body_bytes = 900, mesh_bytes = 40000;  // typical; a mesh a colour
+  // Typical values. There is one mesh for each colour.
+  constexpr double key_bytes = 16, body_bytes = 900, mesh_bytes = 40000;
   return scene.world.body_count() * (key_bytes * instants + body_bytes) +
          mesh_bytes * static_cast<double>(scene.roster.bodies.size() + 1);
 }

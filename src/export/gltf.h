@@ -1,5 +1,5 @@
 #pragma once
-// animation.glb: the motion's keys are gathered here; src/render/ makes a file of them at the end.
+// animation.glb. The keyframes are collected here, and src/render/ makes a file of them at the end.
 #include <vector>
 
 #include "export/writer.h"
@@ -21,7 +21,8 @@ class GltfWriter : public Writer {
   const ModelMakers& makers_;
   OutputFile file_;
   KeyedMotion motion_;
-  std::vector<std::optional<Volume>> volumes_;  // at the last key, once one has changed
+  /// At the previous keyframe, once one has changed.
+  std::vector<std::optional<Volume>> volumes_;
 };
 
 }  // namespace carom

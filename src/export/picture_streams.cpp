@@ -1,3 +1,5 @@
+// Merges outputs with equal pictures into one stream, so that each picture is drawn once.
+// A film without pictures and a sheet that is too large are refused here, before the run.
 #include "export/picture_streams.h"
 
 #include <algorithm>

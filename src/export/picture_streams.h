@@ -1,5 +1,5 @@
 #pragma once
-// Which pictures are drawn when, and what each one is for.
+// Plans which pictures are drawn at which times, and their uses.
 #include <vector>
 
 #include "export/timeline.h"
@@ -9,29 +9,30 @@ namespace carom {
 
 struct Scene;
 
-/// One sequence of pictures of one size and quality; frames, video and sheet share one where theirs are the same.
+/// One sequence of pictures of one size and quality. Frames, video and sheet share one where theirs are equal.
 struct PictureStream {
   Size size;
   int samples = 4;
   int timeline_stream = 0;
 };
 
-/// The sinks of one PictureStream.
+/// The uses of one PictureStream.
 struct PictureUse {
   bool frames = false, film = false, sheet = false;
 };
 
 struct PictureStreams {
-  std::vector<PictureStream> streams;  // timeline_stream: the index into `ticks` until a Timeline gives its own
-  std::vector<PictureUse> uses;        // by stream
-  std::vector<Ticks> ticks;            // by stream
+  /// timeline_stream is the index into `ticks` until a Timeline assigns its own.
+  std::vector<PictureStream> streams;
+  std::vector<PictureUse> uses;  // by stream
+  std::vector<Ticks> ticks;      // by stream
 };
 
-/// One stream for frames and film if they agree in size, quality and instants, so that a picture is drawn once for
-/// both. Throws ExportError for a film or a sheet that cannot be.
+/// One stream for frames and film if they agree in size, quality and instants, so that each picture is drawn once.
+/// Throws ExportError for a film or a sheet that is impossible.
 PictureStreams plan_pictures(const Scene& scene);
 
-/// The shape and quality of the sheet's pictures: those of the frames, else of the film, else the frames' defaults.
+/// The shape and quality of the sheet's pictures: those of the frames, else of the film, else the defaults of frames.
 PictureOutput sheet_model(const Output& output);
 
 }  // namespace carom

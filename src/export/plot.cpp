@@ -1,3 +1,6 @@
+// Writes a gnuplot script with fixed colours, fonts and ranges, and reads the picture from gnuplot's standard output.
+// Ranges are whole powers of ten computed here, and labels are placed here.
+// No default of gnuplot or of its user then changes the picture.
 #include "export/plot.h"
 
 #include <fcntl.h>
@@ -17,10 +20,12 @@ namespace carom {
 namespace {
 
 constexpr auto patience = std::chrono::minutes(1);
-constexpr double shortest_bar = 1.2;               // its upper end by its lower one
-constexpr std::size_t most_bytes = (1 << 20) - 1;  // of a picture, as much as Child::output() keeps
+/// The ratio of its upper to its lower end.
+constexpr double shortest_bar = 1.2;
+/// Of a picture, as much as Child::output() keeps.
+constexpr std::size_t most_bytes = (1 << 20) - 1;
 
-/// Colours that every kind of sight tells apart (Okabe & Ito 2008), and gnuplot's numbers of marks.
+/// Colours that are distinct for every kind of colour vision (Okabe & Ito 2008), and gnuplot's numbers of marks.
 struct PlotStyle {
   const char* color;
   int mark;
@@ -34,7 +39,7 @@ constexpr std::array<PlotStyle, plot_looks> looks = {{{"#D55E00", 13},
                                                       {"#000000", 6},
                                                       {"#8C8C00", 4}}};
 
-/// Text in single quotes, as gnuplot takes it to the letter.
+/// Text in single quotes, which gnuplot takes literally.
 std::string quoted_text(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) {
@@ -44,7 +49,7 @@ std::string quoted_text(const std::string& text) {
   return quoted + "'";
 }
 
-/// Of one axis; at the end whole powers of ten, with some room beside what was taken.
+/// The range of one axis. widen() makes it whole powers of ten with some margin around the values taken.
 struct AxisRange {
   double from = std::numeric_limits<double>::infinity(), to = 0;
   void take(double value) {
@@ -60,7 +65,7 @@ struct AxisRange {
   double part(double value) const { return (std::log10(value) - from) / (to - from); }
 };
 
-/// Where a label would stand on another one it is left out. In parts of the picture's width and height.
+/// Leaves out a label that would cover another one. Distances are in shares of the picture's width and height.
 class Labels {
  public:
   Labels(const AxisRange& x, const AxisRange& y) : x_(x), y_(y) {}
@@ -116,7 +121,7 @@ std::string script(const Plot& plot, const std::string& terminal) {
     data += fmt::format("$series{} << END\n", s);
     for (const PlotPoint& point : series.points) {
       data += fmt::format("{:.17g} {:.17g}\n", point.x, height(point.y));
-      // A bar that is no longer than the mark is none.
+      // A bar that the mark would cover is left out.
       if (point.high > shortest_bar * height(point.low))
         bars += fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}\n", point.x, height(point.y),
                             std::max(point.low, std::pow(10, y.from)), point.high);
@@ -144,7 +149,7 @@ std::string script(const Plot& plot, const std::string& terminal) {
   return text + data + fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));
 }
 
-/// What gnuplot writes to its standard output when it reads a script from its standard input.
+/// The standard output of gnuplot for a script on its standard input.
 std::string drawn(const std::string& gnuplot, const std::string& script) {
   const Descriptor folder(open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   Child child({gnuplot, "--default-settings"}, folder.get(), true);
@@ -156,7 +161,7 @@ std::string drawn(const std::string& gnuplot, const std::string& script) {
                       (code ? fmt::format("failed with code {}: {}", *code, child.errors())
                             : std::string("did not end within a minute and was stopped")));
   std::string picture = child.output();
-  // (A program that reads nothing may have ended before it was sent anything, or after.)
+  // The exit code and the output come first. A program that reads nothing may end before or after the sending.
   if (picture.empty()) throw ExportError("cannot draw the plot: gnuplot wrote nothing: " + child.errors());
   if (!sent) throw ExportError("cannot draw the plot: gnuplot did not read all of it: " + child.errors());
   if (picture.size() > most_bytes) throw ExportError("cannot draw the plot: it takes more than a megabyte");

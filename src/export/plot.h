@@ -1,6 +1,6 @@
 #pragma once
-// Log-log plots, drawn by gnuplot from a script that names every colour, font and range: the same plot gives the same
-// bytes.
+// Log-log plots, drawn by gnuplot from a script that fixes every colour, font and range.
+// The same plot gives the same bytes.
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -10,21 +10,24 @@ namespace carom {
 
 struct PlotPoint {
   double x, y;
-  std::string label{};  // beside it; empty: none
-  // The ends of a bar through it; NaN: it has none.
+  /// Beside the point. Empty: none.
+  std::string label{};
+  // The ends of a bar through the point. NaN: no bar.
   double low = std::numeric_limits<double>::quiet_NaN(), high = low;
 };
 
-/// How many colours with a mark each there are.
+/// The number of colours, each with a mark.
 inline constexpr std::size_t plot_looks = 8;
 
 struct PlotSeries {
-  std::string name;               // in the legend
-  std::size_t look;               // its colour and mark, below plot_looks
-  std::vector<PlotPoint> points;  // joined by a line, in this order
+  std::string name;  // in the legend
+  /// Index of its colour and mark, below plot_looks.
+  std::size_t look;
+  /// Joined by a line, in this order.
+  std::vector<PlotPoint> points;
 };
 
-/// A height that others are held against.
+/// A height to compare with.
 struct PlotLevel {
   std::string name;  // in the legend
   double y;
@@ -32,17 +35,19 @@ struct PlotLevel {
 
 struct Plot {
   std::string title;
-  std::string subtitle;  // smaller, below the title; empty: none
+  /// Smaller, below the title. Empty: none.
+  std::string subtitle;
   std::string x_label, y_label;
   std::vector<PlotSeries> series;
   std::vector<PlotLevel> levels;
-  double floor = 0;  // what is less than this (zero, say, which has no logarithm) stands at this height
+  /// Smaller values, such as zero, which has no logarithm, are drawn at this height.
+  double floor = 0;
 };
 
-/// The absolute path of gnuplot. Throws ExportError, which names the remedy.
+/// The absolute path of gnuplot. Throws ExportError with a text that names the remedy.
 std::string find_gnuplot();
 
-/// Whole files.
+/// The complete files.
 struct PlotPictures {
   std::string png, svg;
 };

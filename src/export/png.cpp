@@ -1,3 +1,5 @@
+// Encodes PNG with libpng, with the one filter that suits rendered pictures.
+// On errors libpng calls longjmp, so the function that it leaves holds no object with a destructor.
 #include "export/png.h"
 
 #include <png.h>
@@ -21,7 +23,8 @@ void append(png_structp png, png_bytep data, png_size_t size) {
   try {
     sink.bytes.append(reinterpret_cast<const char*>(data), size);
   } catch (const std::bad_alloc&) {
-    png_error(png, "out of memory");  // no exception may cross libpng's C frames
+    // No exception may cross the C frames of libpng.
+    png_error(png, "out of memory");
   }
 }
 
@@ -32,7 +35,7 @@ void note_error(png_structp png, png_const_charp message) {
 
 void ignore_warning(png_structp, png_const_charp) {}
 
-/// The part that libpng leaves by longjmp when it fails: it holds nothing that wants destruction.
+/// The part that libpng leaves by longjmp on failure. It holds no object with a destructor.
 bool encode(const Image& image, PngEffort effort, Sink& sink) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, note_error, ignore_warning);
   if (!png) return false;
@@ -46,9 +49,10 @@ bool encode(const Image& image, PngEffort effort, Sink& sink) {
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
                PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-  // Rendered pictures repeat from row to row, a checker's edges too, so that the difference to the row above is small
-  // and often the same. Of all filters, levels and strategies UP at level 1 is within a tenth of the fastest, and none
-  // that is as fast makes smaller files; choosing a filter row by row takes twice as long and gains nothing.
+  // Rendered pictures repeat from row to row, even at a checker's edges.
+  // The difference to the row above is therefore small and often the same.
+  // Of all filters, levels and strategies, UP at level 1 is within a tenth of the fastest.
+  // None that is as fast makes smaller files. Choosing a filter row by row takes twice as long and gains nothing.
   png_set_filter(png, 0, PNG_FILTER_UP);
   png_set_compression_level(png, effort == PngEffort::fast ? 1 : 9);
   png_set_compression_buffer_size(png, std::size_t{64} * 1024);

@@ -6,10 +6,10 @@
 
 namespace carom {
 
-/// How hard to press: `fast` for frames by the hundred, `small` for one picture that stays.
+/// The compression effort: `fast` for hundreds of frames, `small` for a single picture that is kept.
 enum class PngEffort { fast, small };
 
-/// The PNG file of an 8-bit RGB picture, marked as sRGB. The same picture gives the same bytes. Throws ExportError.
+/// An 8-bit RGB picture as a PNG file, marked as sRGB. The same picture gives the same bytes. Throws ExportError.
 std::string encode_png(const Image& image, PngEffort effort);
 
 }  // namespace carom

@@ -1,3 +1,4 @@
+// Assembles the contact sheet in memory. Its size is checked in the constructor, before the run starts.
 #include "export/sheet.h"
 
 #include <algorithm>
@@ -9,9 +10,9 @@ namespace carom {
 namespace {
 
 constexpr int gap = 8;                             // pixels between the pictures and around them
-constexpr int whole_width = 1920;                  // pixels, aimed at
+constexpr int whole_width = 1920;                  // pixels, target
 constexpr int most_width = 480;                    // pixels, of one picture
-constexpr int least_width = 32;                    // pixels, of one picture: below, nothing can be made out
+constexpr int least_width = 32;                    // pixels, of one picture; nothing is recognisable below
 constexpr std::int64_t most_pixels = 100'000'000;  // 300 MB in memory
 constexpr std::uint8_t paper = 24;                 // grey, sRGB
 

@@ -1,5 +1,5 @@
 #pragma once
-// sheet.png: a contact sheet, pictures at even instants of the run side by side.
+// sheet.png: a contact sheet of pictures at evenly spaced instants of the run.
 #include <cstdint>
 
 #include "render/image.h"
@@ -9,13 +9,14 @@ namespace carom {
 
 class Sheet {
  public:
-  /// Pictures of the shape of `shape`, as large as lets a row of them be 1920 pixels wide, at most 480 wide each.
+  /// Pictures with the aspect ratio of `shape`.
+  /// A row of them is up to 1920 pixels wide, and each is at most 480 pixels wide.
   /// Throws ExportError if the sheet would be too large.
   Sheet(const SheetOutput& sheet, Size shape);
 
   Size picture_size() const { return picture_; }
   std::int64_t count() const { return std::int64_t{columns_} * rows_; }
-  /// Puts picture `number` (row by row, from the left) into its place.
+  /// Copies picture `number` to its place. Numbers run row by row, from the left.
   void put(std::int64_t number, const Image& picture);
   const Image& image();
 
@@ -24,7 +25,7 @@ class Sheet {
 
   int columns_, rows_;
   Size picture_, whole_;
-  Image image_;  // made with the first picture
+  Image image_;  // allocated at the first picture
 };
 
 }  // namespace carom

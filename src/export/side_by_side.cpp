@@ -1,3 +1,5 @@
+// Builds one ffmpeg filter graph for all films: equal frame rate, size and length, a label, then xstack.
+// Times are aligned by simulated time. Labels are passed in files, so that no text of a scene enters the graph.
 #include "export/side_by_side.h"
 
 #include <fcntl.h>
@@ -17,10 +19,11 @@ namespace carom {
 namespace {
 
 constexpr const char* font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-constexpr int widest = 3840, highest = 2160;  // pixels, of the whole
+constexpr int widest = 3840, highest = 2160;  // pixels, of the whole film
 constexpr int crf = 18;
 
-/// A tile's place and size, in pixels; both sides are even, for colour has half the resolution.
+/// The layout in columns and rows, and a tile's size in pixels.
+/// Both sides are even, because colour has half the resolution.
 struct Grid {
   int columns, rows, width, height;
 };
@@ -43,7 +46,7 @@ Grid grid_of(const std::vector<FilmFacts>& films) {
   return {columns, rows, even(width * scale), even(height * scale)};
 }
 
-/// Whether `a` has more frames a second than `b`.
+/// Whether `a` has the higher frame rate.
 bool is_faster(const FilmFacts& a, const FilmFacts& b) {
   return a.rate * b.per > b.rate * a.per;
 }
@@ -52,7 +55,7 @@ double rate_of(const FilmFacts& film) {
   return static_cast<double>(film.rate) / static_cast<double>(film.per);
 }
 
-/// Frames of the whole film's rate before a tile's first one, and how many it then has.
+/// The number of frames before a tile's first one, and of the tile, at the frame rate of the whole film.
 struct Span {
   std::uint64_t before, frames;
 };
@@ -64,7 +67,7 @@ Span span_of(const FilmTile& tile, const FilmFacts& film, const FilmFacts& faste
           static_cast<std::uint64_t>(std::max<std::int64_t>(1, nearest_whole(frames)))};
 }
 
-/// As large as the longest line allows: a letter of this font is 0.6 of its size wide, roughly.
+/// The largest size at which the longest line fits. A letter of this font is about 0.6 of its size wide.
 int font_size(const std::vector<FilmTile>& tiles, const Grid& grid) {
   std::size_t longest = 1;
   for (const FilmTile& tile : tiles)
@@ -128,7 +131,7 @@ void SideBySide::complete() {
           "scale={0}:{1}:force_original_aspect_ratio=decrease:force_divisible_by=2:flags=bicubic+accurate_rnd+"
           "full_chroma_int+bitexact,pad={0}:{1}:(ow-iw)/2:(oh-ih)/2,setsar=1,",
           grid.width, grid.height);
-    // Cut to the same number of frames each: the first one held before, the last one after.
+    // Give each film the same number of frames: the first one repeated before, the last one after.
     graph += fmt::format("tpad=start={}:start_mode=clone:stop=-1:stop_mode=clone,trim=end_frame={}", spans[k].before,
                          frames);
     graph += fmt::format(

@@ -1,5 +1,5 @@
 #pragma once
-// Films of several runs in one: side by side, in step, each with its name.
+// The films of several runs in one film, side by side and synchronised, each with its name.
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,25 +10,27 @@ namespace carom {
 
 struct FilmTile {
   std::string folder, file;         // the film
-  double from = 0;                  // s, simulated time of its first frame
+  double from = 0;                  // s, the simulated time of its first frame
   std::vector<std::string> labels;  // lines
 };
 
-/// How many films there is room for in one.
+/// The maximum number of films in one.
 inline constexpr std::size_t most_tiles = 16;
 
-/// H.264 as of any film; the same films give the same bytes. Time is simulated time: a film that begins later shows its
-/// first frame until then, one that ends earlier its last. Of different sizes, each keeps its shape; of different frame
-/// rates, the highest is taken. The grid is as square as can be.
+/// H.264 as for every film. The same films give the same bytes. Time is simulated time.
+/// A film that begins later shows its first frame until then, and one that ends earlier keeps its last.
+/// Films of different sizes keep their aspect ratios. The highest frame rate applies to all.
+/// The grid is as square as possible.
 class SideBySide {
  public:
-  /// Looks at the films. Throws ExportError, as all of this class does, which says what is missing and the remedy.
+  /// Reads the properties of the films.
+  /// Throws ExportError, as all functions of this class do. Its text names what is missing and the remedy.
   SideBySide(const FilePlace& place, const std::string& name, std::vector<FilmTile> tiles);
 
   /// Makes the film.
   void complete();
   PartFile& file() { return file_; }
-  const FileRecord& record() const { return file_.record(); }  // after complete()
+  const FileRecord& record() const { return file_.record(); }  // valid after complete()
 
  private:
   FilmTools tools_;

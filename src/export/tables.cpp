@@ -1,3 +1,5 @@
+// Formats numbers in blocks on a background thread, directly into the buffers of the files.
+// Formatting dominates the cost of a long table, so the simulation only copies numbers.
 #include "export/tables.h"
 
 #include <algorithm>
@@ -18,13 +20,13 @@ namespace {
 constexpr std::array<std::string_view, 6> motion_columns = {"x_m",        "y_m",        "z_m",
                                                             "vx_m_per_s", "vy_m_per_s", "vz_m_per_s"};
 
-/// The most characters of six numbers, each after its comma.
+/// The maximum number of characters of six numbers, each after a comma.
 constexpr std::size_t motion_size = 6 * (number_size + 1);
 
-/// Rows of a block: enough that handing it on costs nothing, few enough to stay in a processor's cache.
+/// Rows of a block: enough to make passing it on negligible, and few enough to stay in cache.
 constexpr std::size_t block_rows = 4096;
 
-/// A block's digits are worth a thread from the second block on.
+/// From the second block on, formatting happens on a thread.
 constexpr std::uint64_t blocks_alone = 1;
 
 char* put_motion(char* to, const Vec3& position, const Vec3& velocity) {
@@ -39,7 +41,7 @@ char* put_motion(char* to, const Vec3& position, const Vec3& velocity) {
   return to;
 }
 
-/// The cell of a body or a fixed thing, after its comma; of no_entity, an empty one.
+/// Writes a comma and the name of a body or fixed thing. The cell of no_entity is empty.
 void write_name(OutputFile& file, const Roster& roster, Entity bodies, Entity entity) {
   file.write(",");
   if (entity < bodies) {
@@ -126,7 +128,7 @@ void TrajectoryTable::write(Block& block) {
 
 void TrajectoryTable::write_long(const Part& part, const Motion* motion) {
   if (part.count == 0) return;
-  // The time's digits are the same for all bodies: written once, copied then.
+  // All bodies share the digits of the time, which are formatted once and copied.
   char time_text[number_size];
   const std::string_view time_cell(time_text, static_cast<std::size_t>(put_number(time_text, part.time) - time_text));
   const BodyRange* range = &scene_.roster.range_of(part.first);

@@ -1,6 +1,6 @@
 #pragma once
-// The CSV files of a run. Each is made only if the scene asks for it. Those that grow long get their digits on a thread
-// of their own.
+// The CSV files of a run. Each is made only if the scene requests it.
+// Long tables format their numbers on a background thread.
 #include <span>
 #include <vector>
 
@@ -17,9 +17,10 @@ struct World;
 
 struct Summary;
 
-/// trajectory.csv. Long: a row a body and instant, by time then body. Wide: a row an instant, six columns a body:
+/// trajectory.csv. Long form: a row for each body and instant, by time then body.
+/// Wide form: a row for each instant, six columns for each body:
 /// time_s,<name>.x_m,<name>.y_m,<name>.z_m,<name>.vx_m_per_s,<name>.vy_m_per_s,<name>.vz_m_per_s,...
-/// A body that has become part of another has no rows from then on; in a wide table its cells are empty.
+/// A body that has merged into another has no rows from then on. In a wide table its cells are empty.
 class TrajectoryTable : public Writer {
  public:
   TrajectoryTable(const FilePlace& place, const Scene& scene);
@@ -28,14 +29,15 @@ class TrajectoryTable : public Writer {
 
  private:
   struct Motion {
-    Vec3 position, velocity;  // m, m/s; not finite: the body has become part of another
+    /// In m and m/s. Not finite: the body has merged into another.
+    Vec3 position, velocity;
   };
-  /// Some bodies' motions at one instant: numbers first, first + 1, ...
+  /// The motions of bodies first, first + 1, ... at one instant.
   struct Part {
     double time;  // s
     Entity first, count;
   };
-  /// Numbers that wait for their digits.
+  /// Numbers that wait to be formatted.
   struct Block {
     std::vector<Part> parts;
     std::vector<Motion> motions;
@@ -46,10 +48,11 @@ class TrajectoryTable : public Writer {
 
   const Scene& scene_;
   OutputFile file_;
-  Conveyor<Block> blocks_;  // last: its thread writes into file_
+  /// Last, because its thread writes into file_.
+  Conveyor<Block> blocks_;
 };
 
-/// collisions.csv: a row a collision, in the order in which they happened.
+/// collisions.csv: a row for each collision, in the order of occurrence.
 class CollisionTable : public Writer {
  public:
   CollisionTable(const FilePlace& place, const Scene& scene);
@@ -62,10 +65,11 @@ class CollisionTable : public Writer {
   const Roster& roster_;
   Entity bodies_;
   OutputFile file_;
-  Conveyor<std::vector<Collision>> blocks_;  // last: its thread writes into file_
+  /// Last, because its thread writes into file_.
+  Conveyor<std::vector<Collision>> blocks_;
 };
 
-/// contacts.csv: a row an instant and pair in lasting contact, by time, then a, then b.
+/// contacts.csv: a row for each instant and pair in lasting contact, by time, then a, then b.
 class ContactTable : public Writer {
  public:
   ContactTable(const FilePlace& place, const Scene& scene);
@@ -79,7 +83,7 @@ class ContactTable : public Writer {
   OutputFile file_;
 };
 
-/// energy.csv: a row an instant.
+/// energy.csv: a row for each instant.
 class EnergyTable : public Writer {
  public:
   EnergyTable(const FilePlace& place, const Scene& scene);
@@ -91,7 +95,7 @@ class EnergyTable : public Writer {
   OutputFile file_;
 };
 
-/// summary.csv: its one row.
+/// summary.csv: its single row.
 void write_summary(OutputFile& file, const Summary& summary);
 
 }  // namespace carom

@@ -1,3 +1,6 @@
+// Tick i is i * numerator / denominator, rounded once.
+// A sum of intervals would drift, and the product i * 0.01 is not the double of the decimal that the author means.
+// Intervals are therefore recovered as decimals or as one over a whole number.
 #include "export/timeline.h"
 
 #include <algorithm>
@@ -12,10 +15,10 @@
 namespace carom {
 namespace {
 
-/// Beyond this a double no longer counts one by one, so no tick has a higher number.
+/// Beyond this number doubles do not represent every whole number, so no tick has a higher number.
 constexpr std::int64_t most_ticks = std::int64_t{1} << 53;
 
-/// The tick number nearest to `x`, kept within what can be counted.
+/// The whole number below `x`, limited to what can be counted.
 std::int64_t tick_number(double x) {
   return std::clamp<std::int64_t>(whole_below(x), 0, most_ticks);
 }
@@ -24,8 +27,9 @@ struct Ratio {
   double numerator, denominator;
 };
 
-/// `value` as the short decimal m/10^k that an author wrote, if it is one: both parts are exact doubles, so that their
-/// quotient, and that of any multiple, is the double nearest to the decimal.
+/// `value` as the short decimal m/10^k that an author wrote, if it is one.
+/// Both parts are exact doubles.
+/// Their quotient, and that of any multiple, is therefore the double nearest to the decimal.
 std::optional<Ratio> as_decimal(double value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific).ptr;
@@ -44,8 +48,8 @@ std::optional<Ratio> as_decimal(double value) {
   }
   std::from_chars(c + (c[1] == '+' ? 2 : 1), end, exponent);
   exponent -= places;
-  // 15 digits: more are the digits of a quotient like 1/30, not something that was written. 10^22 is the last exact
-  // power.
+  // At most 15 digits: more are the digits of a quotient like 1/30, not of a written number.
+  // 10^22 is the largest exact power.
   if (count > 15 || exponent > 0 || exponent < -22) return std::nullopt;
   double power = 1;
   for (int i = exponent; i < 0; ++i) power *= 10;
@@ -69,13 +73,15 @@ Ticks Ticks::every(double interval, double duration) {
   const Ratio ratio = as_ratio(interval);
   ticks.numerator_ = ratio.numerator;
   ticks.denominator_ = ratio.denominator;
-  // A tick so near to the end that only rounding keeps them apart is the end itself.
+  // A tick that differs from the end only by rounding is the end itself.
   const double rounding = std::max(1e-9 * interval, 2 * std::numeric_limits<double>::epsilon() * duration);
   const double limit = duration - std::min(rounding, interval / 2);
-  std::int64_t below = tick_number(duration / interval);  // the number of ticks below the limit, but for rounding
+  // The number of ticks below the limit, except for rounding.
+  std::int64_t below = tick_number(duration / interval);
   for (int i = 0; i < 3 && below > 0 && ticks.at(below - 1) >= limit; ++i) --below;
   for (int i = 0; i < 3 && below < most_ticks && ticks.at(below) < limit; ++i) ++below;
-  ticks.last_ = duration > 0 ? std::max<std::int64_t>(below, 1) : 0;  // a start is never rounded away
+  // A start is never rounded away.
+  ticks.last_ = duration > 0 ? std::max<std::int64_t>(below, 1) : 0;
   ticks.end_ = duration;
   return ticks;
 }
@@ -85,8 +91,7 @@ Ticks Ticks::rate(double per_second, double from, double until) {
     throw std::invalid_argument("Ticks::rate: the rate must be positive and finite");
   Ticks ticks;
   ticks.denominator_ = per_second;
-  // The quotient decides, not the product: i/fps is what a tick's time is, and what `from` and `until` are held
-  // against.
+  // Compare with the quotient, not the product. i/fps is the time of a tick, and `from` and `until` refer to it.
   std::int64_t first = tick_number(from * per_second);
   for (int i = 0; i < 3 && first > 0 && ticks.at(first - 1) >= from; ++i) --first;
   for (int i = 0; i < 3 && first < most_ticks && ticks.at(first) < from; ++i) ++first;
@@ -109,7 +114,7 @@ Ticks Ticks::even(std::int64_t count, double duration) {
 }
 
 double Ticks::at(std::int64_t i) const {
-  // The product is exact for every run that ends in a lifetime; one division then rounds once.
+  // The product is exact for every run of practical length. The division then rounds once.
   return end_ && i == last_ ? *end_ : static_cast<double>(i) * numerator_ / denominator_;
 }
 
@@ -121,7 +126,7 @@ int Timeline::add(const Ticks& ticks) {
 }
 
 bool Timeline::advance() {
-  // Whatever was due is done.
+  // Mark all due outputs as done.
   for (Stream& stream : streams_) {
     stream.next += stream.due;
     stream.due = false;

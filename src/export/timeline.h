@@ -1,5 +1,5 @@
 #pragma once
-// When outputs are due. Every instant is computed from its number, never summed up, so that nothing drifts.
+// The times at which outputs are due. Each is computed from its number and never summed up, so that times do not drift.
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -9,12 +9,12 @@ namespace carom {
 /// The instants of one output, numbered first() .. last().
 class Ticks {
  public:
-  /// 0, interval, 2 interval, ... below `duration` (s), and last the duration itself. An interval that is a short
-  /// decimal (0.01) or one over a whole number (1/30) counts exactly: tick 7 of 0.01 is 0.07.
+  /// 0, interval, 2 interval, ... below `duration` (s), and the duration itself as the last one.
+  /// An interval that is a short decimal (0.01) or one over a whole number (1/30) is exact: tick 7 of 0.01 is 0.07.
   static Ticks every(double interval, double duration);
-  /// Tick i at i / per_second exactly, for every i that lies within from .. until (s).
+  /// Tick i at i / per_second exactly, for every i with a time in from .. until (s).
   static Ticks rate(double per_second, double from, double until);
-  /// `count` instants evenly from 0 to `duration` (s), ends included; one alone is at the duration.
+  /// `count` evenly spaced instants from 0 to `duration` (s), ends included. A single one is at the duration.
   static Ticks even(std::int64_t count, double duration);
 
   std::int64_t first() const { return first_; }
@@ -24,18 +24,21 @@ class Ticks {
 
  private:
   std::int64_t first_ = 0, last_ = -1;
-  double numerator_ = 1, denominator_ = 1;  // tick i is at i * numerator / denominator
-  std::optional<double> end_;               // the last tick's own time
+  /// Tick i is at i * numerator / denominator.
+  double numerator_ = 1, denominator_ = 1;
+  std::optional<double> end_;  // the last tick's own time
 };
 
-/// All outputs' instants in order. The last instant is the duration, whether an output is due there or not.
+/// The instants of all outputs in order. The last instant is the duration, even if no output is due then.
 class Timeline {
  public:
   explicit Timeline(double duration);
-  int add(const Ticks& ticks);                        // gives the stream's number
-  bool advance();                                     // to the next instant; false: there is none
-  double time() const { return time_; }               // s
-  std::optional<std::int64_t> due(int stream) const;  // the tick's number if this stream is due now
+  int add(const Ticks& ticks);  // returns the stream's number
+  /// To the next instant. False: none is left.
+  bool advance();
+  double time() const { return time_; }  // s
+  /// The tick's number if this stream is due.
+  std::optional<std::int64_t> due(int stream) const;
 
  private:
   struct Stream {

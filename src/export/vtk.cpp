@@ -1,3 +1,5 @@
+// Writes VTK's XML with arrays in base64: a count of bytes, then the numbers, little-endian.
+// Text numbers would be larger and slower, and appended raw data would not be valid XML.
 #include "export/vtk.h"
 
 #include <fmt/format.h>
@@ -19,7 +21,7 @@ static_assert(std::endian::native == std::endian::little, "the files say LittleE
 
 constexpr std::string_view head = "<?xml version=\"1.0\"?>\n";
 
-/// Numbers as VTK has them in base64: how many bytes follow, then these.
+/// Numbers in VTK's base64 form: the number of bytes, then the bytes.
 class Bytes {
  public:
   template <typename Number>
@@ -61,7 +63,7 @@ std::string begin(std::string_view type) {
                      head, type);
 }
 
-/// A file of points and either vertices or triangles.
+/// A file of points, with either vertices or triangles.
 std::string poly_data(const std::string& field, std::size_t points, const std::string& point_data,
                       const std::string& coordinates, std::string_view cells, std::size_t cell_count, int corners,
                       Bytes& connectivity, const std::string& cell_data) {
@@ -164,7 +166,8 @@ std::vector<OutputFile*> VtkWriter::files() {
 }
 
 double VtkWriter::bytes(const Scene& scene, double instants) {
-  constexpr double body_bytes = 118, solid_bytes = 33, file_bytes = 2000, surface_bytes = 3000;  // typical
+  // Typical values.
+  constexpr double body_bytes = 118, solid_bytes = 33, file_bytes = 2000, surface_bytes = 3000;
   const double row_bytes = body_bytes + (has_solids(scene.world) ? solid_bytes : 0);
   return instants * (file_bytes + row_bytes * scene.world.body_count()) + surface_bytes * scene.world.fixed_count();
 }

@@ -1,7 +1,9 @@
 #pragma once
-// For ParaView: vtk/bodies_00000.vtp and on, a file an instant with a point a body; trajectory.pvd, which says when
-// each is; surfaces.vtp, what stands still. VTK's XML files (VTK File Formats 4.2), their arrays in base64: valid XML,
-// every bit of every double, the same bytes each time.
+// Files for ParaView, in VTK's XML format (VTK File Formats 4.2) with arrays in base64.
+// - vtk/bodies_00000.vtp and on: a file for each instant, with a point for each body.
+// - trajectory.pvd: the time of each of these files.
+// - surfaces.vtp: everything that does not move.
+// The files are valid XML, keep every bit of every double, and have reproducible bytes.
 #include <string>
 #include <vector>
 
@@ -26,7 +28,8 @@ class VtkWriter : public Writer {
   bool solids_;
   Series bodies_;
   OutputFile collection_, surfaces_;
-  Extent extent_;  // of the bodies so far
+  /// Of the bodies at all instants so far.
+  Extent extent_;
 };
 
 }  // namespace carom

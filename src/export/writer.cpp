@@ -1,3 +1,4 @@
+// The table of writers: how each output is opened, and an estimate of its size.
 #include "export/writer.h"
 
 #include "export/flights_file.h"
@@ -11,9 +12,22 @@
 namespace carom {
 namespace {
 
-// Typical sizes, bytes: a motion's six numbers, a time, a name, a row of energy.csv.
-constexpr double motion_bytes = 114, time_bytes = 6, name_bytes = 8, energy_bytes = 110, collision_bytes = 260,
-                 contact_bytes = 40, path_bytes = 100;
+// Typical sizes, in bytes.
+
+// The six numbers of a motion.
+constexpr double motion_bytes = 114;
+// A time.
+constexpr double time_bytes = 6;
+// A name.
+constexpr double name_bytes = 8;
+// A row of energy.csv.
+constexpr double energy_bytes = 110;
+// A row of collisions.csv.
+constexpr double collision_bytes = 260;
+// A row of contacts.csv.
+constexpr double contact_bytes = 40;
+// A piece of a path in flights.bin.
+constexpr double path_bytes = 100;
 
 template <typename Table>
 std::unique_ptr<Writer> open(OpenFolder& folder, const Scene& scene, const ModelMakers&) {
@@ -28,11 +42,11 @@ double trajectory_bytes(const Scene& scene, double instants) {
 
 constexpr WriterKind all_kinds[] = {
     {"trajectory", open<TrajectoryTable>, trajectory_bytes},
-    // How many there will be is not known; one a body.
+    // The number of collisions is unknown. One for each body is assumed.
     {"collisions", open<CollisionTable>,
      [](const Scene& scene, double) { return collision_bytes * scene.world.body_count(); }},
     {"energy", open<EnergyTable>, [](const Scene&, double instants) { return energy_bytes * instants; }},
-    // Which bodies rest when is not known; half of them always.
+    // The number of contacts is unknown. Half of the bodies are assumed to be at rest always.
     {"contacts", open<ContactTable>,
      [](const Scene& scene, double instants) { return contact_bytes * instants * scene.world.body_count() / 2; }},
     {"vtk",
@@ -50,7 +64,7 @@ constexpr WriterKind all_kinds[] = {
        return std::make_unique<GltfWriter>(folder, scene, makers);
      },
      GltfWriter::bytes},
-    // How many pieces there will be is not known; three a body.
+    // The number of pieces is unknown. Three for each body are assumed.
     {"flights", open<FlightsFile>,
      [](const Scene& scene, double) { return 3 * path_bytes * scene.world.body_count(); }},
 };

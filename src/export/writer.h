@@ -1,6 +1,6 @@
 #pragma once
-// What writes an output from states and collisions, picture outputs aside: one row a kind, opened only if the scene
-// asks for it.
+// The interface of outputs made from states and collisions. Picture outputs are separate.
+// Each kind has one row, and is opened only if the scene requests it.
 #include <memory>
 #include <span>
 #include <string_view>
@@ -23,29 +23,29 @@ struct Scene;
 class Writer {
  public:
   virtual ~Writer() = default;
-  /// Collisions, in the order in which they happened.
+  /// Takes collisions, in the order of occurrence.
   virtual void record(std::span<const Collision>) {}
-  /// Pieces of paths, in their order.
+  /// Takes pieces of paths, in order.
   virtual void record_paths(std::span<const PathPiece>) {}
-  /// Whether add() looks at the forces of contact.
+  /// Whether add() reads the contact forces.
   virtual bool wants_contacts() const { return false; }
-  /// The state at an instant at which this output is due (s). `contacts`: by a, then b.
+  /// Takes the state at an instant (s) at which this output is due. `contacts`: by a, then b.
   virtual void add(double, const State&, std::span<const ContactForce>) {}
-  /// The run is at its end.
+  /// Ends the run.
   virtual void end(const Tally&) {}
-  /// Those of its files that it has given up.
+  /// The files that this output has given up.
   virtual std::vector<LeftOut> left_out() const { return {}; }
-  /// Its files with all their bytes, not complete yet; after end().
+  /// Its files with all their bytes, not yet complete. Called after end().
   virtual std::vector<OutputFile*> files() = 0;
-  /// Its files that have their names already.
+  /// Its files that already have their final names.
   virtual std::vector<FileRecord> published() const { return {}; }
 };
 
 struct WriterKind {
-  std::string_view name;  // its OutputKind's
-  /// Opens its files; what can be refused without is refused before. Throws ExportError.
+  std::string_view name;  // the name of its OutputKind
+  /// Opens its files. What can be refused in advance is refused before. Throws ExportError.
   std::unique_ptr<Writer> (*open)(OpenFolder& folder, const Scene& scene, const ModelMakers& makers);
-  /// Roughly, of all its files, at so many instants.
+  /// An estimate of the bytes of all its files at this number of instants.
   double (*bytes)(const Scene& scene, double instants);
 };
 

@@ -1,3 +1,5 @@
+// Writes extended XYZ with the species X for all bodies, because ASE accepts no names of bodies as species.
+// The room, if there is one, becomes the cell, without periodic boundaries.
 #include "export/xyz.h"
 
 #include <fmt/format.h>
@@ -11,16 +13,16 @@
 namespace carom {
 namespace {
 
-constexpr std::size_t row_numbers = 16;  // at most
+constexpr std::size_t row_numbers = 16;  // maximum
 
-/// The coordinate of a room's plane; none: there is no room.
+/// The coordinate of a plane of the room. None: there is no room.
 std::optional<double> room_side(const Scene& scene, std::string_view name, int axis) {
   for (std::size_t i = 0; i < scene.world.planes.size() && i < scene.roster.fixed.size(); ++i)
     if (scene.roster.fixed[i].name == name) return scene.world.planes[i].point[axis];
   return std::nullopt;
 }
 
-/// The cell is the room, whose walls are no periodic boundaries.
+/// The cell is the room. Its walls are not periodic boundaries.
 std::string cell_text(const Scene& scene) {
   std::string edges, corner;
   for (int axis = 0; axis < 3; ++axis) {
@@ -44,7 +46,8 @@ char* put_vector(char* to, const Vec3& vector) {
 
 }  // namespace
 
-// The species is that of no chemical element, for ASE knows no others; OVITO takes colours and sizes from the columns.
+// The species X is not a chemical element. ASE accepts no other such name.
+// OVITO takes colours and sizes from the columns.
 XyzWriter::XyzWriter(OpenFolder& folder, const Scene& scene)
     : scene_(scene), solids_(has_solids(scene.world)), file_(folder.place(), "trajectory.xyz") {
   cell_ = cell_text(scene) +
@@ -87,7 +90,8 @@ void XyzWriter::add(double time, const State& state, std::span<const ContactForc
 }
 
 double XyzWriter::bytes(const Scene& scene, double instants) {
-  constexpr double row_bytes = 170, comment_bytes = 200;  // typical
+  // Typical values.
+  constexpr double row_bytes = 170, comment_bytes = 200;
   return instants * (comment_bytes + row_bytes * scene.world.body_count());
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// trajectory.xyz: extended XYZ, one frame after another, for OVITO and ASE. In columns that both know, and numbers that
-// read back to the same doubles.
+// trajectory.xyz: extended XYZ, one frame after another, for OVITO and ASE.
+// It uses columns that both read, and numbers that read back to the same doubles.
 #include <string>
 #include <vector>
 
@@ -20,8 +20,10 @@ class XyzWriter : public Writer {
  private:
   const Scene& scene_;
   bool solids_;
-  std::string cell_;                 // of the comment line: the room, the columns
-  std::vector<std::string> colors_;  // by range of bodies, after a space
+  /// Part of the comment line: the room, the columns.
+  std::string cell_;
+  /// By range of bodies, each after a space.
+  std::vector<std::string> colors_;
   OutputFile file_;
 };
 

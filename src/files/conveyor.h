@@ -1,5 +1,6 @@
 #pragma once
-// Work for a thread of its own: items filled here are used there, in order. A few items exist, however many are sent.
+// A queue of work for a background thread: items are filled by the sender and used by the thread, in order.
+// A fixed number of items is reused, however many are sent.
 #include <array>
 #include <condition_variable>
 #include <csignal>
@@ -16,13 +17,14 @@ namespace carom {
 template <typename Item>
 class Conveyor {
  public:
-  /// How many items there are: one is filled, one is used, the others make up for an uneven pace.
+  /// The number of items: one is being filled, one is being used, and the others even out the pace.
   static constexpr std::size_t items = 4;
 
-  /// `use` is called once for each item sent: for the first `alone` of them by the sender, so that little work starts
-  /// no thread; then by the thread. It leaves the item ready to be filled again.
+  /// `use` is called once for each item sent, and leaves the item ready to be filled again.
+  /// The sender calls it for the first `alone` items, so that little work starts no thread.
+  /// The thread calls it for the others.
   Conveyor(std::function<void(Item&)> use, std::uint64_t alone) : use_(std::move(use)), alone_(alone) {}
-  /// What is sent and not yet used never is.
+  /// Items that were sent and not yet used are dropped.
   ~Conveyor() {
     if (!thread_.joinable()) return;
     {
@@ -35,10 +37,10 @@ class Conveyor {
   Conveyor(const Conveyor&) = delete;
   Conveyor& operator=(const Conveyor&) = delete;
 
-  /// The item to be filled; the same one until it is sent.
+  /// The item to fill. It stays the same until it is sent.
   Item& item() { return items_[sent_ % items]; }
 
-  /// Hands the item on and waits until there is another one. Throws what `use` threw, of this item or a former one.
+  /// Passes the item on and waits until another one is free. Throws what `use` threw for this item or an earlier one.
   void send() {
     if (!thread_.joinable() && (sent_ < alone_ || !start())) {
       use_(item());
@@ -53,20 +55,20 @@ class Conveyor {
     if (failure_) std::rethrow_exception(failure_);
   }
 
-  /// Waits until all that was sent is used. Throws what `use` threw.
+  /// Waits until all items sent are used. Throws what `use` threw.
   void finish() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return failure_ || sent_ == used_; });
     if (failure_) std::rethrow_exception(failure_);
   }
 
-  /// Whether there is a thread.
+  /// Whether the thread is running.
   bool started() const { return thread_.joinable(); }
 
  private:
-  /// False where the system has no thread to give; the sender then does the work.
+  /// False if the system cannot start a thread. The sender then does the work.
   bool start() {
-    // Signals are for the thread that runs the scene.
+    // The new thread blocks all signals, which belong to the thread that runs the scene.
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -103,7 +105,8 @@ class Conveyor {
   std::array<Item, items> items_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::uint64_t sent_ = 0, used_ = 0;  // changed under the mutex once there is a thread
+  /// Changed under the mutex once the thread runs.
+  std::uint64_t sent_ = 0, used_ = 0;
   std::exception_ptr failure_;
   bool end_ = false;
   std::thread thread_;

@@ -1,3 +1,5 @@
+// Copies a run file by file and compares the hash of each copy with the manifest.
+// The manifest is copied last, so that an interrupted copy is an incomplete run.
 #include "files/copied_run.h"
 
 #include <fcntl.h>
@@ -19,7 +21,7 @@
 namespace carom {
 namespace {
 
-/// Its bytes and its hash must be those of the record.
+/// Copies a file. Its size and hash must match the record.
 void copy_file(const FileSpot& from, const FilePlace& to, const FileRecord& record) {
   const std::string& name = from.name;
   const Descriptor source = open_stored(from.folder, name);
@@ -66,7 +68,7 @@ void remove_run(const std::string& path) {
   const Descriptor folder = open_folder(AT_FDCWD, path, false);
   if (!folder) return;
   remove_files_of_run({folder.get(), path});
-  // Of what no run wrote the folder stays.
+  // A folder with files of another origin stays.
   if (rmdir(path.c_str()) != 0 && errno != ENOTEMPTY && errno != EEXIST && !is_absent(errno))
     fail("remove", {-1, path}, "");
 }

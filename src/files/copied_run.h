@@ -1,14 +1,14 @@
 #pragma once
-// Runs that are another's copy, and the removal of a run.
+// Copies of runs, and the removal of a run.
 #include <string>
 
 namespace carom {
 
-/// Makes `to` a copy of the whole run in `from`, its manifest last. What another run left in `to` goes first. Not
-/// synced. Throws ExportError.
+/// Makes `to` a copy of the complete run in `from`, its manifest last. Files of another run in `to` are removed first.
+/// The copy is not synced. Throws ExportError.
 void copy_run(const std::string& from, const std::string& to);
 
-/// Removes the files of a run, by its manifest, and its folder if nothing else is in it.
+/// Removes the files named in a run's manifest, and the folder if it is then empty.
 void remove_run(const std::string& folder);
 
 }  // namespace carom

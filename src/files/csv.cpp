@@ -1,3 +1,5 @@
+// Writes cells by RFC 4180. A text that begins with =, +, -, @, a tab or a carriage return gets an apostrophe in front.
+// A spreadsheet would run such a text as a formula.
 #include "files/csv.h"
 
 namespace carom {

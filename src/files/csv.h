@@ -1,5 +1,7 @@
 #pragma once
-// RFC 4180 cells: shortest digits that read back to the same double, text that no spreadsheet runs. Lines end in LF.
+// RFC 4180 cells: numbers with the shortest digits that read back to the same double,
+// and text that no spreadsheet runs.
+// Lines end in LF.
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -11,10 +13,10 @@
 
 namespace carom {
 
-/// The most characters that a number's cell takes: -1.7976931348623157e+308.
+/// The maximum number of characters in a number's cell: -1.7976931348623157e+308.
 inline constexpr std::size_t number_size = 24;
 
-/// Writes a number's cell; gives its end. Minus zero is 0; what is not finite is undefined, an empty cell.
+/// Writes a number's cell and returns its end. Minus zero is written as 0, and a non-finite value as an empty cell.
 inline char* put_number(char* to, double value) {
   if (!std::isfinite(value)) return to;
   return std::to_chars(to, to + number_size, value == 0 ? 0.0 : value).ptr;
@@ -27,18 +29,17 @@ inline char* put_text(char* to, std::string_view text) {
   return to + text.copy(to, text.size());
 }
 
-/// A number's cell.
+/// The cell of a number.
 inline std::string number_cell(double value) {
   char text[number_size];
   return {text, put_number(text, value)};
 }
 
-/// Any text as a cell: in quotes where it must be; led by an apostrophe where a spreadsheet would take it for a
-/// formula.
+/// Any text as a cell, in quotes where needed.
+/// A text that a spreadsheet would take for a formula gets an apostrophe in front.
 std::string text_cell(std::string_view text);
 
-/// One row at a time, cell by cell, for tables whose rows are few. (The trajectory writes into its file's buffer
-/// itself.)
+/// One row at a time, cell by cell, for tables with few rows. The trajectory writes into its file's buffer directly.
 class CsvRow {
  public:
   explicit CsvRow(OutputFile& file) : file_(file) {}

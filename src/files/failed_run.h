@@ -1,14 +1,14 @@
 #pragma once
-// What a run of a sweep leaves that failed.
+// The folder of a failed run of a sweep.
 #include <string>
 
 namespace carom {
 
-/// Makes the folder if need be; what another run left in it goes, and the reason is all that stands there:
-/// failure_file. Throws ExportError.
+/// Makes the folder if needed, removes what another run left in it, and writes the reason to failure_file.
+/// That is then the only file in it. Throws ExportError.
 void store_failure(const std::string& folder, const std::string& why);
 
-/// Why the run failed; empty: it has not, or that is not known.
+/// The reason why the run failed. Empty: it did not fail, or the reason is unknown.
 std::string stored_failure(const std::string& folder);
 
 }  // namespace carom

@@ -1,3 +1,5 @@
+// Lists and removes entries by descriptor.
+// Each listing opens the folder again, because descriptors made by dup() share a position.
 #include "files/folder_names.h"
 
 #include <dirent.h>
@@ -13,9 +15,9 @@ namespace {
 
 constexpr std::string_view tail = ".part";
 
-/// None, with errno: the folder cannot be read.
+/// None, with errno set: the folder cannot be read.
 std::optional<std::vector<std::string>> read_names(int folder) {
-  // Opened anew: reading moves a position that descriptors made by dup() share.
+  // Open the folder again, because reading moves a position that descriptors made by dup() share.
   Descriptor copy(openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   DIR* stream = copy ? fdopendir(copy.get()) : nullptr;
   if (!stream) return std::nullopt;
@@ -43,7 +45,7 @@ std::vector<std::string> folder_names(int folder) {
 }
 
 bool try_to_remove(int folder, const std::string& name) {
-  // A program whose run was killed may still be making files in a folder of its own: more than one attempt.
+  // A child process of a killed run may still create files in its folder. Therefore there is more than one attempt.
   for (int attempt = 0; attempt < 10; ++attempt) {
     if (unlinkat(folder, name.c_str(), 0) == 0 || is_absent(errno)) return true;
     if (errno != EISDIR && errno != EPERM) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// SHA-256: how a manifest tells whether a file still is what a run wrote.
+// SHA-256, with which a manifest records the content of each file.
 #include <nettle/sha2.h>
 
 #include <cstddef>
@@ -12,7 +12,8 @@ class Sha256 {
  public:
   Sha256() { sha256_init(&context_); }
   void add(std::string_view bytes);
-  std::string hex();  // 64 lower-case digits, of all that was added; then starts anew
+  /// 64 lower-case hexadecimal digits of all bytes added. The hash then starts anew.
+  std::string hex();
 
  private:
   sha256_ctx context_;

@@ -1,3 +1,6 @@
+// Writes and reads manifest.json.
+// A manifest that is read may be damaged or forged. Names are checked before files are removed by them.
+// The depth of brackets is checked before parsing.
 #include "files/manifest.h"
 
 #include <cmath>
@@ -30,22 +33,22 @@ Json outputs_json(const Output& output) {
   return json;
 }
 
-/// A member that is text; empty if there is none.
+/// The text member `key`. Empty: absent.
 std::string text_member(const Json& json, const char* key) {
   if (!json.is_object()) return {};
   const auto found = json.find(key);
   return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-/// A member that is a whole number; 0 if there is none.
+/// The whole-number member `key`. 0: absent.
 std::uint64_t whole_member(const Json& json, const char* key) {
   if (!json.is_object()) return 0;
   const auto found = json.find(key);
   return found != json.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
 }
 
-/// Whether brackets are open within one another deeper than in any manifest: writing such a value as text again goes as
-/// deep into the stack.
+/// Whether brackets are nested deeper than in any manifest.
+/// Writing such a value as text recurses as deep and may exhaust the stack.
 bool is_too_deep(std::string_view text) {
   constexpr int deepest = 64;
   int depth = 0;

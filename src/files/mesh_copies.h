@@ -1,5 +1,5 @@
 #pragma once
-// The scene's mesh files: a run's folder keeps copies, so that its scene.yaml runs wherever the folder goes.
+// Copies of the scene's mesh files in the run's folder, so that its scene.yaml runs wherever the folder is moved.
 #include <string>
 #include <vector>
 
@@ -11,10 +11,10 @@ struct MeshCopy {
   std::string name, bytes;
 };
 
-/// The files to be copied, read whole. Throws ExportError where one cannot be read any more.
+/// The mesh files to copy, read completely. Throws ExportError if one cannot be read.
 std::vector<MeshCopy> read_meshes(const Scene& scene);
 
-/// Name and hash of each mesh file, as JSON: the scene's text does not tell whether a mesh has changed.
+/// Name and hash of each mesh file, as JSON. The scene's text does not show whether a mesh has changed.
 std::string meshes_text(const Scene& scene);
 
 }  // namespace carom

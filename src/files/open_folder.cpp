@@ -1,3 +1,7 @@
+// A run's folder under an exclusive flock, from before the first file until the last one has its name.
+// At every moment the folder is in a state that inspect_folder classifies correctly, even if the process is killed.
+// The manifest is therefore moved aside before the files that it names are removed.
+// The file scene.yaml marks an unfinished run, so it is written first and removed last.
 #include "files/open_folder.h"
 
 #include <fcntl.h>
@@ -24,7 +28,7 @@
 namespace carom {
 namespace {
 
-/// Where a manifest is kept while the files that it names are removed, so that an interrupted removal can go on.
+/// The name of a manifest while its files are removed, so that an interrupted removal can continue.
 constexpr const char* former_manifest = ".manifest.json.former";
 
 void add_files(std::vector<std::string>& names, const std::optional<Manifest>& manifest) {
@@ -32,7 +36,7 @@ void add_files(std::vector<std::string>& names, const std::optional<Manifest>& m
   for (const FileRecord& file : manifest->files) names.push_back(file.name);
 }
 
-/// The files that an interrupted run of this scene may have left without a manifest that names them.
+/// Adds the files that an interrupted run of this scene may have left without a manifest that names them.
 void add_remains(std::vector<std::string>& names, int folder, const Scene& scene) {
   for (std::string& name : run_files(scene, with_all(scene.output))) names.push_back(std::move(name));
   names.insert(names.end(), bench_files.begin(), bench_files.end());
@@ -98,7 +102,7 @@ void remove_files_of_run(const FilePlace& place) {
     add_files(names, read_manifest(folder, manifest));
   if (names.empty() && stored_size(folder, "scene.yaml")) add_remains(names, folder, Scene());
   std::erase(names, "scene.yaml");
-  // scene.yaml last: until then the folder is known to be an unfinished run.
+  // scene.yaml is removed last. Until then the folder is recognised as an unfinished run.
   remove_file(place, next_manifest);
   remove_file(place, manifest_name);
   remove_files(place, names);
@@ -124,7 +128,7 @@ OpenFolder::OpenFolder(const std::string& path, Durability durability) : durabil
 }
 
 void OpenFolder::lock() {
-  // A run that fails removes the folder that it made; another one may just have opened it then. So: again.
+  // A run that fails removes the folder that it made. Another run may have opened it just before, and then tries again.
   for (int attempt = 0; attempt < 10; ++attempt) {
     made_ = mkdir(place_.path.c_str(), 0777) == 0;
     if (!made_ && errno != EEXIST) fail("make", place_, "");
@@ -145,20 +149,21 @@ void OpenFolder::lock() {
 OpenFolder::~OpenFolder() {
   if (renews_) {
     first_files_.clear();
-    // Nothing was decided: what is left of the parts goes.
+    // Nothing was decided, so the remaining temporary folders are removed.
     for (const std::string& series : series_folder_names()) try_to_remove(place_.folder, part_name(series));
     return;
   }
   if (keep_) return;
   if (!begun_.empty()) {
     for (const std::string& series : series_folder_names())
-      unlinkat(place_.folder, series.c_str(), AT_REMOVEDIR);  // if it is empty
+      // Succeeds only if the folder is empty.
+      unlinkat(place_.folder, series.c_str(), AT_REMOVEDIR);
   }
   for (const FileRecord& file : begun_) unlinkat(place_.folder, file.name.c_str(), 0);
   if (made_) rmdir(place_.path.c_str());
 }
 
-/// Where a folder stands in a file's place, or a file in a series', no name could be given at the end.
+/// Refuses in advance what would make the renaming fail: a folder in a file's place, or a file in a series' place.
 void OpenFolder::refuse_folders(const Scene& scene) const {
   for (const std::string& name : run_files(scene, scene.output)) refuse_folder(place_, name);
   for (const OutputKind& kind : output_kinds()) {
@@ -180,8 +185,8 @@ std::vector<FileRecord> OpenFolder::begin(const Scene& scene, const std::vector<
   if (!manifest && stored_scene && stored_scene->sha256 == sha256(scene.resolved)) add_remains(names, folder, scene);
   std::erase(names, "scene.yaml");
 
-  // First of all the folder stops being a whole run; then it becomes an unfinished one of this scene; then the old
-  // goes.
+  // The order is essential. First the folder stops being a complete run.
+  // Then it becomes an unfinished run of this scene. Then the old files are removed.
   if (manifest)
     give_name(folder, manifest_name, place_, former_manifest);
   else
@@ -231,7 +236,8 @@ void OpenFolder::publish(std::vector<PartFile*> files, OutputFile& manifest) {
   try {
     carom::publish(place_, durability_, files, manifest);
   } catch (...) {
-    if (manifest.is_handed_over()) decide();  // else all of it is taken back
+    // Otherwise all new files are removed.
+    if (manifest.is_handed_over()) decide();
     throw;
   }
   decide();

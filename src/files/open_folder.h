@@ -1,5 +1,5 @@
 #pragma once
-// The run's folder while a run writes it: locked, freed of a former run, put in order when a run fails.
+// The folder of a run during writing: locked, cleared of a former run, and cleaned up when the run fails.
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,66 +13,68 @@ namespace carom {
 
 struct Scene;
 
-/// A folder's descriptor; none, with errno, if it is not there, or no folder, or (unless `follow`) a link. Throws
-/// ExportError where that cannot be said.
+/// Opens a folder.
+/// Returns none, with errno set, if it is absent, no folder, or a link without `follow`.
+/// Throws ExportError on other errors.
 Descriptor open_folder(int parent, const std::string& name, bool follow);
 
 enum class Standing { nothing, folder, other };
-/// What stands at a path. Throws ExportError where that cannot be said.
+/// The kind of entry at a path. Throws ExportError if that cannot be determined.
 Standing what_stands(const std::string& path);
 
-/// Whether two paths lead to the same folder, which is there. Throws ExportError where that cannot be said.
+/// Whether two paths lead to the same existing folder. Throws ExportError if that cannot be determined.
 bool is_same_folder(const std::string& a, const std::string& b);
 
-/// Where a path leads, links followed as far as it is there. Throws ExportError where that cannot be said.
+/// The path with links resolved as far as it exists. Throws ExportError if that cannot be determined.
 std::string canonical(const std::string& path);
 
-/// The path from the root. Throws ExportError where that cannot be said.
+/// The absolute path. Throws ExportError if that cannot be determined.
 std::string absolute(const std::string& path);
 
 enum class LockKind { alone, shared };
-/// False: another one has it. A file system that knows no locks (some network ones) is used without. Throws
-/// ExportError.
+/// Locks a folder. Returns false if the lock is held elsewhere. Throws ExportError.
+/// On a file system without locks, such as some network ones, it returns true without a lock.
 bool lock_folder(const FilePlace& place, LockKind kind);
 
-/// Removes all files that the manifest in this folder names, the manifest first, and parts that were left; of a run
-/// that was interrupted, what runs write beside scene.yaml. Throws ExportError.
+/// Removes all files named in this folder's manifest, the manifest first, and abandoned temporary files.
+/// In the folder of an interrupted run, also removes what runs write beside scene.yaml. Throws ExportError.
 void remove_files_of_run(const FilePlace& place);
 
 class OpenFolder {
  public:
-  /// Makes the folder and its parents if need be, locks it against other runs, and finishes what an interrupted
-  /// publication left. Throws ExportError, as all of this class does.
+  /// Makes the folder and its parents if needed, locks it against other runs, and finishes an interrupted publication.
+  /// Throws ExportError, as all functions of this class do.
   explicit OpenFolder(const std::string& path, Durability durability = Durability::synced);
-  /// Without keep(): takes back scene.yaml and meshes, and the folders that are empty then and that this run made.
+  /// Without keep(), removes scene.yaml and meshes, and folders that this run made and that are then empty.
   ~OpenFolder();
   OpenFolder(const OpenFolder&) = delete;
   OpenFolder& operator=(const OpenFolder&) = delete;
 
   const FilePlace& place() const { return place_; }
 
-  /// Removes what a former run left and puts this scene's scene.yaml there, in an order that leaves at every moment a
-  /// folder that inspect_folder judges rightly. Then the copies of its meshes. Gives the records of all these.
+  /// Removes what a former run left, then writes this scene's scene.yaml and the copies of its meshes.
+  /// The order ensures that inspect_folder is correct at every moment. Returns the records of all files written.
   std::vector<FileRecord> begin(const Scene& scene, const std::vector<MeshCopy>& meshes = {});
 
-  /// Instead of begin(), where a whole run of the same motion stands: leaves all as it is until publish(), which puts
-  /// this scene's scene.yaml and what is written until then in the place of the files of that run that the manifest
-  /// does not name. Gives the records of scene.yaml and of the copies of meshes.
+  /// Replaces begin() if the folder holds a complete run of the same motion. All files stay unchanged until publish().
+  /// publish() then puts the new scene.yaml and the files written meanwhile in place.
+  /// They replace the files of that run that the new manifest does not name.
+  /// Returns the records of scene.yaml and of the copies of meshes.
   std::vector<FileRecord> renew(const Scene& scene, const std::vector<MeshCopy>& meshes);
 
-  /// Makes, if need be, and opens the folder of a series.
+  /// Makes the folder of a series if needed, and opens it.
   FilePlace series(const FileSeries& series);
 
-  /// Something stands in the folder now that is worth keeping even if the run fails.
+  /// Keeps the folder's content even if the run fails.
   void keep() { keep_ = true; }
 
-  /// Gives files that are complete their names, then the manifest its own (publication.h). One sync for all of them
-  /// costs a fraction of one each.
+  /// Renames complete files to their final names, then the manifest (publication.h).
+  /// One sync for all files costs a fraction of one sync for each.
   void publish(std::vector<PartFile*> files, OutputFile& manifest);
 
  private:
   void lock();
-  /// What stands in the folder now stays, parts too.
+  /// Makes the folder's content permanent, temporary files included.
   void decide() {
     keep();
     renews_ = false;
@@ -84,8 +86,8 @@ class OpenFolder {
   std::vector<Descriptor> series_;
   FilePlace place_;
   bool made_ = false, keep_ = false;
-  std::vector<FileRecord> begun_;  // what stands there from the beginning
-  // Of renew(): until publish() series are written in folders of their own.
+  std::vector<FileRecord> begun_;  // the files written by begin()
+  // After renew(), series are written in temporary folders until publish().
   bool renews_ = false;
   std::vector<std::unique_ptr<OutputFile>> first_files_;
 };

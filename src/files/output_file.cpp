@@ -1,3 +1,5 @@
+// Buffers writes in pieces, and hashes and writes each piece on a background thread of long files.
+// The data is hashed on the way, so that it never has to be read back.
 #include "files/output_file.h"
 
 #include <fcntl.h>
@@ -12,14 +14,14 @@
 namespace carom {
 namespace {
 
-/// Large enough that system calls cost nothing, small enough to stay in a processor's cache while it is hashed.
+/// Large enough to make system calls negligible, and small enough to stay in cache during hashing.
 constexpr std::size_t piece_size = std::size_t{256} * 1024;
 
-/// After so many pieces a file is worth a thread.
+/// The number of pieces after which a file starts a thread.
 constexpr std::uint64_t pieces_alone = 8;
 
-/// So much is left to the system before it is asked to begin writing, so that the sync at the end has little to wait
-/// for.
+/// The number of bytes after which the system is requested to begin writing to disk.
+/// The sync at the end then has little left to do.
 constexpr std::uint64_t early_size = std::uint64_t{32} * 1024 * 1024;
 
 }  // namespace
@@ -69,7 +71,7 @@ void OutputFile::put(const Piece& piece) {
   }
   record_.bytes += piece.used;
   if (const std::uint64_t more = record_.bytes - on_the_way_; more >= early_size) {
-    // Where a file system cannot, the sync at the end does it all.
+    // If the file system does not support this, the sync at the end does all of it.
     sync_file_range(file_.get(), static_cast<off_t>(on_the_way_), static_cast<off_t>(more), SYNC_FILE_RANGE_WRITE);
     on_the_way_ = record_.bytes;
   }
@@ -80,7 +82,7 @@ void OutputFile::complete() {
   flush();
   pieces_.finish();
   record_.sha256 = hash_.hex();
-  // Some file systems own up to a full disk only here.
+  // Some file systems report a full disk only here.
   if (close(file_.release()) != 0) fail("write", place_, record_.name);
 }
 

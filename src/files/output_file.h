@@ -1,5 +1,5 @@
 #pragma once
-// A file that appears whole or not at all: written beside its place, hashed on the way, then renamed.
+// A file that appears complete or not at all: written under a temporary name, hashed on the way, then renamed.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -12,25 +12,25 @@
 
 namespace carom {
 
-/// What is written is hashed and handed to the system in large pieces, by a thread of its own once there are many.
+/// Writes are hashed and passed to the system in large pieces. A long file does this on a background thread.
 class OutputFile : public PartFile {
  public:
-  /// Opens `.name.part` in the folder. `name` must be plain. Throws ExportError, as all of this class does.
+  /// Opens `.name.part` in the folder. `name` must be plain. Throws ExportError, as all functions of this class do.
   OutputFile(const FilePlace& place, std::string name);
 
   void write(std::string_view bytes);
-  /// Room for `size` bytes to be written in place; written(end) then says how far they reach.
+  /// Room to write `size` bytes in place. A call of written(end) then gives the end of the bytes written.
   char* room(std::size_t size) {
     if (used_ + size > size_) make_room(size);
     return data_ + used_;
   }
   void written(const char* end) { used_ = static_cast<std::size_t>(end - data_); }
 
-  /// All bytes handed to the system, the file closed. Not yet under its own name.
-  /// record() tells of it from here on.
+  /// Passes all bytes to the system and closes the file,
+  /// which keeps its temporary name. record() is valid from here on.
   void complete();
-  /// Completes the file and gives it its name. The caller has synced the file system if what was written must outlast
-  /// a power cut.
+  /// Completes the file and renames it to its final name.
+  /// For the file to survive a power failure, the caller must sync the file system before.
   void publish();
 
  private:
@@ -44,11 +44,13 @@ class OutputFile : public PartFile {
 
   Descriptor file_;
   Sha256 hash_;
-  std::uint64_t on_the_way_ = 0;  // bytes of the file that the system was asked to write to the disk
-  // The piece that is being filled.
+  /// Bytes that the system was requested to write to disk.
+  std::uint64_t on_the_way_ = 0;
+  // The piece being filled.
   char* data_ = nullptr;
   std::size_t size_ = 0, used_ = 0;
-  Conveyor<Piece> pieces_;  // last: its thread uses what stands above
+  /// Last, because its thread uses the members above.
+  Conveyor<Piece> pieces_;
 };
 
 }  // namespace carom

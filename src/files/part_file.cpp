@@ -1,3 +1,5 @@
+// Temporary names are `.name.part`, in the folder of the final name, so that renaming is atomic.
+// Every access is relative to a folder's descriptor and follows no link.
 #include "files/part_file.h"
 
 #include <fcntl.h>
@@ -86,7 +88,7 @@ Descriptor nameless_file(const FilePlace& place) {
   if (file) return file;
   if (errno != EOPNOTSUPP && errno != EISDIR && errno != ENOENT && errno != EINVAL)
     fail("write", place, "", std::string("a temporary file: ") + std::strerror(errno));
-  // A file system that has none: a part, for a moment.
+  // On a file system without unnamed files, create a temporary file and remove its name.
   const std::string part = part_name("temporary");
   remove_entry(place, part);
   file = Descriptor(openat(place.folder, part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
@@ -100,7 +102,7 @@ PartFile::PartFile(const FilePlace& place, std::string name) : place_(place) {
     fail("write", place, name, "a file's name may hold no slash, no control character and no dot at its start");
   record_.name = std::move(name);
   refuse_folder(place_, record_.name);
-  // A part that an interrupted run left is another file: removed, never written through, for it may be a link.
+  // A temporary file of an interrupted run is removed and never opened for writing, because it may be a link.
   remove_entry(place_, part());
 }
 

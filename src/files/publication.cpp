@@ -1,3 +1,7 @@
+// Publishes in four steps: sync the bytes, rename the manifest to `next_manifest`, rename the files,
+// rename the manifest.
+// The first rename decides. It is a single atomic rename, so a run is published completely or not at all.
+// The function finish_publication can be repeated at any point, which makes recovery the same code as the normal path.
 #include "files/publication.h"
 
 #include <fcntl.h>
@@ -23,11 +27,11 @@ void sync_all(const FilePlace& place, Durability durability) {
 
 void sync_names(const FilePlace& place, Durability durability) {
   if (durability == Durability::deferred) return;
-  // Some file systems cannot sync a folder, and need not.
+  // Some file systems do not support syncing a folder, and do not need it.
   if (fsync(place.folder) != 0 && errno != EINVAL && errno != ENOTSUP) fail("write", place, "");
 }
 
-/// Gives the files of a series, which were written in a folder of their own, their place.
+/// Moves the files of a series from their temporary folder to their final one.
 void name_series(const FilePlace& place, const std::string& part, const std::set<std::string>& names) {
   const std::string series = name_of_part(part);
   const FilePlace inner{-1, place.path + "/" + series};
@@ -52,7 +56,7 @@ void name_parts(const FilePlace& place, const Manifest& next) {
   }
 }
 
-/// What the former state had and the next one has not.
+/// Removes the files of the former manifest that the next one does not name.
 void remove_former(const FilePlace& place, const Manifest& next) {
   const auto former = read_manifest(place.folder, manifest_name);
   if (!former) return;
@@ -91,7 +95,8 @@ void remove_leavings(const FilePlace& place, std::string_view spared) {
 
 void publish(const FilePlace& place, Durability durability, const std::vector<PartFile*>& files, OutputFile& manifest) {
   sync_all(place, durability);
-  give_name(place.folder, part_name(manifest_name), place, next_manifest);  // this decides
+  // This rename is the moment of decision.
+  give_name(place.folder, part_name(manifest_name), place, next_manifest);
   manifest.hand_over();
   for (PartFile* file : files) file->hand_over();
   sync_names(place, durability);

@@ -1,7 +1,8 @@
 #pragma once
-// Files that are whole get their names, all of them or, for who looks later, none: the manifest that names them stands
-// as `next_manifest` from the moment that decides until the last one has its name. Where it stands, the folder is made
-// what it says by any later command. Before that moment nothing of the folder's former state is touched.
+// Publishes complete files: either all of them receive their final names, or none does for a later reader.
+// The new manifest has the name `next_manifest` from the moment of decision until the last file has its final name.
+// Any later command that finds `next_manifest` completes the publication.
+// Before the moment of decision, the former content of the folder is untouched.
 #include <string>
 #include <vector>
 
@@ -10,23 +11,24 @@
 
 namespace carom {
 
-/// A part's name: of what it means for other programs, the folder is not whole.
+/// A temporary name. To other programs the folder is therefore incomplete.
 inline constexpr const char* next_manifest = ".manifest.json.next.part";
 
-/// Of `files` and the manifest, which are complete: names follow bytes, the manifest's name follows the others'. What
-/// the folder's former manifest names and this one does not is removed, and all other parts. Throws ExportError; what
-/// was decided by then is finished by the next command.
+/// Publishes `files` and the manifest, which must be complete. Bytes are synced before names.
+/// The files are renamed before the manifest.
+/// Files of the folder's former manifest that the new one does not name are removed, and all other temporary files.
+/// Throws ExportError. The next command finishes what was decided by then.
 void publish(const FilePlace& place, Durability durability, const std::vector<PartFile*>& files, OutputFile& manifest);
 
-/// Finishes what an interrupted publish() decided. The folder must be locked by the caller. Throws ExportError.
+/// Finishes an interrupted publish(). The caller must hold the folder's lock. Throws ExportError.
 void finish_publication(const FilePlace& place, Durability durability);
 
-/// The same for a folder that is to be read: one that is not there, where nothing was decided, or that another run is
-/// writing, is left as it is. Throws ExportError.
+/// The same before a folder is read. An absent folder stays as it is.
+/// So does one without a decided publication, or one that another run is writing. Throws ExportError.
 void settle_folder(const std::string& path);
 
-/// Parts of files, why a run failed, and series' folders without files go; `spared`: a part that stays. Throws
-/// ExportError.
+/// Removes temporary files, the reason of a failed run, and folders of series without files. Throws ExportError.
+/// `spared`: a temporary file that stays.
 void remove_leavings(const FilePlace& place, std::string_view spared = {});
 
 /// Removes the named files of a run. Throws ExportError.

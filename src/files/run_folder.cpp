@@ -1,3 +1,5 @@
+// Classifies the content of a folder by its manifest, by sizes and hashes of the files, and by the hash of scene.yaml.
+// Sizes are compared before hashes, so that a truncated file is found without reading gigabytes.
 #include "files/run_folder.h"
 
 #include <fcntl.h>
@@ -48,13 +50,13 @@ bool names_all(const Manifest& manifest, const std::vector<std::string>& names) 
   });
 }
 
-/// Sizes before hashes: what is cut off is found without reading gigabytes.
+/// Compares sizes before hashes, so that a truncated file is found without reading gigabytes.
 bool is_whole(int folder, const Manifest& manifest, const std::string& outputs, const std::vector<std::string>& names) {
   return manifest.version == CAROM_VERSION && manifest.outputs == outputs && names_all(manifest, names) &&
          all_files(folder, manifest, has_size) && all_files(folder, manifest, has_hash);
 }
 
-/// Whether the folder has a file of this tool's run that a run of the scene's outputs would not write anew.
+/// Whether the folder has a file of a run by this program that a run with the scene's outputs would not replace.
 bool has_more(int folder, const Manifest& manifest, const Scene& scene, const std::vector<std::string>& names) {
   if (manifest.version != CAROM_VERSION) return false;
   SeriesFolders folders(folder);
@@ -68,7 +70,7 @@ bool has_more(int folder, const Manifest& manifest, const Scene& scene, const st
   });
 }
 
-/// When anything about a file was changed last: content, name, owner; no program can set it back.
+/// The time of the last change to a file's content, name or owner (ctime). No program can set it back.
 std::optional<timespec> changed(const FileSpot& spot) {
   struct stat info {};
   if (fstatat(spot.folder, spot.name.c_str(), &info, AT_SYMLINK_NOFOLLOW) == 0) return info.st_ctim;
@@ -152,7 +154,8 @@ FolderContent inspect_folder(const std::string& path, const Scene& scene, const 
     const auto stored = read_record(folder.get(), "scene.yaml");
     return stored && stored->sha256 == hash ? FolderContent::incomplete : FolderContent::other_run;
   }
-  return found.content;  // incomplete: a run that was killed before its first file was whole, or that failed
+  // Incomplete: a run that was killed before its first file was complete, or that failed.
+  return found.content;
 }
 
 }  // namespace carom

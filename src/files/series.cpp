@@ -1,3 +1,5 @@
+// Writes each file of a series through OutputFile, so that every file is complete as soon as its name exists.
+// The complete files of a series stay even if the run fails later.
 #include "files/series.h"
 
 namespace carom {

@@ -1,5 +1,5 @@
 #pragma once
-// Numbered files in a folder of their own, each whole as soon as it is there: frames/, vtk/.
+// Numbered files in a folder of their own (frames/, vtk/). Each file is complete when its name appears.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,10 +11,10 @@ namespace carom {
 
 class Series {
  public:
-  /// Makes the folder. Both must outlive this. Throws ExportError, as all of this class does.
+  /// Makes the folder. Both arguments must outlive this object. Throws ExportError, as all functions of this class do.
   Series(OpenFolder& folder, const FileSeries& files) : folder_(folder), files_(files), place_(folder.series(files)) {}
   void put(std::int64_t number, std::string_view bytes);
-  const std::vector<FileRecord>& records() const { return records_; }  // named as beneath the run's folder
+  const std::vector<FileRecord>& records() const { return records_; }  // names relative to the run's folder
 
  private:
   OpenFolder& folder_;

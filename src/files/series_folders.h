@@ -1,5 +1,5 @@
 #pragma once
-// The folders within a run's folder that series of files have: frames/.
+// The subfolders of a run's folder that hold series of files, such as frames/.
 #include <map>
 #include <string>
 #include <string_view>
@@ -10,29 +10,29 @@
 
 namespace carom {
 
-/// The output whose series has a file of this name beneath a run's folder, "frames/frame_00012.png"; null: none has.
+/// The output with a series that contains this name, relative to a run's folder: "frames/frame_00012.png". Null: none.
 const OutputKind* series_of(std::string_view name);
 
-/// The output that has a file of this name; null: none has, or the scene gives the name (a film's).
+/// The output that writes a file of this name. Null: none, or a name that the scene gives (a film's).
 const OutputKind* output_of(std::string_view name);
 
-/// Whether a file of this name tells how things look: one of frames/, a film, what another program draws.
+/// Whether a file of this name shows how things look: one of frames/, a film, or what another program draws.
 bool is_picture(std::string_view name);
 
-/// Where a file of a run stands.
+/// The location of a file of a run.
 struct FileSpot {
-  int folder = -1;   // -1: there is no such folder
+  int folder = -1;   // -1: the folder is absent
   std::string name;  // in that folder
 };
 
-/// Opens each series' folder when it is asked for first; follows no link.
+/// Opens the folder of each series on first use. Follows no link.
 class SeriesFolders {
  public:
-  /// `folder`: the run's; it must outlive this.
+  /// `folder`: the run's folder. It must outlive this object.
   explicit SeriesFolders(int folder) : folder_(folder) {}
   /// `name`: as in the manifest.
   FileSpot spot(std::string_view name);
-  /// The folder of this name; -1: there is none.
+  /// The folder of this name. -1: absent.
   int open(std::string_view name);
 
  private:
@@ -40,7 +40,7 @@ class SeriesFolders {
   std::map<std::string, Descriptor, std::less<>> opened_;
 };
 
-/// The names of the folders of all series.
+/// The names of all series' folders.
 std::vector<std::string> series_folder_names();
 
 }  // namespace carom

@@ -1,3 +1,4 @@
+// Opens files with O_NOFOLLOW and O_NONBLOCK, so that neither a link nor a named pipe in a folder can mislead or block.
 #include "files/stored_file.h"
 
 #include <fcntl.h>
@@ -12,7 +13,7 @@ namespace {
 
 constexpr std::size_t piece_size = std::size_t{64} * 1024;
 
-/// Whether openat() says that no regular file of this name is there: a link, or a socket, is none.
+/// Whether this errno of openat() means that there is no regular file of this name. A link or a socket counts as none.
 bool is_no_file(int error) {
   return is_absent(error) || error == ELOOP || error == ENXIO;
 }
@@ -28,7 +29,7 @@ std::size_t read_some(int file, char* to, std::size_t size) {
 }
 
 Descriptor open_stored(int folder, const std::string& name) {
-  // O_NONBLOCK: opening a named pipe must not wait for its writer.
+  // O_NONBLOCK keeps the opening of a named pipe from waiting for its writer.
   Descriptor file(openat(folder, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (!file && !is_no_file(errno)) fail("read", place_of(folder), name);
   struct stat info {};

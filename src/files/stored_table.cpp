@@ -1,3 +1,5 @@
+// Reads CSV in pieces, so that tables of gigabytes need little memory.
+// Cells are views into the buffer. Quoted cells are copied without their quotes into a separate text.
 #include "files/stored_table.h"
 
 #include <sys/stat.h>
@@ -13,10 +15,10 @@
 namespace carom {
 namespace {
 
-/// Most tables that are read are short: the first piece is.
+/// Most tables read are short, so the first piece is short.
 constexpr std::size_t first_piece = 4096, piece_size = std::size_t{64} * 1024;
 
-/// Reads all of what is at `offset`.
+/// Reads exactly `size` bytes at `offset`.
 void read_at(int file, char* to, std::size_t size, std::uint64_t offset) {
   while (size > 0) {
     const ssize_t n = pread(file, to, size, static_cast<off_t>(offset));
@@ -47,7 +49,8 @@ std::optional<double> number_in(std::string_view cell) {
 void split_cells(std::string_view line, std::vector<std::string_view>& cells, std::string& unquoted) {
   cells.clear();
   unquoted.clear();
-  unquoted.reserve(line.size());  // so that views into it stay valid
+  // Reserve, so that views into it stay valid.
+  unquoted.reserve(line.size());
   for (std::size_t i = 0; i <= line.size();) {
     if (i < line.size() && line[i] == '"') {
       const std::size_t from = unquoted.size();
@@ -112,7 +115,8 @@ const std::vector<std::string_view>* StoredTable::next() {
 }
 
 void lines_from_end(int file, const std::function<bool(std::string_view line)>& look) {
-  std::string text;  // from `at` on, lines that were looked at taken off its end
+  // The text from `at` on, without the lines already passed to `look`.
+  std::string text;
   std::uint64_t at = size_of(file);
   while (at > 0) {
     const std::size_t size = static_cast<std::size_t>(std::min<std::uint64_t>(at, std::max(piece_size, text.size())));

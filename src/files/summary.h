@@ -1,5 +1,5 @@
 #pragma once
-// What a run came to: summary.csv's row, and what manifest.json says beside it.
+// The results of a run: the row of summary.csv, and what manifest.json holds besides.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -9,61 +9,67 @@
 
 namespace carom {
 
-/// What one force did in a run.
+/// The work of one force in a run.
 struct ForceWork {
   std::string force;  // "gravity", "merging", or its path in the scene: "forces.0.drag"
   double work = 0;    // J
 };
 
-/// Where a run's energy went, J.
+/// The energy balance of a run, in J.
 struct EnergyTotals {
   double start = 0, end = 0;
-  double lost = 0;      // by impacts: those recorded, and those that contact took up
-  double work = 0;      // of forces without a potential
-  double residual = 0;  // what neither impacts nor work account for: the method's own error, and rounding
-  double turnover = 0;  // what has changed its form at least: kinetic at both ends, potential, lost, work
-  std::vector<ForceWork> of_forces{};  // of a scene with forces; else empty
+  // By impacts, both recorded and taken up by contact.
+  double lost = 0;
+  double work = 0;  // of forces without a potential
+  /// What neither impacts nor work account for: the error of the method, and rounding.
+  double residual = 0;
+  /// A lower bound of the energy that changed its form: kinetic at both ends, potential, lost, work.
+  double turnover = 0;
+  std::vector<ForceWork> of_forces{};  // empty for a scene without forces
 };
 
-/// Why a figure may be wrong, and what to do about it.
+/// The reason why a result may be wrong, and the remedy.
 struct Warning {
-  std::string code;  // one word, for programs: energy, step, tolerance, contact, place, speed
+  /// One word, for programs: energy, step, tolerance, contact, place, speed.
+  std::string code;
   std::string text;
 };
 
-/// For the report alone: no columns.
+/// Counts for the report only, not columns.
 struct ContactCounts {
   std::uint64_t merges = 0;
-  std::uint64_t collapses = 0;  // clusters taken into contact
+  std::uint64_t collapses = 0;  // clusters that became lasting contacts
   TakenUp taken_up;
 };
 
-/// summary.csv's row, in the order of its columns.
+/// The row of summary.csv, in the order of its columns.
 struct Summary {
   std::string run, title, engine, status;
   double duration = 0;
   std::uint64_t bodies = 0, collisions = 0, body_body = 0, body_fixed = 0;
-  double first_collision = 0, last_collision = 0;  // s, NaN: empty
+  double first_collision = 0, last_collision = 0;  // s; NaN: an empty cell
   EnergyTotals energy;
   double momentum_drift = 0;  // kg m/s, |p(end) - p(start)|
   double max_overlap = 0, max_speed = 0;
   std::uint64_t resting = 0, frames = 0;
-  double stepped_contact = 0;  // s, summed over bodies: lasting contact that time stepping has told
+  /// In s, summed over bodies: the time in lasting contact that was computed by time stepping.
+  double stepped_contact = 0;
 
   ContactCounts contact;
-  std::vector<Warning> warnings;  // any: status is `doubtful`
+  std::vector<Warning> warnings;  // with any, the status is `doubtful`
 };
 
-/// A quantity of the run's end that was asked for; not finite: undefined.
+/// A requested quantity at the end of the run. Not finite: undefined.
 struct Measured {
   std::string name;  // "balls.red.speed_m_per_s"
   double value = 0;
 };
 
-/// How the run went, for manifest.json alone (nothing here may stand in a CSV).
+/// The course of a run, only for manifest.json. Nothing here may appear in a CSV file.
 struct RunFacts {
-  double load_s = 0, simulate_s = 0, render_s = 0, export_s = 0;  // wall times, of the thread that runs the scene
-  std::uint64_t peak_memory = 0;                                  // bytes
+  /// Wall times, of the thread that runs the scene.
+  double load_s = 0, simulate_s = 0, render_s = 0, export_s = 0;
+  std::uint64_t peak_memory = 0;  // bytes
   std::vector<Measured> measures{};
   std::vector<LeftOut> left_out{};
 };

@@ -1,3 +1,5 @@
+// Balances the energy of a run: end - start - work + lost = residual.
+// The residual has a column of its own and is not counted as a loss. The error of the method thus stays visible.
 #include "run/account.h"
 
 #include <fmt/format.h>
@@ -22,8 +24,9 @@ Vec3 starting_momentum(const Scene& scene) {
   return sum;
 }
 
-/// A force that acts for ever gives what its potential loses; the rest is in the tally. That is not known of a run
-/// told by its record.
+/// The work of each force.
+/// A force that acts at all times does the work that its potential loses. The tally has the rest.
+/// Empty for a run replayed from its record, which does not hold that work.
 std::vector<ForceWork> work_of_forces(const Scene& scene, const State& end, const Tally& tally) {
   const World& world = scene.world;
   std::vector<ForceWork> all;
@@ -41,7 +44,7 @@ std::vector<ForceWork> work_of_forces(const Scene& scene, const State& end, cons
     }
     all.push_back({fmt::format("forces.{}.{}", k, name_of(world.forces[k].law)), work.value()});
   }
-  // What lifts joint bodies out of what they reach into is no force's.
+  // Merged bodies are moved out of what they overlap. No force does this work.
   if (tally.merges > 0)
     all.push_back(
         {"merging", std::accumulate(tally.force_work.begin(), tally.force_work.end(), tally.work, std::minus())});
@@ -54,9 +57,10 @@ StoredEnergy stored_energy(const Scene& scene, const State& state) {
   return {kinetic_energy(scene.world, state), potential_energy(scene.world, state)};
 }
 
-// The energy at the start is that of energy.csv's first row: the exact engine's bodies have their impulses by then, the
-// book engine's get theirs as a force of the first frame, whose work counts. What energy the impacts, work and
-// motion do not account for is the residual: the method's own error, and rounding.
+// The energy at the start is that of the first row of energy.csv.
+// By then bodies of the exact engine have their impulses.
+// Bodies of the book engine receive theirs as a force in the first frame, which counts as work.
+// The residual is what impacts, work and motion do not account for: the error of the method, and rounding.
 Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredEnergy& start, const State& end,
                    const Tally& tally) {
   Summary summary;

@@ -1,5 +1,5 @@
 #pragma once
-// A run's account at its end: where its energy and momentum went, and what it counted.
+// The totals of a run at its end: its energy, its momentum and its counts.
 #include "files/summary.h"
 #include "physics/state.h"
 #include "run/engine.h"
@@ -16,8 +16,8 @@ struct StoredEnergy {
 
 StoredEnergy stored_energy(const Scene& scene, const State& state);
 
-/// `start`: at time 0, the impulses given there counted; `end` and `tally`: of the end. Leaves open what is the
-/// folder's: run, status, frames.
+/// `start`: at time 0, with the impulses given there. `end` and `tally`: at the end.
+/// The members run, status and frames stay open, because they depend on the folder.
 Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredEnergy& start, const State& end,
                    const Tally& tally);
 

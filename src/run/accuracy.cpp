@@ -1,7 +1,8 @@
-// A run cannot tell its own error from one other run of the same kind: both may step over the same encounter. So a run
-// with steps of one length is held against a method of another order that chooses its own (dop853), and that against
-// itself with a smaller error in each step. A disturbance by rounding in the finer run shows what no step can mend.
-// Agreement of two runs by halved steps, which was not taken, says nothing of what both have missed.
+// One other run of the same kind does not reveal a run's error, because both may step over the same encounter.
+// A run with fixed steps is therefore compared with a method of another order that chooses its own steps (dop853).
+// That method is compared with itself at a smaller error of each step.
+// A perturbation by rounding in the finer run shows the error that no steps can remove.
+// Comparing two runs by halved steps was rejected, because their agreement does not show what both have missed.
 #include "run/accuracy.h"
 
 #include <fmt/format.h>
@@ -21,10 +22,10 @@ namespace {
 
 using namespace accuracy_tolerance;
 
-/// Where all bodies are: by instant, by body (m).
+/// The positions of all bodies: by instant, by body (m).
 using Track = std::vector<std::vector<Vec3>>;
 
-/// s: `end`, and before it instants that no period of the scene's own has.
+/// In s: instants at irrational fractions of `end`, which no period of the scene matches, and `end` itself.
 std::vector<double> instants_of(const Scene& scene, double end) {
   const double bodies = std::max<double>(scene.world.body_count(), 1);
   const int count = static_cast<int>(std::clamp(places_kept / bodies, 8.0, double{most_instants}));
@@ -34,15 +35,15 @@ std::vector<double> instants_of(const Scene& scene, double end) {
   return instants;
 }
 
-/// Runs of one scene, looked at at the same instants.
+/// Runs of one scene, sampled at the same instants.
 class Runs {
  public:
   Runs(const Scene& scene, const std::function<void()>& look) : Runs(scene, look, scene.simulate.duration) {}
-  /// As far as `end` (s).
+  /// Runs until `end` (s).
   Runs(const Scene& scene, const std::function<void()>& look, double end)
       : scene_(scene), look_(look), instants_(instants_of(scene, end)) {}
 
-  /// `tally`: gets the run's sums, unless null.
+  /// `tally`: receives the run's sums, unless null.
   Track track(const Simulate& way, const StepChoice& steps, double disturbance = 0, Tally* tally = nullptr) const {
     if (disturbance == 0) return carry(scene_.world, scene_.initial, way, steps, tally);
     const Perturbed other = perturbed(scene_.world, scene_.initial, disturbance);
@@ -50,7 +51,7 @@ class Runs {
   }
   const std::vector<double>& instants() const { return instants_; }
 
-  /// m, by instant: the greatest distance so far of a body from where it is in the other run.
+  /// In m, by instant: the greatest distance so far between a body's positions in the two runs.
   static std::vector<double> differences(const Track& a, const Track& b) {
     std::vector<double> most;
     double greatest = 0;
@@ -82,13 +83,13 @@ class Runs {
   std::vector<double> instants_;  // s
 };
 
-/// How many instants there are before differences are more than a tolerance (m).
+/// The number of instants before differences exceed a tolerance (m).
 std::size_t within(const std::vector<double>& differences, double tolerance) {
   const auto beyond = std::find_if(differences.begin(), differences.end(), [&](double d) { return !(d <= tolerance); });
   return static_cast<std::size_t>(beyond - differences.begin());
 }
 
-/// Steps whose errors are plainly smaller.
+/// Steps with clearly smaller errors.
 StepChoice finer_steps(const Scene& scene, const Simulate& way, StepChoice steps) {
   if (way.engine == Engine::stepped && way.integrator == Integrator::dop853) {
     steps.error = std::max((steps.error > 0 ? steps.error : exact_tolerance::step_error) / finer, finest_error);
@@ -116,7 +117,7 @@ class Settling {
   }
 
  private:
-  /// Two runs of a kind differ so much: until when is the tolerance met?
+  /// Records until when the tolerance is met, from the differences of two runs of a kind.
   void note(const std::vector<double>& differences) {
     const std::size_t good = within(differences, tolerance_);
     accuracy_.right_until = std::numeric_limits<double>::infinity();
@@ -127,7 +128,7 @@ class Settling {
 
   void settle_exact() { note(Runs::differences(runs_.track(way_, {}), runs_.track(way_, {}, disturbance))); }
 
-  /// Gives the finer of the last two runs.
+  /// Returns the finer of the last two runs.
   Track settle_adaptive(double tolerance) {
     double least = std::numeric_limits<double>::infinity();  // m
     for (const double radius : scene_.world.radius) least = std::min(least, radius);
@@ -141,12 +142,13 @@ class Settling {
       accuracy_.steps = steps;
       note(differences);
       if (differences.back() <= tolerance || finest) return fine;
-      steps.error *= std::min(1.0, tolerance / differences.back());  // what is still missing, of it
+      // Scale by what is still missing.
+      steps.error *= std::min(1.0, tolerance / differences.back());
       steps.error = std::max(steps.error, finest_error * finer);
     }
   }
 
-  /// Halves the step until a run agrees with dop853's, as long as that is known.
+  /// Halves the step until a run agrees with that of dop853, within the time that the latter is reliable.
   void settle_fixed() {
     Simulate finer_way = way_;
     finer_way.integrator = Integrator::dop853;
@@ -161,14 +163,16 @@ class Settling {
     accuracy_.difference = std::numeric_limits<double>::infinity();
     accuracy_.steps = {};
     std::string trouble;
-    double before = 0, coarse = 0;  // m: with twice the step, and with four times that
+    // In m: with twice the step, and with four times the step.
+    double before = 0, coarse = 0;
     double step = std::min(way_.duration, longest_choice * default_step(scene_.world, scene_.initial));
     const double bodies = static_cast<double>(scene_.world.body_count());
     for (int vain = 0; vain < most_vain_halvings && way_.duration / step * bodies <= most_steps; step *= 0.5) {
       std::vector<double> off;
       try {
         off = Runs::differences(runs_.track(way_, {step, 0}), reference);
-      } catch (const SimulationError& error) {  // too long a step for these forces, perhaps
+        // The step may be too long for these forces.
+      } catch (const SimulationError& error) {
         trouble = error.what();
         continue;
       }
@@ -191,8 +195,8 @@ class Settling {
         step, most_steps));
   }
 
-  /// How many times as many steps the tolerance takes as these, whose difference (m) was so much with a quarter of
-  /// them.
+  /// The factor by which steps must be more numerous to meet the tolerance.
+  /// `difference` (m) is that of the present steps, `coarse` (m) that of a quarter of them.
   double steps_to_go(double coarse, double difference) const {
     if (!(difference > tolerance_) || !(coarse > difference)) return 1;
     return std::exp2(2 * std::log(difference / tolerance_) / std::log(coarse / difference));
@@ -205,12 +209,12 @@ class Settling {
   Accuracy accuracy_;
 };
 
-/// So many instants at which a disturbance is small tell how it grows.
+/// The number of instants with a small perturbation that suffices to measure its growth.
 std::size_t enough(const std::vector<double>& apart) {
   return std::min(least_small, apart.size() / 2);
 }
 
-/// From how far apart (m) two runs are at instants (s); it is small at the first so many of these.
+/// Measures growth from the distances of two runs (m) at instants (s). The first `small` of them are small.
 void measure_growth(const std::vector<double>& instants, const std::vector<double>& apart, std::size_t small,
                     Growth& growth) {
   const auto first = std::find_if(apart.begin(), apart.end(), [](double d) { return d > 0; });
@@ -218,7 +222,7 @@ void measure_growth(const std::vector<double>& instants, const std::vector<doubl
   growth.factor = apart.back() / *first;
   if (small < enough(apart)) return;
   const std::size_t half = small / 2 - 1, between = (half + small - 1) / 2, end = small - 1;
-  // How much faster than the third power of time from one instant to another: its logarithm.
+  // The logarithm of the growth beyond the third power of time, from one instant to another.
   const auto excess = [&](std::size_t from, std::size_t to) {
     if (!(apart[from] > 0)) return 0.0;
     return std::log(apart[to] / apart[from]) - 3 * std::log(instants[to] / instants[from]);
@@ -227,7 +231,7 @@ void measure_growth(const std::vector<double>& instants, const std::vector<doubl
   if (growth.chaotic) growth.lyapunov_time = (instants[end] - instants[half]) / std::log(apart[end] / apart[half]);
 }
 
-/// In [-1, -1/2] or [1/2, 1], of the k-th number: irrational steps around a circle.
+/// The k-th number in [-1, -1/2] or [1/2, 1], from irrational steps around a circle.
 double irregular(double k) {
   const double x = k * golden, fraction = x - std::floor(x);
   return fraction < 0.5 ? fraction - 1 : fraction;
@@ -278,7 +282,8 @@ Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& step
   Growth growth;
   if (way.duration == 0 || scene.world.body_count() == 0) return growth;
   const double large = saturated * *std::max_element(scene.world.radius.begin(), scene.world.radius.end());
-  // Only while it is small: from as large as bodies on it cannot grow. That may be over long before the run is.
+  // Measure only while the perturbation is small, because it cannot grow beyond the size of bodies.
+  // That phase may end long before the run does. The runs are then repeated up to the end of that phase.
   for (double end = way.duration;;) {
     const Runs runs(scene, look, end);
     const std::vector<double> apart =

@@ -1,5 +1,6 @@
 #pragma once
-// How far a scene's run can be trusted: which steps meet its tolerance, until when, and whether its motion is chaotic.
+// The accuracy of a scene's run: the steps that meet its tolerance, until when they do,
+// and whether the motion is chaotic.
 #include <functional>
 #include <limits>
 #include <optional>
@@ -14,42 +15,53 @@ namespace carom {
 
 struct Scene;
 
-/// What a run is to be carried with so that places are right to a tolerance.
+/// The steps with which positions are within a tolerance, and how far that holds.
 struct Accuracy {
-  StepChoice steps;       // of engine stepped
-  double difference = 0;  // m: the greatest of its places from those of a finer run, as long as these are known
-  // s: from when on places are not known to the tolerance, by whatever steps; infinity: they are to the end.
+  StepChoice steps;  // of the stepped engine
+  /// In m: the greatest difference of its positions from those of a finer run, within the time that both are reliable.
+  double difference = 0;
+  // In s: the time after which no steps give positions within the tolerance. Infinity: never.
   double right_until = std::numeric_limits<double>::infinity();
-  double beyond = 0;    // m: by how much the finest runs differ then
-  bool reached = true;  // until then the tolerance is met
+  /// In m: the difference of the finest runs after that.
+  double beyond = 0;
+  /// Whether the tolerance is met until then.
+  bool reached = true;
 };
 
-/// Of dop853: runs of ever smaller step errors, until one agrees with a finer one, which is taken. Of a method with
-/// steps of one length: steps are halved until a run agrees with dop853's. Of engine exact: what rounding does. Finer
-/// runs begin disturbed by rounding (perturbed()), so that runs agree by accident nowhere. `way`: its engine is exact
-/// or stepped. `look` is called between slices of the runs, and may throw. Throws SimulationError.
+/// Finds the steps with which positions are within `tolerance` (m). `way`: its engine must be exact or stepped.
+/// - dop853: runs with ever smaller step errors, until one agrees with a finer one, which is then used.
+/// - integrators of fixed steps: steps are halved until a run agrees with that of dop853.
+/// - exact engine: only the effect of rounding is measured.
+/// Finer runs start with a perturbation of the size of rounding (perturbed()), so that no two runs agree by accident.
+/// `look` is called between slices of the runs, and may throw. Throws SimulationError.
 Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double tolerance, const std::function<void()>& look);
 
-/// Carries a disturbance of 1e-12 along (Benettin, Galgani, Giorgilli & Strelcyn, Meccanica 15 (1980) 9). The motion
-/// is chaotic where it grows faster than the third power of time all along, until it is as large as bodies are.
+/// Carries a perturbation of 1e-12 along (Benettin, Galgani, Giorgilli & Strelcyn, Meccanica 15 (1980) 9).
+/// The motion is chaotic if the perturbation grows faster than the third power of time all along.
+/// Growth is measured until the perturbation is as large as the bodies.
 Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& steps, const std::function<void()>& look);
 
-/// The expected error of a run, by what it consists of.
+/// The expected error of a run, split by its causes.
 struct Assessment {
-  double tolerance = 0;  // m: the scene's, or a hundredth of its smallest radius
-  double right_until = std::numeric_limits<double>::infinity();  // s: places are right to it; infinity: to the end
-  double rounding = 0;                 // m: by how much a disturbance by rounding moves places
-  std::optional<double> integrator{};  // m: between two accuracies of steps; none: paths have closed forms
-  double stepped_contact = 0;          // s, summed over bodies
-  double method_error = 0;             // J, that lasting contact took beside impacts
+  /// In m: the scene's, or a hundredth of its smallest radius.
+  double tolerance = 0;
+  /// In s: the time until which positions are within the tolerance. Infinity: to the end.
+  double right_until = std::numeric_limits<double>::infinity();
+  /// In m: the effect of a perturbation by rounding on positions.
+  double rounding = 0;
+  /// In m: the difference of two accuracies of steps. None: all paths have closed forms.
+  std::optional<double> integrator{};
+  double stepped_contact = 0;  // s, summed over bodies
+  double method_error = 0;     // J: energy that lasting contact removed, besides impacts
   Growth growth;
 };
 
-/// Of runs of this scene by `engine`, with its steps settled. Throws as settle_accuracy().
+/// Assesses runs of this scene by `engine`, which must have its steps settled. Throws as settle_accuracy() does.
 Assessment assess(const Scene& scene, const EngineChoice& engine, const std::function<void()>& look);
 
-/// A scene's World and state with velocities, masses and gravity off by up to `share` of themselves, each differently.
-/// What rests or touches stays as it is.
+/// A scene's World and state with velocities, masses and gravity changed by up to `share` of themselves,
+/// each differently.
+/// Bodies at rest or in contact stay so.
 struct Perturbed {
   World world;
   State initial;

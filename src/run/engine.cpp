@@ -1,3 +1,5 @@
+// A table of functions makes the simulator of each engine.
+// The exact and the stepped engine are one simulator with different options, so events and impacts are the same code.
 #include "run/engine.h"
 
 #include <fmt/format.h>
@@ -13,7 +15,7 @@ namespace carom {
 
 namespace {
 
-/// What a simulator is made of.
+/// The arguments of a simulator.
 struct SimulatorRequest {
   const World& world;
   const State& initial;
@@ -32,7 +34,7 @@ ExactOptions exact_options(const SimulatorRequest& request) {
   return options;
 }
 
-/// Along paths in closed form, from event to event.
+/// Follows paths in closed form, from event to event.
 std::unique_ptr<Simulator> make_exact(const SimulatorRequest& request) {
   ExactOptions options = exact_options(request);
   options.merge = request.simulate.merge;
@@ -40,12 +42,12 @@ std::unique_ptr<Simulator> make_exact(const SimulatorRequest& request) {
   return make_exact_simulator(request.world, request.initial, options);
 }
 
-/// Whether the engine chooses its steps as it goes.
+/// Whether the integrator adapts its steps.
 bool chooses_steps(const Simulate& simulate) {
   return simulate.integrator == Integrator::dop853;
 }
 
-/// The same, with free flights in steps.
+/// The same with free flights in steps.
 std::unique_ptr<Simulator> make_stepped(const SimulatorRequest& request) {
   const Simulate& simulate = request.simulate;
   const StepChoice& steps = request.steps;
@@ -61,7 +63,7 @@ std::unique_ptr<Simulator> make_stepped(const SimulatorRequest& request) {
   return make_exact_simulator(request.world, request.initial, options);
 }
 
-/// Frame by frame, as the chapter's listings do.
+/// Runs frame by frame, as in the chapter's listings.
 std::unique_ptr<Simulator> make_book(const SimulatorRequest& request) {
   const Simulate& simulate = request.simulate;
   BookOptions options;
@@ -72,7 +74,7 @@ std::unique_ptr<Simulator> make_book(const SimulatorRequest& request) {
   return make_book_simulator(request.world, request.initial, options);
 }
 
-/// By Engine; what each lacks is in scene/engines.cpp.
+/// Indexed by Engine. The limits of each engine are in scene/engines.cpp.
 constexpr std::unique_ptr<Simulator> (*makers[])(const SimulatorRequest&) = {nullptr, make_exact, make_stepped,
                                                                              make_book};
 
@@ -111,7 +113,7 @@ EngineChoice choose_engine(const Scene& scene) {
 
 namespace {
 
-/// How a run that does not meet its tolerance falls short of it.
+/// Describes how a run misses its tolerance.
 std::string shortfall_of(const Scene& scene, const Simulate& way, const Accuracy& accuracy, const Growth& growth) {
   const double tolerance = *scene.simulate.tolerance;
   std::string text;

@@ -1,5 +1,5 @@
 #pragma once
-// Which simulator a scene runs on, with which steps, and why. The table in engine.cpp makes each of them.
+// The choice of simulator and steps for a scene, with the reason. The table in engine.cpp makes each simulator.
 #include <functional>
 #include <limits>
 #include <memory>
@@ -16,64 +16,76 @@ struct World;
 struct Scene;
 struct State;
 
-/// Of engine stepped.
+/// The steps of the stepped engine.
 struct StepChoice {
-  std::optional<double> length{};  // s: of dop853 the longest; none: by the forces, or as the run goes
-  double error = 0;                // of dop853, of a radius and of speeds in each; 0: the default
-  bool numerical = false;          // dop853 follows paths that have closed forms too: a way independent of these
+  /// In s. For dop853 the longest step. None: determined by the forces, or adaptive.
+  std::optional<double> length{};
+  /// For dop853, the error of each step, as a share of a radius and of speeds. 0: the default.
+  double error = 0;
+  /// dop853 also follows paths that have closed forms, as a method independent of these.
+  bool numerical = false;
   friend bool operator==(const StepChoice&, const StepChoice&) = default;
 };
 
-/// How a small disturbance of a motion grows.
+/// The growth of a small perturbation of a motion.
 struct Growth {
   bool chaotic = false;
-  double lyapunov_time = std::numeric_limits<double>::infinity();  // s, in which it grows e-fold; infinity: regular
-  double factor = 1;                                               // by which it has grown at most
-  double large_at = std::numeric_limits<double>::infinity();  // s, when it is as large as bodies are; infinity: never
+  /// In s, the time of e-fold growth. Infinity: regular motion.
+  double lyapunov_time = std::numeric_limits<double>::infinity();
+  double factor = 1;  // the greatest growth
+  /// In s, the time at which it is as large as the bodies. Infinity: never.
+  double large_at = std::numeric_limits<double>::infinity();
 };
 
 struct EngineChoice {
-  Engine engine = Engine::exact;  // not automatic
-  std::string why{};              // one line: why this one, and with which steps
-  StepChoice steps{};             // but where the scene has a tolerance: then settle_steps finds them
-  // Of a scene with a tolerance:
-  std::string shortfall{};                                       // how it is not met; empty: it is
-  double right_until = std::numeric_limits<double>::infinity();  // s, until when it is; infinity: to the end
-  Growth growth{};                                               // where it is not
+  Engine engine = Engine::exact;  // never automatic
+  /// One line: the reason for this engine, and its steps.
+  std::string why{};
+  /// Empty for a scene with a tolerance, until settle_steps finds them.
+  StepChoice steps{};
+  // The following are of a scene with a tolerance.
+  /// How the tolerance is missed. Empty: it is met.
+  std::string shortfall{};
+  /// In s, until when it is met. Infinity: to the end.
+  double right_until = std::numeric_limits<double>::infinity();
+  /// If it is not met to the end.
+  Growth growth{};
 };
 
-/// The scene's own, or what `auto` stands for (scene/engines.h).
+/// The engine of the scene, or the choice of `auto` (scene/engines.h).
 EngineChoice choose_engine(const Scene& scene);
 
-/// A scene's settings with another engine and integrator, and without a step or tolerance.
+/// The settings with another engine and integrator, and without a step or tolerance.
 Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator = Integrator::rk4);
 
-/// Where the scene asks for a tolerance: finds the steps that meet it, by running it again and again (accuracy.h), or
-/// by how much it is not met. `look` is called now and then, and may throw. Throws SimulationError.
+/// For a scene with a tolerance, finds the steps that meet it, by repeated runs (accuracy.h).
+/// If none do, determines by how much the tolerance is missed.
+/// `look` is called from time to time, and may throw. Throws SimulationError.
 void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<void()>& look);
 
-/// Throws SimulationError if the scene's output has flights and its engine records no paths. (The loader refuses that
-/// too; outputs may be chosen by the command line.)
+/// Throws SimulationError if the scene's output has flights and its engine records no paths.
+/// The loader refuses that too, but the command line may choose other outputs.
 void check_flights(const Scene& scene);
 
-/// What a simulator records beside its state.
+/// What a simulator records besides its state.
 struct Recording {
   bool collisions = false;
-  bool paths = false;  // where they are parabolas (scene/engines.h); else Simulator::paths() stays empty
+  /// Only where paths are parabolas (scene/engines.h). Otherwise Simulator::paths() stays empty.
+  bool paths = false;
 };
 
-/// The scene's simulator at time 0. `scene` must outlive it. `steps`: as settled; else the scene's own, or the default.
-/// Throws SimulationError.
+/// The scene's simulator at time 0. `scene` must outlive it. Throws SimulationError.
+/// `steps`: the settled ones. If empty, those of the scene, or the default.
 std::unique_ptr<Simulator> make_simulator(const Scene& scene, Recording recording = {}, const StepChoice& steps = {});
 
-/// The same from any state of any world on; both must outlive it.
+/// The same from any state of any world. Both must outlive the simulator.
 std::unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
                                           Recording recording = {}, const StepChoice& steps = {});
 
-/// The most exact engine that there is for the world, whatever engine the scene names.
+/// The most exact engine for the world, whatever engine the scene names.
 Engine most_exact(const World& world);
 
-/// A simulator by it, which records collisions: what really happens first. Throws SimulationError.
+/// A simulator by that engine which records collisions, to find the true first event. Throws SimulationError.
 std::unique_ptr<Simulator> make_oracle(const Scene& scene);
 
 }  // namespace carom

@@ -1,3 +1,5 @@
+// Accepts a run only if its manifest, its scene and its files (pictures excluded) agree by hash, so that a changed
+// folder is never rendered.
 #include "run/former_run.h"
 
 #include <fcntl.h>
@@ -29,7 +31,7 @@ namespace {
   refuse(reason, fmt::format("carom run {}/scene.yaml -o {} --force makes the run anew", folder, folder));
 }
 
-/// Its manifest's names of outputs.
+/// The names of outputs in its manifest.
 std::vector<std::string> output_names_of(const Manifest& manifest) {
   std::vector<std::string> names;
   const auto json = nlohmann::json::parse(manifest.outputs, nullptr, false);

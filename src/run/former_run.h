@@ -1,5 +1,5 @@
 #pragma once
-// A run that is there already, whose motion is to be seen again.
+// A finished run in a folder, for rendering its motion again.
 #include <memory>
 #include <string>
 
@@ -13,19 +13,22 @@ namespace carom {
 struct FormerRun {
   std::string folder;
   Manifest manifest;
-  Scene scene;  // of its scene.yaml; its outputs: those that the folder has
+  /// From its scene.yaml, with the outputs that the folder has.
+  Scene scene;
 
-  /// Whether it stored the paths of its bodies (export/flights_file.h).
+  /// Whether the run stored the paths of its bodies (export/flights_file.h).
   bool has_flights() const;
-  /// Along these paths. `scene`, of the same motion, must outlive it. Throws ExportError, then and as it goes on.
+  /// A simulator that follows these paths. `scene` must have the same motion and outlive it.
+  /// Throws ExportError, also later while it advances.
   std::unique_ptr<Simulator> motion(const Scene& scene) const;
 };
 
-/// The run in `folder`, where it is whole but for its pictures, and this version's; its scene is read by `file`, that
-/// of its scene.yaml. Throws ExportError, whose text says what to do, and SceneError.
+/// The run in `folder`. It must be complete except for its pictures, and of this version of the program.
+/// `file`: its scene.yaml, from which the scene is read.
+/// Throws SceneError, and ExportError with a text that names the remedy.
 FormerRun read_former_run(const std::string& folder, SceneFile& file);
 
-/// The path of a run's scene.yaml. Throws ExportError where the folder cannot be that of a whole run.
+/// The path of a run's scene.yaml. Throws ExportError if the folder cannot be that of a complete run.
 std::string former_scene_file(const std::string& folder);
 
 }  // namespace carom

@@ -1,3 +1,5 @@
+// Parses names of measures: a column of summary.csv, or KIND.NAME.QUANTITY of a body.
+// Units and labels are derived from the suffix of the name, so that a new column needs no further text.
 #include "run/measure.h"
 
 #include <fmt/format.h>
@@ -19,7 +21,7 @@ struct QuantityText {
   std::string_view name, meaning;
 };
 
-// By Quantity.
+// Indexed by Quantity.
 constexpr std::array<QuantityText, 8> quantities = {{{"x_m", "x coordinate of the centre"},
                                                      {"y_m", "y coordinate (up) of the centre"},
                                                      {"z_m", "z coordinate of the centre"},
@@ -33,7 +35,7 @@ struct UnitText {
   std::string_view suffix, unit;
 };
 
-// Longer ones before those that they end in.
+// A longer suffix comes before a shorter one that it ends in.
 constexpr std::array<UnitText, 7> units = {{{"_kg_m_per_s", "kg m/s"},
                                             {"_m_per_s", "m/s"},
                                             {"_N_s", "N s"},
@@ -78,7 +80,7 @@ const BodyRange* find_range(const Scene& scene, std::string_view name) {
   return nullptr;
 }
 
-/// The number of a measure's body. Throws MeasureError where the scene does not have it.
+/// The number of a measure's body. Throws MeasureError if the scene does not have it.
 Entity entity_of(const Measure& measure, const Scene& scene) {
   const std::size_t dot = measure.body.find('.');
   const std::string name = measure.body.substr(0, dot);
@@ -189,7 +191,7 @@ std::string_view unit_of(std::string_view column) {
 std::string label_of(std::string_view column) {
   const UnitText* text = unit_text(column);
   std::string label(column.substr(0, column.size() - (text == nullptr ? 0 : text->suffix.size())));
-  // Names of bodies stay as they are.
+  // Names of bodies stay unchanged.
   const std::size_t dot = label.rfind('.');
   std::replace(dot == std::string::npos ? label.begin() : label.begin() + static_cast<std::ptrdiff_t>(dot), label.end(),
                '_', ' ');

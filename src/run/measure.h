@@ -1,5 +1,5 @@
 #pragma once
-// What runs are compared by: a number of summary.csv, or where a body is and how it moves at the run's end.
+// The measures by which runs are compared: a number of summary.csv, or a body's position or motion at the run's end.
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -21,7 +21,7 @@ std::string_view name_of(Quantity quantity);
 /// A phrase: "x coordinate of the centre".
 std::string_view meaning_of(Quantity quantity);
 
-/// The name of a measure means nothing. The text says what is wrong and, where a name is near, what was meant.
+/// The name of a measure is invalid. The text describes the fault and suggests a near name, if there is one.
 struct MeasureError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -29,27 +29,28 @@ struct MeasureError : std::runtime_error {
 /// "energy_lost_J", "balls.red.speed_m_per_s", "groups.gas.17.x_m".
 struct Measure {
   std::string name;
-  const SummaryColumn* column = nullptr;  // null: of a body, and then:
-  std::string kind;                       // "balls", "bodies" or "groups"
-  std::string body;                       // as in trajectory.csv: "red", "gas.17"
+  /// Null: a quantity of a body, with the members below.
+  const SummaryColumn* column = nullptr;
+  std::string kind;  // "balls", "bodies" or "groups"
+  std::string body;  // as in trajectory.csv: "red", "gas.17"
   Quantity quantity = Quantity::x;
 };
 
-/// Reads a name by its grammar alone. Throws MeasureError.
+/// Parses a name by its grammar alone. Throws MeasureError.
 Measure parse_measure(std::string_view name);
-/// The same, and the body must be one of the scene's.
+/// The same, and the body must exist in the scene.
 Measure parse_measure(std::string_view name, const Scene& scene);
 
-/// Of a body at `position` (m) with `velocity` (m/s) and `mass` (kg).
+/// A quantity of a body at `position` (m) with `velocity` (m/s) and `mass` (kg).
 double quantity_of(Quantity quantity, const Vec3& position, const Vec3& velocity, double mass);
 
-/// At a run's end: `state` is its last, in the unit that the name ends in. Not a number: undefined, such as the first
-/// collision where there is none, or where a body is that has become part of another or that the scene does not have.
+/// The value at a run's end, in the unit at the end of the name. `state`: the run's last state.
+/// NaN: undefined. Examples are the first collision of a run without collisions, a merged body, and an unknown body.
 double value_of(const Measure& measure, const Scene& scene, const State& state, const Summary& summary);
 
-/// The unit that the name of a column or measure ends in: "J", "m/s"; empty: a pure number or text.
+/// The unit at the end of a column's or measure's name: "J", "m/s". Empty: a pure number or text.
 std::string_view unit_of(std::string_view column);
-/// As a person reads it: "energy lost (J)", "balls.red speed (m/s)".
+/// A readable label: "energy lost (J)", "balls.red speed (m/s)".
 std::string label_of(std::string_view column);
 
 }  // namespace carom

@@ -1,3 +1,5 @@
+// Evaluates the recorded pieces with the formulas of Flight, as the simulator does, so that states agree bit for bit.
+// Pieces are read as time advances, so that the record never has to fit into memory.
 #include "run/replay.h"
 
 #include <algorithm>
@@ -23,7 +25,7 @@ Instant instant(const DoubleDouble& time) {
 Replay::Replay(const World& world, NextPiece next, const Tally& tally)
     : world_(world), next_(std::move(next)), tally_(tally), now_(world.body_count()) {
   more_ = next_(coming_);
-  std::vector<PathPiece> first;  // at time 0, all together
+  std::vector<PathPiece> first;  // all pieces at time 0
   do {
     advance_to(0);
     first.insert(first.end(), passed_.begin(), passed_.end());
@@ -35,7 +37,8 @@ void Replay::advance_to(double time) {
   fresh_ = false;
   passed_.clear();
   while (more_ && coming_.from <= time) {
-    if (passed_.size() >= path_buffer) {  // stops short of what is to come, in the middle of an instant perhaps
+    // Stop before the next piece, possibly in the middle of an instant.
+    if (passed_.size() >= path_buffer) {
       time_ = std::max(time_, std::nextafter(coming_.from, 0));
       return;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// A run again from its recorded paths: the same states, bit for bit, without simulating.
+// Repeats a run from its recorded paths: the same states, bit for bit, without simulating.
 #include <functional>
 #include <vector>
 
@@ -10,16 +10,16 @@ namespace carom {
 
 struct World;
 
-/// Gives the next piece of a record, in its order; false: there is none. May throw.
+/// Reads the next piece of a record, in order. False: the end. May throw.
 using NextPiece = std::function<bool(PathPiece&)>;
 
-/// A Simulator that goes along recorded paths. It has no collisions and no forces of contact.
+/// A Simulator that follows recorded paths. It has no collisions and no contact forces.
 class Replay final : public Simulator {
  public:
-  /// `world`, which must outlive this, and `next` are those of one run; `tally` is that of its end.
+  /// `world` and `next` are those of one run, `tally` that of its end. `world` must outlive this object.
   Replay(const World& world, NextPiece next, const Tally& tally);
 
-  void advance_to(double time) override;  // not back
+  void advance_to(double time) override;  // never backwards
   double time() const override { return time_; }
   const State& state() override;
   std::span<const Collision> collisions() const override { return {}; }
@@ -32,14 +32,14 @@ class Replay final : public Simulator {
   const World& world_;
   NextPiece next_;
   Tally tally_;
-  std::vector<PathPiece> now_;     // by body
+  std::vector<PathPiece> now_;     // the present piece, by body
   std::vector<PathPiece> passed_;  // since the last advance_to
   PathPiece coming_;
   bool more_ = false;
   double time_ = 0;  // s
   State state_;
   bool fresh_ = false;
-  // Where bodies have merged; else empty.
+  // Once bodies have merged; empty before.
   std::vector<double> mass_, radius_;
   std::vector<Volume> volume_;
   std::vector<Entity> part_of_;

@@ -1,5 +1,5 @@
-// The loop of a run: the simulator is carried from one instant of the folders' timelines to the next; what is due there
-// is written and drawn; at the end every folder gets its summary, its manifest and its files' names.
+// The loop of a run: advance the simulator to the next instant of the timelines, then write and draw what is due.
+// At the end every folder gets its summary and its manifest, and its files get their final names.
 #include "run/run_scene.h"
 
 #include <fmt/format.h>
@@ -64,15 +64,17 @@ class Run {
   }
 
  private:
-  const Scene& scene() const { return *shows_.front().scene; }  // whose motion it is
+  // All shows have the same motion.
+  const Scene& scene() const { return *shows_.front().scene; }
 
-  /// What fails for one of several shows is no other's failure.
+  /// A failure of one of several shows does not affect the others.
   template <typename Work>
   void guarded(std::size_t i, const Work& work) {
     try {
       work();
     } catch (const std::exception&) {
-      watch_.look();  // ffmpeg hears a Ctrl-C too and ends first: what looks like an error of writing is the interrupt
+      // ffmpeg also receives a Ctrl-C and ends first. What looks like a write error is then the interrupt.
+      watch_.look();
       if (shows_.size() == 1) throw;
       results_[i].failure = std::current_exception();
       stages_[i].reset();
@@ -86,8 +88,8 @@ class Run {
     return next;
   }
 
-  // In slices, so that a signal is heard and progress shown where no output is due for long. Looking moves nothing, so
-  // the slices change no bit of the motion.
+  // Advances in slices, so that signals and progress are handled where no output is due for long.
+  // Sampling changes nothing in the simulator, so the slices do not change the motion by a bit.
   void carry_to(double time) {
     const double slice = scene().simulate.duration / 1000;
     watch_.look();
@@ -152,8 +154,9 @@ class Run {
   const RunSettings& settings_;
   const RunWatch& watch_;
   EngineChoice engine_;
-  std::vector<RunResult> results_;              // by show
-  std::vector<std::unique_ptr<Stage>> stages_;  // by show; none: it has failed
+  std::vector<RunResult> results_;  // by show
+  /// By show. Null: it has failed.
+  std::vector<std::unique_ptr<Stage>> stages_;
   std::unique_ptr<Simulator> simulator_;
   StoredEnergy start_;     // at time 0
   double simulate_s_ = 0;  // wall time

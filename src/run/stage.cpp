@@ -1,3 +1,5 @@
+// Writes what is due at an instant, then draws what is due.
+// The state is computed only if an output is due, and a renderer is made only for its first picture.
 #include "run/stage.h"
 
 #include "render/glb.h"
@@ -35,7 +37,7 @@ void Stage::draw_what_is_due(const State& state, const StageWatch& watch) {
     bool again = false;
     {
       const Stopwatch stopwatch(facts.render_s);
-      // Made at the first picture that is due: a scene without pictures has no OpenGL context and reads no mesh.
+      // Made at the first picture that is due. A scene without pictures needs no OpenGL context and reads no mesh.
       if (!renderers_[i]) renderers_[i] = std::make_unique<Renderer>(scene, streams[i].size, streams[i].samples);
       const std::uint64_t before = renderers_[i]->drawn();
       image = &renderers_[i]->draw(state);

@@ -1,5 +1,5 @@
 #pragma once
-// One folder of a run in the making: its exports, and the pictures that they are due.
+// One output folder during a run: its exports, and the pictures that are due for them.
 #include <functional>
 #include <memory>
 #include <string>
@@ -14,16 +14,18 @@ namespace carom {
 struct Manifest;
 struct Scene;
 
-/// What is to be seen of a motion, and where it is written. Scenes that share a motion differ in their pictures and
-/// outputs alone.
+/// What to show of a motion, and the folder for it.
+/// Scenes that share a motion differ only in their pictures and outputs.
 struct Show {
   const Scene* scene = nullptr;
   std::string folder;
-  double load_s = 0;                  // what reading the scene took, for the manifest
-  const Manifest* renewed = nullptr;  // of the run in the folder, whose pictures this replaces (exports.h)
+  /// Wall time of loading the scene, for the manifest.
+  double load_s = 0;
+  /// The manifest of the run in the folder, if only its pictures are replaced (exports.h).
+  const Manifest* renewed = nullptr;
 };
 
-/// What is called between pictures; both may throw.
+/// Functions called between pictures. Both may throw.
 struct StageWatch {
   std::function<void()> look, tell;
 };
@@ -35,13 +37,14 @@ class Stage {
 
   double time() { return exports.timeline().time(); }  // s, of its next instant
 
-  /// Writes and draws what is due at the next instant, which is the simulator's time. Throws ExportError, RenderError.
+  /// Writes and draws what is due at the next instant, which must be the simulator's time.
+  /// Throws ExportError, RenderError.
   void sample(Simulator& simulator, const StageWatch& watch);
 
   const Scene& scene;
   RunFacts facts;
   Exports exports;
-  bool more = false;  // whether there is a next instant
+  bool more = false;  // whether a next instant exists
 
  private:
   void draw_what_is_due(const State& state, const StageWatch& watch);

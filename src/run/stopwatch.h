@@ -4,7 +4,7 @@
 
 namespace carom {
 
-/// Adds the time from its making to its end to `sum` (s).
+/// Adds the time from construction to destruction to `sum` (s).
 class Stopwatch {
  public:
   explicit Stopwatch(double& sum) : sum_(sum) {}

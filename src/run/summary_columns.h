@@ -1,5 +1,5 @@
 #pragma once
-// The columns of summary.csv as data: what each means, and its number.
+// The columns of summary.csv as data: name, meaning and number of each.
 #include <span>
 #include <string_view>
 
@@ -8,12 +8,13 @@
 namespace carom {
 
 struct SummaryColumn {
-  std::string_view name;                  // as in summary.csv
-  std::string_view meaning;               // a phrase
-  double (*number)(const Summary&) = {};  // in the unit that the name ends in; null: the column is text
+  std::string_view name;     // as in summary.csv
+  std::string_view meaning;  // a phrase
+  /// The value, in the unit at the end of the name. Null: the column is text.
+  double (*number)(const Summary&) = {};
 };
 
-/// In the order of the file.
+/// In the order of the columns in the file.
 std::span<const SummaryColumn> summary_columns();
 
 /// The column of this name; null: none.

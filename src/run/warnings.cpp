@@ -1,5 +1,5 @@
-// A run is doubtful where its own books tell that it is wrong, or where doubles do not resolve its motion. Each warning
-// says by how much, and what to do about it. None of this changes a figure.
+// A run is doubtful if its own totals show an error, or if doubles do not resolve its motion.
+// Each warning gives the size of the error and the remedy. Warnings change no result.
 #include "run/warnings.h"
 
 #include <fmt/format.h>
@@ -14,13 +14,17 @@ namespace carom {
 
 namespace {
 
-constexpr double residual_share = 1e-3;      // of the energy turned over: an error of the method that shows in figures
-constexpr double energy_rounding = 0x1p-40;  // of energies: a difference of theirs that is rounding
-constexpr double longest_phase = 1;          // rad, of a step: forces that change faster are not followed
-constexpr double place_rounding = 0x1p-53;   // of coordinates
-constexpr double told_place = 1e-6;          // of the smallest size: to which places are to be told
+/// Of the energy turned over. A larger residual is an error of the method that shows in results.
+constexpr double residual_share = 1e-3;
+/// Of energies. A smaller difference is rounding.
+constexpr double energy_rounding = 0x1p-40;
+/// In rad, of a step. Forces that turn faster are not resolved.
+constexpr double longest_phase = 1;
+constexpr double place_rounding = 0x1p-53;  // of coordinates
+/// Of the smallest size. The resolution that positions must have.
+constexpr double told_place = 1e-6;
 
-/// Whether a method with steps of one length carries free flights.
+/// Whether free flights are integrated with fixed steps.
 bool has_fixed_steps(const Scene& scene, const EngineChoice& engine) {
   return engine.engine == Engine::stepped && scene.simulate.integrator != Integrator::dop853;
 }
@@ -42,7 +46,7 @@ class Warnings {
  private:
   void add(const char* code, std::string text) { all_.push_back({code, std::move(text)}); }
 
-  /// What to do about an error of the method.
+  /// The remedy for an error of the method.
   std::string remedy() const {
     if (has_fixed_steps(scene_, engine_)) return "use a shorter simulate.step, or `integrator: dop853`";
     if (engine_.engine == Engine::book) return "use `engine: exact` for true impacts, or a shorter simulate.step";
@@ -76,7 +80,7 @@ class Warnings {
                                tally_.doubtful, tally_.doubtful == 1 ? " was" : "s were"));
   }
 
-  /// Of places that are far from the origin, and of instants that are late for their speed.
+  /// Warns of positions far from the origin, and of clock times too coarse for the speeds.
   void look_at_digits() {
     const double size = smallest_size(scene_.world);
     double farthest = 0;

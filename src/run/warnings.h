@@ -1,5 +1,5 @@
 #pragma once
-// What makes a run's figures doubtful: what it says beside them.
+// The warnings of a run with doubtful results.
 #include <vector>
 
 #include "files/summary.h"
@@ -11,7 +11,7 @@ namespace carom {
 
 struct Scene;
 
-/// Of a run with this end and these sums. Where there are any, its status is `doubtful`.
+/// The warnings of a run with this end and these sums. With any, its status is `doubtful`.
 std::vector<Warning> warnings_of(const Scene& scene, const EngineChoice& engine, const State& end,
                                  const Summary& summary, const Tally& tally);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Words of the field that the format does not have, or has under another name, and what there is instead.
+// Words of the field that the format lacks or names differently, and the keys to use instead.
 #include <optional>
 #include <span>
 #include <string_view>
@@ -8,14 +8,16 @@
 namespace carom {
 
 struct AbsentWord {
-  std::string_view words;    // separated by |, in lower case; the first is shown
-  std::string_view meaning;  // what there is instead, in sentences
-  std::string_view see;      // keys or kinds for `carom explain`, separated by |; empty: none
+  /// Separated by |, in lower case. The first is shown.
+  std::string_view words;
+  std::string_view meaning;  // the alternative, in sentences
+  /// Keys or kinds for `carom explain`, separated by |. Empty: none.
+  std::string_view see;
 };
 
 std::span<const AbsentWord> absent_words();
 
-/// The row of a word, of any case, in which `_` and `-` stand for a space; null: there is none.
+/// The row of a word, or null. Case is ignored, and `_` and `-` stand for a space.
 const AbsentWord* find_absent_word(std::string_view word);
 
 }  // namespace carom

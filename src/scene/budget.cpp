@@ -1,3 +1,5 @@
+// Limits are compared in double, so that the product of instants and bodies cannot overflow.
+// The number of steps is exact for a given step. For a tolerance it is a lower bound: steps of 64 default steps.
 #include "scene/budget.h"
 
 #include <fmt/format.h>

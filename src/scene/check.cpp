@@ -1,3 +1,6 @@
+// Walks the tree and the table of fields together, one function for each type of map.
+// Errors mark values bad instead of ending the walk, so that one run reports all of them.
+// A key that is probably a misspelt field yields one error and not a second one for the missing field.
 #include "scene/check.h"
 
 #include <fmt/format.h>
@@ -12,7 +15,8 @@
 namespace carom {
 namespace {
 
-constexpr std::size_t most_suggestions = 200;  // more errors than are shown: no time is spent on their near names
+// Beyond this number of errors, which exceeds those shown, no time is spent on near names.
+constexpr std::size_t most_suggestions = 200;
 
 std::vector<std::string_view> keys_of(const Kind& kind) {
   std::vector<std::string_view> keys;
@@ -32,7 +36,7 @@ class Checker : ValueChecker {
   Checker(const Node& root, const std::string& folder, Diagnostics& diagnostics)
       : ValueChecker(diagnostics), root_(root), folder_(folder) {}
 
-  /// A map of `kind`. `what` names it in messages, `where` is its key. `partial`: nothing is missing.
+  /// Checks a map of `kind`. `what` is its name in messages, `where` its key. `partial`: no key has to be present.
   void map(Node& node, const Kind& kind, const std::string& what, Place where, bool partial) {
     if (!node.is(Node::Kind::map)) {
       wrong_type(node, what, "expected a map of keys");
@@ -44,7 +48,7 @@ class Checker : ValueChecker {
     needed(node, defaults, kind, what, where);
     needed_beside(View(&node, kind, where, defaults), node, what);
     one_of_any(node, kind, what, where);
-    // A part that is not here but in the defaults has to be whole, too.
+    // A part that comes from the defaults alone must be complete, too.
     for (const Field& field : kind.fields) {
       if (field.type != Type::part || node.find_key(field.key) != nullptr || defaults == nullptr) continue;
       const Node* part = defaults->find(field.key);
@@ -63,7 +67,7 @@ class Checker : ValueChecker {
     }
   }
 
-  /// Field::with.
+  /// Checks Field::with.
   void needed_beside(const View& view, Node& node, const std::string& what) {
     for (const Field& field : view.kind().fields) {
       if (field.with.empty() || view.given(field.key) == nullptr || view.given(field.with) != nullptr) continue;
@@ -76,7 +80,7 @@ class Checker : ValueChecker {
     }
   }
 
-  /// Kind::any_of.
+  /// Checks Kind::any_of.
   void one_of_any(Node& node, const Kind& kind, const std::string& what, Place where) {
     const std::vector<std::string_view> keys = parts_of(kind.any_of);
     if (keys.empty() || std::any_of(keys.begin(), keys.end(), [&](auto key) { return node.find_key(key) != nullptr; }))
@@ -91,7 +95,7 @@ class Checker : ValueChecker {
     diagnostics_.add(where, std::move(message), remedy + " or both");
   }
 
-  /// Whether an unknown key of the map was probably meant to be this field: one error is enough for both.
+  /// Whether an unknown key of the map is probably this field misspelt. Then one error covers both.
   static bool is_misspelt_in(const Node& node, const Kind& kind, const Field& field) {
     for (std::size_t i = 0; i < std::min(node.keys.size(), most_suggestions); ++i) {
       const Key& key = node.keys[i];
@@ -137,7 +141,7 @@ class Checker : ValueChecker {
   }
 
   void unknown_key(const Key& key, const Node& value, const Kind& kind, const std::string& what) {
-    // `radius 0.1` and `radius:0.1` are keys without a value to YAML.
+    // In YAML, `radius 0.1` and `radius:0.1` are keys without a value.
     const std::size_t gap = key.text.find_first_of(": ");
     if (value.is(Node::Kind::null) && gap != std::string::npos && gap > 0) {
       const std::string_view head = std::string_view(key.text).substr(0, gap);
@@ -160,7 +164,7 @@ class Checker : ValueChecker {
       unknown_key(key, value, kind, what);
       return;
     }
-    // Both of two keys that exclude one another: said once, at the second.
+    // Two keys that exclude one another are reported once, at the second.
     const Key* other = nullptr;
     for (const std::string_view rival : rivals(*field)) {
       const Key* found = map_node.find_key(rival);
@@ -294,7 +298,7 @@ class Checker : ValueChecker {
 
   void part(Node& value, const Field& field, const Key& key, bool partial) {
     const Kind& kind = kind_named(field.of);
-    // `defaults: {ball: ...}` is partial; so is what stands in it, if it has defaults of its own.
+    // `defaults: {ball: ...}` is partial. So is a part inside it, if that part has defaults of its own.
     map(value, kind, quoted(key.text), key.place, kind.name == "defaults" || (partial && !kind.defaults.empty()));
   }
 

@@ -120,7 +120,7 @@ void ValueChecker::color(Node& value, const std::string& name) {
   if (value.is(Node::Kind::sequence)) {
     numbers(value, component, name, 3);
   } else if (!value.is(Node::Kind::scalar)) {
-    // An unquoted # begins a comment, so that the value is lost.
+    // An unquoted # begins a comment, so the value is lost.
     wrong_type(value, name,
                value.is(Node::Kind::null) ? wanted + "\na colour that begins with # needs quotes" : wanted);
   } else if (!parse_color(value.text)) {

@@ -1,5 +1,5 @@
 #pragma once
-// One value against its row of the table of fields.
+// Checks one value against its row of the table of fields.
 #include <string>
 
 #include "scene/fields.h"
@@ -8,8 +8,8 @@
 
 namespace carom {
 
-/// Each check marks a value bad and adds an error if it fails; a value that is bad already says no more.
-/// `name` is the value in messages.
+/// Each check that fails marks the value bad and adds an error. A value that is already bad adds no further error.
+/// `name`: the value's name in messages.
 class ValueChecker {
  public:
   explicit ValueChecker(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -18,7 +18,7 @@ class ValueChecker {
   void refuse(Node& node, std::string message, std::string remedy);
   void wrong_type(Node& node, const std::string& name, const std::string& wanted);
 
-  /// `limits`: beyond the field's range, what a run can compute with (fields.h).
+  /// `limits`: the limits of a run's arithmetic (fields.h), beyond the field's own range.
   bool number(Node& value, const Field& field, const std::string& name, const Range& limits);
   bool whole(Node& value, const Field& field, const std::string& name);
   bool numbers(Node& value, const Field& field, const std::string& name, std::size_t count);

@@ -13,7 +13,7 @@ struct NamedColor {
   std::uint32_t rgb;
 };
 
-// CSS Color Module Level 4, section 6.1, by name.
+// CSS Color Module Level 4, section 6.1, sorted by name.
 // clang-format off
 constexpr NamedColor named_colors[] = {
     {"aliceblue", 0xf0f8ff},

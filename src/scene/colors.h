@@ -1,5 +1,5 @@
 #pragma once
-// Colours by name and colours for things that name none.
+// Colours by name, and default colours.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -7,19 +7,19 @@
 
 namespace carom {
 
-/// sRGB as authors write it (not linear light), each 0 to 1.
+/// An sRGB colour as written in scene files, not linear light. Each component is from 0 to 1.
 struct Color {
   double r = 1, g = 1, b = 1;
   friend bool operator==(const Color&, const Color&) = default;
 };
 
-/// A CSS name (any case), "#rgb" or "#rrggbb".
+/// Accepts a CSS name in any case, "#rgb" or "#rrggbb".
 std::optional<Color> parse_color(std::string_view text);
 
 /// All 148 CSS names, in alphabetical order.
 std::vector<std::string_view> color_names();
 
-/// The colour, as "#rrggbb", of the i-th ball or group that names none: neighbours differ clearly.
+/// The default colour, as "#rrggbb", of the i-th ball or group. Neighbours differ clearly.
 std::string_view body_color(std::size_t i);
 inline constexpr std::string_view plane_color = "#b8bcc2";
 inline constexpr std::string_view wall_color = "#9aa3ad";

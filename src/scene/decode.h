@@ -1,6 +1,7 @@
 #pragma once
-// A checked tree -> the parts of a Scene. Each function adds what is wrong beyond the reach of the table of fields:
-// values that contradict one another, names that mean nothing, things that overlap.
+// A checked tree to the parts of a Scene.
+// Each function adds the errors that the table of fields cannot express.
+// These are contradictory values, unknown names and overlaps.
 #include <cstdint>
 #include <string>
 #include <unordered_map>
@@ -34,59 +35,63 @@ struct FixedEntry {
   const Key* key;
   const Node* node;
   const Kind* kind;
-  Entity first = 0;  // the number among the fixed things
-  Entity count = 1;  // a room has six
+  Entity first = 0;  // its number among the fixed things
+  Entity count = 1;  // six for a room
 };
 
-/// What the file names, in its order, and which numbers that gives.
+/// The named things of a file, in its order, and their numbers.
 struct Inventory {
   std::vector<BodyEntry> bodies;
   std::vector<FixedEntry> fixed;
   Entity body_count = 0;
-  bool fits = true;  // false: over the budget, nothing may be allocated for bodies
+  // False: over the budget, so nothing may be allocated for bodies.
+  bool fits = true;
 
   struct Range {
     Entity first, count;
   };
-  std::unordered_map<std::string, Range> names;  // looked up only, never walked
+  // Looked up only, never iterated.
+  std::unordered_map<std::string, Range> names;
 };
 
-/// Numbers everything; checks that names are unique and that the bodies are within `budget`.
+/// Numbers all things. Checks that names are unique and that the number of bodies is within `budget`.
 Inventory take_inventory(const Node& root, const Budget& budget, Diagnostics& diagnostics);
 
 void decode_fixed(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics);
-/// Balls, bodies and groups: world, initial state, roster. Wants the fixed things and scene.seed decoded.
+/// Decodes balls, bodies and groups into world, initial state and roster.
+/// The fixed things and scene.seed must be decoded before.
 void decode_bodies(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics);
-/// gravity, combine, pairs and forces.
+/// Decodes gravity, combine, pairs and forces.
 void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
-/// simulate, camera, lights, background, output; and that frames and rows are within `budget`.
+/// Decodes simulate, camera, lights, background and output. Checks that frames and rows are within `budget`.
 void decode_requests(const Node& root, const Inventory& inventory, const Budget& budget, Scene& scene,
                      Diagnostics& diagnostics);
 
-/// Adds an error where places, sizes, speeds or forces are beyond what doubles carry. Wants all decoded but the members
-/// of groups, and no error.
+/// Adds an error where places, sizes, speeds or forces exceed what doubles can represent.
+/// All but the members of groups must be decoded before, without an error.
 void check_reach(const Node& root, const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics);
 
-/// Adds an error where the run takes more steps of time than `budget` has. Wants all decoded.
+/// Adds an error where the run takes more time steps than `budget` allows. The whole scene must be decoded before.
 void check_steps(const Node& root, const Scene& scene, const Budget& budget, Diagnostics& diagnostics);
 
-/// Adds an error where the engine that the scene names cannot serve what stands in it. Wants all decoded.
+/// Adds an error where the engine of the scene lacks something that the scene uses.
+/// The whole scene must be decoded before.
 void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics);
 
-/// The way the height of a wall runs that does not say: y, for a level wall z.
+/// The default direction of a wall's height: y, or z for a level wall.
 Vec3 default_up(const Vec3& unit_normal);
 
-/// v / |v|, without overflow or underflow on the way. v is not zero.
+/// v / |v|, without overflow or underflow in between. v must not be zero.
 Vec3 unit(const Vec3& v);
 
 /// The mass (kg) of a ball or body, from mass or density.
 std::optional<double> mass_of(const View& body, const Volume& volume, Diagnostics& diagnostics);
 
-/// A key of the scene as a View; empty if it is not there.
+/// A key of the scene as a View. The view is empty if the key is absent.
 View scene_part(const Node& root, std::string_view key);
 
-/// Views with the scene's defaults beneath.
-View body_view(const Node& root, const BodyEntry& entry);  // of a ball, a body or a group
+/// A ball, a body or a group as a View, with the scene's defaults beneath. The same holds for the two below.
+View body_view(const Node& root, const BodyEntry& entry);
 View member_view(const Node& root, const View& group);
 View fixed_view(const Node& root, const FixedEntry& entry);
 

@@ -1,3 +1,7 @@
+// Decodes bodies in two passes: all single bodies in the order of the file, then the members of groups.
+// Groups are placed only after every single body and obstacle is in the grid, so that members avoid them.
+// Each group draws from random streams of its own name,
+// so that editing one group leaves the numbers of the others unchanged.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,8 +64,8 @@ class Bodies {
   }
 
  private:
-  /// What a ball or body and a group's ball have in common, for `count` bodies from `first` on. False: something is
-  /// missing.
+  /// Decodes what a ball, a body and a group's ball have in common, for `count` bodies from `first` on.
+  /// False: something is missing.
   bool common(const View& body, const Volume& volume, Entity first, std::uint64_t count) {
     const std::optional<double> mass = mass_of(body, volume, diagnostics_);
     if (!mass) return false;
@@ -89,7 +93,8 @@ class Bodies {
     singles_.push_back({body.first, view.place("position")});
   }
 
-  /// Large members first, so that the grid finds them cheaply; a group's own order and stream do not depend on that.
+  /// Groups with large members first, which makes the grid's searches cheap.
+  /// The order inside a group and its random stream do not depend on that.
   void groups() {
     std::stable_sort(groups_.begin(), groups_.end(), [&](const BodyEntry* a, const BodyEntry* b) {
       return world_.radius[a->first] > world_.radius[b->first];
@@ -153,8 +158,9 @@ class Bodies {
   Scene& scene_;
   World& world_;
   Diagnostics& diagnostics_;
-  std::vector<SingleBody> singles_;       // those without errors, by number
-  std::vector<const BodyEntry*> groups_;  // those with members whose balls are without errors
+  std::vector<SingleBody> singles_;  // those without errors, by number
+  /// Those with members and without errors in their balls.
+  std::vector<const BodyEntry*> groups_;
   BodyGrid grid_;
   double default_restitution_ = 1;
 };

@@ -1,3 +1,5 @@
+// Decodes planes, rooms, walls and obstacles.
+// A thing with an error still gets a number, so that the numbers of the others do not shift.
 #include <cmath>
 
 #include "physics/world.h"
@@ -16,7 +18,7 @@ std::optional<double> restitution_of(const View& view) {
 
 void add_plane(const View& view, const std::string& name, Scene& scene) {
   const std::optional<Vec3> point = view.vector("point"), normal = view.vector("normal");
-  // A plane that has errors keeps its number: what is said about the others must not shift.
+  // A plane with errors keeps its number, so that messages about the others stay correct.
   scene.world.planes.push_back(
       {point.value_or(Vec3::Zero()), normal ? unit(*normal) : Vec3::UnitY(), restitution_of(view)});
   scene.roster.fixed.push_back(
@@ -43,7 +45,7 @@ void add_room(const View& view, const std::string& name, Scene& scene, Diagnosti
   }
 }
 
-/// So nearly along the normal that it says nothing about the way the height runs.
+/// Whether `unit_up` is so nearly parallel to the normal that it does not define the direction of the height.
 bool is_parallel(const Vec3& unit_up, const Vec3& unit_normal) {
   return unit_up.cross(unit_normal).norm() <= 1e-9;
 }
@@ -57,7 +59,8 @@ void add_wall(const View& view, const std::string& name, Scene& scene, Diagnosti
     up = std::fabs(normal.x()) < 0.5 ? Vec3::UnitX() : Vec3::UnitY();
   }
   up = unit(up - normal * up.dot(normal));
-  const Vec3 right = unit(up.cross(normal));  // right x up = normal
+  // right x up = normal.
+  const Vec3 right = unit(up.cross(normal));
 
   double half_width = 0.5, half_height = 0.5;
   if (const Node* size = view.find("size"); size != nullptr && !size->bad && size->items.size() == 2) {
@@ -70,7 +73,7 @@ void add_wall(const View& view, const std::string& name, Scene& scene, Diagnosti
 }
 
 void add_obstacle(const View& view, const std::string& name, Forms& forms, Scene& scene) {
-  // As with planes: one that has errors keeps its number. Its volume is nothing then.
+  // An obstacle with errors keeps its number, as planes do. Its volume is then empty.
   const std::optional<Form> form = forms.of(view);
   scene.world.obstacles.push_back(
       {view.vector("position").value_or(Vec3::Zero()), form ? form->volume : Volume{}, restitution_of(view)});

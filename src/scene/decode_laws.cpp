@@ -1,3 +1,6 @@
+// Decodes gravity, restitution and forces.
+// Forces go by a table of key and decoder, so that a new law is one row and one function.
+// A force without effect (zero strength, no bodies) is left out of the world.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,11 +13,11 @@
 namespace carom {
 namespace {
 
-/// A body, group, member, fixed thing, the room or one of its sides, by name.
+/// The numbers of a named thing: a body, group, member, fixed thing, the room or one of its sides.
 std::optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Diagnostics& diagnostics) {
   if (name.bad || !name.is(Node::Kind::scalar)) return std::nullopt;
   if (const auto it = inventory.names.find(name.text); it != inventory.names.end()) return it->second;
-  // gas.3
+  // A group's member such as gas.3.
   const std::size_t dot = name.text.rfind('.');
   if (dot != std::string::npos) {
     const std::string group = name.text.substr(0, dot);
@@ -67,7 +70,7 @@ void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Dia
   scene.world.pairs.push_back({a->first, a->count, b->first, b->count, *value});
 }
 
-/// The bodies that a force acts on; an empty list: all. None: no body at all, or an error was reported.
+/// The bodies that a force acts on. An empty list: all bodies. None: no body at all, or an error was reported.
 std::optional<std::vector<Entity>> decode_on(const View& force, const Inventory& inventory, Diagnostics& diagnostics) {
   const Node* on = force.given("on");
   if (on == nullptr) return std::vector<Entity>{};
@@ -91,7 +94,7 @@ std::optional<std::vector<Entity>> decode_on(const View& force, const Inventory&
   return good && !bodies.empty() ? std::optional(std::move(bodies)) : std::nullopt;
 }
 
-/// The law of a force, from the value of its key. None: it does nothing, or the value has an error.
+/// Decodes the law of a force from the value of its key. None: it has no effect, or the value has an error.
 using DecodeLaw = std::optional<ForceLaw> (*)(const View& force, Diagnostics& diagnostics);
 
 std::optional<ForceLaw> decode_uniform(const View& force, Diagnostics&) {

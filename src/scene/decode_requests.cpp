@@ -1,4 +1,5 @@
-// What is wanted of a scene: how to simulate, what to look at, what to write.
+// Decodes the requests of a scene: how to simulate, what to show, what to write.
+// The table of fields fills the structs. The checks here concern several keys at once, or the budget.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -137,7 +138,7 @@ class Requests {
                        fmt::format("`until` is {} but `from` is {}", shortest(*until), shortest(from)),
                        "expected from <= until");
     }
-    // Beyond the scene's end there is nothing to see.
+    // Nothing happens after the scene's end.
     if (until) until = std::min(*until, duration);
   }
 
@@ -166,7 +167,7 @@ class Requests {
                     : fmt::format("a {} `{}`, a shorter duration or fewer bodies",
                                   kind.spacing == "every" ? "longer" : "lower", kind.spacing));
     }
-    // Frames and a video of the same pictures share them.
+    // Frames and a video with equal settings share their pictures.
     double total = 0, most = -1;
     std::string_view largest = "frames";
     const auto add = [&](double n, std::string_view key) {

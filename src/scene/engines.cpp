@@ -1,3 +1,5 @@
+// One function for each engine lists what it lacks for a world, as text for a message.
+// Refusing is preferred to approximating: an engine never silently ignores a part of the scene.
 #include "scene/engines.h"
 
 #include <fmt/format.h>
@@ -28,7 +30,7 @@ void exact_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
 
 void stepped_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
   if (!simulate.merge) return;
-  // Where `auto` stands for it, the force is what is in the way.
+  // If `auto` excludes the exact engine, name the force that is the cause.
   const Force* bending = simulate.engine == Engine::automatic ? bending_force(world) : nullptr;
   lacks.push_back({"contact",
                    bending == nullptr ? "`engine: stepped` has no `contact: merge`"
@@ -37,7 +39,7 @@ void stepped_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
                    "expected `contact: bounce`"});
 }
 
-// The chapter's listings know spheres, planes and walls, gravity and the impulses of the first frame.
+// The chapter's listings cover spheres, planes and walls, gravity and the impulses of the first frame.
 void book_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
   const auto lack = [&](const char* at, const char* what, const char* instead) {
     lacks.push_back({at, fmt::format("`engine: book` has no {}", what), fmt::format("expected {}", instead)});

@@ -1,6 +1,6 @@
 #pragma once
-// The engines of the format: their names, which one `auto` stands for, and what each of them lacks. How they are made:
-// run/engine.h.
+// The engines of the format: their names, the choice of `auto`, and what each engine lacks.
+// Their construction is in run/engine.h.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,24 +18,25 @@ inline constexpr std::string_view integrator_names = "dop853|euler|verlet|rk4";
 std::string_view name_of(Engine engine);          // as in scene files
 std::string_view name_of(Integrator integrator);  // as in scene files
 
-/// The engine that `simulate` names; for `auto` exact where every path of the world has a closed form, else stepped.
+/// The engine of `simulate`. `auto` is exact where every path of the world has a closed form, else stepped.
 Engine engine_of(const World& world, const Simulate& simulate);
 
-/// What an engine lacks.
+/// Something that an engine lacks.
 struct Unsupported {
-  std::string at;       // the key that asks for it: the scene's, or one of `simulate`
+  /// The key that requests it: a key of the scene or of `simulate`.
+  std::string at;
   std::string what;     // "`engine: book` has no obstacles"
   std::string instead;  // "expected `engine: exact`"
 };
 
-/// Whether this engine goes along parabolas from impact to impact in this world: `contact: merge` and `output.flights`
-/// need that.
+/// Whether this engine moves bodies along parabolas from impact to impact in this world.
+/// `contact: merge` and `output.flights` require that.
 bool goes_along_parabolas(const World& world, const Simulate& simulate);
 
-/// What a force is that has no closed form, alone or with others: "a softened `attractor`".
+/// The description of a force without a closed form, alone or with others: "a softened `attractor`".
 std::string open_force_text(const Force& force);
 
-/// What the engine that `simulate` names cannot do of what the world and `simulate` ask for; empty: it runs.
+/// What the engine of `simulate` lacks for this world and these settings. Empty: it can run them.
 std::vector<Unsupported> unsupported(const World& world, const Simulate& simulate);
 
 }  // namespace carom

@@ -1,3 +1,6 @@
+// Lists every path of the format once, by walking the table from the root of each file, and searches this list.
+// A path in the list has NAME and N in place of names and numbers of entries.
+// A query may omit them, so that `carom explain balls.mass` and `balls.red.mass` find the same row.
 #include "scene/field_places.h"
 
 #include <fmt/format.h>
@@ -20,7 +23,7 @@ struct Spot {
   std::vector<std::string_view> steps;
 };
 
-/// Every place of every key of a map of `kind`, which stands at `steps`, in the order of the table.
+/// Collects every place of every key of a map of `kind`, in the order of the table. `steps`: the path of the map.
 void collect(const Kind& kind, const std::vector<std::string_view>& steps, std::vector<Spot>& found) {
   for (const Field& field : kind.fields) {
     std::vector<std::string_view> here = steps;
@@ -59,7 +62,7 @@ std::vector<std::string_view> steps_of(std::string_view path) {
 
 using Steps = std::span<const std::string_view>;
 
-/// Whether `said` is the path `steps`; names and numbers may be left out.
+/// Whether `said` is the path `steps`. Names and numbers may be omitted.
 bool is_path(Steps said, Steps steps) {
   if (steps.empty()) return said.empty();
   const bool any = steps.front() == any_name || steps.front() == any_entry;
@@ -82,7 +85,7 @@ bool is_of_kind(Steps said, const Spot& spot) {
   return said.size() == 2 && said[0] == spot.kind->name && said[1] == spot.field->key;
 }
 
-/// Whether two rows say the same.
+/// Whether two rows are equal.
 bool are_equal(const Field& a, const Field& b) {
   return a.key == b.key && a.type == b.type && a.unit == b.unit && a.range.min == b.range.min &&
          a.range.max == b.range.max && a.range.above_min == b.range.above_min &&
@@ -94,7 +97,7 @@ std::string path_text(const std::vector<std::string_view>& steps) {
   return fmt::format("{}", fmt::join(steps, "."));
 }
 
-/// Each once.
+/// The paths as texts, each once.
 std::vector<std::string> texts_of(const std::vector<Spot>& spots) {
   std::vector<std::string> texts;
   for (const Spot& spot : spots) {
@@ -119,7 +122,8 @@ std::vector<FieldPlaces> select(const Fits& fits) {
 }
 
 std::vector<FieldPlaces> find_steps(Steps said) {
-  const bool bare = said.size() == 1;  // every place is meant
+  // A single word matches at every place.
+  const bool bare = said.size() == 1;
   std::vector<FieldPlaces> found;
   if (!bare) found = select([&](const Spot& spot) { return is_path(said, spot.steps); });
   if (found.empty())
@@ -129,7 +133,7 @@ std::vector<FieldPlaces> find_steps(Steps said) {
   return found;
 }
 
-/// A step beneath a value that is a list of numbers.
+/// Whether `step` is a component of a list of numbers.
 bool is_component(std::string_view step, Type type) {
   if (type == Type::vector || type == Type::direction) return step == "x" || step == "y" || step == "z";
   return (type == Type::extent || type == Type::pixels) && (step == "width" || step == "height");
@@ -141,7 +145,7 @@ std::vector<FieldPlaces> find_places(std::string_view key) {
   const std::vector<std::string_view> said = steps_of(key);
   std::vector<FieldPlaces> found = find_steps(said);
   if (!found.empty() || said.size() < 2) return found;
-  // balls.red.position.x
+  // A component such as in balls.red.position.x.
   found = find_steps(Steps(said).first(said.size() - 1));
   std::erase_if(found, [&](const FieldPlaces& row) { return !is_component(said.back(), row.field->type); });
   return found;
@@ -188,7 +192,7 @@ const Kind* find_kind(std::string_view name) {
 
 std::string suggest_place(std::string_view key) {
   const std::vector<std::string_view> said = steps_of(key);
-  // The longest start that means something says where the wrong step would have to be known.
+  // The longest valid start of the path determines the kind that lacks the next step.
   for (std::size_t count = said.size() - 1; count > 0; --count) {
     const std::vector<FieldPlaces> found = find_steps(Steps(said).first(count));
     const Kind* held = found.empty() ? nullptr : held_kind(*found.front().field);

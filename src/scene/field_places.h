@@ -1,5 +1,5 @@
 #pragma once
-// Where in a file a field can stand, and the fields that a path or a key may mean.
+// The places in a file where a field can stand, and the fields that a path or key may mean.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,31 +8,32 @@
 
 namespace carom {
 
-/// One row of the table and every path at which a file can have it: "balls.NAME.mass", "forces.N.from". Rows of several
-/// kinds that say the same are one.
+/// One row of the table and every path at which a file can have it: "balls.NAME.mass", "forces.N.from".
+/// Equal rows of several kinds count as one.
 struct FieldPlaces {
   const Field* field = nullptr;
   std::vector<const Kind*> kinds;
   std::vector<std::string> paths;
 };
 
-/// Those that `key` means: a whole path as `--set` has it, in which names and numbers of entries may be left out
-/// (balls.red.mass, balls.mass); the end of one (rest_speed, restitution.combine); or a kind's key (ball.mass).
-/// Empty: none.
+/// The places that `key` may mean. Empty: none. `key` is one of three:
+/// - a whole path as in `--set`, with or without names and numbers of entries (balls.red.mass, balls.mass);
+/// - the end of a path (rest_speed, restitution.combine);
+/// - a key of a kind (ball.mass).
 std::vector<FieldPlaces> find_places(std::string_view key);
 
-/// Every path of a scene, each once, names and numbers of entries left out: "simulate.duration", "balls.mass".
+/// Every path of a scene, each once, without names and numbers of entries: "simulate.duration", "balls.mass".
 std::vector<std::string> plain_paths();
-/// Those of them in which nothing had to be left out: `--set` takes them as they are.
+/// The plain paths that contain no names or numbers, so that `--set` accepts them unchanged.
 std::vector<std::string> settable_paths();
 
-/// Where a file can have a map of this kind: "balls.NAME", "defaults.ball".
+/// The places in a file of maps of this kind: "balls.NAME", "defaults.ball".
 std::vector<std::string> paths_of(const Kind& kind);
 
-/// The kind whose name this is, else null.
+/// The kind with this name, else null.
 const Kind* find_kind(std::string_view name);
 
-/// What may have been meant by a key that means nothing: "did you mean `x`?", or empty.
+/// A suggestion for an unknown key: "did you mean `x`?", or empty.
 std::string suggest_place(std::string_view key);
 
 }  // namespace carom

@@ -1,4 +1,5 @@
-// What the rows of the table mean in words.
+// Describes the rows of the table in words.
+// The same words serve messages, the schema, the page of the format and `carom explain`.
 #include <fmt/format.h>
 
 #include <algorithm>

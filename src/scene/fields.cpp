@@ -1,3 +1,6 @@
+// The rows of the scene format, and the table that gives access to them.
+// Defaults come from the structs that the keys fill, so that a default is written once.
+// The table is completed at first use, because texts of defaults cannot be made at compile time.
 #include "scene/fields.h"
 
 #include <cstdlib>
@@ -81,7 +84,8 @@ constexpr Field ball_fields[] = {
 
 constexpr std::string_view volumes = "radius|cylinder|box|fit";
 
-// A body's volume: one of four. A mesh with `fit` is the volume; beside one of the other three it is drawn in its place.
+// A body's volume is one of these four keys. A mesh with `fit` is the volume itself.
+// A mesh beside one of the other three is drawn in its place.
 constexpr Field radius_of{.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .one_of = volumes, .needed = true, .doc = "Of a sphere.", .example = "0.11"};
 constexpr Field cylinder{.key = "cylinder", .type = Type::part, .of = "cylinder", .one_of = volumes, .doc = "An upright cylinder, its axis along y.", .example = "{radius: 0.1, height: 1}"};
 constexpr Field box{.key = "box", .type = Type::vector, .unit = "m", .range = above_0, .one_of = volumes, .doc = "A box along the axes: its full edges.", .example = "[0.4, 0.3, 0.4]"};
@@ -236,7 +240,7 @@ constexpr Kind rows[] = {
     {"light", "a", "A light.", light_fields, &ambient},
 };
 
-/// The row of an output among the keys of `output`.
+/// The row of an output in the map `output`.
 Field row_of(const OutputKind& kind) {
   return {.key = kind.name,
           .type = kind.keys.empty() ? Type::flag : Type::part_or_flag,
@@ -246,7 +250,7 @@ Field row_of(const OutputKind& kind) {
           .member = kind.member.key};
 }
 
-/// The rows, with their members' defaults and those of the outputs.
+/// The rows, completed with the defaults of their members and with the rows of the outputs.
 class FormatTable {
  public:
   FormatTable() {
@@ -273,7 +277,8 @@ class FormatTable {
     kinds_.push_back(kind);
   }
 
-  std::deque<std::string> texts_;          // that the rows refer to
+  /// The texts that the rows refer to.
+  std::deque<std::string> texts_;
   std::deque<std::vector<Field>> fields_;  // by kind
   std::vector<Kind> kinds_;
 };
@@ -294,7 +299,8 @@ const Kind& kind_named(std::string_view name) {
     for (const Kind& kind : family)
       if (kind.name == name) return kind;
   }
-  std::abort();  // a row of the table names a kind that it does not have
+  // A row of the table names a kind that does not exist.
+  std::abort();
 }
 
 const Field* find_field(const Kind& kind, std::string_view key) {

@@ -1,7 +1,8 @@
 #pragma once
-// The scene format as plain data: every kind of map a scene holds and every key of it. From this one table follow the
-// decoder, the messages about wrong keys and values, the resolved scene, --set, the schema, the page of the format and
-// `carom explain`. A key is a row here and, where maps of its kind fill a struct, a member of that (member.h).
+// The scene format as plain data: every kind of map in a scene, and every key of it.
+// This one table is the source of the decoder, the messages about wrong keys and values, the resolved scene, and --set.
+// The schema, the page of the format and `carom explain` come from it too.
+// A key is a row here. Where maps of its kind fill a struct, it is also a member of that struct (member.h).
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json_fwd.hpp>
@@ -13,29 +14,31 @@
 namespace carom {
 
 enum class Type : std::uint8_t {
-  number,        // finite
-  whole,         // >= 0
-  flag,          // true or false
-  text,          // one line
-  choice,        // one of Field::of, separated by |
-  vector,        // [x, y, z], numbers
-  direction,     // [x, y, z], not all zero; any length
-  extent,        // [width, height], numbers in range
-  pixels,        // [width, height], wholes in range
-  color,         // CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1
-  file,          // path, from the scene file's folder
-  two_names,     // [name, name] of bodies or fixed things
-  names,         // a list of names, at least one; of Field::of, separated by |, if that says any
-  part,          // a map of kind Field::of
-  part_or_flag,  // the same, or true: a map of defaults, or false: absent
-  named,         // a map from names to kind Field::of
-  list,          // a list of maps of kind Field::of
-  settings,      // a map from paths into a scene, such as balls.red.mass, to values there
-  axes,          // a map from paths to lists of values, or to maps of kind "range"
-  cases          // a list of maps from paths to values
+  number,     // finite
+  whole,      // >= 0
+  flag,       // true or false
+  text,       // one line
+  choice,     // one of Field::of, separated by |
+  vector,     // [x, y, z], numbers
+  direction,  // [x, y, z], not all zero; any length
+  extent,     // [width, height], numbers in range
+  pixels,     // [width, height], wholes in range
+  color,      // CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1
+  file,       // path, from the scene file's folder
+  two_names,  // [name, name] of bodies or fixed things
+  /// A list of names, at least one. If Field::of is given, they are from it, separated by |.
+  names,
+  part,  // a map of kind Field::of
+  /// A map of kind Field::of, true (a map of defaults) or false (absent).
+  part_or_flag,
+  named,     // a map from names to kind Field::of
+  list,      // a list of maps of kind Field::of
+  settings,  // a map from paths into a scene, such as balls.red.mass, to values
+  axes,      // a map from paths to lists of values, or to maps of kind "range"
+  cases      // a list of maps from paths to values
 };
 
-/// Numbers from `min` to `max`, ends included unless said otherwise.
+/// Numbers from `min` to `max`, ends included unless a flag excludes them.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
@@ -47,10 +50,13 @@ struct Range {
 struct Field;
 class View;
 
-/// The member that a key fills, of the struct that maps of its kind stand for. Rows get theirs from member.h.
+/// The struct member that a key fills. The struct is the one that maps of the kind stand for.
+/// Rows get it from member.h.
 struct Member {
-  void (*fill)(void* settings, const View& view, const Field& field) = nullptr;  // where the view has a value
-  std::string (*initial)(const Field& field) = nullptr;  // of a new struct, as YAML; empty: absent unless given
+  /// Fills the member if the view has a value.
+  void (*fill)(void* settings, const View& view, const Field& field) = nullptr;
+  /// The member of a new struct, as YAML. Empty: absent unless given.
+  std::string (*initial)(const Field& field) = nullptr;
   nlohmann::ordered_json (*json)(const void* settings, const Field& field) = nullptr;
 };
 
@@ -59,33 +65,45 @@ struct Field {
   Type type = Type::number;
   std::string_view unit = {};
   Range range = {};
-  std::string_view initial =
-      {};                    // the default as YAML; empty: absent unless given. Of a row with a member: the member's
+  /// The default as YAML. Empty: absent unless given. A row with a member takes the member's default.
+  std::string_view initial = {};
   std::string_view of = {};  // kind, or choices
-  std::string_view one_of = {};  // keys of the kind that exclude one another, this one among them, separated by |
-  bool needed = false;           // this or another of `one_of`
+  /// Keys of the kind that exclude one another, including this one, separated by |.
+  std::string_view one_of = {};
+  /// Whether this key, or another of `one_of`, must be present.
+  bool needed = false;
   std::string_view doc = {};
   std::string_view example = {};  // a value as YAML
-  std::string_view title = {};    // empty: the key says it
-  std::string_view with = {};     // a key of the kind that has to stand beside this one
-  std::string_view engines = {};  // those that know another value than `initial`, separated by |; empty: all
-  std::string_view pattern = {};  // of a text or of names, a regular expression for the schema
-  bool needs_entries = false;     // of a list: it is not empty
-  Member member = {};             // none: the decoder reads the key itself
+  /// Empty: derived from the key.
+  std::string_view title = {};
+  /// A key of the kind that must stand beside this one.
+  std::string_view with = {};
+  /// Engines that accept a value other than `initial`, separated by |. Empty: all.
+  std::string_view engines = {};
+  /// A regular expression for the schema, for a text or for names.
+  std::string_view pattern = {};
+  bool needs_entries = false;  // a list must not be empty
+  /// Absent: the decoder reads the key itself.
+  Member member = {};
 };
 
 struct Kind {
-  std::string_view name;     // as Field::of has it
-  std::string_view article;  // for messages: "a", "an", or "" before a name that is the key itself
+  std::string_view name;  // as Field::of has it
+  /// For messages: "a", "an", or "" before a name that is the key itself.
+  std::string_view article;
   std::string_view doc;
   std::span<const Field> fields;
-  const Field* also = nullptr;     // a colour that may stand beside the names of such maps (lights: ambient)
-  std::string_view defaults = {};  // the key of `defaults` with what a map of this kind does not say itself
-  std::string_view any_of = {};    // keys of which at least one is there, separated by |
-  std::string_view beneath = {};   // the kind beside it whose values hold where a map of this kind has none
+  /// A colour that may stand beside the names of such maps (lights: ambient).
+  const Field* also = nullptr;
+  /// The key of `defaults` that supplies values missing in maps of this kind.
+  std::string_view defaults = {};
+  /// Keys of which at least one must be present, separated by |.
+  std::string_view any_of = {};
+  /// The neighbouring kind that supplies values missing in maps of this kind.
+  std::string_view beneath = {};
 };
 
-/// Fills a struct with what a map says; its other members stay. `settings`: the struct that the view's kind stands for.
+/// Fills a struct from a map. Members without a value keep theirs. `settings`: the struct of the view's kind.
 void fill(void* settings, const View& view);
 /// The struct's members as JSON, in the order of the kind's keys.
 nlohmann::ordered_json json_of(const Kind& kind, const void* settings);
@@ -94,18 +112,18 @@ nlohmann::ordered_json json_of(const Kind& kind, const void* settings);
 std::span<const Kind> kinds();
 /// Every kind of a sweep file, "sweep" first.
 std::span<const Kind> sweep_kinds();
-/// The kinds of each sort of file; a file is a map of the first of them.
+/// The kinds of each sort of file. The file itself is a map of the first of them.
 std::vector<std::span<const Kind>> families();
-const Kind& kind_named(std::string_view name);  // there must be one
+const Kind& kind_named(std::string_view name);  // must exist
 const Field* find_field(const Kind& kind, std::string_view key);
 
-/// For use after a noun: "above 0", "from 1 to 8", "of at least 0"; empty: any.
+/// A phrase for use after a noun: "above 0", "from 1 to 8", "of at least 0". Empty: any number.
 std::string describe(const Range& range);
 bool contains(const Range& range, double value);
 
-/// How large the numbers of a unit may be, whatever their field, and how small where they must be above 0. Within these
-/// no energy, no distance to the eighth power and no quotient of two of them leaves the doubles, and no length the
-/// floats that grids and pictures use.
+/// The largest number of a unit, whatever the field, and the smallest where numbers must be above 0.
+/// Within these limits doubles hold every energy, distance to the eighth power, and quotient of two of them.
+/// Floats hold every length that grids and pictures use.
 struct UnitLimit {
   std::string_view unit;
   double smallest, largest;
@@ -115,28 +133,28 @@ std::span<const UnitLimit> unit_limits();
 /// The field's range, within the limits of its unit.
 Range limited_range(const Field& field);
 
-/// "a run computes with numbers from 1e-30 to 1e+30 m": of a number beyond limited_range().
+/// "a run computes with numbers from 1e-30 to 1e+30 m": the message for a number beyond limited_range().
 std::string limit_text(const Range& limits, std::string_view unit);
 
-/// What a value of this field looks like: "a number above 0 in kg", "[x, y, z] in m", "average, minimum or maximum".
+/// The form of a value of this field: "a number above 0 in kg", "[x, y, z] in m", "average, minimum or maximum".
 std::string expected(const Field& field);
 
-/// What the field is in sentences: its doc, what a value looks like, its default, what it excludes.
+/// The field in sentences: its doc, the form of a value, its default, the keys that it excludes.
 std::string described(const Field& field);
 
-/// "a|b|c", one by one.
+/// The parts of "a|b|c".
 std::vector<std::string_view> parts_of(std::string_view text);
 
 /// The keys that exclude this one.
 std::vector<std::string_view> rivals(const Field& field);
 
-/// The choices, one by one.
+/// The choices of a field, as separate words.
 std::vector<std::string_view> choices(const Field& field);
 
-/// "Rest speed": the title, or what the key says.
+/// The title, or one derived from the key: "Rest speed".
 std::string title_of(const Field& field);
 
-/// The kind of the map that the value is, or of those in it; null: there are none.
+/// The kind of the map, or of the maps in a list or named map. Null: the value holds none.
 const Kind* held_kind(const Field& field);
 
 /// "a", "a or b", "a, b or c"

@@ -97,7 +97,7 @@ std::string section(const Kind& kind, bool is_file) {
   return text + "\n";
 }
 
-/// What numbers, distances and runs are refused for their size.
+/// The section on limits of numbers, distances and runs.
 std::string limits() {
   const Budget budget;
   std::string text =

@@ -1,3 +1,5 @@
+// Fits volumes to meshes. Each file is read once, and each fit of a file and a shape is computed once.
+// A mesh either defines the volume (`fit`, at its own size) or is scaled to lie inside a given volume.
 #include "scene/forms.h"
 
 #include <fmt/format.h>
@@ -18,13 +20,14 @@ namespace {
 
 constexpr std::string_view shape_names[] = {"sphere", "cylinder", "box"};
 
-/// Whatever a run may write beside the copies of meshes.
+/// Whether a run may write a file of this name besides the copies of meshes.
 bool is_taken(const std::string& name, const std::string& film) {
   return is_reserved(name) || name == VideoOutput{}.file || name == film;
 }
 
-/// Files and their readers hold floats: 0.381 in a file comes as 0.38100001215934753. The shortest decimal that is the
-/// same float is what was written, and lets a body that is 0.381 m high stand on a floor 0.1905 m below it.
+/// Mesh files and their readers use floats: 0.381 in a file is read as 0.38100001215934753.
+/// The shortest decimal with the same float is the number that was written.
+/// With it, a body that is 0.381 m high stands on a floor 0.1905 m below its centre.
 double as_written(double value) {
   const auto single = static_cast<float>(value);
   if (static_cast<double>(single) != value) return value;
@@ -35,7 +38,7 @@ double as_written(double value) {
   return decimal;
 }
 
-/// A .gltf names files beside it, which would have to go with it.
+/// A .gltf refers to files beside it, which would have to be copied too.
 bool has_further_files(const std::filesystem::path& name) {
   std::string ending = name.extension().string();
   for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
@@ -63,7 +66,7 @@ std::optional<Volume> Forms::said_volume(const View& thing) const {
   return radius && height ? std::optional(Volume::cylinder(*radius, *height)) : std::nullopt;
 }
 
-/// The volume is the tightest around the mesh, which keeps its own size.
+/// The volume is the tightest one around the mesh. The mesh keeps its size.
 std::optional<Form> Forms::fitted(const View& thing, const Node& mesh) {
   const std::optional<std::string> name = thing.text("fit");
   if (!name) return std::nullopt;
@@ -73,7 +76,7 @@ std::optional<Form> Forms::fitted(const View& thing, const Node& mesh) {
   return Form{tight->volume, MeshUse{path_of(mesh), tight->center, 1}};
 }
 
-/// The mesh is drawn as large as lets its own tightest volume of that shape lie in the given one, centre on centre.
+/// The mesh is scaled so that its tightest volume of that shape lies in the given volume, with equal centres.
 std::optional<Form> Forms::drawn(const Volume& volume, const Node& mesh) {
   const std::optional<Fit> tight = fit(volume.shape, mesh);
   if (!tight) return std::nullopt;
@@ -139,7 +142,7 @@ std::vector<MeshFile> Forms::files(const std::string& film) const {
       out.push_back({path, ""});
       continue;
     }
-    // No hidden file, no option, no other system's path, no name longer than file systems take.
+    // The name must not be hidden, look like an option, contain a path of another system, or exceed the length limit.
     std::string stem = name.stem().string();
     if (stem.starts_with('.') || stem.starts_with('-') || stem.find('\\') != std::string::npos || stem.size() > 150) {
       stem = "mesh";

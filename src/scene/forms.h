@@ -1,5 +1,5 @@
 #pragma once
-// The volumes of bodies and obstacles, and the meshes that are drawn in their place or that they are fitted around.
+// The volumes of bodies and obstacles. A mesh is drawn in place of a volume, or a volume is fitted around it.
 #include <map>
 #include <optional>
 #include <string>
@@ -23,14 +23,15 @@ struct Form {
 /// Reads each mesh file once, and fits each kind of volume around it once.
 class Forms {
  public:
-  /// `folder` is that of the scene file.
+  /// `folder`: the folder of the scene file.
   Forms(std::string folder, const LoadOptions& options, Diagnostics& diagnostics)
       : folder_(std::move(folder)), options_(options), diagnostics_(diagnostics) {}
 
-  /// Of a ball, a group's ball, a body or an obstacle. None: its volume or its mesh has an error, which was reported.
+  /// The form of a ball, a group's ball, a body or an obstacle.
+  /// None: its volume or its mesh has an error, which was reported.
   std::optional<Form> of(const View& thing);
 
-  /// The files that were used, in the order of their first use. `film`: the name of the film, no copy's then.
+  /// The mesh files in the order of their first use. `film`: the file name of the film, which no copy may take.
   std::vector<MeshFile> files(const std::string& film) const;
 
  private:
@@ -44,8 +45,9 @@ class Forms {
   std::string folder_;
   const LoadOptions& options_;
   Diagnostics& diagnostics_;
-  std::map<std::string, std::vector<Vec3>> points_;                   // by path; empty: cannot be used
-  std::map<std::pair<std::string, Shape>, std::optional<Fit>> fits_;  // none: cannot be
+  /// By path. Empty: unusable.
+  std::map<std::string, std::vector<Vec3>> points_;
+  std::map<std::pair<std::string, Shape>, std::optional<Fit>> fits_;  // none: unusable
   std::vector<std::string> order_;                                    // paths
 };
 

@@ -1,3 +1,6 @@
+// A hashed grid with one level for each octave of diameters: cells as large as the members of a level.
+// One grid with a single cell size would need many cells for large bodies or hold many bodies in each cell.
+// Cells are chains in one array of buckets, so space is unbounded and memory is proportional to the members.
 #include "scene/grid.h"
 
 #include <algorithm>
@@ -18,7 +21,8 @@ double dot(const Vec3& a, const Vec3& b) {
 }
 
 std::int64_t cell_of(double x, double cell) {
-  return whole_below(x / cell);  // Beyond its range all cells are one.
+  // Beyond the range of integers all cells are one.
+  return whole_below(x / cell);
 }
 
 }  // namespace
@@ -39,7 +43,7 @@ void BodyGrid::reserve(std::size_t members) {
 }
 
 std::size_t BodyGrid::bucket(std::uint32_t level, std::int64_t x, std::int64_t y, std::int64_t z) const {
-  // Cells that are neighbours along x share a line of memory.
+  // Cells that are neighbours along x share a cache line.
   const std::uint64_t row = static_cast<std::uint64_t>(y) * 0x9E3779B97F4A7C15ULL +
                             static_cast<std::uint64_t>(z) * 0xC2B2AE3D27D4EB4FULL + level * 0x165667B19E3779F9ULL;
   return (static_cast<std::uint64_t>(x) + (row ^ (row >> 29))) & (heads_.size() - 1);
@@ -103,7 +107,7 @@ BodyGrid::Cells BodyGrid::cells_about(const Level& level, const Member& body) co
   return cells;
 }
 
-/// visit(bucket) -> go on?
+/// visit(bucket) returns whether to continue.
 template <typename Visit>
 void BodyGrid::each_bucket(std::uint32_t level, const Cells& cells, Visit visit) const {
   for (std::int64_t z = cells.low[2]; z <= cells.high[2]; ++z)
@@ -117,13 +121,13 @@ std::optional<BodyGrid::Overlap> BodyGrid::find_overlap(const Member& body, doub
   for (std::uint32_t l = 0; l < levels_.size(); ++l) {
     const Level& level = levels_[l];
     const Cells cells = cells_about(level, body);
-    // A large body among few small ones: cheaper to ask them all.
+    // For a large body among few small ones it is cheaper to test them all.
     if (cells.count > static_cast<double>(level.members.size()) + 27) {
       for (const std::uint32_t i : level.members)
         if ((overlap = overlap_with(members_[i].member, body, relative))) return overlap;
       continue;
     }
-    // The body's own cell first: where there is an overlap, it is most often there.
+    // The body's own cell comes first, because most overlaps are found there.
     if ((overlap = overlap_in_chain(heads_[bucket(l, body.center)], body, relative))) return overlap;
     each_bucket(l, cells, [&](std::size_t at) { return !(overlap = overlap_in_chain(heads_[at], body, relative)); });
     if (overlap) return overlap;

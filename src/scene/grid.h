@@ -1,5 +1,5 @@
 #pragma once
-// Which bodies lie where, for finding overlaps among a million of any size without looking at all pairs.
+// A spatial grid that finds overlaps among a million bodies of any size without testing all pairs.
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -11,18 +11,20 @@
 
 namespace carom {
 
-/// How deep two things may overlap and still count as touching, m: `relative` of the smaller reach plus 4 units in the
-/// last place of the largest coordinate, which is what rounding decimals can do.
+/// The depth, in m, to which two things may overlap and still count as touching.
+/// It is `relative` of the smaller reach plus 4 units in the last place of the largest coordinate.
+/// The second term covers the rounding of decimals.
 double touch_tolerance(double relative, double smaller_reach, const Vec3& a, const Vec3& b);
 
-/// Things made by rule lie as tight as this, relative to the smaller one's reach.
+/// The relative tolerance of things placed by rule, as a share of the smaller one's reach.
 inline constexpr double tight = 1e-12;
 
-/// A hashed grid of unbounded space, one level for each octave of diameters. A body is looked for on every level that
-/// is in use; bodies put in from the largest to the smallest find their neighbours in 27 cells a level.
+/// A hashed grid of unbounded space, with one level for each octave of diameters.
+/// A query searches every level in use.
+/// Bodies inserted from the largest to the smallest find their neighbours in 27 cells a level.
 class BodyGrid {
  public:
-  /// A body or an obstacle; volumes that are no spheres are those of the grid's world.
+  /// A body or an obstacle. The world of the grid holds the volumes that are not spheres.
   struct Member {
     Vec3 center;    // m
     double radius;  // m, its reach
@@ -38,17 +40,18 @@ class BodyGrid {
 
   void reserve(std::size_t members);
   void insert(const Member& member);
-  /// A member that overlaps this body by more than touching, if there is any.
+  /// A member that overlaps this body beyond the tolerance of touching, if there is one.
   std::optional<Overlap> find_overlap(const Member& body, double relative = tight) const;
-  /// Asks memory for what find_overlap will look at: first for the cells, later for those in them.
+  /// Prefetches the memory that find_overlap will read: first the cells, later the members in them.
   enum class Prefetch { cells, members };
   void prefetch(const Member& body, Prefetch what) const;
 
  private:
   struct Level {
-    int exponent;    // of its diameters: from 2^(exponent-1) to below 2^exponent
-    double cell;     // m, the first one's diameter
-    double largest;  // m, of the diameters
+    /// Of the diameters, which lie from 2^(exponent-1) to below 2^exponent.
+    int exponent;
+    double cell;     // m, the diameter of the first member
+    double largest;  // m, the largest diameter
     std::vector<std::uint32_t> members;
   };
   struct Cells {
@@ -68,15 +71,17 @@ class BodyGrid {
   const World* world_;
   struct Link {
     Member member;
-    std::uint32_t next;  // in the chain of its bucket
+    /// Next in the chain of its bucket.
+    std::uint32_t next;
   };
   std::vector<Link> members_;
-  std::vector<std::uint32_t> level_;  // by member, of levels_
+  std::vector<std::uint32_t> level_;  // index into levels_, by member
   std::vector<std::uint32_t> heads_;  // by bucket
   std::vector<Level> levels_;
 };
 
-/// How deep a body at `center` overlaps a plane or a wall (by number) beyond touching, m; none: it does not.
+/// The depth, in m, to which a body at `center` overlaps a plane or wall (by number) beyond touching.
+/// None: there is no overlap.
 std::optional<double> overlap_depth(const World& world, Entity body, const Vec3& center, Entity surface,
                                     double relative = tight);
 bool touches_no_surface(const World& world, Entity body, const Vec3& center);

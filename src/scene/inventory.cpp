@@ -1,4 +1,5 @@
-// Who is there and how many: everything that must be known before memory is spent on bodies.
+// Numbers and counts all things of a scene before memory is allocated for bodies.
+// The budget can thus refuse a huge group at no cost.
 #include <fmt/format.h>
 
 #include "scene/check.h"
@@ -9,7 +10,8 @@ namespace carom {
 namespace {
 
 constexpr std::uint64_t most_bodies =
-    4'000'000'000;  // an Entity has 32 bits, and fixed things are numbered after the bodies
+    // An Entity has 32 bits, and fixed things are numbered after the bodies.
+    4'000'000'000;
 
 class Census {
  public:
@@ -24,7 +26,7 @@ class Census {
       if (key == "planes") fixed(root_.items[i], kind_named("plane"));
       if (key == "room") add_fixed(root_.keys[i], root_.items[i], kind_named("room"));
     }
-    // Walls are numbered after all planes, wherever they stand, and obstacles after all walls.
+    // Walls are numbered after all planes, and obstacles after all walls, whatever their order in the file.
     if (const Node* walls = root_.find("walls")) fixed(*walls, kind_named("wall"));
     if (const Node* obstacles = root_.find("obstacles")) fixed(*obstacles, kind_named("obstacle"));
 

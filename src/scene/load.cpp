@@ -1,5 +1,6 @@
-// The order of the steps is the order in which a hostile or mistaken file can do harm: bytes, syntax, keys and values,
-// how many of everything, and only then memory for bodies. Every step adds its errors and lets the next one add more.
+// Runs the steps of loading in the order in which a hostile or wrong file can do harm.
+// These are bytes, syntax, keys and values, the number of all things, and only then memory for bodies.
+// Each step adds its errors, and the next step adds more where it can.
 #include "scene/load.h"
 
 #include <fmt/format.h>
@@ -83,14 +84,16 @@ struct SceneFile::Impl {
 
   std::string path;
   LoadOptions options;
-  std::vector<Source> sources;  // the file, then one for each setting
-  Diagnostics parsing;          // what was wrong with the text and could be read over
+  // The file, then one for each setting.
+  std::vector<Source> sources;
+  /// Errors of the text after which parsing could continue.
+  Diagnostics parsing;
   Node root;
 };
 
 namespace {
 
-/// Does `work`; a lack of memory is an error of the scene.
+/// Runs `work`. Running out of memory becomes an error of the scene.
 template <typename Work>
 auto within_memory(const std::string& path, const Work& work) {
   try {

@@ -1,5 +1,5 @@
 #pragma once
-// YAML -> checked Scene, or errors that point at the character.
+// YAML to a checked Scene, or errors that point at the character.
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -15,37 +15,38 @@ namespace carom {
 
 struct LoadOptions {
   std::vector<std::string> set;       // "path=value", in order
-  std::optional<std::uint64_t> seed;  // overrules the file's
+  std::optional<std::uint64_t> seed;  // overrides the file's
   Budget budget;
   bool color = false;  // colour in the texts of errors
 
-  /// Reads the vertices of a mesh file, in the file's own units. Throws std::runtime_error whose text says what is
-  /// wrong with the file. Unset: scenes with meshes are refused.
+  /// Reads the vertices of a mesh file, in the file's own units.
+  /// Throws std::runtime_error with a text that describes the fault of the file. Unset: scenes with meshes are refused.
   std::function<std::vector<Vec3>(const std::string& path)> mesh_points;
 };
 
-/// All that is wrong with a scene file, as text for a terminal: per error file:line:column, the line, a caret, the
-/// remedy.
+/// All errors of a scene file, as text for a terminal.
+/// Each has file:line:column, the line, a caret and the remedy.
 struct SceneError : std::runtime_error {
   SceneError(const std::string& text, std::size_t errors) : std::runtime_error(text), count(errors) {}
   std::size_t count;
 };
 
-/// A change to a scene: what --set says.
+/// A change to a scene: one --set option.
 struct Setting {
-  std::string text;   // "path=value"
-  std::string where;  // before errors about it: "falls.yaml:7:3"; empty: "--set path=value"
+  std::string text;  // "path=value"
+  /// The place shown in errors: "falls.yaml:7:3". Empty: "--set path=value".
+  std::string where;
 };
 
-/// A scene file that is read once and resolved with one setting after another.
+/// A scene file, read once and resolved with a different setting each time.
 class SceneFile {
  public:
-  /// Reads and parses. Throws SceneError, as all of this class does.
+  /// Reads and parses the file. Throws SceneError, as all functions of this class do.
   SceneFile(const std::string& path, const LoadOptions& options);
   ~SceneFile();
   SceneFile(SceneFile&&) noexcept;
 
-  /// The scene with these settings after those of the options, checked and resolved.
+  /// The scene with these settings, applied after those of the options. The result is checked and resolved.
   Scene scene(const std::vector<Setting>& settings = {});
   /// The file's text, without byte order mark and carriage returns.
   const std::string& text() const;

@@ -1,6 +1,6 @@
 #pragma once
-// Joins a row of the table of fields with the member that its key fills. A member's default is the key's default; its
-// type says how the value is read and written.
+// Joins a row of the table of fields with the struct member that its key fills.
+// The member's default is the key's default. The member's type determines how the value is read and written.
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -15,16 +15,18 @@
 
 namespace carom {
 
-// Reading: false where the map has no value, or one that was reported bad; then the member stays as it is.
+// Reading. Each returns false if the map has no value or a bad one. Then the member keeps its value.
 bool take(const View& view, const Field& field, double& value);
 bool take(const View& view, const Field& field, std::uint64_t& value);
-bool take(const View& view, const Field& field, int& value);   // a whole number, or a choice of whole numbers
-bool take(const View& view, const Field& field, bool& value);  // a flag, or the second of two choices
+// Accepts a whole number, or a choice of whole numbers.
+bool take(const View& view, const Field& field, int& value);
+// Accepts a flag, or two choices of which the second is true.
+bool take(const View& view, const Field& field, bool& value);
 bool take(const View& view, const Field& field, std::string& value);
 bool take(const View& view, const Field& field, Vec3& value);
 bool take(const View& view, const Field& field, Size& value);
 bool take(const View& view, const Field& field, Color& value);
-/// The number of a choice.
+/// The index of a choice.
 std::optional<std::size_t> choice_of(const View& view, const Field& field);
 
 // Writing, as JSON and as YAML.
@@ -41,7 +43,7 @@ inline constexpr bool is_optional = false;
 template <typename T>
 inline constexpr bool is_optional<std::optional<T>> = true;
 
-/// What a map of its own fills.
+/// Whether T is a struct that a nested map fills.
 template <typename T>
 inline constexpr bool is_settings = std::is_class_v<T> && !(std::is_same_v<T, std::string> || std::is_same_v<T, Vec3> ||
                                                             std::is_same_v<T, Size> || std::is_same_v<T, Color>);
@@ -112,11 +114,11 @@ inline constexpr Member fills = {
       return json_any(field, static_cast<const Owner*>(settings)->*pointer);
     }};
 
-/// The same without a default that can be told: it depends on other keys, or not being there says more than a number.
+/// The same without a fixed default: it depends on other keys, or absence has a meaning of its own.
 template <typename Owner, auto pointer>
 inline constexpr Member fills_if_given = {fills<Owner, pointer>.fill, nullptr, fills<Owner, pointer>.json};
 
-/// A row that several kinds have, with one's own member.
+/// A row shared by several kinds, with the member of one of them.
 constexpr Field with(Field field, Member member) {
   field.member = member;
   return field;

@@ -1,4 +1,4 @@
-// Every member of the structs concerned has a name here, so that a new one does not compile until it is in the text.
+// Binds every member of the structs concerned to a name. A new member then does not compile until it is in the text.
 #include "scene/motion_text.h"
 
 #include <fmt/format.h>
@@ -58,7 +58,7 @@ class MotionText {
     text_.back() = '\n';
   }
 
-  // Each followed by a blank.
+  // The values, each followed by a blank.
   template <typename T>
   requires(std::is_arithmetic_v<T> || std::is_convertible_v<T, std::string_view>) void write(const T& value) {
     fmt::format_to(std::back_inserter(text_), "{} ", value);

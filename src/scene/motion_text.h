@@ -1,14 +1,15 @@
 #pragma once
-// What of a scene determines its motion, apart from how the motion is looked at and written.
+// The part of a scene that determines its motion.
 #include <string>
 
 namespace carom {
 
 struct Scene;
 
-/// A canonical text of the world, the initial state and the settings of the simulator. Scenes with the same text move
-/// alike, bit for bit. Names, title, colours, what is drawn, camera, lights, background and output are not in it, nor
-/// is how a number was written, nor whether `auto` chose the engine.
+/// A canonical text of the world, the initial state and the settings of the simulator.
+/// Scenes with the same text move alike, bit for bit.
+/// It excludes names, title, colours, meshes, camera, lights, background and output.
+/// It excludes the way a number was written, and whether `auto` chose the engine.
 std::string motion_text(const Scene& scene);
 
 }  // namespace carom

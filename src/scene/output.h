@@ -1,5 +1,5 @@
 #pragma once
-// What a scene asks a run to write: the keys of `output`. Their rows: output_kinds.cpp.
+// The keys of `output`: what a scene requests a run to write. Their rows are in output_kinds.cpp.
 #include <optional>
 #include <string>
 
@@ -21,7 +21,7 @@ struct ContactsOutput {
   double every = 1.0 / 30;  // s
 };
 
-/// Pictures at even times.
+/// Pictures at evenly spaced times.
 struct PictureOutput {
   double fps = 30;
   Size size;
@@ -49,8 +49,8 @@ struct GltfOutput {
   double fps = 30;
 };
 
-/// What the run shall write; absent means not wanted and nothing is made for it. summary, manifest and scene.yaml
-/// always are.
+/// The outputs of a run. An absent one is not written, and nothing is constructed for it.
+/// summary, manifest and scene.yaml are always written.
 struct Output {
   std::optional<TrajectoryOutput> trajectory;
   bool collisions = false;
@@ -62,7 +62,8 @@ struct Output {
   std::optional<VtkOutput> vtk;
   std::optional<XyzOutput> xyz;
   std::optional<GltfOutput> gltf;
-  bool flights = false;  // of an engine that goes along parabolas alone
+  /// Only of an engine that moves bodies along parabolas.
+  bool flights = false;
   bool pictures() const { return frames || video || sheet; }
 };
 

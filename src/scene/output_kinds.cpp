@@ -1,3 +1,6 @@
+// The rows of the table of outputs, and functions over the set of requested ones.
+// A template for each sort of output makes its functions from the member of Output.
+// A new output therefore is one member, one row, and one writer.
 #include "scene/output_kinds.h"
 
 #include <fmt/format.h>
@@ -43,7 +46,7 @@ constexpr Field gltf_fields[] = {
 
 constexpr Field fps{.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .doc = "Pictures a second.", .example = "25", .title = "Pictures a second"};
 constexpr Field size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = image_side, .doc = "Width and height of a picture.", .example = "[640, 360]", .title = "Width and height"};
-// A film stores its colours for 2 x 2 pixels.
+// A film stores colours for blocks of 2 x 2 pixels.
 constexpr Field film_size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = {16, 16384, false, false, true}, .doc = "Width and height of a picture, both even.", .example = "[640, 360]", .title = "Width and height"};
 constexpr Field samples{.key = "samples", .type = Type::choice, .of = "1|2|4|8", .doc = "Samples a pixel, against jagged edges.", .example = "8"};
 constexpr Field from{.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture before.", .example = "0.5", .title = "Start"};
@@ -74,7 +77,7 @@ constexpr Field sheet_fields[] = {
 };
 // clang-format on
 
-/// s, between the states that an output is written of.
+/// The interval in s between the states that an output writes.
 template <typename Settings>
 requires requires(Settings settings) {
   settings.every;
@@ -95,7 +98,7 @@ constexpr double (*every_in())(const Output&) {
     return nullptr;
 }
 
-/// An output with settings of its own.
+/// An output with settings.
 template <auto member>
 constexpr OutputMember part = {[](const Output& output) { return (output.*member).has_value(); },
                                [](Output& to, const Output& asked) {
@@ -104,7 +107,7 @@ constexpr OutputMember part = {[](const Output& output) { return (output.*member
                                },
                                every_in<member>(), fills_if_given<Output, member>};
 
-/// Pictures: what neither output says is as the other, `like`, has it.
+/// Pictures. If `asked` lacks this output, it takes the settings of the other picture output, `like`.
 template <auto member, auto like>
 constexpr OutputMember pictures = {[](const Output& output) { return (output.*member).has_value(); },
                                    [](Output& to, const Output& asked) {
@@ -115,7 +118,7 @@ constexpr OutputMember pictures = {[](const Output& output) { return (output.*me
                                    },
                                    nullptr, fills_if_given<Output, member>};
 
-/// An output that is only there or not.
+/// An output without settings, either present or absent.
 template <auto member, const Member& key>
 constexpr OutputMember flag = {[](const Output& output) { return output.*member; },
                                [](Output& to, const Output&) { to.*member = true; }, nullptr, key};

@@ -1,5 +1,5 @@
 #pragma once
-// The table of outputs. Of each, one row has all but how it is written: export/writer.cpp has that.
+// The table of outputs: one row for each, with all but how it is written. That is in export/writer.cpp.
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
@@ -15,68 +15,79 @@ namespace carom {
 /// Numbered files in a folder of their own: <folder>/<stem>00000<ending>, five digits or more.
 struct FileSeries {
   std::string_view folder, stem, ending;
-  std::string_view what, whats;  // one of them, several: "picture", "pictures"
+  /// The words for one file and for several: "picture", "pictures".
+  std::string_view what, whats;
 
   /// "frame_00012.png".
   std::string name(std::int64_t number) const;
-  /// Whether name() gives such names.
+  /// Whether name() can produce this name.
   bool has(std::string_view name) const;
 };
 
 inline constexpr FileSeries frame_files{"frames", "frame_", ".png", "picture", "pictures"};
 inline constexpr FileSeries vtk_files{"vtk", "bodies_", ".vtp", "instant", "instants"};
 
-/// What a scene's wish for an output is: the member of Output.
+/// The member of Output that holds a scene's request for one output.
 struct OutputMember {
   bool (*asked)(const Output& output);
-  /// `to` has it from then on: with the settings of `asked`, or with default ones if that has none.
+  /// Adds the output to `to`: with the settings of `asked`, or with default ones if `asked` lacks it.
   void (*add)(Output& to, const Output& asked);
-  double (*every)(const Output& output);  // s, between the states that it is written of; null: of none
+  /// The interval in s between the states written. Null: the output is not sampled.
+  double (*every)(const Output& output);
   Member key = {};
 };
 
 struct OutputKind {
-  std::string_view name;  // the key in `output`; what --only calls it
+  /// The key in `output` and the name for --only.
+  std::string_view name;
   std::string_view doc;
-  std::string_view example;          // of its value, as YAML
-  std::span<const Field> keys = {};  // of its map; empty: it is a flag
-  std::string_view keys_doc = {};    // of the map
-  std::string_view beneath = {};     // the output whose values hold where its map has none
+  std::string_view example;  // a value, as YAML
+  /// Keys of its map. Empty: a flag.
+  std::span<const Field> keys = {};
+  std::string_view keys_doc = {};  // describes the map
+  /// The output that supplies values missing in the map of this one.
+  std::string_view beneath = {};
   OutputMember member = {};
-  std::string (*named)(const Output& output) = nullptr;  // a file's name that the scene gives
-  std::string_view files = {};                           // the other files' names, separated by |
+  /// The file name that the scene gives to this output.
+  std::string (*named)(const Output& output) = nullptr;
+  /// Names of the other files, separated by |.
+  std::string_view files = {};
   FileSeries series = {};
-  std::string_view rows = {};     // what it has of every body at every instant, in which file; empty: nothing
-  std::string_view spacing = {};  // the key that says how often
-  bool in_memory = false;         // all of that, until the run's end
+  /// What it holds of every body at every instant, and in which file. Empty: nothing of the kind.
+  std::string_view rows = {};
+  std::string_view spacing = {};  // the key of the interval
+  /// All rows are held in memory until the run's end.
+  bool in_memory = false;
 
-  bool looks = false;  // it tells how things look, not only how they move: carom render makes it anew
+  /// It depends on how things look and not only on how they move. carom render makes it anew.
+  bool looks = false;
 
   bool asked(const Output& output) const { return member.asked(output); }
   bool is_sampled() const { return member.every != nullptr; }
-  double every(const Output& output) const { return member.every(output); }  // s; of one that is sampled
-  nlohmann::ordered_json settings(const Output& output) const;               // of one that is asked for
-  bool has_file(std::string_view name) const;                                // among `files`
+  double every(const Output& output) const { return member.every(output); }  // s; only if is_sampled()
+  nlohmann::ordered_json settings(const Output& output) const;               // only if asked()
+  bool has_file(std::string_view name) const;                                // whether it is among `files`
 };
 
 /// Every output, in the order of the scene's keys, of --only and of the manifest.
 std::span<const OutputKind> output_kinds();
 
-/// Of what is asked for, the outputs named, with the scene's settings. One that it does not ask for gets default
-/// settings; frames and video take each other's. (The scene's resolved text stays as it is, so that runs of one scene
-/// with different outputs are known to be the same scene's.)
+/// The outputs named in `only`, with the scene's settings. An output that the scene lacks gets default settings.
+/// Frames and video take each other's settings.
+/// The scene's resolved text stays unchanged, so that runs with different outputs are recognised as runs of one scene.
 Output restricted(const Output& asked, const std::vector<std::string>& only);
 
-/// Whether every output named is among those asked for.
+/// Whether every output named in `only` is among those requested.
 bool holds_all(const Output& asked, const std::vector<std::string>& only);
 
-/// All outputs: those asked for with their settings, the others with default ones.
+/// All outputs: requested ones with their settings, the others with default ones.
 Output with_all(const Output& asked);
 
-/// The files of these outputs, series aside.
+/// The files of these outputs, without series.
 std::vector<std::string> output_files(const Output& output);
 
-/// Whether a file or folder of a run may have this name whatever the scene: a film's, a mesh's must not be one.
+/// Whether a run may write a file or folder of this name, whatever the scene.
+/// The file of a film and the copy of a mesh must not have such a name.
 bool is_reserved(std::string_view name);
 
 }  // namespace carom

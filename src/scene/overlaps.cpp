@@ -1,3 +1,5 @@
+// Tests bodies from the largest to the smallest against those already in the grid, which keeps the searches cheap.
+// Errors are sorted by the bodies' numbers afterwards, so that their order is that of the file.
 #include "scene/overlaps.h"
 
 #include <fmt/format.h>
@@ -12,8 +14,10 @@ namespace carom {
 namespace {
 
 constexpr std::size_t max_overlaps_shown = 20;
-constexpr std::size_t max_overlapping_kept = 1000;  // in the grid: a heap of bodies in one place must not cost n^2
-constexpr double as_written = 1e-9;                 // of the smaller reach: places are decimals that people rounded
+// In the grid. A heap of bodies in one place must not cost n^2.
+constexpr std::size_t max_overlapping_kept = 1000;
+// A share of the smaller reach. Places are decimals that were rounded by hand.
+constexpr double as_written = 1e-9;
 
 struct Found {
   Entity later, other;

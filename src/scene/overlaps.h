@@ -1,5 +1,5 @@
 #pragma once
-// Bodies that stand in one another, or in something fixed, at the start.
+// Overlaps of bodies with one another or with fixed things at the start.
 #include <vector>
 
 #include "physics/entity.h"
@@ -10,15 +10,16 @@ namespace carom {
 
 struct Scene;
 
-/// A body that the scene places itself.
+/// A body that the scene places individually.
 struct SingleBody {
   Entity body;
-  Place position;  // where the file says so
+  /// The place of its position in the file.
+  Place position;
 };
 
-/// Adds an error for each that overlaps another, a plane, a wall or an obstacle by more than 1e-9 of the smaller one's
-/// reach, and puts the bodies and the obstacles into `grid`. `singles`: by number, their part of the world and of the
-/// initial state decoded.
+/// Adds an error for each body that overlaps another body, a plane, a wall or an obstacle.
+/// The tolerance is 1e-9 of the smaller one's reach. Then the bodies and the obstacles are inserted into `grid`.
+/// `singles`: in the order of their numbers. Their part of the world and of the initial state must be decoded.
 void check_overlaps(const Scene& scene, std::vector<SingleBody> singles, BodyGrid& grid, Diagnostics& diagnostics);
 
 }  // namespace carom

@@ -7,7 +7,8 @@ namespace carom {
 const Field* field_at(std::string_view path) {
   const Kind* kind = &kind_named("scene");
   const Field* field = nullptr;
-  bool name_next = false;  // the next word is a name or a number, not a key
+  // The next word is a name or a number, not a key.
+  bool name_next = false;
   for (std::size_t i = 0; i <= path.size();) {
     const std::size_t end = std::min(path.find('.', i), path.size());
     const std::string_view word = path.substr(i, end - i);

@@ -1,12 +1,12 @@
 #pragma once
-// A path into a scene against the table of fields alone, whatever the scene has.
+// Resolves a path into a scene by the table of fields alone, without a scene.
 #include <string_view>
 
 #include "scene/fields.h"
 
 namespace carom {
 
-/// The field that a path such as balls.red.position.z leads to or into; null: no field of any scene.
+/// The field at the end of a path such as balls.red.position.z, or the one that it leads into. Null: no such field.
 const Field* field_at(std::string_view path);
 
 }  // namespace carom

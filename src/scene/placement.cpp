@@ -1,3 +1,7 @@
+// Places a group's balls on a lattice, in close packing, or by random sequential addition.
+// Random sequential addition saturates at a volume fraction of 0.384, and it becomes slow before that.
+// Denser random groups are therefore close-packed sites with a random displacement, and not relaxed packings.
+// All random numbers come from one stream in a fixed order, so the placement is the same on every machine.
 #include "scene/placement.h"
 
 #include <algorithm>
@@ -11,16 +15,17 @@ namespace {
 
 const double root3 = std::sqrt(3.0);
 
-/// Whole steps of length `step` in `length`, rounding forgiven: 0.3 holds three of 0.1.
+/// The number of whole steps of length `step` in `length`, tolerant of rounding: 0.3 holds three of 0.1.
 double steps_in(double length, double step) {
   return std::max(0.0, std::floor(length / step * (1 + 1e-12)));
 }
 
-/// Sites for balls of diameter `spacing` (at least the true one) in the box of `edge`.
+/// Sites for balls of diameter `spacing` in the box of edges `edge`. `spacing` is at least the balls' diameter.
 struct Lattice {
   Vec3 edge;
   double spacing;
-  double nx, ny, nz;  // cells along each edge; at least one, since the balls themselves are no larger than the box
+  // Cells along each edge. There is at least one, because the balls are no larger than the box.
+  double nx, ny, nz;
 
   Lattice(const Vec3& e, double s)
       : edge(e),
@@ -30,7 +35,8 @@ struct Lattice {
         nz(std::max(1.0, steps_in(e.z(), s))) {}
   double capacity() const { return nx * ny * nz; }
 
-  template <typename Visit>  // visit(Vec3 from the lower corner) -> go on?
+  // visit(Vec3 from the lower corner) returns whether to continue.
+  template <typename Visit>
   void each(Visit visit) const {
     for (double j = 0; j < ny; ++j) {
       for (double k = 0; k < nz; ++k) {
@@ -43,21 +49,23 @@ struct Lattice {
   }
 };
 
-/// Close-packed layers upon each other along y, rows along x. Odd layers sit in the hollows of the even ones.
+/// Close-packed layers stacked along y, with rows along x. Odd layers sit in the hollows of the even ones.
 struct Hexagonal {
   Vec3 edge;
   double spacing;
-  double layers, rows[2], columns[2];  // rows of even and odd layers; sites of unshifted and shifted rows
+  // Rows of even and of odd layers; sites of unshifted and of shifted rows.
+  double layers, rows[2], columns[2];
 
   Hexagonal(const Vec3& e, double s) : edge(e), spacing(s) {
-    const Vec3 room(std::max(0.0, e.x() - s), std::max(0.0, e.y() - s), std::max(0.0, e.z() - s));  // of the centres
+    // The room for the centres.
+    const Vec3 room(std::max(0.0, e.x() - s), std::max(0.0, e.y() - s), std::max(0.0, e.z() - s));
     layers = steps_in(room.y(), s * std::sqrt(2.0 / 3)) + 1;
     rows[0] = steps_in(room.z(), s * root3 / 2) + 1;
     rows[1] = room.z() * (1 + 1e-12) < s / (2 * root3) ? 0 : steps_in(room.z() - s / (2 * root3), s * root3 / 2) + 1;
     columns[0] = steps_in(room.x(), s) + 1;
     columns[1] = room.x() * (1 + 1e-12) < s / 2 ? 0 : steps_in(room.x() - s / 2, s) + 1;
   }
-  /// Whether row k of layer j is shifted by half a step.
+  /// 1 if row k of layer j is shifted by half a step, else 0.
   static int shifted(std::int64_t j, std::int64_t k) { return static_cast<int>((j + k) & 1); }
 
   double capacity() const {
@@ -72,7 +80,7 @@ struct Hexagonal {
 
   template <typename Visit>
   void each(Visit visit) const {
-    // What the layers leave free is shared between both sides.
+    // The space that the layers leave free is shared equally between both sides.
     const double in_x = std::max((columns[0] - 1) * spacing, columns[1] > 0 ? (columns[1] - 0.5) * spacing : 0.0);
     const double in_z =
         std::max((rows[0] - 1) * spacing * root3 / 2,
@@ -113,12 +121,13 @@ class Placer {
     return touches_no_surface(world_, p_.first, center) && !others_.find_overlap({center, p_.radius, p_.first});
   }
 
-  /// Random sequential addition. Gives up where the free volume is too small to be found by chance.
+  /// Random sequential addition. It gives up where the free volume is too small to be found by chance.
   Placed one_by_one() {
     const double volume = edge_.x() * edge_.y() * edge_.z();
     const double balls =
         static_cast<double>(p_.count) * (4.0 / 3 * 3.14159265358979324) * p_.radius * p_.radius * p_.radius;
-    if (balls > 0.36 * volume && p_.count > 8) return {};  // it saturates at 0.384
+    // Random sequential addition saturates at 0.384.
+    if (balls > 0.36 * volume && p_.count > 8) return {};
     const Vec3 low = p_.min.array() + p_.radius;
     const Vec3 free = (edge_.array() - 2 * p_.radius).max(0.0);
     std::uint64_t tries = 10'000 + 40 * p_.count;
@@ -127,12 +136,12 @@ class Placer {
     Placed placed;
     placed.centers.reserve(p_.count);
     const auto draw = [&](Random& random) {
-      // One call a statement: the order of evaluation inside an expression is the compiler's choice.
+      // One call a statement, because the compiler chooses the order of evaluation inside an expression.
       Vec3 center;
       for (int k = 0; k < 3; ++k) center[k] = low[k] + random.uniform() * free[k];
       return center;
     };
-    // Most of the time goes by waiting for memory: a copy of the random numbers runs ahead and asks for it.
+    // Most of the time is spent waiting for memory. A copy of the random stream runs ahead and prefetches.
     constexpr std::uint64_t far = 16, near = 8;
     Random ahead = random_;
     std::array<Vec3, far> coming;
@@ -150,10 +159,10 @@ class Placer {
     return placed;
   }
 
-  /// The free sites of the widest spacing that has `count` of them; fewer if even the tightest has not.
+  /// The free sites of the widest spacing that has `count` of them. Fewer if even the tightest spacing has not enough.
   template <typename Sites>
   std::vector<Vec3> free_sites(double& spacing) const {
-    // The widest spacing by bisection, nothing being in the way.
+    // Find the widest spacing by bisection, ignoring obstructions.
     const double closest = 2 * p_.radius;
     const auto count = static_cast<double>(p_.count);
     double wide = edge_.maxCoeff() * 2;
@@ -164,7 +173,7 @@ class Placer {
         (Sites(edge_, middle).capacity() >= count ? spacing : wide) = middle;
       }
     }
-    // Then narrower as long as something is.
+    // Then narrow it while sites are obstructed.
     const double most_sites = 64 * count + 1e6;
     std::vector<Vec3> best;
     for (double s = spacing;;) {
@@ -179,7 +188,8 @@ class Placer {
         spacing = s;
       }
       if (best.size() >= p_.count || s <= closest) return best;
-      // Fewer free sites than balls: narrower by about the fourth root of the ratio, so that the cube is not overshot.
+      // With fewer free sites than balls, narrow by about the fourth root of the ratio.
+      // The cube root, which the number of sites suggests, could overshoot.
       const double shrink = std::sqrt(std::sqrt(std::max<double>(1, static_cast<double>(best.size())) / count));
       s = std::max(closest, s * std::clamp(shrink, 0.5, 0.98));
       if (Sites(edge_, s).capacity() > most_sites) return best;
@@ -195,14 +205,15 @@ class Placer {
       placed.fit = sites.size();
       return placed;
     }
-    // Site i of the k-th ball: i = k * sites / count, whole part, without overflow.
+    // The k-th ball takes site floor(k * sites / count), computed without overflow.
     const std::uint64_t whole = sites.size() / p_.count, rest = sites.size() % p_.count;
     placed.centers.reserve(p_.count);
     for (std::uint64_t k = 0; k < p_.count; ++k) placed.centers.push_back(sites[k * whole + k * rest / p_.count]);
     return placed;
   }
 
-  /// A random choice of close-packed sites, each ball moved within the part of its site that is its own.
+  /// A random choice of close-packed sites.
+  /// Each ball is displaced within the part of its site that no neighbour reaches.
   Placed jittered() const {
     double spacing = 0;
     std::vector<Vec3> sites = free_sites<Hexagonal>(spacing);
@@ -211,7 +222,8 @@ class Placer {
       placed.fit = sites.size();
       return placed;
     }
-    // A cube inside the sphere of half the gap: two neighbours that move towards one another stay apart.
+    // The displacement lies in a cube inside the sphere of half the gap.
+    // Two neighbours that move towards one another then stay apart.
     const double half = std::max(0.0, (spacing / 2 - p_.radius) / root3 * (1 - 1e-9));
     const Vec3 low = p_.min.array() + p_.radius, high = p_.max.array() - p_.radius;
     for (std::uint64_t k = 0; k < p_.count; ++k) {

@@ -1,5 +1,5 @@
 #pragma once
-// Where the balls of a group go.
+// Places the balls of a group.
 #include <cstdint>
 #include <vector>
 
@@ -15,22 +15,26 @@ enum class Arrange : std::uint8_t { random, lattice, hexagonal };
 
 struct Placing {
   std::uint64_t count = 0;
-  Entity first = 0;   // the group's first ball; all are alike
+  /// First ball of the group. All are alike.
+  Entity first = 0;
   double radius = 0;  // m
-  Vec3 min, max;      // m, the box that holds every ball wholly
+  Vec3 min, max;      // m, the box that contains every ball entirely
   Arrange arrange = Arrange::random;
 };
 
 struct Placed {
-  std::vector<Vec3> centers;  // m; as many as asked for, or none
-  std::uint64_t fit = 0;      // if none: how many would fit
+  std::vector<Vec3> centers;  // m; as many as requested, or none
+  /// If `centers` is empty: the number that would fit.
+  std::uint64_t fit = 0;
 };
 
 /// Places balls clear of one another, of `others` (bodies and obstacles) and of the world's planes and walls.
-/// lattice: cubic, the box cut into equal cells. hexagonal: close-packed layers (ABAB along y) of the widest spacing
-/// that holds the count, centred. Where there are more sites than balls, sites are left out evenly. random: one ball
-/// after the other anywhere that is free; where that finds no more room (above about a third of the volume) a random
-/// choice of hexagonal sites, each ball moved at random as far as its site allows.
+/// - lattice: cubic, the box cut into equal cells.
+/// - hexagonal: close-packed layers (ABAB along y) of the widest spacing that holds the count, centred.
+/// - random: one ball after the other, anywhere that is free.
+/// A lattice or hexagonal arrangement with more sites than balls leaves sites out evenly.
+/// Above about a third of the volume, random placement finds no more room.
+/// It then takes a random choice of hexagonal sites and moves each ball at random within its site.
 Placed place(const Placing& placing, const World& world, const BodyGrid& others, Random& random);
 
 }  // namespace carom

@@ -1,3 +1,6 @@
+// SplitMix64 with a seed mixed from the scene's seed and the FNV-1a hash of the stream's name.
+// Normal deviates use Marsaglia's polar method, which needs only sqrt and a logarithm.
+// The logarithm is a series in basic arithmetic, because the library's differs between processors.
 #include "scene/random.h"
 
 namespace carom {
@@ -12,7 +15,8 @@ std::uint64_t mix(std::uint64_t z) {
 }  // namespace
 
 Random::Random(std::uint64_t seed, std::string_view stream) {
-  std::uint64_t hash = 0xCBF29CE484222325ULL;  // FNV-1a of the name
+  // FNV-1a of the name.
+  std::uint64_t hash = 0xCBF29CE484222325ULL;
   for (const char c : stream) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
   state_ = mix(mix(seed + 0x9E3779B97F4A7C15ULL) ^ hash);
 }
@@ -23,7 +27,7 @@ std::uint64_t Random::bits() {
 }
 
 std::uint64_t Random::below(std::uint64_t n) {
-  // Values from the last, incomplete run of n are thrown again.
+  // Values from the last, incomplete run of n are rejected.
   const std::uint64_t limit = ~std::uint64_t{0} - (~std::uint64_t{0} % n + 1) % n;
   for (;;) {
     const std::uint64_t value = bits();
@@ -50,12 +54,13 @@ double Random::normal() {
 
 double reproducible_log(double x) {
   int exponent = 0;
-  double m = std::frexp(x, &exponent);  // exact; 0.5 <= m < 1
+  // Exact; 0.5 <= m < 1.
+  double m = std::frexp(x, &exponent);
   if (m < 0.70710678118654752) {
     m *= 2;
     --exponent;
   }
-  // |z| < 0.172, so that z^2k falls by 33 a term.
+  // |z| < 0.172, so each term of the series is smaller by a factor of at least 33.
   const double z = (m - 1) / (m + 1);
   const double z2 = z * z;
   double sum = 0;

@@ -1,22 +1,22 @@
 #pragma once
-// Random numbers that are the same on every machine: integers, + - * / and sqrt only. The standard library's
-// distributions differ between implementations, and glibc's log, sin and cos between processors.
+// Random numbers that are the same on every machine. They use only integers, + - * / and sqrt.
+// The standard library's distributions differ between implementations, and glibc's log, sin and cos between processors.
 #include <cmath>
 #include <cstdint>
 #include <string_view>
 
 namespace carom {
 
-/// SplitMix64 (Steele, Lea & Flood 2014): one 64-bit word of state, every seed a good one.
+/// SplitMix64 (Steele, Lea & Flood 2014). The state is one 64-bit word, and every seed is a good one.
 class Random {
  public:
-  /// Streams of different names are independent of one another.
+  /// Streams with different names are independent of one another.
   Random(std::uint64_t seed, std::string_view stream);
 
   std::uint64_t bits();
-  /// 0 <= u < 1, a multiple of 2^-53.
+  /// Uniform: 0 <= u < 1, a multiple of 2^-53.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
-  /// 0 .. n - 1 evenly, n > 0.
+  /// Uniform over 0 .. n - 1. n > 0.
   std::uint64_t below(std::uint64_t n);
   /// Normal deviate, mean 0 and standard deviation 1 (Marsaglia's polar method).
   double normal();
@@ -27,8 +27,8 @@ class Random {
   bool has_spare_ = false;
 };
 
-/// Natural logarithm of x, 0 < x <= 1, relative error below 2.5 * 2^-52: ln x = e ln 2 + 2 artanh((m - 1) / (m + 1))
-/// with x = m 2^e.
+/// Natural logarithm of x, 0 < x <= 1, with a relative error below 2.5 * 2^-52.
+/// It is computed as ln x = e ln 2 + 2 artanh((m - 1) / (m + 1)) with x = m 2^e.
 double reproducible_log(double x);
 
 }  // namespace carom

@@ -1,5 +1,5 @@
-// Whether doubles carry the scene: how far its things lie, and how far its bodies go, by the smallest size in it
-// (physics/bounds.h).
+// Checks that doubles can represent the scene.
+// How far its things lie, and how far its bodies go, is compared with the smallest size in it (physics/bounds.h).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ class Reach {
   }
 
  private:
-  /// Of a body, a fixed thing or a group's box.
+  /// `view`: a body, a fixed thing or a group's box.
   void check_places(const View& view, const std::string& name) {
     for (const std::string_view key : {"position", "point", "center", "min", "max"}) {
       if (find_field(view.kind(), key) == nullptr) continue;
@@ -90,7 +90,7 @@ class Reach {
                      "things");
   }
 
-  /// Of the forces that are the same everywhere, all at once.
+  /// Checks the sum of the forces that are the same everywhere.
   void check_pull() {
     for (Entity i = 0; i < world_.body_count(); ++i) {
       double pull = 0;

@@ -1,3 +1,6 @@
+// Writes the resolved scene from the views of the tree, not from the decoded Scene.
+// Numbers thus keep the digits of the author, and a second resolution gives the same text.
+// Only values that decoding chooses (colours, steps, directions, names of copies) override the views.
 #include "scene/resolve.h"
 
 #include <fmt/format.h>
@@ -14,7 +17,7 @@
 namespace carom {
 namespace {
 
-/// Texts that replace what a View gives, by key; an empty one leaves the key out.
+/// Texts that replace the values of a View, by key. An empty text leaves the key out.
 using Overrides = std::map<std::string_view, std::string>;
 
 std::string flow(const View& view, const Overrides& overrides = {}) {
@@ -46,7 +49,7 @@ class Resolver {
     line("seed", std::to_string(scene_.seed));
     line("gravity", flow_text(*whole.find("gravity")));
     line("restitution", flow(scene_part(root_, "restitution")));
-    // The order of these in the file is the order of the bodies and of the planes.
+    // The order of these keys in the file is the order of the bodies and of the planes.
     for (const Key& key : root_.keys) {
       if (key.text == "balls") bodies("balls", "ball");
       if (key.text == "bodies") bodies("bodies", "body");
@@ -69,14 +72,14 @@ class Resolver {
   void line(std::string_view key, std::string_view text) { out_ += fmt::format("{}: {}\n", key, text); }
   void entry(std::string_view key, std::string_view text) { out_ += fmt::format("  {}: {}\n", key, text); }
 
-  /// A line `key:` for entries to follow, or `key: {}`.
+  /// Writes `key:` for entries to follow, or `key: {}`.
   void heading(std::string_view key, bool empty) {
     out_ += empty ? fmt::format("{}: {{}}\n", key) : fmt::format("{}:\n", key);
   }
 
   std::string default_restitution() const { return flow_text(*scene_part(root_, "restitution").find("default")); }
 
-  /// The key `mesh`: the copy in the run's folder; where there is none, the file itself from anywhere.
+  /// Sets the key `mesh` to the copy in the run's folder, or to the absolute path of a file without a copy.
   void name_copy(const std::optional<MeshUse>& mesh, Overrides& overrides) const {
     for (const MeshFile& file : scene_.meshes) {
       if (!mesh || mesh->file != file.file) continue;
@@ -99,7 +102,7 @@ class Resolver {
         entry(body.key->text, flow(each, overrides));
         continue;
       }
-      // A group's velocity is said once, by the group.
+      // A group's velocity is written once, in the group.
       overrides["velocity"] = "";
       Overrides group_overrides{{"ball", flow(each, overrides)}, {"in", flow(view.part("in", "in"))}};
       if (view.find("speed") == nullptr && view.find("velocity") == nullptr)
@@ -170,7 +173,7 @@ class Resolver {
     }
   }
 
-  /// Whether there may be any, and their default could be another one.
+  /// Whether flights are possible and their default could differ.
   bool flights_matter() const {
     return goes_along_parabolas(scene_.world, scene_.simulate) && (scene_.output.pictures() || scene_.output.flights);
   }

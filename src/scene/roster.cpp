@@ -5,8 +5,8 @@
 namespace carom {
 
 const BodyRange& Roster::range_of(Entity body) const {
-  // The last range that begins at or before this body. Empty groups begin where the next range does, and come before
-  // it.
+  // Find the last range that begins at or before this body.
+  // Empty groups begin where the next range does, and come before it.
   const auto after = std::upper_bound(bodies.begin(), bodies.end(), body,
                                       [](Entity e, const BodyRange& range) { return e < range.first; });
   return *(after - 1);

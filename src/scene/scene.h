@@ -1,5 +1,5 @@
 #pragma once
-// The whole request that a scene file makes, checked: const from here on. Types only; load.h reads files into them.
+// The whole request of a scene file, checked and constant from here on. Types only; load.h reads files into them.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -15,20 +15,23 @@
 
 namespace carom {
 
-/// A mesh to draw in place of a volume: a vertex p of the file stands at position + scale * (p - center).
+/// A mesh drawn in place of a volume. A vertex p of the file is drawn at position + scale * (p - center).
 struct MeshUse {
-  std::string file;            // a path that opens from the working folder
+  std::string file;            // relative to the working folder
   Vec3 center = Vec3::Zero();  // in the file's own units
   double scale = 1;            // m per unit of the file
 };
 
-/// A mesh file of the scene. A run's folder keeps a copy, which the resolved text names, so that the folder runs alone.
+/// A mesh file of the scene. The run's folder keeps a copy that the resolved text names.
+/// The folder then runs by itself.
 struct MeshFile {
   std::string file;  // as in MeshUse
-  std::string copy;  // a plain file name, no other output's; empty: a .gltf, which has its data in further files
+  /// A plain file name, distinct from every other output's.
+  /// Empty: a .gltf, which is not copied because it refers to further files.
+  std::string copy;
 };
 
-/// A name of the scene file and the bodies it stands for: one ball or body, or a group's members name.0, name.1, ...
+/// A name of the scene file and its bodies: one ball or body, or a group's members name.0, name.1, ...
 struct BodyRange {
   std::string name;
   Entity first = 0;
@@ -39,16 +42,18 @@ struct BodyRange {
 };
 
 struct FixedName {
-  std::string name;  // room.x_min etc. for a room's planes
+  /// room.x_min etc. for the planes of a room.
+  std::string name;
   Color color;
   bool visible = true;
-  std::optional<MeshUse> mesh = std::nullopt;  // of an obstacle
+  std::optional<MeshUse> mesh = std::nullopt;  // only of an obstacle
 };
 
-/// Who is who, in the order of the file, which is the order of every output.
+/// The names of bodies and fixed things, in the order of the file. Every output has this order.
 struct Roster {
-  std::vector<BodyRange> bodies;                 // by first
-  std::vector<FixedName> fixed;                  // by entity: the planes, the walls, the obstacles
+  std::vector<BodyRange> bodies;  // ordered by first body
+  /// By entity: the planes, the walls, the obstacles.
+  std::vector<FixedName> fixed;
   std::string name(Entity e) const;              // "red", "gas.17", "lane"
   const BodyRange& range_of(Entity body) const;  // the range that holds this body
 };
@@ -65,14 +70,15 @@ struct Camera {
 
 struct Light {
   std::string name;
-  std::optional<Vec3> direction;  // the way the light travels; exactly one of direction and position is set
-  std::optional<Vec3> position;   // m
+  /// The direction in which the light travels. Exactly one of `direction` and `position` is set.
+  std::optional<Vec3> direction;
+  std::optional<Vec3> position;  // m
   Color color;
   double intensity = 1;
 };
 
 struct Scene {
-  std::string file;  // as named on the command line
+  std::string file;  // as given on the command line
   std::string title;
   std::uint64_t seed = 0;
   World world;
@@ -80,12 +86,13 @@ struct Scene {
   Roster roster;
   Simulate simulate;
   std::optional<Camera> camera;
-  std::vector<Light> lights;  // empty: the renderer's own
+  std::vector<Light> lights;  // empty: the renderer's default lights
   std::optional<Color> ambient;
   std::optional<Color> background;
   Output output;
-  std::vector<MeshFile> meshes;  // each once
-  std::string resolved;  // YAML text: this scene with defaults and --set applied; running it gives the same bytes
+  std::vector<MeshFile> meshes;  // each file once
+  /// YAML text: this scene with defaults and --set applied. Running it gives the same bytes.
+  std::string resolved;
 };
 
 }  // namespace carom

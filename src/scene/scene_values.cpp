@@ -1,3 +1,5 @@
+// Flattens the tree of a scene file along the table of fields, which gives the unit of each value.
+// It reads the text itself and not a decoded Scene, so that values keep their paths and places.
 #include "scene/scene_values.h"
 
 #include <array>

@@ -1,5 +1,5 @@
 #pragma once
-// A scene file as a list of paths and values, to hold two scenes against each other.
+// A scene file as a list of paths and values, for comparing two scenes.
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -7,14 +7,16 @@
 namespace carom {
 
 struct SceneValue {
-  std::string path;        // as --set takes it: "balls.red.position.z", "forces.0.acceleration.x"
-  std::string text;        // a number with its shortest digits, any other value as it stands
-  std::string unit;        // "m"; empty: none
-  std::size_t offset = 0;  // bytes from the text's start to where the value stands
+  std::string path;  // as --set takes it: "balls.red.position.z", "forces.0.acceleration.x"
+  /// A number with its shortest digits, any other value as written.
+  std::string text;
+  std::string unit;  // "m"; empty: none
+  /// Bytes, from the start of the text to the value.
+  std::size_t offset = 0;
 };
 
-/// All values of a scene file's text, in its order, defaults not filled in. `name`: the file's, for errors. Throws
-/// SceneError where the text is no YAML.
+/// All values of a scene file's text, in its order, without defaults. `name`: the file's name, for errors.
+/// Throws SceneError if the text is not YAML.
 std::vector<SceneValue> scene_values(const std::string& name, const std::string& text);
 
 }  // namespace carom

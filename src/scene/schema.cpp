@@ -1,5 +1,6 @@
-// Keys that a map may leave to `defaults` make the one rule that is not local: such a map needs a key only where the
-// defaults lack it. A kind's definition therefore leaves these keys free, and the root has a condition for each.
+// Writes the table of fields as a JSON Schema, with one definition for each kind.
+// One rule is not local: a map needs a key only where `defaults` lacks it.
+// A definition therefore leaves such keys optional, and the root has a condition for each of them.
 #include "scene/schema.h"
 
 #include <fmt/format.h>
@@ -31,7 +32,7 @@ Json required(const std::vector<std::string_view>& keys) {
   return {{"required", keys}};
 }
 
-/// One of the keys at least.
+/// At least one of the keys is present.
 Json one_required(const std::vector<std::string_view>& keys) {
   if (keys.size() == 1) return required(keys);
   Json any = Json::array();
@@ -39,13 +40,13 @@ Json one_required(const std::vector<std::string_view>& keys) {
   return {{"anyOf", any}};
 }
 
-/// A map's value below `key` is as `schema` says.
+/// The value below `key` matches `schema`.
 Json at(std::string_view key, Json schema) {
   return {{"properties", {{std::string(key), std::move(schema)}}}};
 }
 
-/// Finite numbers. That nothing is beyond the largest double stands under `not`: to a validator .nan is within any
-/// bounds, and so beyond that one.
+/// Finite numbers. The largest double is a bound under `not`.
+/// To a validator .nan is within any bounds, so it exceeds that bound too and is refused.
 Json number_schema(const Range& range) {
   constexpr double largest = std::numeric_limits<double>::max();
   Json schema = {{"type", "number"}};
@@ -68,7 +69,7 @@ Json array_schema(Json each, int count) {
   return {{"type", "array"}, {"items", std::move(each)}, {"minItems", count}, {"maxItems", count}};
 }
 
-/// Any scalar is a text, whatever a YAML reader makes of it.
+/// Any scalar is a text, whatever type a YAML parser gives it.
 Json text_schema(const Field& field) {
   if (!field.pattern.empty()) return {{"type", "string"}, {"pattern", field.pattern}};
   Json schema = {{"type", {"string", "number", "boolean"}}, {"maxLength", longest_text}};
@@ -77,7 +78,7 @@ Json text_schema(const Field& field) {
   return schema;
 }
 
-/// A pattern for the words in any case: [rR][eE][dD]|...
+/// A pattern that matches the words in any case: [rR][eE][dD]|...
 std::string in_any_case(const std::vector<std::string_view>& words) {
   std::string pattern = "^(";
   for (const std::string_view word : words) {
@@ -104,7 +105,7 @@ Json named_schema(const Kind& kind) {
   return schema;
 }
 
-/// A map from paths to values: what these can be the scene's table says.
+/// A map from paths to values. The scene's schema determines which values are valid.
 Json settings_schema() {
   return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", {{"not", {{"type", "null"}}}}}};
 }
@@ -183,7 +184,7 @@ Json field_schema(const Field& field) {
   return schema;
 }
 
-/// The keys of which one is needed, for each field that is.
+/// For each needed field, the keys of which one must be present.
 std::vector<std::vector<std::string_view>> needs_of(const Kind& kind) {
   std::vector<std::vector<std::string_view>> needs;
   for (const Field& field : kind.fields) {
@@ -193,7 +194,7 @@ std::vector<std::vector<std::string_view>> needs_of(const Kind& kind) {
   return needs;
 }
 
-/// Field::one_of: a key excludes those of its rivals that come later.
+/// Field::one_of: each key excludes the rivals listed after it.
 Json exclusions(const Kind& kind) {
   Json all = Json::object();
   for (const Field& field : kind.fields) {
@@ -219,7 +220,7 @@ Json engine_rule(const Field& field) {
   return {{"if", when}, {"then", then}};
 }
 
-/// Kind::beneath: a value that does not suit the map that would take it needs one of its own there.
+/// Kind::beneath: if a value of the map beneath is invalid in the map that would inherit it, that map needs its own.
 void add_beneath_rules(const Field& field, Json& rules) {
   const Kind* kind = held_kind(field);
   if (kind == nullptr || kind->beneath.empty()) return;
@@ -237,7 +238,7 @@ void add_beneath_rules(const Field& field, Json& rules) {
   }
 }
 
-/// A map of this kind. What `defaults` may say is needed by rules of the root.
+/// A map of this kind. Rules of the root require the keys that `defaults` may supply.
 Json kind_schema(const Kind& kind) {
   Json schema = {{"description", kind.doc}, {"type", "object"}};
   Json properties = Json::object(), rules = Json::array();
@@ -265,7 +266,7 @@ Json kind_schema(const Kind& kind) {
   return schema;
 }
 
-/// Whether `defaults` has one of these keys for maps of this kind.
+/// `defaults` has one of these keys for maps of this kind.
 Json has_default(const Kind& kind, const std::vector<std::string_view>& keys) {
   Json part = required({kind.defaults});
   part.update(at(kind.defaults, one_required(keys)));
@@ -274,13 +275,13 @@ Json has_default(const Kind& kind, const std::vector<std::string_view>& keys) {
   return whole;
 }
 
-/// What maps of a kind need that has defaults. `each` wraps a schema of one of them into one of the root.
+/// Adds the required keys of a kind that has defaults. `each` wraps a schema of one map into one of the root.
 void add_rules(const Kind& kind, const std::function<Json(Json)>& each, Json& rules) {
   for (const auto& need : needs_of(kind))
     rules.push_back({{"if", has_default(kind, need)}, {"else", each(one_required(need))}});
   for (const Field& field : kind.fields) {
     if (field.with.empty()) continue;
-    // Where it stands, and where the defaults' holds since no rival hides it.
+    // The rule holds where the key is present, and where the default takes effect because no rival hides it.
     const Json beside = {{"dependencies", {{std::string(field.key), Json::array({field.with})}}}};
     rules.push_back({{"if", has_default(kind, {field.with})}, {"else", each(beside)}});
     std::vector<std::string_view> hiding = rivals(field);
@@ -291,7 +292,7 @@ void add_rules(const Kind& kind, const std::function<Json(Json)>& each, Json& ru
   }
 }
 
-/// A part with defaults of its own: it stands in the map of `owner` or comes whole from the owner's defaults.
+/// A part with defaults of its own. It stands in the map of `owner`, or comes complete from the owner's defaults.
 void add_part_rules(const Kind& owner, const Field& field, const std::function<Json(Json)>& each, Json& rules) {
   const Kind& kind = kind_named(field.of);
   add_rules(
@@ -322,7 +323,7 @@ Json root_rules(const Kind& root) {
   return rules;
 }
 
-/// The kinds that a map of `kind` can hold, each once, in order.
+/// Collects the kinds that a map of `kind` can hold, each once, in order.
 void collect(const Kind& kind, std::vector<const Kind*>& found) {
   for (const Field& field : kind.fields) {
     const Kind* held = held_kind(field);

@@ -1,13 +1,14 @@
 #pragma once
-// The table of fields as a JSON Schema, so that editors complete and check scene files and other programs can.
+// The table of fields as a JSON Schema, with which editors and other programs complete and check scene files.
 #include <string>
 #include <string_view>
 
 namespace carom {
 
-/// A JSON Schema, draft-07, of the files that are a map of the kind `root` ("scene"). What it refuses the loader
-/// refuses; what it accepts and the loader refuses is what takes more than types, ranges and keys to see: names that
-/// mean nothing, values that contradict one another, overlaps, files that are not there.
+/// A JSON Schema, draft-07, of files that are a map of the kind `root` ("scene").
+/// The loader refuses all that it refuses.
+/// The loader also refuses errors that types, ranges and keys cannot express.
+/// These are unknown names, contradictory values, overlaps and missing files.
 std::string json_schema(std::string_view root);
 
 }  // namespace carom

@@ -1,3 +1,6 @@
+// Applies --set by walking its path through the tree and the table of fields together.
+// Missing maps on the way are created from defaults, so that a part such as position.x can be set by itself.
+// The checks run after all settings, on the changed tree, so that a setting is checked as the file is.
 #include "scene/settings.h"
 
 #include <fmt/format.h>
@@ -43,7 +46,7 @@ void erase(Node& map, std::string_view key) {
   }
 }
 
-/// Walks down one path. Every step either moves `node` on or reports and gives false.
+/// Walks down one path. Each step either advances `node` or adds an error and returns false.
 class Walk {
  public:
   Walk(Node& root, Diagnostics& diagnostics)
@@ -66,10 +69,10 @@ class Walk {
     return false;
   }
 
-  /// A key of a map of kind_.
+  /// A step to a key of a map of kind_.
   bool into_key(const Step& step, bool last) {
     if (!node_->is(Node::Kind::map)) {
-      // What stands in the file is no map: its own error follows. A flag or nothing gives way.
+      // A list is not a map, so the step fails. A flag or an absent value is replaced by a map.
       if (node_->is(Node::Kind::sequence))
         return refuse(step, fmt::format("{} is a list", quoted(before_)), "expected a map of keys");
       const Place place = node_->place;
@@ -103,7 +106,7 @@ class Walk {
     return true;
   }
 
-  /// What a part of a missing value starts from: the defaults' value, the table's, or nothing.
+  /// The initial value of a missing value that is set in part: that of the defaults, of the table, or nothing.
   Node fallback(const Field& field) const {
     const Node* defaults = defaults_for(root_, *kind_);
     if (defaults != nullptr && defaults != node_) {
@@ -112,7 +115,7 @@ class Walk {
     return field.initial.empty() ? Node{} : initial_node(field);
   }
 
-  /// A part of a value of field_.
+  /// A step to a part of a value of field_.
   bool into_value(const Step& step) {
     switch (field_->type) {
       case Type::named:
@@ -172,7 +175,8 @@ class Walk {
 
   const Node& root_;
   Node* node_;
-  const Kind* kind_;  // of the map that node_ is; null: node_ is a value of field_
+  /// The kind of the map that node_ is. Null: node_ is a value of field_.
+  const Kind* kind_;
   const Field* field_ = nullptr;
   bool done_ = false;  // node_ has no parts
   std::string before_ = "scene";
@@ -193,7 +197,7 @@ void apply_setting(Node& root, std::vector<Source>& sources, std::uint32_t index
   if (!check_text(sources[index], index, diagnostics)) return;
   std::optional<Node> value;
   if (text.compare(equals + 1, 1, "#") == 0) {
-    // In a file an unquoted # begins a comment; here it can only be a colour.
+    // In a file an unquoted # begins a comment. Here it can only begin a colour.
     value = Node{};
     value->kind = Node::Kind::scalar;
     value->text = text.substr(equals + 1);

@@ -1,5 +1,5 @@
 #pragma once
-// --set path=value: the tree of a scene as if the file had said so.
+// --set path=value: changes the tree of a scene as if the file held the value.
 #include <cstdint>
 #include <vector>
 
@@ -8,9 +8,9 @@
 
 namespace carom {
 
-/// Applies sources[index], "path=value", to the tree. A path is checked like a key; one that leads nowhere adds an
-/// error. Missing keys are made, missing names of things are not. What is set replaces a key that excludes it (mass,
-/// density).
+/// Applies sources[index], "path=value", to the tree. A path is checked like a key, and an invalid one adds an error.
+/// Missing keys are created. Missing names of things are not.
+/// The new value replaces a key that excludes it (mass, density).
 void apply_setting(Node& root, std::vector<Source>& sources, std::uint32_t index, Diagnostics& diagnostics);
 
 }  // namespace carom

@@ -1,5 +1,5 @@
 #pragma once
-// For how long a scene is simulated, and how: the keys of `simulate`.
+// The keys of `simulate`: how long and how a scene is simulated.
 #include <cstdint>
 #include <optional>
 
@@ -14,11 +14,12 @@ struct Simulate {
   Engine engine = Engine::automatic;
   Integrator integrator = Integrator::rk4;  // stepped only
   std::optional<double> step;               // s
-  std::optional<double> tolerance;          // m; stepped only: the step is chosen for it
-  std::optional<double> rest_speed;         // m/s
+  /// In m. Only of the stepped engine, which chooses its step for this error.
+  std::optional<double> tolerance;
+  std::optional<double> rest_speed;  // m/s
   std::optional<std::uint64_t> max_collisions;
   bool as_printed = false;  // book only
-  bool merge = false;       // bodies that meet become one
+  bool merge = false;       // colliding bodies merge into one
 };
 
 }  // namespace carom

@@ -1,3 +1,5 @@
+// Computes run i of a sweep from its number alone: blocks, then combinations, then seeds as the fastest digit.
+// The list of runs is never stored, so a sweep of many runs costs little memory and shards need no shared state.
 #include "scene/sweep.h"
 
 #include <fmt/format.h>
@@ -39,7 +41,7 @@ SweepRun Sweep::run(std::size_t number) const {
     }
   }
   if (seeds > 0) {
-    // (Without repeats there is no seed among the paths.)
+    // Without repeats the paths contain no seed.
     const std::string seed = std::to_string(first_seed.value_or(0) + number % repeats);
     run.values.back() = seed;
     run.settings.push_back({"seed=" + seed, file});

@@ -1,5 +1,5 @@
 #pragma once
-// A sweep file, or --grid of the command line -> the runs it asks for: which paths of the base scene get which values.
+// A sweep file, or --grid of the command line, to its list of runs: the paths of the base scene and their values.
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -11,33 +11,34 @@
 
 namespace carom {
 
-/// A value of a path, as YAML in one line.
+/// A value of a path, as YAML on one line.
 struct SweepValue {
   std::string text;   // "0.7", "[0, 1, 0]", "\"#ff0000\""
-  std::string where;  // "falls.yaml:7:3", of its path or of itself
+  std::string where;  // "falls.yaml:7:3", the place of the path or of the value
 };
 
-/// One value for each of some paths (numbers into Sweep::paths).
+/// One value for each of several paths (indices into Sweep::paths).
 struct SweepCase {
   std::vector<std::pair<std::uint32_t, SweepValue>> values;
 };
 
-/// What varies by itself: a path of a grid, the paths of a zip, a list.
+/// What varies independently: a path of a grid, the paths of a zip, or a list.
 struct SweepAxis {
   enum class Kind : std::uint8_t { grid, zip, list };
   Kind kind = Kind::grid;
   std::vector<SweepCase> cases;
 };
 
-/// Every combination of its axes' cases, the last axis' varying fastest, but for those left out.
+/// Every combination of its axes' cases without those skipped. The last axis varies fastest.
 struct SweepBlock {
   std::vector<SweepAxis> axes;
-  std::vector<std::uint32_t> kept;  // numbers of combinations
-  std::string skip;                 // the rule that leaves some out, as YAML in one line; empty: none
+  std::vector<std::uint32_t> kept;  // indices of combinations
+  /// The rule that skips combinations, as YAML on one line. Empty: none.
+  std::string skip;
 };
 
 struct SweepChart {
-  std::string x, y, by;  // by: empty if there is none
+  std::string x, y, by;  // `by` is empty if absent
   std::string where;
 };
 
@@ -47,23 +48,29 @@ struct SweepMeasure {
 
 /// One run of a sweep.
 struct SweepRun {
-  std::string id;                                  // "r0001"
-  std::vector<std::optional<std::string>> values;  // by Sweep::paths, as YAML; none: the base's own
-  std::vector<Setting> settings;                   // those of all runs, then its own
+  std::string id;  // "r0001"
+  /// By Sweep::paths, as YAML. None: the base's own.
+  std::vector<std::optional<std::string>> values;
+  /// Those of all runs, then its own.
+  std::vector<Setting> settings;
 };
 
-/// What a sweep file says, with its ranges spelled out. Run numbers, ids and values depend on it alone.
+/// The content of a sweep file, with its ranges expanded. Run numbers, ids and values depend on it alone.
 class Sweep {
  public:
-  std::string file;  // as named on the command line
+  std::string file;  // as given on the command line
   std::string title;
-  std::string base;                    // the scene file, a path that opens from the working folder
-  std::vector<SweepValue> set_values;  // "path=value", of every run
-  std::vector<std::string> paths;      // that vary, in the order of the file; with repeats, `seed` is the last
+  /// The scene file, relative to the working folder.
+  std::string base;
+  std::vector<SweepValue> set_values;  // "path=value", applied to every run
+  /// The paths that vary, in the order of the file. With repeats the last one is `seed`.
+  std::vector<std::string> paths;
   std::vector<SweepBlock> blocks;
-  std::uint64_t seeds = 0;  // of each combination; 0: no repeats
+  /// For each combination. 0: no repeats.
+  std::uint64_t seeds = 0;
   std::optional<std::uint64_t> first_seed;
-  std::vector<SweepValue> only;  // outputs; empty: what the base asks for
+  /// Outputs. Empty: those of the base.
+  std::vector<SweepValue> only;
   std::vector<SweepMeasure> measures;
   std::vector<SweepChart> charts;
 
@@ -71,21 +78,22 @@ class Sweep {
   SweepRun run(std::size_t number) const;  // number: from 0
   std::string id(std::size_t number) const;
 
-  /// A sweep file that says the same of the base `base` beside it.
+  /// An equivalent sweep file for a base scene named `base_name` in the same folder.
   std::string resolved(std::string_view base_name) const;
 };
 
 inline constexpr std::size_t most_runs = 1'000'000;
-inline constexpr std::size_t most_values = 10'000'000;  // of all paths that go in step
+/// Of all paths of a zip together.
+inline constexpr std::size_t most_values = 10'000'000;
 
-/// Reads and checks a sweep file, as far as it can be without its base. Throws SceneError, which holds every error.
-/// `color`: in the texts of errors.
+/// Reads and checks a sweep file, as far as possible without its base. Throws SceneError, which holds every error.
+/// `color`: use colour in the texts of errors.
 Sweep load_sweep(const std::string& path, bool color = false);
 
-/// The sweep that --grid asks for: each "path=from:to:count" or "path=value,value,...". Throws SceneError.
+/// The sweep of the --grid options, each "path=from:to:count" or "path=value,value,...". Throws SceneError.
 Sweep grid_sweep(const std::string& base, const std::vector<std::string>& grids, bool color = false);
 
-/// Whether a file begins like a sweep file (has the key `sweep` and no key `scene`).
+/// Whether a file begins like a sweep file: it has the key `sweep` and no key `scene`.
 bool is_sweep_file(const std::string& path);
 
 }  // namespace carom

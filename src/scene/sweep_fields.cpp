@@ -1,4 +1,4 @@
-// The rows of the table of fields that describe sweep files.
+// The rows of the table of fields for sweep files.
 #include "scene/fields.h"
 
 namespace carom {

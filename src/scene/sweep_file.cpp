@@ -1,4 +1,4 @@
-// A sweep file's tree, checked against the table of fields -> Sweep.
+// A sweep file's tree, checked against the table of fields, to a Sweep.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 using Axis = SweepAxis;
 
-/// Whether two values of a path are the same: numbers by value, all else by text.
+/// Whether two values of a path are equal: numbers by value, all else by text.
 bool same_value(const std::string& a, const std::string& b) {
   if (a == b || cell_text(a) == cell_text(b)) return true;
   const std::optional<double> x = parse_number(a), y = parse_number(b);
@@ -67,7 +67,8 @@ class SweepReader {
   /// "file:line:column"
   std::string where(const Place& place) const {
     if (sources_.front().option) return sources_.front().name;
-    // A file may be one line of a million values, or have as many lines: from the last place on, not from the start.
+    // A file may be one line of a million values, or have as many lines.
+    // Counting therefore continues from the last place.
     const std::string_view text = sources_.front().text;
     const std::size_t offset = std::min<std::size_t>(place.offset, text.size());
     if (offset < counted_) counted_ = 0, line_ = column_ = 1;
@@ -107,7 +108,7 @@ class SweepReader {
       if (sweep_.size() <= most_runs) block(item);
   }
 
-  /// What varies in one block.
+  /// Reads the axes of one block.
   void block(const Node& node) {
     if (node.bad || !node.is(Node::Kind::map)) return;
     SweepBlock block;
@@ -122,13 +123,14 @@ class SweepReader {
         if (axis.cases.empty()) continue;
         runs *= axis.cases.size();
         block.axes.push_back(std::move(axis));
-        // No further axis is spelled out: forty of a million values each would take all memory.
+        // Stop before the next axis is expanded. Forty axes of a million values each would take all memory.
         if (runs > most_runs) return refuse_runs(grid->keys[i].place);
       }
     }
     if (const Node* zip = usable(node.find("zip"))) {
       block.axes.push_back(zipped(*zip));
-      if (block.axes.back().cases.empty()) return;  // said
+      // Already reported.
+      if (block.axes.back().cases.empty()) return;
     }
     if (const Node* list = usable(node.find("list"))) {
       Axis axis{Axis::Kind::list, {}};
@@ -146,7 +148,7 @@ class SweepReader {
     sweep_.blocks.push_back(std::move(block));
   }
 
-  /// A path may vary once in a block.
+  /// Marks a path as varied. It may vary only once in a block.
   void take(const Key& key) {
     if (taken_.emplace(key.text, &key).second) return;
     diagnostics_.add(key.place, fmt::format("{} varies twice", carom::quoted(key.text)), "remove one of them");
@@ -237,7 +239,7 @@ class SweepReader {
     diagnostics_.add(place, fmt::format("more than {} runs", most_runs), fmt::format("expected at most {}", most_runs));
   }
 
-  /// Which combinations are left.
+  /// Determines which combinations are kept.
   void keep(SweepBlock& block, const Node* skip, const Node& node) {
     std::uint64_t count = 1;
     for (const Axis& axis : block.axes) {
@@ -327,7 +329,7 @@ class SweepReader {
   const Node& root_;
   Diagnostics& diagnostics_;
   Sweep sweep_;
-  std::map<std::string, const Key*> taken_;  // paths of this block
+  std::map<std::string, const Key*> taken_;  // the paths of this block
   // How far where() has counted lines and characters.
   mutable std::size_t counted_ = 0, line_ = 1, column_ = 1;
 };

@@ -1,3 +1,6 @@
+// Looks a key up in the layers of a View: own map, defaults, table.
+// A layer that holds a rival of the key ends the search, because the rival replaces the key.
+// The table's defaults are parsed once, at first use.
 #include "scene/view.h"
 
 #include <map>
@@ -9,7 +12,7 @@
 namespace carom {
 namespace {
 
-/// Every default of the table, parsed once.
+/// Parses every default of the table, each once.
 std::map<std::string_view, Node> parse_initials() {
   std::map<std::string_view, Node> nodes;
   std::vector<Source> sources(1);

@@ -1,3 +1,5 @@
+// Takes the name and the start of each film from the manifest of its run, and labels it with its varied values.
+// A label lists only parameters that vary independently, because the others follow from them.
 #include "study/comparison_film.h"
 
 #include <fcntl.h>
@@ -15,7 +17,7 @@
 namespace carom {
 namespace {
 
-constexpr std::size_t most_labels = 4;  // values under a run's id
+constexpr std::size_t most_labels = 4;  // values below a run's id
 
 FilmTile tile_of(const ListedRun& run) {
   FilmTile tile{run.folder, {}, 0, {run.id}};

@@ -7,8 +7,8 @@
 
 namespace carom {
 
-/// The film of each run, labelled with the run's id and what was varied. Throws ExportError, which says what a run
-/// lacks and the remedy.
+/// The film of each run, labelled with the run's id and its varied values.
+/// Throws ExportError. Its text names what a run lacks and the remedy.
 std::vector<FilmTile> film_tiles(const RunSet& runs);
 
 }  // namespace carom

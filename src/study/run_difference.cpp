@@ -1,3 +1,5 @@
+// Compares collisions.csv row by row as text, because equal runs have equal bytes.
+// Positions at the end come from the last rows of trajectory.csv, so that only the end of a large file is read.
 #include "study/run_difference.h"
 
 #include <fmt/format.h>
@@ -14,7 +16,7 @@
 namespace carom {
 namespace {
 
-/// Rows of collisions.csv, one after the other.
+/// The rows of collisions.csv in order.
 class Collisions {
  public:
   explicit Collisions(const RunRecord& run) : table_(open_table(run, "collisions.csv")) {
@@ -39,7 +41,7 @@ class Collisions {
     return cell(0) == other.cell(0) && cell(1) == other.cell(1) && cell(2) == other.cell(2) && cell(3) == other.cell(3);
   }
   bool ends_the_same(const Collisions& other) const { return *cells_ == *other.cells_; }
-  /// A column and its two cells, which are not the same.
+  /// The first column with different cells, and the two cells.
   std::tuple<std::string, std::string, std::string> first_difference(const Collisions& other) const {
     std::size_t column = columns_[4];
     if (cell(4) == other.cell(4))

@@ -1,5 +1,5 @@
 #pragma once
-// Two runs held against each other: their scenes, the collision in which they part, how far apart they end.
+// The differences of two runs: of their scenes, of their collisions, and of their positions at the end.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,50 +9,56 @@
 
 namespace carom {
 
-/// A value of the scenes that is not the same in both. Empty: that scene does not have it.
+/// A value that differs between the two scenes. Empty: the scene has no such value.
 struct ValueDifference {
   std::string path, unit, a, b;
 };
 
-/// A row of collisions.csv, as far as it is shown.
+/// The displayed cells of a row of collisions.csv.
 struct CollisionFacts {
-  double time = 0;              // s
-  std::string kind, a, b;       // a and b: who met
+  double time = 0;  // s
+  /// `a` and `b`: the two things that collide.
+  std::string kind, a, b;
   double separation_speed = 0;  // m/s, along the normal
 };
 
-/// Collisions by their order. Two are the same if kind, a, b and time are; their outcomes if the rest of the row is.
+/// Compares collisions in their order. Two are the same if kind, a, b and time are equal.
+/// Their outcomes are the same if the rest of the row is.
 struct CollisionDifference {
-  std::uint64_t same = 0;                        // of the first ones
-  std::uint64_t count_a = 0, count_b = 0;        // of all
-  bool part = false;                             // after those that are the same; and then what each run did next:
-  std::optional<CollisionFacts> next_a, next_b;  // none: nothing more
-  /// The first of the same ones whose outcome is not the same: its number from 0 on, and both rows.
+  /// Number of equal collisions from the start.
+  std::uint64_t same = 0;
+  std::uint64_t count_a = 0, count_b = 0;  // number of all collisions
+  /// Whether the runs differ after the equal collisions. The next collision of each run then follows.
+  bool part = false;
+  std::optional<CollisionFacts> next_a, next_b;  // none: no further collision
+  /// The index, from 0, of the first equal collision with different outcomes, and both rows.
   std::optional<std::uint64_t> outcome;
   CollisionFacts outcome_a, outcome_b;
   std::string column, cell_a,
-      cell_b;  // the column in which these differ (the separation speed, if in that) and its cells
+      /// The column in which these differ, and its two cells. It is the separation speed, if that differs.
+      cell_b;
 };
 
-/// Where bodies are at the ends of the runs.
+/// The positions of bodies at the ends of the runs.
 struct EndDifference {
   double time_a = 0, time_b = 0;            // s
-  std::uint64_t bodies = 0;                 // that both have
+  std::uint64_t bodies = 0;                 // number of bodies in both runs
   double greatest = 0;                      // m, distance of a body's two positions
-  std::string body;                         // whose it is
-  std::vector<std::string> only_a, only_b;  // bodies that the other one does not have
+  std::string body;                         // the body with that distance
+  std::vector<std::string> only_a, only_b;  // bodies that the other run lacks
 };
 
 struct RunDifference {
   ListedRun a, b;
   std::vector<ValueDifference> values;
   CollisionDifference collisions;
-  std::optional<EndDifference> end;  // none: a run has no trajectory.csv; which one says `no_end`
+  /// None: a run has no trajectory.csv. `no_end` names that run.
+  std::optional<EndDifference> end;
   std::string no_end;
   bool equal() const;
 };
 
-/// Of two runs' folders. Throws ExportError, which names what is missing and the remedy.
+/// Compares two runs by their folders. Throws ExportError with a text that names what is missing and the remedy.
 RunDifference difference_of(const std::string& a, const std::string& b);
 
 }  // namespace carom

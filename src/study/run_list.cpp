@@ -1,3 +1,5 @@
+// Lists the runs in named folders and checks that each is complete and unchanged.
+// The varied values come from the sweep's file, or else from comparing all scenes, of which one at a time is in memory.
 #include "study/run_list.h"
 
 #include <fcntl.h>
@@ -27,9 +29,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t longest_hashed = 256 << 20;  // bytes
-constexpr std::size_t most_told = 10;                // folders that are wrong
+/// Maximum number of bad folders in the message.
+constexpr std::size_t most_told = 10;
 
-/// The names of a path from its end: "r0001", "runs", "sweep".
+/// The names in a path, from its end: "r0001", "runs", "sweep".
 std::vector<std::string> names_of(const std::string& path) {
   const fs::path whole = fs::path(absolute(path)).lexically_normal();
   std::vector<std::string> names;
@@ -39,7 +42,7 @@ std::vector<std::string> names_of(const std::string& path) {
   return names;
 }
 
-/// What is wrong with a run's folder; empty: it is a whole or a failed run.
+/// The fault of a run's folder. Empty: it is a complete or a failed run.
 std::string look_at(ListedRun& run) {
   settle_folder(run.folder);
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
@@ -52,8 +55,9 @@ std::string look_at(ListedRun& run) {
     return "it holds no whole run: run its scene again";
   }
   for (const FileRecord& file : manifest->files) {
-    if (!is_plain_name(file.name)) continue;  // one of a series
-    // What is read is read again for its hash, unless that takes long.
+    // It belongs to a series.
+    if (!is_plain_name(file.name)) continue;
+    // A file that the comparison reads is checked by its hash, unless that takes long.
     const bool is_read = file.bytes <= longest_hashed && (file.name.ends_with(".csv") || file.name == "scene.yaml");
     const bool same = stored_size(folder.get(), file.name) == file.bytes &&
                       (!is_read || read_record(folder.get(), file.name).value_or(FileRecord{}).sha256 == file.sha256);
@@ -63,10 +67,11 @@ std::string look_at(ListedRun& run) {
   return "";
 }
 
-/// r0002 before r0010, r9999 before r10000: by what stands before the last digits, then by their number.
+/// Sorts r0002 before r0010 and r9999 before r10000: by the text before the last digits, then by their number.
 bool is_earlier(const std::string& a, const std::string& b) {
   const auto split = [](const std::string& name) {
-    const std::size_t digits = name.find_last_not_of("0123456789") + 1;  // npos + 1: 0
+    // npos + 1: 0.
+    const std::size_t digits = name.find_last_not_of("0123456789") + 1;
     const std::size_t first = std::min(name.find_first_not_of('0', digits), name.size());
     return std::tuple(name.substr(0, digits), name.size() - first, name.substr(first), name);
   };
@@ -84,7 +89,7 @@ std::vector<std::string> runs_of_sweep(const std::string& folder) {
   return found;
 }
 
-/// Ids of the last names of the paths; of those that share one, with names before it, `runs` left out.
+/// Sets the ids to the last names of the paths. Equal ids are extended by the names before, without `runs`.
 void name_all(std::vector<ListedRun>& runs) {
   std::vector<std::vector<std::string>> names;  // of each folder once
   std::map<std::vector<std::string>, std::vector<std::size_t>> folders;
@@ -110,7 +115,7 @@ void name_all(std::vector<ListedRun>& runs) {
       }
     }
   }
-  std::map<std::string, int> taken;  // a folder that is named twice
+  std::map<std::string, int> taken;  // counts folders that are named twice
   for (std::size_t k = 0; k < names.size(); ++k)
     for (const std::size_t i : folders[names[k]]) {
       const int before = taken[ids[k]]++;
@@ -122,10 +127,11 @@ bool is_parameter(const std::string& path) {
   return path != "scene" && path != "title" && !path.starts_with("output.");
 }
 
-/// Which runs of a sweep these are, by their ids; empty if one is none of its.
+/// The numbers of these runs in a sweep, by their ids. Empty if one does not belong to it.
 std::vector<std::size_t> numbers_in(const Sweep& sweep, const std::vector<ListedRun>& runs) {
   std::vector<std::size_t> numbers;
-  std::size_t number = 0;  // the runs are in their order
+  // The runs are in the order of the sweep.
+  std::size_t number = 0;
   for (const ListedRun& run : runs) {
     while (number < sweep.size() && sweep.id(number) != run.id) ++number;
     if (number == sweep.size()) return {};
@@ -179,9 +185,11 @@ std::string digest_of(const std::vector<ListedRun>& runs, const std::function<vo
 }
 
 RunSet::RunSet(std::vector<ListedRun> runs, const std::function<void()>& look) : runs_(std::move(runs)) {
-  std::vector<SceneValue> all;               // of all scenes, each path once, in the order of the first that has it
+  // Of all scenes, each path once, in the order of the first scene with it.
+  std::vector<SceneValue> all;
   std::map<std::string, std::size_t> known;  // its paths
-  std::vector<std::size_t> seen;             // by path: how many scenes have it
+  // By path: the number of scenes with it.
+  std::vector<std::size_t> seen;
   std::set<std::size_t> varying;
   std::size_t scenes = 0;
   for (const ListedRun& run : runs_) {
@@ -205,7 +213,7 @@ RunSet::RunSet(std::vector<ListedRun> runs, const std::function<void()>& look) :
     numbers_.emplace(all[k].path, parameters_.size());
     parameters_.push_back({all[k].path, all[k].unit});
   }
-  // Repeats: fewer scenarios than runs, once the seed does not count.
+  // Runs are repeats if, without the seed, there are fewer scenarios than runs.
   const auto seed = numbers_.find("seed");
   if (seed == numbers_.end()) return;
   std::set<std::string> scenarios;

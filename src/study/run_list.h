@@ -1,5 +1,5 @@
 #pragma once
-// Folders that were named -> the runs in them, and in which values their scenes differ.
+// Named folders to the runs in them, and to the values in which their scenes differ.
 #include <functional>
 #include <map>
 #include <optional>
@@ -11,48 +11,51 @@
 
 namespace carom {
 
-/// A run's folder, and what it is called beside the others.
+/// A run's folder, and its id among the runs.
 struct ListedRun {
   std::string id, folder;
-  bool done = false;  // false: it failed, by its error.txt
+  /// False: it failed, according to its error.txt.
+  bool done = false;
 };
 
-/// The runs of folders: each is a run's, or a sweep's, and then its runs/* are meant. Ids are the folders' names, with
-/// more of the path where two are the same. Throws ExportError, which tells of every folder that is neither.
-/// `look`: called often, may throw; so below.
+/// The runs of folders. Each is the folder of a run, or of a sweep, which stands for its runs/*.
+/// Ids are the names of folders, with more of the path where two are equal.
+/// Throws ExportError with a text that lists every folder that is neither.
+/// `look`: called often, may throw. The same holds below.
 std::vector<ListedRun> list_runs(
     const std::vector<std::string>& folders, const std::function<void()>& look = [] {});
 
-/// SHA-256 of all that says which runs these are: ids and manifests.
+/// SHA-256 of what identifies these runs: ids and manifests.
 std::string digest_of(
     const std::vector<ListedRun>& runs, const std::function<void()>& look = [] {});
 
-/// Runs and what was varied in them.
+/// Runs and their varied values.
 class RunSet {
  public:
-  /// What their scenes differ in, found with one of them in memory. Title and outputs are no parameters.
+  /// The values in which their scenes differ, found with one scene in memory. Title and outputs are not parameters.
   explicit RunSet(
       std::vector<ListedRun> runs, const std::function<void()>& look = [] {});
-  /// What the sweep varied whose runs these are, as its file says.
+  /// The values that the sweep of these runs varied, according to its file.
   RunSet(std::vector<ListedRun> runs, Sweep sweep);
 
   const std::vector<Parameter>& parameters() const { return parameters_; }
-  /// The seed's number among the parameters, if runs differ in nothing else: repeats.
+  /// The index of the seed among the parameters, if it distinguishes repeats of the same scenario.
   std::optional<std::size_t> seed() const { return seed_; }
   const std::vector<ListedRun>& runs() const { return runs_; }
-  /// Run `number` with its values; those that its scene does not have are empty.
+  /// Run `number` with its values. Those that its scene lacks are empty.
   ComparedRun run(std::size_t number) const;
 
  private:
   std::vector<ListedRun> runs_;
   std::vector<Parameter> parameters_;
-  std::map<std::string, std::size_t> numbers_;  // of parameters, by path
+  std::map<std::string, std::size_t> numbers_;  // indices of parameters, by path
   std::optional<std::size_t> seed_;
   std::optional<Sweep> sweep_;
-  std::vector<std::size_t> in_sweep_;  // by run: its number in the sweep
+  /// By run: its number in the sweep.
+  std::vector<std::size_t> in_sweep_;
 };
 
-/// The sweep whose folder this is and whose runs, all of them, these are; none if it is no sweep's.
+/// The sweep of this folder, if all these runs belong to it. None: it is not a sweep's folder, or a run is not of it.
 std::optional<Sweep> sweep_of(const std::string& folder, const std::vector<ListedRun>& runs);
 
 }  // namespace carom

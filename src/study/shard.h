@@ -1,10 +1,10 @@
 #pragma once
-// A part of a sweep. Parts agree on who does what without talking to one another.
+// A part of a sweep. Parts agree on the division of runs without communication.
 #include <cstddef>
 
 namespace carom {
 
-/// One of `count` parts of a sweep, from 1 on. Runs that share a motion are in the same part.
+/// Part `index` of `count`, counted from 1. Runs with the same motion are in the same part.
 struct Shard {
   std::size_t index = 1, count = 1;
 };

@@ -1,3 +1,5 @@
+// Shares a sweep's folder between parts by flock: exclusive to write sweep.yaml and base.yaml, then shared.
+// No run begins before base.yaml is complete.
 #include "study/sweep_folder.h"
 
 #include <fcntl.h>
@@ -38,7 +40,7 @@ constexpr auto patience = std::chrono::seconds(30);
 
 constexpr const char* sweep_key = "sweep";
 
-/// None: it is not there, or no sweep's.
+/// None: it is absent, or not a sweep's.
 std::optional<Manifest> read_sweep_manifest(int folder) {
   auto manifest = read_manifest(folder, manifest_name);
   return manifest && Json::parse(manifest->outputs).contains(sweep_key) ? std::move(manifest) : std::nullopt;
@@ -55,20 +57,20 @@ bool is_whole(int folder, const std::string& path, const Sweep& sweep, const Man
   return true;
 }
 
-/// What of a sweep's text says which runs there are: from its base on, without what of them is compared.
+/// The part of a sweep's text that determines the runs: from its base on, without the comparison.
 std::string_view runs_part(std::string_view text) {
   const std::size_t begin = std::min(text.find("\nbase: "), text.size());
   return text.substr(begin, std::min(text.find("\ncompare:\n"), text.size() - 1) - begin);
 }
 
-/// Whether the folder's runs are this sweep's.
+/// Whether the folder's runs are those of this sweep.
 bool has_runs_of(int folder, const Sweep& sweep, const std::string& base_text) {
   const auto stored = read_text(folder, stored_sweep, largest);
   return stored && runs_part(*stored) == runs_part(sweep.resolved(stored_base)) &&
          read_text(folder, stored_base, largest) == base_text;
 }
 
-/// Whether this sweep was interrupted, or had no room, before base.yaml was whole: before it no run begins.
+/// Whether this sweep was interrupted, or ran out of space, before base.yaml was complete. No run begins before that.
 bool has_begun(const FoundFolder& found, const Sweep& sweep) {
   const bool alone = std::all_of(found.names.begin(), found.names.end(),
                                  [](const auto& name) { return name == stored_sweep || is_part_name(name); });
@@ -113,7 +115,7 @@ SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, c
     begin(sweep, base_text);
     return;
   }
-  // Several parts may begin at once: one of them writes, the others find it done.
+  // Several parts may begin at once. One of them writes, and the others find the files complete.
   const auto start = std::chrono::steady_clock::now();
   while (true) {
     if (!lock(LockKind::shared, look)) fail("write", place_, "", busy);
@@ -133,7 +135,7 @@ void SweepFolder::begin(const Sweep& sweep, const std::string& base_text) {
   put(stored_base, base_text);
 }
 
-/// False: another one had it all the time.
+/// False: the lock was held elsewhere all the time.
 bool SweepFolder::lock(LockKind kind, const std::function<void()>& look) const {
   const auto start = std::chrono::steady_clock::now();
   while (!lock_folder(place_, kind)) {
@@ -144,7 +146,7 @@ bool SweepFolder::lock(LockKind kind, const std::function<void()>& look) const {
   return true;
 }
 
-/// No run of another sweep may be taken for one of this.
+/// A run of another sweep must not be taken for one of this sweep.
 void SweepFolder::remove_runs() const {
   const std::string path = place_.path + "/runs";
   const Descriptor runs = open_folder(AT_FDCWD, path, false);
@@ -181,7 +183,7 @@ ComparisonPlan comparison_plan(const Sweep& sweep) {
 ComparedRun compared_run(const Sweep& sweep, std::size_t number, const std::string& folder) {
   const SweepRun run = sweep.run(number);
   ComparedRun out{run.id, folder, {}};
-  std::optional<std::vector<SceneValue>> own;  // the scene's
+  std::optional<std::vector<SceneValue>> own;  // of the scene
   for (std::size_t p = 0; p < run.values.size(); ++p) {
     out.values.push_back(run.values[p] ? cell_text(*run.values[p]) : "");
     if (run.values[p]) continue;
@@ -197,7 +199,8 @@ ComparedRun compared_run(const Sweep& sweep, std::size_t number, const std::stri
 }
 
 void SweepFolder::finish(const Sweep& sweep, const std::vector<RunStatus>& statuses, const ComparisonWatch& watch) {
-  sync_file_system(place_.path);  // what the manifest says of runs must outlast a power cut before it is said
+  // The runs must survive a power failure before the manifest lists them.
+  sync_file_system(place_.path);
   const auto compared = [&](std::size_t number) {
     ComparedRun run = compared_run(sweep, number, fmt::format("{}/runs/{}", place_.path, sweep.id(number)));
     run.failed = statuses[number] != RunStatus::done;

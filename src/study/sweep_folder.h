@@ -1,6 +1,7 @@
 #pragma once
-// What a sweep writes beside its runs: sweep.yaml and base.yaml, which say what the runs are; then summary.csv, the
-// workbook, and last manifest.json. Of equal sweeps these have equal bytes, however many parts they were made in.
+// The files of a sweep besides its runs: sweep.yaml and base.yaml, which determine the runs, then the comparison.
+// The comparison is summary.csv, the workbook, and last manifest.json.
+// Equal sweeps give equal bytes, however many parts they were computed in.
 #include <functional>
 #include <string>
 #include <vector>
@@ -17,40 +18,45 @@ inline constexpr const char* stored_sweep = "sweep.yaml";
 inline constexpr const char* stored_base = "base.yaml";
 
 enum class SweepContent {
-  nothing,     // it is not there, or empty
-  this_sweep,  // this very sweep, whole: nothing to do
-  incomplete,  // this sweep's runs, or some of them; it may compare them by something else
-  other        // another one's, or files that no sweep wrote
+  nothing,  // absent or empty
+  /// This very sweep, complete: nothing to do.
+  this_sweep,
+  /// All or some runs of this sweep, perhaps with another comparison.
+  incomplete,
+  /// Another sweep's, or files that no sweep wrote.
+  other
 };
 
-/// What stands in `folder`. `base_text`: the base scene's. Changes nothing. Runs whose files are untouched since
-/// the sweep's manifest was written are not read again; whether meshes that the scene names are still the same is not
-/// looked at. Throws ExportError.
+/// The content of `folder`. `base_text`: the text of the base scene. Changes nothing. Throws ExportError.
+/// Runs with files untouched since the sweep's manifest was written are not read again.
+/// Changes of mesh files that the scene names are not detected.
 SweepContent inspect_sweep_folder(const std::string& folder, const Sweep& sweep, const std::string& base_text);
 
-/// The runs of a sweep that failed, as its manifest says.
+/// The failed runs of a sweep, according to its manifest.
 std::vector<std::string> stored_failures(const std::string& folder);
 
-/// A sweep's run that lies in `folder`. What its block does not set is what its scene has; what that does not have
-/// either is empty.
+/// A run of a sweep, with its folder `folder`.
+/// A value that its block does not set comes from its scene, and is empty if the scene lacks it.
 ComparedRun compared_run(const Sweep& sweep, std::size_t number, const std::string& folder);
 
-/// What the comparison of a sweep's runs shows.
+/// The plan of the comparison of a sweep's runs.
 ComparisonPlan comparison_plan(const Sweep& sweep);
 
 class SweepFolder {
  public:
   enum class Use {
-    alone,  // no other process may write into it
-    part    // other parts of the same sweep may
+    /// Exclusive: no other process may write into it.
+    alone,
+    /// Shared with other parts of the same sweep.
+    part
   };
-  /// Makes the folder if need be, locks it and, unless they stand there, writes sweep.yaml and base.yaml; the runs of
-  /// another sweep go. Waits a while for processes that write these at the same time; `look` is called meanwhile and
-  /// may throw. Throws ExportError, as all of this class does.
+  /// Makes the folder if needed and locks it. Writes sweep.yaml and base.yaml unless they exist.
+  /// Runs of another sweep are removed. Waits up to 30 s for other processes that do the same.
+  /// `look` is called meanwhile and may throw. Throws ExportError, as all functions of this class do.
   SweepFolder(const std::string& path, Use use, const Sweep& sweep, const std::string& base_text,
               const std::function<void()>& look);
 
-  /// Reads every run's folder and writes what compares them, and the manifest. `statuses`: by run.
+  /// Reads every run's folder and writes the comparison and the manifest. `statuses`: by run.
   void finish(const Sweep& sweep, const std::vector<RunStatus>& statuses, const ComparisonWatch& watch);
 
  private:

@@ -1,3 +1,6 @@
+// Plans and runs a sweep in worker processes. Runs are grouped by digests of their scenes and of their motions.
+// Scenarios with equal motion share one simulation, because only pictures and outputs differ.
+// The division into parts does not depend on what is done.
 #include "study/sweep_job.h"
 
 #include <fmt/format.h>
@@ -30,14 +33,17 @@ namespace carom {
 namespace {
 
 constexpr std::size_t looked_at_a_time = 64;
-constexpr std::size_t most_shows = 8;   // of one simulation: each may have a film on its way
-constexpr std::size_t most_wrong = 16;  // such lots, then the others are not looked at
+/// Of one simulation. Each may have a film in progress.
+constexpr std::size_t most_shows = 8;
+/// Batches with errors. Planning stops after this number.
+constexpr std::size_t most_wrong = 16;
 constexpr std::size_t errors_shown = 20;
-constexpr char right = '+';       // begins the report of scenarios that are right
+/// First character of a report without errors.
+constexpr char right = '+';
 constexpr double sync_every = 2;  // s
 
-/// Of errors by run, each error once, under the first run that has it. An error is a line, and those below it that
-/// begin with a blank.
+/// Removes repeated errors, and keeps each under the first run that has it.
+/// An error is a line and the lines below it that begin with a blank.
 std::pair<std::string, std::size_t> each_once(std::string_view text) {
   std::string out, head;
   std::set<std::string, std::less<>> known;
@@ -87,7 +93,8 @@ SweepJob::SweepJob(Sweep sweep, std::string folder, SweepSettings settings)
   try {
     sweep_.first_seed = base_.scene(once.run(0).settings).seed;
   } catch (const SceneError&) {
-    sweep_.first_seed = 0;  // plan() tells what is wrong
+    // plan() reports the errors.
+    sweep_.first_seed = 0;
   }
 }
 
@@ -101,9 +108,9 @@ Scene SweepJob::scene(std::size_t number) {
   return scene;
 }
 
-// ---- Planning: what each scenario is, and what stands in its folder.
+// ---- Planning: digests of each scenario, and the content of its folder.
 
-/// What each of these runs is; of the wrong ones, one after the other, the id and the errors.
+/// The planned runs as bytes, or, if some are wrong, the id and the errors of each wrong one.
 std::string SweepJob::look_at(std::size_t first, std::size_t last) {
   std::string out(1, right);
   std::string errors;
@@ -112,7 +119,8 @@ std::string SweepJob::look_at(std::size_t first, std::size_t last) {
     PlannedRun run;
     try {
       const Scene its = scene(number);
-      run.scene = digest(its.resolved + meshes_text(its));  // the text has the meshes' names alone
+      // The text contains only the names of meshes.
+      run.scene = digest(its.resolved + meshes_text(its));
       run.motion = digest(motion_text(its));
       const std::string folder = run_folder(number);
       settle_folder(folder);
@@ -131,7 +139,8 @@ void SweepJob::plan(const std::function<void(const SweepProgress&)>& tell) {
   std::size_t next = 0;
   SweepProgress progress{0, 0, runs_.size()};
   measures_ = measures_of(comparison_plan(sweep_));
-  std::map<std::size_t, std::string> wrong;  // by the first run of what was looked at: the errors
+  // Errors by the first run of the batch.
+  std::map<std::size_t, std::string> wrong;
   Tasks tasks;
   tasks.next = [&]() -> std::optional<std::size_t> {
     if (next >= runs_.size() || wrong.size() >= most_wrong) return std::nullopt;
@@ -165,7 +174,7 @@ void SweepJob::plan(const std::function<void(const SweepProgress&)>& tell) {
 }
 
 std::optional<std::size_t> SweepJob::other_content() const {
-  // (What other parts do in their runs' folders meanwhile does not count.)
+  // Changes in the folders of other parts' runs do not count.
   const std::vector<std::size_t> mine = of_part();
   const auto found = std::find_if(mine.begin(), mine.end(), [&](std::size_t number) {
     const FolderContent content = runs_[number].content;
@@ -175,7 +184,7 @@ std::optional<std::size_t> SweepJob::other_content() const {
 }
 
 std::vector<std::string> SweepJob::idle_paths() const {
-  constexpr std::size_t most = 20'000;  // runs that are looked at
+  constexpr std::size_t most = 20'000;  // runs that are examined
   constexpr std::array<std::string_view, 5> looks = {"camera", "lights", "background", "output", "title"};
   std::vector<std::string> idle;
   for (std::size_t p = 0; p < sweep_.paths.size(); ++p) {
@@ -193,7 +202,8 @@ std::vector<std::string> SweepJob::idle_paths() const {
       for (std::size_t q = 0; q < run.values.size(); ++q)
         if (q != p) others += run.values[q].value_or("-") + '\n';
       const auto [found, is_new] = first.emplace(std::move(others), number);
-      if (is_new || runs_[number].scene == runs_[found->second].scene) continue;  // equal values differ in writing
+      // Equal values may differ in notation.
+      if (is_new || runs_[number].scene == runs_[found->second].scene) continue;
       ++pairs;
       if (runs_[number].motion == runs_[found->second].motion) ++alike;
       if (alike < pairs) break;
@@ -203,10 +213,10 @@ std::vector<std::string> SweepJob::idle_paths() const {
   return idle;
 }
 
-// ---- Doing
+// ---- Running
 
 std::vector<SweepJob::Motion> SweepJob::motions() const {
-  // Runs by motion, then scenario, then number.
+  // Sort runs by motion, then scenario, then number.
   std::vector<std::size_t> order(runs_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -239,7 +249,7 @@ std::vector<SweepJob::Motion> SweepJob::motions() const {
     if (!shared.scenarios.empty()) motion.units.push_back(std::move(shared));
     motions.push_back(std::move(motion));
   }
-  // Which part a motion belongs to must not depend on what is done already.
+  // The division into parts must not depend on what is already done.
   std::sort(motions.begin(), motions.end(), [](const Motion& a, const Motion& b) { return first(a) < first(b); });
   std::vector<Motion> mine;
   for (std::size_t m = settings_.shard.index - 1; m < motions.size(); m += settings_.shard.count)
@@ -275,7 +285,7 @@ std::size_t SweepJob::left() const {
   return runs_in(units());
 }
 
-/// What a process says of its unit: for each run that failed, why.
+/// The result of a unit as JSON: the reason for each failed run.
 std::string SweepJob::work(const Unit& unit) {
   nlohmann::json failures = nlohmann::json::object();
   const auto fail = [&](std::size_t number, const std::string& why) { failures[std::to_string(number)] = why; };

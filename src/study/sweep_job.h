@@ -1,5 +1,5 @@
 #pragma once
-// A sweep and where it goes: its scenarios checked, what of them is done already, what is left to do, and the doing.
+// The work of a sweep: checks its scenarios, determines which runs are done, and does the others.
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -18,69 +18,76 @@
 namespace carom {
 
 struct SweepSettings {
-  LoadOptions load;  // without settings of its own
+  LoadOptions load;  // without --set options
   std::size_t jobs = 1;
   Shard shard;
-  bool force = false;                                           // run again what is done
-  std::function<Output(const Output&, const Sweep&)> restrict;  // what of a scene's outputs is written
-  std::function<void()> look;                                   // often, in every process; may throw
+  bool force = false;                                           // also run what is done
+  std::function<Output(const Output&, const Sweep&)> restrict;  // selects the outputs to write
+  /// Called often, in every process. May throw.
+  std::function<void()> look;
 };
 
-/// Whether a scenario may have a mesh, a file that can change without the sweep's doing. `base_text`: the base scene's.
+/// Whether a scenario may have a mesh, which is a file that can change independently of the sweep.
+/// `base_text`: the text of the base scene.
 bool may_have_meshes(const Sweep& sweep, const std::string& base_text);
 
 enum class RunStatus : std::uint8_t { missing, done, failed };
 
-/// A run that was looked at.
+/// A run after planning.
 struct PlannedRun {
-  std::array<char, 16> scene{}, motion{};  // digests: equal scenarios, scenarios that move alike
+  /// Digests. Scenarios with equal `scene` are equal, and those with equal `motion` move alike.
+  std::array<char, 16> scene{}, motion{};
   FolderContent content = FolderContent::nothing;
   RunStatus status = RunStatus::missing;
 };
 
 struct SweepProgress {
-  std::size_t done = 0, failed = 0, of = 0;  // runs of this shard that were to be done
+  /// Numbers of runs to do in this shard.
+  std::size_t done = 0, failed = 0, of = 0;
 };
 
 class SweepJob {
  public:
-  /// Reads the base; the first seed of repeats is its seed, unless the sweep says another. Throws SceneError.
+  /// Reads the base. The first seed of repeats is the base's, unless the sweep sets another. Throws SceneError.
   SweepJob(Sweep sweep, std::string folder, SweepSettings settings);
 
   const Sweep& sweep() const { return sweep_; }
   const std::string& base_text() const { return base_.text(); }
-  /// A run's scenario, with the outputs that are written. Throws SceneError.
+  /// A run's scenario, with the outputs to write. Throws SceneError.
   Scene scene(std::size_t number);
   const std::string& folder() const { return folder_; }
   const std::vector<PlannedRun>& runs() const { return runs_; }
   std::string run_folder(std::size_t number) const;
 
-  /// Loads every scenario and looks at its folder, several at a time. What is done and cannot tell the sweep's measures
-  /// counts as missing. Throws SceneError with all that is wrong, each once (of a great many, the first).
+  /// Loads every scenario and inspects its folder, several at a time.
+  /// A finished run from which the sweep's measures cannot be determined counts as missing.
+  /// Throws SceneError with all errors, each once. Of a large number, only the first ones are given.
   void plan(const std::function<void(const SweepProgress&)>& tell);
 
-  /// The first run of this shard whose folder holds what it would overwrite: another scene's run, or more outputs.
-  /// After plan().
+  /// The first run of this shard that would overwrite other content: another scene's run, or more outputs.
+  /// Call it after plan().
   std::optional<std::size_t> other_content() const;
 
-  /// The paths whose value makes no difference to the motion, though it is not of how the motion is looked at: runs
-  /// that differ in nothing else move alike. After plan().
+  /// The paths that do not affect the motion, although they are not settings of appearance or output.
+  /// Runs that differ only in such a path move alike. Call it after plan().
   std::vector<std::string> idle_paths() const;
 
-  /// The runs of this shard, in order. After plan(), as all below.
+  /// The runs of this shard, in order. Call it and the functions below after plan().
   std::vector<std::size_t> of_part() const;
-  /// How many of them are not done.
+  /// The number of these runs that are not done.
   std::size_t left() const;
 
-  /// Does what is left: scenarios that move alike share one simulation, equal ones are run once and copied. A run that
-  /// fails leaves `error.txt` in its folder. `failed` is called with each. Nothing is synced to the disk yet.
+  /// Does the remaining runs. Scenarios that move alike share one simulation, and equal ones are run once and copied.
+  /// A failed run leaves `error.txt` in its folder, and `failed` is called with it.
+  /// The last results are not yet synced to disk.
   void run(const std::function<void(const SweepProgress&)>& tell,
            const std::function<void(std::size_t number, const std::string& why)>& failed);
 
  private:
   struct Unit {
-    std::vector<std::vector<std::size_t>> scenarios;  // each the runs of one scenario
-    std::size_t like = none;                          // a run that is done and of the (only) scenario
+    std::vector<std::vector<std::size_t>> scenarios;  // for each scenario its runs
+    /// A finished run of the (only) scenario.
+    std::size_t like = none;
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
@@ -88,7 +95,7 @@ class SweepJob {
   /// Runs that move alike.
   struct Motion {
     std::vector<std::size_t> runs;
-    std::vector<Unit> units;  // what is to be done of them
+    std::vector<Unit> units;  // the remaining work
   };
   static std::size_t first(const Motion& motion);  // its first run
   std::vector<Motion> motions() const;             // of this part

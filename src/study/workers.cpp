@@ -1,3 +1,5 @@
+// Forks workers and passes tasks and results over sockets. Processes and not threads, so that a crash loses one task.
+// A worker that ends is replaced, and its task is reported as lost.
 #include "study/workers.h"
 
 #include <fmt/format.h>
@@ -25,10 +27,10 @@ namespace carom {
 namespace {
 
 constexpr int look_every = 50;  // ms
-/// A process that was to end and has not is killed after this.
+/// A process that does not end when requested is killed after this time.
 constexpr auto patience = std::chrono::seconds(1);
 
-/// What goes before an outcome's text.
+/// The header of an outcome's text.
 struct Head {
   std::uint64_t size;
   TaskOutcome::Kind kind;
@@ -58,7 +60,7 @@ bool receive_all(int socket, void* bytes, std::size_t size) {
   return true;
 }
 
-/// Waits a moment until something comes. Where the system cannot wait, all may have something.
+/// Waits up to look_every for data. If the system cannot wait, every socket is reported as ready.
 bool wait_for_any(std::vector<pollfd>& sockets) {
   const int ready = poll(sockets.data(), sockets.size(), look_every);
   if (ready >= 0 || errno == EINTR) return ready > 0;
@@ -67,7 +69,7 @@ bool wait_for_any(std::vector<pollfd>& sockets) {
   return true;
 }
 
-/// A worker's life, until there is no more work or the parent is gone.
+/// The loop of a worker, until there are no more tasks or the parent has ended.
 [[noreturn]] void serve(int socket, const Tasks& tasks) {
   std::uint64_t task = 0;
   while (receive_all(socket, &task, sizeof task)) {
@@ -82,7 +84,8 @@ bool wait_for_any(std::vector<pollfd>& sockets) {
       kind = TaskOutcome::Kind::failed;
       text = error.what();
     } catch (...) {
-      _exit(1);  // it was interrupted, as its parent was, who says so
+      // Interrupted together with its parent, which reports it.
+      _exit(1);
     }
     const Head head{text.size(), kind};
     if (!send_all(socket, &head, sizeof head) || !send_all(socket, text.data(), text.size())) break;
@@ -94,7 +97,7 @@ class Pool {
  public:
   Pool(const Tasks& tasks, std::size_t jobs) : tasks_(tasks), workers_(jobs) {}
 
-  /// Ends what still runs: by SIGTERM, so that it can put its files in order.
+  /// Ends the running workers with SIGTERM, so that they can clean up their files.
   ~Pool() {
     for (const Worker& worker : workers_)
       if (worker.process > 0) kill(worker.process, SIGTERM);
@@ -131,7 +134,7 @@ class Pool {
     int socket = -1;
     bool busy = false;
     std::size_t task = 0;
-    std::optional<int> status{};  // it has ended
+    std::optional<int> status{};  // set once it has ended
   };
 
   static bool has_ended(Worker& worker) {
@@ -140,14 +143,14 @@ class Pool {
     return worker.status.has_value();
   }
 
-  /// The worker hears that there is no more work, whatever becomes of the descriptor.
+  /// Closes the worker's input. Shutdown makes the worker see the end even if the descriptor has copies.
   static void hang_up(Worker& worker) {
     shutdown(worker.socket, SHUT_RDWR);
     close(worker.socket);
     worker.socket = -1;
   }
 
-  /// Gives the worker time to end, then ends it.
+  /// Gives the worker time to end, then kills it.
   static void wait_for(Worker& worker, std::chrono::steady_clock::time_point limit) {
     while (!has_ended(worker) && std::chrono::steady_clock::now() < limit)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -168,7 +171,7 @@ class Pool {
     workers_.clear();
   }
 
-  /// False: the worker has ended before it sent all of this.
+  /// False: the worker has ended before it sent all bytes.
   bool receive_all(Worker& worker, void* bytes, std::size_t size) {
     char* to = static_cast<char*>(bytes);
     while (size > 0) {
@@ -187,7 +190,7 @@ class Pool {
     return true;
   }
 
-  /// Whether there was a task to give.
+  /// Whether there was a task to assign.
   bool give(Worker& worker) {
     const std::optional<std::size_t> task = tasks_.next();
     if (!task) return false;
@@ -219,7 +222,8 @@ class Pool {
       throw std::system_error(error, std::generic_category(), "cannot start another process");
     }
     if (process == 0) {
-      prctl(PR_SET_PDEATHSIG, SIGKILL);  // no process is left to resume what it does
+      // The worker dies with its parent, so that no process continues its work.
+      prctl(PR_SET_PDEATHSIG, SIGKILL);
       if (getppid() != parent) _exit(1);
       close(pair[0]);
       for (const Worker& other : workers_)
@@ -257,10 +261,11 @@ class Pool {
     lose(worker, end(worker));
   }
 
-  /// The worker's process has ended, and its task with it.
+  /// Reports the task of a worker with an ended process as lost.
   void lose(Worker& worker, int status) {
     worker.busy = false;
-    tasks_.look();  // an interrupt ends workers too
+    // An interrupt also ends workers.
+    tasks_.look();
     TaskOutcome outcome;
     outcome.task = worker.task;
     outcome.kind = TaskOutcome::Kind::lost;

@@ -1,6 +1,6 @@
 #pragma once
-// Tasks by several processes at a time: one that crashes, or that the system kills for its memory, takes no other
-// with it.
+// Runs tasks in several processes.
+// A process that crashes, or that the system kills for its memory, does not affect the others.
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -8,30 +8,33 @@
 
 namespace carom {
 
-/// What became of a task.
+/// The result of a task.
 struct TaskOutcome {
   enum class Kind : unsigned char { done, failed, lost };
   std::size_t task = 0;
   Kind kind = Kind::done;
-  std::string text;  // done: what the work gave; failed: its exception's text; lost: how its process ended
+  /// done: the result of the work. failed: the text of its exception. lost: how its process ended.
+  std::string text;
 };
 
 struct Tasks {
-  std::function<std::optional<std::size_t>()> next;  // the next task; none: there is none
-  std::function<std::string(std::size_t)> work;      // in a process of its own
-  std::function<void(const TaskOutcome&)> done;      // in this one, in the order in which tasks end
-  std::function<void()> look;                        // in this one, often; may throw: then all processes are ended
+  std::function<std::optional<std::size_t>()> next;  // the next task, or none
+  std::function<std::string(std::size_t)> work;      // executed in a worker process
+  /// Executed in this process, in the order in which tasks end.
+  std::function<void(const TaskOutcome&)> done;
+  /// Executed in this process, often. If it throws, all workers are ended.
+  std::function<void()> look;
 };
 
-/// How many processors this process may use, at least 1.
+/// The number of processors that this process may use, at least 1.
 std::size_t processors();
 
-/// Divides the processors among so many processes: each draws with its share of threads, unless LP_NUM_THREADS, which
-/// OSMesa goes by, is set. To be called before there are threads.
+/// Divides the processors among `jobs` processes, so that each draws with its share of threads.
+/// It sets LP_NUM_THREADS, which OSMesa obeys, unless that is set already. Call it before threads exist.
 void share_processors(std::size_t jobs);
 
-/// Works off all tasks in `jobs` processes. The calling process must have no other threads. Throws std::system_error
-/// where there can be no process, and what the functions of this process throw.
+/// Executes all tasks in `jobs` processes. The calling process must have no other threads.
+/// Throws std::system_error if no process can be started, and what the functions executed in this process throw.
 void work_off(const Tasks& tasks, std::size_t jobs);
 
 }  // namespace carom

@@ -1,3 +1,7 @@
+// Decimal numbers as 128-bit integers with a count of decimal places,
+// so that 0.1 steps give 0.3 and not 0.30000000000000004.
+// Sums of doubles would drift, and their texts would differ from what an author writes.
+// A quotient without a finite expansion falls back to the nearest double.
 #include "yaml/decimal.h"
 
 #include <algorithm>
@@ -16,7 +20,7 @@ Wide power(int n) {
   return value;
 }
 
-/// Both with the same number of places.
+/// Gives both the same number of places.
 void align(Decimal& a, Decimal& b) {
   Decimal& shorter = a.places < b.places ? a : b;
   const int places = std::max(a.places, b.places);
@@ -49,7 +53,7 @@ std::optional<Decimal> parse_decimal(std::string_view text) {
     } else if (text[i] == 'e' || text[i] == 'E') {
       std::string_view power_text = text.substr(i + 1);
       if (power_text.starts_with('+')) power_text.remove_prefix(1);
-      // One out of range leaves 0: then the number itself is 0, for it is finite and not too small.
+      // An exponent out of range leaves 0. Then the number itself is 0, because parse_number accepted it.
       std::from_chars(power_text.data(), power_text.data() + power_text.size(), exponent);
       break;
     } else {
@@ -102,8 +106,8 @@ std::vector<std::string> spread(const Decimal& from, const Decimal& to, std::uin
       out.push_back(to_text(i == 0 ? a : b));
       continue;
     }
-    // (a (last - i) + b i) / last, in units: exact in at most 18 further digits or not at all.
-    // Ends that have 18 digits above and as many below the point together do not fit.
+    // The value is (a (last - i) + b i) / last, in units. It is exact in at most 18 further digits, or not at all.
+    // Ends that have both 18 digits above and 18 below the point overflow.
     Wide whole = 0, part = 0;
     if (__builtin_mul_overflow(a.units, last - i, &whole) || __builtin_mul_overflow(b.units, i, &part) ||
         __builtin_add_overflow(whole, part, &whole)) {

@@ -16,19 +16,20 @@ struct Decimal {
   int places = 0;
 };
 
-/// A number as YAML writes it (values.h). None: it is no number, or needs more than 18 digits from its first to its
-/// last one, the unit's place among them.
+/// A number as YAML writes it (values.h).
+/// None: `text` is not a number, or it needs more than 18 digits from its first to its last, the unit's place included.
 std::optional<Decimal> parse_decimal(std::string_view text);
 
 /// The shortest text of this number, without an exponent: "0.7", "-12".
 std::string to_text(const Decimal& value);
 
-/// `count` numbers from `from` to `to`, ends included, evenly: exact where they have a finite decimal expansion of at
-/// most 18 digits, else the nearest doubles' shortest text. One number alone is `from`.
+/// `count` evenly spread numbers from `from` to `to`, ends included. A single number is `from`.
+/// A number with a finite decimal expansion of at most 18 digits is exact.
+/// Any other is the shortest text of the nearest double.
 std::vector<std::string> spread(const Decimal& from, const Decimal& to, std::uint64_t count);
 
-/// from, from + step, ... as far as `to`, exact; `most` + 1 numbers if there are more than `most`; none if `step` leads
-/// away from `to` or nowhere.
+/// The numbers from, from + step, ... up to `to`, exact.
+/// Returns `most` + 1 numbers if there are more than `most`, and none if `step` is zero or leads away from `to`.
 std::vector<std::string> steps(const Decimal& from, const Decimal& to, const Decimal& step, std::uint64_t most);
 
 }  // namespace carom

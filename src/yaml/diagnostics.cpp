@@ -1,3 +1,6 @@
+// Errors as a terminal shows them: place, line of the file, caret, remedy.
+// Columns count characters, while the caret's position counts terminal cells, so that wide characters do not shift it.
+// Names are suggested by optimal string alignment distance, which counts a swap of two letters as one edit.
 #include "yaml/diagnostics.h"
 
 #include <fmt/format.h>
@@ -11,10 +14,10 @@ namespace carom {
 namespace {
 
 constexpr std::size_t max_shown = 50;   // errors
-constexpr std::size_t max_width = 100;  // characters of a line that are shown
-constexpr std::size_t lead_width = 60;  // of them before the caret, at most
+constexpr std::size_t max_width = 100;  // characters shown of a line
+constexpr std::size_t lead_width = 60;  // characters before the caret, at most
 
-/// Cells a character takes on a terminal: 2 for East Asian wide ones, 0 for combining ones.
+/// Cells that a character takes on a terminal: 2 for wide East Asian characters, 0 for combining ones.
 int cells(char32_t c) {
   if ((c >= 0x0300 && c <= 0x036F) || (c >= 0x200B && c <= 0x200F) || (c >= 0x20D0 && c <= 0x20FF) ||
       (c >= 0xFE00 && c <= 0xFE0F)) {
@@ -27,9 +30,10 @@ int cells(char32_t c) {
 }
 
 struct Character {
-  std::string text;  // as shown: '?' for what cannot be
-  int width;         // cells
-  std::size_t at;    // byte offset in the line
+  // As shown, with '?' for an unprintable character.
+  std::string text;
+  int width;       // cells
+  std::size_t at;  // byte offset in the line
 };
 
 std::vector<Character> characters(std::string_view line) {
@@ -48,7 +52,7 @@ std::vector<Character> characters(std::string_view line) {
   return out;
 }
 
-/// Bytes of a character that was cut in front of `text`.
+/// The number of bytes at the start of `text` that belong to a character cut off in front of it.
 std::size_t first_whole_character(std::string_view text) {
   std::size_t i = 0;
   while (i < std::min<std::size_t>(text.size(), 3) && (static_cast<unsigned char>(text[i]) & 0xC0) == 0x80) ++i;
@@ -63,7 +67,8 @@ char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
 }
 
-/// Letters inserted, removed, replaced or swapped with their neighbour to make b of a (optimal string alignment).
+/// The edit distance of `a` and `b`: letters inserted, removed, replaced or swapped with a neighbour.
+/// This is the optimal string alignment distance.
 std::size_t edits(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), now(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -132,14 +137,14 @@ std::string Diagnostics::show(const Error& error, bool color) const {
   if (!error.placed) {
     out = fmt::format("{}: {} {}\n", paint(printable(error.name), "1", color), label, error.message);
   } else {
-    // The line that holds the place, and how many characters of it come before.
+    // Find the line that holds the place, and count the characters before the place.
     const Source& source = sources_[error.place.source];
     const std::string_view text = source.text;
     const std::size_t offset = std::min<std::size_t>(error.place.offset, text.size());
     const std::size_t begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;  // npos + 1 is 0
     const std::size_t end = std::min(text.find('\n', offset), text.size());
     const auto line_number = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
-    // A long line is shown through a window around the caret; its other characters are only counted.
+    // A long line is shown through a window around the caret. Characters outside it are only counted.
     const std::string_view before = text.substr(begin, offset - begin), after = text.substr(offset, end - offset);
     const std::size_t column = 1 + count_characters(before);
     const std::string_view near = before.substr(before.size() - std::min(before.size(), 4 * max_width));
@@ -186,7 +191,7 @@ std::string Diagnostics::show(const Error& error, bool color) const {
 std::string Diagnostics::text(bool color) const {
   std::vector<const Error*> order;
   for (const Error& error : errors_) order.push_back(&error);
-  // Errors of the file as a whole come first, then the file's in its order, then those of each --set.
+  // The order: errors of the file as a whole, then the file's in its order, then those of each --set.
   std::stable_sort(order.begin(), order.end(), [](const Error* a, const Error* b) {
     return std::tuple(a->placed, a->place.source, a->place.offset) <
            std::tuple(b->placed, b->place.source, b->place.offset);

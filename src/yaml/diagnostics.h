@@ -11,20 +11,20 @@ namespace carom {
 
 class Diagnostics {
  public:
-  /// The texts that places point into; the file first, then one per --set. Must outlive this.
+  /// `sources`: the texts that places point into, the file first, then one per --set. They must outlive this object.
   explicit Diagnostics(const std::vector<Source>& sources) : sources_(sources) {}
 
-  /// `remedy`: what was expected, or did you mean; several lines are several remedies.
+  /// `remedy`: what was expected, or a suggestion. Each of its lines is one remedy.
   void add(Place place, std::string message, std::string remedy = {});
   /// An error of a file as a whole: "path: error: message".
   void add_unplaced(std::string name, std::string message, std::string remedy = {});
-  /// Errors that exist but are not shown one by one.
+  /// Counts errors that are not shown one by one.
   void add_uncounted(std::size_t more) { more_ += more; }
 
   bool empty() const { return errors_.empty(); }
   std::size_t count() const { return errors_.size() + more_; }
 
-  /// All errors in the order of the file, each
+  /// All errors in the order of the file. Each error has this form:
   ///   path:line:column: error: message
   ///    line | text of the line
   ///         |      ^~~~
@@ -45,14 +45,14 @@ class Diagnostics {
   std::size_t more_ = 0;
 };
 
-/// Characters of UTF-8; a byte that is none counts as one.
+/// The number of UTF-8 characters. A byte that is not part of one counts as one.
 std::size_t count_characters(std::string_view text);
 
-/// `text` between backticks, shortened and free of control characters, for use inside a message.
+/// `text` between backticks, for use inside a message: shortened and free of control characters.
 std::string quoted(std::string_view text);
 
-/// The name in `candidates` that `name` was probably meant to be: few letters apart (two swapped letters count as one).
-/// Empty: none is near. The first of equally near ones wins.
+/// The closest name in `candidates`: few letters differ, and two swapped letters count as one difference.
+/// Empty: none is near. Of equally near names the first is returned.
 std::string nearest(std::string_view name, const std::vector<std::string_view>& candidates);
 
 }  // namespace carom

@@ -1,6 +1,7 @@
-// The tree is built from yaml-cpp's events, not by YAML::Load: one pass checks and builds, so that a hostile file is
-// refused before memory is spent on it, aliases never expand, and quoted text stays apart from plain text. Load would
-// also keep duplicate keys, ignore a second document, and lose where an implicit null stands.
+// Builds the tree from yaml-cpp's events and not with YAML::Load. One pass checks and builds.
+// A hostile file is refused before memory is spent on it, aliases never expand,
+// and quoted text stays distinct from plain text.
+// YAML::Load would also keep duplicate keys, ignore a second document, and lose the place of an implicit null.
 #include "yaml/document.h"
 
 #include <fmt/format.h>
@@ -21,9 +22,11 @@ namespace {
 constexpr std::size_t max_depth = 32;
 constexpr std::size_t max_values = 6'000'000;
 constexpr std::size_t max_text = 10'000;  // bytes of one scalar
-constexpr int max_refusals = 200;         // of aliases, duplicate keys and the like, before giving up
+// Of aliases, duplicate keys and the like, before parsing stops.
+constexpr int max_refusals = 200;
 
-struct Stop {};  // an error was added and nothing after it makes sense
+/// Thrown after an error that makes the rest of the text meaningless.
+struct Stop {};
 
 class DocumentBuilder : public YAML::EventHandler {
  public:
@@ -76,7 +79,7 @@ class DocumentBuilder : public YAML::EventHandler {
       refuse(place, fmt::format("a text of {} bytes", value.size()), fmt::format("expected at most {}", max_text));
       throw Stop{};
     }
-    // The raw text may be folded or escaped; then the caret alone has to do.
+    // The raw text may be folded or escaped. Then the place is a single character.
     const std::string_view raw = text_.substr(place.offset);
     if (raw.starts_with(value) && !value.empty()) place.length = static_cast<std::uint32_t>(value.size());
     if (is_quoted && raw.size() > value.size() + 1 && raw.substr(1, value.size()) == value &&
@@ -102,7 +105,8 @@ class DocumentBuilder : public YAML::EventHandler {
   /// A collection that is being read.
   struct Open {
     Node node;
-    std::optional<Key> pending;                         // a map's key whose value comes next
+    // A map's key that waits for its value.
+    std::optional<Key> pending;
     std::unordered_map<std::string, std::size_t> seen;  // keys, once there are many
   };
 
@@ -132,7 +136,7 @@ class DocumentBuilder : public YAML::EventHandler {
       refuse(at(mark, word_length(mark)), "a tag", "remove it: the key decides what kind of value it has");
     }
   }
-  /// Escapes such as "\0" or "\uD800" make text that the check of the raw bytes has not seen.
+  /// Escapes such as "\0" or "\uD800" produce text that the check of the raw bytes did not cover.
   void check_decoded(Place place, const std::string& value) {
     for (std::size_t i = 0; i < value.size();) {
       char32_t code = 0;
@@ -178,7 +182,7 @@ class DocumentBuilder : public YAML::EventHandler {
     Open open;
     open.node.kind = kind;
     open.node.place = at(mark);
-    // A block's mark is that of its first line; the key it stands under says more.
+    // The mark of a block is that of its first line. The place of its key is more useful.
     const char first = open.node.place.offset < text_.size() ? text_[open.node.place.offset] : ' ';
     if (awaits_value() && first != '{' && first != '[') open.node.place = key().place;
     open_.push_back(std::move(open));
@@ -265,10 +269,10 @@ std::optional<Node> parse_document(const std::vector<Source>& sources, std::uint
   const Source& source = sources[index];
   DocumentBuilder builder(source.text, index, offset, diagnostics);
   try {
-    // The end marker turns a quote that is never closed into an error: at a plain end of file yaml-cpp may accept it.
+    // The end marker turns an unclosed quote into an error. At a plain end of file yaml-cpp may accept it.
     std::istringstream stream(source.text.substr(offset) + "\n...\n");
     YAML::Parser parser(stream);
-    // Not `while (HandleNextDocument)`: on "," that never ends. The builder throws at a second document.
+    // Not `while (HandleNextDocument)`, which never ends on ",". The builder throws at a second document.
     if (parser.HandleNextDocument(builder)) parser.HandleNextDocument(builder);
   } catch (const Stop&) {
     return std::nullopt;

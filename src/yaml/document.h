@@ -1,5 +1,5 @@
 #pragma once
-// YAML text -> a tree of nodes that know their places. The only file that talks to yaml-cpp is document.cpp.
+// YAML text to a tree of nodes with their places. Only document.cpp includes yaml-cpp.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,16 +17,20 @@ struct Key {
   Place place;
 };
 
-/// A value of the file. Maps keep the order of the file.
+/// A value of the file. A map keeps the order of the file.
 struct Node {
   enum class Kind : std::uint8_t { null, scalar, sequence, map };
   Kind kind = Kind::null;
-  bool quoted = false;  // a scalar in quotes or a block of text: text even if it looks like a number
-  bool bad = false;     // an error about this value was reported: the value is not to be used
-  Place place;       // of the value; of its key where the value has no place of its own (null, a block below its key)
-  std::string text;  // of a scalar
-  std::vector<Key> keys;    // of a map
-  std::vector<Node> items;  // of a sequence; of a map, as many as keys
+  /// A scalar in quotes or a block of text. It is text even if it looks like a number.
+  bool quoted = false;
+  /// An error about this value was reported, so the value must not be used.
+  bool bad = false;
+  /// The place of the value. A value without a place of its own (null, a block below its key) has that of its key.
+  Place place;
+  std::string text;       // of a scalar
+  std::vector<Key> keys;  // of a map
+  /// Of a sequence, or of a map: as many as keys.
+  std::vector<Node> items;
 
   bool is(Kind k) const { return kind == k; }
   const Node* find(std::string_view key) const;
@@ -34,9 +38,9 @@ struct Node {
   const Key* find_key(std::string_view key) const;
 };
 
-/// Parses sources[index] from `offset` on as exactly one document. Refuses anchors, aliases, tags, duplicate and
-/// complex keys, `<<`, and trees deeper or larger than any scene. Adds errors; nothing if there is no tree to go on
-/// with.
+/// Parses sources[index] from `offset` on as exactly one document.
+/// Refuses anchors, aliases, tags, duplicate and complex keys, `<<`, and trees deeper or larger than any scene.
+/// Adds errors to `diagnostics`. Returns nothing if no tree is left to continue with.
 std::optional<Node> parse_document(const std::vector<Source>& sources, std::uint32_t index, std::size_t offset,
                                    Diagnostics& diagnostics);
 

@@ -1,3 +1,5 @@
+// Decides by table which characters are unprintable, and escapes them.
+// A fixed table makes the result independent of the locale and of the C library.
 #include "yaml/printable.h"
 
 #include <fmt/format.h>
@@ -13,7 +15,7 @@ bool is_unprintable(char32_t code) {
   struct Block {
     char32_t first, last;
   };
-  // Unicode 15.1, DerivedGeneralCategory.txt. Not here: U+0600 to U+08E2 of Cf, which are signs that are seen.
+  // Unicode 15.1, DerivedGeneralCategory.txt. The visible signs of Cf, U+0600 to U+08E2, are left out.
   static constexpr Block blocks[] = {{0xAD, 0xAD},       {0x61C, 0x61C},     {0x180E, 0x180E},   {0x200B, 0x200F},
                                      {0x2028, 0x202E},   {0x2060, 0x206F},   {0xFEFF, 0xFEFF},   {0xFFF9, 0xFFFB},
                                      {0x13430, 0x1343F}, {0x1BCA0, 0x1BCA3}, {0x1D173, 0x1D17A}, {0xE0000, 0xE0FFF}};
@@ -32,7 +34,7 @@ std::string printable(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size();) {
     char32_t code = 0;
-    const int length = utf8_length(text, i, code);  // 0: no UTF-8 here
+    const int length = utf8_length(text, i, code);  // 0: not UTF-8
     if (length == 0)
       result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i]));
     else if (is_unprintable(code))

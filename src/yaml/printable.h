@@ -1,20 +1,20 @@
 #pragma once
-// Text of unknown origin, a file's name or a title, as a person may see it.
+// Text of unknown origin, such as a file name or a title, made safe to display.
 #include <string>
 #include <string_view>
 
 namespace carom {
 
-/// Whether a character shows nothing of itself or changes how others are shown: control characters, line separators,
-/// marks that turn the direction of text or join and part letters unseen (Unicode's categories Cc, Cf, Zl and Zp, but
-/// for the few visible ones of Cf).
+/// Whether a character is invisible or changes how others are shown.
+/// These are control characters, line separators, marks of text direction,
+/// and marks that join or split letters invisibly.
+/// They are Unicode's categories Cc, Cf, Zl and Zp without the few visible characters of Cf.
 bool is_unprintable(char32_t code);
 
-/// The character by its number, as JSON and most languages write it: "\u202e"; beyond U+FFFF two such, a surrogate
-/// pair.
+/// The character as an escape sequence of JSON: "\u202e". A character beyond U+FFFF becomes a surrogate pair.
 std::string escaped(char32_t code);
 
-/// `text` with what is unprintable, and bytes that are no UTF-8, written as "\x1b" or "\u202e".
+/// `text` with unprintable characters and bytes that are not UTF-8 escaped as "\x1b" or "\u202e".
 std::string printable(std::string_view text);
 
 }  // namespace carom

@@ -1,5 +1,5 @@
-// Reading with O_NONBLOCK and fstat rather than std::ifstream: a FIFO would block, a directory or a device would be
-// read.
+// Reads files with O_NONBLOCK and fstat and not with std::ifstream.
+// A stream would block on a FIFO and would read a directory or a device.
 #include "yaml/source.h"
 
 #include <fcntl.h>
@@ -15,8 +15,10 @@
 namespace carom {
 namespace {
 
-constexpr std::uint64_t max_brackets = 4'000'000;  // and quotes, at about 200 bytes each while scanning
-constexpr int max_open_brackets = 1000;            // more than the depth cap, so that the cap's own message comes first
+// Brackets, quotes, commas and colons. Each takes about 200 bytes while scanning.
+constexpr std::uint64_t max_brackets = 4'000'000;
+// More than the depth limit of document.cpp, so that the message of that limit comes first.
+constexpr int max_open_brackets = 1000;
 constexpr int max_shown_tabs = 10;
 
 struct OpenFile {
@@ -31,7 +33,7 @@ void refuse_file(Diagnostics& diagnostics, const std::string& path, const std::s
   diagnostics.add_unplaced(path, why, remedy);
 }
 
-/// The raw bytes without byte order mark; "\r\n" becomes "\n", so that columns and shown lines need no care for it.
+/// Removes the byte order mark and turns "\r\n" into "\n". Columns and shown lines then need no special case.
 void normalise(std::string& text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   if (text.find('\r') == std::string::npos) return;
@@ -43,7 +45,7 @@ void normalise(std::string& text) {
   text.resize(to);
 }
 
-/// False: the file looks like UTF-16 or UTF-32 (which yaml-cpp would decode behind our back).
+/// False: the file looks like UTF-16 or UTF-32, which yaml-cpp would decode silently.
 bool looks_like_utf8(std::string_view text) {
   return !text.starts_with("\xFF\xFE") && !text.starts_with("\xFE\xFF") &&
          !(text.size() >= 2 && (text[0] == 0) != (text[1] == 0)) &&
@@ -74,7 +76,7 @@ int utf8_length(std::string_view text, std::size_t i, char32_t& code) {
     if ((next & 0xC0) != 0x80) return 0;
     code = (code << 6) | (next & 0x3F);
   }
-  // Overlong forms, surrogates, beyond U+10FFFF.
+  // Overlong forms, surrogates, and code points beyond U+10FFFF.
   if ((length == 3 && code < 0x800) || (length == 4 && (code < 0x10000 || code > 0x10FFFF))) return 0;
   if (code >= 0xD800 && code <= 0xDFFF) return 0;
   return length;
@@ -111,7 +113,7 @@ bool read_source(const std::string& path, Source& source, Diagnostics& diagnosti
     return false;
   }
 
-  // The size can change while we read, so the cap holds for what is read, not for what was promised.
+  // The size can change during reading. The limit therefore applies to what was read, not to what fstat returned.
   std::string& text = source.text;
   text.clear();
   const auto too_big = [&] {
@@ -155,7 +157,8 @@ bool check_text(Source& source, std::uint32_t index, Diagnostics& diagnostics) {
   int tab_lines = 0;
   std::uint64_t brackets = 0;
   int open_brackets = 0;
-  bool indenting = true;  // only spaces so far in this line
+  // Only spaces so far in this line.
+  bool indenting = true;
   bool tab_in_line = false;
   for (std::size_t i = 0; i < text.size();) {
     char32_t code = 0;
@@ -172,7 +175,8 @@ bool check_text(Source& source, std::uint32_t index, Diagnostics& diagnostics) {
                         "expected spaces: YAML does not allow tabs for indentation, and a scene has none at all");
       }
       tab_in_line = true;
-      if (indenting) can_go_on = false;  // what it was meant to line up with is anybody's guess
+      // The intended indentation is unknown.
+      if (indenting) can_go_on = false;
       text[i] = ' ';
     } else if (code == '\n') {
       indenting = true;

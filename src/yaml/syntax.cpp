@@ -1,3 +1,6 @@
+// Finds the cause of a parse failure: unpaired brackets and quotes, a missing ':', wrong indentation.
+// It reads the text itself, because yaml-cpp reports the place where it noticed the failure, often many lines later.
+// The checks run from the most to the least specific. Without a match the parser's own message is shown.
 #include "yaml/syntax.h"
 
 #include <fmt/format.h>
@@ -13,13 +16,14 @@
 namespace carom {
 namespace {
 
-/// A bracket or quote that has no partner.
+/// A bracket or quote without a partner.
 struct Unpaired {
   std::size_t open = std::string::npos;
-  std::size_t close = std::string::npos;  // the bracket that closes another kind; npos: the text ends
+  /// A bracket of another kind that stands where the partner is expected. npos: the text ends before any partner.
+  std::size_t close = std::string::npos;
 };
 
-/// Walks brackets, quotes and comments as YAML sees them (blocks of text aside). What it finds only serves a message.
+/// Walks brackets, quotes and comments as YAML reads them, except in blocks of text. The result serves only a message.
 Unpaired find_unpaired(std::string_view text, std::size_t begin) {
   std::vector<std::size_t> open;
   for (std::size_t i = begin; i < text.size(); ++i) {
@@ -68,9 +72,9 @@ bool has_colon(std::string_view line) {
   return line.find(": ") != std::string_view::npos || line.ends_with(':');
 }
 
-/// What one of the parser's complaints means.
+/// The meaning of one of the parser's messages.
 struct SyntaxCause {
-  std::string_view complaint;  // a part of it
+  std::string_view complaint;  // a part of the message
   std::string_view message, remedy;
 };
 
@@ -97,7 +101,7 @@ constexpr SyntaxCause causes_in_lines[] = {
     {"bad file", "values are nested too deep", "expected a scene"},
 };
 
-/// A failure of the parser. Its functions add an error where they know the cause, and say whether they do.
+/// A failure of the parser. Each function adds an error if it finds the cause, and returns whether it did.
 class ParseFailure {
  public:
   ParseFailure(const Source& source, std::uint32_t index, std::size_t begin, std::size_t noticed,
@@ -165,7 +169,7 @@ class ParseFailure {
     return true;
   }
 
-  /// Two ": " in a line, or a line above that lacks its own and was read on.
+  /// Two ": " in a line, or a line above without a ':' that the parser joined to this one.
   bool explain_map_value() {
     if (!says("illegal map value")) return false;
     const std::size_t start = line_start(text_, noticed_);

@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with text that is no YAML, said where the author will look.
+// The cause of a syntax error, reported at the place where the author will look for it.
 #include <cstdint>
 #include <string>
 
@@ -9,9 +9,9 @@ namespace carom {
 
 class Diagnostics;
 
-/// Adds one error for a parse failure that the parser noticed at byte `noticed` of `source` and calls `complaint`.
-/// The parser notices late: an open bracket at the end of the file, a missing ':' at the next one. This looks for the
-/// cause.
+/// Adds one error for a parse failure that the parser noticed at byte `noticed` of `source`. `complaint`: its message.
+/// The parser notices late: an open bracket at the end of the file, a missing ':' at the next one.
+/// This function looks for the cause.
 void explain_syntax(const Source& source, std::uint32_t index, std::size_t begin, std::size_t noticed,
                     const std::string& complaint, Diagnostics& diagnostics);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Values of a scene file as JSON, for what describes the format to other programs.
+// Values of a scene file as JSON, for descriptions of the format in other programs.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -8,17 +8,18 @@
 
 namespace carom {
 
-/// Plain scalars become numbers, true or false where they are written so, text otherwise; null stays null.
+/// Plain scalars that are written as numbers, true or false become these.
+/// Other scalars become text, and null stays null.
 nlohmann::ordered_json json_of(const Node& node);
 
-/// The same of one line of YAML that has been read before: a default or an example of the table of fields, a value of a
-/// sweep.
+/// The same of one line of YAML: a default or an example of the table of fields, or a value of a sweep.
+/// The line has been parsed successfully before.
 nlohmann::ordered_json json_of_yaml(std::string_view yaml);
 
-/// Such a line as a table's cell: text without the quotes that YAML wants, all else as it stands.
+/// Such a line as a cell of a table: text without the quotes that YAML requires, any other value unchanged.
 std::string cell_text(std::string_view yaml);
 
-/// A number without a fraction as JSON has it: 2, not 2.0.
+/// A number as JSON. A whole one has no fraction: 2, not 2.0.
 nlohmann::ordered_json number_json(double value);
 
 }  // namespace carom

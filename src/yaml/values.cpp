@@ -1,3 +1,6 @@
+// Numbers of a scene file, parsed with std::from_chars after a check of the form, so that no locale matters.
+// The form is stricter than YAML's: no leading zeros, no hexadecimal, no infinity, no NaN.
+// Whole numbers may be written as 1e6. A scalar that fails gets a message about its likely cause.
 #include "yaml/values.h"
 
 #include <fmt/format.h>
@@ -14,7 +17,7 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// The longest start of `text` that is written like a number; empty: none.
+/// The longest start of `text` that has the form of a number. Empty: none.
 std::string_view number_prefix(std::string_view text) {
   std::size_t i = 0;
   if (i < text.size() && (text[i] == '-' || text[i] == '+')) ++i;
@@ -114,7 +117,7 @@ Complaint explain_number(const Node& node, const WantedNumber& number) {
       return {fmt::format("{} has a leading zero", shown),
               fmt::format("write {}{}", text[0] == '-' ? "-" : "", better)};
     }
-    // All that is left is a number beyond the range of a double.
+    // What remains is a number beyond the range of a double.
     if (is_zero(prefix)) return {fmt::format("{} is not a number", shown), wanted};
     const std::size_t e = lower.find('e');
     const bool tiny = e != std::string::npos ? lower[e + 1] == '-' : bare.starts_with('0') || bare.starts_with('.');

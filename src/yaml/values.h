@@ -1,5 +1,5 @@
 #pragma once
-// Scalars of a scene file -> numbers. By std::from_chars, so that no locale has a say.
+// Scalars of a scene file to numbers. They use std::from_chars, which does not depend on the locale.
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -9,27 +9,27 @@
 
 namespace carom {
 
-/// A decimal number as YAML writes it; finite, without a leading zero, and not so small that it would become 0.
+/// A decimal number as YAML writes it: finite, without a leading zero, and not rounded to 0.
 std::optional<double> parse_number(std::string_view text);
 
 /// A whole number >= 0, as digits or as any number that is whole (1e6).
 std::optional<std::uint64_t> parse_whole(std::string_view text);
 
-/// The number of a group's member or of a list's entry: digits alone, without a leading zero.
+/// The number of a group's member or of a list's entry: digits only, without a leading zero.
 std::optional<std::uint64_t> parse_index(std::string_view text);
 
-/// What is wrong with a scalar that is no number, and what to write instead.
+/// What is wrong with a scalar that is not a number, and what to write instead.
 struct Complaint {
   std::string message, remedy;
 };
-/// The number that stands there by the format: its key and unit, and "expected a number above 0 in kg".
+/// The number that the format expects: its key and unit, and "expected a number above 0 in kg".
 struct WantedNumber {
   std::string_view key, unit;
   std::string expected;
 };
 Complaint explain_number(const Node& node, const WantedNumber& number);
 
-/// The shortest decimal that reads back to the same double.
+/// The shortest decimal that parses to the same double.
 std::string shortest(double value);
 
 /// A name: [A-Za-z_][A-Za-z0-9_-]*
