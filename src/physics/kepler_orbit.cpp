@@ -28,9 +28,9 @@ struct Constants {
   DoubleDouble beta;    // m^2/s^2
   DoubleDouble eta;     // m^2/s: x . v
   DoubleDouble zeta;    // m^3/s^2: mu - beta r
-  DoubleDouble square;  // m^2/s: x . v
+  DoubleDouble square;  // m^4/s^2: of h
   DoubleDouble bend;    // m^3/s^2: |mu| times the eccentricity
-  Vec3 h;               // m^4/s^2: |h|^2
+  Vec3 h;               // m^2/s: x cross v
 };
 
 Constants constants(double mu, const Vec3& x, const Vec3& v) {

@@ -20,8 +20,8 @@ namespace {
 constexpr double dependent = 0x1p-43;
 // A share of the greatest force: a smaller negative force is only rounding.
 constexpr double pulling = 8 * 0x1p-53;
-constexpr double refined_change =
-    4 * 0x1p-53;  // of a row's scale: what is rounding of the data where residuals are exact
+// A share of a row's scale: the rounding of the data, where residuals are exact.
+constexpr double refined_change = 4 * 0x1p-53;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 }  // namespace

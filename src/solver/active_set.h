@@ -19,7 +19,8 @@ class DualActiveSet {
   /// The quality of an island's answer.
   struct Result {
     Judgement judgement;
-    bool infeasible = false;  // some row can be kept by no motion that keeps those taken in before
+    // Some row is violated by every motion that satisfies the rows appended before it.
+    bool infeasible = false;
   };
 
   /// Starts from the rows with a guess, the greatest forces first.
