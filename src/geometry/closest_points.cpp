@@ -1,5 +1,6 @@
-// Where a box or an upright cylinder and a wall at an angle to it are nearest. Two convex things that do not overlap
-// are nearest where a corner of one faces the other or where an edge crosses an edge; there are few enough to try all.
+// The closest points of a box or an upright cylinder and a wall at an angle to it.
+// Two convex bodies that do not overlap are nearest where a corner of one faces the other, or where two edges cross.
+// The candidates are so few that all are tried. Ties give the middle of all closest points.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,7 +13,7 @@ namespace carom {
 
 namespace {
 
-/// A box's or a cylinder's nearest point to p, both from its centre.
+/// The point of a box or a cylinder nearest to p, both from its centre.
 Vec3 clamped(const Volume& v, const Vec3& p) {
   if (v.shape == Shape::box) return p.cwiseMax(-v.half).cwiseMin(v.half);
   const double rho = std::sqrt(p.x() * p.x() + p.z() * p.z());
@@ -38,7 +39,7 @@ std::array<double, 2> closest_parameters(const Segment& p, const Segment& q) {
   return {s, t};
 }
 
-/// The parameter at which a segment comes nearest to a cylinder: the distance is convex, its slope is bisected.
+/// The parameter at which a segment is nearest to a cylinder. The distance is convex, and its slope is bisected.
 double nearest_parameter(const Segment& p, const Volume& cylinder) {
   double low = 0, high = 1;
   const auto slope = [&](double s) {
@@ -57,7 +58,7 @@ double nearest_parameter(const Segment& p, const Volume& cylinder) {
 }  // namespace
 
 ClosestPoints closest_points(const Volume& a, const Vec3& xa, const Wall& wall, const Vec3& xb) {
-  // All from a's centre.
+  // All positions are from a's centre.
   const Vec3 center = xb - xa, right = wall.half_width * wall.right, up = wall.half_height * wall.up;
   std::vector<ClosestPoints> all;
   std::array<Segment, 4> edges;
@@ -86,7 +87,7 @@ ClosestPoints closest_points(const Volume& a, const Vec3& xa, const Wall& wall, 
       }
     }
   } else {
-    // The cylinder's foremost point towards the wall's plane, and the wall's edges.
+    // Candidates: the cylinder's foremost point towards the wall's plane, and the wall's edges.
     const Vec3 n = wall.normal.dot(center) > 0 ? wall.normal : Vec3(-wall.normal);
     const double level = std::sqrt(n.x() * n.x() + n.z() * n.z());
     Vec3 foremost(0, n.y() > 0 ? a.half.y() : n.y() < 0 ? -a.half.y() : 0, 0);

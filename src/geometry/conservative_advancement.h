@@ -1,9 +1,11 @@
 #pragma once
-// The first contact of a point with a convex set, by separating planes. The set lies wholly beyond the plane through
-// its nearest point; until the path comes to that plane (on a parabola: a quadratic's root) there is no contact, so the
-// search goes there and looks again. No contact can be jumped over. Straight on this is Newton's method on a convex
-// gap; where the path only grazes, each step halves what is left. At the end the time is found once more from the
-// feature's own equation.
+// The first contact of a point with a convex set, by conservative advancement with separating planes.
+// The set lies wholly beyond the plane through its nearest point. Until the path arrives at that plane there is no
+// contact.
+// On a parabola that time is the root of a quadratic. The search moves there and repeats, so that no contact can be
+// missed.
+// Head on, this is Newton's method on a convex gap. Where the path only grazes, each step halves the rest.
+// At the end the time is computed once more from the feature's own equation.
 #include <algorithm>
 #include <cmath>
 
@@ -21,10 +23,10 @@ inline RelativeMotion in_frame(const auto& frame, const RelativeMotion& m) {
 template <typename Set, typename Way = ParabolicWay>
 class ConservativeAdvancement {
  public:
-  /// far: m, the size of the positions that motion.d is the difference of.
+  /// far: the size of the positions of which motion.d is the difference (m).
   ConservativeAdvancement(const Set& set, const RelativeMotion& motion, double far, double horizon)
       : ConservativeAdvancement(set, motion, ParabolicWay(motion), far, horizon) {}
-  /// On a way of another kind, which `motion` begins.
+  /// On a path of another kind, which begins as `motion` does.
   ConservativeAdvancement(const Set& set, const RelativeMotion& motion, const Way& way, double far, double horizon)
       : set_(set), m_(motion), way_(way), far_(far), horizon_(horizon) {}
 
@@ -37,7 +39,7 @@ class ConservativeAdvancement {
     if (s.gap <= 0 && set_.sharp(s.feature)) s = set_.at(m_.d, set_.foremost_face(m_.d, s.feature));
     double t = 0;
     if (s.gap <= 0) {
-      // From here on its gap is one that leaves from zero, whatever rounding made of it.
+      // From here on the gap is one that leaves from zero, whatever its rounding.
       left_ = s.feature;
       double speed = s.normal.dot(m_.w);
       if (std::abs(speed) <= noise(s.feature)) speed = 0;
@@ -45,7 +47,7 @@ class ConservativeAdvancement {
       t = leaves_until(s, 0, m_.w, speed);
       if (t == 0) return {0, s.feature};
     }
-    // A path that leaves a curved surface with its curvature, or nearly, takes thousands of steps to come clear of it.
+    // A path that leaves a curved surface with nearly its curvature takes thousands of steps to come clear of it.
     while (t <= horizon_) {
       s = look(t);
       const Vec3 v = way_.velocity(t);
@@ -67,7 +69,7 @@ class ConservativeAdvancement {
         if (s.feature != left_) s = over_the_edge(s, t, v);
         double out = s.normal.dot(v);
         if (std::abs(out) <= noise(s.feature)) out = 0;
-        // A curved surface may have turned away by the time the path comes to the plane.
+        // A curved surface may have turned away by the time the path arrives at the plane.
         if (out < 0 && p != there && !closed(look(t + on), there)) {
           t += on;
           continue;
@@ -83,7 +85,7 @@ class ConservativeAdvancement {
 
  private:
   static constexpr double rounding = 0x1p-53;
-  /// What rounding makes of a speed along the normal, which on a curved surface turns with the positions' rounding.
+  /// The rounding of a speed along the normal. On a curved surface the normal turns with the positions' rounding.
   double noise(std::uint8_t feature) const {
     const double turn = set_.flat(feature) ? 0 : far_ / set_.curvature_radius(m_.d, feature);
     return 16 * rounding * m_.speeds * (1 + turn);
@@ -98,16 +100,17 @@ class ConservativeAdvancement {
     const Vec3 p = m_.d + displacement(t);
     const Separation s = set_.nearest(p);
     if (left_ == no_feature) return s;
-    // The feature left is the one whose gap is known to be zero at the start; near the seam to the next one, rounding
-    // must not decide between the two.
+    // The gap of `left_` is zero at the start by definition. Near the seam to the next feature, rounding must not
+    // decide between the two.
     const double gap = set_.displaced_gap(m_.d, left_, 0, displacement(t));
     const double seam = 16 * rounding * (set_.size() + m_.d.cwiseAbs().sum());
     if (s.feature == left_ || (gap > s.gap && gap - s.gap <= seam)) return {gap, set_.at(p, left_).normal, left_};
     return s;
   }
 
-  /// Of a point within rounding of a sharp edge: the face over which it gets away or along which it slides, if there is
-  /// one. Faces that lie in one plane, but for rounding, do not meet.
+  /// For a point within rounding of a sharp edge: the face over which it leaves or along which it slides, if there is
+  /// one.
+  /// Faces that lie in one plane, but for rounding, do not meet.
   Separation over_the_edge(const Separation& s, double t, const Vec3& v) const {
     const Vec3 p = m_.d + displacement(t);
     const double ahead = 8 * rounding * (set_.size() + far_);
@@ -122,23 +125,25 @@ class ConservativeAdvancement {
     return s;
   }
 
-  /// How long a path that leaves a closed gap at time t is surely outside: 0 if it presses on instead.
+  /// The time for which a path that leaves a closed gap at time t is surely outside. It is 0 if the path presses on
+  /// instead.
   double leaves_until(const Separation& s, double t, const Vec3& v, double speed) const {
     const Vec3 relative_acceleration = way_.acceleration(t);
     const double acceleration = s.normal.dot(relative_acceleration);
     if (acceleration >= 0 || speed > 0) return way_.back(s.normal, t, speed, horizon_ - t);
     const double unsure = 16 * rounding * relative_acceleration.cwiseAbs().sum();
-    if (!Way::parabola && -acceleration <= unsure)  // what is rounding takes it no deeper than rounding
-      return std::sqrt(rounding * (far_ + set_.size()) / unsure);
+    // Rounding of the acceleration takes the path no deeper than rounding of positions.
+    if (!Way::parabola && -acceleration <= unsure) return std::sqrt(rounding * (far_ + set_.size()) / unsure);
     const Vec3 p = m_.d + displacement(t);
     if (!(acceleration + set_.bending(p, s.feature, v) > 0)) return 0;
-    // It flies off along a curved surface that turns away faster than the path does. The plane tells nothing; a short
-    // step, as the surface's size goes, lifts it off.
+    // The path flies off along a curved surface that turns away faster than it does. The plane gives no information
+    // here.
+    // A short step, relative to the surface's size, lifts the path off.
     constexpr double step = 0x1p-26;
     return step * std::min(set_.size() / v.norm(), std::sqrt(set_.size() / relative_acceleration.norm()));
   }
 
-  /// Of the faces that make a sharp edge: that over which the point gets away.
+  /// Of the faces at a sharp edge, the one over which the point leaves.
   std::uint8_t face_left(std::uint8_t edge, const Vec3& p, const Vec3& v, const Vec3& a) const {
     std::uint8_t best = no_feature;
     double best_speed = 0, best_acceleration = 0;
@@ -155,13 +160,14 @@ class ConservativeAdvancement {
     return best;
   }
 
-  /// The contact near time t, as exact as the feature's own equation gives it.
+  /// The contact near time t, to the precision of the feature's own equation.
   FeatureTime contact(double t, std::uint8_t feature) const {
     if (set_.sharp(feature)) feature = set_.foremost_face(m_.d + displacement(t), feature);
     const bool is_left = feature == left_;
     const Separation start = set_.at(m_.d, feature);
     const double gap = is_left ? 0 : start.gap;
-    // Closed form, from the start on; good if it is the contact and no other crossing of the feature's surface.
+    // The closed form, from the start on. It is valid if it is the contact, and not another crossing of the feature's
+    // surface.
     double closed = never;
     RelativeMotion reduced;
     double radius;
@@ -181,8 +187,8 @@ class ConservativeAdvancement {
     if (closed < never && std::abs(look(closed).gap) <= tolerance(closed) &&
         (is_left || std::abs(set_.at(m_.d + displacement(closed), feature).gap) <= tolerance(closed)))
       return {closed, feature};
-    // Newton's method on the feature's gap; where the path only just comes to the feature's rim, its surface, endlessly
-    // continued, may be met elsewhere.
+    // Newton's method on the feature's gap. Where the path only just touches the feature's rim, the method may find
+    // another point of the extended surface.
     const double found = t;
     double last = never;
     for (int k = 0; k < 8; ++k) {

@@ -1,3 +1,5 @@
+// Times of impact of spheres and planes in closed form where there is one, and by a bracketing search on quartics.
+// Discriminants and gaps near zero are evaluated in double-double. A grazing contact is then as exact as its data.
 #include "geometry/contact_time.h"
 
 #include <algorithm>
@@ -10,14 +12,14 @@ namespace carom {
 
 namespace {
 
-/// Rounding of a relative velocity, in units of the speeds that it is the difference of.
+/// Rounding of a relative velocity, in units of the speeds of which it is the difference.
 constexpr double velocity_noise = 16 * 0x1p-53;
 
-/// Of the square of a distance: gaps that it is too coarse to tell from none.
+/// Relative rounding of a squared distance: a smaller gap cannot be distinguished from none.
 constexpr double gap_noise = 0x1p-51;
 
-/// t = c / (-b + sqrt(b^2 - a c)), with the discriminant as a s^2 - |d x w|^2 (Lagrange), so that a long path does not
-/// swamp a small miss distance.
+/// t = c / (-b + sqrt(b^2 - a c)), with the discriminant as a s^2 - |d x w|^2 (Lagrange).
+/// In that form a long path does not swamp a small miss distance.
 double straight_contact_time(const RelativeMotion& m, double s, double horizon) {
   const double b = m.d.dot(m.w);
   if (b >= 0) return never;
@@ -51,13 +53,13 @@ Polynomial squared_gap_polynomial(const RelativeMotion& m, double s) {
 
 namespace {
 
-/// Its roots are the contacts. Where t = 0 is one by definition, what is left is a cubic.
+/// The roots of this polynomial are the contacts. Where t = 0 is one by definition, a cubic is left.
 Polynomial contact_polynomial(const RelativeMotion& m, double s) {
   const Polynomial f = squared_gap_polynomial(m, s);
   return m.just_separated ? Polynomial{{f.c[1], f.c[2], f.c[3], f.c[4]}, 3} : f;
 }
 
-/// With what rounding may make of each term taken from it: of a squared distance of at most (p + q t + r t^2)^2.
+/// The polynomial less the greatest rounding of each term, for a squared distance of at most (p + q t + r t^2)^2.
 Polynomial lowered(Polynomial f, const RelativeMotion& m, double s) {
   constexpr double rounding = 0x1p-49;
   const double p = m.d.cwiseAbs().sum() + s, q = m.w.cwiseAbs().sum(), r = 0.5 * m.a.cwiseAbs().sum();
@@ -87,18 +89,19 @@ double CurvedContacts::next() {
   return never;
 }
 
-/// |d + w t + a t^2/2|^2 - s^2 as the exact value rounds; just separated, with |d|^2 for s^2.
+/// |d + w t + a t^2/2|^2 - s^2 as the exact value rounds. Just separated, it has |d|^2 for s^2.
 double CurvedContacts::exact_gap(double t) const {
   DoubleDouble square = m_.just_separated ? DoubleDouble{0, 0} - dot_compensated(m_.d, m_.d) : -two_product(s_, s_);
   for (const DoubleDouble& x : exact_position(m_, t)) square = square + x * x;
   return square.value();
 }
 
-/// The contact between two times where rounding leaves room for one, most likely close to the first: by Newton's
-/// method, and by bisection wherever such a step would leave the bracket or does not shrink.
+/// The contact between two times where rounding allows one, most likely close to the first.
+/// The method is Newton's. Bisection replaces a step that leaves the bracket or does not shrink.
 double CurvedContacts::within(double from, double to) const {
   double l = from, r = to, t = from, last = never;
-  bool deep = false;  // at r the gap is known to be below zero
+  // The gap at r is known to be below zero.
+  bool deep = false;
   for (int iteration = 0; iteration < 200; ++iteration) {
     const double gap = exact_gap(t);
     if (gap == 0 || (gap < 0 && t == from)) return t;
@@ -113,7 +116,8 @@ double CurvedContacts::within(double from, double to) const {
     if (newton && step * step * curvature <= -0x1p-54 * t * slope) return next;
     if (!newton) {
       deep = deep || exact_gap(r) < 0;
-      if (!deep) return never;  // it only comes near
+      // The path only comes near.
+      if (!deep) return never;
       next = l + 0.5 * (r - l);
       if (next == l || next == r) return next;
     }
@@ -138,7 +142,7 @@ double plane_contact_time(double gap, double speed, double acceleration, double 
   } else if (gap <= 0 && speed == 0) {
     t = acceleration < 0 ? 0 : never;
   } else if (gap <= 0) {
-    // Leaving from a gap that is closed but for rounding: it comes back as one that leaves from zero.
+    // The body leaves from a gap that is closed but for rounding. It returns as one that leaves from zero.
     if (acceleration < 0) t = 2 * speed / -acceleration;
   } else if (acceleration == 0) {
     if (speed < 0) t = gap / -speed;

@@ -1,7 +1,7 @@
 #pragma once
-// When moving spheres meet: each other, planes, and the faces, edges and corners of walls. Times are in seconds from
-// the instant at which the arguments hold; `never` (polynomial.h) means no contact. An approach slower than the
-// rounding of the velocities it comes from is none: touching bodies are not hit again by noise.
+// Times of impact of moving spheres with each other, with planes, and with the faces, edges and corners of walls.
+// Times are in seconds from the instant at which the arguments hold. `never` (polynomial.h) means no contact.
+// An approach slower than the rounding of its velocities is none, so that noise does not strike touching bodies again.
 #include <cstdint>
 
 #include "numerics/polynomial.h"
@@ -14,27 +14,29 @@ struct Wall;
 /// Two points' relative motion: d = x_b - x_a (m), w = v_b - v_a (m/s), a = a_b - a_a (m/s^2).
 struct RelativeMotion {
   Vec3 d, w, a;
-  double speeds;        // |v_a| + |v_b|, m/s: w carries rounding of this size
-  bool just_separated;  // they touch, having just collided: the gap is zero by definition, not by computation
+  // |v_a| + |v_b|, m/s: the rounding of w has this scale.
+  double speeds;
+  // The two touch and have just collided. Their gap is zero by definition, not by computation.
+  bool just_separated;
 };
 
-/// First t in [0, horizon] at which spheres with radii that sum to s (m) touch and approach.
-/// |d + w t + a t^2/2|^2 = s^2: a quadratic where a = 0, else a quartic (numerics: the Lagrange identity, the product
-/// form of the root and compensated dots make a grazing or nearly touching pair as exact as its data; for the quartic,
-/// see CurvedContacts).
+/// First t in [0, horizon] at which spheres with radii of sum s (m) touch and approach.
+/// The equation is |d + w t + a t^2/2|^2 = s^2: a quadratic where a = 0, otherwise a quartic.
+/// The Lagrange identity, the product form of the root and compensated dot products keep the quadratic exact.
+/// A grazing or nearly touching pair is then as exact as its data. For the quartic, see CurvedContacts.
 double sphere_contact_time(const RelativeMotion& motion, double s, double horizon);
 
-/// |d + w t + a t^2/2|^2 - s^2, m^2. just_separated: its constant term is zero.
+/// |d + w t + a t^2/2|^2 - s^2, m^2. With just_separated the constant term is zero.
 Polynomial squared_gap_polynomial(const RelativeMotion& motion, double s);
 
-/// The contacts of spheres of unequal accelerations, one after the other: a curved path may enter twice. The quartic's
-/// coefficients lose what the square of a long path is rounded to, and a grazing pair is as inexact as they are. So it
-/// only tells on which pieces of the path contact is possible, by the least value that rounding allows; there the gap
-/// is evaluated in double-double.
+/// The contacts of spheres of unequal accelerations, one after the other, because a curved path may enter twice.
+/// The quartic's coefficients lose the digits to which the square of a long path is rounded.
+/// So the quartic only gives the pieces of the path on which contact is possible, by its least value within rounding.
+/// On these pieces the gap is evaluated in double-double.
 class CurvedContacts {
  public:
   CurvedContacts(const RelativeMotion& motion, double s, double horizon);
-  /// s, or never: there is none left.
+  /// The next contact (s); never: there is no other.
   double next();
 
  private:
@@ -44,11 +46,12 @@ class CurvedContacts {
   RelativeMotion m_;
   double s_;  // m
   Polynomial f_;
-  bool again_;  // they have just separated, and approach again: something else has changed their velocities since
+  // They have just separated and approach again, because another impact has changed their velocities since.
+  bool again_;
   Descents pieces_;
 };
 
-/// First t in [0, horizon] at which gap + speed t + acceleration t^2/2 (m; gap > 0: free) comes down through zero.
+/// First t in [0, horizon] at which gap + speed t + acceleration t^2/2 (m; gap > 0: free) crosses zero downwards.
 /// `noise` (m/s): a slower approach at a closed gap is none. just_separated: the gap is zero by definition.
 double plane_contact_time(double gap, double speed, double acceleration, double noise, bool just_separated,
                           double horizon);
@@ -60,8 +63,8 @@ double plane_gap(const Vec3& x, const Vec3& point, const Vec3& normal, double ra
 enum WallFeature : std::uint8_t {
   wall_front,  // on the normal's side
   wall_back,
-  wall_edges,                    // four: right, left, top, bottom
-  wall_corners = wall_edges + 4  // four: right top, left top, right bottom, left bottom
+  wall_edges,                    // right, left, top, bottom
+  wall_corners = wall_edges + 4  // right top, left top, right bottom, left bottom
 };
 inline constexpr std::uint8_t no_feature = 255;
 
@@ -70,20 +73,21 @@ struct WallContact {
   std::uint8_t feature;  // of the wall
 };
 
-/// First contact of a sphere at x (m) with velocity v and acceleration a with a wall. A wall fattened by the radius is
-/// convex: slabs over its faces, cylinders along its edges, balls at its corners; the first entry into any of them, on
-/// its own stretch, is the contact. `left`: the feature that the sphere has just bounced off, or no_feature.
+/// First contact of a sphere at x (m) with velocity v (m/s) and acceleration a (m/s^2) with a wall.
+/// A wall enlarged by the radius is convex: slabs over its faces, cylinders along its edges, balls at its corners.
+/// The contact is the first entry into any of them, on its own stretch. `left`: the feature that the sphere has just
+/// bounced off, or no_feature.
 WallContact wall_contact_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double radius,
                               std::uint8_t left, double horizon);
 
-/// The same of the wall's motion seen from the sphere: d = wall.center - x.
+/// The same, from the wall's motion as seen from the sphere: d = wall.center - x.
 WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, double radius, std::uint8_t left,
                               double horizon);
 
 /// The wall's point nearest to x (m).
 Vec3 nearest_on_wall(const Wall& wall, const Vec3& x);
 
-/// First t in (0, horizon] at which a sphere sliding over a face leaves it: its point of contact crosses the
+/// First t in (0, horizon] at which a sphere that slides over a face leaves it. Its point of contact then crosses the
 /// rectangle's rim.
 WallContact wall_release_time(const Wall& wall, const Vec3& x, const Vec3& v, const Vec3& a, double horizon);
 WallContact wall_release_time(const Wall& wall, const RelativeMotion& motion, double horizon);

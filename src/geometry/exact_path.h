@@ -1,6 +1,6 @@
 #pragma once
-// Where a path of degree two is, in double-double: exact for the given doubles but for a part in 2^100. So the time of
-// a grazing contact is as exact as the numbers that make it.
+// The position on a path of degree two in double-double, exact for the given doubles to a part in 2^100. The time of a
+// grazing contact is then as exact as its data.
 #include <array>
 #include <cmath>
 

@@ -1,3 +1,7 @@
+// The first zero of a distance under linear drag. Its second derivative is a sum of two exponentials, which changes
+// sign once at most.
+// That divides the horizon into a convex and a concave piece. On each, Newton's method with bisection finds the zero or
+// shows that there is none.
 #include "geometry/fading_descent.h"
 
 #include <algorithm>
@@ -7,8 +11,8 @@ namespace carom {
 
 namespace {
 
-/// Where `value` falls through zero between from, where it is positive, and to, where it is not: by Newton's method
-/// with the slope at hand, and halving where that leads out.
+/// The point at which `value` falls through zero between `from`, where it is positive, and `to`, where it is not.
+/// The method is Newton's with the given slope. Bisection replaces a step that leaves the bracket.
 template <typename Value, typename Slope>
 double fall_between(const Value& value, const Slope& slope, double from, double to, double guess) {
   double t = guess;
@@ -23,7 +27,7 @@ double fall_between(const Value& value, const Slope& slope, double from, double 
   return t;
 }
 
-/// f on [from, to], where its second derivative does not change its sign.
+/// The descent of f on [from, to], where its second derivative does not change sign.
 double descent_on(const FadingDistance& f, double from, double to) {
   const auto value = [&](double t) { return f(t); };
   const auto slope = [&](double t) { return f.slope(t); };
@@ -33,14 +37,16 @@ double descent_on(const FadingDistance& f, double from, double to) {
   if (f.bend_sign(middle) < 0) {
     if (at_from <= 0 && slope_from == 0) return from;
     if (f(to) > 0) return never;
-    double top = from;  // f falls from there on
+    // f falls from there on.
+    double top = from;
     if (slope_from > 0)
       top = fall_between(
           slope, [&](double t) { return f.curve(t); }, from, to, middle);
     return f(top) > 0 ? fall_between(value, slope, top, to, to) : top;
   }
   if (slope_from >= 0) return never;
-  double bottom = to;  // f falls up to there
+  // f falls up to there.
+  double bottom = to;
   if (f.slope(to) > 0)
     bottom =
         fall_between([&](double t) { return -f.slope(t); }, [&](double t) { return -f.curve(t); }, from, to, middle);
@@ -79,7 +85,8 @@ int FadingDistance::bend_sign(double t) const {
 
 double first_descent(const FadingDistance& f, double horizon) {
   if (!(horizon > 0)) return f.start <= 0 && f.slope(0) < 0 ? 0 : never;
-  double turn = horizon;  // where the terms cancel: once at most, for one of them fades more slowly
+  // The time at which the terms cancel. There is at most one, because one of them fades more slowly.
+  double turn = horizon;
   if (f.bend_sign(0) * f.bend_sign(horizon) < 0) {
     double low = 0, high = horizon;
     while (high - low > 0x1p-50 * high) {

@@ -1,5 +1,5 @@
 #pragma once
-// When what changes under linear drag comes down through zero.
+// The time at which a quantity under linear drag crosses zero downwards.
 #include <array>
 
 #include "numerics/polynomial.h"
@@ -17,14 +17,15 @@ struct FadingDistance {
   std::array<Term, 2> terms;
 
   double operator()(double t) const;
-  double slope(double t) const;   // m/s
-  double curve(double t) const;   // m/s^2
-  int bend_sign(double t) const;  // of curve(t), also where that is too small for a number
+  double slope(double t) const;  // m/s
+  double curve(double t) const;  // m/s^2
+  // The sign of curve(t), also where that underflows.
+  int bend_sign(double t) const;
 };
 
-/// The first t in [0, horizon] at which f comes down through zero, or `never`. From start = 0 on it does so at once if
-/// it falls from there. f'' changes its sign once at most, so that f is a convex and a concave piece: no root is
-/// missed.
+/// The first t in [0, horizon] at which f crosses zero downwards, or `never`. With start = 0 that is t = 0 if f falls
+/// from there.
+/// The second derivative changes its sign once at most, so that f is a convex and a concave piece. No root is missed.
 double first_descent(const FadingDistance& f, double horizon);
 
 }  // namespace carom

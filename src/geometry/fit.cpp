@@ -1,3 +1,7 @@
+// The smallest enclosing sphere, circle or box of a cloud of points. Sphere and circle take the farthest point into a
+// basis of at most four points, again and again (Gärtner 1999).
+// Weights that are wrong by rounding only give a smaller sphere, so that points nearly in a line or a plane need no
+// special case.
 #include "geometry/fit.h"
 
 #include <Eigen/QR>
@@ -14,7 +18,7 @@ namespace {
 
 using Points = std::span<const Vec3>;
 
-/// Up to four points and the weights with which they make the centre of their smallest sphere.
+/// Up to four points and their weights in the centre of their smallest sphere.
 struct Basis {
   std::array<Vec3, 4> points;
   std::array<double, 4> weights{};
@@ -23,11 +27,11 @@ struct Basis {
   double square = 0;
 };
 
-// The smallest sphere by its dual: for all weights w >= 0 of sum 1 and c = sum w p,
-//   sum w |p - c|^2 <= R^2,
-// with equality for the points that hold the smallest sphere, and the weights of its centre among them. So weights that
-// are wrong by rounding, as those of points nearly in a line or a plane are, give a smaller value and never win; and
-// the farthest point's distance from c bounds R from above.
+// The smallest sphere by its dual. For all weights w >= 0 of sum 1, with c = sum w p,
+//   sum w |p - c|^2 <= R^2.
+// Equality holds for the points that determine the smallest sphere, with the weights of its centre among them.
+// Weights that are wrong by rounding, as for points nearly in a line or a plane, give a smaller value and never win.
+// The farthest point's distance from c bounds R from above.
 void weigh(Basis& basis) {
   double sum = 0;
   for (int i = 0; i < basis.count; ++i) sum += basis.weights[i];
@@ -41,8 +45,8 @@ void weigh(Basis& basis) {
     basis.square += basis.weights[i] * (basis.points[i] - basis.center).squaredNorm();
 }
 
-/// Weights of the point equally far from all of the basis's points, in their affine hull. False: it is not between
-/// them, so that fewer of them hold the sphere.
+/// Weights of the point equally far from all points of the basis, in their affine hull. False: it is not between them,
+/// so that fewer points determine the sphere.
 bool solve(Basis& basis) {
   const int n = basis.count - 1;
   if (n == 0) {
@@ -50,7 +54,7 @@ bool solve(Basis& basis) {
     weigh(basis);
     return true;
   }
-  // With V = (p_i - p_0) = Q R: c = V m, V^T c = |p_i - p_0|^2 / 2; so R^T (Q^T c) = |..|^2 / 2, R m = Q^T c.
+  // With V = (p_i - p_0) = Q R: c = V m and V^T c = |p_i - p_0|^2 / 2. So R^T (Q^T c) = |..|^2 / 2 and R m = Q^T c.
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> edges(3, n);
   for (int i = 0; i < n; ++i) edges.col(i) = basis.points[i + 1] - basis.points[0];
   const Eigen::ColPivHouseholderQR<decltype(edges)> qr(edges);
@@ -69,8 +73,9 @@ bool solve(Basis& basis) {
   return true;
 }
 
-/// The smallest sphere around the basis's points and one more, outside of it: the largest of the smallest spheres
-/// around their subsets. Only those with the new point can have grown.
+/// The smallest sphere around the basis and one more point outside of it: the largest of the smallest spheres around
+/// their subsets.
+/// Only those with the new point can have grown.
 Basis joined(const Basis& basis, const Vec3& point) {
   Basis best = basis;
   for (unsigned subset = 0; subset < 1U << basis.count; ++subset) {
@@ -87,8 +92,8 @@ Basis joined(const Basis& basis, const Vec3& point) {
   return best;
 }
 
-/// Centre of the smallest sphere. Each pass takes in the farthest point (Gärtner 1999): the radius grows until no point
-/// is outside by more than rounding; a dozen passes are many.
+/// Centre of the smallest sphere. Each pass takes in the farthest point (Gärtner 1999).
+/// The radius grows until no point is outside by more than rounding. A dozen passes are many.
 Vec3 sphere_center(Points points) {
   Basis basis;
   basis.points[0] = points.front();
@@ -133,7 +138,7 @@ Fit tightest(Shape shape, Points points) {
   const double size = extent.maxCoeff();
   if (!(size > 0)) throw std::invalid_argument("all points are in one place: a volume around them has no size");
 
-  // Near the origin and near size 1 no square is lost to the exponent's range.
+  // Near the origin and near size 1 the exponent's range loses no square.
   const double across = shape == Shape::cylinder ? std::max(extent.x(), extent.z()) : size;
   if (!(across > 0))
     throw std::invalid_argument("the points have no extent along x and z: a cylinder around them has no radius");
@@ -141,14 +146,16 @@ Fit tightest(Shape shape, Points points) {
   std::vector<Vec3> near;
   if (shape != Shape::box) {
     near.reserve(points.size());
-    const Vec3 seen = shape == Shape::sphere ? Vec3(1, 1, 1) : Vec3(1, 0, 1);  // a cylinder's, from above
+    // A cylinder's points are taken as seen from above.
+    const Vec3 seen = shape == Shape::sphere ? Vec3(1, 1, 1) : Vec3(1, 0, 1);
     for (const Vec3& p : points) near.push_back(((p - middle) / unit).cwiseProduct(seen));
   }
   Fit fit{{shape, Vec3::Zero()}, middle};
   if (shape != Shape::box) {
     const Vec3 center = sphere_center(near);
     fit.center += center * unit;
-    for (std::size_t i = 0; i < points.size(); ++i) {  // from the centre as rounded
+    // From the centre as rounded.
+    for (std::size_t i = 0; i < points.size(); ++i) {
       near[i] = (points[i] - fit.center) / unit;
       if (shape == Shape::cylinder) near[i].y() = 0;
     }

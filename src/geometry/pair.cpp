@@ -1,3 +1,6 @@
+// The table of pairs: for each pair of shapes, which Minkowski sum it makes and in which frame.
+// A wall along the axes is a box without thickness, so that the same prism serves it. Other walls have sums of their
+// own.
 #include "geometry/pair.h"
 
 #include "physics/world.h"
@@ -72,8 +75,8 @@ PairPrism pair_prism(const World& world, Entity a, Entity b) {
   return pair;
 }
 
-// The sphere lies in the direction -p from the wall's centre. Across the wall an edge has one cylinder, two prism
-// edges.
+// The sphere lies in the direction -p from the wall's centre. Where a wall's edge has one cylinder, the prism has two
+// edges across the wall.
 std::uint8_t prism_feature(std::uint8_t feature, const Vec3& p) {
   const int across = p.z() < 0 ? -1 : 1;
   if (feature == wall_front) return PrismFeature{0, 0, -1}.code();
@@ -88,7 +91,8 @@ std::uint8_t prism_feature(std::uint8_t feature, const Vec3& p) {
 
 std::uint8_t wall_feature(std::uint8_t code) {
   const PrismFeature f = PrismFeature::of(code);
-  const int right = f.x > 0, up = f.y > 0;  // 0: on the side that right or up points to
+  // 0: on the side to which right or up points.
+  const int right = f.x > 0, up = f.y > 0;
   if (f.x != 0 && f.y != 0) return static_cast<std::uint8_t>(wall_corners + right + 2 * up);
   if (f.x != 0) return static_cast<std::uint8_t>(wall_edges + right);
   if (f.y != 0) return static_cast<std::uint8_t>(wall_edges + 2 + up);

@@ -1,5 +1,5 @@
 #pragma once
-// The table of pairs: which Minkowski sum two things make, and the frame in which it stands.
+// The table of pairs: which Minkowski sum two things make, and in which frame.
 #include "geometry/round_prism.h"
 #include "geometry/slab_sum.h"
 #include "geometry/tilted_sum.h"
@@ -10,15 +10,15 @@ namespace carom {
 enum class PairKind : std::uint8_t {
   spheres,        // a ball
   half_space,     // anything and a plane
-  sphere_wall,    // a rounded rectangle: contact_time.h, and its features
-  prism,          // volumes, and walls that lie to the axes as these do
+  sphere_wall,    // a rounded rectangle, with the features of contact_time.h
+  prism,          // volumes, and walls along the same axes
   box_wall,       // a wall at an angle: slabs
   cylinder_wall,  // a wall at an angle: slabs and oblique cylinders
 };
 
 PairKind pair_kind(const World& world, Entity a, Entity b);
 
-/// Orthonormal axes; y is the world's except for a sphere and a wall.
+/// Orthonormal axes. y is the world's, except for a sphere and a wall.
 struct Frame {
   Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
   bool turned = false;
@@ -26,8 +26,8 @@ struct Frame {
   Vec3 from(const Vec3& v) const { return turned ? Vec3(v.x() * x + v.y() * y + v.z() * z) : v; }
 };
 
-/// The pair's prism: of two volumes, or of a volume and a wall in line with it, or (in the wall's frame: along right,
-/// up, normal) of a sphere and a wall.
+/// The prism of a pair: two volumes, a volume and a wall in line with it, or a sphere and a wall.
+/// The last has the wall's frame: along right, up and normal.
 struct PairPrism {
   RoundPrism sum;
   Frame frame;
@@ -35,12 +35,13 @@ struct PairPrism {
 };
 PairPrism pair_prism(const World& world, Entity a, Entity b);
 
-/// Features of a sphere and a wall, as the prism's. `p`: x_b - x_a in the wall's frame.
+/// Features of a sphere and a wall, as those of the prism. `p`: x_b - x_a in the wall's frame.
 std::uint8_t prism_feature(std::uint8_t wall_feature, const Vec3& p);
 std::uint8_t wall_feature(std::uint8_t prism_feature);
 
-/// The points of a's and b's surface where the two are nearest, for walls at an angle to a box or a cylinder a; the
-/// middle of all where there are several. Both in the world (m).
+/// The closest points on the surfaces of a and b in the world (m). a is a box or a cylinder, b a wall at an angle to
+/// it.
+/// Where there are several, it is the middle of all.
 struct ClosestPoints {
   Vec3 on_a, on_b;
 };

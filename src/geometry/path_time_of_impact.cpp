@@ -1,3 +1,7 @@
+// Times of impact on paths that are not parabolas, by conservative advancement from separating plane to separating
+// plane.
+// Until a path arrives at the plane through the closest points there is no contact. Sampling in time could miss a
+// contact, this cannot.
 #include "geometry/path_time_of_impact.h"
 
 #include <algorithm>
@@ -14,7 +18,8 @@ namespace carom {
 
 namespace {
 
-/// Of volumes that are round or flat where they meet. speeds: m/s, what velocities are rounded by.
+/// The time of impact of volumes that are round or flat where they meet. speeds: scale of the velocities' rounding
+/// (m/s).
 template <typename Way>
 FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3& from_a, Entity b, const Vec3& xb,
                        double speeds, std::uint8_t left, double horizon) {
@@ -22,20 +27,23 @@ FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3&
   const double closed = 0x1p-49 * far, noise = 0x1p-48 * speeds;
   double t = 0;
   for (int look = 0; look < 500 && t <= horizon; ++look) {
-    const Vec3 xa = from_a - way.displacement(t);  // b stands still
+    // b does not move.
+    const Vec3 xa = from_a - way.displacement(t);
     const bool leaving = t == 0 && left != no_feature;
     const Touch there = touch(world, a, xa, b, xb, leaving ? left : no_feature);
     const Vec3 w = way.velocity(t);
     const Vec3& n = there.normal;
     double gap = there.gap, rate = n.dot(w);
-    double least = 0;  // s, that the path is surely outside for
+    // s: the path is surely outside for this long.
+    double least = 0;
     if (!(gap > closed) || leaving) {
       const Vec3 bend = way.acceleration(t);
       const double acceleration = n.dot(bend), unsure = 0x1p-48 * bend.cwiseAbs().sum();
       if (std::abs(rate) <= noise) rate = 0;
       if (rate < 0) return {t, there.feature};
       if (rate == 0 && acceleration < 0 && -acceleration <= unsure) {
-        least = std::sqrt(closed / unsure);  // what is rounding takes it no deeper than rounding
+        // Rounding of the acceleration takes the path no deeper than rounding of positions.
+        least = std::sqrt(closed / unsure);
       } else if (rate == 0 && (acceleration < 0 || way.descent(n, t, 0, 0, horizon - t) == 0)) {
         if (acceleration + bending(world, a, xa, b, xb, there, w) <= 0) return {t, there.feature};
         // The surface turns away faster than the path bends towards it.
@@ -46,7 +54,8 @@ FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3&
     }
     const double on = std::max(way.descent(n, t, gap, rate, std::max(horizon - t, least)), least);
     if (on == never) return {never, no_feature};
-    if (t + on == t && there.gap > closed) return {t, there.feature};  // the clock is too coarse to come nearer
+    // The clock is too coarse to come nearer.
+    if (t + on == t && there.gap > closed) return {t, there.feature};
     t += on;
   }
   return {never, no_feature};
@@ -95,7 +104,8 @@ FeatureTime leave_feature(const World& world, Entity a, const FadingPath& pa, En
                           std::uint8_t feature, double horizon) {
   const FadingWay way(pa, pb);
   const double least = 0x1p-50 * world.radius[a];
-  double room = 0x1p-20 * world.radius[a];  // m, that a parabola may leave the path by
+  // m: the allowed difference between the path and its parabola.
+  double room = 0x1p-20 * world.radius[a];
   double t = 0, before = 0;
   while (t < horizon) {
     const Vec3 w = way.velocity(t);
@@ -106,7 +116,8 @@ FeatureTime leave_feature(const World& world, Entity a, const FadingPath& pa, En
     if (rim.time == never) {
       before = t;
       t += length;
-    } else if (rim.time == 0 && before < t && room > least) {  // it was within the last parabola's error
+      // The rim was within the last parabola's error.
+    } else if (rim.time == 0 && before < t && room > least) {
       t = before;
       room *= 0x1p-9;
     } else if (jerk * rim.time * rim.time * rim.time <= 6 * least) {

@@ -1,6 +1,7 @@
 #pragma once
-// The way of one thing as seen from another, on paths of different kinds: what a search by separating planes asks of
-// it. Lengths and times are from the instant at which it begins; displacements are those of b less those of a.
+// The path of one thing as seen from another, for paths of different kinds: the interface of the search by separating
+// planes.
+// Lengths and times count from the instant at which the search begins. Displacements are those of b less those of a.
 #include <utility>
 
 #include "geometry/contact_time.h"
@@ -9,7 +10,7 @@
 
 namespace carom {
 
-/// Of parabolas.
+/// Relative path of two parabolas.
 class ParabolicWay {
  public:
   static constexpr bool parabola = true;
@@ -18,11 +19,12 @@ class ParabolicWay {
   Vec3 displacement(double t) const { return t * (w_ + 0.5 * t * a_); }
   Vec3 velocity(double t) const { return w_ + t * a_; }
   const Vec3& acceleration(double) const { return a_; }
-  /// s, after t: when the distance along n, which is `gap` (m) and changes at `rate` (m/s), comes down through zero.
+  /// The time (s, after t) at which the distance along n crosses zero downwards. It is `gap` (m) at t and changes at
+  /// `rate` (m/s).
   double descent(const Vec3& n, double, double gap, double rate, double) const {
     return plane_contact_time(gap, rate, n.dot(a_), 0, false, never);
   }
-  /// s, after t: when one that leaves from zero at `rate` (at least 0) is back, or `never`.
+  /// The time (s, after t) of return of a path that leaves from zero at `rate` (m/s, at least 0), or `never`.
   double back(const Vec3& n, double, double rate, double) const {
     const double acceleration = n.dot(a_);
     return acceleration >= 0 ? never : 2 * rate / -acceleration;
@@ -35,21 +37,22 @@ class ParabolicWay {
   Vec3 w_, a_;  // m/s, m/s^2
 };
 
-/// Of paths that linear drag bends.
+/// Relative path of two paths that linear drag bends.
 class FadingWay {
  public:
   static constexpr bool parabola = false;
   FadingWay(const FadingPath& pa, const FadingPath& pb) : pa_(pa), pb_(pb) {
     pa_.x = pb_.x = Vec3::Zero();
     if (pa.fade != pb.fade) return;
-    pb_.v -= std::exchange(pa_.v, Vec3::Zero());  // what they have in common takes no digits
+    // The common part is removed, so that it takes no digits.
+    pb_.v -= std::exchange(pa_.v, Vec3::Zero());
     pb_.a -= std::exchange(pa_.a, Vec3::Zero());
   }
 
   Vec3 displacement(double t) const { return pb_.position(t) - pa_.position(t); }
   Vec3 velocity(double t) const { return pb_.velocity(t) - pa_.velocity(t); }
   Vec3 acceleration(double t) const { return pb_.acceleration(t) - pa_.acceleration(t); }
-  /// m/s^3, how fast, at most, the acceleration changes from t on.
+  /// The greatest rate of change of the acceleration from t on (m/s^3).
   double jerk(double t) const { return pa_.fade * pa_.acceleration(t).norm() + pb_.fade * pb_.acceleration(t).norm(); }
   double descent(const Vec3& n, double t, double gap, double rate, double horizon) const {
     return first_descent(
@@ -66,11 +69,11 @@ class FadingWay {
   FadingPath pa_, pb_;
 };
 
-/// Of polynomial paths.
+/// Relative path of two polynomial paths.
 class PolynomialWay {
  public:
   static constexpr bool parabola = false;
-  /// displacement: m, of s = t / length (s).
+  /// displacement: m, as a polynomial in s = t / length (s).
   PolynomialWay(const PolynomialPath::Terms& displacement, double length) : terms_(displacement), length_(length) {}
 
   Vec3 displacement(double t) const { return PolynomialPath::value(terms_, t / length_); }

@@ -1,3 +1,7 @@
+// Minkowski sums of volumes along the axes: a point against a rectangle, enlarged by a disc, extended in height and
+// enlarged by a ball.
+// One set of formulas serves rounded boxes, cylinders and their sums, because each lacks only some of these parts.
+// Gaps near zero are compensated, and the round rim has a double-double form.
 #include "geometry/round_prism.h"
 
 #include <algorithm>
@@ -27,7 +31,7 @@ PrismFeature RoundPrism::unique(PrismFeature f) const {
   return {half.x() == 0 ? 1 : f.x, f.y, half.z() == 0 ? 1 : f.z};
 }
 
-/// From the corner of the rectangle about which the surface bends.
+/// p from the corner of the rectangle about which the surface bends.
 Vec3 RoundPrism::from_corner(const Vec3& p, PrismFeature f) const {
   return {p.x() - f.x * half.x(), 0, p.z() - f.z * half.z()};
 }
@@ -82,7 +86,7 @@ double RoundPrism::displaced_gap(const Vec3& p, std::uint8_t feature, double gap
   if (!f.level()) return gap + dv;
   double du = f.x * by.x() + f.z * by.z();
   if (f.bent()) {
-    // |e + by| - |e|
+    // The change of length, |e + by| - |e|.
     const Vec3 e = from_corner(p, f), level(by.x(), 0, by.z());
     const double lengths = e.norm() + (e + level).norm();
     du = lengths > 0 ? level.dot(2 * e + level) / lengths : 0;
@@ -192,7 +196,8 @@ FeatureTime RoundPrism::leave(std::uint8_t feature, const RelativeMotion& m, dou
   for (int k = 0; k < 3; ++k) {
     if (k != 1 && round()) continue;
     if (side[k] == 0) {
-      const bool edge = ball > 0 || (k != 1 && f.y == 0 && disc > 0);  // else the surface beyond is a face
+      // Otherwise the surface beyond is a face.
+      const bool edge = ball > 0 || (k != 1 && f.y == 0 && disc > 0);
       for (int sign : {1, -1}) {
         PrismFeature beyond = edge ? f : PrismFeature{0, 0, 0};
         (k == 0 ? beyond.x : k == 1 ? beyond.y : beyond.z) = sign;
@@ -203,7 +208,8 @@ FeatureTime RoundPrism::leave(std::uint8_t feature, const RelativeMotion& m, dou
       (k == 0 ? beyond.x : k == 1 ? beyond.y : beyond.z) = 0;
       const double t = falls(side[k] * m.d[k] - half[k], k, side[k]);
       if (t == never) continue;
-      const Vec3 p = m.d + t * (m.w + 0.5 * t * m.a);  // on one side or the other of a rectangle without width
+      // The path is on one side or the other of a rectangle without width.
+      const Vec3 p = m.d + t * (m.w + 0.5 * t * m.a);
       if (beyond.x != 0 && half.x() == 0) beyond.x = side_of(p.x());
       if (beyond.z != 0 && half.z() == 0) beyond.z = side_of(p.z());
       offer(t, beyond);
@@ -212,7 +218,7 @@ FeatureTime RoundPrism::leave(std::uint8_t feature, const RelativeMotion& m, dou
   return first;
 }
 
-/// Over the rim of a rectangle with round corners, or of a disc. (The ball is missing, or the rectangle is.)
+/// The exit over the rim of a rectangle with round corners, or of a disc. Either the ball or the rectangle is missing.
 FeatureTime RoundPrism::leave_round_cap(PrismFeature f, const RelativeMotion& m, double horizon) const {
   FeatureTime first{never, no_feature};
   const auto path = [&](double t) -> Vec3 { return m.d + t * (m.w + 0.5 * t * m.a); };

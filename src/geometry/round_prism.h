@@ -1,8 +1,8 @@
 #pragma once
-// The Minkowski sum of two volumes of which neither is tilted: a rectangle of half widths half.x, half.z, fattened by a
-// disc in its plane, drawn out by half.y to both sides of it, and fattened by a ball. A rounded box is one without the
-// disc, a cylinder one without the rectangle, the sum of box and cylinder one without the ball. Where the ball is
-// missing the rims are sharp.
+// The Minkowski sum of two volumes along the axes. It starts as a rectangle of half widths half.x and half.z.
+// The rectangle is enlarged by a disc in its plane, extended by half.y to both sides, and enlarged by a ball.
+// A rounded box has no disc, a cylinder no rectangle, and the sum of box and cylinder no ball. Without the ball the
+// rims are sharp.
 #include <cstdint>
 
 #include "geometry/contact_time.h"
@@ -11,15 +11,18 @@
 
 namespace carom {
 
-/// Signs of the sides x, y, z on which a point of the prism's surface lies; 0: between them. A face has one sign, an
-/// edge two, a corner three. Where the rectangle has no width one surface bends about both its sides: there it has the
-/// sign 1 (so a cylinder's side has signs 1 in x and z).
+/// Signs of the sides x, y, z on which a point of the prism's surface lies; 0: between them.
+/// A face has one sign, an edge two, a corner three.
+/// Where the rectangle has no width, one surface bends about both its sides, and its sign is 1. A cylinder's side thus
+/// has signs 1 in x and z.
 struct PrismFeature {
   int x, y, z;
   std::uint8_t code() const { return static_cast<std::uint8_t>((x + 1) + 3 * (y + 1) + 9 * (z + 1)); }
   static PrismFeature of(std::uint8_t code) { return {code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1}; }
-  bool level() const { return x != 0 || z != 0; }  // there is a way out in the rectangle's plane
-  bool bent() const { return x != 0 && z != 0; }   // and it turns about a corner
+  // The normal has a part in the rectangle's plane.
+  bool level() const { return x != 0 || z != 0; }
+  // That part turns about a corner.
+  bool bent() const { return x != 0 && z != 0; }
 };
 
 struct RoundPrism {
@@ -29,33 +32,33 @@ struct RoundPrism {
 
   Separation nearest(const Vec3& p) const;
 
-  /// The same for one feature's surface, endlessly continued.
+  /// The same for one feature's surface, extended without end.
   Separation at(const Vec3& p, std::uint8_t feature) const;
 
-  /// The gap at a feature's surface after a displacement, from a known one: exact for small displacements too.
+  /// The gap at a feature's surface after a displacement, from a known gap. It is exact for small displacements too.
   double displaced_gap(const Vec3& p, std::uint8_t feature, double gap, const Vec3& displacement) const;
 
-  /// The gap at a round rim, the one surface that is neither flat nor met as spheres meet, at time t (s): evaluated
-  /// in double-double. False: another feature.
+  /// The gap at a round rim at time t (s), in double-double. False: the feature is not a round rim.
+  /// That is the one surface that is neither flat nor met as spheres meet.
   bool rim_gap(std::uint8_t feature, const RelativeMotion& motion, double t, double& gap) const;
 
-  /// Second derivative of the gap (m/s^2) at constant velocity w, for what the surface's curvature does.
+  /// Second derivative of the gap (m/s^2) at constant velocity w (m/s): the effect of the surface's curvature.
   double bending(const Vec3& p, std::uint8_t feature, const Vec3& w) const;
 
-  /// m, the least one of the surface at a feature that is neither flat nor sharp.
+  /// The least radius of curvature at a feature that is neither flat nor sharp (m).
   double curvature_radius(const Vec3&, std::uint8_t feature) const {
     return PrismFeature::of(feature).y == 0 ? disc + ball : ball;
   }
 
   bool flat(std::uint8_t feature) const;
 
-  /// An edge or a corner without rounding: of several normals.
+  /// Whether the feature is an edge or a corner without rounding, which has several normals.
   bool sharp(std::uint8_t feature) const;
 
-  /// The face of a sharp edge or corner over which p is farthest out; x before y before z.
+  /// The face of a sharp edge or corner over which p is farthest out. Ties go to x before y before z.
   std::uint8_t foremost_face(const Vec3& p, std::uint8_t feature) const;
 
-  /// Calls visit(face) for each face that a sharp edge or corner lies between.
+  /// Calls visit(face) for each face at a sharp edge or corner.
   template <typename Visit>
   void for_each_face(std::uint8_t feature, Visit visit) const {
     const PrismFeature f = PrismFeature::of(feature);
@@ -71,7 +74,8 @@ struct RoundPrism {
   /// p, moved by no more than rounding into the region that is nearest to this feature.
   Vec3 within(const Vec3& p, std::uint8_t feature) const;
 
-  /// Whether a point meets the feature's surface as spheres meet; if so, their motion and the sum of their radii.
+  /// Whether a point meets the feature's surface as spheres meet. If so, it gives their motion and the sum of their
+  /// radii.
   bool as_spheres(std::uint8_t feature, const RelativeMotion& motion, RelativeMotion& reduced, double& radius) const;
 
   /// See leave_feature in touch.h. The motion's d is in the prism's frame.
@@ -82,9 +86,9 @@ struct RoundPrism {
  private:
   bool round() const { return half.x() == 0 && half.z() == 0; }
   struct Excess {
-    double u;    // m, beyond rectangle and disc in their plane
-    Vec3 out;    // unit, in which direction
-    double rho;  // m, distance from the rectangle's corner, where it is the centre
+    double u;    // m, beyond rectangle and disc, in their plane
+    Vec3 out;    // unit, the direction of that
+    double rho;  // m, distance from the rectangle's corner, if the surface bends about it
   };
   Excess excess(const Vec3& p, PrismFeature feature) const;
   PrismFeature unique(PrismFeature feature) const;

@@ -1,5 +1,5 @@
 #pragma once
-// Where a point lies to a convex set: what conservative_advancement.h asks of the Minkowski sums.
+// The position of a point relative to a convex set: what conservative_advancement.h needs from the Minkowski sums.
 #include <cstdint>
 
 #include "numerics/vec3.h"
@@ -7,8 +7,9 @@
 namespace carom {
 
 struct Separation {
-  double gap;            // m, negative: inside, by the least way out
-  Vec3 normal;           // unit, outward; the set lies wholly beyond the plane with this normal at this gap
+  double gap;  // m, negative: inside, the depth of the shortest way out
+  // Unit, outward. The set lies wholly beyond the plane with this normal at this gap.
+  Vec3 normal;
   std::uint8_t feature;  // the nearest part of the surface
 };
 

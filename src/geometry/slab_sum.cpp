@@ -1,3 +1,6 @@
+// The Minkowski sum of a box and a wall at any angle, as an intersection of slabs. Each pair of its five segments spans
+// the faces of one slab.
+// There are at most ten slabs, so that all are tried.
 #include "geometry/slab_sum.h"
 
 #include <cmath>
@@ -13,7 +16,8 @@ SlabSum::SlabSum(const Vec3& half, const Wall& wall) : size_(half.sum() + wall.h
     for (int j = i + 1; j < 5; ++j) {
       const Vec3 cross = along[i].cross(along[j]);
       const double sine = cross.norm();
-      if (sine < 0x1p-50) continue;  // parallel: their faces are other pairs' too
+      // Parallel: other pairs span their faces too.
+      if (sine < 0x1p-50) continue;
       Slab& slab = slabs_[static_cast<std::size_t>(count_++)];
       slab = {i == 3 ? wall.normal : Vec3(cross / sine), 0};
       for (int k = 0; k < 5; ++k)
@@ -53,7 +57,8 @@ FeatureTime SlabSum::leave(std::uint8_t feature, const RelativeMotion& m, double
     const auto other = static_cast<std::uint8_t>(k);
     if (other / 2 == feature / 2) continue;
     const Separation s = at(m.d, other);
-    if (s.normal.cross(n).squaredNorm() < 0x1p-80) continue;  // the same face, made by another pair
+    // The same face, spanned by another pair.
+    if (s.normal.cross(n).squaredNorm() < 0x1p-80) continue;
     const double t = plane_contact_time(-s.gap, -s.normal.dot(m.w), -s.normal.dot(m.a), 0, false, horizon);
     if (t < first.time) first = {t, other};
   }

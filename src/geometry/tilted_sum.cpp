@@ -1,3 +1,7 @@
+// The Minkowski sum of an upright cylinder and a wall at any angle: flat faces, caps, and patches of an oblique
+// cylinder.
+// A patch is treated in the shadow along its segment, where it is an arc of a circle. Contact with it is then contact
+// of spheres in closed form.
 #include "geometry/tilted_sum.h"
 
 #include <algorithm>
@@ -35,7 +39,7 @@ TiltedSum::TiltedSum(double radius, double half_height, const Wall& wall)
   face_normals_[2] = wall.normal;
 }
 
-/// How far the sum reaches along the unit vector n.
+/// The extent of the sum along the unit vector n (m).
 double TiltedSum::support(const Vec3& n) const {
   double reach = radius_ * level_length(n);
   for (const Vec3& segment : segments_) reach += std::abs(segment.dot(n));
@@ -49,19 +53,19 @@ TiltedSum::Patch TiltedSum::patch(std::uint8_t feature) const {
   return {along, (corner % 2 == 0 ? 1.0 : -1.0) * u + (corner / 2 == 0 ? 1.0 : -1.0) * v};
 }
 
-/// p, seen along a segment, in the disc's plane.
+/// p projected along a segment into the disc's plane.
 Vec3 TiltedSum::shadow(const Vec3& p, int along) const {
   const Vec3& g = segments_[static_cast<std::size_t>(along)];
   return level_part(p - p.y() / g.y() * g);
 }
 
-/// The normal in space (not unit) of a line that is seen along a segment with the normal `level`.
+/// The normal in space (not unit) of a line with the normal `level` in the projection along a segment.
 Vec3 TiltedSum::slanted(const Vec3& level, int along) const {
   const Vec3& g = segments_[static_cast<std::size_t>(along)];
   return {level.x(), -(level.x() * g.x() + level.z() * g.z()) / g.y(), level.z()};
 }
 
-/// The corner of the shadow's parallelogram nearest to p's shadow, where a corner is what is nearest.
+/// The corner of the shadow's parallelogram nearest to p's shadow, if a corner is the nearest part.
 std::uint8_t TiltedSum::nearest_corner(const Vec3& p, int along) const {
   const Vec3 q = shadow(p, along);
   const Vec3 side[2] = {shadow(segments_[along == 0 ? 1 : 0], along), shadow(segments_[along == 2 ? 1 : 2], along)};
@@ -114,7 +118,7 @@ Separation TiltedSum::nearest_but(const Vec3& p, int without) const {
     if (!casts_[static_cast<std::size_t>(along)]) continue;
     const std::uint8_t corner = nearest_corner(p, along);
     if (corner == no_feature) continue;
-    // Of any normal the sum lies beyond the plane; the arc's own is the best of those across this segment.
+    // For every normal the sum lies beyond the plane. The arc's own normal is the best of those across this segment.
     Separation s = at(p, corner);
     s.gap = s.normal.dot(p) - support(s.normal);
     if (s.gap > best.gap) best = s;
@@ -124,7 +128,7 @@ Separation TiltedSum::nearest_but(const Vec3& p, int without) const {
 
 double TiltedSum::displaced_gap(const Vec3& p, std::uint8_t feature, double gap, const Vec3& by) const {
   if (flat(feature)) return gap + face_normal(feature).dot(by);
-  // In the shadow, |e + by| - |e|.
+  // The change of length in the shadow, |e + by| - |e|.
   const Patch arc = patch(feature);
   const Vec3 e = shadow(p - arc.center, arc.along), d = shadow(by, arc.along);
   const double from = e.norm(), to = (e + d).norm();
@@ -143,7 +147,7 @@ double TiltedSum::bending(const Vec3& p, std::uint8_t feature, const Vec3& w) co
   return across * across / rho / slanted(e / rho, arc.along).norm();
 }
 
-/// A patch's cross-section is an ellipse, the disc seen along the segment.
+/// A patch's cross-section is an ellipse: the disc as seen along the segment.
 double TiltedSum::curvature_radius(const Vec3& p, std::uint8_t feature) const {
   const Vec3& g = segments_[static_cast<std::size_t>(patch(feature).along)];
   return 1 / bending(p, feature, at(p, feature).normal.cross(g.normalized()));
@@ -163,7 +167,8 @@ FeatureTime TiltedSum::leave(std::uint8_t feature, const RelativeMotion& m, doub
   FeatureTime first{never, no_feature};
   if (!flat(feature)) return first;
   const Vec3 n = face_normal(feature);
-  // The face: what of the sum lies farthest along n, a polygon about its centre, drawn out by the disc under a cap.
+  // The face is the part of the sum that lies farthest along n: a polygon about its centre, enlarged by the disc under
+  // a cap.
   Vec3 center = Vec3::Zero();
   std::array<Vec3, 3> sides;
   std::size_t count = 0;
@@ -213,7 +218,7 @@ FeatureTime TiltedSum::leave(std::uint8_t feature, const RelativeMotion& m, doub
     }
   }
   if (first.time < never) {
-    // A little beyond the rim another feature is what is nearest.
+    // A little beyond the rim another feature is the nearest.
     const Vec3 p = m.d + first.time * (m.w + 0.5 * first.time * m.a) + 0x1p-20 * radius_ * outward;
     first.feature = nearest_but(p, feature / 2).feature;
   }

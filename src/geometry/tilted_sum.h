@@ -1,8 +1,10 @@
 #pragma once
-// The Minkowski sum of an upright cylinder and a wall at any angle: a disc drawn out along three segments (the
-// cylinder's axis, the wall's width and height). Its surface has two caps, three pairs of flat faces that two segments
-// span, and round patches that are the disc's rim drawn along one segment. Seen along that segment, in the disc's
-// plane, the sum's shadow is a parallelogram with round corners: there a patch is an arc of a circle, however oblique.
+// The Minkowski sum of an upright cylinder and a wall at any angle: a disc extended along three segments.
+// The segments are the cylinder's axis and the wall's width and height. The surface has two caps and three pairs of
+// flat faces, which two segments span.
+// The round patches between them are the disc's rim extended along one segment.
+// The projection along that segment into the disc's plane is a parallelogram with round corners. There a patch is an
+// arc of a circle, at any angle.
 #include <array>
 
 #include "geometry/contact_time.h"
@@ -13,13 +15,14 @@ namespace carom {
 
 class TiltedSum {
  public:
-  // Features: faces 0, 1 spanned by axis and width; 2, 3 by axis and height; 4, 5 by width and height; 6, 7 the caps
-  // (even: along the normal); then the patches along axis, width and height, four corners each.
+  // Features 0 to 5 are faces: 0, 1 spanned by axis and width, 2, 3 by axis and height, 4, 5 by width and height.
+  // Features 6 and 7 are the caps. Even ones are along the normal. The patches along axis, width and height follow,
+  // four corners each.
   static constexpr std::uint8_t caps = 6, patches = 8;
 
   TiltedSum(double radius, double half_height, const Wall& wall);
 
-  /// The gap along the best of the surface's normals: at most the distance.
+  /// The gap along the best of the surface's normals. It is at most the distance.
   Separation nearest(const Vec3& p) const;
   Separation at(const Vec3& p, std::uint8_t feature) const;
   double displaced_gap(const Vec3& p, std::uint8_t feature, double gap, const Vec3& displacement) const;
@@ -39,7 +42,7 @@ class TiltedSum {
 
  private:
   struct Patch {
-    int along;    // which segment
+    int along;    // number of the segment
     Vec3 center;  // m, of the arc: the sum of the other two segments, with the corner's signs
   };
   Patch patch(std::uint8_t feature) const;

@@ -1,3 +1,6 @@
+// Times of impact on parabolas, by the kind of pair. Spheres, planes and walls have closed forms.
+// All other pairs take conservative advancement on their Minkowski sum, which finishes with the closed form of the
+// feature that was met.
 #include "geometry/conservative_advancement.h"
 #include "geometry/pair.h"
 #include "physics/world.h"
@@ -6,7 +9,7 @@ namespace carom {
 
 namespace {
 
-/// How large the positions are that d, from a to b, is the difference of, as far as that is known.
+/// The size of the positions of which d, from a to b, is the difference, as far as it is known.
 double size_of_positions(const World& world, Entity b, const Vec3& d) {
   if (world.is_body(b)) return d.cwiseAbs().sum();
   const Vec3& x = world.fixed_position(b);
@@ -19,7 +22,7 @@ FeatureTime meet_spheres(const RelativeMotion& motion, double s, std::uint8_t le
   return {sphere_contact_time(m, s, horizon), 0};
 }
 
-/// d leads to the plane's point.
+/// d points to the plane's point.
 FeatureTime meet_plane(const Plane& plane, const RelativeMotion& m, double reach, std::uint8_t left, double horizon) {
   const double noise = 0x1p-49 * m.speeds;
   const double gap = plane_gap(-m.d, Vec3::Zero(), plane.normal, reach);

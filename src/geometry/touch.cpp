@@ -1,3 +1,6 @@
+// The gap, normal and point of contact of any pair, by its kind.
+// Small gaps are computed in compensated arithmetic from the positions themselves. Their rounded difference would lose
+// the last digits.
 #include "geometry/touch.h"
 
 #include <algorithm>
@@ -11,12 +14,12 @@ namespace carom {
 
 namespace {
 
-/// What rounding may make of a gap between things at xa and xb (m).
+/// The rounding of a gap between things at xa and xb (m).
 double rounding_of_gap(const Vec3& xa, const Vec3& xb, double size) {
   return 0x1p-48 * (xa.cwiseAbs().sum() + xb.cwiseAbs().sum() + size);
 }
 
-/// What x_b - x_a loses to rounding.
+/// The rounding error of x_b - x_a.
 Vec3 lost_in_difference(const Vec3& xa, const Vec3& xb) {
   Vec3 lost;
   for (int k = 0; k < 3; ++k) lost[k] = two_sum(xb[k], -xa[k]).lo;
@@ -67,8 +70,9 @@ Touch touch_wall(const World& world, Entity a, Entity b, const Wall& wall, const
   return {squared_gap(d, r) / (distance + r), n, xa + r * n, feature};
 }
 
-/// The middle of the part that a disc (about the origin, in the xz-plane) shares with a rectangle or another disc whose
-/// centre is at d, as seen from the disc.
+/// The middle of the area that a disc shares with a rectangle or another disc with its centre at d, from the disc's
+/// centre.
+/// The disc lies about the origin in the xz-plane.
 Vec3 middle_of_areas(double disc, const Volume& other, const Vec3& d) {
   if (other.shape == Shape::cylinder) {
     const Vec3 level(d.x(), 0, d.z());
@@ -83,7 +87,7 @@ Vec3 middle_of_areas(double disc, const Volume& other, const Vec3& d) {
     nearest[k] = std::clamp(0.0, d[k] - other.half[k], d[k] + other.half[k]);
   }
   if (middle.norm() <= disc) return middle;
-  // Only a corner of the rectangle is over the disc: halfway from there to the disc's rim.
+  // Only a corner of the rectangle is over the disc. The middle is half way from there to the disc's rim.
   const Vec3 across = middle - nearest;
   const double half = nearest.dot(across), length = across.squaredNorm();
   const double inside = std::max(disc * disc - nearest.squaredNorm(), 0.0);
@@ -91,7 +95,7 @@ Vec3 middle_of_areas(double disc, const Volume& other, const Vec3& d) {
   return nearest + 0.5 * on_rim * across;
 }
 
-/// Where a touches b, from a's centre, in the pair's frame; p and n as there.
+/// The point of contact of a and b from a's centre, in the pair's frame. p and s are in that frame too.
 Vec3 contact_in_prism(const PairPrism& pair, const Vec3& p, const Separation& s) {
   const Volume &a = pair.a, &b = pair.b;
   if (a.shape == Shape::sphere) return a.half.x() * s.normal;
@@ -142,12 +146,12 @@ Touch touch_at_an_angle(const Sum& sum, const Volume& volume, const Wall& wall, 
     const Vec3 across = points.on_b - points.on_a;
     return {across.norm(), across.normalized(), points.on_a, s.feature};
   }
-  // A little apart along the normal the same points are nearest, clearly so.
+  // A little apart along the normal the same points are the closest, and they are unambiguous there.
   const Vec3 apart = (0x1p-7 * sum.size() - s.gap) * s.normal;
   return {s.gap, s.normal, closest_points(volume, xa, wall, xb + apart).on_a, s.feature};
 }
 
-/// m: max of n . p over the points p of something fixed.
+/// max of n . p over the points p of a fixed thing (m).
 double reach_along(const World& world, Entity fixed, const Vec3& n) {
   if (world.is_plane(fixed)) {
     const Plane& plane = world.plane(fixed);

@@ -1,5 +1,6 @@
-// A sphere and a wall, in the wall's own frame: p = (along right, along up, along normal) from its centre. There every
-// part of the fattened wall is a sphere contact in two or three of the coordinates, or a plane's in one.
+// A sphere and a wall, in the wall's own frame: p = (along right, along up, along normal) from its centre.
+// In that frame every part of the enlarged wall is a sphere contact in two or three coordinates, or a plane contact in
+// one.
 #include <algorithm>
 #include <cmath>
 
@@ -12,12 +13,13 @@ namespace {
 
 struct LocalPath {
   Vec3 p, v, a;
-  double rounded_speed;  // m/s, the size of what an approach to the rim is rounded by: the normal there turns by the
-                         // rounding of positions over the radius
+  // m/s: scale of the rounding of an approach to the rim. The normal there turns by the rounding of positions over the
+  // radius.
+  double rounded_speed;
   double at(int k, double t) const { return p[k] + t * (v[k] + 0.5 * t * a[k]); }
 };
 
-/// The wall's motion seen from the sphere, as the sphere's seen from the wall.
+/// The wall's motion seen from the sphere, converted to the sphere's motion seen from the wall.
 LocalPath to_local(const Wall& wall, const RelativeMotion& m, double radius) {
   const auto frame = [&](const Vec3& u) { return Vec3(-u.dot(wall.right), -u.dot(wall.up), -u.dot(wall.normal)); };
   const double size = (wall.center - m.d).cwiseAbs().sum() + wall.center.cwiseAbs().sum();
@@ -30,17 +32,17 @@ RelativeMotion of_wall(const Wall& wall, const Vec3& x, const Vec3& v, const Vec
 
 constexpr double rounding = 16 * 0x1p-53;
 
-/// Whether a path at time t is out over the rim that lies at `rim` along axis k, or so near to it that rounding could
-/// say so. Short of the rim a ball that slides on the face all but touches the edge's cylinder; that is the face's
-/// contact.
+/// Whether a path at time t is beyond the rim at `rim` along axis k, or within rounding of it.
+/// Short of the rim, a ball that slides on the face all but touches the edge's cylinder. That contact belongs to the
+/// face.
 bool beyond_rim(const LocalPath& path, int k, double rim, double t) {
   const double p = path.at(k, t);
   const double rounding_of_p = 0x1p-44 * (std::abs(path.p[k]) + std::abs(p) + std::abs(rim));
   return rim > 0 ? p >= rim - rounding_of_p : p <= rim + rounding_of_p;
 }
 
-/// The first entry into a cylinder about the line through `axis` in the direction `along`, on its stretch. A curved
-/// path can enter the endless cylinder twice, and beyond the stretch for a start.
+/// The first entry into a cylinder about the line through `axis` in the direction `along`, on its stretch.
+/// A curved path can enter the endless cylinder twice, and its first entry may lie beyond the stretch.
 double edge_contact_time(const LocalPath& path, int along, double half_length, const Vec3& axis, double radius,
                          bool just_left, double horizon) {
   const auto on_edge = [&](double t) {
@@ -59,7 +61,7 @@ double edge_contact_time(const LocalPath& path, int along, double half_length, c
   return t;
 }
 
-/// The entry into the half-space behind a face moved out by the radius, where it falls on the rectangle.
+/// The entry into the half-space behind a face moved out by the radius, if it falls on the rectangle.
 double face_contact_time(const LocalPath& path, double side, const double half[2], double radius, bool just_left,
                          bool on_rim, double horizon) {
   const double gap = side * path.p.z() - radius, speed = side * path.v.z(), acceleration = side * path.a.z();
@@ -68,11 +70,12 @@ double face_contact_time(const LocalPath& path, double side, const double half[2
   if (just_left || gap > 0 || (gap > -radius && over(0))) {
     t = plane_contact_time(gap, speed, acceleration, rounding * path.v.norm(), just_left, horizon);
   } else if (acceleration < 0 && speed > 0) {
-    // Beside the rectangle or beyond it: the face is met only after rising over it, at the later root.
+    // Beside the rectangle or beyond it, the path meets the face only after it has risen over it, at the later root.
     const double disc = speed * speed - 2 * acceleration * gap;
     if (disc > 0) t = (speed + std::sqrt(disc)) / -acceleration;
   }
-  if (on_rim && t == 0) return never;  // it has just left the face over its rim
+  // The path has just left the face over its rim.
+  if (on_rim && t == 0) return never;
   return t <= horizon && over(t) ? t : never;
 }
 
@@ -91,7 +94,8 @@ WallContact wall_contact_time(const Wall& wall, const RelativeMotion& motion, do
   const auto offer = [&](double t, std::uint8_t feature) {
     if (!(t < first.time)) return;
     first = {t, feature};
-    horizon = std::min(horizon, t);  // what is later does not matter
+    // A later contact does not matter.
+    horizon = std::min(horizon, t);
   };
   const bool on_rim = left != no_feature && left >= wall_edges;
   for (std::uint8_t face : {wall_front, wall_back})
@@ -131,7 +135,7 @@ WallContact wall_release_time(const Wall& wall, const RelativeMotion& motion, do
   for (int k = 0; k < 4; ++k) {
     const int axis = k / 2;
     const double side = k % 2 == 0 ? 1 : -1;
-    // The room left before this rim, half - side p, comes down to zero like the gap above a plane.
+    // The room before this rim, half - side p, falls to zero like the gap above a plane.
     const double t = plane_contact_time(half[axis] - side * path.p[axis], -side * path.v[axis], -side * path.a[axis], 0,
                                         false, horizon);
     if (t < first.time) first = {t, static_cast<std::uint8_t>(wall_edges + k)};

@@ -1,8 +1,8 @@
 #pragma once
-// Arithmetic that keeps what rounding would lose: error-free sums and products and the few double-double operations
-// that contact times need. Dekker, "A floating-point technique for extending the available precision", Numer. Math. 18
-// (1971); Ogita, Rump & Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005). No fused multiply-add is
-// used, so that every processor gives the same bits.
+// Error-free sums and products, and the few double-double operations that contact times need.
+// Sources: Dekker, "A floating-point technique for extending the available precision", Numer. Math. 18 (1971); Ogita,
+// Rump & Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005).
+// No fused multiply-add is used, so that every processor gives the same bits.
 #include <cmath>
 
 #include "numerics/vec3.h"
@@ -28,7 +28,7 @@ inline DoubleDouble fast_two_sum(double a, double b) {
   return {s, b - (s - a)};
 }
 
-/// a b = hi + lo exactly (short of overflow in the splitting, beyond 1e300, and of underflow).
+/// a b = hi + lo exactly. The splitting overflows beyond 1e300, and tiny products underflow.
 inline DoubleDouble two_product(double a, double b) {
   constexpr double splitter = 134217729.0;  // 2^27 + 1
   const double p = a * b;
@@ -53,7 +53,7 @@ inline DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
   return fast_two_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
 }
 
-/// To about 1e-31, as the square root below.
+/// Right to about 1e-31, as is the square root below.
 inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
   const double first = a.hi / b.hi;
   const DoubleDouble rest = a - b * DoubleDouble{first, 0};
@@ -61,7 +61,7 @@ inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
   const double third = (rest - b * DoubleDouble{second, 0}).hi / b.hi;
   return fast_two_sum(first, second) + DoubleDouble{third, 0};
 }
-/// By one step of Newton's method from the rounded root; 0 of what is not above 0.
+/// One step of Newton's method from the rounded root. The result is 0 for x <= 0 and for NaN.
 inline DoubleDouble square_root(DoubleDouble x) {
   if (!(x.hi > 0)) return {0, 0};
   const double root = std::sqrt(x.hi);
@@ -78,7 +78,7 @@ inline DoubleDouble dot_compensated(const Vec3& a, const Vec3& b) {
   return two_product(a.x(), b.x()) + two_product(a.y(), b.y()) + two_product(a.z(), b.z());
 }
 
-/// |d|^2 - s^2 without cancellation: rounded as the exact value of the given doubles.
+/// |d|^2 - s^2 without cancellation: the exact value for the given doubles, rounded.
 inline double squared_gap(const Vec3& d, double s) {
   const double plain = d.squaredNorm() - s * s;
   if (std::abs(plain) >= 1e-3 * s * s) return plain;

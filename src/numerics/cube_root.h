@@ -4,11 +4,12 @@
 
 namespace carom {
 
-/// x^(1/3) for finite x > 0, to a unit in the last place: y^3 = m by Newton's method, m in [1/2, 4), times a power of
-/// two.
+/// x^(1/3) for finite x > 0, to a unit in the last place.
+/// x is m times a power of two, m in [1/2, 4). Newton's method solves y^3 = m.
 inline double cube_root(double x) {
   int exponent;
-  double m = std::frexp(x, &exponent);  // m in [1/2, 1)
+  // m in [1/2, 1)
+  double m = std::frexp(x, &exponent);
   while (exponent % 3 != 0) {
     m *= 2;
     --exponent;

@@ -1,5 +1,6 @@
 #pragma once
-// The motion of many points in one step of a method, known at every instant of the step.
+// The motion of many points in one step of a method, with dense output: it can be evaluated at every instant of the
+// step.
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -12,11 +13,11 @@ class DenseMotion {
  public:
   virtual ~DenseMotion() = default;
 
-  /// m, from the start, and m/s: point k's at t (s) after it, 0 <= t <= length().
+  /// Point k's displacement from the start (m) and its velocity (m/s), t (s) after the start, 0 <= t <= length().
   virtual Vec3 displacement(std::size_t k, double t) const = 0;
   virtual Vec3 velocity(std::size_t k, double t) const = 0;
 
-  /// All points' positions (m) and velocities (m/s) at t (s).
+  /// Positions (m) and velocities (m/s) of all points at t (s).
   void at(double t, std::vector<Vec3>& x, std::vector<Vec3>& v) const {
     x.resize(size());
     v.resize(size());
@@ -32,7 +33,7 @@ class DenseMotion {
  protected:
   DenseMotion(std::vector<Vec3> x, std::vector<Vec3> v) : x_(std::move(x)), v_(std::move(v)) {}
 
-  std::vector<Vec3> x_, v_;  // m, m/s: at the start
+  std::vector<Vec3> x_, v_;  // m and m/s, at the start
   double length_ = 0;        // s
 };
 

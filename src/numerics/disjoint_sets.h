@@ -11,12 +11,12 @@ class DisjointSets {
   /// Each number is a set of its own.
   explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
 
-  /// The number that stands for k's set.
+  /// The number that represents k's set.
   std::uint32_t root(std::uint32_t k) {
     while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
     return k;
   }
-  /// Unites a's set and b's; b's root stands for it.
+  /// Unites the sets of a and b. The root of b represents the union.
   void join(std::uint32_t a, std::uint32_t b) { parent_[root(a)] = root(b); }
 
  private:

@@ -1,3 +1,8 @@
+// The embedded Runge-Kutta method DOP853, of order 8 (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations
+// I, 2nd ed. 1993, II.5 and II.6).
+// The coefficients are those of their program, zeros left out. Velocities and accelerations of all points advance
+// together as one system of first order.
+// The dense output costs three more stages. They are evaluated only when interpolate() is called.
 #include "numerics/dormand_prince.h"
 
 #include <algorithm>
@@ -10,7 +15,7 @@ namespace carom {
 
 namespace {
 
-/// A share of a stage.
+/// One term of a stage: a weight and the number of the earlier stage that it applies to.
 struct Weight {
   std::size_t stage;
   double value;
@@ -150,7 +155,8 @@ const StageWeights dense[] = {
      {15, -149.72683625798564}},
 };
 
-constexpr std::size_t last = 12;  // the stage at the step's end, and the first of the next step
+// The stage at the step's end. It is also the first of the next step.
+constexpr std::size_t last = 12;
 
 Vec3 sum(const StageWeights& row, const std::vector<Vec3>* stages, std::size_t k) {
   Vec3 s = Vec3::Zero();
@@ -158,7 +164,7 @@ Vec3 sum(const StageWeights& row, const std::vector<Vec3>* stages, std::size_t k
   return s;
 }
 
-/// An error of size h e_5^2 / sqrt(e_5^2 + e_3^2 / 100), of order 8 (Hairer, Norsett & Wanner, II.10, eq. 10.17).
+/// The error estimate h e_5^2 / sqrt(e_5^2 + e_3^2 / 100), of order 8 (Hairer, Norsett & Wanner, II.10, eq. 10.17).
 double error_of(double h, double e5, double e3) {
   if (e5 == 0) return 0;
   const double ratio = 0.1 * e3 / e5;
@@ -243,8 +249,8 @@ Vec3 DormandPrince::velocity(std::size_t k, double t) const {
 }
 
 PolynomialPath DormandPrince::path(std::size_t k) const {
-  // The velocity's polynomial by powers of s: times s, the terms stand for one power more; times 1 - s, each is less
-  // what the one before was.
+  // The velocity's polynomial in powers of s. A factor s moves every coefficient up by one power.
+  // A factor 1 - s makes each coefficient itself less the one of the power below.
   std::array<Vec3, terms> change;
   change.fill(Vec3::Zero());
   for (std::size_t term = terms; term-- > 0;) {

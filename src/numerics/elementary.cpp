@@ -1,11 +1,12 @@
+// Elementary functions from + - * / and the square root alone. Tables and minimax polynomials would be faster, but
+// series can be checked by reading.
+// Sine, cosine and exponential are Taylor's series. Cody & Waite's method reduces the argument to two doubles (Software
+// Manual for the Elementary Functions, 1980, chapters 6 and 8).
+// Logarithm and angle start from a guess g by a short series. One step with exp(-g), or with sin(g) and cos(g), then
+// makes them right to the rounding of those.
 #include "numerics/elementary.h"
 
 #include <algorithm>
-
-// Sine, cosine and exponential: Taylor's series of an argument reduced by Cody & Waite's method (Software Manual for
-// the Elementary Functions, 1980, chapters 6 and 8), the reduced one in two doubles. Logarithm and angle: a guess g
-// from a short series, then one step with exp(-g) or sin(g), cos(g), which is right to the rounding of those. Tables
-// and minimax polynomials would be faster; series can be checked by reading.
 
 namespace carom {
 
@@ -13,24 +14,27 @@ namespace {
 
 constexpr double pi = 0x1.921fb54442d18p+1;
 constexpr double half_pi_parts[] = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54, -0x1.f1976b7ed8fbcp-110};
-constexpr double ln2_hi = 0x1.62e42fee00000p-1;  // 32 bits, so that a multiple by less than 2^21 is exact
+// It has 32 bits, so that its multiples by numbers below 2^21 are exact.
+constexpr double ln2_hi = 0x1.62e42fee00000p-1;
 constexpr double ln2_lo = 0x1.a39ef35793c76p-33;
 
-/// sin(r) and cos(r) for |r| <= pi/4 and a little more.
+/// sin(r) and cos(r) for |r| a little above pi/4 at most.
 SinCos sin_cos_reduced(DoubleDouble r) {
   const double square = r.hi * r.hi;
-  double s = 0, c = 0;  // sin(r) = r - r^3 s, cos(r) = 1 - r^2/2 + r^4 c
+  // sin(r) = r - r^3 s and cos(r) = 1 - r^2/2 + r^4 c.
+  double s = 0, c = 0;
   for (std::size_t n = 17; n >= 3; n -= 2) s = inverse_factorial[n] - square * s;
   for (std::size_t n = 18; n >= 4; n -= 2) c = inverse_factorial[n] - square * c;
-  // The derivative takes in the lower part; 1 - r^2/2 is rounded once, and what that loses is added again.
+  // The lower part of r enters by the derivative. 1 - r^2/2 is rounded once, and the rounding error is added again.
   const double sine = r.hi - (r.hi * square * s - r.lo * (1 - 0.5 * square));
   const double half = 0.5 * square, w = 1 - half;
   return {sine, w + ((1 - w - half) + (square * square * c - r.hi * r.lo))};
 }
 
-/// exp(-r) - 1 for |r| <= ln(2)/2 and a little more.
+/// exp(-r) - 1 for |r| a little above ln(2)/2 at most.
 double exp_change_reduced(double r) {
-  double p = 0;  // exp(-r) = 1 - r + r^2 p
+  // exp(-r) = 1 - r + r^2 p.
+  double p = 0;
   for (std::size_t n = 14; n >= 2; --n) p = inverse_factorial[n] - r * p;
   return r * r * p - r;
 }
@@ -45,12 +49,13 @@ Halvings halvings(double z) {
   return {static_cast<int>(count), (z - count * ln2_hi) - count * ln2_lo};
 }
 
-/// log(1 + y) to 1e-7 of itself, for y >= 0: 2 atanh(w) = 2 (w + w^3/3 + ...) for y = 2 w / (1 - w).
+/// log(1 + y) to a relative error of 1e-7, for y >= 0. With y = 2 w / (1 - w) it is 2 atanh(w) = 2 (w + w^3/3 + ...).
 double log_one_plus_guess(double y) {
   int exponent = 0;
   double w = y / (2 + y);
   if (y > 0.41) {
-    const double m = std::frexp(1 + y, &exponent) * std::sqrt(2.0);  // in [1/sqrt(2), sqrt(2))
+    // In [1/sqrt(2), sqrt(2)).
+    const double m = std::frexp(1 + y, &exponent) * std::sqrt(2.0);
     w = (m - 1) / (m + 1);
   }
   const double square = w * w;
@@ -58,7 +63,8 @@ double log_one_plus_guess(double y) {
          2 * w * (1 + square * (1.0 / 3 + square * (0.2 + square * (1.0 / 7 + square / 9))));
 }
 
-/// The angle to 1e-5 of itself: twice the one whose tangent is u = y / (1 + sqrt(1 + y^2)), by u - u^3/3 + ...
+/// The angle to a relative error of 1e-5. It is twice the angle with tangent u = y / (1 + sqrt(1 + y^2)), by the series
+/// u - u^3/3 + ...
 double arc_tangent_guess(double y, double x) {
   const double ax = std::abs(x), ay = std::abs(y);
   const double slope = std::min(ax, ay) / std::max(ax, ay), u = slope / (1 + std::sqrt(1 + slope * slope));
@@ -121,7 +127,7 @@ double arc_tangent(double y, double x) {
   if (x == 0 && y == 0) return 0;
   const double guess = arc_tangent_guess(y, x);
   const SinCos of = sin_cos(guess);
-  // The tangent of what is missing.
+  // The tangent of the angle that the guess lacks.
   const double rest = difference_of_products(y, of.cos, x, of.sin).value() / (x * of.cos + y * of.sin);
   return guess + rest * (1 - rest * rest / 3);
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Sines, exponentials, logarithms and angles with the same bits on every machine, which <cmath> does not promise: of
-// arithmetic, only + - * / and the square root reach a result. Each is within 2.5 units in the last place.
+// Sines, exponentials, logarithms and angles with the same bits on every machine, which <cmath> does not promise.
+// Only + - * / and the square root reach a result. Each function is right to 2.5 units in the last place.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -13,25 +13,25 @@ struct SinCos {
   double sin, cos;
 };
 
-/// Of z (rad). Beyond 2^52 a double does not hold a phase any more: then, and for NaN, those of 0.
+/// Sine and cosine of z (rad). Beyond 2^52 a double does not resolve a phase: the result is then that of 0, as for NaN.
 SinCos sin_cos(DoubleDouble z);
 inline SinCos sin_cos(double z) {
   return sin_cos(DoubleDouble{z, 0});
 }
 
-/// exp(-z) for z >= 0; 0 where that is less than the least double.
+/// exp(-z) for z >= 0. The result is 0 where that is below the least double.
 double exp_minus(double z);
 
-/// 1 - exp(-z) for z >= 0, to its own last place for any z.
+/// 1 - exp(-z) for z >= 0, with full relative precision for every z.
 double exp_loss(double z);
 
-/// log(1 + y) for y >= 0, to its own last place for any y.
+/// log(1 + y) for y >= 0, with full relative precision for every y.
 double log_one_plus(double y);
 
-/// The u with sinh(u) = y.
+/// The inverse hyperbolic sine: u with sinh(u) = y.
 double arc_sinh(double y);
 
-/// rad, in [-pi, pi]: the angle of (x, y) with the x axis; 0 at (0, 0).
+/// The angle of (x, y) with the x axis (rad), in [-pi, pi]. It is 0 at (0, 0).
 double arc_tangent(double y, double x);
 
 /// 1 / n!

@@ -1,6 +1,7 @@
 #pragma once
 // P M = L U of a small dense matrix, by rows with partial pivoting (Golub & Van Loan, Matrix Computations, 4th ed.
-// 2013, 3.4). Sums have one order, unlike those of a library that fits its blocks to a machine's caches.
+// 2013, 3.4).
+// Sums have one order. A library that fits its blocks to a machine's caches does not give that.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -13,10 +14,10 @@ class LuFactors {
  public:
   using Row = std::array<double, size>;
 
-  /// An entry of the matrix; after factor() of its factors.
+  /// An entry of the matrix. After factor() it is an entry of the factors.
   double& at(std::size_t row, std::size_t column) { return row_[row][column]; }
 
-  /// Whether there are factors: the matrix is finite and not singular.
+  /// Factors the matrix in place. False: the matrix is singular or not finite.
   bool factor() {
     for (std::size_t k = 0; k < size; ++k) {
       std::size_t pivot = k;
@@ -31,7 +32,7 @@ class LuFactors {
     return true;
   }
 
-  /// Brings b to M^-1 b.
+  /// Replaces b by M^-1 b.
   void solve(Row& b) const {
     for (std::size_t k = 0; k < size; ++k) {
       std::swap(b[k], b[from_[k]]);
@@ -52,7 +53,7 @@ class LuFactors {
 
   std::array<Row, size> row_;
   Row inverse_;                         // of U's diagonal
-  std::array<std::size_t, size> from_;  // the row that was swapped with each
+  std::array<std::size_t, size> from_;  // the row that each row was exchanged with
 };
 
 }  // namespace carom

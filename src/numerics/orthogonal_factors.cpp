@@ -1,3 +1,7 @@
+// Updates of a full QR factorisation (Golub & Van Loan, Matrix Computations, 4th ed., section 6.5).
+// A row enters by one Householder reflection and leaves by Givens rotations, so that Q stays orthogonal to rounding.
+// All of Q is stored, because projections on both of its parts are needed. Sums have a fixed order, so that every
+// processor gives the same bits.
 #include "numerics/orthogonal_factors.h"
 
 #include <algorithm>
@@ -8,7 +12,7 @@ namespace carom {
 
 namespace {
 
-// Sums in four lanes, whatever the processor: the same bits everywhere.
+// Sums run in four lanes on every processor, so that the bits are the same everywhere.
 constexpr std::size_t width = 4;
 
 double dot(const double* a, const double* b, std::size_t count) {
@@ -25,7 +29,7 @@ void add(double* a, double t, const double* b, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) a[k] += t * b[k];
 }
 
-/// c a + s b and c b - s a.
+/// Replaces a by c a + s b, and b by c b - s a.
 void rotate(double c, double s, double& a, double& b) {
   const double p = c * a + s * b;
   b = c * b - s * a;
@@ -91,7 +95,8 @@ void OrthogonalFactors::append(double* d) {
   const std::size_t rest = n_ - rank_;
   double* h = reflector_.data();
   std::copy(d + rank_, d + n_, h);
-  // What begins with 0 says nothing of the reflection's sign, which a mirror would have to turn: begin with what does.
+  // If the first component is 0, it gives the reflection no sign, and a mirrored scene would need the opposite one.
+  // Exchange it with the largest component, whose sign turns with the mirror.
   if (h[0] == 0 && rest > 1) {
     std::size_t k = 1;
     for (std::size_t j = 2; j < rest; ++j)
@@ -100,8 +105,9 @@ void OrthogonalFactors::append(double* d) {
     for (std::size_t i = 0; i < n_; ++i) std::swap(q_[i * stride_ + rank_], q_[i * stride_ + rank_ + k]);
   }
   const double length = std::sqrt(dot(h, h, rest)), head = h[0] > 0 ? -length : length;
-  h[0] -= head;  // no cancellation
-  // 1 - 2 h h^T / |h|^2 takes the tail of d to (head, 0, ...).
+  // The two have opposite signs, so nothing cancels.
+  h[0] -= head;
+  // 1 - 2 h h^T / |h|^2 maps the tail of d to (head, 0, ...).
   const double square = dot(h, h, rest);
   if (rest > 1 && square > 0) {
     const double factor = -2 / square;
@@ -120,7 +126,7 @@ void OrthogonalFactors::remove(std::size_t place, double* d) {
   for (std::size_t j = place + 1; j < rank_; ++j)
     std::copy(&r_[j * stride_], &r_[j * stride_] + j + 1, &r_[(j - 1) * stride_]);
   --rank_;
-  // What is below the diagonal now: one number a column.
+  // Without the row, each later column has one entry below the diagonal. One rotation for each column removes it.
   std::vector<double>& cosine = reflector_;
   std::vector<double>& sine = sine_;
   sine.resize(n_);

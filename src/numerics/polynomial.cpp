@@ -1,3 +1,7 @@
+// Roots of polynomials by the derivative cascade: the roots of f' are computed first, by recursion.
+// Between two of them f is monotone, so that a change of sign brackets its only root. Newton's method with bisection
+// refines it. No root can be missed.
+// Degree 2 has the closed form, with its discriminant in double-double arithmetic.
 #include "numerics/polynomial.h"
 
 #include <algorithm>
@@ -22,8 +26,8 @@ Polynomial Polynomial::derivative() const {
 
 namespace {
 
-/// The root of f between l and r, where f is monotone and f(l), f(r) differ in sign. Newton's steps, and
-/// bisection wherever such a step would leave the bracket or shrinks it too slowly.
+/// The root of f between l and r, where f is monotone, and f(l) and f(r) differ in sign.
+/// The method is Newton's. Bisection replaces a step that leaves the bracket or is more than half the step before.
 double refine(const Polynomial& f, const Polynomial& df, double l, double r, bool falling) {
   double t = l + 0.5 * (r - l);
   double step = r - l;
@@ -41,7 +45,7 @@ double refine(const Polynomial& f, const Polynomial& df, double l, double r, boo
   return t;
 }
 
-/// In closed form, the discriminant without cancellation. False: its products would underflow or overflow.
+/// Roots in closed form, with a discriminant free of cancellation. False: products would underflow or overflow.
 bool add_quadratic_roots(const Polynomial& f, double low, double high, Roots& roots) {
   const double a = f.c[2], b = f.c[1], c = f.c[0];
   const double size = b * b + std::abs(4 * a * c);
@@ -110,7 +114,8 @@ bool Descents::next(Piece& piece) {
     at_left_ = f_r;
     ++piece_;
     ended_ = last;
-    if (!(f_r < f_l)) continue;  // this piece rises
+    // This piece rises.
+    if (!(f_r < f_l)) continue;
     if (f_l <= 0) {
       piece = {l, r};
     } else if (f_r < 0) {

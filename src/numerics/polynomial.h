@@ -1,7 +1,7 @@
 #pragma once
-// Roots of the polynomials that paths make: of parabolas degree 4 at most, of steps 8. By the derivative cascade: the
-// roots of f' part the line into pieces on which f is monotone, each with one root or none, so that no root can be
-// missed.
+// Roots of the polynomials of paths: parabolas give a degree of 4 at most, steps of a method 8.
+// The method is the derivative cascade. The roots of f' divide the line into pieces on which f is monotone.
+// Each piece has one root or none, so that no root can be missed.
 #include <array>
 #include <limits>
 
@@ -17,7 +17,7 @@ struct Polynomial {
   Polynomial derivative() const;
 };
 
-/// Real roots in ascending order; a root at which the sign does not change may be left out.
+/// Real roots in ascending order. A root at which the sign does not change may be missing.
 struct Roots {
   std::array<double, Polynomial::max_degree> at{};
   int count = 0;
@@ -28,13 +28,15 @@ Roots roots_between(const Polynomial& f, double low, double high);
 
 inline constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Pieces of [0, horizon] on which f is at most zero and falls, in their order: f comes down through zero at the
-/// beginning of one, or was not above zero and begins to fall. A descent that only touches zero is none.
+/// The pieces of [0, horizon] on which f is at most zero and falls, in order.
+/// At the start of a piece f crosses zero downwards. Or f was at most zero before, and begins to fall there.
+/// A descent that only touches zero does not count.
 class Descents {
  public:
   Descents(const Polynomial& f, double horizon);
   struct Piece {
-    double from, to;  // f rises again, or the horizon is reached, at `to`
+    // At `to` f rises again, or the horizon is reached.
+    double from, to;
   };
   bool next(Piece& piece);
 
@@ -43,11 +45,12 @@ class Descents {
   double horizon_;
   Roots turning_;
   int piece_ = 0;
-  double left_ = 0, at_left_ = 0;  // where the next piece begins, and f there
+  // Where the next piece begins, and f there.
+  double left_ = 0, at_left_ = 0;
   bool ended_ = true;
 };
 
-/// Where the first of these begins; `never` if there is none.
+/// The start of the first such piece; `never` if there is none.
 double first_descent(const Polynomial& f, double horizon);
 
 }  // namespace carom

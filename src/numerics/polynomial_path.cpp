@@ -1,3 +1,5 @@
+// Paths through a step as polynomials, by Hermite interpolation of the values at its ends and middle.
+// The degree 7 polynomial interpolates the velocity and is integrated. Position and velocity then belong to one motion.
 #include "numerics/polynomial_path.h"
 
 #include <algorithm>
@@ -31,15 +33,16 @@ PolynomialPath PolynomialPath::through(double length, const Vec3& v, const Vec3&
 }
 
 PolynomialPath PolynomialPath::through(double length, const Point& start, const Point& middle, const Point& end) {
-  // The velocity's change: by the polynomial of degree 5 through both ends, and what it lacks in the middle, which is
-  // (s (1 - s))^3 times a line.
+  // The change of velocity is the polynomial of degree 5 through both ends plus a correction for the middle.
+  // The correction is (s (1 - s))^3 times a line.
   const Vec3 change = end.velocity - start.velocity;
   const Terms of = through(length, start.acceleration, start.jerk, change - length * start.acceleration,
                            end.acceleration - start.acceleration, end.jerk)
                        .displacement;
   const Vec3 place = 64 * ((middle.velocity - start.velocity) - value(of, 0.5));
   const Vec3 line = 64 * (length * middle.acceleration - slope(of, 0.5));
-  const Vec3 level = place - 0.5 * line;  // of the line, at s = 0
+  // The line's value at s = 0.
+  const Vec3 level = place - 0.5 * line;
   constexpr double cube[4] = {1, -3, 3, -1};
   Terms velocity = of;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -78,7 +81,8 @@ double PolynomialPath::greatest_acceleration() const {
 
 PolynomialPath::Terms PolynomialPath::shifted(const Terms& of, double from, double length) {
   Terms to = of;
-  // By Horner's scheme, again and again: each round leaves the next term from there on. The first leaves the place.
+  // Repeated Horner's scheme. Each round leaves the next Taylor coefficient about `from`. The first round leaves the
+  // position.
   if (from != 0)
     for (std::size_t round = 0; round < terms; ++round)
       for (std::size_t k = terms - 1, last = round == 0 ? 0 : round - 1; k-- > last;) to[k] += from * to[k + 1];

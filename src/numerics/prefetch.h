@@ -1,11 +1,12 @@
 #pragma once
-// Asks memory for what is needed soon.
+// Loads memory into the cache ahead of its use.
 
 namespace carom {
 
 inline void prefetch(const void* address) {
   __builtin_prefetch(address);
-  asm volatile("");  // lest the compiler takes a function that does nothing else for one without effect
+  // Without this, the compiler may remove a call to a function that does nothing else.
+  asm volatile("");
 }
 
 }  // namespace carom

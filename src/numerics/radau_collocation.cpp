@@ -1,3 +1,9 @@
+// Collocation of order 17 at nine Radau points (Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed.
+// 1996, IV.5), for forces with stiff drag.
+// The stages are solved by spectral deferred correction (Dutt, Greengard & Rokhlin, BIT 40 (2000) 241), with the
+// triangular factor of Weiser, BIT 55 (2015) 1219.
+// Newton's method on all stages at once would couple them. A sweep treats one stage at a time, and `hold` can apply the
+// constraints there.
 #include "numerics/radau_collocation.h"
 
 #include <algorithm>
@@ -14,11 +20,12 @@ namespace {
 
 constexpr int nodes = 9;
 constexpr int most_sweeps = 40;
-constexpr double hopeless = 1e4;  // an error of so many times what is allowed
+// An error of so many times the tolerance: the step is rejected.
+constexpr double hopeless = 1e4;
 
 using StageRow = std::array<double, nodes>;
 
-/// Points and weights on [0, 1] that integrate polynomials of degree 9.
+/// Gauss points and weights on [0, 1]. They integrate polynomials of degree 9 exactly.
 struct Gauss {
   std::array<double, 5> at, weight;
   Gauss() {
@@ -32,8 +39,10 @@ struct Gauss {
 struct Method {
   StageRow c = radau_points<nodes>();
   Gauss gauss;
-  std::array<StageRow, nodes> a;      // of the collocation: integrals of Lagrange's polynomials up to each point
-  std::array<StageRow, nodes> lower;  // the sweeps': the transpose of U, where L U is the transpose of a
+  // The collocation matrix: integrals of Lagrange's polynomials up to each point.
+  std::array<StageRow, nodes> a;
+  // The sweep's matrix: the transpose of U, where L U is the transpose of a.
+  std::array<StageRow, nodes> lower;
 
   Method() {
     for (int i = 0; i < nodes; ++i) a[i] = integrals(c[i]);
@@ -49,7 +58,7 @@ struct Method {
       for (int j = 0; j < nodes; ++j) lower[i][j] = j <= i ? u[j][i] : 0;
   }
 
-  /// Of Lagrange's polynomials through the points, from 0 to s.
+  /// Integrals of Lagrange's polynomials through the points, from 0 to s.
   StageRow integrals(double s) const {
     StageRow sum{};
     for (std::size_t g = 0; g < gauss.at.size(); ++g)
@@ -70,14 +79,15 @@ const Method& method() {
 
 }  // namespace
 
-/// Of all stages, each from those before it. Gives by how much a velocity has changed at most (m/s).
+/// One sweep over all stages, each computed from those before it. Returns the greatest change of a velocity (m/s).
 double RadauCollocation::sweep(std::span<const Forces> forces, const Hold& hold) {
   const Method& m = method();
   const std::vector<std::vector<Vec3>> old_speed = speed_, old_rate = rate_;
   double changed = 0;
   for (int i = 0; i < nodes; ++i) {
     const double s = length_ * m.lower[i][i];
-    std::vector<Vec3> known(size()), u(size());  // m/s: without what is new in this stage; with it
+    // m/s: velocities without and with the new rate of this stage.
+    std::vector<Vec3> known(size()), u(size());
     for (std::size_t k = 0; k < size(); ++k) {
       Vec3 way = Vec3::Zero(), speed = Vec3::Zero();
       for (int j = 0; j < nodes; ++j) {
@@ -112,7 +122,8 @@ double RadauCollocation::step(double h, std::span<const Forces> forces, const Ho
   double before = never;
   for (int pass = 0; pass < most_sweeps && before > enough; ++pass) {
     const double changed = sweep(forces, hold);
-    if (pass > nodes && !(changed < before)) break;  // as near as numbers or the method come
+    // Rounding or the method allows no better agreement.
+    if (pass > nodes && !(changed < before)) break;
     before = changed;
   }
   if (before > 100 * enough) return hopeless;
@@ -120,8 +131,8 @@ double RadauCollocation::step(double h, std::span<const Forces> forces, const Ho
   return std::max(missed / velocity, missed * method().c[0] * h / position);
 }
 
-/// Makes polynomials of the stages' velocities. Gives by how much they miss the start, of which they know nothing
-/// (m/s).
+/// Makes polynomials of the stages' velocities. Returns their greatest miss of the velocity at the start (m/s), which
+/// is not one of the stages.
 double RadauCollocation::interpolate() {
   const StageRow& weight = method().a.back();
   double worst = 0;
@@ -130,14 +141,15 @@ double RadauCollocation::interpolate() {
   for (std::size_t k = 0; k < size(); ++k) {
     Vec3* const d = &of_displacement_[terms * k];
     Vec3* const v = &of_velocity_[terms * k];
-    for (int j = 0; j < nodes; ++j) {  // Radau's weights integrate these products exactly
+    // Radau's weights integrate these products exactly.
+    for (int j = 0; j < nodes; ++j) {
       const auto p = legendre<nodes>(method().c[j]);
       for (int n = 0; n < nodes; ++n) v[n] += (2 * n + 1) * weight[j] * p[n] * speed_[j][k];
     }
     Vec3 missed = v_[k];
     for (int n = 0; n < nodes; ++n) missed -= n % 2 == 0 ? v[n] : Vec3(-v[n]);
     worst = std::max(worst, missed.cwiseAbs().maxCoeff());
-    // The integral of P_n from the start on is that of P_(n+1) less P_(n-1).
+    // The integral of P_n from the start on is proportional to P_(n+1) - P_(n-1).
     d[0] = d[1] = 0.5 * length_ * v[0];
     for (int n = 1; n < nodes; ++n) {
       const Vec3 share = 0.5 * length_ / (2 * n + 1) * v[n];

@@ -1,12 +1,12 @@
 #pragma once
-// Radau's points in (0, 1], the last of which is 1: where Legendre's polynomials of the two highest degrees are equal
+// Radau's points in (0, 1], the last of which is 1. There Legendre's polynomials of the two highest degrees are equal
 // (Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, IV.5).
 #include <array>
 #include <cstddef>
 
 namespace carom {
 
-/// Legendre's polynomials up to degree `count`, at s in [0, 1] for x in [-1, 1].
+/// Legendre's polynomials up to degree `count`, for s in [0, 1] in place of x in [-1, 1].
 template <std::size_t count>
 std::array<double, count + 1> legendre(double s) {
   const double x = 2 * s - 1;

@@ -1,5 +1,5 @@
 #pragma once
-// The one vector type. Eigen is built without its own vectorisation (EIGEN_DONT_VECTORIZE), so that sums have one order
+// The one vector type. Eigen is built without its own vectorisation (EIGEN_DONT_VECTORIZE). Sums then have one order,
 // and a result has the same bits in every build.
 #include <Eigen/Core>
 #include <Eigen/Geometry>  // the cross product

@@ -1,16 +1,15 @@
 #pragma once
-// From double to integer, where the double may be anything.
+// Conversion from any double to an integer.
 #include <cmath>
 #include <cstdint>
 
 namespace carom {
 
-/// The largest whole number that whole_below gives, and with a minus sign the least: far within std::int64_t, so that
-/// sums and differences of two stay in it.
+/// The largest whole number that whole_below returns; its negative is the least.
+/// It is far within std::int64_t, so that sums and differences of two stay in range.
 inline constexpr std::int64_t most_whole = std::int64_t{1} << 61;
 
-/// x rounded down, kept within most_whole; 0 for what is no number. (A cast of a double beyond the integer's range is
-/// undefined.)
+/// x rounded down and clamped to most_whole; 0 for NaN. A cast of a double beyond the integer's range is undefined.
 inline std::int64_t whole_below(double x) {
   constexpr double most = 0x1p61;
   if (x >= most) return most_whole;
@@ -18,7 +17,7 @@ inline std::int64_t whole_below(double x) {
   return x == x ? static_cast<std::int64_t>(std::floor(x)) : 0;
 }
 
-/// The same to the nearest whole number.
+/// The same, rounded to the nearest whole number.
 inline std::int64_t nearest_whole(double x) {
   return whole_below(x + 0.5);
 }

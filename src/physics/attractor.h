@@ -19,11 +19,12 @@ struct Attractor {
   }
   double potential(const Particle& p) const { return -strength * p.mass / std::sqrt(distance_squared(p)); }
   Vec3 drain(const Particle&) const { return Vec3::Zero(); }
-  double rate(const Particle& p) const {  // of a circle at this distance, or of passing by
+  // The rate of a circular orbit at this distance plus that of passing by, 1/s.
+  double rate(const Particle& p) const {
     const double square = distance_squared(p);
     return std::sqrt(std::abs(strength) / (square * std::sqrt(square))) + p.v.norm() / std::sqrt(square);
   }
-  /// m: to the nearest complex point at which the acceleration is infinite.
+  /// The distance to the nearest complex point at which the acceleration is infinite (m).
   double distance(const Vec3& x) const { return std::sqrt((x - center).squaredNorm() + softening * softening); }
   friend bool operator==(const Attractor&, const Attractor&) = default;
 

@@ -1,6 +1,7 @@
 #pragma once
-// How far doubles carry a World. A place is rounded to 2^-53 of itself: at 10^12 of the smallest size that is 10^-4 of
-// it, and contact there means little. Beyond, nothing is computed: the loader refuses, and a run ends.
+// The range in which doubles can carry a World. A position is rounded to 2^-53 of itself.
+// At 10^12 times the smallest size that is 10^-4 of that size, and contact means little there.
+// Beyond the bounds nothing is computed: the loader refuses the scene, and a run ends.
 #include <limits>
 
 #include "numerics/vec3.h"
@@ -9,19 +10,21 @@ namespace carom {
 
 struct World;
 
-/// The largest place (m), and the longest path (m), by the smallest size (m).
+/// The largest coordinate and the longest path (m), as multiples of the smallest size (m).
 inline constexpr double farthest_by_size = 1e12;
-/// m/s, m/s^2: what speeds and accelerations may be.
-inline constexpr double largest_speed = 1e30, largest_acceleration = 1e30;
+/// The largest speed (m/s).
+inline constexpr double largest_speed = 1e30;
+/// The largest acceleration (m/s^2).
+inline constexpr double largest_acceleration = 1e30;
 
-/// m: the smallest radius, height or edge of a body, an obstacle or a wall; infinite: there is none.
+/// The smallest radius, height or edge of a body, an obstacle or a wall (m). It is infinite if there is none.
 double smallest_size(const World& world);
 
 struct Bounds {
   double place = std::numeric_limits<double>::infinity();  // m, of each coordinate
   double speed = largest_speed;                            // m/s
 
-  /// Whether a body's place (m) and velocity (m/s) are within these; a number that is not finite never is.
+  /// Whether a body's position (m) and velocity (m/s) are within the bounds. A number that is not finite never is.
   bool hold(const Vec3& x, const Vec3& v) const {
     return (x.array().abs() <= place).all() && v.squaredNorm() <= speed * speed;
   }

@@ -1,3 +1,6 @@
+// Decides which sets of forces have a closed form together, and evaluates the motion under them.
+// Springs with linear drag become an Oscillation, an attractor alone a KeplerOrbit. Every other set is left to
+// numerical integration.
 #include "physics/closed_motion.h"
 
 #include <cmath>
@@ -10,7 +13,7 @@ namespace carom {
 
 namespace {
 
-/// Takes up forces, one by one, as long as they have a closed form together.
+/// Collects forces one by one, as long as they have a closed form together.
 class Gathering {
  public:
   explicit Gathering(double mass) : mass_(mass) {}
@@ -65,7 +68,7 @@ ClosedMotion::ClosedMotion(const ClosedForces& forces, const Vec3& x, const Vec3
 
 namespace {
 
-/// m/s^2 and m/s^3, about an attractor.
+/// The acceleration (m/s^2) and the jerk (m/s^3) about an attractor.
 void fall(double strength, ClosedMotion::Point& there) {
   const double square = there.place.squaredNorm(), factor = -strength / (square * std::sqrt(square));
   there.acceleration = factor * there.place;
@@ -99,7 +102,8 @@ double ClosedMotion::longest_step(const Point& there, double room) const {
   if (const auto* swing = std::get_if<Oscillation>(&motion_)) {
     const double turn = std::sqrt(swing->stiffness);
     const bool turns = 2 * turn > swing->fade;
-    const double left = there.velocity.norm() + there.acceleration.norm() / turn;  // m/s, at least the fastest to come
+    // An upper bound of the speed from there on, m/s.
+    const double left = there.velocity.norm() + there.acceleration.norm() / turn;
     return turns && left > room * turn ? 1 / turn : std::numeric_limits<double>::infinity();
   }
   return step_within(there.place.norm(), there.velocity.norm(), there.acceleration.norm());

@@ -1,6 +1,7 @@
 #pragma once
-// Free motion that has a closed form though its force varies with the place: under linear springs of rest length 0 with
-// linear drag and constant forces, or about one attractor without softening.
+// Free motion in closed form under a force that varies with position.
+// The force is that of linear springs of rest length 0 with linear drag and constant forces, or of one attractor
+// without softening.
 #include <optional>
 #include <variant>
 
@@ -13,38 +14,39 @@ namespace carom {
 
 struct World;
 
-/// What forces such a motion: either springs and drag, or an attractor alone.
+/// The forces of such a motion: either springs and drag, or an attractor alone.
 struct ClosedForces {
-  double fade = 0, stiffness = 0;  // 1/s, 1/s^2: of springs together, over the mass
+  double fade = 0, stiffness = 0;  // 1/s and 1/s^2: linear drag, and all springs together, over the mass
   Vec3 center = Vec3::Zero();      // m, of the attractor
-  double strength = 0;             // m^3/s^2; 0: springs, or none of both
+  double strength = 0;             // m^3/s^2; 0: springs, or no force of either kind
 
   friend bool operator==(const ClosedForces&, const ClosedForces&) = default;
 };
 
-/// The forces that act on a body from `time` (s) on; none: together they have no closed form, constant ones and linear
-/// drag alone included.
+/// The forces on a body from `time` (s) on. It is empty where they have no closed form of this kind together.
+/// It is empty too where only constant forces and linear drag act.
 std::optional<ClosedForces> closed_forces(const World& world, Entity body, double time);
 
 /// A motion from its start on.
 class ClosedMotion {
  public:
   ClosedMotion() = default;
-  /// From x (m) and v (m/s). at_rest: m/s^2, what accelerates a body at x that stands.
+  /// Starts at x (m) and v (m/s). at_rest: the acceleration of a body at rest at x (m/s^2).
   ClosedMotion(const ClosedForces& forces, const Vec3& x, const Vec3& v, const Vec3& at_rest);
 
-  /// m: places are told from here.
+  /// The origin of all positions (m).
   const Vec3& origin() const { return origin_; }
-  /// Place (m, from the origin), velocity (m/s), acceleration (m/s^2) and jerk (m/s^3).
+  /// Position (m, from the origin), velocity (m/s), acceleration (m/s^2) and jerk (m/s^3).
   struct Point {
     Vec3 place, velocity, acceleration, jerk;
   };
-  /// At t (s, since the start): in two doubles, for one is coarser after some time than a short step can bear.
+  /// The motion at t (s, since the start). The time has two doubles: after a while one double is too coarse for a short
+  /// step.
   Point at(DoubleDouble t) const;
-  /// 1/s: how fast it turns there.
+  /// The rate at which the motion turns there (1/s).
   double rate(const Point& there) const;
-  /// s: from there on, a step in which the motion does not turn, and comes no nearer to a centre than half way. Turns
-  /// of less than `room` (m) do not count.
+  /// The longest step (s) from there on in which the motion does not turn, and comes at most half way to a centre.
+  /// Turns of less than `room` (m) do not count.
   double longest_step(const Point& there, double room) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// A collision that happened. (One that is only predicted is an Event, and private to a simulator.)
+// A collision that happened. A predicted one is an Event, which is private to a simulator.
 #include <cstdint>
 
 #include "numerics/vec3.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Conserved sums of a State. Summed with compensation, in the order of the bodies.
+// Conserved sums of a State. The sums are compensated and follow the order of the bodies.
 #include "physics/state.h"
 
 namespace carom {

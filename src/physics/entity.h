@@ -5,7 +5,7 @@
 
 namespace carom {
 
-/// A body or a fixed thing, by number: bodies are 0 .. body_count()-1, then the planes, the walls, the obstacles.
+/// A body or a fixed thing, by number. Bodies have the numbers 0 .. body_count()-1. Planes, walls and obstacles follow.
 using Entity = std::uint32_t;
 inline constexpr Entity no_entity = std::numeric_limits<Entity>::max();
 

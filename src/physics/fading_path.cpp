@@ -1,3 +1,7 @@
+// Flight under constant forces and linear drag. Its factors are differences of exp(-z) from its first terms, and would
+// lose digits for small z.
+// A power series up to z = 1/2 and repeated doubling avoid that. They need no exponential function of a library, so
+// that the bits are the same everywhere.
 #include "physics/fading_path.h"
 
 #include <algorithm>
@@ -5,8 +9,10 @@
 namespace carom {
 
 Fading fading(double z) {
-  constexpr double all = 64;  // exp(-z) is less than rounding of 1
-  constexpr int terms = 13;   // of the series up to 1/2: to rounding
+  // Beyond this, exp(-z) is below the rounding of 1.
+  constexpr double all = 64;
+  // Terms of the series: right to rounding up to 1/2.
+  constexpr int terms = 13;
   double part = std::min(z, all);
   int doublings = 0;
   for (; part > 0.5; part *= 0.5) ++doublings;
@@ -29,8 +35,10 @@ FadingPath FadingPath::from(double t) const {
 }
 
 double FadingPath::squared_speed(double t) const {
-  // With s, the integral of velocity's share of a: s' = 1 - fade s, so that fade times that of s^2 is t^2 bend - s^2/2.
-  double once = 0.5 * t * t, twice = t * t * t / 3;  // s^2, s^3
+  // s is here the integral of the velocity's share of a: s' = 1 - fade s. Hence fade times the integral of s^2 is t^2
+  // bend - s^2/2.
+  // Integrals of s and of s^2 over [0, t], here without drag.
+  double once = 0.5 * t * t, twice = t * t * t / 3;
   if (fade > 0) {
     const double z = fade * t;
     const Fading f = fading(z);

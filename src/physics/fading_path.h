@@ -1,11 +1,11 @@
 #pragma once
-// Flight under constant forces and linear drag: x'' = pull - fade x', a line that bends towards the velocity
-// pull / fade. Its acceleration dies away as exp(-fade t). Of arithmetic, only + - * / reach the result.
+// Flight under constant forces and linear drag, x'' = pull - fade x'. The path bends towards the velocity pull / fade.
+// The acceleration decays as exp(-fade t). Only + - * / reach the result.
 #include "numerics/vec3.h"
 
 namespace carom {
 
-/// Of z = fade t >= 0.
+/// Functions of z = fade t >= 0.
 struct Fading {
   double gone;   // 1 - exp(-z)
   double bend;   // (z - gone) / z^2 = 1/2! - z/3! + z^2/4! - ...
@@ -14,15 +14,16 @@ struct Fading {
 
 Fading fading(double z);
 
-/// s: how much of an acceleration at t = 0 has become displacement, by t (s), and velocity after t.
+/// The displacement at t (s) that an acceleration of 1 at t = 0 has caused, by t (s).
 inline double displaced(double fade, double t) {
   return (fade == 0 ? 0.5 : fading(fade * t).bend) * t;
+  /// The velocity that it has caused (s).
 }
 inline double gained(double fade, double t) {
   return fade == 0 ? t : fading(fade * t).gone / fade;
 }
 
-/// A path from its start on; with fade = 0 a parabola.
+/// A path from its start on. With fade = 0 it is a parabola.
 struct FadingPath {
   Vec3 x = Vec3::Zero();  // m, at t = 0
   Vec3 v = Vec3::Zero();  // m/s, at t = 0
@@ -32,9 +33,9 @@ struct FadingPath {
   Vec3 position(double t) const { return x + t * (v + displaced(fade, t) * a); }
   Vec3 velocity(double t) const { return v + gained(fade, t) * a; }
   Vec3 acceleration(double t) const;
-  /// The same path seen from time t on.
+  /// The same path with its start at time t.
   FadingPath from(double t) const;
-  /// m^2/s: the integral of the squared speed over [0, t].
+  /// The integral of the squared speed over [0, t] (m^2/s).
   double squared_speed(double t) const;
 };
 

@@ -1,3 +1,5 @@
+// What gravity and the World's forces do to a body: sums over the laws of force_law.h.
+// The laws are plain structs in a variant, so that a new law needs no change here. Sums follow the order of the scene.
 #include "physics/force.h"
 
 #include <algorithm>
@@ -90,7 +92,8 @@ bool bends(const World& world, Entity body, double time) {
 
 namespace {
 
-/// The force on a body that has no closed form from `time` (s) on: one that has none by itself, or any with the others.
+/// A force because of which a body's motion from `time` (s) on has no closed form.
+/// That is one without a closed form of its own, if there is one. Otherwise it is one of those that have none together.
 const Force* open_force(const World& world, Entity body, double time) {
   if (!bends(world, body, time) || closed_forces(world, body, time)) return nullptr;
   const Force* any = nullptr;
@@ -158,7 +161,7 @@ double force_reach(const World& world, Entity body, const Vec3& x) {
   return least;
 }
 
-/// Of speed t + acceleration t^2 / 2 = reach / 2, without cancellation.
+/// The positive root of speed t + acceleration t^2 / 2 = reach / 2, without cancellation.
 double step_within(double reach, double speed, double acceleration) {
   return reach / (speed + std::sqrt(speed * speed + acceleration * reach));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The Jacobians of the forces' accelerations: what an implicit method needs of stiff forces.
+// The Jacobians of the forces' accelerations. An implicit method needs them for stiff forces.
 #include <Eigen/Core>
 #include <cmath>
 
@@ -41,9 +41,9 @@ inline ForceJacobian jacobian(const Drag& drag, const Particle& p) {
   return j;
 }
 
-/// With n = d / |d|: of the spring -k + k l / |d| (1 - n n^T); of the damper -c n n^T by the velocity, and by the
-/// position -c (n v^T + (n . v) (1 - 2 n n^T)) / |d|. At the anchor the rest length counts for nothing, and the damper
-/// acts along every direction, as in Spring.
+/// With n = d / |d|, the spring has -k + k l / |d| (1 - n n^T).
+/// The damper has -c n n^T by the velocity, and -c (n v^T + (n . v) (1 - 2 n n^T)) / |d| by the position.
+/// At the anchor the rest length does not count, and the damper acts along every direction, as in Spring.
 inline ForceJacobian jacobian(const Spring& spring, const Particle& p) {
   const Vec3 d = p.x - spring.anchor;
   const double length = d.norm();
@@ -65,8 +65,8 @@ inline ForceJacobian jacobian(const Spring& spring, const Particle& p) {
   return j;
 }
 
-/// d/dd of -mu d / D^(3/2), D = |d|^2 + s^2, is -mu / D^(3/2) (1 - 3 d d^T / D). At an unsoftened center, where the
-/// acceleration has no value either, it is left at zero.
+/// d/dd of -mu d / D^(3/2), D = |d|^2 + s^2, is -mu / D^(3/2) (1 - 3 d d^T / D).
+/// It is left at zero at an unsoftened centre, where the acceleration has no value either.
 inline ForceJacobian jacobian(const Attractor& attractor, const Particle& p) {
   const Vec3 d = p.x - attractor.center;
   const double square = d.squaredNorm() + attractor.softening * attractor.softening;

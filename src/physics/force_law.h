@@ -1,11 +1,12 @@
 #pragma once
-// The laws of force. Each is a plain struct in a file of its own with a `name`, whether it is
-// `constant`, the same everywhere and at every speed, and the same four functions:
-//   acceleration(p)  m/s^2, what it does to a particle
-//   potential(p)     J, of which the acceleration is the downhill slope, but for
+// The laws of force. Each is a plain struct in a file of its own.
+// A law has a `name`. Its `constant` is true if the force is the same everywhere and at every speed. It also has four
+// functions:
+//   acceleration(p)  m/s^2, of a particle under the force
+//   potential(p)     J; the acceleration is its downhill slope, except for
 //   drain(p)         m/s^2, the part of the acceleration that has no potential
-//   rate(p)          1/s, at most about how fast the acceleration turns or fades along a path: what a time step must
-//                    follow; 0: it is constant
+//   rate(p)          1/s, an estimate of the greatest rate at which the acceleration turns or fades along a path;
+//                    a time step must follow it; 0: the acceleration is constant
 #include <variant>
 
 #include "physics/attractor.h"

@@ -1,5 +1,6 @@
 #pragma once
-// What a collision does: impulses along the normal, tangential velocity kept (frictionless spheres; chapter 8).
+// The effect of a collision: an impulse along the normal. The tangential velocity stays (frictionless spheres; chapter
+// 8).
 #include <limits>
 
 #include "numerics/vec3.h"
@@ -8,26 +9,26 @@
 
 namespace carom {
 
-/// The impulse (N s) that two masses (kg) approaching at `approach` (m/s) exchange so that they separate at
-/// `separation`: J = (approach + separation) m1 m2 / (m1 + m2). With separation = e approach this is the chapter's v1'
-/// = ((m1 - e m2) v1 + (1 + e) m2 v2) / (m1 + m2).
+/// The impulse (N s) between two masses (kg) that approach at `approach` (m/s) and separate at `separation` (m/s): J =
+/// (approach + separation) m1 m2 / (m1 + m2).
+/// With separation = e approach this is the chapter's v1' = ((m1 - e m2) v1 + (1 + e) m2 v2) / (m1 + m2).
 inline double impact_impulse(double m1, double m2, double approach, double separation) {
   return (approach + separation) / (1 / m1 + 1 / m2);
 }
 
-/// Kinetic energy (J) that goes: mu (approach^2 - separation^2) / 2. Negative: it is made.
+/// The kinetic energy lost (J): mu (approach^2 - separation^2) / 2. Negative: energy is made.
 inline double impact_loss(double m1, double m2, double approach, double separation) {
   return 0.5 * (approach - separation) * (approach + separation) / (1 / m1 + 1 / m2);
 }
 
-/// kg: infinite for fixed things.
+/// Mass (kg); infinite for fixed things.
 inline double impact_mass(const World& world, Entity e) {
   return world.is_body(e) ? world.mass[e] : std::numeric_limits<double>::infinity();
 }
 
-/// The record of an impact of body a on b, a body or a fixed thing, at `time` (s); its impulse and its energy lost
-/// follow from the masses. point: m; normal: unit, from a to b; approach, separation: m/s along it; restitution: the
-/// pair's coefficient.
+/// The record of an impact of body a on b, a body or a fixed thing, at `time` (s). The masses give its impulse and the
+/// energy lost.
+/// point: m. normal: unit, from a to b. approach, separation: m/s along it. restitution: the pair's coefficient.
 inline Collision make_collision(const World& world, CollisionKind kind, double time, Entity a, Entity b,
                                 const Vec3& point, const Vec3& normal, double approach, double separation,
                                 double restitution) {

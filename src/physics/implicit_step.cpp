@@ -1,8 +1,10 @@
+// Radau IIA with seven stages, for one point under stiff forces (Hairer & Wanner, Solving Ordinary Differential
+// Equations II, 2nd ed. 1996, IV.5 and IV.8).
 // The unknowns are the changes Z_i of the velocity at the stages, X_i = x + c_i h v + h sum_j A_ij Z_j:
 //   Z_i = h sum_j A_ij a(X_j, v + Z_j)
-// Newton's method finds them. It begins at the solution for forces that are linear about the start. Its matrix has the
-// Jacobian of the start, as long as that converges fast; then those of all stages. Only the latter converge where a
-// stiff direction turns within a step, as that of a damper does across its line.
+// Newton's method solves them, from the solution for forces that are linear about the start.
+// Its matrix has the Jacobian of the start while that converges fast, and then those of all stages.
+// Only the latter converge where a stiff direction turns within a step, as that of a damper does across its line.
 #include "physics/implicit_step.h"
 
 #include <algorithm>
@@ -20,20 +22,27 @@ constexpr std::size_t nodes = 7, axes = 3, unknowns = nodes * axes;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr int most_passes = 12;
-constexpr double enough = 0.01;   // of the error that is allowed: what the stages may be wrong by
-constexpr double hopeless = 100;  // times enough: where rounding ends the passes, stages may be so wrong
-constexpr int worth_factors = 6;  // as many passes take as long as new factors
+// The allowed error of the stages, as a share of the step's allowed error.
+constexpr double enough = 0.01;
+// Where rounding ends the iteration, the stages may be wrong by so many times `enough`.
+constexpr double hopeless = 100;
+// So many passes take as long as new factors.
+constexpr int worth_factors = 6;
 
-// Where forces are smooth, the velocity's error is e int prod (s - c_i). Its greatest value in the step is start_share
-// of its slope at the start; the displacement's is displacement_share of it, by the step.
-constexpr double start_share = 0.0175, displacement_share = 0.071;
-constexpr double term_share = 0.5;  // measured: the error is 0.07 to 1.4 of the next term's size
-constexpr double filter = 0x1p-5;   // of a step: what is over in less counts by its velocity, not its acceleration
+// Where forces are smooth, the velocity's error is e int prod (s - c_i).
+// Its greatest value in the step is start_share of its slope at the start.
+constexpr double start_share = 0.0175;
+// The displacement's error as a share of the velocity's, by the step.
+constexpr double displacement_share = 0.071;
+// Measured: the error is 0.07 to 1.4 of the next term's size.
+constexpr double term_share = 0.5;
+// A share of the step. A transient that is over in less counts by its velocity, not by its acceleration.
+constexpr double filter = 0x1p-5;
 
 using NodeRow = std::array<double, nodes>;
 using NodeMatrix = std::array<NodeRow, nodes>;
 
-/// Points and weights on [0, 1] that integrate polynomials of degree 7.
+/// Gauss points and weights on [0, 1]. They integrate polynomials of degree 7 exactly.
 struct GaussRule {
   std::array<double, 4> at, weight;
   GaussRule() {
@@ -46,10 +55,13 @@ struct GaussRule {
 
 struct SevenStages {
   NodeRow c = radau_points<nodes>();
-  NodeMatrix a;  // of the collocation: integrals of Lagrange's polynomials up to each point
+  // The collocation matrix: integrals of Lagrange's polynomials up to each point.
+  NodeMatrix a;
   NodeMatrix a_squared;
-  std::array<NodeRow, 4> tail;  // of Legendre's polynomials of degrees 4 to 7 in the polynomial that `power` has
-  NodeMatrix power;  // of s^(row + 1) in the polynomial that is 0 at 0 and, at the points, 1 only at the column's
+  // Coefficients of Legendre's polynomials of degrees 4 to 7 in the polynomial of `power`.
+  std::array<NodeRow, 4> tail;
+  // Coefficients of s^(row + 1) in the polynomial that is 0 at 0, 1 at the column's point and 0 at the other points.
+  NodeMatrix power;
 
   SevenStages() {
     for (std::size_t i = 0; i < nodes; ++i) a[i] = integrals(c[i]);
@@ -64,7 +76,7 @@ struct SevenStages {
     }
   }
 
-  /// Of Lagrange's polynomials through the points, from 0 to s.
+  /// Integrals of Lagrange's polynomials through the points, from 0 to s.
   NodeRow integrals(double s) const {
     const GaussRule gauss;
     NodeRow sum{};
@@ -78,7 +90,7 @@ struct SevenStages {
     return sum;
   }
 
-  /// Of s / c_j times the product of (s - c_l) / (c_j - c_l) over the others.
+  /// Coefficients of s / c_j times the product of (s - c_l) / (c_j - c_l) over the other points.
   void set_powers(std::size_t j) {
     NodeRow terms{1 / c[j]};
     std::size_t degree = 0;
@@ -92,8 +104,9 @@ struct SevenStages {
     for (std::size_t k = 0; k < nodes; ++k) power[k][j] = terms[k];
   }
 
-  /// Radau's weights integrate the products exactly for degrees up to 6. (P_6 - P_7) / 2, which is 1 at 0 and zero at
-  /// the points, then brings the polynomial to 0 at 0.
+  /// Radau's weights integrate the products exactly for degrees up to 6. A multiple of (P_6 - P_7) / 2 then brings the
+  /// polynomial to 0 at 0.
+  /// That one is 1 at 0 and zero at the points.
   void set_tail(std::size_t j) {
     const auto p = legendre<nodes>(c[j]);
     double missed = 0, sign = 1;
@@ -112,7 +125,7 @@ const SevenStages& method() {
   return radau;
 }
 
-/// Whether n more passes, each of which leaves `rate` of a change, leave more than `limit` of this one.
+/// Whether n more passes leave more than `limit` of this change, where each pass leaves the share `rate`.
 bool is_slow(double change, double rate, double limit, int n) {
   for (int pass = 0; pass < n && change > limit; ++pass) change *= rate;
   return change > limit;
@@ -120,7 +133,7 @@ bool is_slow(double change, double rate, double limit, int n) {
 
 }  // namespace
 
-/// The search for a step's stages.
+/// Newton's iteration for the stages of a step.
 struct ImplicitStep::Newton {
   using Vector = LuFactors<unknowns>::Row;
 
@@ -171,7 +184,7 @@ struct ImplicitStep::Newton {
     return factors.factor();
   }
 
-  /// Z for forces that are linear about the start, where the acceleration is a0 (m/s^2).
+  /// Sets z to the solution for forces that are linear about the start, where the acceleration is a0 (m/s^2).
   void predict(const Vec3& a0, const ForceJacobian& j) {
     const Vec3 turn = 0.5 * h * h * (j.by_position * v);
     Vector b;
@@ -183,7 +196,7 @@ struct ImplicitStep::Newton {
     for (std::size_t i = 0; i < nodes; ++i) z[i] = Vec3(b[axes * i], b[axes * i + 1], b[axes * i + 2]);
   }
 
-  /// A pass. Gives by how much a velocity has changed at most (m/s); infinity: by no number.
+  /// One pass of Newton's method. Returns the greatest change of a velocity (m/s); infinity: a number is not finite.
   double correct() {
     std::array<Vec3, nodes> a;
     for (std::size_t j = 0; j < nodes; ++j) a[j] = acceleration(position(j), v + z[j]);
@@ -209,7 +222,7 @@ struct ImplicitStep::Newton {
     std::copy(value.data(), value.data() + axes, b.begin() + static_cast<std::ptrdiff_t>(axes * i));
   }
 
-  /// Whether velocities converge to within `limit` (m/s).
+  /// Whether the velocities converge to within `limit` (m/s).
   bool solve(double limit) {
     const std::array<Vec3, stages> predicted = z;
     double before = infinity;
@@ -217,10 +230,12 @@ struct ImplicitStep::Newton {
     for (int pass = 0; pass < most_passes; ++pass) {
       const double changed = correct();
       if (changed == infinity) return false;
-      const double rate = changed / before;  // 0 in a first pass
+      // The rate is 0 in a first pass.
+      const double rate = changed / before;
       const bool first = before == infinity;
       if (changed <= limit || (!first && rate < 0.5 && rate * changed <= limit)) return true;
-      if (at_stages && rate >= 0.5 && changed <= hopeless * limit) return true;  // as near as numbers come
+      // Rounding allows no better agreement.
+      if (at_stages && rate >= 0.5 && changed <= hopeless * limit) return true;
       before = changed;
       if (!is_slow(changed, rate, limit, worth_factors)) continue;
       if (!at_stages && !(rate < 0.5)) {
@@ -248,10 +263,12 @@ double ImplicitStep::step(double h, const Vec3& x, const Vec3& v, const Accelera
   return wrong * std::max(1 / velocity, displacement_share * h / position);
 }
 
-/// m/s: by what the velocity is wrong, from its polynomial's last terms: they fade by a like factor each, of which
-/// terms of one parity tell too. A transient that is small beside the slow motion stays hidden to this.
+/// The error of the velocity (m/s), from the last terms of its polynomial. They fade by a similar factor each, and
+/// terms of one parity may vanish.
+/// A transient that is small beside the slow motion stays hidden from this estimate.
 double ImplicitStep::error_by_terms() const {
-  std::array<double, 4> size;  // of the terms of degrees 4 to 7
+  // Sizes of the terms of degrees 4 to 7.
+  std::array<double, 4> size;
   for (std::size_t n = 0; n < size.size(); ++n) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t j = 0; j < nodes; ++j) sum += method().tail[n][j] * change_[j];
@@ -263,9 +280,11 @@ double ImplicitStep::error_by_terms() const {
   return term_share * std::max(size[3], fading * size[2]) * fading;
 }
 
-/// m/s: by what the velocity is wrong, from what the polynomial's acceleration misses a (m/s^2) by at the start, the
-/// one place where it is not the forces'. The filter (Hairer & Wanner, IV.8, eq. 8.20) brings what is over at once to
-/// the size of its velocity. Beside a sign change of the error there this is too small.
+/// The error of the velocity (m/s), from the difference between the polynomial's acceleration and a (m/s^2) at the
+/// start.
+/// The start is the one point where the polynomial's acceleration is not that of the forces.
+/// The filter (Hairer & Wanner, IV.8, eq. 8.20) reduces a fast transient to the size of its velocity.
+/// The estimate is too small near a sign change of the error at the start.
 double ImplicitStep::error_by_start(const Vec3& a, const ForceJacobian& j) const {
   const double s = filter * length_;
   LuFactors<axes> factors;
@@ -275,7 +294,8 @@ double ImplicitStep::error_by_start(const Vec3& a, const ForceJacobian& j) const
       factors.at(p, q) = (p == q ? 1 : 0) - s * j.by_velocity(row, column) - s * s * j.by_position(row, column);
     }
   if (!factors.factor()) return infinity;
-  Vec3 slope = Vec3::Zero();  // m/s: of the polynomial there, by the step
+  // The slope of the polynomial at the start, by the step, m/s.
+  Vec3 slope = Vec3::Zero();
   for (std::size_t k = 0; k < nodes; ++k) slope += method().power[0][k] * change_[k];
   const Vec3 miss = length_ * a - slope;
   LuFactors<axes>::Row b{miss[0], miss[1], miss[2]};

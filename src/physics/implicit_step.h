@@ -1,8 +1,9 @@
 #pragma once
-// x'' = a(x, x') of one point under stiff forces, where an explicit method would take steps of a force's shortest time:
-// by collocation at Radau's points (Radau IIA with seven stages; Hairer & Wanner, Solving Ordinary Differential
-// Equations II, 2nd ed. 1996, IV.5 and IV.8). Order 13 at a step's end. Before it, order 7 of the velocity and 8 of the
-// displacement, whose polynomial has degree 8: that of PolynomialPath.
+// x'' = a(x, x') of one point under stiff forces, by collocation at Radau's points.
+// It serves where an explicit method would take steps of the forces' shortest time (Radau IIA with seven stages; Hairer
+// & Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, IV.5 and IV.8).
+// The order is 13 at a step's end. Within the step it is 7 for the velocity and 8 for the displacement.
+// The displacement's polynomial has degree 8, that of PolynomialPath.
 #include <Eigen/Core>
 #include <array>
 #include <functional>
@@ -14,19 +15,20 @@ namespace carom {
 
 class ImplicitStep {
  public:
-  /// m/s^2, at x (m) and v (m/s).
+  /// The acceleration (m/s^2) at x (m) and v (m/s).
   using Acceleration = std::function<Vec3(const Vec3& x, const Vec3& v)>;
   /// Its derivatives there.
   using Jacobian = std::function<ForceJacobian(const Vec3& x, const Vec3& v)>;
 
-  /// A step of h (s) from x (m) and v (m/s), in place of the one before. Gives its greatest error by axis, at any time
-  /// of it, as a share of `position` (m) and `velocity` (m/s): at most 1 is good. Infinity: the stages were not found.
+  /// A step of h (s) from x (m) and v (m/s). It replaces the step before.
+  /// Returns the greatest error along an axis at any time of the step, as a share of `position` (m) and `velocity`
+  /// (m/s). At most 1 is within tolerance. Infinity: the stages did not converge.
   double step(double h, const Vec3& x, const Vec3& v, const Acceleration& acceleration, const Jacobian& jacobian,
               double position, double velocity);
-  /// The step (s) after one of h (s) with this error: shorter in its place, or of the next one.
+  /// The step length (s) after a step of h (s) with this error. After a rejected step it is the length of the retry.
   static double next_length(double h, double error);
 
-  /// The way through the last step.
+  /// The path through the last step.
   PolynomialPath path() const;
 
  private:
@@ -37,8 +39,8 @@ class ImplicitStep {
   double error_by_start(const Vec3& a, const ForceJacobian& j) const;
 
   double length_ = 0;                // s
-  Vec3 v_ = Vec3::Zero();            // m/s: at the start
-  std::array<Vec3, stages> change_;  // m/s: of the velocity since the start, by stage
+  Vec3 v_ = Vec3::Zero();            // m/s, at the start
+  std::array<Vec3, stages> change_;  // m/s: change of the velocity since the start, by stage
 };
 
 }  // namespace carom

@@ -1,6 +1,6 @@
 #pragma once
-// Methods that carry particles through a step in time, whatever accelerates them. Two are parabolas, from step to step
-// with another acceleration: curved_flights.h has them.
+// Methods that carry particles through a step in time under any acceleration.
+// Two of them give parabolas, with another acceleration in each step. curved_flights.h applies these.
 #include <cstdint>
 
 #include "numerics/vec3.h"
@@ -8,21 +8,27 @@
 namespace carom {
 
 enum class Integrator : std::uint8_t {
-  dop853,  // of Dormand and Prince, with steps of its own (dormand_prince.h); order 8
-  euler,   // semi-implicit: v' = v + h a(x, v), x' = x + h v': a parabola, as fast as v + h a/2 at first; order 1
-  verlet,  // velocity Verlet (Swope et al., J. Chem. Phys. 76 (1982) 637): at the end of a parabola from v, the
-           // velocity goes over to v + h (a + a')/2, a' with the parabola's velocity; order 2
-  rk4      // the classical method of Runge and Kutta; order 4
+  // The method of Dormand and Prince with steps of its own (dormand_prince.h). Order 8.
+  dop853,
+  // The semi-implicit method: v' = v + h a(x, v), x' = x + h v'. Its path is a parabola that starts with velocity v + h
+  // a/2. Order 1.
+  euler,
+  // Velocity Verlet (Swope et al., J. Chem. Phys. 76 (1982) 637). The path is a parabola from v.
+  // At its end the velocity becomes v + h (a + a')/2, a' with the parabola's velocity. Order 2.
+  verlet,
+  // The classical method of Runge and Kutta. Order 4.
+  rk4
 };
 
-/// What a step does to a particle: `bend` (m), how far it is off the straight line at its end, and `change` (m/s), of
-/// its velocity.
+/// The effect of a step on a particle. `bend` (m): its distance from the straight line at the end. `change` (m/s): the
+/// change of its velocity.
 struct StepChange {
   Vec3 bend, change;
 };
 
-/// A step by the classical method of length h (s) of a particle at x (m) with velocity v (m/s) and acceleration a
-/// (m/s^2) there. `acceleration(x, v)` gives that of other places and velocities.
+/// A step of the classical method, of length h (s). The particle starts at x (m) with velocity v (m/s) and acceleration
+/// a (m/s^2).
+/// `acceleration(x, v)` gives the acceleration at other positions and velocities.
 template <typename Acceleration>
 StepChange runge_kutta(double h, const Vec3& x, const Vec3& v, const Vec3& a, const Acceleration& acceleration) {
   const Vec3 v1 = v + (0.5 * h) * a;

@@ -1,3 +1,12 @@
+// Universal variables (Stumpff; Everhart & Pitkin, Am. J. Phys. 51, 1983, 712; Wisdom & Hernandez, MNRAS 453, 2015,
+// 3015).
+// With beta = 2 mu / r - v^2 and ds = dt / r, every conic obeys r = r0 + eta G1 + zeta G2 and t = r0 s + eta G2 + zeta
+// G3, where G_n(s) = s^n (1/n! - beta s^2 / (n + 2)! + ...).
+// Usually s counts from the start. Here it counts from the nearer end of the long axis, where eta = x . v is 0.
+// All terms then have one sign, and nothing cancels: neither at a pericentre of 1e-17 of the start's distance, nor in a
+// fall from rest.
+// Anomalies need a case for each conic, and lose digits where the conics meet.
+// Factors of many revolutions and differences that cancel are computed once, in two doubles.
 #include "physics/kepler_orbit.h"
 
 #include <algorithm>
@@ -5,23 +14,15 @@
 
 #include "numerics/elementary.h"
 
-// Universal variables (Stumpff; Everhart & Pitkin, Am. J. Phys. 51, 1983, 712; Wisdom & Hernandez, MNRAS 453, 2015,
-// 3015): with beta = 2 mu / r - v^2 and ds = dt / r, every conic obeys r = r0 + eta G1 + zeta G2 and t = r0 s + eta G2
-// + zeta G3, where G_n(s) = s^n (1/n! - beta s^2 / (n + 2)! + ...). Usually s counts from the start. Here it counts
-// from the nearer end of the long axis, where eta = x . v is 0: all terms have one sign and nothing cancels, neither at
-// a pericentre of 1e-17 of the start's distance, nor in a fall that starts at rest. Anomalies need a case for each
-// conic, and lose digits where the conics meet.
-//
-// What is multiplied by many revolutions, and what cancels, is computed once, in two doubles.
-
 namespace carom {
 
 namespace {
 
-constexpr double reach = 6;  // of the series, in |beta| s^2: beyond, a hyperbola's exponentials do not cancel
+// Reach of the series in |beta| s^2. Beyond it a hyperbola's exponentials do not cancel.
+constexpr double reach = 6;
 constexpr DoubleDouble half_pi = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 
-/// What a conic is known by, from a place and a velocity.
+/// The constants of a conic, from a position and a velocity.
 struct Constants {
   DoubleDouble r;       // m
   DoubleDouble beta;    // m^2/s^2
@@ -46,7 +47,7 @@ Constants constants(double mu, const Vec3& x, const Vec3& v) {
     c.square = c.square + part * part;
     c.h[i] = part.value();
   }
-  // Both are the square of mu times the eccentricity, as sums of squares: the first vanishes for circles.
+  // Both forms are (|mu| times the eccentricity)^2 as sums of squares. The first vanishes exactly for circles.
   c.bend =
       square_root(c.beta.hi > 0 ? c.zeta * c.zeta + c.beta * c.eta * c.eta : strength * strength - c.beta * c.square);
   return c;
@@ -57,7 +58,7 @@ SinCos true_anomaly(double mu, const Constants& c) {
   if (c.bend.hi == 0) return {0, 1};
   const double r = c.r.hi, e = c.bend.hi / mu;
   const double sine = c.eta.hi / r * (std::sqrt(c.square.hi) / c.bend.hi);
-  // Near a circle the direction of the pericentre is lost to rounding, and only has to fit the start's phase.
+  // Near a circle the direction of the pericentre is lost to rounding. It only has to fit the start's phase.
   if (c.beta.hi > 0 && e < 0.5) return {sine, mu / (c.beta.hi * r) * (c.zeta.hi / c.bend.hi - e)};
   return {sine, ((c.square / c.r - DoubleDouble{mu, 0}) / c.bend).hi};
 }
@@ -83,7 +84,7 @@ Universal universal(double beta, double root, double s) {
   return {s * (1 - z * third), square * second, s * square * third};
 }
 
-/// 1/n! - inverse_factorial[n].
+/// The rounding error of inverse_factorial[n]: 1/n! - inverse_factorial[n].
 // clang-format off
 constexpr double inverse_factorial_rest[] = {
     0, 0, 0, 0x1.5555555555555p-57, 0x1.5555555555555p-59, 0x1.1111111111111p-63, -0x1.f49f49f49f49fp-65,
@@ -91,7 +92,7 @@ constexpr double inverse_factorial_rest[] = {
     -0x1.c062e06d1f209p-80, -0x1.2aec959e14c06p-83, 0x1.f28e0cc748ebep-87};
 // clang-format on
 
-/// 1/n! - z/(n + 2)! + z^2/(n + 4)! - ..., n = 2 or 3, to 2^-70 for |z| <= 6: the first terms in two doubles.
+/// 1/n! - z/(n + 2)! + z^2/(n + 4)! - ..., n = 2 or 3, to 2^-70 for |z| <= 6. The first terms are in two doubles.
 DoubleDouble stumpff(DoubleDouble z, std::size_t n) {
   std::size_t m = n + 26;
   double tail = 0;
@@ -101,9 +102,9 @@ DoubleDouble stumpff(DoubleDouble z, std::size_t n) {
   return sum;
 }
 
-/// s: the start's time since an end of the long axis, at `distance` (m); side = 1: the near end, -1: the far one.
+/// The time of the start (s) since an end of the long axis at `distance` (m). side = 1: the near end; -1: the far end.
 DoubleDouble start_time(double mu, const Constants& c, double side, DoubleDouble distance) {
-  // At parameter s from there, bend G1 = eta and bend G0 = zeta.
+  // At parameter s from that end, bend G1 = eta and bend G0 = zeta.
   const DoubleDouble bend = side > 0 ? c.bend : -c.bend;
   if (bend.hi == 0) return {0, 0};
   const double root = std::sqrt(std::abs(c.beta.hi));
@@ -111,10 +112,10 @@ DoubleDouble start_time(double mu, const Constants& c, double side, DoubleDouble
   if (c.beta.hi > 0) s = arc_tangent(side * root * c.eta.hi, side * c.zeta.hi) / root;
   if (c.beta.hi < 0) s = arc_sinh(root * s) / root;
   const DoubleDouble exact = {s, 0}, one = {1, 0}, square = two_product(s, s), z = c.beta * square;
-  // Of a hyperbola, far out: distance s + bend G3, with G3 = (s - G1) / beta and distance beta + bend = mu.
+  // For a hyperbola far out, the time is distance s + bend G3, with G3 = (s - G1) / beta and distance beta + bend = mu.
   if (z.hi < -reach) return (two_product(mu, s) - c.eta) / c.beta;
   const DoubleDouble third = stumpff(z, 3), first = exact * (one - z * third), zeroth = one - z * stumpff(z, 2);
-  // What s lacks is G1 of a difference: sin(a - b) = sin(a) cos(b) - cos(a) sin(b) for any beta.
+  // The error of s is G1 of a difference: sin(a - b) = sin(a) cos(b) - cos(a) sin(b), which holds for any beta.
   const double lacking = (c.eta * zeroth - c.zeta * first).hi / bend.hi;
   return exact * (distance + bend * square * third) + DoubleDouble{c.r.hi * lacking, 0};
 }
@@ -124,14 +125,16 @@ double rough_cube_root(double x) {
   int exponent;
   double m = std::frexp(x, &exponent);
   for (; exponent % 3 != 0; --exponent) m *= 2;
-  const double y = 0.68 + 0.245 * m;  // m in [1/2, 4)
+  // Here m is in [1/2, 4).
+  const double y = 0.68 + 0.245 * m;
   return std::ldexp(y - (y - m / (y * y)) / 3, exponent / 3);
 }
 
 /// log(x) to 0.006, for x > 0: log(3/4) + 2 atanh(w) for m = 3/4 (1 + w) / (1 - w).
 double rough_logarithm(double x) {
   int exponent;
-  const double m = std::frexp(x, &exponent);  // in [1/2, 1)
+  // In [1/2, 1).
+  const double m = std::frexp(x, &exponent);
   return 0.6931 * exponent - 0.2877 + 2 * (m - 0.75) / (m + 0.75);
 }
 
@@ -144,7 +147,7 @@ KeplerOrbit::KeplerOrbit(double mu, const Vec3& x, const Vec3& v) : mu_(mu), x_(
   momentum_ = square_root(c.square).hi;
   const DoubleDouble root = square_root(beta_ > 0 ? c.beta : -c.beta);
   root_ = root.hi;
-  // Two forms of the pericentre's distance: each a sum, never a difference.
+  // Two forms of the pericentre's distance. Each is a sum, never a difference.
   const DoubleDouble pericentre = mu > 0 ? c.square / (strength + c.bend) : (c.bend - strength) / -c.beta;
   near_ = {1, pericentre.hi, c.bend.hi};
 
@@ -155,8 +158,10 @@ KeplerOrbit::KeplerOrbit(double mu, const Vec3& x, const Vec3& v) : mu_(mu), x_(
   aside_ = angle.sin * out + angle.cos * along;
 
   DoubleDouble start_from = pericentre;
-  if (beta_ > 0 && mu / (beta_ * root_) < 0x1p900) {  // else no double counts its turns
-    const DoubleDouble apocentre = (strength + c.bend) / c.beta, radian = strength / (c.beta * root);  // m, s
+  // Otherwise no double can count the turns.
+  if (beta_ > 0 && mu / (beta_ * root_) < 0x1p900) {
+    // In m and s.
+    const DoubleDouble apocentre = (strength + c.bend) / c.beta, radian = strength / (c.beta * root);
     far_ = {-1, apocentre.hi, -c.bend.hi};
     period_ = DoubleDouble{4, 0} * half_pi * radian;
     quarter_ = (half_pi * radian).hi - near_.bend / (beta_ * root_);
@@ -169,7 +174,8 @@ KeplerOrbit::KeplerOrbit(double mu, const Vec3& x, const Vec3& v) : mu_(mu), x_(
 KeplerOrbit::Phase KeplerOrbit::phase(DoubleDouble t) const {
   DoubleDouble since = start_ + t;
   if (!(period_.hi < INFINITY)) return {&near_, since};
-  // Once, but for more turns than a double counts: then the phase is not known, only that the place is on the orbit.
+  // One pass suffices unless a double cannot count the turns. The phase is then unknown, but the position is still on
+  // the orbit.
   constexpr int most = 32;
   const double half = 0.5 * period_.hi;
   for (int k = 0; k < most && std::abs(since.hi) > half; ++k) {
@@ -185,10 +191,11 @@ KeplerOrbit::Phase KeplerOrbit::phase(DoubleDouble t) const {
 }
 
 double KeplerOrbit::first_guess(const Apsis& from, double time) const {
-  // Of a hyperbola's late times: sinh(w) = n + mu w / bend, w = root s.
+  // For late times on a hyperbola: sinh(w) = n + mu w / bend, w = root s.
   const double n = beta_ < 0 ? root_ * -beta_ * time / from.bend : 0;
   if (n > 5) return rough_logarithm(2 * (n + mu_ / from.bend * rough_logarithm(2 * n))) / root_;
-  // Else that of a parabola, distance s + bend s^3 / 6 = time, by Newton's method from the lesser of two upper bounds.
+  // Otherwise the parabola's equation distance s + bend s^3 / 6 = time. Newton's method starts from the lesser of two
+  // upper bounds.
   const double line = time / from.distance;
   if (from.bend * line * line < 0.5 * from.distance) return line;
   double s = std::min(line, rough_cube_root(6 * time / from.bend));
@@ -199,11 +206,13 @@ double KeplerOrbit::first_guess(const Apsis& from, double time) const {
   return s;
 }
 
-/// The s with distance s + bend G3(s) = time, to 1e-11 or better. By Danby's fourth order form of Newton's method
-/// (Celest. Mech. 40, 1987, 303) between bounds, for time > 0.
+/// The s with distance s + bend G3(s) = time, to 1e-11 or better, for time > 0.
+/// The method is Danby's fourth order form of Newton's (Celest. Mech. 40, 1987, 303), between bounds.
 double KeplerOrbit::parameter(const Apsis& from, DoubleDouble time) const {
-  constexpr int most = 100;         // 2 to 4 are usual
-  constexpr double near = 0x1p-10;  // a step that leaves its fourth power
+  // 2 to 4 are usual.
+  constexpr int most = 100;
+  // A step at which the fourth order leaves an error of its fourth power.
+  constexpr double near = 0x1p-10;
   double s = first_guess(from, time.hi), low = 0, high = (beta_ > 0 ? 2 : 700) / root_;
   for (int k = 0; k < most; ++k) {
     const Universal g = universal(beta_, root_, s);
@@ -239,7 +248,7 @@ void KeplerOrbit::at(DoubleDouble t, Vec3& x, Vec3& v) const {
   const double side = apsis->side;
   x = side * (apsis->distance - mu_ * g.second) * ahead_ + sign * side * momentum_ * g.first * aside_;
   v = -sign * side * (mu_ * g.first / r) * ahead_ + side * (momentum_ * (1 - beta_ * g.second) / r) * aside_;
-  // The last step of Newton's method, taken by the place itself: s would round it.
+  // The last step of Newton's method is taken by the position itself, because s would round it.
   const double rest = sign * ((length.hi - (apsis->distance * s + apsis->bend * g.third)) + length.lo);
   const Vec3 pull = -mu_ / r * (x / r) / r;
   x += rest * v;

@@ -1,5 +1,5 @@
 #pragma once
-// What a force may depend on.
+// The quantities that a force may depend on.
 #include "numerics/vec3.h"
 
 namespace carom {

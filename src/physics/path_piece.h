@@ -1,13 +1,13 @@
 #pragma once
-// A piece of a body's path as it is recorded: with the pieces of all bodies the state at any instant is known again,
-// bit for bit, without simulating.
+// A piece of a body's path, as it is recorded. The pieces of all bodies reproduce the state at any instant, bit for
+// bit, without simulation.
 #include "numerics/compensated.h"
 #include "numerics/vec3.h"
 #include "physics/entity.h"
 
 namespace carom {
 
-/// By how much a velocity is not that of a parabola, t after its start: t (linear + t quadratic).
+/// The difference of a velocity from that of a parabola, t after the start: t (linear + t quadratic).
 struct PathBend {
   Vec3 linear = Vec3::Zero();     // m/s^2
   Vec3 quadratic = Vec3::Zero();  // m/s^3
@@ -15,24 +15,27 @@ struct PathBend {
   Vec3 at(double t) const { return t * (linear + t * quadratic); }  // m/s
 };
 
-/// From `from` on, until the body's next piece, its position is x + t (v + t a / 2) and its velocity v + t a, where t
-/// is the time since `start`, less (until - now) kick where there is any, and t (linear + t quadratic)
-/// more where contact bends it.
+/// A piece holds from `from` until the body's next piece. With t the time since `start`, the position is x + t (v + t a
+/// / 2) and the velocity v + t a.
+/// A kicked piece has (until - time) kick less velocity. A piece bent by contact has t (linear + t quadratic) more.
 struct PathPiece {
   Entity body = no_entity;
-  double from = 0;              // s, the first double at which it holds
-  DoubleDouble start{0, 0};     // s
-  Vec3 x = Vec3::Zero();        // m, at start
-  Vec3 v = Vec3::Zero();        // m/s, at start
-  Vec3 a = Vec3::Zero();        // m/s^2
-  bool kicked = false;          // by a time step: what forces do until its end is in v from the start
-  DoubleDouble until{0, 0};     // s, that end
-  Vec3 kick = Vec3::Zero();     // m/s^2
-  PathBend bend{};              // in contact with what is curved
-  Entity part_of = no_entity;   // the body that it has become part of, by whose pieces it moves
-  bool joint = false;           // others have become part of it: it now has the
-  double mass = 0, radius = 0;  // kg, m,
-  Vec3 half = Vec3::Zero();     // m, half extents of its volume
+  double from = 0;           // s, the first double at which it holds
+  DoubleDouble start{0, 0};  // s
+  Vec3 x = Vec3::Zero();     // m, at start
+  Vec3 v = Vec3::Zero();     // m/s, at start
+  Vec3 a = Vec3::Zero();     // m/s^2
+  // A time step kicked the body: v contains the effect of forces until the step's end from the start on.
+  bool kicked = false;
+  DoubleDouble until{0, 0};  // s, the end of that step
+  Vec3 kick = Vec3::Zero();  // m/s^2
+  PathBend bend{};           // in contact with a curved surface
+  // The body that it has become part of. The pieces of that body give its motion.
+  Entity part_of = no_entity;
+  // Other bodies have become part of it. Its mass, radius and half extents are then the following.
+  bool joint = false;
+  double mass = 0, radius = 0;  // kg, m
+  Vec3 half = Vec3::Zero();     // m, half extents of the volume
 };
 
 }  // namespace carom

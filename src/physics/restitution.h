@@ -1,5 +1,5 @@
 #pragma once
-// The coefficient of restitution of a pair (chapter 8: a body has its own; the pair's is made of both).
+// The coefficient of restitution of a pair. In chapter 8 each body has its own, and both together make the pair's.
 #include "physics/entity.h"
 #include "physics/world.h"
 
@@ -7,12 +7,13 @@ namespace carom {
 
 struct World;
 
-/// e of two coefficients; masses (kg) matter to mass_weighted only. `book` is e1 e2 / 2, listing 8.4 as printed.
+/// e from two coefficients. Masses (kg) matter to mass_weighted only. `book` is e1 e2 / 2, listing 8.4 as printed.
 double combine_restitution(Combine rule, double e1, double m1, double e2, double m2);
 
-/// e between body a and body or fixed surface b: the pair's own value if one is given, else by the world's rule.
-/// A surface that names none takes the body's own: combined by the rule like any other, so that `average` gives the
-/// body's coefficient. In mass_weighted a surface weighs without limit: its own coefficient is the pair's.
+/// e between body a and b, a body or a fixed surface. The pair's own value takes precedence over the world's rule.
+/// A surface without a coefficient takes the body's. The rule then combines the two, so that `average` gives the body's
+/// coefficient.
+/// In mass_weighted a surface has unlimited weight, so that its own coefficient is the pair's.
 double pair_restitution(const World& world, Entity a, Entity b);
 
 }  // namespace carom

@@ -1,7 +1,8 @@
 #pragma once
 // F = -(k (|d| - l) + c d|d|/dt) d/|d|, d = x - anchor: a spring with a damper beside it, both along the line from the
-// anchor. At the anchor itself that line is taken along the body's velocity; a spring with a rest length has no
-// direction to push there and does not.
+// anchor.
+// At the anchor the damper acts along the body's velocity. A spring with a rest length has no direction there, and does
+// not push.
 #include <cmath>
 
 #include "physics/particle.h"
@@ -21,7 +22,7 @@ struct Spring {
     if (rest_length == 0 && damping == 0) return -stiffness / p.mass * d;
     const double length = d.norm();
     if (length == 0) return -damping / p.mass * p.v;
-    // One factor times d: where it is great, rounding leaves nothing across the line.
+    // A single factor times d: where the factor is great, rounding leaves no force across the line.
     return (stiffness * (rest_length - length) - damping / length * d.dot(p.v)) / (length * p.mass) * d;
   }
   double potential(const Particle& p) const {
@@ -38,7 +39,8 @@ struct Spring {
   Vec3 damper(const Particle& p, const Vec3& d) const {
     const double square = d.squaredNorm();
     if (damping == 0 || square == 0) return -damping * p.v;
-    return -damping * d.dot(p.v) / square * d;  // along the line alone, as above
+    // Along the line alone, as above.
+    return -damping * d.dot(p.v) / square * d;
   }
 };
 

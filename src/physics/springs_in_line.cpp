@@ -1,6 +1,7 @@
-// Along a line s the push is k (l sign(s) - s). Between anchors that is linear, so that a method of any order keeps its
-// order there. Left to the control of its error, it would end each passage in ever shorter steps, one of which takes
-// the turn in its stride, for an error that its estimate just allows.
+// Along a line s the push of a spring is k (l sign(s) - s). Between anchors that is linear, so that a method of any
+// order keeps its order there.
+// A step must end at an anchor. The error control alone would approach each passage in ever shorter steps.
+// One of these would then step over the turn, with an error that the estimate just allows.
 #include "physics/springs_in_line.h"
 
 #include <cmath>
@@ -13,10 +14,14 @@ namespace carom {
 
 namespace {
 
-constexpr double off_line = 0x1p-40;  // of a length, across: as good as on the line
-constexpr double rounding = 0x1p-44;  // of coordinates: of a place that is on it
-constexpr double soon = 0x1p-6;       // of a step: a body that leaves an anchor has left it by then
-constexpr double plainly = 0x1p10;    // of that: by so much it is off the anchor
+// Deviation across the line, as a share of the length, that counts as on the line.
+constexpr double off_line = 0x1p-40;
+// Rounding of a position on the line, as a share of the coordinates.
+constexpr double rounding = 0x1p-44;
+// A share of the step: a body that leaves an anchor has left it by then.
+constexpr double soon = 0x1p-6;
+// A body at more than so many times that rounding is off the anchor.
+constexpr double plainly = 0x1p10;
 constexpr int halvings = 60;
 
 Vec3 direction(const Vec3& of) {
@@ -33,7 +38,8 @@ SpringsInLine::SpringsInLine(const World& world, Entity body, double time, const
     if (spring == nullptr || spring->rest_length == 0 || spring->stiffness == 0 || !acts(force, body, time)) continue;
     const Vec3 d = x - spring->anchor;
     const double rounded = rounding * (x.norm() + spring->anchor.norm() + spring->rest_length);
-    // By the place; near the anchor, where that is rounding, by the velocity.
+    // The direction is that of the position. Near the anchor, where the position is mere rounding, it is that of the
+    // velocity.
     if (!any()) along_ = direction(d.norm() > plainly * rounded ? d : v);
     const double rate = std::sqrt(spring->stiffness / world.mass[body]), speed = v.norm() + rate * spring->rest_length;
     const bool on_line = d.cross(along_).norm() <= off_line * d.norm() + rounded;
@@ -41,7 +47,7 @@ SpringsInLine::SpringsInLine(const World& world, Entity body, double time, const
       springs_.clear();
       return;
     }
-    // From an anchor a body leaves as it came.
+    // A body leaves an anchor in the direction in which it came.
     const double s = d.dot(along_);
     const double side = std::copysign(1.0, std::abs(s) > rounded ? s : v.dot(along_));
     springs_.push_back({spring->anchor, spring->stiffness * spring->rest_length / world.mass[body], side, rounded});
@@ -51,7 +57,7 @@ SpringsInLine::SpringsInLine(const World& world, Entity body, double time, const
   if (!(smooth.cross(along_).norm() <= off_line * smooth.norm())) springs_.clear();
 }
 
-/// m/s^2: what the springs' acceleration at x (m) lacks of that without a turn.
+/// The spring's acceleration without a turn less that at x (m), in m/s^2.
 Vec3 SpringsInLine::correction(const Vec3& x) const {
   Vec3 sum = Vec3::Zero();
   for (const OneSpring& spring : springs_) {

@@ -1,3 +1,4 @@
+// Follows chains of merged bodies to the joint body that holds them all.
 #include "physics/state.h"
 
 namespace carom {

@@ -1,5 +1,5 @@
 #pragma once
-// What changes during a run: where the bodies are and how they move, at one instant.
+// What changes during a run: the positions and velocities of the bodies at one instant.
 #include <vector>
 
 #include "numerics/vec3.h"
@@ -13,15 +13,16 @@ struct State {
   std::vector<Vec3> position;  // m, of the centre, by body
   std::vector<Vec3> velocity;  // m/s, by body
 
-  // Where bodies have merged (empty: none has). A body that has become part of another keeps its own mass and radius in
-  // the World; here it weighs nothing, and its position and velocity are the joint body's.
+  // These are empty where no bodies have merged. A merged body keeps its own mass and radius in the World.
+  // Here its mass is zero, and its position and velocity are those of the joint body.
   std::vector<double> mass{};     // kg, by body
-  std::vector<double> radius{};   // m, by body, of the smallest sphere about the volume
+  std::vector<double> radius{};   // m, by body: radius of the smallest sphere about the volume
   std::vector<Volume> volume{};   // by body
-  std::vector<Entity> part_of{};  // the body that it is part of; itself: none
+  std::vector<Entity> part_of{};  // the body that it is part of; its own number: none
 
-  /// Where part_of names the body that each has merged with, which may have become part of another since, and the rest
-  /// is as it was before: brings it all to what is said above.
+  /// Brings all fields to the form above.
+  /// Before, part_of may name a body that has itself become part of another, and the rest is as it was before the
+  /// merges.
   void join_parts();
 };
 

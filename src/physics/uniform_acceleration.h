@@ -1,5 +1,5 @@
 #pragma once
-// a = const, whatever the mass.
+// a = const, for every mass.
 #include "physics/particle.h"
 
 namespace carom {

@@ -1,3 +1,4 @@
+// Extents of the three volumes in closed form.
 #include "physics/volume.h"
 
 #include <cmath>

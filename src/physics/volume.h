@@ -1,6 +1,6 @@
 #pragma once
-// Bounding volumes (chapter 8): a sphere, an upright cylinder (its axis along y), a box along the axes. Bodies move
-// without turning, so a volume is its shape and its half extents about its centre.
+// Bounding volumes (chapter 8): a sphere, an upright cylinder (its axis along y), a box along the axes.
+// Bodies move without turning, so a volume is its shape and its half extents about its centre.
 #include <cstdint>
 
 #include "numerics/vec3.h"
@@ -17,11 +17,11 @@ struct Volume {
   static Volume cylinder(double radius, double height) { return {Shape::cylinder, Vec3(radius, 0.5 * height, radius)}; }
   static Volume box(const Vec3& edges) { return {Shape::box, 0.5 * edges}; }
 
-  /// m, radius of the smallest sphere about the centre that holds the volume.
+  /// Radius of the smallest sphere about the centre that holds the volume (m).
   double reach() const;
   /// m^3
   double size() const;
-  /// m, how far the volume reaches from its centre along the unit vector n (its support function).
+  /// The extent of the volume from its centre along the unit vector n (m): its support function.
   double support(const Vec3& n) const;
 };
 

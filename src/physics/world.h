@@ -1,5 +1,5 @@
 #pragma once
-// What never changes during a run. What does change is State (state.h).
+// What never changes during a run. What changes is State (state.h).
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -45,10 +45,10 @@ struct Force {
   std::vector<Entity> on{};                                // ascending; empty: all bodies
 };
 
-/// How two bodies' coefficients of restitution make the pair's (restitution.h).
+/// The rule that makes a pair's coefficient of restitution from two (restitution.h).
 enum class Combine : std::uint8_t { average, minimum, maximum, product, geometric_mean, mass_weighted, book };
 
-/// A coefficient that overrules the combination, for every pair with one entity in each range.
+/// A coefficient that overrides the rule, for every pair with one entity in each range.
 struct PairRestitution {
   Entity a_first, a_count;
   Entity b_first, b_count;
@@ -58,17 +58,17 @@ struct PairRestitution {
 /// Bodies, fixed surfaces and the laws between them. Arrays are indexed by body.
 struct World {
   std::vector<double> mass;         // kg, > 0
-  std::vector<double> radius;       // m, > 0: volume.reach(), a ball's own radius
+  std::vector<double> radius;       // m, > 0: volume.reach(), for a ball its radius
   std::vector<Volume> volume;       // about the position; empty: all are spheres
   std::vector<double> restitution;  // >= 0; above 1 makes energy
-  std::vector<Vec3> impulse;        // N s, given at time 0; empty: none at all
+  std::vector<Vec3> impulse;        // N s, applied at time 0; empty: none
   std::vector<Plane> planes;
   std::vector<Wall> walls;
   std::vector<Obstacle> obstacles;
   std::vector<Force> forces;
   Vec3 gravity = Vec3(0, -9.80665, 0);  // m/s^2
   Combine combine = Combine::average;
-  std::vector<PairRestitution> pairs;  // the last one that fits wins
+  std::vector<PairRestitution> pairs;  // the last match counts
 
   Entity body_count() const { return static_cast<Entity>(mass.size()); }
   Entity fixed_count() const { return static_cast<Entity>(planes.size() + walls.size() + obstacles.size()); }
@@ -80,12 +80,12 @@ struct World {
   const Wall& wall(Entity e) const { return walls[e - walls_from()]; }
   const Obstacle& obstacle(Entity e) const { return obstacles[e - obstacles_from()]; }
 
-  /// Of a body or an obstacle.
+  /// The volume of a body or an obstacle.
   Volume volume_of(Entity e) const {
     if (!is_body(e)) return obstacle(e).volume;
     return volume.empty() ? Volume::sphere(radius[e]) : volume[e];
   }
-  /// m: a plane's point, a wall's or an obstacle's centre.
+  /// The point of a plane, or the centre of a wall or an obstacle (m).
   const Vec3& fixed_position(Entity e) const {
     return is_plane(e) ? plane(e).point : is_wall(e) ? wall(e).center : obstacle(e).center;
   }

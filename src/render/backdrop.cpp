@@ -1,3 +1,6 @@
+// Draws background, planes and walls by tracing one ray for each pixel, in a fragment shader over the whole picture.
+// Endless planes cannot be drawn as triangles.
+// Where neighbouring rays meet different surfaces, a pixel takes 16 samples.
 #include "render/backdrop.h"
 
 #include <fmt/format.h>
@@ -10,10 +13,11 @@
 namespace carom {
 namespace {
 
-// Which surface a ray meets. With s = 1 / z every plane is a linear function of the picture, s = -(n.d) / h, and the
-// horizon is s = 0. The free sides of all planes together are a convex room: what a ray sees is the plane through which
-// it leaves the room, if it has entered it through those that the eye is behind. So planes cut each other off where
-// they meet, a room can be seen into from outside, and no plane hides anything that can move.
+// Finds the surface that a ray meets. With s = 1 / z every plane is a linear function of the picture, s = -(n.d) / h,
+// and the horizon is s = 0.
+// The free sides of all planes together are a convex room. A ray shows the plane through which it leaves the room.
+// Before that it must have entered the room through the planes that the eye is behind.
+// Planes thus cut each other off where they meet, a room is visible from outside, and no plane hides a movable thing.
 const char* const tracing = R"(
 uniform samplerBuffer rows;
 uniform int planes, walls;

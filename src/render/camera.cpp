@@ -1,3 +1,7 @@
+// The scene's camera, or a default one, and the test whether it sees a sphere.
+// The default camera looks at the box of all bodies and of the fixed things near them, as near as all its corners
+// allow.
+// The test uses the distance to the frustum. Tests of single planes would accept spheres beyond its edges.
 #include "render/camera.h"
 
 #include <algorithm>
@@ -31,7 +35,7 @@ bool drawn(const Scene& scene, std::size_t fixed) {
   return fixed >= scene.roster.fixed.size() || scene.roster.fixed[fixed].visible;
 }
 
-/// The bodies, what they fall or fly onto, and the walls and obstacles among them.
+/// The box of the bodies, of the surfaces that they may fall or fly onto, and of the walls and obstacles among them.
 Box box_of(const Scene& scene) {
   Box bodies;
   for (std::size_t i = 0; i < scene.world.radius.size() && i < scene.initial.position.size(); ++i) {
@@ -57,7 +61,7 @@ Box box_of(const Scene& scene) {
     if (!drawn(scene, i)) continue;
     const Plane& plane = scene.world.planes[i];
     const double height = plane.normal.dot(middle - plane.point);
-    // What lies below will be fallen onto from any height; what stands beside matters if it is near.
+    // Bodies may fall onto a plane below from any height. A plane beside them counts only if it is near.
     const bool below = scene.world.gravity.dot(plane.normal) < -0.5 * scene.world.gravity.norm();
     if (height > 0 && height < (below ? 100 : 3) * size) all.add(middle - height * plane.normal);
   }
@@ -71,7 +75,7 @@ Box box_of(const Scene& scene) {
   const std::size_t obstacles = scene.world.planes.size() + scene.world.walls.size();
   for (std::size_t i = 0; i < scene.world.obstacles.size(); ++i) {
     if (!drawn(scene, obstacles + i)) continue;
-    // What of it is near: a floor may be a box of any size.
+    // Only the near part counts: a floor may be a box of any size.
     const Obstacle& obstacle = scene.world.obstacles[i];
     const Vec3 near_low = bodies.min.array() - size, near_high = bodies.max.array() + size;
     const Vec3 low = (obstacle.center - obstacle.volume.half).cwiseMax(near_low);
@@ -90,7 +94,7 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - (a + t * ab)).norm();
 }
 
-/// From a point to a convex quadrilateral, corners in order.
+/// The distance from a point to a convex quadrilateral with its corners in order.
 double distance_to_quad(const Vec3& p, std::span<const Vec3, 4> q) {
   const Vec3 n = (q[2] - q[0]).cross(q[3] - q[1]).normalized();
   bool inside = true;
@@ -114,9 +118,10 @@ Size picture_size(const Output& output) {
 CameraFrame view_of(const Camera& camera, Size size) {
   CameraFrame view;
   view.forward = (camera.target - camera.eye).normalized();
-  if (!(view.forward.norm() > 0.5)) view.forward = Vec3(0, 0, -1);  // eye and target in one place
+  // Eye and target are in one place.
+  if (!(view.forward.norm() > 0.5)) view.forward = Vec3(0, 0, -1);
   Vec3 right = view.forward.cross(camera.up.normalized());
-  // Up along the line of sight leaves the roll open: keep +x to the right if it can be, as seen from +z.
+  // With `up` along the line of sight the roll is undetermined. Keep +x to the right if possible, as seen from +z.
   if (!(right.norm() > 1e-9)) right = view.forward.cross(Vec3(0, 0, view.forward.y() > 0 ? 1 : -1));
   if (!(right.norm() > 1e-9)) right = view.forward.cross(Vec3(0, 1, 0));
   view.right = right.normalized();
@@ -131,7 +136,7 @@ CameraFrame view_of(const Camera& camera, Size size) {
 }
 
 bool sees_sphere(const Camera& camera, const CameraFrame& view, const Vec3& center, double radius) {
-  // The frustum is symmetric: the quarter to the upper right stands for all.
+  // The frustum is symmetric, so that its upper right quarter represents all.
   const Vec3 offset = center - camera.eye;
   const double x = std::abs(view.right.dot(offset)), y = std::abs(view.up.dot(offset)), z = view.forward.dot(offset);
   const double tx = std::tan(view.fov_x * degree / 2), ty = std::tan(view.fov_y * degree / 2);
@@ -140,7 +145,7 @@ bool sees_sphere(const Camera& camera, const CameraFrame& view, const Vec3& cent
   if (beyond <= 0) return true;
   if (!(beyond <= radius)) return false;
 
-  // Outside of one face, though perhaps of two: the distance to the frustum itself decides.
+  // The centre is outside of one face, and perhaps of two. The distance to the frustum itself decides.
   const Vec3 p(x, y, z);
   const auto corner = [&](double sx, double sy, double depth) { return Vec3(sx * depth * tx, sy * depth * ty, depth); };
   const double n = camera.near, f = camera.far;
@@ -158,13 +163,14 @@ Camera camera_of(const Scene& scene) {
   Camera camera;
   const Box box = box_of(scene);
   camera.target = (box.min + box.max) / 2;
-  const Vec3 back = Vec3(0, std::sin(18 * degree), std::cos(18 * degree));  // from the front, looking slightly down
+  // From the front, with a slight look downwards.
+  const Vec3 back = Vec3(0, std::sin(18 * degree), std::cos(18 * degree));
   camera.eye = camera.target + back;
   const CameraFrame view = view_of(camera, picture_size(scene.output));
   const double margin = 1.12;
   const double tx = std::tan(view.fov_x * degree / 2) / margin, ty = std::tan(view.fov_y * degree / 2) / margin;
 
-  // As near as all eight corners allow: |x| <= (distance + z) tx, z along the line of sight from the middle.
+  // As near as all eight corners allow: |x| <= (distance + z) tx, z along the line of sight from the centre.
   double distance = 0;
   for (int i = 0; i < 8; ++i) {
     const Vec3 corner(i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(),

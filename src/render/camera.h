@@ -1,14 +1,14 @@
 #pragma once
-// The camera as numbers: which way it looks, what it sees. Needs no OpenGL, so that `check` can ask.
+// The camera as numbers: its direction and its field of view. It needs no OpenGL, so that `check` can use it too.
 #include "physics/state.h"
 #include "scene/scene.h"
 
 namespace carom {
 
-/// The scene's camera, or where it names none, one that sees all bodies at time 0 (and the fixed things near them).
+/// The scene's camera. Without one, it is a camera that sees all bodies at time 0 and the fixed things near them.
 Camera camera_of(const Scene& scene);
 
-/// Of the frames, else of the film, else what is usual.
+/// The size of the frames. Without frames it is that of the film, and without a film the default.
 Size picture_size(const Output& output);
 
 /// The camera's right-handed frame and its angles.

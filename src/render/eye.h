@@ -1,6 +1,7 @@
 #pragma once
-// The camera's frame as the passes use it: x to the right, y up, z ahead, the eye at the origin. A ray through a
-// picture point is (x, y, 1). World coordinates turn into this frame in double precision; only then does float begin.
+// The camera's frame in the render passes: x to the right, y up, z ahead, the eye at the origin. A ray through a
+// picture point is (x, y, 1).
+// World coordinates are converted to this frame in double precision. Floats are used only after that.
 #include <cmath>
 #include <numbers>
 
@@ -26,16 +27,16 @@ struct Eye {
   double pixel;         // a pixel's side in the plane z = 1
 };
 
-/// The ellipse as which the plane z = 1 shows a sphere, from the origin.
+/// The ellipse that a sphere is in the plane z = 1, as seen from the origin.
 struct Outline {
   double x, y;    // centre
   double ax, ay;  // the longer half axis
   double bx, by;  // the shorter half axis
   double depth2;  // (half the chord of the ray through the centre)^2 x |ray|^2
 };
-/// False: the sphere reaches behind the plane z = 0, so that its outline is no ellipse.
+/// Computes the outline. False: the sphere reaches behind the plane z = 0, so that its outline is not an ellipse.
 inline bool outline_of(const Vec3& center, double radius, Outline& out) {
-  // The tangent cone (x.k)^2 = cos^2(alpha) |x|^2, cut by z = 1; theta is the angle between k and z.
+  // The tangent cone (x.k)^2 = cos^2(alpha) |x|^2, cut by z = 1. theta is the angle between k and z.
   const double distance2 = center.squaredNorm();
   const double sin2 = radius * radius / distance2, cos2 = 1 - sin2;
   const double lateral2 = center.x() * center.x() + center.y() * center.y();

@@ -1,3 +1,6 @@
+// OpenGL off-screen, by OSMesa with its software renderer llvmpipe: the same bytes on every machine, without a display.
+// A GPU would be faster, but its drivers give other pictures. Objects free themselves, and every error becomes a
+// RenderError.
 #include "render/gl.h"
 
 #include <fmt/format.h>
@@ -43,7 +46,7 @@ Context::Context() {
   load_functions();
   // The other drivers that OSMesa may choose give other bytes, or are many times slower.
   setenv("GALLIUM_DRIVER", "llvmpipe", 1);
-  // What draws is made with the first context, and stays.
+  // The drawing threads are made with the first context, and stay.
   static const bool threads_chosen = (choose_threads(), true);
   (void)threads_chosen;
   const int attributes[] = {OSMESA_FORMAT,
@@ -62,7 +65,8 @@ Context::Context() {
         "cannot make an OpenGL 4.5 context for pictures. Remedy: install libosmesa6 22.3 or later with llvmpipe "
         "(Debian: "
         "apt-get install libosmesa6), or run without frames, video and sheet.");
-  check_threads();  // (A context that lacks them cannot even be destroyed.)
+  // Without its threads, a context cannot even be destroyed.
+  check_threads();
   try {
     make_current();
   } catch (...) {

@@ -1,5 +1,5 @@
 #pragma once
-// The little of OpenGL that the passes use: an off-screen context, and objects that free themselves.
+// The part of OpenGL that the render passes use: an off-screen context, and objects that free themselves.
 #include <array>
 #include <cstddef>
 #include <initializer_list>
@@ -23,10 +23,11 @@ class Context {
 
  private:
   OSMesaContext context_;
-  std::array<unsigned char, 4 * 8 * 8> window_{};  // OSMesa wants one; pictures are drawn into textures instead
+  // OSMesa needs a window. Pictures are drawn into textures instead.
+  std::array<unsigned char, 4 * 8 * 8> window_{};
 };
 
-/// An object's name; freed with its owner, whose context must be current then.
+/// The name of an OpenGL object. It is freed with its owner. The owner's context must then be current.
 template <void (*release)(GLuint)>
 class Handle {
  public:
@@ -71,7 +72,8 @@ Buffer make_buffer();
 Vertices make_vertices();
 /// A picture-sized texture without mipmaps, read by texelFetch.
 Texture make_texture(GLenum format, int width, int height);
-/// A stack of pictures of coverage, `side` pixels (a power of two) wide and high, with room for mipmaps; empty around.
+/// A stack of coverage pictures, `side` pixels (a power of two) wide and high, with room for mipmaps. The border is
+/// empty.
 Texture make_outlines(int side, int layers);
 Framebuffer make_layer_framebuffer(const Texture& outlines, int layer);
 /// Draws into `colors` in this order, and tests against `depth` (0: none). Throws RenderError.
@@ -80,7 +82,7 @@ Framebuffer make_framebuffer(std::span<const GLuint> colors, GLuint depth);
 /// A vertex and a fragment shader. Throws RenderError with the compiler's own text.
 class Program {
  public:
-  /// `parts` are joined behind the version line.
+  /// `parts` are appended to the version line.
   Program(std::initializer_list<std::string_view> vertex, std::initializer_list<std::string_view> fragment);
   void use() const { gl::UseProgram(handle_.name()); }
   GLint at(const char* uniform) const { return gl::GetUniformLocation(handle_.name(), uniform); }
@@ -89,13 +91,13 @@ class Program {
   Handle<release_program> handle_;
 };
 
-/// One quadrilateral an instance, each with one Row of a buffer that is filled anew for every picture.
+/// One quadrilateral for each instance, with one row of a buffer that is filled anew for every picture.
 class Instances {
  public:
   /// Attribute i takes `floats[i]` floats of the row, in order.
   explicit Instances(std::initializer_list<int> floats);
   void draw(std::span<const float> rows);  // uploads and draws
-  void draw_again() const;                 // the same once more
+  void draw_again() const;                 // draws the same once more
 
  private:
   Vertices vertices_;
@@ -104,7 +106,7 @@ class Instances {
   GLsizei count_ = 0;
 };
 
-/// Four floats a texel, read by texelFetch from a samplerBuffer.
+/// Four floats for each texel, read by texelFetch from a samplerBuffer.
 class TexelBuffer {
  public:
   TexelBuffer();
@@ -121,7 +123,7 @@ void draw_picture();
 
 void bind_texture(GLuint unit, const Texture& texture);
 
-/// Throws RenderError if an OpenGL call failed since the last check. `doing` says what was under way.
+/// Throws RenderError if an OpenGL call has failed since the last check. `doing` names the operation for the message.
 void check(const char* doing);
 
 }  // namespace carom::gl

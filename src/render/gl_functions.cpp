@@ -1,3 +1,4 @@
+// Loads OSMesa at run time, at the first use. Linked normally, it would be loaded in every run, and it is large.
 #include "render/gl_functions.h"
 
 #include <dlfcn.h>

@@ -1,7 +1,7 @@
 #pragma once
-// The functions of OpenGL 4.5 and OSMesa that the passes use, by their names without gl and OSMesa. They are looked up
-// when the first picture is wanted: the library, and the compiler within it, are large, and a run without pictures has
-// no use for them.
+// The functions of OpenGL 4.5 and OSMesa that the render passes use, by their names without gl and OSMesa.
+// They are loaded when the first picture is needed. The library and its compiler are large, and a run without pictures
+// does not need them.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/osmesa.h>
 
@@ -35,7 +35,7 @@ CAROM_GL_FUNCTIONS(CAROM_FUNCTION)
 CAROM_OSMESA_FUNCTIONS(CAROM_FUNCTION)
 #undef CAROM_FUNCTION
 
-/// Looks all of them up, once. Throws RenderError where the library or one of them is missing.
+/// Loads all functions, once. Throws RenderError if the library or a function is missing.
 void load_functions();
 
 }  // namespace carom::gl

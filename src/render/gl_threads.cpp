@@ -1,3 +1,5 @@
+// Checks that llvmpipe gets its drawing threads. If it cannot start one it waits for ever, and gives no error.
+// So as many threads are started and ended before, and llvmpipe's own are counted by their names in /proc.
 #include "render/gl_threads.h"
 
 #include <algorithm>
@@ -19,7 +21,8 @@ namespace carom::gl {
 namespace {
 
 constexpr const char* variable = "LP_NUM_THREADS";
-constexpr unsigned most_threads = 16;  // llvmpipe starts no more
+// llvmpipe starts at most so many.
+constexpr unsigned most_threads = 16;
 constexpr auto patience = std::chrono::seconds(2);
 
 unsigned wanted_threads() {
@@ -33,7 +36,7 @@ unsigned wanted_threads() {
   return std::min(count, most_threads);
 }
 
-/// Whether the system has so many threads to give at once.
+/// Whether the system can provide so many threads at once.
 bool can_have(unsigned count) {
   std::promise<void> end;
   const std::shared_future<void> ended = end.get_future().share();
@@ -49,7 +52,7 @@ bool can_have(unsigned count) {
   return all;
 }
 
-/// How many of this process' threads have a name of llvmpipe's drawing threads.
+/// The number of this process' threads with a name of llvmpipe's drawing threads.
 unsigned drawing_threads() {
   unsigned count = 0;
   std::error_code error;
@@ -68,13 +71,13 @@ unsigned chosen = 0;
 
 void choose_threads() {
   chosen = wanted_threads();
-  // It starts as many again for other work, and one for its cache.
+  // llvmpipe starts as many again for other work, and one for its cache.
   if (!can_have(2 * chosen + 1)) chosen = 0;
   setenv(variable, std::to_string(chosen).c_str(), 1);
 }
 
 void check_threads() {
-  // A thread gives itself its name.
+  // A thread sets its own name, which takes a moment.
   const auto limit = std::chrono::steady_clock::now() + patience;
   while (drawing_threads() < chosen) {
     if (std::chrono::steady_clock::now() > limit)

@@ -1,15 +1,16 @@
 #pragma once
-// The threads that llvmpipe draws with. Where it cannot start one of them it waits for it for ever: so they are asked
-// for before it asks, and counted before anything is drawn.
+// The threads that llvmpipe draws with. If it cannot start one of them, it waits for ever.
+// Their number is therefore tested before llvmpipe starts them, and they are counted before anything is drawn.
 
 namespace carom::gl {
 
-/// Chooses, by LP_NUM_THREADS, how many threads llvmpipe will start: those of the environment, or as many as there are
-/// processors; 0, and the caller draws, where the system has not so many. To be called before the first context is
-/// made.
+/// Chooses the number of threads that llvmpipe will start, and sets LP_NUM_THREADS to it.
+/// It is the value in the environment, or the number of processors. It is 0, and the caller draws, where the system
+/// cannot provide so many.
+/// Call this before the first context is made.
 void choose_threads();
 
-/// Throws RenderError if the threads that choose_threads() chose have not come about; then nothing may be drawn.
+/// Throws RenderError if the threads of choose_threads() have not started. Nothing may then be drawn.
 void check_threads();
 
 }  // namespace carom::gl

@@ -1,3 +1,6 @@
+// Builds an assimp scene from a Scene and its keyframes, and exports it as binary glTF 2.
+// The exporter writes meshes, materials and animation. The functions of glb_nodes.h add cameras and lights, and correct nodes.
+// Volumes of one shape and colour share a mesh of half size 1, scaled by the node.
 #include "render/glb.h"
 
 #include <assimp/material.h>
@@ -26,7 +29,7 @@
 namespace carom {
 namespace {
 
-/// Hands a vector's pointers over to an array that assimp deletes.
+/// Moves a vector's pointers to an array that assimp deletes.
 template <typename Item, typename Count>
 void hand_over(std::vector<Item*>& items, Item**& to, Count& count) {
   to = new Item*[items.size()];
@@ -60,7 +63,7 @@ aiMesh* mesh_of(const Mesh& mesh, std::size_t material, const std::string& name)
   return out.release();
 }
 
-// A matt surface that faces a light of intensity 1 gives back its own colour: pi W/m^2, and 683 lm a W.
+// A matt surface that faces a light of intensity 1 has its own colour: pi W/m^2, and 683 lm/W.
 constexpr double usual = std::numbers::pi * 683;  // lux
 
 using Srgb = std::array<double, 3>;
@@ -138,7 +141,7 @@ class GlbBuilder {
     return found->second;
   }
 
-  /// Of the camera or a light, which may be called as a thing is.
+  /// A free name for the camera or a light. A thing may already have the name.
   std::string free_name(const std::string& name) const {
     std::string free = name;
     const auto taken = [&](const GlbNode& node) { return node.name == free; };
@@ -154,7 +157,7 @@ class GlbBuilder {
     nodes_.push_back(std::move(node));
   }
 
-  /// Its corners stand about its middle, so that they fit into floats.
+  /// The corners are relative to the centre, so that they fit into floats.
   void add_still(const StillThing& thing) {
     Extent extent;
     for (const Vec3& vertex : thing.mesh.vertices) extent.include(vertex);
@@ -177,7 +180,7 @@ class GlbBuilder {
       if (light.direction) {
         add_sun(light.name, -light.direction->normalized(), linear(light.color), light.intensity);
       } else {
-        // It weakens with distance here: it is as bright as it should be where the camera looks.
+        // The light weakens with distance in glTF. Its brightness is right at the camera's target.
         const double distance2 = (camera.target - *light.position).squaredNorm();
         GlbNode node{free_name(light.name), *light.position};
         node.light = GlbLight{light.name, false, linear(light.color), usual * light.intensity * distance2};
@@ -228,7 +231,7 @@ class GlbBuilder {
     hand_over(animations, out_->mAnimations, out_->mNumAnimations);
   }
 
-  /// A mesh grows as its volume does.
+  /// Adds a keyframe for the scale: a mesh grows as its volume does.
   void add_scale(std::vector<aiVectorKey>& keys, const KeyedMotion::Change& change) const {
     const Vec3& at_first = nodes_[change.body].scale;
     if (keys.empty()) keys.push_back({motion_.times.front(), vector_of(at_first)});

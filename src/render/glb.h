@@ -1,6 +1,8 @@
 #pragma once
-// A scene and its motion as a binary glTF 2 file, for Blender and its like: a node a body, a node a fixed thing, the
-// camera, the lights. assimp writes meshes, materials and animation; what it has no words for is put in afterwards.
+// A scene and its motion as a binary glTF 2 file, for Blender and similar programs.
+// It has a node for each body and for each fixed thing, the camera and the lights. assimp writes meshes, materials and
+// animation.
+// What its exporter cannot write is added afterwards.
 #include <string>
 
 #include "render/model.h"
@@ -9,8 +11,9 @@ namespace carom {
 
 struct Scene;
 
-/// Bodies have a translation a key, exact to float, and straight lines between; from a merge on the smaller body has
-/// scale 0, the joint one its new size. Colours are in linear light, y is up, times in seconds. Throws RenderError.
+/// Bodies have a translation for each keyframe, exact to float, with linear interpolation. From a merge on, the smaller
+/// body has scale 0, and the joint one its new size.
+/// Colours are in linear light, y is up, times are in seconds. Throws RenderError.
 std::string glb(const Scene& scene, const KeyedMotion& motion);
 
 }  // namespace carom

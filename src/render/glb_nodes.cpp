@@ -1,3 +1,5 @@
+// Edits the JSON chunk of a glTF file that assimp has written. Binary chunks stay.
+// Nodes are identified by names that no scene has.
 #include "render/glb_nodes.h"
 
 #include <fmt/format.h>
@@ -29,7 +31,7 @@ void put_word(std::string& file, std::size_t at, std::size_t value) {
   std::memcpy(file.data() + at, &word, sizeof word);
 }
 
-/// As a file of floats has it.
+/// Numbers rounded to float, as the binary part of the file has them.
 Json floats(std::initializer_list<double> values) {
   Json list = Json::array();
   for (const double value : values) list.push_back(static_cast<double>(static_cast<float>(value)) + 0.0);
@@ -66,7 +68,8 @@ class Mender {
     std::size_t found = 0;
     for (Json& json : gltf_["nodes"]) {
       const auto number = numbers.find(json.value("name", ""));
-      if (number == numbers.end()) continue;  // the root
+      // The root.
+      if (number == numbers.end()) continue;
       mend_node(json, nodes_[number->second]);
       ++found;
     }
@@ -111,7 +114,7 @@ class Mender {
 }  // namespace
 
 std::array<double, 4> rotation_to(const Vec3& x, const Vec3& y, const Vec3& z) {
-  // 4 q_i^2 from the matrix's diagonal; the largest gives the others without loss (Shepperd 1978).
+  // 4 q_i^2 from the matrix's diagonal. The largest gives the others without loss (Shepperd 1978).
   const std::array<double, 4> squares = {1 + x.x() - y.y() - z.z(), 1 - x.x() + y.y() - z.z(),
                                          1 - x.x() - y.y() + z.z(), 1 + x.x() + y.y() + z.z()};
   std::size_t largest = 0;
@@ -152,7 +155,8 @@ std::string mended_glb(std::string_view file, const std::string& title, const st
   put_word(out, head_size, text.size());
   out += text;
   out += file.substr(json_from + json_size);
-  constexpr std::size_t largest = 0xFFFFFFFF;  // bytes that the format can count
+  // Bytes, the largest size that the format can represent.
+  constexpr std::size_t largest = 0xFFFFFFFF;
   if (out.size() > largest) throw RenderError("animation.glb would be larger than 4 GB: ask for fewer keys a second");
   put_word(out, 8, out.size());
   return out;

@@ -1,6 +1,7 @@
 #pragma once
-// The parts of a glTF file that assimp 5.2's exporter loses or spoils, and a file with them put right: it writes no
-// cameras and no lights, forgets a node at (1, 1, 1), calls every material a volume and every motion between keys even.
+// The parts of a glTF file that assimp 5.2's exporter loses or changes, and the corrected file.
+// The exporter writes no cameras and no lights, and drops a node at (1, 1, 1).
+// It marks every material as a volume, and all motion between keyframes as linear.
 #include <array>
 #include <optional>
 #include <string>
@@ -17,7 +18,7 @@ struct GlbCamera {
 
 struct GlbLight {
   std::string name;
-  bool directional;             // along the node's -z; else from its place to all sides
+  bool directional;             // along the node's -z; otherwise from its position to all sides
   std::array<float, 3> linear;  // colour
   double intensity;             // lux, or candela
 };
@@ -32,13 +33,13 @@ struct GlbNode {
   std::optional<GlbLight> light = std::nullopt;
 };
 
-/// The rotation whose axes x, y, z are these, orthogonal unit vectors.
+/// The rotation with these axes x, y, z, which are orthogonal unit vectors.
 std::array<double, 4> rotation_to(const Vec3& x, const Vec3& y, const Vec3& z);
 
-/// How assimp's scene calls node i: no name of a scene file, so that none is changed.
+/// The name of node i in assimp's scene. No scene file has it, so that it is never changed.
 std::string exported_name(std::size_t node);
 
-/// assimp's file with its nodes as they are meant. Scales change in steps. Throws RenderError.
+/// Returns assimp's file with corrected nodes. Scales change in steps. Throws RenderError.
 std::string mended_glb(std::string_view file, const std::string& title, const std::vector<GlbNode>& nodes);
 
 }  // namespace carom

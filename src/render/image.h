@@ -1,5 +1,5 @@
 #pragma once
-// A picture in memory: what the renderer makes and the exports write.
+// A picture in memory. The renderer makes it, and the exports write it.
 #include <cstddef>
 #include <cstdint>
 #include <vector>

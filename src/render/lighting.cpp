@@ -1,3 +1,6 @@
+// The lights of a scene, and GLSL functions for them. Shadows are analytic: the part of the key light's disc that a
+// shape covers, as seen from a point.
+// Soft edges follow from the disc's size without any sampling.
 #include "render/lighting.h"
 
 #include <fmt/format.h>
@@ -13,7 +16,7 @@ namespace {
 
 constexpr std::size_t most_lights = 32;
 
-// A matt surface that faces a light of intensity 1 gives back its own colour. Light does not weaken with distance.
+// A matt surface that faces a light of intensity 1 has its own colour. Light does not weaken with distance.
 const char* const functions = R"(
 const float softness = SOFTNESS;
 uniform float lamp_radius;                // of a key light with a position

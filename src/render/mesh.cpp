@@ -1,3 +1,7 @@
+// Reads a mesh file in a child process, because a damaged file can crash assimp, hang it or fill the memory.
+// The child has limits of memory, processor time and files, and sends the mesh through a pipe. The parent waits with a
+// deadline and never trusts the data.
+// A thread could not be stopped or limited like this.
 #include "render/mesh.h"
 
 #include <fcntl.h>
@@ -28,7 +32,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::int64_t glance = 50;  // ms between two looks
+// ms between two checks.
+constexpr std::int64_t glance = 50;
 
 std::function<void()>& look() {
   static std::function<void()> function = [] {};
@@ -39,7 +44,7 @@ std::function<void()>& look() {
   throw std::runtime_error(fmt::format("cannot read the mesh {}: {}", path, why));
 }
 
-/// The file's ending in lower case, if it is one that is read; and the file is a plain one of fair size.
+/// Checks that the file is a regular one of permitted size with a known ending. Returns the ending in lower case.
 std::string check_file(const std::string& path, const MeshLimits& limits) {
   std::string ending = std::filesystem::path(path).extension().string();
   if (!ending.empty()) ending.erase(0, 1);
@@ -48,7 +53,7 @@ std::string check_file(const std::string& path, const MeshLimits& limits) {
   const auto& known = mesh_endings();
   if (std::find(known.begin(), known.end(), ending) == known.end())
     fail(path, fmt::format("meshes are read from files that end in .{}", fmt::join(known, ", .")));
-  // A queue or a device must not be waited for.
+  // Opening must not wait for a queue or a device.
   const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) fail(path, std::strerror(errno));
   struct stat info {};
@@ -73,7 +78,8 @@ void limit(int what, std::uint64_t value) {
   if (setrlimit(static_cast<__rlimit_resource>(what), &bound) != 0) _exit(3);
 }
 
-std::uint64_t memory_now() {  // bytes of address space
+// In bytes of address space.
+std::uint64_t memory_now() {
   unsigned long long pages = 0;
   FILE* file = std::fopen("/proc/self/statm", "re");
   if (!file || std::fscanf(file, "%llu", &pages) != 1) pages = 0;
@@ -85,7 +91,8 @@ void confine(const MeshLimits& limits, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(3);
   for (int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGPIPE, SIGXCPU, SIGXFSZ}) ::signal(signal, SIG_DFL);
-  ::signal(SIGINT, SIG_IGN);  // the parent decides
+  // The parent decides.
+  ::signal(SIGINT, SIG_IGN);
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   for (int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (dup2(nowhere, standard) < 0) _exit(3);
@@ -129,12 +136,13 @@ void send_trouble(int pipe, const char* text) {
   } catch (...) {
     send_trouble(pipe, "it is damaged");
   }
-  _exit(0);  // nothing of the parent's may be ended or flushed here
+  // This must not end or flush anything of the parent's.
+  _exit(0);
 }
 
 // ---- the parent ----
 
-/// A child process and the pipe from it; killed when it goes out of scope.
+/// A child process and the pipe from it. The process is killed when this object goes out of scope.
 class MeshReader {
  public:
   MeshReader(const std::string& path, const std::string& ending, const MeshLimits& limits)
@@ -162,7 +170,7 @@ class MeshReader {
   MeshReader(const MeshReader&) = delete;
   MeshReader& operator=(const MeshReader&) = delete;
 
-  /// False: there is no more, or the time is over.
+  /// False: the data have ended, or the time is over.
   bool receive(void* bytes, std::size_t size) {
     char* to = static_cast<char*>(bytes);
     while (size > 0) {
@@ -185,7 +193,7 @@ class MeshReader {
     return true;
   }
 
-  /// Why nothing more comes.
+  /// The reason why no more data come.
   std::string trouble(const MeshLimits& limits) {
     const int status = late_ ? 0 : wait();
     if (late_ || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)))

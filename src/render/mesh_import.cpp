@@ -1,3 +1,8 @@
+// Imports a mesh with assimp, in the child process. Only readers for the file's ending are left, and only files of its
+// own folder can be opened.
+// Vertices and indices are checked here, so that a defect of a reader becomes an error.
+// Normals are made here for files without them, because the smoothing of a shared vertex depends on the angle between
+// faces.
 #include "render/mesh_import.h"
 
 #include <assimp/BaseImporter.h>
@@ -20,8 +25,8 @@
 namespace carom {
 namespace {
 
-/// Makes comments of the lines of a Wavefront file that name groups and materials, which have nothing to do with its
-/// shape: assimp looks each of them up among all others, which takes minutes where there are tens of thousands.
+/// Turns lines of a Wavefront file that name groups and materials into comments. They have no effect on the shape.
+/// assimp looks each name up among all others, which takes minutes for tens of thousands.
 void drop_names(char* text, std::size_t size) {
   for (std::size_t i = 0; i < size;) {
     while (i < size && (text[i] == ' ' || text[i] == '\t')) ++i;
@@ -35,7 +40,7 @@ void drop_names(char* text, std::size_t size) {
   }
 }
 
-/// Opens regular files of one folder, for reading: a mesh names its materials' and buffers' files as it likes.
+/// Opens regular files of one folder, for reading only. A mesh may name any files for its materials and buffers.
 class OneFolder : public Assimp::DefaultIOSystem {
  public:
   OneFolder(const std::string& file, const std::string& ending)
@@ -64,10 +69,10 @@ class OneFolder : public Assimp::DefaultIOSystem {
     return folder_of(file) == folder_ && std::filesystem::is_regular_file(file, error);
   }
   std::filesystem::path folder_;
-  std::string wavefront_;  // the file, if it is one
+  std::string wavefront_;  // the file, if it is a Wavefront one
 };
 
-/// Leaves only the readers that go by the file's ending: else its content may choose any of them.
+/// Leaves only the readers for the file's ending. Otherwise its content may select any of them.
 void keep_readers(Assimp::Importer& importer, const std::string& ending) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     const std::string endings = std::string(" ") + importer.GetImporterInfo(i)->mFileExtensions + " ";
@@ -79,12 +84,14 @@ Vec3 vertex(const ImportedMesh& mesh, std::size_t i) {
   return Vec3(double{mesh.vertices[3 * i]}, double{mesh.vertices[3 * i + 1]}, double{mesh.vertices[3 * i + 2]});
 }
 
-constexpr double cos_smooth = 0.70710678118654752;  // of 45 degrees
-constexpr std::size_t most_around = 256;            // triangles at a vertex that are smoothed
+constexpr double cos_smooth = 0.70710678118654752;  // cosine of 45 degrees
+// Greatest number of triangles at a vertex for which normals are smoothed.
+constexpr std::size_t most_around = 256;
 
-/// Gives the triangles from `triangle` on (of vertices from `first` on, which have no normals) normals: of each corner
-/// the mean of the triangles around it that lean less than 45 degrees against its own, weighed by their areas. A vertex
-/// becomes several where edges are sharp.
+/// Makes normals for the triangles from `triangle` on, with vertices from `first` on that have none.
+/// The normal at a corner is the mean over triangles around it, weighted by area, that lean less than 45 degrees
+/// against its own.
+/// At sharp edges a vertex is split into several.
 void make_normals(ImportedMesh& mesh, std::size_t first, std::size_t triangle) {
   const std::size_t count = mesh.triangles.size() / 3 - triangle, vertices = mesh.vertices.size() / 3 - first;
   std::vector<Vec3> area(count), normal(count);
@@ -117,7 +124,8 @@ void make_normals(ImportedMesh& mesh, std::size_t first, std::size_t triangle) {
       for (const Made& m : made)
         if (m.normal == mean) known = true, at = m.vertex;
       if (!known) {
-        if (!made.empty()) {  // the first one stays where it is
+        // The first one keeps its place.
+        if (!made.empty()) {
           at = static_cast<std::uint32_t>(mesh.vertices.size() / 3);
           for (std::size_t k = 0; k < 3; ++k) mesh.vertices.push_back(mesh.vertices[3 * (first + v) + k]);
           mesh.normals.resize(mesh.vertices.size());
@@ -171,16 +179,18 @@ void append(const aiMesh& part, ImportedMesh& mesh, const MeshLimits& limits) {
 }  // namespace
 
 const std::vector<std::string>& mesh_endings() {
-  // The formats whose readers a damaged file seldom harms: by fuzzing STL and OBJ never, glTF in one of 2,900 files.
+  // Formats with readers that a damaged file seldom harms. In fuzzing, STL and OBJ never did, glTF in one of 2,900
+  // files.
   static const std::vector<std::string> endings{"obj", "stl", "gltf", "glb"};
   return endings;
 }
 
 ImportedMesh import_mesh(const std::string& path, const std::string& ending, const MeshLimits& limits) {
   Assimp::Importer importer;
-  importer.SetIOHandler(new OneFolder(path, ending));  // which it owns
+  // The importer owns it.
+  importer.SetIOHandler(new OneFolder(path, ending));
   keep_readers(importer, ending);
-  // Of an STL file each triangle is for itself, normals and all: they are made anew to be smooth.
+  // An STL file has separate triangles with normals of their own. The normals are made anew, to be smooth.
   int unwanted = aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS | aiComponent_TEXCOORDS |
                  aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS | aiComponent_TEXTURES | aiComponent_LIGHTS |
                  aiComponent_CAMERAS | aiComponent_MATERIALS;

@@ -1,5 +1,5 @@
 #pragma once
-// assimp's side of read_mesh: runs in the child process alone.
+// The part of read_mesh that uses assimp. It runs in the child process only.
 #include <string>
 #include <vector>
 
@@ -7,16 +7,16 @@
 
 namespace carom {
 
-/// As it goes through the pipe.
+/// A mesh in the form in which it goes through the pipe.
 struct ImportedMesh {
-  std::vector<float> vertices, normals;  // three a vertex
+  std::vector<float> vertices, normals;  // three for each vertex
   std::vector<std::uint32_t> triangles;
 };
 
-/// The endings of the files that are read, in lower case, without the dot.
+/// The endings of supported files, in lower case, without the dot.
 const std::vector<std::string>& mesh_endings();
 
-/// Throws std::exception with what is wrong; may as well crash or not return.
+/// Throws std::exception with the fault. It may also crash, or never return.
 ImportedMesh import_mesh(const std::string& path, const std::string& ending, const MeshLimits& limits);
 
 }  // namespace carom

@@ -1,3 +1,5 @@
+// Receives a mesh from the child process and checks every count, index and number, because a damaged file may have
+// corrupted the child.
 #include "render/mesh_reply.h"
 
 #include <algorithm>
@@ -8,7 +10,7 @@
 namespace carom {
 namespace {
 
-/// A reader's own words, without bytes that a terminal would act upon, and on one line.
+/// The message of a reader on one line, without bytes that a terminal would interpret.
 std::string printable(std::string text) {
   for (char& c : text)
     if (c < ' ' || c > '~') c = ' ';

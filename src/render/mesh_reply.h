@@ -1,6 +1,6 @@
 #pragma once
-// What the process that reads a mesh file sends through the pipe, and what is made of it. It may have been damaged by
-// the file: nothing of it is trusted.
+// The message through the pipe from the process that reads a mesh file, and its conversion to a Mesh. The file may have
+// corrupted that process, so nothing in the message is trusted.
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -10,7 +10,8 @@
 
 namespace carom {
 
-/// What comes first. A mesh follows as its vertices and normals (floats), then its triangles; trouble as its text.
+/// The start of the message. A mesh follows as its vertices and normals (floats), then its triangles. An error follows
+/// as its text.
 struct MeshReplyHead {
   std::uint32_t vertices = 0, triangles = 0;
   std::uint32_t text = 0;  // bytes; above 0: no mesh follows
@@ -18,13 +19,13 @@ struct MeshReplyHead {
 
 inline constexpr std::uint32_t longest_mesh_trouble = 300;  // bytes
 
-/// The other end of the pipe.
+/// The receiving end of the pipe.
 struct MeshReplySource {
-  std::function<bool(void* bytes, std::size_t size)> receive;  // false: so many do not come
-  std::function<std::string()> trouble;                        // why not
+  std::function<bool(void* bytes, std::size_t size)> receive;  // false: so many bytes do not come
+  std::function<std::string()> trouble;                        // the reason
 };
 
-/// Throws std::runtime_error whose text says what is wrong with the mesh; without its path.
+/// Throws std::runtime_error. Its text states the fault of the mesh, without the path.
 Mesh receive_mesh(const MeshReplySource& source, const MeshLimits& limits);
 
 }  // namespace carom

@@ -1,3 +1,5 @@
+// Renders the outline of each mesh along the light into a layer of a texture, with mipmaps. A shadow is then one
+// lookup, and its blur selects the mipmap level.
 #include "render/mesh_shadows.h"
 
 #include <array>
@@ -6,7 +8,8 @@
 namespace carom {
 namespace {
 
-constexpr int side = 1024;  // of the largest picture, a power of two
+// Side of the largest picture, a power of two.
+constexpr int side = 1024;
 
 const char* const vertex_shader = R"(
 layout(location = 0) in vec3 vertex;

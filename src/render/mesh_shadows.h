@@ -1,6 +1,7 @@
 #pragma once
-// The shadows of meshes in parallel light. Bodies do not turn, so that a mesh has one outline along the light, drawn
-// once. (In a lamp's light, which sees each body from another side, a mesh casts the shadow of its volume.)
+// The shadows of meshes in parallel light. Bodies do not turn, so a mesh has one outline along the light, which is
+// drawn once.
+// In the light of a lamp the direction differs from body to body. A mesh then casts the shadow of its volume.
 #include "render/lighting.h"
 #include "render/shapes.h"
 
@@ -8,12 +9,12 @@ namespace carom {
 
 class MeshShadows {
  public:
-  /// `files`: how many of the shapes are meshes of files; one or more.
+  /// `files`: number of the shapes that are meshes of files, one or more.
   MeshShadows(const Shapes& shapes, std::size_t files, const Eye& eye, const Lighting& lighting);
 
   /// For a fragment shader behind Lighting::shader():
   ///   float through_mesh(vec3 p, vec3 l, vec3 to_middle, float file, float reach)
-  /// the part of the key light that a mesh lets through to p; `reach`: of what scale * reach() is.
+  /// The part of the key light that a mesh lets through to p. `reach`: scale * reach().
   static const char* shader();
   void set(const gl::Program& program, GLuint unit) const;  // the program must be in use
   void bind(GLuint unit) const;
@@ -22,7 +23,7 @@ class MeshShadows {
   static double reach(const Shapes& shapes, std::size_t file) { return 1.05 * shapes.half(Shapes::file(file)).norm(); }
 
  private:
-  gl::Texture outlines_;  // a layer a file, by ever larger squares
+  gl::Texture outlines_;  // a layer for each file, with mipmaps
   Vec3 across_u_, across_v_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// A scene as data for other programs: what stands still as triangles, what moves as keys. Types only; still_things.h
-// and glb.h make something of them.
+// A scene as data for other programs: still things as triangles, motion as keyframes. These are only types.
+// still_things.h and glb.h make the data.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +27,7 @@ struct StillThing {
   bool two_sided = false;  // a wall
 };
 
-/// An upright box; from above to below: nothing.
+/// A box along the axes. It is empty if it extends from above to below.
 struct Extent {
   Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);  // m
 
@@ -35,23 +35,23 @@ struct Extent {
   void include(const Vec3& center, const Vec3& half) { include(center - half), include(center + half); }
 };
 
-/// The bodies' positions at instants, and their volumes where these change.
+/// The bodies' positions at keyframes, and the changes of their volumes.
 struct KeyedMotion {
-  /// From key `key` on body `body` has this volume; none: it has become part of another.
+  /// From keyframe `key` on, body `body` has this volume. Without one it has become part of another body.
   struct Change {
     std::size_t key;
     Entity body;
     std::optional<Volume> volume;
   };
-  std::vector<double> times;                   // s, rising
-  std::vector<std::array<float, 3>> position;  // m, by key, then by body
-  std::vector<Change> changes;                 // by key
-  Extent extent;                               // of all bodies at all instants
+  std::vector<double> times;                   // s, ascending
+  std::vector<std::array<float, 3>> position;  // m, by keyframe, then by body
+  std::vector<Change> changes;                 // by keyframe
+  Extent extent;                               // of all bodies at all keyframes
 };
 
-/// What render/ makes of these for src/export/. Both throw RenderError.
+/// The functions by which render/ makes these for src/export/. Both throw RenderError.
 struct ModelMakers {
-  /// `seen`: planes, which have no bounds, are cut off some way around it.
+  /// `seen`: planes, which have no bounds, are cut off at some distance around it.
   std::function<std::vector<StillThing>(const Scene& scene, const Extent& seen)> still_things;
   /// The bytes of a binary glTF 2 file.
   std::function<std::string(const Scene& scene, const KeyedMotion& motion)> glb;

@@ -1,3 +1,6 @@
+// Finds the things that may shade a given one, by a grid across the light. A test of all pairs would grow with the
+// square of their number.
+// Parallel light has one plane grid, a lamp the six faces of a cube around it. Things count as the balls around them.
 #include "render/occluders.h"
 
 #include <algorithm>
@@ -10,9 +13,10 @@ namespace carom {
 namespace {
 
 constexpr double blur = Lighting::softness;
-constexpr double faint = 8;  // a shadow is followed until its blur is so many radii wide
+// A shadow is followed until its blur is so many radii wide.
+constexpr double faint = 8;
 
-/// The span of tan(angle) that a disc takes in one plane through the lamp; false: it is not on this face.
+/// The span of tan(angle) of a disc in one plane through the lamp. False: the disc is not on this face.
 bool span_on_face(double side, double ahead, double radius, double& low, double& high) {
   const double distance = std::hypot(side, ahead);
   if (distance <= radius) {
@@ -83,7 +87,7 @@ Occluders::Occluders(std::span<const Thing> balls, const Lighting& lighting)
     extent_ = l1 - l0;
   }
 
-  // The balls of each cell stand together: count, then fill.
+  // The balls of each cell are contiguous: count them first, then fill.
   const std::size_t count = static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_) * (near_ ? 6 : 1);
   start_.assign(count + 1, 0);
   const auto each_cell = [&](auto visit) {
@@ -119,7 +123,8 @@ void Occluders::find(std::uint32_t i, std::vector<std::uint32_t>& found) {
         if (ahead <= -ball.radius || ahead - other.radius > reach) continue;
         const double wide = near_ ? lamp_ : std::max(ahead + ball.radius, 0.0) * blur;
         if (!near_ && wide > faint * other.radius) continue;
-        // Lamp light spreads: seen along the ray to the ball's centre its edge strays by ball.radius * ahead / reach.
+        // The light of a lamp diverges. Along the ray to the ball's centre, its edge deviates by ball.radius * ahead /
+        // reach.
         const double apart =
             ball.radius + other.radius + wide + (near_ ? ball.radius * std::max(ahead, 0.0) / reach : 0);
         const Vec3 aside = other.center - ball.center - ahead * to_light;
@@ -136,7 +141,8 @@ void Occluders::find(std::uint32_t i, std::vector<std::uint32_t>& found) {
 bool Occluders::may_shade(const Surface& wall, const Thing& thing) const {
   const double size = std::hypot(wall.half_width, wall.half_height);
   const Vec3 offset = wall.center - thing.center;
-  if (near_) {  // it must come near the line to the lamp
+  // It must come near the line to the lamp.
+  if (near_) {
     const Vec3 line = key_ - thing.center;
     const double t = std::clamp(offset.dot(line) / std::max(line.squaredNorm(), 1e-300), 0.0, 1.0);
     return (offset - t * line).norm() < 1.001 * (size + std::max(thing.radius, lamp_));

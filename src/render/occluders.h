@@ -1,5 +1,5 @@
 #pragma once
-// Which things and walls may stand between a thing and the key light. Things count as the balls around them.
+// The things and walls that may be between a thing and the key light. Things count as the balls around them.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace carom {
 
-/// Finds, by a grid over the directions across the light, the things whose shadow may fall on a given one.
+/// Finds the things with a shadow that may fall on a given one, by a grid over the directions across the light.
 class Occluders {
  public:
   Occluders(std::span<const Thing> balls, const Lighting& lighting);
@@ -19,7 +19,7 @@ class Occluders {
   void find(std::uint32_t i, std::vector<std::uint32_t>& found);
   static constexpr std::size_t most = 24;
 
-  /// Appends what may shade things[i] as material.h's shader reads it, four floats a texel.
+  /// Appends rows for the occluders of things[i] in the format of material.h's shader, four floats for each texel.
   void append_rows(std::uint32_t i, const Things& things, const Surfaces& surfaces, std::vector<float>& rows);
 
  private:
@@ -27,7 +27,7 @@ class Occluders {
     int face = 0;
     double u0, u1, v0, v1;
   };
-  /// Where a ball is, as the light sees it: on one sheet across parallel light, or on the six faces of a cube around a
+  /// The region of a ball across the light: on one plane for parallel light, or on the six faces of a cube around a
   /// lamp.
   void footprint(const Vec3& center, double radius, std::vector<Rect>& rects) const;
   template <typename Visit>
@@ -43,7 +43,7 @@ class Occluders {
   double origin_u_ = -1, origin_v_ = -1, per_u_ = 1, per_v_ = 1;
   double extent_ = 0;                           // m, of the balls along parallel light
   std::vector<std::uint32_t> start_, members_;  // by cell
-  std::vector<std::uint32_t> seen_;             // by ball: the last query that met it
+  std::vector<std::uint32_t> seen_;             // by ball: the last query that visited it
   std::uint32_t query_ = 0;
   std::vector<Rect> rects_;
   std::vector<std::uint32_t> found_;

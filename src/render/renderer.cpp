@@ -1,3 +1,6 @@
+// Draws a picture in passes: a copy of the backdrop, shadows, solids that cover whole pixels, balls from back to front,
+// and edges of solids.
+// Everything that does not move is drawn once. A picture equal to the last one is not drawn again.
 #include "render/renderer.h"
 
 #include <fmt/format.h>
@@ -31,9 +34,9 @@ Size checked(Size size, int samples) {
 
 }  // namespace
 
-// Edges are smoothed by how much of a pixel they cover, computed, not sampled: balls drawn back to front blend with
-// what is behind them. One sample a pixel asks for hard edges; any more for smooth ones, finer than so many samples
-// would be.
+// Edges are smoothed by the computed coverage of a pixel, without sampling. Balls are drawn back to front and blend
+// with what is behind them.
+// One sample for each pixel gives hard edges. Any larger number gives smooth ones, finer than so many samples would be.
 struct Renderer::Impl {
   Impl(const Scene& s, Size size, int samples)
       : scene(s),
@@ -68,7 +71,8 @@ struct Renderer::Impl {
   const Scene& scene;
   const Eye eye;
   const bool smooth;
-  gl::Context context;  // what stands below needs it
+  // The members below need it.
+  gl::Context context;
   const Lighting lighting;
   const Surfaces surfaces;
   Things things;
@@ -126,7 +130,7 @@ Renderer::~Renderer() {
   try {
     impl_->context.make_current();
   } catch (const RenderError&) {
-    // Nothing is left to free in a context that cannot be used.
+    // A context that cannot be used has nothing left to free.
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a scene looks like + a State -> pixels. One renderer is one off-screen OpenGL context of one picture size.
+// From the look of a scene and a State to pixels. One renderer is one off-screen OpenGL context with one picture size.
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
@@ -12,7 +12,7 @@ namespace carom {
 
 struct Scene;
 
-/// Drawing cannot go on. The text is for the user.
+/// Drawing cannot continue. The text is for the user.
 struct RenderError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -25,10 +25,10 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Draws the bodies of `state` and what stands still; nothing, where all is as in the last picture. The picture is
-  /// valid until the next draw.
+  /// Draws the bodies of `state` and the still things. It draws nothing if all is as in the last picture.
+  /// The picture is valid until the next draw.
   const Image& draw(const State& state);
-  std::uint64_t drawn() const;  // pictures so far, but for those that were the last one again
+  std::uint64_t drawn() const;  // pictures so far, repetitions of the last one excluded
 
  private:
   struct Impl;

@@ -1,3 +1,6 @@
+// Draws shadows and contact darkening onto a copy of the backdrop, as rectangles that the depth test confines to their
+// surface.
+// Shadows are computed for each pixel by the analytic functions of lighting.cpp, so that they have no resolution.
 #include "render/shade.h"
 
 #include <fmt/format.h>
@@ -8,9 +11,10 @@
 namespace carom {
 namespace {
 
-// Each instance is a rectangle that lies on a surface around the shadow that one ball casts there, or around the place
-// where it comes close; the backdrop's depth keeps it to where that surface is seen. The darkest of all balls' effects
-// on a pixel counts: shadows that overlap are not darker than one.
+// Each instance is a rectangle on a surface, around the shadow of one ball there or around the place where the ball is
+// close.
+// The backdrop's depth confines it to the visible part of that surface.
+// The darkest effect of all balls on a pixel counts, so that overlapping shadows are not darker than one.
 const char* const vertex_shader = R"(
 layout(location = 0) in vec3 origin;     // middle of the rectangle
 layout(location = 1) in vec3 u;          // half side
@@ -98,13 +102,15 @@ void main() {
 }
 )";
 
-/// A shader can test only so many; more are cut where the backdrop's depth says so.
+/// A shader can test only so many planes. Beyond more planes, the depth of the backdrop cuts rectangles off.
 std::size_t cutting_planes(const Surfaces& surfaces) {
   return surfaces.planes() > 1 ? std::min<std::size_t>(surfaces.planes(), 200) : 0;
 }
 
-constexpr double least_taken = 0.1;   // of the sky: a ball that takes less darkens nothing
-constexpr double least_slope = 0.03;  // light that grazes a surface more than this lights it too little to cast shadows
+// A share of the sky: a ball that takes less darkens nothing.
+constexpr double least_taken = 0.1;
+// Light at a smaller slope is too weak on a surface to cast shadows.
+constexpr double least_slope = 0.03;
 
 }  // namespace
 
@@ -146,7 +152,8 @@ bool Shade::in_picture(const Vec3& center, double radius) const {
 void Shade::add(Darkens darkens, const Thing& ball, std::size_t surface, const Vec3& origin, const Vec3& u,
                 const Vec3& v) {
   const Surface& s = surfaces_.all()[surface];
-  if (s.wall) {  // off the rectangle there is nothing to darken
+  // Beyond the rectangle there is nothing to darken.
+  if (s.wall) {
     const Vec3 offset = origin - s.center;
     const double reach = u.norm() + v.norm();
     if (std::abs(s.right.dot(offset)) > s.half_width + reach || std::abs(s.up.dot(offset)) > s.half_height + reach)
@@ -159,7 +166,8 @@ void Shade::add(Darkens darkens, const Thing& ball, std::size_t surface, const V
   push(origin), push(u), push(v);
   push(ball.center), rows_.push_back(static_cast<float>(ball.radius));
   push(s.normal);
-  const auto cuts = [&](const Surface& plane) {  // a corner of the rectangle is behind it
+  // True if a corner of the rectangle is behind the plane.
+  const auto cuts = [&](const Surface& plane) {
     const double low =
         plane.normal.dot(origin) + plane.height - std::abs(plane.normal.dot(u)) - std::abs(plane.normal.dot(v));
     return low < -1e-6 * surfaces_.reach();
@@ -177,24 +185,26 @@ void Shade::add(Darkens darkens, const Thing& ball, std::size_t surface, const V
 
 void Shade::add_shadow(const Thing& ball, std::size_t surface) {
   const Surface& s = surfaces_.all()[surface];
-  const double height = s.normal.dot(ball.center) + s.height;  // of the ball's centre above the surface
+  // Height of the ball's centre above the surface.
+  const double height = s.normal.dot(ball.center) + s.height;
   if (!lighting_.key_is_near()) {
-    // A round beam of the ball's radius, widening by the blur, cuts the surface in an ellipse.
+    // A round beam of the ball's radius, widened by the blur, cuts the surface in an ellipse.
     const Vec3& l = lighting_.key();
     const double blur = Lighting::softness;
     const double slope = s.normal.dot(l);
     if (slope < least_slope || height < -ball.radius) return;
     const double along = std::max(height, 0.0) / slope, tilt = std::sqrt(std::max(0.0, 1 - slope * slope)) / slope;
     const double wide = (ball.radius + blur * along) / std::max(0.2, 1 - blur * tilt);
-    // Fainter than a step of the picture's bytes: nothing to draw.
+    // The shadow is fainter than a step of the picture's bytes.
     if (along * blur > 12 * ball.radius) return;
-    Vec3 down = l - slope * s.normal;  // along the surface, towards the light
+    // Along the surface, towards the light.
+    Vec3 down = l - slope * s.normal;
     down = down.norm() > 1e-9 ? Vec3(down.normalized()) : s.right;
     add(Darkens::by_shadow, ball, surface, ball.center - height * s.normal - height * tilt * down, wide / slope * down,
         wide * s.normal.cross(down));
     return;
   }
-  // A lamp throws the ball onto the surface as an eye would see it: the same ellipse.
+  // A lamp projects the ball onto the surface as an eye would see it, which gives the same ellipse.
   const Vec3 from_lamp = ball.center - lighting_.key();
   const double lamp_height = s.normal.dot(lighting_.key()) + s.height;
   if (lamp_height <= 0 || from_lamp.norm() <= ball.radius || height > lamp_height + ball.radius) return;
@@ -202,7 +212,7 @@ void Shade::add_shadow(const Thing& ball, std::size_t surface) {
   const Vec3 across = s.normal.cross(s.right);
   const Vec3 seen(s.right.dot(from_lamp), across.dot(from_lamp), lamp_height - height);
   Outline o{};
-  // The ellipse grows without bound as the shadow's end nears the horizon: from there on it is left open-ended.
+  // The ellipse grows without bound as the shadow's end approaches the horizon. From there on it is left open-ended.
   double radius = std::min(ball.radius + lighting_.lamp_radius(), 0.999 * distance);
   while (!outline_of(seen, radius, o) && radius > 1e-3 * ball.radius) radius *= 0.7;
   if (radius <= 1e-3 * ball.radius) return;
@@ -212,7 +222,7 @@ void Shade::add_shadow(const Thing& ball, std::size_t surface) {
 }
 
 void Shade::add_closeness(const Thing& thing, std::size_t surface) {
-  // Of a box or a cylinder the largest ball inside counts, where it is nearest to the surface.
+  // For a box or a cylinder the largest ball inside counts, at the place nearest to the surface.
   Thing ball = thing;
   if (thing.shape != Shape::sphere) {
     ball.radius = thing.half.minCoeff();
@@ -221,8 +231,8 @@ void Shade::add_closeness(const Thing& thing, std::size_t surface) {
       ball.center -= (thing.half[i] - ball.radius) * surfaces_.all()[surface].normal.dot(axis) * axis;
     }
   }
-  // cos (r / d)^2 at the foot's distance x is h r^2 / (h^2 + x^2)^(3/2): where that falls to least_taken it has faded
-  // out.
+  // cos (r / d)^2 at the distance x from the foot is h r^2 / (h^2 + x^2)^(3/2). The darkening ends where that falls to
+  // least_taken.
   const Surface& s = surfaces_.all()[surface];
   const double height = s.normal.dot(ball.center) + s.height;
   if (height <= 0) return;
@@ -244,7 +254,8 @@ void Shade::draw(const Things& things, const Backdrop& backdrop, const gl::Texel
         add_shadow(thing, k);
         continue;
       }
-      Thing outline = thing;  // with what through_mesh wants in place of its half size
+      // Here `half` holds the arguments of through_mesh.
+      Thing outline = thing;
       outline.center = thing.mesh_middle;
       outline.radius = look.outline_reach;
       outline.half = Vec3(static_cast<double>(look.file), look.outline_reach, 0);

@@ -1,6 +1,6 @@
 #pragma once
-// What things do to the light on planes and walls: soft shadows of the key light, and the darkness where a ball is
-// close.
+// The effect of things on the light of planes and walls: soft shadows of the key light, and the darkening where a ball
+// is close.
 #include <span>
 #include <vector>
 
@@ -12,10 +12,10 @@ namespace carom {
 
 class Shade {
  public:
-  /// `solids`: there may be things that are no balls.
+  /// `solids`: some things may not be balls.
   Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, const MeshShadows* meshes, bool solids);
 
-  /// Darkens the bound framebuffer, a copy of the backdrop, where things take light away from its surfaces.
+  /// Darkens the bound framebuffer, a copy of the backdrop, where things take light from its surfaces.
   void draw(const Things& things, const Backdrop& backdrop, const gl::TexelBuffer& rows);
 
  private:
@@ -28,7 +28,7 @@ class Shade {
   const Eye& eye_;
   const Lighting& lighting_;
   const Surfaces& surfaces_;
-  const MeshShadows* meshes_;  // null: none casts a shadow of its own
+  const MeshShadows* meshes_;  // null: no mesh casts a shadow of its own
   bool solids_;
   gl::Program program_;
   gl::Instances instances_;

@@ -1,3 +1,5 @@
+// The triangle meshes of the renderer: uploaded once, drawn many times with instance rows.
+// Vertices are stored relative to the mesh's centre, because floats would lose digits far from the origin.
 #include "render/shapes.h"
 
 #include <algorithm>
@@ -25,17 +27,19 @@ Mesh unit_box() {
 }
 
 Mesh unit_cylinder(std::uint32_t sides) {
-  // A polygon of the circle's area.
+  // The polygon has the area of the circle.
   const double angle = 2 * std::numbers::pi / sides;
   const double wide = std::sqrt(angle / std::sin(angle));
   Mesh mesh;
   for (std::uint32_t k = 0; k < sides; ++k) {
     const double x = std::cos(angle * k), z = std::sin(angle * k);
-    for (const double y : {-1.0, 1.0}) {  // of the flank
+    // Vertices of the flank.
+    for (const double y : {-1.0, 1.0}) {
       mesh.vertices.emplace_back(wide * x, y, wide * z);
       mesh.normals.emplace_back(x, 0, z);
     }
-    for (const double y : {-1.0, 1.0}) {  // of the ends
+    // Vertices of the ends.
+    for (const double y : {-1.0, 1.0}) {
       mesh.vertices.emplace_back(wide * x, y, wide * z);
       mesh.normals.emplace_back(0, y, 0);
     }

@@ -1,5 +1,5 @@
 #pragma once
-// The triangles that things are drawn with: a box, a cylinder, and the scene's meshes, each read and uploaded once.
+// The triangles of all drawn things: a box, a cylinder, and the scene's meshes. Each is read and uploaded once.
 #include <cstddef>
 #include <span>
 #include <string>
@@ -21,18 +21,18 @@ class Shapes {
 
   static constexpr std::size_t box = 0, small_cylinder = 1, large_cylinder = 2;
   static constexpr std::size_t file(std::size_t i) { return i + 3; }
-  /// A cylinder's sides show by a tenth of a pixel from so many pixels of radius on.
+  /// From this radius in pixels on, the sides of the small cylinder are visible by a tenth of a pixel.
   static constexpr double small_up_to = 40;
 
-  /// Vertices stand relative to this point of the file, so that they fit into floats.
+  /// The point of the file to which vertices are relative, so that they fit into floats.
   const Vec3& middle(std::size_t shape) const { return shapes_[shape].middle; }
-  /// Of the box around the vertices, about the middle.
+  /// Half extents of the box around the vertices, about that point.
   const Vec3& half(std::size_t shape) const { return shapes_[shape].half; }
-  /// Of the ball about `center` that holds a file's vertices, in the file's units.
+  /// Radius of the ball about `center` that contains a file's vertices, in the file's units.
   double radius(std::size_t file, const Vec3& center) const;
 
-  /// Rows of `row` floats, which the vertex shader reads as its attributes 2 and 3; 0 and 1 are a vertex's position and
-  /// normal.
+  /// Fills rows of `row` floats, which are attributes 2 and 3 of the vertex shader. Attributes 0 and 1 are a vertex's
+  /// position and normal.
   void fill_instances(std::span<const float> rows) const;
   void draw(std::size_t shape, std::size_t first, std::size_t count) const;
   static constexpr std::size_t row = 8;
@@ -47,7 +47,7 @@ class Shapes {
   void upload(const Mesh& mesh);
 
   std::vector<Uploaded> shapes_;
-  std::vector<std::vector<Vec3>> points_;  // of the files
+  std::vector<std::vector<Vec3>> points_;  // vertices of the files
   gl::Buffer instances_;
 };
 

@@ -1,3 +1,5 @@
+// The shaders of solids.cpp as text. They render points first, then pixels from the points, then the pixels onto the
+// picture.
 #include "render/solid_shaders.h"
 
 namespace carom {

@@ -3,14 +3,15 @@
 
 namespace carom {
 
-/// Points: which thing each shows, and its normal. CLOSED: of a shape that has an inside, faces turned outwards.
+/// For points: the number and the normal of the visible thing. CLOSED: the shape has an inside, and its faces point
+/// outwards.
 extern const char* const point_vertex_shader;
 extern const char* const point_fragment_shader;
-/// Rectangles of the picture.
+/// For rectangles of the picture.
 extern const char* const rectangle_vertex_shader;
-/// Pixels, of their points: colour and cover, and near / z. FINE: points along a pixel's side.
+/// For pixels, from their points: colour and coverage, and near / z. FINE: points along a pixel's side.
 extern const char* const pixel_fragment_shader;
-/// Those pixels onto the picture.
+/// For the transfer of those pixels to the picture.
 extern const char* const onto_fragment_shader;
 
 }  // namespace carom

@@ -1,3 +1,7 @@
+// Renders boxes, cylinders and meshes by a tiled, deferred pass. Four points along a pixel's side record only the thing
+// and its normal.
+// Each pixel is then shaded once, from the mean of its points. Multisampling of the full shader would evaluate all
+// lights sixteen times.
 #include "render/solids.h"
 
 #include <fmt/format.h>
@@ -84,7 +88,7 @@ void Solids::set_constants(const Lighting& lighting, const MeshShadows* meshes) 
   gl::Uniform1i(programs_.draw.at("color_depth"), 1);
 }
 
-/// The pixels in which a box may show, given in the camera's frame: those of its corners, or all if it reaches before
+/// The pixels in which a box in the camera's frame may be visible: those of its corners, or all if it reaches before
 /// the near plane.
 Solids::Rect Solids::bounds_of(const Vec3& origin, const Vec3& half, bool& cut) const {
   const auto [width, height] = eye_.size;
@@ -123,7 +127,7 @@ Solids::Placed Solids::place(const Things& things, const Thing& thing, std::size
   return placed;
 }
 
-/// Places what is seen, notes it in its tiles, and fills the rows that the shaders read about it.
+/// Places the visible things, registers them in their tiles, and fills the rows for the shaders.
 void Solids::collect(const Things& things) {
   Occluders occluders(things.all(), lighting_);
   rows_.occluders.clear();
@@ -132,7 +136,7 @@ void Solids::collect(const Things& things) {
   const int columns = (eye_.size.width + tile_side - 1) / tile_side;
   for (const std::uint32_t i : things.solids()) {
     const Thing& thing = things.all()[i];
-    const std::size_t number = placed_.size() + 1;  // 0: nothing
+    const std::size_t number = placed_.size() + 1;  // 0: no thing
     placed_.push_back(place(things, thing, number));
     const std::size_t first = rows_.occluders.size() / 4;
     occluders.append_rows(i, things, surfaces_, rows_.occluders);
@@ -169,7 +173,7 @@ void Solids::prepare(const Things& things, const Backdrop& backdrop, const gl::T
   gl::ClearBufferfv(GL_COLOR, 0, nothing);
   for (Tile& tile : tiles_) {
     if (tile.solids.empty()) continue;
-    // Those of one shape together; front to back, so that little is drawn in vain.
+    // Things of one shape are together, from front to back, so that few hidden points are drawn.
     std::sort(tile.solids.begin(), tile.solids.end(), [&](std::uint32_t a, std::uint32_t b) {
       const Placed &x = placed_[a], &y = placed_[b];
       return std::tie(x.shape, x.cut, x.distance, a) < std::tie(y.shape, y.cut, y.distance, b);
@@ -188,7 +192,8 @@ void Solids::draw_points(const Tile& tile) {
   gl::Viewport(0, 0, (right - left) * fine_, (bottom - top) * fine_);
   gl::Enable(GL_DEPTH_TEST);
   gl::DepthFunc(GL_GREATER);
-  gl::FrontFace(GL_CW);  // pictures have their top row first
+  // Pictures have their top row first.
+  gl::FrontFace(GL_CW);
   const GLuint nothing[4] = {};
   const float infinitely_far = 0;
   gl::ClearBufferuiv(GL_COLOR, 0, nothing);

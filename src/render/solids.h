@@ -1,8 +1,9 @@
 #pragma once
-// Boxes, cylinders and meshes. Their triangles are drawn in tiles at four times the picture's width and height, no
-// more than which thing a point shows and its normal; of these sixteen points every pixel is then shaded once, and
-// knows how much of it is covered. Pixels that are wholly covered are drawn before the balls, the others after them: so
-// both kinds' edges blend with what is behind them, whatever the order.
+// Boxes, cylinders and meshes. Their triangles are drawn in tiles at four times the picture's width and height.
+// Each point records only the visible thing and its normal. A pixel is then shaded once from its sixteen points, which
+// also give its coverage.
+// Pixels that are wholly covered are drawn before the balls, the others after them.
+// The edges of both kinds then blend with what is behind them, in any order.
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -20,9 +21,9 @@ class Solids {
   Solids(const Shapes& shapes, const Eye& eye, const Lighting& lighting, const Surfaces& surfaces,
          const MeshShadows* meshes, bool smooth);
 
-  /// Shades the things that are no balls, aside from the picture. Leaves another framebuffer bound.
+  /// Shades the things that are not balls, apart from the picture. Leaves another framebuffer bound.
   void prepare(const Things& things, const Backdrop& backdrop, const gl::TexelBuffer& rows);
-  /// Draws them onto the bound framebuffer, where they cover the whole of a pixel or a part of it.
+  /// Draws them onto the bound framebuffer, either where they cover whole pixels or where they cover a part.
   enum class Cover { whole, part };
   void draw(Cover cover);
 
@@ -32,13 +33,13 @@ class Solids {
   };
   struct Tile {
     Rect bounds;
-    Rect used;                          // where something may show
-    std::vector<std::uint32_t> solids;  // of placed_
+    Rect used;                          // where things may be visible
+    std::vector<std::uint32_t> solids;  // indices in placed_
   };
   struct Placed {
     std::size_t shape;
     double distance;                     // m
-    bool cut;                            // may be, by the near plane
+    bool cut;                            // whether the near plane may cut it
     std::array<float, Shapes::row> row;  // origin, number; scale, -
     Rect bounds;
   };
@@ -46,19 +47,19 @@ class Solids {
     Programs(const Lighting& lighting, bool walls, bool meshes, int fine);
     gl::Program closed_points, open_points, shade, draw;
   };
-  /// What the points of one tile show.
+  /// The content of the points of one tile.
   struct Points {
     Points(int width, int height);
     gl::Texture what, depth;  // number and normal; near / z
     gl::Framebuffer buffer;
   };
-  /// What the picture's pixels show.
+  /// The content of the picture's pixels.
   struct Pixels {
     Pixels(int width, int height);
     gl::Texture color, depth;  // colour and cover; near / z
     gl::Framebuffer buffer;
   };
-  /// Floats on their way to the shaders.
+  /// Buffers of floats for the shaders.
   struct Rows {
     std::vector<float> occluders, looks, instances, rectangles;
   };
@@ -72,10 +73,10 @@ class Solids {
   const Eye& eye_;
   const Lighting& lighting_;
   const Surfaces& surfaces_;
-  const MeshShadows* meshes_;  // null: none casts a shadow of its own
+  const MeshShadows* meshes_;  // null: no mesh casts a shadow of its own
   int fine_;                   // points along a pixel's side
   const Shapes& shapes_;
-  std::array<Vec3, 3> axes_;  // the world's
+  std::array<Vec3, 3> axes_;  // the world's axes
   Programs programs_;
   Points points_;
   Pixels pixels_;

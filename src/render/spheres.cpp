@@ -1,3 +1,6 @@
+// Draws each ball as one quadrilateral, in which the ray of every pixel is intersected with the sphere. Balls of any
+// size are exactly round.
+// Edges have analytic coverage. Balls smaller than a pixel become larger and fainter, so that they do not flicker.
 #include "render/spheres.h"
 
 #include <algorithm>
@@ -97,8 +100,9 @@ void main() {
 }
 )";
 
-// Row numbers pass through float attributes, which count exactly so far. The balls in front come last and would go
-// without shadows upon them; a picture of so many shows none of them apart.
+// Row numbers pass through float attributes, which are exact integers only up to this number.
+// The balls in front come last, and would be without shadows upon them. In a picture of so many balls, single ones are
+// not visible.
 constexpr std::size_t most_rows = (std::size_t{1} << 24) - 4096;
 
 }  // namespace
@@ -130,7 +134,8 @@ void Spheres::draw(const Things& things, const Backdrop& backdrop, const gl::Tex
   const std::span<const Thing> balls = things.all();
   const std::span<const std::uint32_t> seen = things.balls();
   if (seen.empty()) return;
-  std::optional<Occluders> occluders;  // only if some ball is large enough to show a shadow upon it
+  // Constructed only if some ball is large enough to show a shadow upon it.
+  std::optional<Occluders> occluders;
   row_.clear();
   occluder_row_.clear();
   const auto f = [](double x) { return static_cast<float>(x); };
@@ -143,10 +148,10 @@ void Spheres::draw(const Things& things, const Backdrop& backdrop, const gl::Tex
       const double a = std::hypot(o.ax, o.ay);
       b = std::hypot(o.bx, o.by);
       large = b > 1.5 * eye_.pixel;
-      // Below a pixel a disc cannot be drawn: a larger one, and fainter, covers as much.
+      // A disc smaller than a pixel cannot be drawn. A larger and fainter one has the same coverage.
       const double least = smooth_ ? eye_.pixel : 0;
       const double wide_a = std::max(a, least), wide_b = std::max(b, least);
-      // The soft edge is a ramp one pixel wide, which adds the area of a disc of radius pixel / sqrt 12.
+      // The soft edge is a ramp one pixel wide. It adds the area of a disc of radius pixel / sqrt 12.
       if (wide_b > b) opacity = a * b / (wide_a * wide_b + eye_.pixel * eye_.pixel / 12);
       o.ax *= wide_a / a, o.ay *= wide_a / a;
       b = wide_b;

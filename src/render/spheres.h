@@ -1,5 +1,5 @@
 #pragma once
-// Balls: each one quadrilateral around its outline, in which every pixel's ray meets the sphere exactly.
+// Balls. Each is one quadrilateral around its outline, in which the ray of every pixel is intersected with the sphere.
 #include <vector>
 
 #include "render/backdrop.h"
@@ -11,7 +11,7 @@ namespace carom {
 
 class Spheres {
  public:
-  /// `solids`: there may be things that are no balls, which cast shadows too. `smooth`: outlines are anti-aliased.
+  /// `solids`: some things may not be balls, and cast shadows too. `smooth`: outlines are anti-aliased.
   Spheres(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces, const MeshShadows* meshes, bool solids,
           bool smooth);
 
@@ -22,7 +22,7 @@ class Spheres {
   const Eye& eye_;
   const Lighting& lighting_;
   const Surfaces& surfaces_;
-  const MeshShadows* meshes_;  // null: none casts a shadow of its own
+  const MeshShadows* meshes_;  // null: no mesh casts a shadow of its own
   bool smooth_;
   gl::Program program_;
   gl::Instances instances_;

@@ -1,3 +1,6 @@
+// Converts planes, walls and obstacles to triangles. Planes are cut off at a cube around the scene, and at each other.
+// Round shapes are subdivided by midpoints and square roots alone, because sines differ from machine to machine in the
+// last bits.
 #include "render/still_things.h"
 
 #include <algorithm>
@@ -14,7 +17,7 @@
 namespace carom {
 namespace {
 
-/// A convex polygon with what is behind a plane cut off (Sutherland and Hodgman 1974).
+/// A convex polygon without its part behind a plane (Sutherland and Hodgman 1974).
 std::vector<Vec3> cut(const std::vector<Vec3>& polygon, const Vec3& point, const Vec3& normal) {
   std::vector<Vec3> left;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -61,7 +64,7 @@ class Collector {
     return fixed < scene_.roster.fixed.size() ? scene_.roster.fixed[fixed] : unnamed;
   }
 
-  /// Around all that has bounds, and the places of the visible planes opposite its middle.
+  /// Finds the cube around all bounded things and around the points of the visible planes opposite its centre.
   void find_cube(const Extent& seen) {
     Extent all = seen;
     for (std::size_t i = 0; i < world_.walls.size(); ++i) {
@@ -86,7 +89,7 @@ class Collector {
 
   void add_plane(std::size_t i) {
     const Plane& plane = world_.planes[i];
-    // Along a world axis where there is one in the plane.
+    // Along a world axis, if there is one in the plane.
     const Vec3 along = std::abs(plane.normal.y()) < 0.999 ? Vec3(0, 1, 0) : Vec3(0, 0, -1);
     const Vec3 right = along.cross(plane.normal).normalized(), up = plane.normal.cross(right);
     const Vec3 foot = center_ - plane.normal.dot(center_ - plane.point) * plane.normal;
@@ -119,8 +122,8 @@ class Collector {
 
   const Scene& scene_;
   const World& world_;
-  Vec3 center_;      // m, of the cube
-  double half_ = 0;  // m, of its edge
+  Vec3 center_;      // m, centre of the cube
+  double half_ = 0;  // m, half of its edge
   std::map<Shape, Mesh> shapes_;
   std::vector<StillThing> things_;
 };
@@ -132,7 +135,7 @@ std::vector<StillThing> still_things(const Scene& scene, const Extent& seen) {
 }
 
 Mesh round_ball() {
-  // An octahedron, each of whose triangles is cut into four, again and again.
+  // An octahedron. Each of its triangles is divided into four, again and again.
   constexpr int times = 4;
   Mesh mesh;
   mesh.vertices = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
@@ -157,7 +160,7 @@ Mesh round_ball() {
 }
 
 Mesh round_cylinder() {
-  // A square's corners, and between each two the point of the circle halfway, again and again.
+  // The corners of a square. The point of the circle half way between each two is added, again and again.
   std::vector<Vec3> circle = {{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}};
   while (circle.size() < 64) {
     std::vector<Vec3> finer;
@@ -171,11 +174,13 @@ Mesh round_cylinder() {
   const auto sides = static_cast<std::uint32_t>(circle.size());
   Mesh mesh;
   for (std::uint32_t k = 0; k < sides; ++k) {
-    for (const double y : {-1.0, 1.0}) {  // of the flank
+    // Vertices of the flank.
+    for (const double y : {-1.0, 1.0}) {
       mesh.vertices.push_back(circle[k] + y * up);
       mesh.normals.push_back(circle[k]);
     }
-    for (const double y : {-1.0, 1.0}) {  // of the ends
+    // Vertices of the ends.
+    for (const double y : {-1.0, 1.0}) {
       mesh.vertices.push_back(circle[k] + y * up);
       mesh.normals.push_back(y * up);
     }

@@ -1,6 +1,6 @@
 #pragma once
-// What stands still in a scene as triangles, and the volumes of bodies, for programs that draw triangles. Corners come
-// of roots alone, so that they are the same on every machine.
+// The still things of a scene as triangles, and the volumes of bodies, for programs that draw triangles.
+// Corners are computed by square roots alone, so that they are the same on every machine.
 #include <vector>
 
 #include "render/model.h"
@@ -10,17 +10,17 @@ namespace carom {
 struct MeshUse;
 struct Scene;
 
-/// The planes, walls and obstacles that are visible, in the order of the file. A plane is cut off at a cube around
-/// `seen`, the walls and the obstacles, and where other visible planes have their backs. Throws RenderError for a mesh
-/// that cannot be read.
+/// The visible planes, walls and obstacles, in the order of the file. A plane is cut off at a cube around `seen`, the
+/// walls and the obstacles.
+/// It is also cut off where it is behind other visible planes. Throws RenderError for a mesh that cannot be read.
 std::vector<StillThing> still_things(const Scene& scene, const Extent& seen);
 
-/// The ball of radius 1: 2048 triangles, their corners on it, with its normals.
+/// The ball of radius 1 as 2048 triangles, with corners on the sphere and its normals.
 Mesh round_ball();
-/// The upright cylinder of radius 1 and half height 1: 64 sides, their edges on it.
+/// The upright cylinder of radius 1 and half height 1 with 64 sides, whose edges lie on it.
 Mesh round_cylinder();
 
-/// A mesh's vertices p at `middle` + scale * p (by axis); normals follow.
+/// A mesh with its vertices p at `middle` + scale * p (by axis), and normals to match.
 Mesh placed(const Mesh& mesh, const Vec3& scale, const Vec3& middle);
 
 /// The mesh that is drawn in place of a volume about the origin. Throws RenderError.

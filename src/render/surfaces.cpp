@@ -1,3 +1,5 @@
+// Planes, walls and the sides of boxes in the camera's frame, as rows for the shaders.
+// Coordinates are computed in double precision, and only differences from the eye become floats.
 #include "render/surfaces.h"
 
 #include <algorithm>
@@ -31,9 +33,10 @@ std::array<Wall, 6> sides_of(const Obstacle& box) {
   return sides;
 }
 
-/// Two directions along a plane: world axes where the plane has some, so that lines stand at round coordinates.
+/// Two directions along a plane. They are world axes where the plane has some, so that lines have round coordinates.
 void pattern_axes(const Vec3& normal, Vec3& right, Vec3& up) {
-  Vec3 along(0, 0, -1);  // of a level plane
+  // For a level plane.
+  Vec3 along(0, 0, -1);
   if (std::abs(normal.y()) < 0.999) along = Vec3(0, 1, 0);
   right = along.cross(normal).normalized();
   up = normal.cross(right);
@@ -66,8 +69,8 @@ Surfaces::Surfaces(const Scene& scene, const Eye& eye) {
     s.normal = eye.direction(plane.normal);
     s.right = eye.direction(right);
     s.up = eye.direction(up);
-    // The pattern repeats after two squares: so much of the eye's own coordinates matters, and no more fits into a
-    // float.
+    // The pattern repeats after two squares. Only this remainder of the eye's own coordinates has an effect, and only
+    // this fits into a float.
     add_row(s, std::fmod(right.dot(eye.camera.eye), 2 * unit_), std::fmod(up.dot(eye.camera.eye), 2 * unit_),
             name.color);
     all_.push_back(s);

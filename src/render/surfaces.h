@@ -1,5 +1,5 @@
 #pragma once
-// The fixed things that a picture shows, in the camera's frame, as the shaders read them.
+// The visible fixed surfaces in the camera's frame, in the format of the shaders.
 #include <vector>
 
 #include "render/eye.h"
@@ -10,23 +10,24 @@ namespace carom {
 
 struct Surface {
   bool wall = false;
-  Vec3 normal;                             // unit; a plane's towards its free side, a wall's towards the eye
-  double height = 0;                       // m, of the eye above it; a plane's may be negative: the eye is behind it
+  Vec3 normal;  // unit; of a plane towards its free side, of a wall towards the eye
+  // m, of the eye above it. For a plane it may be negative: the eye is behind it.
+  double height = 0;
   Vec3 center = Vec3::Zero();              // walls: m
-  Vec3 right, up;                          // unit, along the pattern; a wall's along its sides
+  Vec3 right, up;                          // unit, along the pattern; of a wall along its sides
   double half_width = 0, half_height = 0;  // walls: m
-  /// A plane is seen from its free side only, a wall unless edge-on.
+  /// A plane is visible from its free side only, a wall unless edge-on.
   bool seen() const { return height > 0; }
 };
 
-/// The name, colour and so on of an obstacle, by its number among them.
+/// Name, colour and other properties of an obstacle, by its number among obstacles.
 const FixedName& name_of_obstacle(const Scene& scene, std::size_t obstacle);
-/// Whether an obstacle stands still as six walls: a box that is not drawn as a mesh.
+/// Whether an obstacle is drawn as six walls: a box that is not drawn as a mesh.
 bool is_surface(const Scene& scene, std::size_t obstacle);
 
-/// Planes first, then walls and the sides of box obstacles. Number i is known to the shaders as i + 1; 0 is the
-/// background. Planes that are not visible are left out: they are not there for the eye, and cut nothing off the
-/// others.
+/// Planes come first, then walls and the sides of box obstacles. Shaders use number i + 1 for surface i, and 0 for the
+/// background.
+/// Planes that are not visible are left out. They cut nothing off the others.
 class Surfaces {
  public:
   Surfaces(const Scene& scene, const Eye& eye);
@@ -39,8 +40,9 @@ class Surfaces {
   const std::vector<float>& rows() const { return rows_; }
   static constexpr int texels = 5;
 
-  double unit() const { return unit_; }    // m, side of the pattern's squares: a power of ten that suits the picture
-  double reach() const { return reach_; }  // m, from the eye to what the picture is about
+  // m, side of the pattern's squares: a power of ten that suits the picture.
+  double unit() const { return unit_; }
+  double reach() const { return reach_; }  // m, from the eye to the main content of the picture
 
  private:
   void add_wall(const Wall& wall, const FixedName& name, const Eye& eye);

@@ -1,3 +1,6 @@
+// Places bodies and obstacles in the camera's frame, and sorts them into balls and solids. Things outside the picture
+// stay as occluders only.
+// Comparison with the last picture shows whether anything has changed, so that an equal picture is not drawn.
 #include "render/things.h"
 
 #include <algorithm>
@@ -54,7 +57,7 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, std:
     thing.radius = std::max(radius, looks_[look].mesh_radius);
     thing.mesh_middle = eye_.point(position + looks_[look].mesh_middle);
   }
-  // A thing around the eye would only be its own inside.
+  // A thing around the eye would show only its own inside.
   const double distance2 = thing.center.squaredNorm();
   const bool ball = volume.shape == Shape::sphere && !mesh;
   const Vec3 eye = (eye_.camera.eye - position).cwiseAbs();
@@ -63,13 +66,13 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, std:
     keep(thing);
     return;
   }
-  // What is smaller than a pixel is drawn as a ball, which is as faint as it is small.
+  // A thing smaller than a pixel is drawn as a ball, which is the fainter the smaller it is.
   const bool tiny = !ball && thing.radius * thing.radius < 0.25 * eye_.pixel * eye_.pixel * distance2;
   if (tiny) thing.radius = std::cbrt(0.2387 * volume.size());
   (ball || tiny ? balls_ : solids_).push_back(keep(thing));
 }
 
-/// Gives its number.
+/// Stores the thing. Returns its number.
 std::uint32_t Things::keep(const Thing& thing) {
   if (placed_ == all_.size()) {
     all_.push_back(thing);
@@ -93,7 +96,8 @@ bool Things::place(const State& state) {
     double radius = world.radius[i];
     bool mesh = looks_[i].mesh.has_value();
     if (!state.volume.empty() && (state.volume[i].shape != volume.shape || state.volume[i].half != volume.half)) {
-      volume = state.volume[i];  // of a joint body
+      // This is a joint body.
+      volume = state.volume[i];
       radius = volume.reach();
       mesh = false;
     }
@@ -114,8 +118,9 @@ bool Things::place(const State& state) {
 }
 
 void Things::sort_balls() {
-  // Of balls that do not overlap, one can only hide another of greater power |c|^2 - r^2 (the cells of a power diagram
-  // are ordered so from any eye); the distance alone would put a small ball beside a large one on the wrong side.
+  // Of balls that do not overlap, a ball can only hide another of greater power |c|^2 - r^2. The cells of a power
+  // diagram have this order from any eye.
+  // The distance alone would put a small ball beside a large one on the wrong side.
   order_.clear();
   for (const std::uint32_t i : balls_) {
     const double distance = all_[i].center.norm();

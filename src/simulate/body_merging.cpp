@@ -1,3 +1,8 @@
+// Perfectly inelastic collisions (chapter 8's two lumps of clay). The lighter body becomes part of the heavier one,
+// which keeps its number and shape.
+// Momentum, mass, volume and centre of mass are conserved. The energy lost includes that of the motion along the
+// surfaces.
+// The larger volume may overlap others. Fixed things push it out, and overlapping bodies merge too.
 #include "simulate/body_merging.h"
 
 #include <algorithm>
@@ -39,12 +44,13 @@ void BodyMerging::record(Entity a, Entity b, const Touch& there) {
   Collision met =
       make_collision(world, CollisionKind::merge, bodies_.now.hi, a, b, there.point, there.normal, approach, 0, 0);
   met.impulse = approach * (mw * mp / mass);
-  met.energy_lost = 0.5 * (mw * mp / mass) * w.squaredNorm();  // of the motion along the surfaces too
+  // The energy of the motion along the surfaces is lost too.
+  met.energy_lost = 0.5 * (mw * mp / mass) * w.squaredNorm();
   bodies_.log.lose(met.energy_lost);
   bodies_.log.record(met);
 }
 
-/// The joint body goes on from the centre of mass with the common momentum; forces go on acting on the parts.
+/// The joint body continues from the centre of mass with the common momentum. Forces continue to act on the parts.
 void BodyMerging::join(Entity whole, Entity part) {
   const double mass_part = bodies_.world.mass[part], share = mass_part / (bodies_.world.mass[whole] + mass_part);
   const Vec3 xw = bodies_.position(whole), xp = bodies_.position(part);
@@ -68,7 +74,7 @@ void BodyMerging::join(Entity whole, Entity part) {
   bodies_.body[whole].set_origin({});
 }
 
-/// Moves a joint body out of fixed things that its volume reaches into, and books the work that lifting it takes.
+/// Moves a joint body out of fixed things that its volume overlaps. The work of lifting it goes into the log.
 void BodyMerging::move_out(Entity whole) {
   const World& world = bodies_.world;
   Flight f = bodies_.flights[whole];

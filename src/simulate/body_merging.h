@@ -1,8 +1,8 @@
 #pragma once
-// Perfectly inelastic collisions: bodies that meet become one (chapter 8's two lumps of clay). The joint body keeps
-// mass, momentum, volume and the centre of mass; it goes by the name of the heavier of the two (of the first, if they
-// weigh the same) and has its shape. Where the joint volume reaches into a third body, the two have met as well; where
-// it reaches into something fixed, it is moved out.
+// Perfectly inelastic collisions: bodies that meet become one (chapter 8's two lumps of clay).
+// The joint body keeps mass, momentum, volume and the centre of mass. It has the number and the shape of the heavier
+// body, or of the first if both have the same mass.
+// Where the joint volume overlaps a third body, that one merges too. Where it overlaps a fixed thing, it is moved out.
 
 #include "physics/entity.h"
 namespace carom {
@@ -22,7 +22,7 @@ class BodyMerging {
               EventPredictor& predictor, PathLog& paths)
       : bodies_(bodies), flat_(flat), flights_(flights), queue_(queue), predictor_(predictor), paths_(paths) {}
 
-  /// Bodies a and b, which touch like this now, become one.
+  /// Merges bodies a and b, which touch as `there` describes.
   void merge(Entity a, Entity b, const Touch& there);
 
  private:

@@ -1,10 +1,11 @@
-// The source chapter's program (ParticleBounce, listings 8.3 and 8.4). Each frame tests for overlap and handles what
-// overlaps. Then it moves every body by semi-implicit Euler, v += a dt, x += v dt.
+// The source chapter's program (ParticleBounce, listings 8.3 and 8.4). Each frame tests for overlap and handles every
+// overlapping pair.
+// Then it moves every body by semi-implicit Euler, v += a dt, x += v dt.
 //
 // By default it does what the text means: the average of the two coefficients (or the scene's rule) and the sum of both
-// radii. The velocity changes once, and of bodies that approach only. `as_printed` does what the listings print
-// instead:
-//   e = (e1 e2) / 2, where the text says average;
+// radii.
+// The velocity changes once, and only for bodies that approach. `as_printed` does what the listings print instead:
+//   e = (e1 e2) / 2, where the text has the average;
 //   |d|^2 < (r0 + r0)^2, the first body's radius twice;
 //   after v' is set, the acceleration becomes v'/dt, so that the same frame's update adds v' once more;
 //   no test that the bodies approach, so that a pair still overlapping in the next frame is handled again.
@@ -27,7 +28,8 @@ namespace carom {
 namespace {
 
 constexpr int frames_at_a_time = 4096;
-constexpr std::size_t room_for_frame = EventLog::capacity / 2;  // collisions; a frame may have more
+// Collisions. A frame may have more.
+constexpr std::size_t room_for_frame = EventLog::capacity / 2;
 
 class BookSimulator final : public Simulator {
  public:
@@ -53,8 +55,9 @@ class BookSimulator final : public Simulator {
   const World& world_;
   const BookOptions options_;
   const Bounds bounds_;
-  std::uint64_t frames_ = 0;  // done; the bodies are at frame_time(frames_)
-  double time_ = 0;           // s, asked for: within the last frame done
+  // Frames done. The bodies are at frame_time(frames_).
+  std::uint64_t frames_ = 0;
+  double time_ = 0;  // s, requested time: within the last frame done
   std::vector<Vec3> x_, v_, force_;
   State state_;
   EventLog log_;
@@ -107,7 +110,8 @@ void BookSimulator::handle_pair(Entity a, Entity b) {
                         approach, separation, e));
 }
 
-/// The plane test of the text: above it, nearer than the radius: collided. `normal` points to the body's side.
+/// The plane test of the text: a body above the plane and nearer than its radius has collided. `normal` points to the
+/// body's side.
 void BookSimulator::handle_fixed(Entity i, Entity surface, const Vec3& point, const Vec3& normal) {
   const double height = (x_[i] - point).dot(normal);
   if (height < 0 || height >= world_.radius[i]) return;
@@ -120,7 +124,7 @@ void BookSimulator::handle_fixed(Entity i, Entity surface, const Vec3& point, co
                         x_[i] - world_.radius[i] * normal, -normal, approach, e * approach, e));
 }
 
-/// Listing 8.3: forces, overlaps, update.
+/// One frame of listing 8.3: forces, overlaps, update.
 void BookSimulator::do_frame() {
   find_forces();
   handle_pairs();
@@ -129,7 +133,7 @@ void BookSimulator::do_frame() {
   ++frames_;
 }
 
-/// A frame's impulse is a force that lasts for the first frame only.
+/// The impulse of a scene is a force that lasts for the first frame only.
 void BookSimulator::find_forces() {
   for (Entity i = 0; i < world_.body_count(); ++i) {
     force_[i] = world_.mass[i] * world_.gravity;
@@ -152,7 +156,7 @@ void BookSimulator::handle_surfaces() {
     for (std::size_t k = 0; k < world_.planes.size(); ++k)
       handle_fixed(i, n + static_cast<Entity>(k), world_.planes[k].point, world_.planes[k].normal);
     for (std::size_t k = 0; k < world_.walls.size(); ++k) {
-      // A wall is a plane as far as it reaches; round its rim, the direction from its closest point.
+      // A wall acts as a plane over its extent. At its rim the direction is that from its closest point.
       const Vec3 nearest = nearest_on_wall(world_.walls[k], x_[i]);
       const Vec3 away = x_[i] - nearest;
       if (away.squaredNorm() > 0)
@@ -161,8 +165,8 @@ void BookSimulator::handle_surfaces() {
   }
 }
 
-/// Semi-implicit Euler, and the work of every force but gravity: of the impulse, and of the printed listing's second
-/// helping of velocity.
+/// Semi-implicit Euler. Also adds the work of every force except gravity: that of the impulse, and of the velocity that
+/// the printed listing adds twice.
 void BookSimulator::move() {
   const double dt = options_.step;
   for (Entity i = 0; i < world_.body_count(); ++i) {
@@ -180,7 +184,7 @@ void BookSimulator::move() {
 
 void BookSimulator::advance_to(double time) {
   log_.begin_advance();
-  // A time within rounding of a frame's is that frame's.
+  // A time within rounding of a frame's time belongs to that frame.
   for (int frames = 1; frame_time(frames_) < time - stepped_tolerance::frame_rounding * options_.step; ++frames) {
     do_frame();
     if (!log_.has_room(room_for_frame) || frames == frames_at_a_time) {
@@ -191,7 +195,7 @@ void BookSimulator::advance_to(double time) {
   time_ = std::max(time, time_);
 }
 
-/// Between frames a body is on the straight line that the frame's update took it along.
+/// Between frames a body is on the straight line of the frame's update.
 const State& BookSimulator::state() {
   state_.time = time_;
   state_.position = x_;

@@ -12,8 +12,8 @@ struct World;
 struct BookOptions {
   double step = 1.0 / 60;            // s, of a frame
   bool as_printed = false;           // listings 8.3 and 8.4 with their slips
-  std::uint64_t max_collisions = 0;  // stop with an error after so many; 0: no limit
-  bool record_collisions = true;     // false: no buffer is made and collisions() stays empty
+  std::uint64_t max_collisions = 0;  // limit, an error beyond it; 0: no limit
+  bool record_collisions = true;     // false: there is no buffer, and collisions() stays empty
 };
 
 /// `world` must outlive the simulator. `initial` is at time 0, before the world's impulses (forces of the first frame).

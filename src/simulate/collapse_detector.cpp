@@ -1,3 +1,8 @@
+// Decides when bouncing ends in lasting contact: by inelastic collapse (McNamara & Young, Phys. Fluids A 4 (1992) 496),
+// or by slow impacts under load.
+// A limit on speed alone would fail in a collapse, which can be fast, and in a pile, where slow impacts have many
+// causes.
+// So impacts are counted for each body, over the time of a hop and over the distance that the body moves.
 #include "simulate/collapse_detector.h"
 
 #include <algorithm>
@@ -12,7 +17,7 @@ void CollapseDetector::count_in_turn(Entity i, double lost) {
   collapse_.write(i).lost += lost;
 }
 
-/// Counts a slow impact of body i: whether it is one of many within a window of time (s).
+/// Counts a slow impact of body i. Returns whether it is one of many within a window of time (s).
 bool CollapseDetector::in_burst(Entity i, double window, int many) {
   const double now = bodies_.now.hi;
   Burst& burst = burst_.write(i);
@@ -21,7 +26,8 @@ bool CollapseDetector::in_burst(Entity i, double window, int many) {
 }
 
 bool CollapseDetector::collapses(Entity i, Entity other, double e, double approach, double length) {
-  if (e >= 1 && collapse_.empty()) return false;  // none has lost anything yet
+  // No impact has lost anything yet.
+  if (e >= 1 && collapse_.empty()) return false;
   Collapse& collapse = collapse_.write(i);
   const double away = std::max(exact_tolerance::collapse_gap * length,
                                exact_tolerance::position_rounding * bodies_.flights[i].x.cwiseAbs().sum());
@@ -52,7 +58,8 @@ bool CollapseDetector::count_impact(Entity a, Entity b, double e, double approac
   if (both_in) return true;
   if (press > 0 && (a_in || b_in)) return true;
   const double window = 2 * slow / load;
-  // Alone on flat surfaces a body comes to rest on each in closed form; only between several can it go on for ever.
+  // Alone on flat surfaces a body comes to rest on each of them in closed form. Only between several of them can it
+  // continue for ever.
   if (alone) return bodies_.body[a].origin_partner != b && in_burst(a, window, exact_tolerance::burst_on_surfaces);
   const bool burst_a = in_burst(a, window, exact_tolerance::burst_of_bodies);
   const bool burst_b = body && in_burst(b, window, exact_tolerance::burst_of_bodies);

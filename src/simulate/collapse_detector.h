@@ -1,12 +1,14 @@
 #pragma once
-// Where bouncing ends in lasting contact: inelastic collapse, and slow impacts under load that come one upon the other.
+// The end of bouncing in lasting contact: inelastic collapse, and slow impacts under load in quick succession.
 //
 // Inelastic collapse (McNamara & Young, Phys. Fluids A 4 (1992) 496): a body between others that close in on it strikes
-// them in turn, ever sooner, and what is left of the gaps is gone in no time. The detector sums 1 - e of a body's
-// impacts, where e above 1 makes up for others, until it has come away by a billionth of its length, or by what
-// positions far off are rounded by. Bouncing on one and the same thing counts once. Impacts in turn that come to an end
-// multiply the speeds by sqrt(e) each, as the determinant of what they do says. At the sum at which a collapse is found
-// they have left exp(-8) of them: those that go on are a collapse, or as good as over.
+// them in turn, ever sooner. What is left of the gaps vanishes in no time.
+// The detector sums 1 - e over a body's impacts, where an e above 1 counts against the others. The sum ends when the
+// body has moved away by a billionth of its length.
+// Far from the origin the limit is the rounding of positions. Repeated bounces on the same thing count once.
+// Impacts in turn that end multiply the speeds by sqrt(e) each, by the determinant of their map. At the sum that counts
+// as a collapse, exp(-8) of the speeds is left.
+// Impacts that continue beyond it are a collapse, or as good as over.
 #include "simulate/exact_bodies.h"
 
 namespace carom {
@@ -16,32 +18,37 @@ class CollapseDetector {
   explicit CollapseDetector(const ExactBodies& bodies)
       : bodies_(bodies), burst_(bodies.body.size()), collapse_(bodies.body.size()) {}
 
-  /// Counts an impact of a on b at `approach` (m/s). Gives whether it ends in contact: nothing is left of the approach.
-  /// press: m/s^2, drives the two together; length: m, the diameter of the smaller one; alone: on a flat surface, not
-  /// among bodies. An inelastic collapse ends bouncing at any speed. Under load it also ends when an impact is slow and
-  /// one of very many within the time of a hop at that speed, or is slow and meets bodies in lasting contact.
+  /// Counts an impact of a on b at `approach` (m/s). Returns whether it ends in contact, so that nothing is left of the
+  /// approach.
+  /// press: the acceleration that drives the two together (m/s^2). length: the diameter of the smaller one (m). alone:
+  /// on a flat surface, not among bodies.
+  /// An inelastic collapse ends bouncing at any speed. Under load a slow impact also ends it in two cases.
+  /// It is one of very many within the time of a hop at that speed, or it meets bodies in lasting contact.
   bool count_impact(Entity a, Entity b, double e, double approach, double press, double length, bool alone);
-  /// Counts an impact of body i in turn with the one that caused it; lost: its 1 - e.
+  /// Counts an impact of body i in turn with the impact that caused it. lost: its 1 - e.
   void count_in_turn(Entity i, double lost);
 
   /// Whether a collapse of body i's impacts has ended in contact at this instant.
   bool ended_now(Entity i) const { return collapse_[i].ended == bodies_.now; }
-  /// Whether body i's slow impacts are among bodies, not with flat fixed surfaces alone.
+  /// Whether bodies take part in body i's slow impacts, not flat fixed surfaces alone.
   bool among_bodies(Entity i) const { return burst_[i].bodies; }
 
  private:
-  /// A body's slow impacts that came one upon the other.
+  /// Slow impacts of a body in quick succession.
   struct Burst {
     double start = 0;  // s
     int impacts = 0;
-    bool bodies = false;  // with bodies among them, not with flat fixed surfaces alone
+    // Bodies take part, not flat fixed surfaces alone.
+    bool bodies = false;
   };
-  /// A body's impacts at one place.
+  /// Impacts of a body at one place.
   struct Collapse {
     Instant start;
-    int impacts = 0;          // with e < 1, and not twice running with the same thing
-    double lost = 0;          // the sum of 1 - e, at least 0
-    Instant ended{never, 0};  // the last that ended in contact for that
+    // Impacts with e < 1, without repeated ones on the same thing.
+    int impacts = 0;
+    double lost = 0;  // the sum of 1 - e, at least 0
+    // The last collapse that ended in contact.
+    Instant ended{never, 0};
   };
 
   bool in_burst(Entity i, double window, int many);

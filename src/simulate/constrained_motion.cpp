@@ -1,3 +1,10 @@
+// Constrained motion of an island by event-driven integration (Acary & Brogliato, Numerical Methods for Nonsmooth
+// Dynamical Systems, 2008, ch. 8).
+// A step closes overlaps, takes away approaches, computes forces and picks a motion: parabolas where they are exact,
+// otherwise a method of order 8.
+// It ends at the first change of contact. Bodies fly along parabolas between two points of the path, so that the event
+// queue treats them as any others.
+// An island with too many changes in the time of a time step is left to time stepping.
 #include "simulate/constrained_motion.h"
 
 #include <algorithm>
@@ -24,7 +31,7 @@ namespace tol = exact_tolerance;
 
 namespace {
 
-/// A product with the speed `fastest` as a divisor must not be infinite.
+/// Keeps a speed above zero, so that products divided by it stay finite.
 double at_least_tiny(double fastest) {
   return std::max(fastest, 0x1p-900);
 }
@@ -59,7 +66,7 @@ bool ConstrainedMotion::follows(Entity i) const {
   return following.path && following.version == bodies_.body[i].version;
 }
 
-/// m/s: that of its path at an instant of its flight.
+/// The velocity of its path (m/s) at an instant of its flight.
 Vec3 ConstrainedMotion::velocity(Entity i, const Instant& at) const {
   const Following& following = following_[i];
   const double t = std::clamp(at - following.path->start, 0.0, following.path->motion->length());
@@ -73,8 +80,9 @@ void ConstrainedMotion::settle(Entity i) {
   bend(i, std::min(bodies_.islands.piece_end[i] - start, following_[i].path->end() - start));
 }
 
-/// What the velocity of body i's parabola lacks of its path's. Both begin alike, and meet `length` (s) after the
-/// flight's start: but for the fourth power of that it is a multiple of 3 t^2 - 2 t length, the slope of a cubic.
+/// Sets the bend: the velocity of body i's path less that of its parabola. Both start alike and meet `length` (s) after
+/// the flight's start.
+/// Up to the fourth power of that, the bend is a multiple of 3 t^2 - 2 t length, the slope of a cubic.
 void ConstrainedMotion::bend(Entity i, double length) {
   PathBend& bend = bodies_.islands.bend.write(i);
   bend = {};
@@ -84,9 +92,10 @@ void ConstrainedMotion::bend(Entity i, double length) {
   bend = {-2 / length * off, 3 / (length * length) * off};
 }
 
-/// Counts a change of an island's contacts. Gives whether there are not too many in the time of a time step.
+/// Counts a change of an island's contacts. Returns whether the changes in the time of a time step are not too many.
 bool ConstrainedMotion::count_change(Island& island) const {
-  double greatest = 0, smallest = never;  // m/s^2, m
+  // m/s^2 and m.
+  double greatest = 0, smallest = never;
   for (const Entity i : island.members) {
     greatest = std::max(greatest, bodies_.load_on(i));
     smallest = std::min(smallest, bodies_.world.radius[i]);
@@ -129,8 +138,8 @@ bool ConstrainedMotion::advance(Entity i) {
   return true;
 }
 
-/// Where nothing presses, what touches a member without approach or parting has a part in what it does: one after the
-/// other, impacts that end in contact would come to what rounding leaves of them.
+/// Adds bodies that touch a member without approach or separation, where nothing presses. They take part in its motion.
+/// Impacts that end in contact would otherwise be resolved one after the other, down to what rounding leaves of them.
 void ConstrainedMotion::take_in_touching(Entity i) {
   const World& world = bodies_.world;
   std::vector<Entity> todo = bodies_.islands.of(i).members;
@@ -152,7 +161,7 @@ void ConstrainedMotion::take_in_touching(Entity i) {
   }
 }
 
-/// By member: the first one of those that contacts connect with it.
+/// By member: the first of the members that contacts connect with it.
 std::vector<std::uint32_t> ConstrainedMotion::parts_of(const Step& step) const {
   const std::size_t n = step.members.size();
   DisjointSets sets(n);
@@ -167,7 +176,7 @@ std::vector<std::uint32_t> ConstrainedMotion::parts_of(const Step& step) const {
   return part;
 }
 
-/// The next step of an island whose bodies contacts connect.
+/// The next step of an island with connected contacts.
 void ConstrainedMotion::advance_whole(Step& step) {
   close_overlaps(step);
   take_approaches(step);
@@ -180,7 +189,7 @@ void ConstrainedMotion::advance_whole(Step& step) {
   begin_flights(step);
 }
 
-/// Where members are and how fast.
+/// The positions and velocities of the members.
 ConstrainedMotion::Step ConstrainedMotion::begin_step(std::vector<Entity> members) const {
   const Islands& islands = bodies_.islands;
   Step step;
@@ -207,13 +216,13 @@ ConstrainedMotion::Step ConstrainedMotion::begin_step(std::vector<Entity> member
   return step;
 }
 
-/// m: a gap between body i, at x, and something at xe that counts as contact.
+/// The largest gap between body i, at x, and a thing at xe that counts as contact (m).
 double ConstrainedMotion::contact_gap(Entity i, const Vec3& x, const Vec3& xe) const {
   return std::max(tol::contact_gap * bodies_.world.radius[i],
                   tol::contact_rounding * (x.cwiseAbs().sum() + xe.cwiseAbs().sum()));
 }
 
-/// The pairs in contact, but for those that are about to strike.
+/// Finds the pairs in contact, except those that are about to strike.
 void ConstrainedMotion::find_contacts(Step& step) const {
   const World& world = bodies_.world;
   for (std::size_t k = 0; k < step.members.size(); ++k) {
@@ -222,7 +231,7 @@ void ConstrainedMotion::find_contacts(Step& step) const {
     for (const Entity e : bodies_.known_to(i)) {
       const bool body = world.is_body(e);
       if (body && (e < i || group_.index[e] == ContactConstraint::fixed)) continue;
-      // A thing that it has struck just now it touches there, and nowhere else.
+      // A thing that it has just struck touches it at that feature, and at no other.
       const bool struck = bodies_.flights[i].start == bodies_.now && bodies_.body[i].origin_partner == e;
       const Vec3 xe = at(step.x, e);
       const Touch there = touch(world, i, step.x[k], e, xe, struck ? bodies_.body[i].origin_feature : no_feature);
@@ -249,8 +258,8 @@ void ConstrainedMotion::close_overlaps(Step& step) const {
   for (std::size_t k = 0; k < step.x.size(); ++k) step.x[k] += displacement[k];
 }
 
-/// Contact takes what pairs approach each other by. A body that is struck and held up by those behind it: an impact in
-/// turn with the strike, as by e = 0.
+/// Contact takes away the approach of pairs. A struck body that others behind it hold up has an impact in turn with the
+/// strike, as with e = 0.
 void ConstrainedMotion::take_approaches(Step& step) {
   for (const Vec3& v : step.v) step.fastest = std::max(step.fastest, v.norm());
   for (ContactConstraint& p : step.contacts.pairs) p.target = p.force = 0;
@@ -265,8 +274,9 @@ void ConstrainedMotion::take_approaches(Step& step) {
   }
 }
 
-/// Records the impacts, of velocities `met` (m/s), that contact took although they were not slow: what the struck ones
-/// handed on at once. By pair, whether it is recorded.
+/// Records the impacts at velocities `met` (m/s) that contact absorbed although they were not slow: those that struck
+/// bodies passed on at once.
+/// Returns for each pair whether it is recorded.
 std::vector<std::uint8_t> ConstrainedMotion::record_fast(const Step& step, const std::vector<Vec3>& met) const {
   const World& world = bodies_.world;
   std::vector<std::uint8_t> recorded(step.contacts.pairs.size(), 0);
@@ -280,7 +290,8 @@ std::vector<std::uint8_t> ConstrainedMotion::record_fast(const Step& step, const
     const Touch there = touch(world, i, step.x[p.a], e, at(step.x, e), feature);
     Collision taken = make_collision(world, kind, bodies_.now.hi, i, e, there.point, p.normal, approach, 0,
                                      pair_restitution(world, i, e));
-    taken.impulse = p.force;  // among all that are struck
+    // Shared among all struck bodies.
+    taken.impulse = p.force;
     taken.energy_lost = 0.5 * p.force * approach;
     bodies_.log.record(taken);
     recorded[c] = 1;
@@ -288,7 +299,7 @@ std::vector<std::uint8_t> ConstrainedMotion::record_fast(const Step& step, const
   return recorded;
 }
 
-/// Pairs that part by more than path errors are no contacts: if they come back, they meet.
+/// Pairs that separate by more than path errors are not contacts. If they return, they meet.
 void ConstrainedMotion::drop_parting(Step& step) const {
   const double parting =
       std::sqrt(2 * step.greatest * tol::step_error * step.smallest) + tol::velocity_rounding * step.fastest;
@@ -298,8 +309,8 @@ void ConstrainedMotion::drop_parting(Step& step) const {
   });
 }
 
-/// The accelerations and forces at the step's start. Contacts on which nothing presses and that part are open: they
-/// are looked after until they are wide enough to meet again.
+/// Computes the accelerations and forces at the step's start. Contacts that separate and carry no force open.
+/// They are watched until they are wide enough to meet again.
 ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
   std::vector<ConstrainedSystem::Applied> applied;
   for (const Entity i : step.members) applied.push_back({bodies_.applied[i], bodies_.fade[i], bodies_.bent[i] != 0});
@@ -326,8 +337,8 @@ ConstrainedSystem ConstrainedMotion::find_forces(Step& step) const {
   return system;
 }
 
-/// What presses on does not part: the little speed that is left of parting goes too, and no pair comes to approach.
-/// Gives whether there was any.
+/// Removes the small remaining speed of separation of pairs that press, without making any pair approach. Returns
+/// whether there was any.
 bool ConstrainedMotion::stop_parting(Step& step) const {
   std::vector<ContactConstraint> kept;
   bool parts = false;
@@ -342,7 +353,7 @@ bool ConstrainedMotion::stop_parting(Step& step) const {
   return parts;
 }
 
-/// At rest are islands none of whose bodies moves or is accelerated.
+/// Islands in which no body moves or accelerates are at rest.
 void ConstrainedMotion::find_resting(Step& step) const {
   const std::size_t n = step.x.size();
   DisjointSets islands(n);
@@ -363,7 +374,7 @@ void ConstrainedMotion::find_resting(Step& step) const {
   for (std::size_t k = 0; k < n; ++k) step.rests.push_back(!moves[island[k]]);
 }
 
-/// s: a step is to end when a body may leave the group, and beyond the run's end otherwise.
+/// The longest step (s). It ends when a body may leave the group, otherwise beyond the run's end.
 double ConstrainedMotion::longest(Step& step) const {
   double h = 2 * (Instant{bodies_.options.duration, 0} - bodies_.now) +
              (step.greatest > 0 ? tol::first_step * std::sqrt(step.smallest / step.greatest)
@@ -377,7 +388,7 @@ double ConstrainedMotion::longest(Step& step) const {
   return h;
 }
 
-/// Parabolas, for as long as they are the paths; or a step of the method.
+/// Takes parabolas, for as long as they are the paths, or a step of the method.
 void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
   const ConstrainedSystem::Scales scales = system.scales(step.x, step.v);
   step.length = longest(step);
@@ -403,7 +414,8 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
   step.path = std::make_shared<Path>(Path{bodies_.now, std::move(followed.motion), tol::step_error * step.smallest});
 }
 
-/// s: when the pair comes over its feature's rim, on parabolas: along a rim, not over it, but for rounding.
+/// The time (s) at which the pair crosses its feature's rim, on parabolas. Motion along a rim, but for rounding, does
+/// not cross it.
 double ConstrainedMotion::rim_time(const Step& step, std::size_t pair, double length) const {
   const World& world = bodies_.world;
   const auto& [i, e, feature] = step.contacts.names[pair];
@@ -422,7 +434,7 @@ double ConstrainedMotion::rim_time(const Step& step, std::size_t pair, double le
   return std::max(leaves, over);
 }
 
-/// s: when a pair that parts, or is about to, is so far apart that it may meet again.
+/// The time (s) at which a separating pair, or one about to separate, is so far apart that it may meet again.
 double ConstrainedMotion::away_time(const Step& step, std::size_t pair) const {
   const ContactConstraint& p = step.contacts.pairs[pair];
   if (p.force > 0) return never;
@@ -436,7 +448,7 @@ double ConstrainedMotion::away_time(const Step& step, std::size_t pair) const {
   return t;
 }
 
-/// What each member is pressed on by: flat surfaces alone, which it can rest on without the group, or something else.
+/// Finds what presses on each member: flat surfaces alone, on which it can rest without the group, or other things.
 void ConstrainedMotion::find_unbound(Step& step) const {
   const World& world = bodies_.world;
   const std::size_t n = step.x.size();
@@ -463,8 +475,8 @@ void ConstrainedMotion::find_unbound(Step& step) const {
   }
 }
 
-/// Whether member k is to leave the group once it has had time to fall back: on which nothing presses any more, or flat
-/// surfaces alone.
+/// Whether member k leaves the group after it has had time to fall back. Then nothing presses on it, or only flat
+/// surfaces do.
 bool ConstrainedMotion::leaves(const Step& step, std::size_t k) const {
   return !step.bound[k] && !(step.held[k] && step.rests[k]);
 }
@@ -486,7 +498,7 @@ void ConstrainedMotion::note_contacts(const Step& step) {
   }
 }
 
-/// The members' flights until the step's end.
+/// Starts the members' flights until the step's end.
 void ConstrainedMotion::begin_flights(const Step& step) {
   Island& island = bodies_.islands.of(step.members.front());
   island.fresh = false;
@@ -499,7 +511,7 @@ void ConstrainedMotion::begin_flights(const Step& step) {
   for (const Entity i : step.members) predictor_.predict(i);
 }
 
-/// Body i, the step's member k, leaves its island, falls asleep, or goes on. Gives whether it stays.
+/// Body i, member k of the step, leaves its island, falls asleep or continues. Returns whether it stays.
 bool ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) {
   const Vec3 &x = step.x[k], &v = step.v[k], before = bodies_.velocity(i);
   bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (before - v).dot(before + v));
@@ -520,7 +532,7 @@ bool ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) 
   }
   group_.set_carried(i, step.held[k]);
   bodies_.islands.kicked_until.write(i) = bodies_.now;
-  // What it has struck just now it has still just struck, if nothing has changed since.
+  // A thing that it has just struck stays its origin, if nothing has changed since.
   const Flight f = bodies_.flights[i];
   const bool same = f.start == bodies_.now && x == f.x && v == before;
   flights_.go_on(i, x, v, same ? bodies_.body[i].origin() : FlightOrigin{});
@@ -535,8 +547,9 @@ bool ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) 
   return true;
 }
 
-/// From now on body i flies along the parabola through two points of its path, and begins with the path's velocity:
-/// between them it is off by 4/27 of the third power of its length at most.
+/// From this instant on body i flies along the parabola through two points of its path, with the path's velocity at the
+/// first.
+/// Between them the error is at most 4/27 of the term of third order in its length.
 void ConstrainedMotion::begin_piece(Entity i) {
   Following& following = following_.write(i);
   const DenseMotion& motion = *following.path->motion;
@@ -544,9 +557,8 @@ void ConstrainedMotion::begin_piece(Entity i) {
   const double from = bodies_.now - following.path->start, rest = motion.length() - from;
   const double room = following.path->room;
   const Vec3 start = motion.displacement(k, from), v = motion.velocity(k, from);
-  const auto at_most = [rest](double h) {
-    return h >= rest ? rest : std::min(h, 0.5 * rest);
-  };  // the last is not short
+  // The last piece is not short.
+  const auto at_most = [rest](double h) { return h >= rest ? rest : std::min(h, 0.5 * rest); };
   double h = at_most(following.piece > 0 ? 2 * following.piece : tol::moment * motion.length());
   Vec3 a;
   for (;;) {

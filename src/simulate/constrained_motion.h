@@ -1,10 +1,11 @@
 #pragma once
-// Constrained motion of an island: bodies that press on one another keep to each other's surfaces. Where all contacts
-// are flat, or nothing slides, paths are parabolas, and a step lasts until a contact comes to its rim. Where surfaces
-// are curved a method of order 8 follows the motion (constrained_system.h), step by step; in each step a body flies
-// along parabolas that leave its path by less than a step's error. All bodies take part in impacts as
-// everywhere else, only the pairs in contact do not. After a change the first step is a moment, too short for anything
-// but impacts at the same place; so many of them cost one step.
+// Constrained motion of an island: bodies that press on each other stay on each other's surfaces.
+// Where all contacts are flat, or nothing slides, paths are parabolas, and a step lasts until a contact reaches its
+// rim.
+// Where surfaces are curved, a method of order 8 follows the motion step by step (constrained_system.h).
+// Within a step a body flies along parabolas that differ from its path by less than a step's error.
+// All bodies take part in impacts as elsewhere, except the pairs in contact. After a change the first step is a moment.
+// It is too short for anything but impacts at the same place, so that many of these cost one step.
 #include <memory>
 #include <vector>
 
@@ -31,16 +32,16 @@ class ConstrainedMotion {
   ConstrainedMotion(ExactBodies& bodies, ExactGroup& group, FlatContacts& flat, CollapseDetector& collapses,
                     FlightChanges& flights, EventPredictor& predictor);
 
-  /// Takes the next step of member i's island, or of the parts that it has come into. False: its contacts change too
-  /// often; nothing else has changed.
+  /// Takes the next step of member i's island, or of the parts into which it has split. False: its contacts change too
+  /// often, and nothing else has changed.
   bool advance(Entity i);
 
-  /// The next parabola of body i's path, from now on.
+  /// Starts the next parabola of body i's path at the present instant.
   void go_on(Entity i);
-  /// Gives body i the velocity of its path, from now on. Its events stay as they are.
+  /// Gives body i the velocity of its path from this instant on. Its events stay as they are.
   void settle(Entity i);
 
-  /// Appends the forces in an island at `time` (s): between two steps they change, and may turn to zero.
+  /// Appends the forces in an island at `time` (s). They change between two steps, and may turn to zero.
   void report(const Island& island, double time, std::vector<ContactForce>& forces) const;
 
  private:
@@ -48,34 +49,37 @@ class ConstrainedMotion {
   struct Path {
     Instant start;
     std::unique_ptr<DenseMotion> motion;
-    double room;  // m, that parabolas may leave it by
+    double room;  // m, allowed difference of the parabolas from it
     Instant end() const { return start + motion->length(); }
   };
-  /// What a body follows, if it is still on this flight.
+  /// The path that a body follows, if it is still on this flight.
   struct Following {
     std::shared_ptr<const Path> path;
-    std::uint32_t place = 0;    // in the path
+    std::uint32_t place = 0;    // number in the path
     std::uint16_t version = 0;  // of the flight
     double piece = 0;           // s, the last parabola's length
   };
 
   /// A step, in numbers of its own.
   struct Step {
-    std::vector<Entity> members;            // ascending
-    double greatest = 0, smallest = never;  // m/s^2, the greatest acceleration; m, the least radius
-    std::vector<Vec3> x, v;                 // m, m/s, by member
-    std::vector<double> inverse_mass;       // 1/kg
-    ContactList contacts;                   // force: N, at the step's start
-    std::vector<Vec3> a;                    // m/s^2, at the step's start
-    double fastest = 0;                     // m/s
-    std::vector<std::uint8_t> rests;        // by member
-    std::vector<std::uint8_t> held, bound;  // by member: something presses on it; something that is not flat does
-    std::vector<FlatContactList> flats;     // by member: what it rests on if it leaves the group
-    std::vector<Vec3> down;                 // m, closes what is left of the gaps to these
-    double length = 0, grace = 0;           // s; grace: a body that nothing binds stays for it, to fall back
-    double fade = 0;                        // 1/s, of all members' accelerations
-    std::shared_ptr<Path> path;             // or none: parabolas
-    bool undisturbed = false;               // the step before has come to its end
+    std::vector<Entity> members;  // ascending
+    // The greatest acceleration (m/s^2) and the least radius (m).
+    double greatest = 0, smallest = never;
+    std::vector<Vec3> x, v;            // m and m/s, by member
+    std::vector<double> inverse_mass;  // 1/kg
+    ContactList contacts;              // force: N, at the step's start
+    std::vector<Vec3> a;               // m/s^2, at the step's start
+    double fastest = 0;                // m/s
+    std::vector<std::uint8_t> rests;   // by member
+    // By member: whether a thing presses on it, and whether a thing that is not flat does.
+    std::vector<std::uint8_t> held, bound;
+    std::vector<FlatContactList> flats;  // by member: the surfaces on which it rests if it leaves the group
+    std::vector<Vec3> down;              // m, closes the remaining gaps to these
+    // s. A body that nothing binds stays for the time `grace`, to fall back.
+    double length = 0, grace = 0;
+    double fade = 0;             // 1/s, of all members' accelerations
+    std::shared_ptr<Path> path;  // none: parabolas
+    bool undisturbed = false;    // the step before has reached its end
   };
 
   bool follows(Entity i) const;
@@ -109,7 +113,8 @@ class ConstrainedMotion {
 
   Vec3 at(const std::vector<Vec3>& x, Entity e) const;  // m, of a member or a fixed thing
   Vec3 rate(const std::vector<Vec3>& v,
-            Entity e) const;  // the same of a velocity or an acceleration: fixed things have none
+            // The same of a velocity or an acceleration: fixed things have none.
+            Entity e) const;
 
   ExactBodies& bodies_;
   ExactGroup& group_;

@@ -1,3 +1,9 @@
+// The constrained equations of motion of an island, with the accelerations from the complementarity conditions of its
+// closed contacts.
+// While the set of contacts is the same the motion is smooth, and DOP853 follows it. Stiff drag goes to collocation at
+// Radau's points.
+// Openings are found from the accelerations of gaps, because forces need not be unique. Rims are found at samples of
+// the dense output.
 #include "simulate/constrained_system.h"
 
 #include <algorithm>
@@ -17,10 +23,11 @@ namespace tol = exact_tolerance;
 
 namespace {
 
-constexpr int samples = 6;  // of a step, at which rims and opened contacts are looked at
+// Samples of a step at which rims and opened contacts are examined.
+constexpr int samples = 6;
 
-/// m, with what radius at least the Minkowski sum of two volumes is bent where it is round: a cylinder's rim is sharp,
-/// a sphere makes it as round as itself.
+/// The least radius of curvature of the Minkowski sum of two volumes where it is round (m).
+/// A cylinder's rim is sharp. A sphere makes it as round as the sphere.
 double bend_radius(const World& world, Entity i, Entity e) {
   const auto round = [&](Shape shape) {
     double sum = 0;
@@ -44,8 +51,8 @@ Vec3 relative(const std::vector<Vec3>& v, const ContactConstraint& p) {
   return (p.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : v[p.b]) - v[p.a];
 }
 
-/// s: the first time in a step at which `happens` is true of all positions (m), between one when it is not and one when
-/// it is.
+/// The first time (s) in a step at which `happens` is true of all positions (m). It is false at `from` and true at
+/// `to`.
 template <typename Happens>
 double first_time(const DenseMotion& motion, double from, double to, Happens happens) {
   std::vector<Vec3> x, v;
@@ -91,7 +98,7 @@ void ConstrainedSystem::open(const std::vector<std::uint8_t>& which) {
   rows_.resize(kept);
 }
 
-/// m/s^2, by member.
+/// The accelerations by forces without contact (m/s^2), by member.
 std::vector<Vec3> ConstrainedSystem::forces_at(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const {
   std::vector<Vec3> a;
   a.reserve(v.size());
@@ -127,7 +134,8 @@ std::vector<Vec3> ConstrainedSystem::solve_rows(const std::vector<Vec3>& x, cons
     if (is_flat(world_, i, e, feature)) continue;
     ContactConstraint& row = rows[c];
     const Vec3 xe = place_of(x, row.b, e);
-    const Touch there = touch(world_, i, x[row.a], e, xe, feature);  // also beyond its rim
+    // Also beyond its rim.
+    const Touch there = touch(world_, i, x[row.a], e, xe, feature);
     row.normal = there.normal;
     row.target = -bending(world_, i, x[row.a], e, xe, there, relative(v, row));
   }
@@ -151,7 +159,8 @@ ConstrainedSystem::Scales ConstrainedSystem::scales(const std::vector<Vec3>& x, 
   s.acceleration = greatest_norm(forces_at(x, v));
   for (const ContactConstraint& row : rows_) s.acceleration = std::max(s.acceleration, std::abs(row.target));
   s.speed = std::max(greatest_norm(v), std::sqrt(s.acceleration * s.length));
-  double strongest = s.acceleration;  // of what forces are the sum of
+  // The greatest term of the forces' sum.
+  double strongest = s.acceleration;
   for (std::size_t k = 0; k < v.size(); ++k)
     if (applied_[k].fade > 0)
       strongest = std::max({strongest, applied_[k].at_rest.norm(), applied_[k].fade * v[k].norm()});
@@ -159,10 +168,10 @@ ConstrainedSystem::Scales ConstrainedSystem::scales(const std::vector<Vec3>& x, 
   return s;
 }
 
-/// For as long as parabolas keep to closed contacts, and open ones cannot come back unseen.
+/// The time for which parabolas stay on closed contacts, and for which open contacts cannot return unseen.
 ///
-/// The gap's third derivative is about 3 w . a / bend, its fourth 3 a . a / bend: so much leaves the parabola by less
-/// than the method's error.
+/// The gap's third derivative is about 3 w . a / bend, its fourth 3 a . a / bend. For this time they move the body off
+/// the parabola by less than the method's error.
 double ConstrainedSystem::straight_time(const std::vector<Vec3>& v, const std::vector<Vec3>& a) const {
   double h = never;
   const auto keep = [&](const std::vector<Contact>& contacts, const std::vector<ContactConstraint>& rows) {
@@ -182,7 +191,8 @@ double ConstrainedSystem::straight_time(const std::vector<Vec3>& v, const std::v
   if (common_fade() >= 0) return h;
   double length = never;
   for (const Entity i : members_) length = std::min(length, world_.radius[i]);
-  const double jerk = greatest_fade() * greatest_norm(a);  // m/s^3, at most: what drag does to forces in flat contacts
+  // m/s^3, an upper bound: the effect of drag on forces in flat contacts.
+  const double jerk = greatest_fade() * greatest_norm(a);
   return jerk > 0 ? std::min(h, cube_root(6 * tol::step_error * length / jerk)) : h;
 }
 
@@ -190,16 +200,17 @@ ConstrainedSystem::Followed ConstrainedSystem::follow(const std::vector<Vec3>& x
                                                       const std::vector<Vec3>& a, double first, double longest) {
   scales_ = scales(x, v);
   const double h = std::min(first > 0 ? first : tol::first_step * scales_.time(), longest);
-  // Where drag is over within the step that its stability allows, an implicit method takes longer ones.
+  // Where drag decays within the step that its stability allows, an implicit method takes longer steps.
   if (greatest_fade() * h > 1 && !any_bent())
     if (Followed followed = follow_stiff(x, v, h); followed.motion) return followed;
   return follow_smooth(x, v, a, h);
 }
 
-/// By the method of order 8, with a first step of h (s).
+/// Follows the motion by the method of order 8, with a first step of h (s).
 ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                                              const std::vector<Vec3>& a, double h) {
-  // What presses keeps to its surface, and would pull rather than part: so the motion is smooth beyond an opening too.
+  // Contacts that press are held as equalities, and would pull rather than open. The motion is then smooth beyond an
+  // opening too.
   std::vector<ContactConstraint> rows = rows_;
   for (ContactConstraint& row : rows) row.bilateral = row.force > 0;
   const auto smooth = [&](const std::vector<Vec3>& at, const std::vector<Vec3>& speed) {
@@ -228,7 +239,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const std::vector<V
   return followed;
 }
 
-/// By collocation. No motion: drag is not over within the steps that it takes.
+/// Follows the motion by collocation. No motion: drag does not decay within its steps.
 ConstrainedSystem::Followed ConstrainedSystem::follow_stiff(const std::vector<Vec3>& x, const std::vector<Vec3>& v,
                                                             double h) {
   std::vector<RadauCollocation::Forces> forces;
@@ -271,7 +282,7 @@ double ConstrainedSystem::greatest_fade() const {
   return fade;
 }
 
-/// s: the first change in a step, or never.
+/// The first change in a step (s), or never.
 double ConstrainedSystem::first_change(const DenseMotion& motion) {
   const double h = motion.length();
   double first = never;
@@ -296,7 +307,7 @@ double ConstrainedSystem::first_change(const DenseMotion& motion) {
   return first;
 }
 
-/// The greatest acceleration of a gap at t (s), as a multiple of what is rounding.
+/// The greatest acceleration of a gap at t (s), as a multiple of its rounding.
 double ConstrainedSystem::opens(const DenseMotion& motion, double t) {
   if (scales_.opening == 0) return 0;
   std::vector<Vec3> x, v;
@@ -307,10 +318,11 @@ double ConstrainedSystem::opens(const DenseMotion& motion, double t) {
   return greatest / scales_.opening;
 }
 
-/// s: where gaps accelerate clearly, but only just. They do at `to` (by at_end), not at `from`.
+/// The time (s) at which gaps accelerate clearly, but only just. They do at `to` (by at_end), and not at `from`.
 double ConstrainedSystem::find_opening(const DenseMotion& motion, double from, double to, double at_end) {
   const double aim = std::sqrt(tol::opened * tol::wide_open);
-  double beyond = to, at_beyond = at_end;  // a second point of those that are open
+  // A second point at which contacts are open.
+  double beyond = to, at_beyond = at_end;
   for (int pass = 0; pass < 100 && to - from > tol::time_precision * motion.length(); ++pass) {
     if (at_end <= tol::wide_open) break;
     double t = 0.5 * (from + to);
@@ -329,7 +341,7 @@ double ConstrainedSystem::find_opening(const DenseMotion& motion, double from, d
   return to;
 }
 
-/// Whether some closed contact has come over its feature's rim, by more than rounding.
+/// Whether a closed contact has crossed its feature's rim by more than rounding.
 bool ConstrainedSystem::over_rim(const DenseMotion& motion, const std::vector<Vec3>& x) const {
   for (std::size_t c = 0; c < closed_.size(); ++c) {
     const auto& [i, e, feature] = closed_[c];
@@ -344,7 +356,7 @@ bool ConstrainedSystem::over_rim(const DenseMotion& motion, const std::vector<Ve
   return false;
 }
 
-/// What has become of opened contacts: the first that comes back counts, then those far enough away to meet again.
+/// The state of the opened contacts: the first that returns counts, then those far enough away to meet again.
 ConstrainedSystem::Opened ConstrainedSystem::look_at_opened(const DenseMotion& motion,
                                                             const std::vector<Vec3>& x) const {
   Opened all = Opened::near;

@@ -1,11 +1,14 @@
 #pragma once
-// Bodies that press on one another and on fixed things, by themselves. While the set of closed contacts stays the same
-// their motion is smooth: forces keep what presses in contact (0 <= force, 0 <= the gap's second derivative, one of
-// them zero; the surfaces' curvature in it), and a method of order 8 follows it (dormand_prince.h). Contacts in which a
-// force comes to its end open, those at a feature's rim go over to the next feature: instants that are found on the
-// method's dense output, at which it ends its step (event-driven integration: Acary & Brogliato, Numerical Methods for
-// Nonsmooth Dynamical Systems, 2008, ch. 8). Openings show without the forces, which need not be unique: in the
-// accelerations that contacts allow, some gap then grows.
+// Bodies that press on each other and on fixed things. While the set of closed contacts stays the same, their motion is
+// smooth.
+// Forces keep pressing pairs in contact: 0 <= force, 0 <= the gap's second derivative, and one of them is zero. The
+// second derivative includes the surfaces' curvature.
+// A method of order 8 follows the motion (dormand_prince.h). Contacts open when their force ends, and pass to the next
+// feature at a rim.
+// These instants are found on the method's dense output, and a step ends there. (Event-driven integration: Acary &
+// Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, 2008, ch. 8.)
+// Openings are visible without the forces, which need not be unique: some gap grows under the accelerations that
+// contacts allow.
 #include <memory>
 #include <vector>
 
@@ -18,49 +21,50 @@ namespace carom {
 
 class ConstrainedSystem {
  public:
-  /// What forces do to a member: m/s^2, where it stands; 1/s, how fast linear drag takes its velocity.
+  /// The effect of forces on a member: m/s^2, at its position; 1/s, the decay rate of its velocity by linear drag.
   struct Applied {
     Vec3 at_rest;
     double fade;
-    bool bent;  // they have no closed form
+    bool bent;  // the forces have no closed form
   };
-  /// members: bodies, ascending; applied: by member, from `time` (s) on. `world` must outlive this.
+  /// members: bodies, ascending. applied: by member, from `time` (s) on. `world` must outlive this object.
   ConstrainedSystem(const World& world, double time, std::vector<Entity> members, std::vector<Applied> applied);
 
-  /// A contact of members number a and b, or of a and something fixed. normal: from a to b.
+  /// Adds a contact of members number a and b, or of a and a fixed thing. normal: from a to b.
   void add(const Contact& contact, std::uint32_t a, std::uint32_t b, const Vec3& normal);
-  /// Of those closed, contact c opens: followed no more, but looked after.
+  /// Opens the closed contacts that are marked in `which`. They are not followed any more, but watched.
   void open(const std::vector<std::uint8_t>& which);
 
-  /// m/s^2, by member at x (m) and v (m/s): those nearest to the applied ones that keep closed contacts from nearing
-  /// each other, n . (a_b - a_a) >= -bending. The rows then have the forces, the normals and the bending.
+  /// Accelerations (m/s^2) by member at x (m) and v (m/s): the nearest to the applied ones for which closed contacts do
+  /// not approach, n . (a_b - a_a) >= -bending.
+  /// Afterwards the rows hold the forces, the normals and the bending.
   std::vector<Vec3> accelerate(const std::vector<Vec3>& x, const std::vector<Vec3>& v);
-  /// m/s^2: the second derivative of closed contact c's gap, where the accelerations are a.
+  /// The second derivative of closed contact c's gap (m/s^2), for accelerations a.
   double gap_acceleration(std::size_t c, const std::vector<Vec3>& a) const;
 
-  /// What motion is measured by.
+  /// The scales of the motion.
   struct Scales {
     double length = never;    // m, the least radius
-    double acceleration = 0;  // m/s^2, the greatest that a force or the surfaces' curvature makes
+    double acceleration = 0;  // m/s^2, the greatest by a force or by the surfaces' curvature
     double speed = 0;         // m/s, the greatest, or that of falling by a radius
-    double opening = 0;       // m/s^2, a gap's acceleration that is more than rounding
+    double opening = 0;       // m/s^2, a greater acceleration of a gap is more than rounding
     double time() const { return speed > 0 ? length / speed : never; }  // s
   };
   Scales scales(const std::vector<Vec3>& x, const std::vector<Vec3>& v) const;
 
-  /// 1/s: linear drag takes the velocities of all members equally fast. -1: it does not.
+  /// The decay rate by linear drag (1/s), if it is the same for all members; otherwise -1.
   double common_fade() const;
-  /// s: for how long all members move along parabolas, or along paths that a common drag bends, from velocities v on
-  /// with accelerations a.
+  /// The time (s) for which all members move along parabolas, or along paths that a common drag bends, from velocities
+  /// v (m/s) and accelerations a (m/s^2).
   double straight_time(const std::vector<Vec3>& v, const std::vector<Vec3>& a) const;
 
-  /// The motion from there on until something changes, or for `longest` (s).
+  /// The motion from there on until a change, or for `longest` (s).
   struct Followed {
     std::unique_ptr<DenseMotion> motion;
-    double next = 0;       // s, a good length of the next step
-    bool changes = false;  // it ends where a contact opens, closes or comes to a rim
+    double next = 0;       // s, a good length for the next step
+    bool changes = false;  // it ends where a contact opens, closes or reaches a rim
   };
-  /// The forces are those of the last accelerate(). first: s, a guess, or 0.
+  /// The forces are those of the last accelerate(). first: a guess of the step (s), or 0.
   Followed follow(const std::vector<Vec3>& x, const std::vector<Vec3>& v, const std::vector<Vec3>& a, double first,
                   double longest);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Contacts of an island: which things touch, beside the constraints that they are to the solver.
+// Contacts of an island: the things that touch, beside the solver's constraints for them.
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -18,14 +18,15 @@ struct Contact {
 struct ContactList {
   std::vector<ContactConstraint> pairs;
   std::vector<Contact> names;  // of the pairs
-  std::vector<double> gaps;    // m, of the pairs, now
+  std::vector<double> gaps;    // m, of the pairs, at present
 
   void clear();
   void add(const ContactConstraint& pair, const Contact& name, double gap);
-  /// Drops those of a body at x (m), from number `first` on, with what lies behind a flat fixed surface beside it, no
-  /// farther away than `beside` (m), but for surfaces level with that.
+  /// Drops contacts of a body at x (m), from number `first` on, with things that lie wholly behind a flat fixed surface
+  /// beside it.
+  /// The surface must be no farther away than `beside` (m). Surfaces level with it stay.
   void drop_hidden(const World& world, const Vec3& x, std::size_t first, double beside = never);
-  /// Drops those from number `first` on for which drops(number).
+  /// Drops the contacts from number `first` on for which drops(number) is true.
   template <typename Drops>
   void drop_if(std::size_t first, Drops drops) {
     std::size_t kept = first;

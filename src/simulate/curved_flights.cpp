@@ -1,3 +1,8 @@
+// Flights under forces that bend paths, in steps of each body's own. A step's polynomial gives the path for impacts.
+// Where a closed form exists, every step starts from it, so that no error adds up. Otherwise DOP853 takes steps by its
+// error estimate.
+// Radau's collocation takes over where forces brake so strongly that they would hold up an explicit method. A common
+// step for all bodies would be the shortest of all.
 #include "simulate/curved_flights.h"
 
 #include <fmt/format.h>
@@ -21,8 +26,8 @@ namespace tol = exact_tolerance;
 
 namespace {
 
-/// Gauss's rule of ten points on [0, 1], exact to degree 19: power is a velocity to the second or third power, which
-/// falls by decades in a step.
+/// Gauss's rule of ten points on [0, 1], exact to degree 19.
+/// Power is a velocity to the second or third power, which may fall by decades within a step.
 struct GaussPoint {
   double at, weight;
 };
@@ -33,10 +38,10 @@ constexpr GaussPoint gauss[] = {
     {0.71669769706462360, 0.13463335965499818},   {0.83970478414951220, 0.10954318125799102},
     {0.93253168334449226, 0.074725674575290297},  {0.98695326425858586, 0.033335672154344069}};
 
-/// In place of a number of steps: the last one was implicit.
+/// A value in place of a number of steps: the last step was implicit.
 constexpr std::uint8_t implicit_method = 255;
 
-/// From one instant to another.
+/// The time from one instant to another (s).
 DoubleDouble seconds(const Instant& from, const Instant& to) {
   return DoubleDouble{to.hi, to.lo} - DoubleDouble{from.hi, from.lo};
 }
@@ -47,7 +52,8 @@ PolynomialPath::Point point(const ClosedMotion::Point& of) {
 
 }  // namespace
 
-/// s: by how fast forces change, or how fast the body moves by its size.
+/// The first step length (s), from the rate at which forces change, or from the time in which the body moves by its
+/// size.
 double CurvedFlights::first_length(Entity i, const Vec3& x, const Vec3& v) const {
   const World& world = bodies_.world;
   const double rate = force_rate(world, i, x, v);
@@ -68,7 +74,7 @@ void CurvedFlights::check_clock(Entity i, double length) const {
                         " change faster than the clock can tell: soften what attracts, or weaken a stiff force");
 }
 
-/// s: within what is asked for, the run, and where forces are smooth, `reach` (m) far.
+/// The longest step (s): within the requested step, the run, and `reach` (m), the distance in which forces are smooth.
 double CurvedFlights::longest_step(double reach, const Vec3& v, const Vec3& a) const {
   const double now = bodies_.now.hi;
   const double within_reach = step_within(reach, v.norm(), a.norm());
@@ -77,8 +83,9 @@ double CurvedFlights::longest_step(double reach, const Vec3& v, const Vec3& a) c
   return within_reach > 0 ? std::min(within_reach, longest) : longest;
 }
 
-/// A polynomial for the velocity at the step's start, middle and end: places, which differ by less in a short step than
-/// they are rounded to, would make it waver. Where it is worst, it is held against the motion.
+/// Interpolates the velocity at the step's start, middle and end. Positions differ by less than their rounding in a
+/// short step, and the polynomial would waver.
+/// The polynomial is compared with the motion where its error is greatest.
 PolynomialPath CurvedFlights::closed_step(Entity i, const ClosedForces& forces, const Vec3& x, const Vec3& v) {
   if (closed_.empty()) closed_.resize(bodies_.body.size());
   Closed& closed = closed_[i];
@@ -94,7 +101,7 @@ PolynomialPath CurvedFlights::closed_step(Entity i, const ClosedForces& forces, 
   const double radius = bodies_.world.radius[i];
   const double room =
       tol::closed_place * std::max({radius, x.cwiseAbs().maxCoeff(), start.place.cwiseAbs().maxCoeff()});
-  // What is asked, and what impacts start from, is the motion itself: polynomials only find the times of impacts.
+  // Outputs and impacts start from the motion itself. Polynomials only serve to find the times of impacts.
   const double speed = std::max({tol::closed_speed * start.velocity.norm(), room * motion.rate(start), 0x1p-900});
   double h = std::min(longest_step(force_reach(bodies_.world, i, x), start.velocity, start.acceleration),
                       motion.longest_step(start, room));
@@ -105,7 +112,8 @@ PolynomialPath CurvedFlights::closed_step(Entity i, const ClosedForces& forces, 
     const ClosedMotion::Point end = motion.at(seconds(closed.start, next));
     const PolynomialPath path =
         PolynomialPath::through(h, point(start), point(motion.at(since + DoubleDouble{0.5 * h, 0})), point(end));
-    // The velocity is farthest off at a quarter; the displacement, in the end, by 0.4816 of that for the whole step.
+    // The velocity's error is greatest at a quarter of the step. The displacement's error at the end is 0.4816 of that,
+    // times the whole step.
     const Vec3 quarter = motion.at(since + DoubleDouble{0.25 * h, 0}).velocity;
     const double off = (start.velocity + path.change_at(0.25 * h) - quarter).norm();
     const double error = std::max(off / speed, 0.4816 * h * off / room);
@@ -126,8 +134,9 @@ CurvedFlights::Reached CurvedFlights::closed_place(Entity i, const Instant& at) 
   return {closed.motion.origin() + there.place, there.velocity};
 }
 
-/// Whether the next step, of `length` (s) by the method before, is to be implicit: it is no shorter for it, or dop853
-/// is held to a share of the time of a force that brakes (1 / damping), step after step.
+/// Whether the next step, of `length` (s) by the method before, is to be implicit.
+/// It is if an implicit step is no shorter, or if a braking force holds dop853 to a share of its time (1 / damping),
+/// step after step.
 bool CurvedFlights::is_implicit(Entity i, double length, double damping) const {
   const double damped = length * damping;
   if (method_[i] == implicit_method) return damped >= 0.5;
@@ -142,8 +151,8 @@ void CurvedFlights::note_method(Entity i, bool implicit) {
 
 namespace {
 
-/// What is left of a body's kinetic energy far from what attracts it, of it here: there an error of this speed is by so
-/// much a larger share.
+/// The kinetic energy that a body keeps far from its attractors, as a share of the energy here.
+/// An error of the speed here is a larger share of the speed there.
 double left_of_speed(const World& world, Entity body, double time, const Vec3& x, const Vec3& v) {
   double depth = 0;  // m^2/s^2
   for (const Force& force : world.forces) {
@@ -155,7 +164,7 @@ double left_of_speed(const World& world, Entity body, double time, const Vec3& x
   return depth > 0 && kinetic > 0 ? std::min(std::abs(kinetic - depth) / kinetic, 1.0) : 1;
 }
 
-/// The path's first seconds, so many.
+/// Shortens the path to its first `length` (s).
 void cut(PolynomialPath& path, double length) {
   path.displacement = PolynomialPath::shifted(path.displacement, 0, length / path.length);
   path.length = length;
@@ -180,15 +189,18 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
   const ForceJacobian slopes = jacobian(x, v);
   const double damping = slopes.by_velocity.norm(), reach = force_reach(world, i, x);
   const double longest = longest_step(reach, v, a);
-  // A step's error, of a radius or where forces change in less, and no less than what rounding makes of a place.
+  // The allowed error of a position: a share of the radius, or of a smaller distance in which forces change. It is
+  // never below the rounding of positions.
   const double width = std::min(radius, reach);
   const double left = left_of_speed(world, i, now, x, v);
   const double place = std::max(share * left * width, tol::position_rounding * x.cwiseAbs().maxCoeff());
-  // Of a velocity: of itself; of the speed gained on the way of a width, or of that at which drag balances forces; and
-  // no less than that of a swing as wide as a place's error or rounding, for forces that balance are rounding.
+  // The allowed error of a velocity: a share of itself, of the speed gained over a width, or of that at which drag
+  // balances forces.
+  // It is never below the speed of a swing as wide as a position's error or rounding, because forces that balance are
+  // rounding.
   const double swing = std::max(share * width, 0x1p-51 * x.cwiseAbs().maxCoeff());
   const double gained = std::min(std::sqrt(a.norm() * width), a.norm() / std::max(damping, 0x1p-900));
-  // (Across a spring that is nearly at its anchor the slope is without bound, and damping is no swing.)
+  // Across a spring that is nearly at its anchor the slope is unbounded. Damping is not a swing.
   const double swings = std::min(std::sqrt(slopes.by_position.norm()), force_rate(world, i, x, v));
   const double fine = std::max(share * left, tol::velocity_rounding);
   const double speed = std::max({fine * v.norm(), fine * gained, left * swing * swings, 0x1p-900});
@@ -224,8 +236,8 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
   }
 }
 
-/// s: to the next multiple of the step, or the run's end. Multiples are computed, not summed up, so that a long run
-/// loses no digits.
+/// The time (s) to the next multiple of the step, or to the run's end.
+/// Multiples are computed and not summed up, so that a long run loses no digits.
 double CurvedFlights::step_length() const {
   const double step = bodies_.options.step, duration = bodies_.options.duration;
   const Instant& now = bodies_.now;

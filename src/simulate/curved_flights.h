@@ -1,8 +1,10 @@
 #pragma once
-// Flights that forces bend: in steps, each body's own, in which polynomials tell the path. Where there is a closed form
-// (closed_motion.h) each step's polynomial is made of it anew, so that no error adds up. Else a method of order 8 takes
-// steps as long as their error allows (dormand_prince.h), or an implicit one where forces are stiff (implicit_step.h).
-// Or it is the method and the length that are asked for (integrator.h).
+// Flights under forces that bend paths, in steps of each body's own. Polynomials give the path within a step.
+// Where there is a closed form (closed_motion.h), each step's polynomial is made from it anew, so that no error adds
+// up.
+// Otherwise a method of order 8 takes steps by its error estimate (dormand_prince.h), or an implicit one where forces
+// are stiff (implicit_step.h).
+// A scene may also choose the method and the step (integrator.h).
 #include <vector>
 
 #include "physics/closed_motion.h"
@@ -16,22 +18,22 @@ class CurvedFlights {
   explicit CurvedFlights(ExactBodies& bodies)
       : bodies_(bodies), next_(bodies.body.size()), method_(bodies.body.size()) {}
 
-  /// The next step of body i, from x (m) and v (m/s) on, now. Throws SimulationError where forces change faster than
-  /// the clock can tell.
+  /// The next step of body i, from x (m) and v (m/s) at the present instant.
+  /// Throws SimulationError where forces change faster than the clock resolves.
   PolynomialPath step_of_its_own(Entity i, const Vec3& x, const Vec3& v);
-  /// By the method that is asked for; but for dop853's it ends at the next multiple of options.step. `next`: it begins
-  /// where the last one ends, or at the run's start; then Euler's method changes v. Throws SimulationError where the
-  /// clock can tell no such steps.
+  /// The next step by the scene's integrator. Except with dop853 it ends at the next multiple of options.step.
+  /// `next`: it begins where the last step ends, or at the run's start. Euler's method then changes v.
+  /// Throws SimulationError where the clock does not resolve such steps.
   PolynomialPath step(Entity i, const Vec3& x, Vec3& v, bool next);
 
-  /// Books what forces without a potential do to body i in `length` (s) of its flight, and gives all of it (J).
+  /// Books the work (J) of forces without a potential on body i in `length` (s) of its flight. Returns their sum.
   double book_work(Entity i, const Flight& flight, double length);
 
-  /// Where a motion in closed form has led.
+  /// The end of a step of a motion in closed form.
   struct Reached {
     Vec3 x, v;  // m, m/s
   };
-  /// Where body i is, if a step of its motion in closed form ends now; null: none does.
+  /// The state of body i, if a step of its motion in closed form ends at this instant; null: there is none.
   const Reached* reached(Entity i) const {
     return closed_.empty() || closed_[i].next != bodies_.now ? nullptr : &closed_[i].end;
   }
@@ -42,7 +44,7 @@ class CurvedFlights {
     const PolynomialPath* const curve = bodies_.flights.curve(i);
     return curve != nullptr && bodies_.flights[i].start + curve->length == closed_[i].next;
   }
-  /// Where such a motion has led by then.
+  /// The state of such a motion at an instant.
   Reached closed_place(Entity i, const Instant& at) const;
 
  private:
@@ -50,8 +52,9 @@ class CurvedFlights {
   struct Closed {
     ClosedForces forces;
     ClosedMotion motion;
-    Instant start, next{-1, 0};  // of the motion; when its last step ends
-    Reached end;                 // then
+    // Start of the motion, and end of its last step.
+    Instant start, next{-1, 0};
+    Reached end;  // at the end of that step
   };
   PolynomialPath closed_step(Entity i, const ClosedForces& forces, const Vec3& x, const Vec3& v);
   PolynomialPath numerical_step(Entity i, const Vec3& x, const Vec3& v);
@@ -63,9 +66,10 @@ class CurvedFlights {
   double first_length(Entity i, const Vec3& x, const Vec3& v) const;
 
   ExactBodies& bodies_;
-  LazyArray<double> next_;          // s, by body: a good length of the next step; 0: not known
-  LazyArray<std::uint8_t> method_;  // by body: steps of dop853 since the last of the implicit method, up to many
-  std::vector<Closed> closed_;      // by body; empty: no motion has a closed form
+  LazyArray<double> next_;  // s, by body: a good length for the next step; 0: unknown
+  // By body: number of steps of dop853 since the last implicit step, counted up to many.
+  LazyArray<std::uint8_t> method_;
+  std::vector<Closed> closed_;  // by body; empty: no motion has a closed form
 };
 
 }  // namespace carom

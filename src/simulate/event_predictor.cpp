@@ -1,3 +1,7 @@
+// Predicts a body's next event: the first of all that may happen to it. Each body keeps one event only.
+// A pair's collision may be found from either side. Both sides give the same bits, so that the order of predictions has
+// no effect.
+// Balls under equal accelerations, the common case, are tested several at a time (straight_times.h).
 #include "simulate/event_predictor.h"
 
 #include <algorithm>
@@ -39,7 +43,7 @@ void EventPredictor::predict_all() {
   }
 }
 
-/// The first of what may happen to body i with these bodies, with surfaces and by itself.
+/// Predicts the first event of body i with these bodies, with surfaces and by itself.
 void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
   ExactEvent best;
   meet_bodies(i, bodies, best);
@@ -54,7 +58,7 @@ void EventPredictor::predict_among(Entity i, std::span<const Entity> bodies) {
   queue_.schedule(i, region_exit(bodies_, i));
 }
 
-/// Offers when bounces on flat surfaces end, and when body i slides off them.
+/// Offers the end of bounces on flat surfaces, and the instant at which body i slides off them.
 void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
   for (std::size_t k = 0; k < flat_.of(i).count; ++k) {
     const FlatContact& contact = flat_.of(i).at[k];
@@ -70,11 +74,12 @@ void EventPredictor::offer_flat_contacts(Entity i, ExactEvent& best) const {
   }
 }
 
-/// Offers when body i meets each of the others.
+/// Offers the collisions of body i with each of the others.
 void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEvent& best) {
   const bool constrained = bodies_.is_constrained(i), carried = flat_.of(i).count > 0;
   for (const Entity e : others) {
-    if (constrained && group_.are_partners(i, e)) continue;  // they cannot meet
+    // They cannot meet.
+    if (constrained && group_.are_partners(i, e)) continue;
     std::uint8_t feature = no_feature;
     if (bodies_.world.is_body(e)) {
       feature = 0;
@@ -89,7 +94,7 @@ void EventPredictor::meet_each(Entity i, std::span<const Entity> others, ExactEv
   }
 }
 
-/// The same of bodies, many at a time where all are balls and fall alike.
+/// The same for bodies. Where all are balls with equal accelerations, several are tested at a time.
 void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, ExactEvent& best) {
   if (!bodies_.world.volume.empty() || bodies_.in_group(i) || bodies_.flights.any_fades())
     return meet_each(i, others, best);
@@ -114,7 +119,8 @@ void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, Exact
     std::uint8_t feature = 0;
     if (meet.time.hi == unsure) meet.time = times_.of_pair(i, meet.with, feature);
   }
-  // The earliest that the other one is free for: before it, what comes first has it look for body i itself.
+  // The earliest collision for which the other body is free. If that body has an event before, it then predicts its
+  // collision with body i anew.
   while (count > 0) {
     std::size_t first = 0;
     for (std::size_t k = 1; k < count; ++k)
@@ -132,7 +138,8 @@ void EventPredictor::meet_bodies(Entity i, std::span<const Entity> others, Exact
 /// Keeps the earlier of two events of body i, by the total order.
 void EventPredictor::offer(Entity i, ExactEvent& best, ExactEvent candidate) const {
   if (!(candidate.time.hi <= bodies_.options.duration)) return;
-  if (candidate.time < bodies_.now) candidate.time = bodies_.now;  // by rounding only
+  // This happens by rounding only.
+  if (candidate.time < bodies_.now) candidate.time = bodies_.now;
   if (best.time < candidate.time) return;
   if (candidate.time == best.time) {
     if (best.kind < candidate.kind) return;
@@ -147,7 +154,7 @@ void EventPredictor::offer(Entity i, ExactEvent& best, ExactEvent candidate) con
 void EventPredictor::renew_region(Entity i) {
   const Flight f = bodies_.flights[i];
   const double since = bodies_.now - f.start, until = std::min(bodies_.body[i].event.time.hi, bodies_.options.duration);
-  // Half way to what comes next, or to where the acceleration has reversed the motion.
+  // Half of the time to the next event, or to the instant at which the acceleration has reversed the motion.
   double half = 0.5 * std::max(until - bodies_.now.hi, 0.0);
   if (const double a2 = f.a.squaredNorm(); a2 > 0) {
     const Vec3 v = f.velocity(since);

@@ -1,6 +1,6 @@
 #pragma once
-// What comes next for a body: the first of the collisions with its neighbours and with fixed things, the end of its
-// bounces, a rim that it slides over, a force that sets in or ceases, the contact group's next step.
+// The next event of a body, the first of these: collisions with neighbours and fixed things, the end of its bounces, a
+// rim that it slides over, a force that starts or ends, the next step of its contact group.
 #include <span>
 #include <vector>
 
@@ -18,14 +18,16 @@ class EventPredictor {
   EventPredictor(ExactBodies& bodies, EventQueue& queue, const FlatContacts& flat, const ExactGroup& group)
       : bodies_(bodies), queue_(queue), flat_(flat), group_(group), times_(bodies) {}
 
-  /// Finds body i's next event among its neighbours. Other bodies' events stay as they are: a pair's collision stands
-  /// with that of the two that was predicted last, or with neither while one of them has an earlier one.
+  /// Predicts body i's next event among its neighbours. The events of other bodies stay.
+  /// The body of a pair that was predicted last holds the pair's collision. Neither holds it while one of them has an
+  /// earlier event.
   void predict(Entity i);
-  /// The same for all bodies at once. A pair is asked once, by the higher number, and not at all if the two fall alike
-  /// from rest.
+  /// The same for all bodies at once. A pair is tested once, from the higher number.
+  /// It is not tested at all if the two fall alike from rest.
   void predict_all();
-  /// Gives body i, which leaves its region, a new one, and finds what it may meet in that. One that leaves region after
-  /// region on one and the same flight tries wider ones: among bodies that fly along they cost no more.
+  /// Gives body i, which leaves its region, a new region, and predicts collisions with the bodies in it.
+  /// A body that leaves several regions on one flight tries wider ones. Among bodies with the same motion they cost no
+  /// more.
   void renew_region(Entity i);
 
   std::uint64_t pair_tests() const { return pair_tests_; }

@@ -1,3 +1,6 @@
+// Prefetches memory for the events that are due soon. The queue gives an estimate of the next events, and each is
+// prefetched in four steps.
+// Each step loads the addresses that the next one follows. The results of the simulation do not depend on it.
 #include "simulate/event_prefetch.h"
 
 #include <algorithm>
@@ -14,7 +17,7 @@ constexpr std::size_t events_of_step = 2;  // from one step to the next
 
 }  // namespace
 
-/// As far as so many events took before, or farther.
+/// Finds the events due within the time that so many events took before, or within a longer one.
 void EventPrefetch::find_due(double now) {
   const auto earlier = [](const auto& p, const auto& q) { return p.time < q.time; };
   if (!due_.empty()) reach_ = (now - from_) * static_cast<double>(far_ahead) / static_cast<double>(events_);
@@ -39,7 +42,7 @@ Entity EventPrefetch::due_in(std::size_t steps) const {
   return k < due_.size() ? due_[k].entry : no_entity;
 }
 
-/// The body that body i's event is with, or i.
+/// The partner of body i's event, or i.
 Entity EventPrefetch::partner_of(Entity i) const {
   const ExactEvent& event = bodies_.body[i].event;
   return event.kind == ExactEvent::Kind::body_body && !queue_.leaves_first(i) ? event.partner : i;
@@ -67,7 +70,7 @@ void EventPrefetch::prefetch_flights(Entity i) const {
 void EventPrefetch::look_ahead() {
   const double now = queue_.first_time();
   while (next_ < due_.size() && due_[next_].time <= now) ++next_;
-  // Asked again after many events only: where few are due at all, that many are never found.
+  // The search is repeated after many events only. Where few are due at all, it never finds that many.
   if (events_ >= far_ahead / 2 && next_ + far_ahead / 2 >= due_.size()) find_due(now);
   ++events_;
   if (const Entity i = due_in(4); i != no_entity) prefetch_body(i);

@@ -1,6 +1,7 @@
 #pragma once
-// Where there are more bodies than a processor's own memory holds, an event waits for memory a dozen times on end, each
-// time for what says where to look next. What is due soon is asked for ahead of its time, step by step.
+// Prefetching for events. With more bodies than the processor's caches hold, an event waits for memory a dozen times in
+// a row.
+// Each wait is for an address that leads to the next. Memory for events due soon is therefore prefetched step by step.
 #include <vector>
 
 #include "simulate/event_queue.h"
@@ -23,10 +24,10 @@ class EventPrefetch {
 
   const ExactBodies& bodies_;
   const EventQueue& queue_;
-  std::vector<EventQueue::Due> due_;      // what was due next when it was last asked for, in order
-  std::size_t next_ = 0;                  // in due_
-  std::size_t events_ = ~std::size_t{0};  // since then; at first: it was never asked for
-  double from_ = 0, reach_ = 0;           // s: when it was asked for, and how far ahead
+  std::vector<EventQueue::Due> due_;      // events due next at the last search, in order
+  std::size_t next_ = 0;                  // index in due_
+  std::size_t events_ = ~std::size_t{0};  // since that search; at first: there was none
+  double from_ = 0, reach_ = 0;           // s: time of that search, and its range
 };
 
 }  // namespace carom

@@ -1,10 +1,12 @@
+// The total order of events of one instant: kind first, then the lower and the higher number of the bodies concerned.
+// Time alone would leave ties to chance, and a run's bits would depend on the queue's structure.
 #include "simulate/event_queue.h"
 
 #include <algorithm>
 
 namespace carom {
 
-/// Of two that are due at the same time, but for what the clock's second double says.
+/// The order of two bodies with events at the same time, up to the second double of the clock.
 bool EventQueue::before(Entity i, Entity j) const {
   const bool leaves_i = leaves_first(i), leaves_j = leaves_first(j);
   if (leaves_i || leaves_j) return leaves_i && (!leaves_j || i < j);

@@ -1,3 +1,6 @@
+// State that the parts of the exact simulator share, and queries on it.
+// Queries on a pair use the relative path, so that the common motion costs no digits. The present forces of a body are
+// cached, and constant ones are never recomputed.
 #include "simulate/exact_bodies.h"
 
 #include <algorithm>
@@ -69,15 +72,15 @@ bool ExactBodies::hops_fade(Entity i, double speed, double press) const {
   return speed * speed < press * exact_tolerance::fading_hop * world.radius[i] && damps(world, i, now.hi);
 }
 
-/// Steps too long for the forces make energy without end.
+/// Steps that are too long for the forces make energy without end. The remedies then name the step.
 Remedies ExactBodies::remedies() const {
   constexpr const char* step =
       "steps of simulate.step are too long for the forces: shorten it, or use `integrator: dop853`";
   return log.tally().greatest_phase > 1 ? Remedies{step, step} : Remedies{};
 }
 
-/// Whether the method's steps under forces with a closed form differ from that: but for Euler's they do not where the
-/// acceleration stays the same.
+/// Whether the method's steps under forces with a closed form differ from it. Except for Euler's method they do not
+/// where the acceleration is constant.
 bool ExactBodies::method_bends(Entity i) const {
   return fade[i] != 0 || (options.integrator == Integrator::euler && !applied[i].isZero(0));
 }
@@ -102,8 +105,8 @@ std::vector<Entity> ExactBodies::known_to(Entity i) const {
 
 Touch ExactBodies::touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) const {
   if (world.is_body(b) && world.volume.empty()) {
-    // By the actual distance, not the sum of the radii: then the normal is a unit vector and energy is kept to
-    // rounding.
+    // The normal uses the actual distance, not the sum of the radii. It is then a unit vector, and energy is conserved
+    // to rounding.
     const Vec3 d = xb - xa;
     const double distance = d.norm();
     const Vec3 n = d / distance;

@@ -1,11 +1,12 @@
 #pragma once
-// What the parts of the exact simulator share: the World, the clock, where the bodies are and what forces do to them,
+// The data that the parts of the exact simulator share: the World, the clock, the bodies' flights, the forces on them,
 // and the log.
 //
-// Each body keeps its Flight and is not moved when others collide. Each body keeps one event, the first of its own; the
-// first of all of these is the next thing to happen. A predicted collision is a function of the two flights alone. So
-// it has the same bits from whichever side, and whenever, it is computed: neither outputs nor the search for neighbours
-// can change it.
+// Each body keeps its Flight and is not moved when others collide. Each body keeps one event, the first of its own. The
+// first of all these is the next event.
+// A predicted collision is a function of the two flights alone. It has the same bits from either side and at any time
+// of prediction.
+// Neither outputs nor the search for neighbours can therefore change it.
 #include <vector>
 
 #include "geometry/touch.h"
@@ -24,59 +25,65 @@
 namespace carom {
 
 struct ExactBodies {
-  /// `given` must outlive this.
+  /// `given` must outlive this object.
   ExactBodies(const World& given, const ExactOptions& given_options);
 
   const ExactOptions options;
   MergedBodies merged;
   const World& world;  // with the joint bodies' masses and volumes
   const Bounds bounds;
-  const bool same_radius;  // of all bodies, for good
+  const bool same_radius;  // all bodies have one radius throughout the run
   const bool varying;      // some force bends paths (force.h)
-  const bool by_method;    // paths that bend are the integrator's, also where they have a closed form
-  const bool in_steps;     // or a method is asked for: some flight may be curved
+  // The integrator gives all paths that bend, also those with a closed form.
+  const bool by_method;
+  // Some flight may be curved, because forces vary or a method is chosen.
+  const bool in_steps;
   Instant now;
-  LazyArray<Vec3> applied;       // m/s^2, by body: gravity and the forces of now, on a body that stands,
-  LazyArray<double> fade;        // 1/s: this, times its velocity, linear drag takes from both
-  LazyArray<std::uint8_t> bent;  // forces that bend paths act on it: all of these are as they were last looked at
+  // m/s^2, by body: gravity and present forces on a body at rest.
+  LazyArray<Vec3> applied;
+  // 1/s, by body: linear drag takes this rate times the velocity from the acceleration.
+  LazyArray<double> fade;
+  // By body: whether forces that bend paths act on it. All three are values of the last evaluation.
+  LazyArray<std::uint8_t> bent;
   Flights flights;
   LargeVector<ExactBody> body;
   Neighbours neighbours;
   Islands islands;
   EventLog log;
 
-  /// Throws SimulationError unless body i's place x (m) and velocity v (m/s) at `time` (s) are within bounds.
+  /// Throws SimulationError unless body i's position x (m) and velocity v (m/s) at `time` (s) are within bounds.
   void hold_to_bounds(Entity i, double time, const Vec3& x, const Vec3& v) const {
     if (!bounds.hold(x, v)) [[unlikely]]
       fail_out_of_bounds(bounds, i, time, x, v, remedies());
   }
   static constexpr double immovable = never;  // kg
 
-  Vec3 position(Entity i) const { return flights[i].position(now - flights[i].start); }  // m, now
-  /// m/s, now, as in its flight: with what time stepping has kicked it by.
+  Vec3 position(Entity i) const { return flights[i].position(now - flights[i].start); }  // m, at present
+  /// The present velocity in its flight (m/s), with the kick of time stepping.
   Vec3 velocity(Entity i) const { return flights[i].velocity(now - flights[i].start); }
-  /// m/s, at an instant of its flight, without what forces do later, and with what curved surfaces have done since.
+  /// The velocity at an instant of its flight (m/s), without the effect of forces later in a step, and with that of
+  /// curved surfaces so far.
   Vec3 velocity_without_kick(Entity i, const Instant& at) const;
-  /// m/s^2, what forces do to body i at x (m) and v (m/s).
+  /// The acceleration of body i by forces at x (m) and v (m/s), in m/s^2.
   Vec3 force_at(Entity i, const Vec3& x, const Vec3& v) const {
     if (bent[i]) [[unlikely]]
       return bent_force_at(i, x, v);
     return fade[i] == 0 ? applied[i] : Vec3(applied[i] - fade[i] * v);
   }
-  /// Body i's forces are these from now on.
+  /// Sets body i's forces from the present instant on.
   void apply(Entity i, const AppliedAcceleration& forces);
-  /// Those that act now, on body i at x (m) and v (m/s).
+  /// Sets them to those that act at present, on body i at x (m) and v (m/s).
   void apply_forces(Entity i, const Vec3& x, const Vec3& v);
   /// Whether body i's flights, when free, are steps of a method.
   bool flies_in_steps(Entity i) const { return bent[i] != 0 || (by_method && method_bends(i)); }
-  /// Looks at them again, if they vary with these.
+  /// Evaluates them again, if they vary with x (m) and v (m/s).
   void refresh(Entity i, const Vec3& x, const Vec3& v) {
     if (bent[i]) [[unlikely]]
       apply_forces(i, x, v);
   }
-  /// When body i's flight ends at the latest: at the end of a step, its own or its island's.
+  /// The latest end of body i's flight: the end of a step of its own or of its island.
   Instant flight_end(Entity i) const;
-  /// m: where a body is now, or a fixed thing.
+  /// The present position of a body or a fixed thing (m).
   Vec3 position_of(Entity e) const { return world.is_body(e) ? position(e) : world.fixed_position(e); }
 
   bool in_group(Entity i) const { return body[i].state == ContactState::group; }
@@ -86,44 +93,45 @@ struct ExactBodies {
   /// Whether e is a body of the contact group, or asleep.
   bool in_lasting_contact(Entity e) const { return world.is_body(e) && body[e].state != ContactState::free; }
 
-  /// Two bodies now.
+  /// Present positions and velocities of two bodies.
   struct PairState {
     Vec3 xa, va, xb, vb;  // m, m/s
   };
-  /// Whether a body at x (m) is so far from the origin that its place tells less of what lies beside it than relative
-  /// paths do.
+  /// Whether a body at x (m) is far from the origin. Its position then resolves its surroundings less well than
+  /// relative paths do.
   bool far_from_origin(Entity i, const Vec3& x) const {
     return x.cwiseAbs().maxCoeff() > exact_tolerance::far_from_origin * world.radius[i];
   }
-  /// Bodies a and b now, in the frame of a: by their relative path, from which what they have in common takes no
+  /// Bodies a and b at present, in the frame of a. Their relative path is used, so that the common motion costs no
   /// digits.
   PairState in_frame_of(Entity a, Entity b) const;
 
-  /// Bodies and fixed things near body i, ascending: what is summed up in this order is the same for any lists.
+  /// Bodies and fixed things near body i, ascending. Sums in this order do not depend on the order of the lists.
   std::vector<Entity> known_to(Entity i) const;
-  /// How a and b touch at xa, xb (m), having just met at this feature.
+  /// The contact of a and b at xa, xb (m), which have just met at this feature.
   Touch touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) const;
 
-  /// The acceleration (m/s^2) with which body i may press on others. In common free fall, nothing fixed and no other
-  /// forces, there is none: gravity moves all alike.
+  /// The acceleration (m/s^2) with which body i may press on others.
+  /// It is zero in common free fall, without fixed things and other forces, because gravity moves all bodies alike.
   double load_on(Entity i) const;
-  /// The speed (m/s) under which impacts in lasting contact no longer count one by one: rest_speed, or by default a
-  /// share of the speed gained over `length` (m) at the pressing acceleration (m/s^2).
+  /// The speed (m/s) below which impacts in lasting contact do not count one by one. It is rest_speed.
+  /// By default it is a share of the speed gained over `length` (m) at the pressing acceleration (m/s^2).
   double slow_speed(double press, double length) const;
-  /// m, by which two things are slow: the diameter of the smaller one, the radius of a body on something fixed.
+  /// The length on which two things are slow (m): the diameter of the smaller one, or the radius of a body on a fixed
+  /// thing.
   double smaller_length(Entity i, Entity e) const {
     return world.is_body(e) ? 2 * std::min(world.radius[i], world.radius[e]) : world.radius[i];
   }
-  /// m/s: a speed as good as none, for products of it with itself underflow.
+  /// A speed that counts as zero (m/s), because its square would underflow.
   double negligible_speed() const { return exact_tolerance::negligible_speed * log.tally().max_speed; }
-  /// Whether a speed (m/s) against a pressing acceleration (m/s^2) lifts a body by less than its position x (m) is
-  /// rounded to.
+  /// Whether a speed (m/s) against a pressing acceleration (m/s^2) lifts a body by less than the rounding of its
+  /// position x (m).
   static bool too_low(const Vec3& x, double speed, double press) {
     return speed * speed < press * exact_tolerance::position_rounding * x.cwiseAbs().sum();
   }
 
-  /// Whether body i's elastic hops, of this speed (m/s) against a pressing acceleration (m/s^2), are as good as over:
-  /// drag shortens them, ever more in a second.
+  /// Whether body i's elastic hops at this speed (m/s), against a pressing acceleration (m/s^2), count as over. Drag
+  /// shortens them, ever more of them in a second.
   bool hops_fade(Entity i, double speed, double press) const;
 
  private:

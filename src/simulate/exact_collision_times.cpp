@@ -1,3 +1,8 @@
+// Times of collision of bodies on their flights, from the later of the two flights' starts and with the lower number
+// first.
+// Every prediction of a pair therefore has the same bits. Relative paths are used throughout, so that the common motion
+// costs no digits.
+// Parabolas take the closed forms of geometry/, paths under drag and polynomials the search by separating planes.
 #include "simulate/exact_collision_times.h"
 
 #include <algorithm>
@@ -12,7 +17,7 @@ namespace carom {
 
 namespace {
 
-/// At least |v|.
+/// An upper bound of |v|.
 double sum_of_speeds(const Vec3& v) {
   return v.cwiseAbs().sum();
 }
@@ -25,7 +30,8 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
   const Flight &p = bodies_.flights[a], &q = bodies_.flights[b];
   const bool p_earlier = p.start < q.start;
   const Instant base = p_earlier ? q.start : p.start;
-  const double tp = base - p.start, tq = base - q.start;  // one of them is zero
+  // One of the two is zero.
+  const double tp = base - p.start, tq = base - q.start;
   RelativeMotion m;
   m.w = q.velocity(tq) - p.velocity(tp);
   m.d = q.position(tq) - p.position(tp);
@@ -37,7 +43,7 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
   const bool step = bodies_.in_group(a) || bodies_.in_group(b);
   const double horizon =
       (step || curved ? std::min(end_of(a), end_of(b)) : Instant{bodies_.options.duration, 0}) - base;
-  // Most pairs go no farther than here: they are too far apart for what is left of a step.
+  // Most pairs end here: they are too far apart for the rest of the step.
   if ((step || curved) && (parabolas || !curved)) {
     if (curved && !(horizon > 0)) return {never, 0};
     const double reach = s + horizon * (sum_of_speeds(m.w) + horizon * sum_of_speeds(m.a));
@@ -68,7 +74,7 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, std::uint8_t& feature) 
   return t == never ? Instant{never, 0} : base + t;
 }
 
-/// Of bodies at least one of which is on a curve.
+/// Collision of two bodies of which at least one is on a curve.
 Instant ExactCollisionTimes::of_curves(Entity a, const Flight& p, Entity b, const Flight& q, const RelativeMotion& m,
                                        std::uint8_t& feature) const {
   const Instant base = std::max(p.start, q.start);
@@ -90,13 +96,14 @@ Instant ExactCollisionTimes::of_curves(Entity a, const Flight& p, Entity b, cons
   return {never, 0};
 }
 
-/// s, after tp and tq of their flights: in a piece of that length, in which polynomials tell the paths.
+/// Collision in a piece of `length` (s), tp and tq (s) after the starts of the two flights. Polynomials give the paths
+/// in it (time in s from its start).
 FeatureTime ExactCollisionTimes::of_piece(Entity a, const Flight& p, double tp, Entity b, const Flight& q, double tq,
                                           double length, double speeds, std::uint8_t left) const {
   PolynomialPath::Terms displacement = q.displacement_from(tq, length);
   const PolynomialPath::Terms of_p = p.displacement_from(tp, length);
   double reach = bodies_.world.radius[a] + bodies_.world.radius[b];  // m
-  // What is left of accelerations that the two have in common is none.
+  // The remainder of an acceleration that both bodies have in common is rounding, and counts as zero.
   const double noise =
       exact_tolerance::curve_rounding * length * length * (p.greatest_acceleration() + q.greatest_acceleration());  // m
   for (std::size_t k = 0; k < displacement.size(); ++k) {
@@ -109,12 +116,12 @@ FeatureTime ExactCollisionTimes::of_piece(Entity a, const Flight& p, double tp, 
   return time_of_impact(bodies_.world, a, xa, b, xb, displacement, length, speeds, left, length);
 }
 
-/// When body i's flight ends at the latest.
+/// The latest end of body i's flight.
 Instant ExactCollisionTimes::end_of(Entity i) const {
   return std::min(bodies_.flight_end(i), Instant{bodies_.options.duration, 0});
 }
 
-/// m/s: what steps in contact leave of body i's speed.
+/// The rounding of body i's speed by steps in contact (m/s).
 double ExactCollisionTimes::noise_in_contact(Entity i) const {
   return bodies_.in_lasting_contact(i)
              ? exact_tolerance::step_rounding * std::sqrt(bodies_.applied[i].norm() * bodies_.world.radius[i])

@@ -1,5 +1,5 @@
 #pragma once
-// When bodies on their flights collide.
+// Times of collision of bodies on their flights.
 #include "simulate/exact_bodies.h"
 
 namespace carom {
@@ -8,10 +8,10 @@ class ExactCollisionTimes {
  public:
   explicit ExactCollisionTimes(const ExactBodies& bodies) : bodies_(bodies) {}
 
-  /// When bodies i and j collide, infinite: not before their flights end; and at what feature. From the later of their
-  /// flights' starts, lower number first: the same bits for (i, j) and (j, i).
+  /// The time at which bodies i and j collide, and the feature. Infinite: not before their flights end.
+  /// It is computed from the later of their flights' starts, lower number first. (i, j) and (j, i) give the same bits.
   Instant of_pair(Entity i, Entity j, std::uint8_t& feature) const;
-  /// When body i strikes a fixed thing: from its flight's start.
+  /// The time at which body i strikes a fixed thing, computed from its flight's start.
   Instant of_surface(Entity i, Entity surface, std::uint8_t& feature) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// A predicted event of the exact simulator, and what is known of the body that it is the first event of.
+// A predicted event of the exact simulator, and the data of its body that events need.
 #include <cstdint>
 
 #include "geometry/contact_time.h"
@@ -9,12 +9,13 @@
 namespace carom {
 
 struct ExactEvent {
-  // In the order in which events of one instant happen.
+  // In the order of events at one instant.
   enum class Kind : std::uint8_t {
-    force,       // a force on the body sets in or ceases
-    rest,        // bounces end: a line in the record
-    release,     // a body slides off a wall's face
-    step,        // of the contact group: no impact, but new forces
+    force,    // a force on the body starts or ends
+    rest,     // bounces end: a line in the record
+    release,  // a body slides off a wall's face
+    // A step of the contact group: no impact, but new forces.
+    step,
     body_fixed,  //
     body_body,   //
     none
@@ -22,12 +23,13 @@ struct ExactEvent {
 
   Instant time{never, 0};
   Entity partner = no_entity;
-  std::uint16_t partner_version = 0;  // the event is stale if the partner's is another
+  // The event is stale if the partner has another version.
+  std::uint16_t partner_version = 0;
   Kind kind = Kind::none;
   std::uint8_t feature = no_feature;  // where they meet, as in Touch
 };
 
-/// What a flight began with: the thing that the body has just struck, and where.
+/// The origin of a flight: the thing that the body has just struck, and the feature.
 struct FlightOrigin {
   Entity partner = no_entity;
   std::uint8_t feature = no_feature;
@@ -36,10 +38,10 @@ struct FlightOrigin {
 /// free: by itself or on flat surfaces; group: a member of the contact group; asleep: at rest in contact.
 enum class ContactState : std::uint8_t { free, group, asleep };
 
-/// What events need to know of a body, apart from its flight: half a cache line.
+/// The data of a body that events need, apart from its flight. It takes half a cache line.
 struct ExactBody {
   ExactEvent event;           // its next one
-  std::uint16_t version = 1;  // counts its flights, and never is 0
+  std::uint16_t version = 1;  // counts its flights; never 0
   ContactState state = ContactState::free;
   std::uint8_t origin_feature = no_feature;
   Entity origin_partner = no_entity;

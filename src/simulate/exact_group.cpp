@@ -1,3 +1,7 @@
+// Membership in contact groups: bodies join and leave islands, fall asleep and wake.
+// A struck sleeper wakes with all that rest in contact with it, because their forces depend on each other.
+// Impacts between two time steps see flights with a kick. The queries here remove it where an approach must be
+// physical.
 #include "simulate/exact_group.h"
 
 #include <algorithm>
@@ -125,7 +129,8 @@ double ExactGroup::approach_without_kick(double approach, const Vec3& n, Entity 
   const Vec3 vi = bodies_.velocity_without_kick(i, now);
   const Vec3 ve = body ? bodies_.velocity_without_kick(e, now) : Vec3(Vec3::Zero());
   const double met = n.dot(vi - ve);
-  // What rounding leaves of a difference is no impact: it would be one for ever, since the kick brings them together.
+  // A difference that is only rounding is no impact. It would be one for ever, because the kick brings the two
+  // together.
   return met > exact_tolerance::approach_rounding * (vi.norm() + ve.norm() + approach) ? met : 0;
 }
 

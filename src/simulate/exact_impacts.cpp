@@ -1,3 +1,9 @@
+// The effect of impacts on velocities, one pair at a time: an impulse along the normal, by the pair's restitution
+// (physics/impact.h).
+// An impact ends in lasting contact if it is slow under load, or part of a collapse. The bodies then join an island
+// instead of bouncing for ever.
+// In time stepping, velocities contain a kick by later forces. Impacts use the approach without it, and the difference
+// is booked as the method's error.
 #include "simulate/exact_impacts.h"
 
 #include <algorithm>
@@ -19,14 +25,14 @@
 
 namespace carom {
 
-/// Whether a body that lies on flat surfaces strikes one at rest that forces hold on all sides at a speed (m/s) so low
-/// that it would hardly lift it.
+/// Whether the striker lies on flat surfaces and strikes a sleeping body that forces hold on all sides, too slowly
+/// (m/s) to lift it noticeably.
 bool ExactImpacts::too_slow_to_wake(Entity striker, Entity struck, double speed) const {
   const World& world = bodies_.world;
   if (parts_.flat.of(striker).count == 0) return false;
   if (!(speed * speed < 2 * exact_tolerance::waking_lift * bodies_.applied[struck].norm() * world.radius[struck]))
     return false;
-  // Three forces at least, not in a plane.
+  // At least three forces that are not in one plane.
   std::vector<Vec3> normals;
   const Vec3 x = bodies_.flights[struck].x;
   const auto hold = [&](Entity e) {
@@ -46,7 +52,8 @@ bool ExactImpacts::too_slow_to_wake(Entity striker, Entity struck, double speed)
   return false;
 }
 
-/// A strike too slow to wake the struck body, by one that nothing presses on it: the striker comes to rest.
+/// Resolves a strike that is too slow to wake the struck body, by a body that nothing presses on it. The striker comes
+/// to rest.
 void ExactImpacts::stop_at(Entity striker, Entity struck, std::uint8_t feature, const Touch& there, double approach) {
   const double mass = bodies_.world.mass[striker];
   const Vec3 x = bodies_.position(striker), v = bodies_.velocity(striker);
@@ -54,7 +61,8 @@ void ExactImpacts::stop_at(Entity striker, Entity struck, std::uint8_t feature, 
   Collision met = make_collision(bodies_.world, CollisionKind::body_body, bodies_.now.hi, std::min(striker, struck),
                                  std::max(striker, struck), there.point, there.normal, approach, 0,
                                  pair_restitution(bodies_.world, striker, struck));
-  met.impulse = impact_impulse(mass, ExactBodies::immovable, approach, 0);  // the struck one is held
+  // The struck body is held.
+  met.impulse = impact_impulse(mass, ExactBodies::immovable, approach, 0);
   met.energy_lost = lost;
   bodies_.log.record(met);
   bodies_.log.lose(lost);
@@ -62,7 +70,8 @@ void ExactImpacts::stop_at(Entity striker, Entity struck, std::uint8_t feature, 
   parts_.predictor.predict(striker);
 }
 
-/// m/s^2: what drives two bodies together that have met here at the relative velocity w, once their approach is over.
+/// The acceleration (m/s^2) that drives together two bodies that have met here at the relative velocity w (m/s), after
+/// their approach has ended.
 double ExactImpacts::press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb, const Touch& there,
                               const Vec3& w) const {
   const Flight p = bodies_.flights[a], q = bodies_.flights[b];
@@ -70,7 +79,8 @@ double ExactImpacts::press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb
   double forces = n.dot(q.a - p.a);
   if (p.curve != nullptr || q.curve != nullptr) {
     forces = n.dot(pull_after(b, xb, q, a, there, w) - pull_after(a, xa, p, b, there, w));
-  } else if (p.fade != 0 || q.fade != 0) {  // drag acts on what velocities the impact leaves
+    // Drag acts on the velocities after the impact.
+  } else if (p.fade != 0 || q.fade != 0) {
     const double ma = bodies_.world.mass[a], mb = bodies_.world.mass[b], share = -n.dot(w) / (ma + mb);
     forces = n.dot(q.acceleration(bodies_.now - q.start) - p.acceleration(bodies_.now - p.start)) -
              (q.fade * ma + p.fade * mb) * share;
@@ -78,8 +88,8 @@ double ExactImpacts::press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb
   return -(forces + bending(bodies_.world, a, xa, b, xb, there, w));
 }
 
-/// m/s^2: what acts on body i at x (m) once an impact at w (m/s, of the second body against the first) has left no
-/// approach.
+/// The acceleration of body i at x (m), in m/s^2, after an impact has ended the approach.
+/// w is the velocity of the second body relative to the first (m/s).
 Vec3 ExactImpacts::pull_after(Entity i, const Vec3& x, const Flight& f, Entity other, const Touch& there,
                               const Vec3& w) const {
   const double mi = bodies_.world.mass[i], mo = bodies_.world.mass[other], share = mo / (mi + mo);
@@ -118,10 +128,11 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
     for (const auto& [striker, struck] : {std::pair(a, b), std::pair(b, a)})
       if (bodies_.body[struck].state == ContactState::asleep && too_slow_to_wake(striker, struck, w.norm()))
         return stop_at(striker, struck, feature, there, approach);
-  // Where nothing presses, an approach that is but rounding is over with this impact.
+  // Where nothing presses, an approach that is only rounding ends with this impact.
   const bool real = approach > exact_tolerance::approach_rounding * (va.norm() + vb.norm()) || bodies_.load_on(a) > 0 ||
                     bodies_.load_on(b) > 0;
-  const bool enters = met == 0 && w.dot(n) <= 0 && (p.curve != nullptr || q.curve != nullptr);  // by how forces change
+  // The approach begins by a change of forces.
+  const bool enters = met == 0 && w.dot(n) <= 0 && (p.curve != nullptr || q.curve != nullptr);
   const bool ends = (approach > 0 && met == 0) || enters ||
                     (real && parts_.collapses.count_impact(a, b, e, met, press, length, false)) ||
                     (press > 0 && (e * met == 0 || bodies_.too_low(xa, e * met, press) ||
@@ -163,7 +174,7 @@ void ExactImpacts::collide_pair(Entity a, Entity b, std::uint8_t feature) {
   parts_.simultaneous.count_impact(b);
 }
 
-/// Whether an impact that ends in contact does so because nothing is given back, however fast it is.
+/// Whether an impact ends in contact because its restitution is zero, at any speed.
 bool ExactImpacts::is_plastic(const Collision& met, double press, double length) const {
   return met.restitution == 0 && press > 0 && met.approach_speed > bodies_.slow_speed(press, length);
 }
@@ -194,13 +205,14 @@ ExactImpacts::FixedImpact ExactImpacts::find_fixed(Entity i, Entity surface, std
           parts_.flat.acceleration_without(i, surface).dot(n) - bend};
 }
 
-/// Whether a flat surface carries the body from now on, in which case `contact` says since when its bounces are over.
+/// Whether a flat surface carries the body from this instant on. If so, `contact` has the instant at which its bounces
+/// are over.
 bool ExactImpacts::comes_to_rest(const FixedImpact& impact, FlatContact& contact) const {
   const auto& [i, surface, feature, flat, began_now, x, v, there, e, approach, unkicked, press] = impact;
   const double separation = e * unkicked;
   contact = {surface, feature, -there.normal, false, bodies_.now, separation};
   const std::size_t carrying = parts_.flat.of(i).count;
-  // A surface nearly level with one that carries the body takes over from it: hops too low to tell are none.
+  // A surface nearly level with one that carries the body takes over. Hops that rounding hides do not count.
   const double weight = bodies_.applied[i].dot(there.normal);
   if (carrying > 0 && flat && carrying < FlatContactList::most && !bodies_.in_lasting_contact(i) && e <= 1 &&
       weight > 0 &&
@@ -210,20 +222,21 @@ bool ExactImpacts::comes_to_rest(const FixedImpact& impact, FlatContact& contact
     contact.rest_time = bodies_.now;
     return true;
   }
-  if (bodies_.bent[i]) return false;  // on which no parabola goes on
+  // The body's path on the surface is not a parabola.
+  if (bodies_.bent[i]) return false;
   const bool ends = e < 1 || approach == 0 ||
                     (e == 1 && (bodies_.too_low(x, approach, press) || bodies_.hops_fade(i, approach, press)));
   if (!(press > 0) || !flat || bodies_.in_lasting_contact(i) || carrying >= FlatContactList::most || !ends)
     return false;
   const double left = separation == 0 || e == 1 ? 0 : 2 * separation / (press * (1 - e));
-  // Not by hops on this surface alone: thrown back at it by others in between, or by those that carry it, at once.
+  // The body does not hop on this surface alone. Other bodies, or the surfaces that carry it, throw it back at once.
   const bool carried = carrying > 0 && (bodies_.body[i].origin_partner != surface || began_now);
   contact.settling = over_at_once(impact, left) || (carried && bodies_.too_low(x, approach, press));
   contact.rest_time = bodies_.now + left;
   return contact.settling;
 }
 
-/// Whether bounces on a flat surface that end `left` (s) from now are over.
+/// Whether bounces on a flat surface that end `left` (s) from the present are over.
 bool ExactImpacts::over_at_once(const FixedImpact& impact, double left) const {
   return bodies_.now.hi + left == bodies_.now.hi || impact.approach < bodies_.options.rest_speed;
 }

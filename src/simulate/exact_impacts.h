@@ -1,5 +1,6 @@
 #pragma once
-// What impacts do to velocities: of two bodies, and of a body and a fixed thing. One pair at a time.
+// The effect of impacts on velocities: of two bodies, and of a body and a fixed thing. Pairs are resolved one at a
+// time.
 
 #include "geometry/touch.h"
 #include "numerics/vec3.h"
@@ -36,23 +37,23 @@ class ExactImpacts {
  public:
   ExactImpacts(ExactBodies& bodies, const ImpactParts& parts) : bodies_(bodies), parts_(parts) {}
 
-  /// Bodies a < b meet now, at this feature.
+  /// Bodies a < b meet at the present instant, at this feature.
   void collide_pair(Entity a, Entity b, std::uint8_t feature);
-  /// Body i meets a fixed thing now.
+  /// Body i meets a fixed thing at the present instant.
   void collide_fixed(Entity i, Entity surface, std::uint8_t feature);
 
  private:
-  /// A body and a fixed thing where they meet.
+  /// A body and a fixed thing at the instant of their impact.
   struct FixedImpact {
     Entity body, surface;
     std::uint8_t feature;
     bool flat;
-    bool began_now;   // the flight did
+    bool began_now;   // the flight began at this instant
     Vec3 x, v;        // m, m/s
     Touch there;      //
     double e;         // restitution
-    double approach;  // m/s,
-    double unkicked;  // and without what forces do later
+    double approach;  // m/s
+    double unkicked;  // m/s, without the effect of later forces
     double press;     // m/s^2, drives the two together
   };
 

@@ -1,3 +1,8 @@
+// The event loop of the exact simulator. It takes the first event of the total order, updates the bodies concerned and
+// predicts their next events.
+// Other bodies do not move, so that a step costs as much as the event and not as the scene. Each kind of event belongs
+// to one part.
+// The loop returns early when a buffer is full, or after many events, so that the caller keeps control.
 #include "simulate/exact_simulator.h"
 
 #include <algorithm>
@@ -10,9 +15,11 @@ namespace carom {
 
 namespace {
 
-constexpr std::size_t collisions_of_event = 8;  // that one event may bring, as a rule
+// Collisions that one event causes, as a rule at most.
+constexpr std::size_t collisions_of_event = 8;
 constexpr std::uint32_t events_at_a_time = 65536;
-constexpr Entity cached_bodies = 24576;  // that fit into a processor's own memory
+// Number of bodies whose data fit into a processor's cache.
+constexpr Entity cached_bodies = 24576;
 
 }  // namespace
 
@@ -80,12 +87,12 @@ void ExactSimulator::advance_to(double time) {
     if (bodies_.world.body_count() > cached_bodies) prefetch_.look_ahead();
     if (!queue_.leaves_first(i) && !(bodies_.body[i].event.time <= until)) break;
     take_event(i);
-    // After many events that no one has seen, the caller may want to look at the clock.
+    // After many events without a result, the caller may need to check the clock.
     if (++events % events_at_a_time == 0 && before_now() > time_) {
       time_ = before_now();
       return;
     }
-    // A full buffer: stop short of the instant reached, for more may happen in it.
+    // A buffer is full. Stop just before the present instant, because more may happen at it.
     if (paths_.full() || !bodies_.log.has_room(collisions_of_event)) {
       time_ = std::max(time_, before_now());
       return;
@@ -96,7 +103,7 @@ void ExactSimulator::advance_to(double time) {
   if (time_ >= bodies_.options.duration) flights_.book_last(time_);
 }
 
-/// What is next for body i: its event, or that it leaves its region.
+/// Takes body i's next event, or its exit from its region.
 void ExactSimulator::take_event(Entity i) {
   ++effort_.events;
   if (!queue_.leaves_first(i)) return process(i);
@@ -123,7 +130,8 @@ void ExactSimulator::process(Entity i) {
         for (const Entity k : {i, event.partner}) flights_.end_step(k);
         impacts_.collide_pair(std::min(i, event.partner), std::max(i, event.partner), event.feature);
       } else {
-        predictor_.predict(i);  // the other one has changed its path since
+        // The partner's path has changed since.
+        predictor_.predict(i);
       }
       break;
     case Kind::body_fixed:
@@ -156,7 +164,7 @@ void ExactSimulator::process(Entity i) {
   guard_.count(impact ? StallGuard::Happened::impact : StallGuard::Happened::other, bodies_.now.hi);
 }
 
-/// A force on body i sets in or ceases, now.
+/// Applies the start or end of a force on body i at the present instant.
 void ExactSimulator::switch_forces(Entity i) {
   const Vec3 x = bodies_.position(i);
   Vec3 v = bodies_.velocity(i);
@@ -164,7 +172,8 @@ void ExactSimulator::switch_forces(Entity i) {
   flights_.book(i, x, bodies_.now);
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
   if (bodies_.body[i].state == ContactState::asleep) group_.join(i);
-  if (bodies_.in_group(i)) {  // the last step had the old forces in it until its end
+  // The last step contained the old forces until its end.
+  if (bodies_.in_group(i)) {
     const Vec3 slower = bodies_.velocity_without_kick(i, bodies_.now);
     bodies_.log.deviate(0.5 * bodies_.world.mass[i] * (v - slower).dot(v + slower));
     v = slower;
@@ -177,8 +186,8 @@ void ExactSimulator::switch_forces(Entity i) {
   predictor_.predict(i);
 }
 
-/// Body i slides over the rim of the face that carried it: onto one that is level with it, or off; then the rim's edge
-/// is what it has last touched.
+/// Body i slides over the rim of the face that carries it: onto a level face, or off. In the second case the rim's edge
+/// is what it touched last.
 void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
   const FlightOrigin next = flat_.hand_over(i, surface);
   flights_.begin(i, bodies_.position(i), bodies_.velocity(i),
@@ -186,14 +195,14 @@ void ExactSimulator::release(Entity i, Entity surface, std::uint8_t edge) {
   predictor_.predict(i);
 }
 
-/// A step has come to its end: of body i's own flight, or there has been another one since.
+/// Ends a step of body i's own flight, or discards it if another flight has begun since.
 void ExactSimulator::end_flight(Entity i) {
   const PolynomialPath* const curve = bodies_.flights.curve(i);
   if (curve != nullptr && bodies_.flights[i].start + curve->length <= bodies_.now) flights_.take_step(i);
   predictor_.predict(i);
 }
 
-/// The next step of body i's island.
+/// Takes the next step of body i's island.
 void ExactSimulator::step_island(Entity i) {
   for (const Entity k : bodies_.islands.of(i).members) paths_.note_change(k);
   if (bodies_.islands.of(i).busy || !constrained_.advance(i)) stepping_.advance(i);

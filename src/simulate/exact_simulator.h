@@ -58,7 +58,7 @@ class ExactSimulator final : public Simulator {
   StallGuard guard_;
   ExactImpacts impacts_;
   Effort effort_;
-  double time_ = 0;  // s, how far advance_to has come
+  double time_ = 0;  // s: time that advance_to has reached
   State state_;
   bool state_fresh_ = false;
   std::vector<ContactForce> contact_forces_;

@@ -1,3 +1,5 @@
+// Contact problems of one body on flat surfaces, by the general contact solver.
+// The body has unit mass, because its own mass has no effect on the allowed motion.
 #include "simulate/flat_contact_problems.h"
 
 #include <array>

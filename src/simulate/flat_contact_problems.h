@@ -1,6 +1,5 @@
 #pragma once
-// The contact problems of one body on flat surfaces, through the one door (contact_problem.h). u: a velocity or an
-// acceleration.
+// The contact problems of one body on flat surfaces, solved by contact_problem.h. u: a velocity or an acceleration.
 #include <span>
 
 #include "solver/contact_problem.h"
@@ -14,10 +13,11 @@ struct FlatSolution {
   Certificate certificate;
 };
 
-/// For one body and flat surfaces with these unit normals, from the surface to the body. At most 32 of them.
+/// The allowed motion for one body and flat surfaces with these unit normals, from the surface to the body. At most 32
+/// of them.
 FlatSolution solve_flat_contacts(const Vec3& u, std::span<const Vec3> normals);
 
-/// u without its components along any of the unit normals: motion that keeps every one of the contacts.
+/// u without its components along any of the unit normals: motion that keeps all contacts.
 FlatSolution keep_flat_contacts(const Vec3& u, std::span<const Vec3> normals);
 
 }  // namespace carom

@@ -1,3 +1,7 @@
+// Rest on flat fixed surfaces, where bounces end at a time in closed form and paths stay parabolas.
+// A change of velocity may lift a body off a surface, or press it into one. The contact solver gives the allowed
+// velocity and acceleration.
+// Hops that rounding hides are suppressed, because they would cost events without an effect.
 #include "simulate/flat_contacts.h"
 
 #include <algorithm>
@@ -18,7 +22,7 @@ namespace {
 
 constexpr std::size_t most = FlatContactList::most;
 
-/// The normals of contacts, but for one with `without`. Gives how many.
+/// Stores the normals of all contacts except those with `without`. Returns their number.
 std::size_t normals_of(const FlatContactList& contacts, Entity without, std::array<Vec3, most>& normals) {
   std::size_t n = 0;
   for (std::size_t k = 0; k < contacts.count; ++k)
@@ -56,7 +60,7 @@ FlightOrigin FlatContacts::hand_over(Entity i, Entity surface) {
   remove(i, surface);
   const Flight f = bodies_.flights[i];
   const Vec3 x = bodies_.position(i), v = bodies_.velocity(i), a = f.acceleration(bodies_.now - f.start);
-  // A little ahead it is over the other one's face, if rims are no farther apart than rounding.
+  // A little ahead, the body is over the other surface's face, if the rims are no farther apart than rounding.
   const double ahead =
       std::max(exact_tolerance::rim_gap * world.radius[i], exact_tolerance::initial_rounding * x.cwiseAbs().sum());
   const double speed = v.norm();
@@ -146,10 +150,11 @@ void FlatContacts::end_bounces(Entity i) {
   }
 }
 
-/// A bounce that is over at once: an impact that leaves nothing.
+/// Records a bounce that ends at once: an impact that leaves no speed.
 void FlatContacts::record_bounce(Entity i, const FlatContact& contact, double approach, double e) {
   const World& world = bodies_.world;
-  collapses_.count_in_turn(i, 1 - e);  // with the impact that threw it at the surface
+  // It is in turn with the impact that threw the body at the surface.
+  collapses_.count_in_turn(i, 1 - e);
   const Vec3 point =
       bodies_.touch_at(i, bodies_.position(i), contact.surface, world.fixed_position(contact.surface), contact.feature)
           .point;
@@ -174,7 +179,8 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
   for (std::size_t k = 0; k < contacts.count; ++k) {
     const FlatContact& contact = contacts.at[k];
     const Vec3 n = -contact.normal;
-    const double u = n.dot(v);  // into the surface
+    // Into the surface.
+    const double u = n.dot(v);
     press[k] = n.dot(acceleration_without(i, contact.surface));
     kept[k] = std::abs(u) <= noise || (press[k] > 0 && bodies_.too_low(x, u, press[k]));
     if (kept[k] || u < 0 || press[k] <= 0) continue;

@@ -1,10 +1,12 @@
 #pragma once
-// Rest on flat fixed surfaces. A body's bounces under load end at a time known in closed form: after an impact that
-// leaves it with the speed u, at 2u / (p (1 - e)) from then, where p is the acceleration that presses it on (a
-// geometric series of flights). When that is less than the clock can resolve, or the impact is slower than rest_speed,
-// the body is put to rest: from then on it moves in the surface, with the reaction taken from its acceleration, and its
-// path is a parabola again. Contact of any other kind, with a body, an edge, a corner or anything round, has no such
-// path: such bodies join the contact group (exact_group.h).
+// Rest on flat fixed surfaces. A body's bounces under load end at a time in closed form, by a geometric series of
+// flights.
+// After an impact that leaves the speed u, they end 2u / (p (1 - e)) later. Here p is the acceleration that presses the
+// body on.
+// The body is put to rest when that time is less than the clock resolves, or when the impact is slower than rest_speed.
+// It then moves in the surface, the reaction reduces its acceleration, and its path is a parabola again.
+// Contact of any other kind, with a body, an edge, a corner or a round thing, has no such path. Such bodies join the
+// contact group (exact_group.h).
 #include <array>
 #include <vector>
 
@@ -18,14 +20,15 @@ class CollapseDetector;
 /// A flat surface that carries a body.
 struct FlatContact {
   Entity surface;
-  std::uint8_t feature;   // of the pair (touch.h; of a ball and a wall: contact_time.h)
-  Vec3 normal;            // unit, from the surface to the body
-  bool settling;          // bounces have not ended yet, but will at
+  std::uint8_t feature;  // of the pair (touch.h; of a ball and a wall: contact_time.h)
+  Vec3 normal;           // unit, from the surface to the body
+  // Bounces have not ended yet. They end at the time below.
+  bool settling;
   Instant rest_time;      //
-  double residual_speed;  // m/s, what the last bounce left
+  double residual_speed;  // m/s, left by the last bounce
 };
 
-/// Those of a body.
+/// The flat contacts of a body.
 struct FlatContactList {
   static constexpr std::size_t most = 4;
   std::array<FlatContact, most> at;
@@ -39,38 +42,41 @@ class FlatContacts {
 
   const FlatContactList& of(Entity i) const { return contacts_[i]; }
   bool carry(Entity i, Entity surface) const;
-  /// Whether body i cannot strike this fixed thing: it lies behind a surface that carries the body.
+  /// Whether body i cannot strike this fixed thing, because it lies behind a surface that carries the body.
   bool hide(Entity i, Entity fixed) const;
 
   /// Adds a surface to those that carry body i.
   void add(Entity i, const FlatContact& contact);
   void remove(Entity i, Entity surface);
-  /// Removes those that are level, or nearly so, with a surface of this normal, which carries the body from now on.
+  /// Removes surfaces that are level, or nearly so, with a surface of this normal, which carries the body from this
+  /// instant on.
   void remove_level(Entity i, const Vec3& normal);
-  /// The same at the surface's rim, over which body i slides. Where another one lies level with it, that one carries
-  /// the body on. Gives it and where they touch, or no_entity.
+  /// Removes the surface at its rim, over which body i slides. If another surface is level with it, that one carries
+  /// the body on.
+  /// Returns that surface and the feature of contact, or no_entity.
   FlightOrigin hand_over(Entity i, Entity surface);
   void clear(Entity i);
-  /// At the start: a body that touches a flat surface (but for rounding of the scene's numbers), does not move along
-  /// its normal and is pressed on rests there from the first.
+  /// At the start, a body may touch a flat surface, but for rounding of the scene's numbers, without motion along its
+  /// normal.
+  /// If it is pressed on, it rests there from the beginning.
   void find_initial(Entity i);
-  /// Records the end of the bounces that are due: the body has been carried since the last impact.
+  /// Records the end of bounces that are due. The body has been carried since the last impact.
   void end_bounces(Entity i);
 
-  /// Body i's velocity has become v (m/s). Gives up the contacts that it leaves or strikes (the strike comes next, as
-  /// an event), unless the hop or the bounce would be one that numbers cannot tell from none. Gives the velocity that
-  /// the others allow.
+  /// Changes body i's velocity to v (m/s). Contacts that it leaves or strikes end. The strike follows as an event.
+  /// They stay where rounding hides the hop or the bounce. Returns the velocity that the remaining contacts allow.
   Vec3 keep_at(Entity i, const Vec3& v) { return contacts_[i].count == 0 ? v : keep_at_surfaces(i, v); }
-  /// Gives up contacts that do not press. Gives the acceleration (m/s^2) that forces and the contacts' reactions leave
-  /// to body i, but for drag; zero in lasting contact, where steps have the forces in them.
+  /// Ends contacts that do not press. Returns the acceleration (m/s^2) by forces and reactions, without drag.
+  /// It is zero in lasting contact, where steps contain the forces.
   Vec3 keep_pressing(Entity i) {
     if (bodies_.in_lasting_contact(i)) return Vec3::Zero();
     return contacts_[i].count == 0 ? bodies_.applied[i] : keep_pressing_surfaces(i);
   }
-  /// m/s^2, the same without one surface, changing nothing: what would press body i against that surface.
+  /// The same without one surface, and without any change: the acceleration that would press body i against that
+  /// surface (m/s^2).
   Vec3 acceleration_without(Entity i, Entity surface) const;
 
-  /// Appends the forces of body i's contacts: what keeps it to them.
+  /// Appends the forces that keep body i on its surfaces.
   void report(Entity i, std::vector<ContactForce>& forces) const;
 
  private:

@@ -1,3 +1,5 @@
+// Flights that are not plain parabolas: evaluation of drag and of polynomial steps.
+// The polynomial of a path under drag is its Taylor series. Its terms fall fast within span_of_fade().
 #include "simulate/flight.h"
 
 namespace carom {
@@ -16,7 +18,8 @@ PolynomialPath::Terms Flight::displacement_from(double t, double length) const {
   terms.fill(Vec3::Zero());
   terms[0] = length * velocity(t);
   terms[1] = (0.5 * length * length) * acceleration(t);
-  if (is_straight() || !(fade * length < 1)) return terms;  // or all has faded
+  // In the second case the acceleration has decayed.
+  if (is_straight() || !(fade * length < 1)) return terms;
   for (std::size_t k = 2; k < terms.size(); ++k)
     terms[k] = (-fade * length / static_cast<double>(k + 1)) * terms[k - 1];
   return terms;

@@ -1,6 +1,6 @@
 #pragma once
-// A body's path since its last change: x + v t + a t^2/2 from its start on, or what linear drag makes of that; under
-// other forces that vary a step of a method, as a polynomial.
+// A body's path since its last change: x + v t + a t^2/2 from its start on, or the same under linear drag.
+// Under other varying forces it is a step of a method, as a polynomial.
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -22,18 +22,19 @@ struct Flight {
   Vec3 x;                                 // m, at start
   Vec3 v;                                 // m/s, at start
   Vec3 a;                                 // m/s^2, at start
-  double fade = 0;                        // 1/s: a dies away as exp(-fade t); `curved`: it is not so
-  const PolynomialPath* curve = nullptr;  // then this is its way, until the step's end
+  double fade = 0;                        // 1/s: a decays as exp(-fade t); `curved`: it does not
+  const PolynomialPath* curve = nullptr;  // the path in that case, until the step's end
 
-  static constexpr double curved = std::numeric_limits<double>::quiet_NaN();  // no two fade alike
+  // NaN: it equals no other value, not even itself.
+  static constexpr double curved = std::numeric_limits<double>::quiet_NaN();
 
-  bool is_straight() const { return fade == 0; }  // but for a constant acceleration
+  // Straight except for a constant acceleration.
+  bool is_straight() const { return fade == 0; }
   bool is_parabola() const { return is_straight() || (curve != nullptr && curve->is_parabola); }
   FadingPath path() const { return {x, v, a, fade}; }
-  Vec3 position(double t) const {  // t: s since start
-    return is_straight() ? Vec3(x + t * (v + (0.5 * t) * a)) : bent_position(t);
-  }
-  /// m, since start.
+  // t: s since start.
+  Vec3 position(double t) const { return is_straight() ? Vec3(x + t * (v + (0.5 * t) * a)) : bent_position(t); }
+  /// The displacement since start (m).
   Vec3 displacement(double t) const {
     return curve != nullptr ? curve->displacement_at(t) : Vec3(t * (v + displaced(fade, t) * a));
   }
@@ -41,12 +42,14 @@ struct Flight {
   Vec3 acceleration(double t) const {
     return is_straight() ? a : curve == nullptr ? path().acceleration(t) : curve->acceleration(t);
   }
-  /// m/s^2, from start on; at least that.
+  /// An upper bound of the acceleration from start on (m/s^2).
   double greatest_acceleration() const { return curve == nullptr ? a.norm() : curve->greatest_acceleration(); }
-  /// m, since start: from t on, for `length` (s), of a path that fades at most span_of_fade() (s).
+  /// The displacement from t on, for `length` (s), as a polynomial (m). Under drag the length is at most span_of_fade()
+  /// (s).
   PolynomialPath::Terms displacement_from(double t, double length) const;
 
-  /// s, from t on, for which displacement_from() is right: once it has died away, a path is straight.
+  /// The time (s) from t on for which displacement_from() is accurate. After the acceleration has decayed, a path is
+  /// straight.
   double span_of_fade(double t) const {
     using namespace exact_tolerance;
     const bool straight = is_straight() || fade * t >= faded;
@@ -58,14 +61,14 @@ struct Flight {
   Vec3 bent_velocity(double t) const;
 };
 
-/// m/s: a velocity v that has been kicked by what forces do until `until`, `kick` (m/s^2) on average, without what they
-/// do from `at` on.
+/// The velocity v (m/s) at `at` without a kick. The kick is the effect of forces until `until`, `kick` (m/s^2) on
+/// average, and the part from `at` on is removed.
 inline Vec3 without_kick(const Vec3& v, const Instant& at, const Instant& until, const Vec3& kick) {
   return v - (until - at) * kick;
 }
 
-/// The flights of all bodies. What pairs are tested by is a cache line a body; accelerations are kept only once bodies
-/// differ in them.
+/// The flights of all bodies. The data of pair tests take one cache line for each body.
+/// Accelerations are stored only after bodies differ in them.
 class Flights {
  public:
   struct alignas(64) Core {
@@ -74,7 +77,7 @@ class Flights {
   };
   static_assert(sizeof(Core) == 8 * sizeof(double));
 
-  /// `common`: m/s^2, the acceleration of all until `set` or `accelerate` gives another.
+  /// `common`: the acceleration of all bodies (m/s^2) until `set` or `accelerate` changes it.
   Flights(Entity bodies, const Vec3& common) : core_(bodies), common_(common), fade_(bodies) {}
 
   Flight operator[](Entity i) const {
@@ -84,16 +87,16 @@ class Flights {
   const PolynomialPath* curve(Entity i) const { return curves_.empty() ? nullptr : curve_of(i); }
   const Vec3& acceleration(Entity i) const { return acceleration_.empty() ? common_ : acceleration_[i]; }  // at start
   const Core* cores() const { return core_.data(); }
-  /// Whether all have the same acceleration.
+  /// Whether all bodies have the same acceleration.
   bool alike() const { return acceleration_.empty(); }
-  /// Whether a force has bent the path of any.
+  /// Whether a force has ever bent a path.
   bool any_fades() const { return !fade_.empty(); }
 
   [[gnu::always_inline]] void set(Entity i, const Flight& flight) {
     core_[i] = {flight.x, flight.v, flight.start};
     accelerate(i, flight.a, flight.fade);
   }
-  /// Another acceleration, from its start on.
+  /// Sets another acceleration from the flight's start on.
   void accelerate(Entity i, const Vec3& a, double new_fade = 0) {
     if (new_fade != 0 || any_fades()) [[unlikely]]
       set_fade(i, new_fade);
@@ -103,11 +106,11 @@ class Flights {
     }
     acceleration_[i] = a;
   }
-  /// A flight through a step, whose way is `curve`. Copies of the flight before stay good until the next.
+  /// Sets a flight through a step with the path `curve`. Copies of the flight before stay valid until the next call.
   void set(Entity i, const Flight& flight, const PolynomialPath& curve);
 
  private:
-  /// Of a body: the present one, and the one before.
+  /// The curves of a body: the present one, and the one before.
   struct Curves {
     PolynomialPath of[2];
     std::uint8_t present = 0;

@@ -1,3 +1,8 @@
+// Begins and ends flights, and books the work of forces and the method's own error on each flight that ends.
+// Work is booked from the flight as a whole, in closed form where forces are constant. A sum over small steps would add
+// its own errors.
+// In time stepping a flight has the step's forces in its velocity from the start (the kick). Changes within the step
+// adjust it.
 #include "simulate/flight_changes.h"
 
 #include <algorithm>
@@ -29,7 +34,8 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
     take(i, 0);
   }
   const bool falls = bodies_.is_stepped(i) && (bodies_.flights.acceleration(i) != Vec3::Zero() ||
-                                               bodies_.flights.curve(i) != nullptr);  // through a time step
+                                               // The body falls through a time step.
+                                               bodies_.flights.curve(i) != nullptr);
   const double negligible = bodies_.negligible_speed();
   const bool still = speed <= negligible ||
                      (flat_.of(i).count > 0 && speed * speed < exact_tolerance::negligible_hop *
@@ -57,7 +63,7 @@ void FlightChanges::end_change(Entity i, const FlightOrigin& origin) {
   count(i);
 }
 
-/// A step of body i's flight: by the method that is asked for, if free, else by that of contact.
+/// Starts a step of body i's flight: by the scene's method if it is free, otherwise by that of contact.
 void FlightChanges::curve(Entity i, Flight from, bool free) {
   if (!free) return bodies_.flights.set(i, from, curved_.step_of_its_own(i, from.x, from.v));
   const PolynomialPath* const last = bodies_.flights.curve(i);
@@ -172,7 +178,7 @@ void FlightChanges::correct(Entity i, const Vec3& v) {
   bodies_.flights.set(i, {bodies_.now, x, v, bodies_.flights.acceleration(i)});
 }
 
-/// When its count of flights begins anew, old events must not look fresh.
+/// When the count of flights starts anew, old events must not appear fresh.
 void FlightChanges::count(Entity i) {
   if (++bodies_.body[i].version != 0) return;
   bodies_.body[i].version = 1;
@@ -195,13 +201,14 @@ void FlightChanges::book_forces(Entity i, const Vec3& x, const Instant& end) {
   const Vec3 displacement = x - f.x;
   const double fade = bodies_.fade[i], mass = world.mass[i];
   const double dragged = fade == 0 ? 0 : fade * f.path().squared_speed(end - f.start);  // m^2/s^2
-  // On a path that fades with its drag contact forces stay the same.
+  // On a path that decays with its drag, contact forces are constant.
   const Vec3 held = f.fade == 0 ? Vec3(bodies_.applied[i] - f.a) : Vec3(bodies_.force_at(i, f.x, f.v) - f.a);
   bodies_.log.deviate(mass * (held.dot(displacement) - (f.fade == 0 ? dragged : 0)));
   if (!world.forces.empty()) book_work(i, f.start.hi, displacement, fade == 0 ? 0 : dragged / fade);
 }
 
-/// Of forces that are constant but for linear drag, which acts by an integral of the squared speed (m^2/s).
+/// Books the work of forces that are constant except for linear drag. Drag acts by an integral of the squared speed
+/// (m^2/s).
 void FlightChanges::book_work(Entity i, double time, const Vec3& displacement, double squared_speed) {
   const World& world = bodies_.merged.given();
   const std::span<const Entity> parts = bodies_.merged.parts_of(i);
@@ -209,7 +216,7 @@ void FlightChanges::book_work(Entity i, double time, const Vec3& displacement, d
     for (std::size_t k = 0; k < world.forces.size(); ++k) {
       const Force& force = world.forces[k];
       if (!acts(force, part, time)) continue;
-      // What acts on a body that stands, wind among it, and the drag on its motion.
+      // The force on a body at rest, wind included, and the drag on its motion.
       const Vec3 any = Vec3::Zero(), standing = working_acceleration(world, force, part, any, any);
       const Drag* const drag = std::get_if<Drag>(&force.law);
       const double work =
@@ -220,12 +227,14 @@ void FlightChanges::book_work(Entity i, double time, const Vec3& displacement, d
 
 namespace {
 
-/// m/s: of a flight on a curve, in `length` (s) of it. Within a step speed rises and falls but once.
+/// The greatest speed of a flight on a curve (m/s), in `length` (s) of it. Within a step the speed rises and falls only
+/// once.
 double greatest_speed(const Flight& f, double length) {
   const Vec3 ahead = f.curve->ahead;
   const auto rise = [&](double t) { return (f.velocity(t) - ahead).dot(f.curve->acceleration(t)); };
   double rising = 0, falling = length;
-  if (!(rise(rising) > 0 && rise(falling) < 0)) return 0;  // its ends are noted elsewhere
+  // The speeds at both ends are noted elsewhere.
+  if (!(rise(rising) > 0 && rise(falling) < 0)) return 0;
   for (int k = 0; k < 24; ++k) {
     const double middle = 0.5 * (rising + falling);
     (rise(middle) > 0 ? rising : falling) = middle;
@@ -235,7 +244,8 @@ double greatest_speed(const Flight& f, double length) {
 
 }  // namespace
 
-/// Of a free flight what forces do shows in the potential and in their work. Else contact has done the rest.
+/// The effect of forces on a free flight is in the potential and in their work. For other flights the rest is due to
+/// contact.
 void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
   const Flight f = bodies_.flights[i];
   const double length = end - f.start, mass = bodies_.world.mass[i];

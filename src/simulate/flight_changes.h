@@ -1,5 +1,5 @@
 #pragma once
-// Begins flights, and books what forces did on those that end.
+// Begins flights, and books the effect of forces on those that end.
 #include "simulate/curved_flights.h"
 #include "simulate/exact_bodies.h"
 
@@ -18,44 +18,46 @@ class FlightChanges {
         stepped_(bodies.body.size()),
         taking_(bodies.body.size()) {}
 
-  /// Begins a new flight of body i, now, at x (m) with velocity v (m/s). A step of constrained motion ends with it.
+  /// Begins a new flight of body i at the present instant, at x (m) with velocity v (m/s). A step of constrained motion
+  /// ends with it.
   void begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
   /// The same within such a step.
   void go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin);
-  /// m: where body i is at an instant of its flight.
+  /// The position of body i at an instant of its flight (m).
   Vec3 position_of_method(Entity i, const Instant& at) const;
-  /// m/s: body i's at an instant of its flight, by the method that is asked for, without what forces do later.
+  /// The velocity of body i at an instant of its flight (m/s), by the scene's method, without the effect of later
+  /// forces.
   Vec3 velocity_of_method(Entity i, const Instant& at) const;
-  /// An impact ends body i's step, now: a motion in closed form has its own place and velocity. Verlet's method changes
-  /// the velocity where its step ends, at an impact or by itself.
+  /// Ends body i's step at an impact. A motion in closed form has its own position and velocity.
+  /// Verlet's method changes the velocity where its step ends, at an impact or not.
   void end_step(Entity i) {
     if (curved_.follows_closed_form(i)) [[unlikely]]
       return end_closed(i);
     if (bodies_.options.integrator == Integrator::verlet) [[unlikely]]
       end_verlets(i);
   }
-  /// Body i, free as far as its own step goes, has come to its end.
+  /// Ends a step of body i's own flight, and begins the next.
   void take_step(Entity i);
-  /// Body i's flight, which has just begun, goes on as if it were free.
+  /// Lets body i's flight, which has just begun, continue as if it were free.
   void let_fall(Entity i);
-  /// Member i falls from now on: nothing presses on it in the rest of its time step, which is no longer than a short
-  /// one.
+  /// Lets member i fall from this instant on. Nothing presses on it in the rest of its time step, which is cut to a
+  /// short one.
   void release(Entity i);
-  /// Member i, which something presses on from now on, flies straight. What forces do in the rest of its time step is
-  /// in its velocity.
+  /// Lets member i, which a thing presses on from this instant on, fly straight. Its velocity contains the effect of
+  /// forces in the rest of its time step.
   void hold(Entity i);
-  /// m/s: what forces do to body i in so many seconds from now; drag is implicit.
+  /// The change of body i's velocity by forces in so many seconds from the present (m/s). Drag is implicit.
   Vec3 by_forces(Entity i, double seconds) const;
-  /// A force in the rest of the time step changes member i's velocity by dv (m/s), from now on.
+  /// Changes member i's velocity by dv (m/s) from this instant on, by a force in the rest of the time step.
   void push(Entity i, const Vec3& dv);
-  /// Impacts within member i's time step take energy at this rate (W) from now on, as long as the step goes on.
+  /// From this instant on, impacts within member i's time step take energy at this rate (W), until the step ends.
   void take(Entity i, double power) {
     if (power != taking_[i]) taking_.write(i) = power;
   }
-  /// Body i's flight goes on from now with velocity v (m/s), which it ought to have had. Its events stay.
+  /// Continues body i's flight with the corrected velocity v (m/s). Its events stay.
   void correct(Entity i, const Vec3& v);
-  /// Books what forces did to body i on the flight that ends at x (m) then: the World's, and contact forces against
-  /// them.
+  /// Books the effect of forces on body i for the flight that ends at x (m) and `end`: the World's forces, and contact
+  /// forces against them.
   void book(Entity i, const Vec3& x, const Instant& end) {
     const World& world = bodies_.world;
     if (stepped_[i]) book_stepped(i, end);
@@ -63,10 +65,10 @@ class FlightChanges {
       return book_varying(i, x, end);
     if (bodies_.flights.acceleration(i) != world.gravity || !world.forces.empty()) book_forces(i, x, end);
   }
-  /// Books all flights up to `time` (s), the run's end; only once. Between collisions a speed is greatest at a flight's
-  /// ends.
+  /// Books all flights up to `time` (s), the run's end. Only the first call has an effect.
+  /// Between collisions a speed is greatest at an end of a flight.
   void book_last(double time);
-  /// Events with body i are stale from now on.
+  /// Makes all events with body i stale.
   void count(Entity i);
 
  private:
@@ -85,8 +87,8 @@ class FlightChanges {
   FlatContacts& flat_;
   PathLog& paths_;
   CurvedFlights curved_;
-  LazyArray<std::uint8_t> stepped_;  // by body: this flight is one of time stepping
-  LazyArray<double> taking_;         // W, by body: what impacts within its time step take
+  LazyArray<std::uint8_t> stepped_;  // by body: whether this flight is one of time stepping
+  LazyArray<double> taking_;         // W, by body: power taken by impacts within its time step
   bool ended_ = false;               // the last flights are booked
 };
 

@@ -1,3 +1,6 @@
+// The set of islands: a pool of places and, for each body, the number of its island.
+// A union moves the members of the smaller island, so that a body moves rarely. A union-find structure could not split
+// islands again.
 #include "simulate/islands.h"
 
 #include <algorithm>

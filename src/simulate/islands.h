@@ -1,7 +1,7 @@
 #pragma once
-// Islands of the exact simulator: awake bodies in lasting contact with one another. Fixed things and sleeping bodies do
-// not connect. Each island moves by itself, in steps of its own; what other islands do, or how many there are, is
-// nothing to it.
+// Islands of the exact simulator: connected components of awake bodies in lasting contact. Fixed things and sleeping
+// bodies do not connect.
+// Each island moves by itself, in steps of its own. The number and the motion of other islands have no effect on it.
 #include <algorithm>
 #include <cstdint>
 #include <deque>
@@ -18,22 +18,28 @@
 namespace carom {
 
 struct Island {
-  std::vector<Entity> members;    // ascending after each step
-  Instant end{never, 0};          // when the next step is due
-  bool fresh = true;              // has taken no step yet
-  bool constrained = false;       // moves by constrained motion (constrained_motion.h), else by time stepping
-  bool busy = false;              // its contacts change too often for constrained motion
-  Instant planned{never, 0};      // constrained: when the step ends if nothing happens before
-  double next_length = 0;         // s, a good length for the next step of constrained motion
-  Instant counted, changed;       // since when, and when at last, contacts have changed
-  std::uint32_t changes = 0;      // so often
-  std::uint32_t calm = 0;         // time steps on end in which the same pairs pressed
-  std::uint32_t calm_needed = 0;  // so many, and it is busy no more
-  std::uint64_t pressing = 0;     // a hash of those pairs
-  double step_length = 0;         // s, of the last time step
-  double shortest_step = 0;       // s, of one that is as short as the method has them
-  std::size_t impact_pairs = 0;   // that simultaneous impacts have solved for since then
-  std::uint32_t short_steps = 0;  // time steps on end that simultaneous impacts ended at once
+  std::vector<Entity> members;  // ascending after each step
+  Instant end{never, 0};        // time of the next step
+  bool fresh = true;            // no step has been taken yet
+  bool constrained = false;     // moves by constrained motion (constrained_motion.h), else by time stepping
+  bool busy = false;            // its contacts change too often for constrained motion
+  // Constrained: the end of the step if nothing happens before.
+  Instant planned{never, 0};
+  double next_length = 0;  // s, a good length for the next step of constrained motion
+  // Start of the count of contact changes, and the last change.
+  Instant counted, changed;
+  std::uint32_t changes = 0;  // changes of contact since `counted`
+  std::uint32_t calm = 0;     // consecutive time steps in which the same pairs pressed
+  // Number of such steps after which the island is not busy any more.
+  std::uint32_t calm_needed = 0;
+  std::uint64_t pressing = 0;  // a hash of those pairs
+  double step_length = 0;      // s, of the last time step
+  // s: length of the shortest step of the method.
+  double shortest_step = 0;
+  // Pairs in simultaneous impacts since that step.
+  std::size_t impact_pairs = 0;
+  // Consecutive time steps that simultaneous impacts ended at once.
+  std::uint32_t short_steps = 0;
 };
 
 class Islands {
@@ -45,15 +51,17 @@ class Islands {
         bend(bodies),
         island_(bodies, none) {}
 
-  LazyArray<Instant> kicked_until;  // by member, in time stepping: forces are in its velocity up to this instant,
-  LazyArray<Vec3> kick;             // m/s^2, this on average, from the start
-  LazyArray<Instant> piece_end;     // by member, in constrained motion: when its flight is to follow its path anew,
-  LazyArray<PathBend> bend;         // and by how much its path's velocity is another one until then
+  // By member, in time stepping: its velocity contains forces up to this instant.
+  LazyArray<Instant> kicked_until;
+  LazyArray<Vec3> kick;  // m/s^2: the average of these, from the start
+  // By member, in constrained motion: the end of its present parabola along its path.
+  LazyArray<Instant> piece_end;
+  LazyArray<PathBend> bend;  // the velocity of its path less that of its flight until then
 
-  /// That of a member. References stay valid until it is merged with another one.
+  /// The island of a member. References stay valid until it is merged with another one.
   Island& of(Entity i) { return islands_[island_[i]]; }
   const Island& of(Entity i) const { return islands_[island_[i]]; }
-  /// When a member's flight ends: with its island's step, or with its piece of a path.
+  /// The end of a member's flight: that of its island's step, or of its parabola along a path.
   Instant due(Entity i) const {
     const Island& island = of(i);
     return island.constrained ? std::min(island.end, piece_end[i]) : island.end;
@@ -61,22 +69,23 @@ class Islands {
   bool same(Entity a, Entity b) const { return island_[a] == island_[b]; }
   bool any() const { return count_ > 0; }
 
-  /// Calls what(island) for each of them, which must not change how many there are.
+  /// Calls what(island) for each island. The call must not change their number.
   template <typename What>
   void for_each(What what) const {
     for (const Island& island : islands_)
       if (!island.members.empty()) what(island);
   }
 
-  /// Body i, a member of none, becomes an island whose step is due at `end`.
+  /// Makes an island of body i, which is in none. Its step is due at `end`.
   void create(Entity i, const Instant& end);
-  /// Makes two members' islands one. Its next step is due at `now`, but where a fresh one joins a time step, which goes
-  /// on. If either moves by time stepping, it does.
+  /// Unites the islands of two members. Its next step is due at `now`, unless a fresh island joins a time step, which
+  /// then continues.
+  /// If either moves by time stepping, the union does.
   void merge(Entity a, Entity b, const Instant& now);
-  /// Leaves of an island only those that stay.
+  /// Reduces an island to the members in `stay`.
   void retain(Entity member, std::vector<Entity> stay);
-  /// Splits an island: members with another label become islands of their own, alike in all else. labels: by member,
-  /// the place of the first member of its part. Gives one member of each part.
+  /// Splits an island. Members with another label become islands of their own, equal in all other data.
+  /// labels: by member, the index of the first member of its part. Returns one member of each part.
   std::vector<Entity> split(Entity i, std::span<const std::uint32_t> labels);
 
  private:

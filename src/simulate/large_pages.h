@@ -1,6 +1,6 @@
 #pragma once
-// Memory for what is large and read here and there: in pages of 2 MiB, where the system gives them, so that an address
-// is found without a walk through the tables of small pages.
+// Memory for large arrays with scattered access, in pages of 2 MiB where the system has them. Addresses are then found
+// without a walk through the tables of small pages.
 #include <sys/mman.h>
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct LargePages {
     constexpr std::uintptr_t page = std::uintptr_t{2} << 20;
     const auto address = reinterpret_cast<std::uintptr_t>(start);
     const std::uintptr_t from = (address + page - 1) & ~(page - 1), to = (address + bytes) & ~(page - 1);
-    // It may refuse: then the pages are small.
+    // The system may refuse. The pages are then small.
     if (from < to) madvise(reinterpret_cast<void*>(from), to - from, MADV_HUGEPAGE);
     return start;
   }

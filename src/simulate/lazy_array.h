@@ -1,5 +1,5 @@
 #pragma once
-// Values by body that most scenes do not need: they take memory once the first is written.
+// Values by body that most scenes do not need. They take memory from the first write on.
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -26,7 +26,7 @@ class LazyArray {
   std::vector<T> values_;
 };
 
-/// An array of large values of which few are written; each takes memory at its own first write. References stay valid.
+/// An array of large values of which few are written. Each takes memory at its own first write. References stay valid.
 template <typename T>
 class SparseArray {
  public:
@@ -43,7 +43,7 @@ class SparseArray {
 
  private:
   T common_{};
-  LazyArray<std::uint32_t> place_;  // in values_, plus one; 0: not written
+  LazyArray<std::uint32_t> place_;  // index in values_, plus one; 0: not written
   std::deque<T> values_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// Many short lists that grow and shrink, in few large pages: a list takes a block of four entries, or of a multiple.
+// Many short lists that grow and shrink, in a few large pages. A list takes a block of four entries, or of a multiple
+// of four.
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -18,23 +19,23 @@ namespace carom {
 
 class ListPool {
  public:
-  /// A list's place. Zeroed: an empty one.
+  /// The place of a list. A zeroed one is an empty list.
   struct List {
     std::uint32_t at = 0;       // in granules
     std::uint32_t count = 0;    // entries
-    std::uint8_t capacity = 0;  // the block's kind
+    std::uint8_t capacity = 0;  // kind of the block
   };
 
-  /// Null where it has never had an entry.
+  /// Null where the list has never had an entry.
   std::uint32_t* data(const List& list) {
     return list.capacity == 0 ? nullptr : page_[list.at >> page_bits] + entries_in(list.at & page_mask);
   }
   const std::uint32_t* data(const List& list) const { return const_cast<ListPool*>(this)->data(list); }
 
-  /// Whether more of the memory is in blocks that hold no list than a pool that has just been filled may leave: what is
-  /// left of a page is less than the list that did not fit in.
+  /// Whether more memory is in free blocks than a pool that was just filled may leave.
+  /// The rest of a page is less than the list that did not fit into it.
   bool wasteful() const { return unused_ > used_ + page_granules; }
-  /// Of a list of another pool: a copy here.
+  /// Replaces a list of another pool by a copy in this pool.
   void copy(const ListPool& from, List& list) {
     const List old = list;
     list.capacity = 0;
@@ -43,18 +44,18 @@ class ListPool {
     std::copy_n(from.data(old), old.count, data(list));
   }
 
-  /// Room for `count` entries; what the list held is lost.
+  /// Makes room for `count` entries. The list's contents are lost.
   void reserve(List& list, std::size_t count) {
     if (count <= room(list.capacity)) return;
     give_back(list);
     take(list, count);
   }
 
-  /// Where an entry stands that the list holds.
+  /// The position of an entry that the list holds.
   std::uint32_t* find(const List& list, std::uint32_t entry) {
     std::uint32_t* at = data(list);
 #ifdef __SSE2__
-    // A block's end is beyond the list's: what stands there is found only if it is not in the list.
+    // A block may end beyond the list. An entry there is found only if it is not in the list.
     const __m128i wanted = _mm_set1_epi32(static_cast<int>(entry));
     for (;; at += granule)
       if (const int there = _mm_movemask_ps(
@@ -80,7 +81,8 @@ class ListPool {
   static constexpr std::size_t granule = 4;  // entries
   static constexpr std::uint32_t page_bits = 16, page_mask = (1u << page_bits) - 1;
   static constexpr std::size_t page_granules = std::size_t{1} << page_bits;
-  static constexpr std::uint8_t in_steps = 16;  // kinds 1..16 are as many granules, from then on each is twice the last
+  // Kinds 1 to 16 have as many granules. Each later kind has twice as many as the one before.
+  static constexpr std::uint8_t in_steps = 16;
 
   static std::size_t entries_in(std::size_t granules) {
     return granules * granule;
@@ -105,7 +107,8 @@ class ListPool {
     }
     const std::size_t granules = granules_of(kind), page = page_granules;
     if (left_ < granules) {
-      for (; left_ > 0; ++next_, --left_) put_away(1, next_);  // the page's rest
+      // The rest of the page.
+      for (; left_ > 0; ++next_, --left_) put_away(1, next_);
       next_ = static_cast<std::uint32_t>(page_.size() << page_bits);
       left_ = std::max((granules + page - 1) / page, std::min<std::size_t>(page_.size(), 16)) * page;
       memory_.emplace_back(LargePages<std::uint32_t>().allocate(entries_in(left_)));
@@ -133,7 +136,7 @@ class ListPool {
   std::vector<std::unique_ptr<std::uint32_t[], Free>> memory_;
   std::vector<std::uint32_t*> page_;
   std::vector<std::vector<std::uint32_t>> free_;  // by kind
-  std::size_t used_ = 0, unused_ = 0;             // granules, in lists' blocks and in free ones
+  std::size_t used_ = 0, unused_ = 0;             // granules, in the blocks of lists and in free ones
   std::uint32_t next_ = 0;
   std::size_t left_ = 0;  // granules from next_ on
 };

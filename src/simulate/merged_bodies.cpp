@@ -1,3 +1,6 @@
+// Book-keeping of merged bodies. Forces act on each part by its share of the mass, with the mass and position that the
+// scene gave it.
+// Volumes add up: the joint body has the shape of the heavier one, scaled to the sum of both volumes.
 #include "simulate/merged_bodies.h"
 
 #include <algorithm>
@@ -21,7 +24,8 @@ void MergedBodies::begin() {
 }
 
 AppliedAcceleration MergedBodies::applied(Entity i, double time) const {
-  const Vec3 any = Vec3::Zero();  // where it is makes no difference
+  // Position and velocity have no effect.
+  const Vec3 any = Vec3::Zero();
   const auto on = [&](const World& world, Entity body) {
     return AppliedAcceleration{free_acceleration(world, body, time, any, any), fade_of(world, body, time)};
   };

@@ -1,6 +1,6 @@
 #pragma once
-// Bodies that have become one: which bodies each joint body is made of, and the World with the joint masses and
-// volumes. Forces act on the parts.
+// Bodies that have merged: the parts of each joint body, and the World with the joint masses and volumes. Forces act on
+// the parts.
 #include <memory>
 #include <span>
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace carom {
 
-/// What forces do to a body that stands. Where it moves at v, it is less by fade v.
+/// The acceleration of a body at rest by forces. At velocity v it is less by fade v.
 struct AppliedAcceleration {
   Vec3 all;     // m/s^2
   double fade;  // 1/s
@@ -17,26 +17,28 @@ struct AppliedAcceleration {
 
 class MergedBodies {
  public:
-  /// merge: whether bodies may merge; only then is `world`, which must outlive this, copied.
+  /// merge: whether bodies may merge. Only then `world` is copied. It must outlive this object.
   MergedBodies(const World& world, bool merge);
 
-  const World& given() const { return given_; }                     // before any merging
-  const World& world() const { return joint_ ? *joint_ : given_; }  // the same object from first to last
+  const World& given() const { return given_; }                     // before any merge
+  const World& world() const { return joint_ ? *joint_ : given_; }  // the same object throughout
   bool any() const { return !whole_of_.empty(); }
-  const std::vector<Entity>& whole_of() const { return whole_of_; }  // by body: the one it is part of; empty: none
+  const std::vector<Entity>& whole_of() const {
+    return whole_of_;
+  }  // by body: the body that it is part of; empty: none has merged
 
-  /// What body i is made of; none: itself.
+  /// The parts of body i; none: only itself.
   std::span<const Entity> parts_of(Entity i) const {
     return parts_.empty() ? std::span<const Entity>() : std::span<const Entity>(parts_[i]);
   }
   /// The accelerations of body i by the forces at `time` (s).
   AppliedAcceleration applied(Entity i, double time) const;
-  /// s, when a force on body i next sets in or ceases after `time`.
+  /// The first time (s) after `time` at which a force on body i starts or ends.
   double next_switch(Entity i, double time) const;
-  /// J, of body i at x (m).
+  /// The potential energy of body i at x (m), in J.
   double potential(Entity i, const Vec3& x) const;
 
-  /// Body `part` becomes part of body `whole`: masses, volumes, restitution by mass.
+  /// Makes body `part` a part of body `whole`. Masses and volumes add up, and restitution is weighted by mass.
   void join(Entity whole, Entity part);
 
  private:
@@ -45,8 +47,8 @@ class MergedBodies {
   const World& given_;
   std::unique_ptr<World> joint_;            // none: bodies do not merge
   std::vector<Entity> whole_of_;            // empty: nothing has merged
-  std::vector<std::vector<Entity>> parts_;  // by joint body: itself and what has become part of it
-  std::vector<double> share_;               // by body: its own mass over its joint body's
+  std::vector<std::vector<Entity>> parts_;  // by joint body: itself and its parts
+  std::vector<double> share_;               // by body: its own mass over that of its joint body
 };
 
 }  // namespace carom

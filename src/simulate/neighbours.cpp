@@ -1,3 +1,8 @@
+// Near-neighbour lists (Donev, Torquato & Stillinger, J. Comput. Phys. 202 (2005) 737) on a grid without bounds
+// (region_grid.h).
+// A list is valid until its body leaves its region, so that a body that flies far alone costs little. A grid of fixed
+// cells would cost an event for each cell.
+// The size of a region adapts to the number of bodies in it.
 #include "simulate/neighbours.h"
 
 #include <algorithm>
@@ -11,12 +16,19 @@ namespace carom {
 
 namespace {
 
-// How many neighbours a region is sized for. Fewer: it grows and is left less often. More: it shrinks and tests fewer
-// pairs. A body that leaves region after region without anything happening to it may have more.
-constexpr std::size_t few_neighbours = 7, many_neighbours = 40, many_on_the_way = 16;
-constexpr int wider = 2;                             // levels, of a quarter octave
-constexpr double first_room = 1, least_room = 0.02;  // of the radius
-constexpr double farthest = 0x1p+60;  // where positions end, in units of unit_: beyond, all are neighbours
+// The number of neighbours for which a region is sized. With fewer it grows, and is left less often.
+constexpr std::size_t few_neighbours = 7;
+// With more it shrinks, and needs fewer pair tests.
+constexpr std::size_t many_neighbours = 40;
+// A body that leaves several regions in a row without an event may have more than a few.
+constexpr std::size_t many_on_the_way = 16;
+constexpr int wider = 2;  // levels, of a quarter octave
+// The first room of a region, as a share of the radius.
+constexpr double first_room = 1;
+// The least room, as a share of the radius.
+constexpr double least_room = 0.02;
+// The limit of positions, in units of unit_. Beyond it all bodies are neighbours.
+constexpr double farthest = 0x1p+60;
 
 }  // namespace
 
@@ -33,7 +45,8 @@ void Neighbours::start(const std::vector<Vec3>& x) {
   }
   std::vector<double> radii = world_.radius;
   std::nth_element(radii.begin(), radii.begin() + n / 2, radii.end());
-  unit_ = (1 + first_room) * (1 + 0x1p-18) * radii[n / 2];  // so that most regions are the widest of an octave
+  // Most regions are then the widest of an octave.
+  unit_ = (1 + first_room) * (1 + 0x1p-18) * radii[n / 2];
   origin_ = 0.5 * low + 0.5 * high;
   grid_.start(around(low, 0), around(high, 0));
 
@@ -60,19 +73,19 @@ Region Neighbours::around(const Vec3& x, int level) const {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), half_of_level(level)};
 }
 
-/// m, room that rounding needs at x (m).
+/// The room that rounding needs at x (m), in m.
 double Neighbours::rounding_at(Entity i, const Vec3& x) const {
   return 0x1p-20 * ((x - origin_).cwiseAbs().maxCoeff() + world_.radius[i]);
 }
 
-/// That gives body i at x (m) the room (m), or what rounding needs.
+/// The level that gives body i at x (m) this room (m), and at least that for rounding.
 int Neighbours::level_for(Entity i, const Vec3& x, double room) const {
   const Vec3 outside = ((x - origin_).cwiseAbs() - Vec3::Constant(farthest * unit_)).cwiseMax(0);
   const double room_of_all = std::max({room, least_room * world_.radius[i], rounding_at(i, x)}) + 2 * outside.norm();
   return std::clamp(level_of_half((room_of_all + world_.radius[i]) / unit_), -400, widest_level);
 }
 
-/// Writes into found_ who may touch body i in this region.
+/// Stores in found_ the bodies that may touch body i in this region.
 void Neighbours::find(Entity i, const Region& region) {
   const std::size_t candidates = grid_.near(region, found_);
   found_count_ = select_touching(region, region_.data(), found_.data(), candidates, true, found_.data());
@@ -87,7 +100,7 @@ void Neighbours::tidy() {
   pool_ = std::move(tidied);
 }
 
-/// What was found is body i's list, and the surfaces near it.
+/// Writes the bodies that were found, and the surfaces near body i, to its list.
 void Neighbours::write(Entity i) {
   Known& list = known_[i];
   surfaces_.find(center(i), unit_ * static_cast<double>(region_[i].half), found_surfaces_);
@@ -98,7 +111,7 @@ void Neighbours::write(Entity i) {
   list.count = static_cast<std::uint32_t>(found_count_ + found_surfaces_.size());
 }
 
-/// Body j's list gets i.
+/// Adds i to body j's list.
 void Neighbours::add(Entity j, Entity i) {
   Known& list = known_[j];
   pool_.push_back(list, i);
@@ -108,7 +121,7 @@ void Neighbours::add(Entity j, Entity i) {
   }
 }
 
-/// Body j's list has i no more.
+/// Removes i from body j's list.
 void Neighbours::drop(Entity j, Entity i) {
   Known& list = known_[j];
   std::uint32_t* const of = pool_.data(list);
@@ -117,7 +130,8 @@ void Neighbours::drop(Entity j, Entity i) {
   of[last] = of[list.count];
 }
 
-/// Body i's new region, for which found_ is known: who comes and who goes.
+/// Gives body i a new region, with its bodies in found_. Updates the lists of bodies that enter and leave its
+/// neighbourhood.
 void Neighbours::settle(Entity i, const Region& region, int level) {
   const Region old = region_[i];
   const std::span<const Entity> known = bodies(i);
@@ -135,7 +149,7 @@ void Neighbours::settle(Entity i, const Region& region, int level) {
   write(i);
 }
 
-/// The widest region from this level down that has not too many in it.
+/// Takes the widest region from this level down that does not contain too many bodies.
 void Neighbours::settle_down(Entity i, const Vec3& x, const Vec3& ahead, int level) {
   const double enough = std::max(least_room * world_.radius[i], rounding_at(i, x));
   const double far = ahead.norm();

@@ -1,9 +1,10 @@
 #pragma once
-// Who may meet whom soon. A body lives in a region, a ball that its centre cannot leave unnoticed; bodies whose regions
-// are near enough for them to touch know each other, and so do a body and the surfaces within its region
-// (near-neighbour lists: Donev, Torquato & Stillinger, J. Comput. Phys. 202 (2005) 737). A region grows while it is
-// lonely, so a ball that flies off costs little, however far it goes. Results must not depend on who is listed beyond
-// those that meet, nor on the lists' order.
+// Which bodies may meet soon. A body has a region: a ball that its centre does not leave without an event.
+// Bodies are neighbours if their regions are so near that they may touch. Surfaces within its region are neighbours of
+// a body too.
+// The method is that of near-neighbour lists (Donev, Torquato & Stillinger, J. Comput. Phys. 202 (2005) 737).
+// A region with few neighbours grows, so that a ball that flies off costs little, however far it goes.
+// Results must not depend on extra neighbours, nor on the order of lists.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,26 +21,26 @@ namespace carom {
 
 class Neighbours {
  public:
-  /// `world` must outlive this.
+  /// `world` must outlive this object.
   explicit Neighbours(const World& world);
 
-  /// All bodies at once, where they are at the start (m).
+  /// Places all bodies at once, at their positions at the start (m).
   void start(const std::vector<Vec3>& x);
 
   /// Bodies that body i may meet within its region, and surfaces.
   std::span<const Entity> bodies(Entity i) const { return near(i).first(known_[i].count - known_[i].surfaces); }
   std::span<const Entity> surfaces(Entity i) const { return near(i).last(known_[i].surfaces); }
-  /// Both.
+  /// Bodies and surfaces.
   std::span<const Entity> near(Entity i) const { return {pool_.data(known_[i]), known_[i].count}; }
 
-  /// m, where body i's region is, and how far the body's centre may go from there.
+  /// The centre of body i's region (m), and how far the body's centre may go from there (m).
   Vec3 center(Entity i) const {
     const Region& r = region_[i];
     return origin_ + unit_ * Vec3(r.x, r.y, r.z);
   }
   double room(Entity i) const { return unit_ * sure(region_[i].half) - world_.radius[i]; }
 
-  /// Asks memory for who is near body i, and for what is known of them.
+  /// Prefetches the data of body i's neighbours.
   void prefetch_known(Entity i) const { prefetch(&known_[i]); }
   void prefetch_list(Entity i) const {
     const std::uint32_t* const list = pool_.data(known_[i]);
@@ -47,28 +48,31 @@ class Neighbours {
   }
   void prefetch_region(Entity i) const { prefetch(&region_[i]); }
 
-  /// A new region for a body at x (m), wider where few are near and narrower where many are. `ahead`: m, the path on
-  /// which its middle may be. One that has left several on one path gets a wider one. Gives who has come to the list,
-  /// valid until regions change.
+  /// Makes a new region for a body at x (m), wider where few bodies are near and narrower where many are.
+  /// `ahead`: the path on which its middle may be (m). A body that has left several regions on one path gets a wider
+  /// one.
+  /// Returns the bodies that are new in the list, valid until regions change.
   std::span<const Entity> renew(Entity i, const Vec3& x, const Vec3& ahead);
-  /// Body i goes another path from now on.
+  /// Registers that body i has a new path.
   void turned(Entity i) { known_[i].left = 0; }
 
-  /// A narrower region, about x.
+  /// Makes a narrower region, about x.
   void shrink(Entity i, const Vec3& x);
 
-  /// A region for a body that stays about x (m): it reaches `reach` (m) from there at least, and not much farther.
-  /// Bodies that both reach half of a gap know each other. Who comes to the list is for the caller to look at.
+  /// Makes a region for a body that stays about x (m). It extends at least `reach` (m) from there, and not much
+  /// farther.
+  /// Two bodies that both reach half of a gap are neighbours. The caller must examine the bodies that are new in the
+  /// list.
   void hold(Entity i, const Vec3& x, double reach);
 
-  /// Now and then, when no list is being read: what lists have left behind is given back.
+  /// Frees memory that lists no more use. Call it from time to time, when no list is being read.
   void tidy();
 
-  /// Body i is no more.
+  /// Removes body i.
   void remove(Entity i);
 
  private:
-  /// Who is near a body: bodies, then surfaces.
+  /// The neighbours of a body: bodies, then surfaces.
   struct Known : ListPool::List {
     std::int16_t level = 0;           // of its region's half width
     std::uint32_t surfaces : 24 = 0;  // at the list's end
@@ -94,7 +98,8 @@ class Neighbours {
   LargeVector<Known> known_;
   RegionGrid grid_;
   SurfacesNear surfaces_;
-  std::vector<Entity> found_, came_, gone_, found_surfaces_;  // scratch, the first three longer than what they hold
+  // Scratch. The first three are longer than their contents.
+  std::vector<Entity> found_, came_, gone_, found_surfaces_;
   std::size_t found_count_ = 0, came_count_ = 0;
 };
 

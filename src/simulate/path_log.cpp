@@ -1,3 +1,6 @@
+// Records the pieces of paths for a replay without simulation. A piece is written once all changes at its instant have
+// happened.
+// Only bodies that changed get a new piece, so that the log grows with events and not with outputs.
 #include "simulate/path_log.h"
 
 #include <algorithm>

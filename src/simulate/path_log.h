@@ -1,6 +1,6 @@
 #pragma once
-// Paths as they are recorded. A path is final once all that happens at an instant has happened: it is looked at when
-// the first change at a later one is about to come, or when an advance ends.
+// The record of paths. A path is final when everything at an instant has happened.
+// It is therefore read before the first change at a later instant, or at the end of an advance.
 #include <span>
 #include <vector>
 
@@ -16,7 +16,7 @@ class PathLog {
 
   /// Empties the buffer for the next advance.
   void begin_advance();
-  /// Call before body i gets another path now, or anything that its path is made of changes.
+  /// Call this before body i gets another path at the present instant, or before any data of its path change.
   void note_change(Entity i) {
     if (bodies_.options.record_paths) [[unlikely]]
       note(i);
@@ -32,8 +32,9 @@ class PathLog {
 
   const ExactBodies& bodies_;
   std::vector<PathPiece> pieces_;
-  std::vector<Entity> changed_;  // bodies whose paths are to be recorded as they are when all that happens
-  Instant changed_at_;           // at this instant has happened
+  // Bodies with changed paths. They are recorded when everything at the instant `changed_at_` has happened.
+  std::vector<Entity> changed_;
+  Instant changed_at_;
   bool full_ = false;
 };
 

@@ -1,8 +1,9 @@
 #pragma once
-// What vectors the processor at hand has, for kernels that come in several widths.
+// The vector instructions of the present processor, for kernels in several widths.
 //
-// CAROM_BEGIN_AVX2 or CAROM_BEGIN_AVX512, to CAROM_END_TARGET: the functions between them are compiled for processors
-// that have it. Headers are included before: their functions stay as they are.
+// Functions between CAROM_BEGIN_AVX2 or CAROM_BEGIN_AVX512 and CAROM_END_TARGET are compiled for processors with these
+// instructions.
+// Headers must be included before. Their functions are not affected.
 
 #ifdef __clang__
 #define CAROM_BEGIN_AVX2 _Pragma("clang attribute push(__attribute__((target(\"avx2\"))), apply_to = function)")
@@ -26,7 +27,7 @@ inline bool has_avx2() {
 #endif
 }
 
-/// The parts of AVX-512 that the kernels' target options name.
+/// The parts of AVX-512 in the kernels' target options.
 inline bool has_avx512() {
 #ifdef __x86_64__
   return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");

@@ -1,3 +1,6 @@
+// A lower bound of the time at which a body leaves its region. A straight path has a closed form.
+// Other paths are bounded by their greatest acceleration, again and again until that gains little. An exact root would
+// cost more than an early exit.
 #include "simulate/region_exit.h"
 
 #include <algorithm>
@@ -12,7 +15,8 @@ double region_exit(const ExactBodies& bodies, Entity i) {
   const PolynomialPath* const curve = bodies.flights.curve(i);
   const double since = bodies.now - f.start, room = bodies.neighbours.room(i);
   const Vec3 center = bodies.neighbours.center(i);
-  // From `off` (m, from the region's middle) on along a straight path at v (m/s), until it is `radius` (m) from there.
+  // The time on a straight path from `off` (m, from the region's centre) at v (m/s) until the distance from there is
+  // `radius` (m).
   const auto straight_exit = [](const Vec3& off, const Vec3& v, double radius) {
     const double speed2 = v.squaredNorm(), outward = off.dot(v), left = radius * radius - off.squaredNorm();
     if (!(left > 0)) return 0.0;
@@ -37,10 +41,11 @@ double region_exit(const ExactBodies& bodies, Entity i) {
   Vec3 off, v;
   start_of(since, off, v);
   double t = straight_exit(off, v, room);
-  // Drag makes an acceleration no greater.
+  // Drag never increases an acceleration.
   if (const double size = curve == nullptr ? a.norm() : curve->greatest_acceleration(); size > 0) {
-    // As far as a straight path within what the acceleration does not take from the room until then, or by the greatest
-    // possible speed; and on from there, while that leads on.
+    // The greater of two bounds: a straight path within the room less the acceleration's share, and the greatest
+    // possible speed.
+    // It continues from there as long as that gains time.
     const double end = bodies.body[i].event.time.hi - bodies.now.hi;
     const auto bound = [&](double straight) {
       const double narrowed = room - 0.5 * size * straight * straight, left = room - off.norm();
@@ -56,7 +61,8 @@ double region_exit(const ExactBodies& bodies, Entity i) {
       t += step;
     }
   }
-  return (bodies.now.hi + t) * (1 - 0x1p-52);  // rather too soon than too late
+  // The bound errs on the early side.
+  return (bodies.now.hi + t) * (1 - 0x1p-52);
 }
 
 }  // namespace carom

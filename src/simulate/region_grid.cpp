@@ -1,3 +1,7 @@
+// A hash-free grid for each octave of region sizes. Cells wrap around at the grid's end, so that space has no bounds
+// and no cell needs a key.
+// One grid for all sizes would have cells as wide as the largest region. Cells are cache lines, with overflow lines for
+// crowded ones.
 #include "simulate/region_grid.h"
 
 #include <algorithm>
@@ -8,11 +12,12 @@ namespace carom {
 
 namespace {
 
-constexpr std::size_t regions_a_cell = 3;  // that a grid is made for
+// The number of regions in a cell for which a grid is made.
+constexpr std::size_t regions_a_cell = 3;
 
 }  // namespace
 
-// Far beyond 2^60 cells everything shares the outermost cell: slower there, never wrong.
+// Far beyond 2^60 cells everything shares the outermost cell. Searches are slower there, but correct.
 RegionGrid::Cell RegionGrid::cell_of(float x, double per_width) {
   const double c = static_cast<double>(x) * per_width;
   if (!(std::abs(c) < 0x1p60)) return c < 0 ? -(Cell{1} << 60) : Cell{1} << 60;
@@ -42,7 +47,7 @@ RegionGrid::Octave& RegionGrid::octave_of(int level) {
   return octaves_.back();
 }
 
-/// As many cells as space in use has, but no more than these regions need.
+/// Gives a grid as many cells as the space in use has, but no more than these regions need.
 void RegionGrid::shape(Octave& grid, std::size_t regions) {
   const float low[3] = {low_.x, low_.y, low_.z}, high[3] = {high_.x, high_.y, high_.z};
   int axis[3] = {0, 1, 2};
@@ -51,7 +56,7 @@ void RegionGrid::shape(Octave& grid, std::size_t regions) {
     grid.low[k] = cell_of(low[k], grid.per_width);
     extent[k] = static_cast<double>(cell_of(high[k], grid.per_width)) - static_cast<double>(grid.low[k]) + 1;
   }
-  // The shortest first: what it leaves is the others'.
+  // The shortest axis comes first. The others share what it leaves.
   std::sort(axis, axis + 3, [&](int k, int l) { return extent[k] < extent[l]; });
   auto left = static_cast<double>(regions / regions_a_cell + 1);
   bool all = true;
@@ -162,8 +167,8 @@ void RegionGrid::move(Entity i, const Region& from, int from_level, std::span<co
   put(i, regions, to_level);
 }
 
-/// Appends what is in these cells to the `count` found, and sees to it that there is room for `most` more after each
-/// overflow, and `slack`.
+/// Appends the bodies in these cells to the `count` found. Keeps room for `most` more after each overflow, and for
+/// `slack`.
 void RegionGrid::take(const Bucket* from, const Bucket* end, std::size_t most, std::size_t& count,
                       std::vector<Entity>& found) const {
   Entity* to = found.data() + count;
@@ -201,7 +206,7 @@ std::size_t RegionGrid::near(const Region& region, std::vector<Entity>& found) c
     const auto most = static_cast<std::size_t>(cells[0] * cells[1] * cells[2]) * Bucket::room;
     const std::size_t room = count + most + slack;
     if (found.size() < room) found.resize(2 * room);
-    // A row's cells lie side by side, but for those beyond the grid's last one.
+    // The cells of a row are contiguous, except for those beyond the grid's last one.
     const std::int64_t first = std::min(cells[0], grid.cells[0] - from[0]), rest = cells[0] - first;
     const auto next = [&](std::int64_t at, int k) { return at + 1 == grid.cells[k] ? 0 : at + 1; };
     std::int64_t z = from[2];

@@ -1,8 +1,9 @@
 #pragma once
-// Regions in unbounded space, found by place. Each octave of half widths has a grid of its own, whose cells are as wide
-// as its widest regions; a region is kept in the cell of its middle. A grid has about as many cells as it needs for
-// what is in it, and goes on from its last cell with its first, so that it has no bounds and empty space costs nothing:
-// what is far off may come along with what is near.
+// Regions in unbounded space, found by position. Each octave of half widths has a grid of its own.
+// Its cells are as wide as its widest regions. A region is stored in the cell of its centre.
+// A grid has about as many cells as its contents need. It continues after its last cell with its first, so that it has
+// no bounds and empty space costs nothing.
+// A search may therefore return distant regions as well as near ones.
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -16,19 +17,19 @@ namespace carom {
 
 class RegionGrid {
  public:
-  /// `low`, `high`: what space is in use, more or less.
+  /// `low`, `high`: the approximate extent of the space in use.
   void start(const Region& low, const Region& high);
-  /// So many regions are to come.
+  /// Announces the number of regions to come.
   void expect(int level, std::size_t regions);
 
   /// `regions`: by body.
   void put(Entity i, std::span<const Region> regions, int level);
   void remove(Entity i, const Region& region, int level);
-  /// From a region that it had before.
+  /// Moves a body from its former region `from`.
   void move(Entity i, const Region& from, int from_level, std::span<const Region> regions, int to_level);
 
-  /// Writes all whose regions may touch the given one, and others; gives how many. `found` grows as needed; behind the
-  /// last it has room for `slack` more.
+  /// Writes all bodies with regions that may touch the given one, and perhaps others. Returns their number.
+  /// `found` grows as needed, with room for `slack` more entries after the last.
   std::size_t near(const Region& region, std::vector<Entity>& found) const;
   static constexpr std::size_t slack = 16;
 
@@ -37,17 +38,18 @@ class RegionGrid {
   struct alignas(64) Bucket {
     static constexpr std::uint32_t room = 14;
     std::uint32_t count = 0;
-    std::uint32_t next = 0;  // of the overflow: its number and one; 0: none
+    std::uint32_t next = 0;  // of the overflow: its number plus one; 0: none
     Entity body[room];
   };
   struct Octave {
     int number;
-    float half;             // of its widest
-    double per_width;       // cells
-    Cell low[3];            // the cell that space in use begins with
+    float half;             // of its widest region
+    double per_width;       // cells per unit of width
+    Cell low[3];            // the first cell of the space in use
     std::int64_t cells[3];  // along each axis
     LargeVector<Bucket> buckets;
-    std::size_t regions = 0, most = 0;  // in it; and from how many on more cells are better
+    // Number of regions, and the number from which on more cells are better.
+    std::size_t regions = 0, most = 0;
   };
 
   static Cell cell_of(float x, double per_width);
@@ -64,7 +66,7 @@ class RegionGrid {
   Region low_, high_;
   std::vector<Octave> octaves_;
   LargeVector<Bucket> overflow_;
-  std::vector<std::uint32_t> free_;  // of the overflow, numbers and one
+  std::vector<std::uint32_t> free_;  // of the overflow, numbers plus one
 };
 
 }  // namespace carom

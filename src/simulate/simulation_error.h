@@ -1,5 +1,5 @@
 #pragma once
-// Why a run cannot go on.
+// Reasons why a run cannot continue.
 #include <functional>
 #include <optional>
 #include <stdexcept>
@@ -10,14 +10,14 @@
 
 namespace carom {
 
-/// The run cannot go on (a limit reached, a number that doubles do not carry). The text is for the user.
+/// The run cannot continue: a limit is reached, or doubles cannot represent a number. The text is for the user.
 class SimulationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
-  /// About a body, which simulators know by number: "<before>body 3<after>".
+  /// An error about a body, which simulators identify by number: "<before>body 3<after>".
   SimulationError(const std::string& before, Entity body, const std::string& after);
 
-  /// The same with the body's name in place of its number.
+  /// The same error with the body's name in place of its number.
   SimulationError named(const std::function<std::string(Entity)>& name) const;
 
  private:
@@ -29,13 +29,13 @@ class SimulationError : public std::runtime_error {
   std::optional<About> about_;
 };
 
-/// What a user can do about a speed, or about a place, that is out of bounds.
+/// Remedies against a speed, and against a position, that is out of bounds.
 struct Remedies {
   const char* speed = "restitution above 1 makes energy at every collision; lower it, or shorten simulate.duration";
   const char* place = "shorten simulate.duration, or hold it back by a wall";
 };
 
-/// Throws SimulationError: a body's place x (m) or velocity v (m/s) at `time` (s) is out of bounds.
+/// Throws SimulationError: a body's position x (m) or velocity v (m/s) at `time` (s) is out of bounds.
 [[noreturn]] void fail_out_of_bounds(const Bounds& bounds, Entity body, double time, const Vec3& x, const Vec3& v,
                                      const Remedies& remedies);
 

@@ -1,3 +1,9 @@
+// Resolves impacts within a time step for all bodies that are in contact at once, as one complementarity problem
+// without restitution.
+// Resolved one pair at a time, a body between others would be struck for ever. The set grows until no pair outside it
+// is affected.
+// Forces for the rest of the step are solved anew with the impacts. Otherwise a contact would press on a body that was
+// struck off it, and make energy.
 #include "simulate/simultaneous_impacts.h"
 
 #include <algorithm>
@@ -17,7 +23,7 @@ void SimultaneousImpacts::count_impact(Entity i) {
   if (!bodies_.is_stepped(i) || ++group_.impacts.write(i) <= tol::few_impacts) return;
   const Struck set = strike(i);
   std::vector<Entity> changed = begin_flights(set);
-  // These impacts have cost as much as a time step: the next one is due. This one was too long.
+  // These impacts have cost as much as a time step. The next one is due, because this one was too long.
   Island& island = bodies_.islands.of(i);
   island.impact_pairs += set.pairs.size();
   if (island.impact_pairs > tol::pairs_of_a_step * island.members.size() && bodies_.now < island.end) {
@@ -28,8 +34,8 @@ void SimultaneousImpacts::count_impact(Entity i) {
   for (const Entity a : changed) predictor_.predict(a);
 }
 
-/// Member `first`, what touches it, and all that these would meet before the next step with the velocities that impacts
-/// give them; and on from there as far as impacts reach.
+/// The set of member `first` and the things that it touches. Bodies that these would meet before the next step join it,
+/// as far as impacts reach.
 SimultaneousImpacts::Struck SimultaneousImpacts::strike(Entity first) const {
   const Instant& end = bodies_.islands.of(first).end;
   Struck set;
@@ -37,7 +43,7 @@ SimultaneousImpacts::Struck SimultaneousImpacts::strike(Entity first) const {
   take_in(set, first);
   for (std::size_t c = 0, count = set.near.pairs.size(); c < count; ++c)
     if (set.near.gaps[c] <= margin(set, c)) add(set, c);
-  // The next step keeps them apart by itself.
+  // The next step separates them by itself.
   set.part = set.rest > 0 && group_.margin[first] > tol::open_margin * tol::widest_margin * bodies_.world.radius[first];
   do {
     solve(set);
@@ -46,7 +52,7 @@ SimultaneousImpacts::Struck SimultaneousImpacts::strike(Entity first) const {
   return set;
 }
 
-/// Member i and what is near it, unless it is there already.
+/// Adds member i and the things near it, unless they are in the set.
 void SimultaneousImpacts::take_in(Struck& set, Entity i) const {
   const World& world = bodies_.world;
   LazyArray<std::uint32_t>& index = group_.index;
@@ -63,7 +69,7 @@ void SimultaneousImpacts::take_in(Struck& set, Entity i) const {
   const std::size_t first = set.near.pairs.size();
   for (const Entity e : bodies_.known_to(i)) {
     const bool body = world.is_body(e);
-    // The one of the two that came first has the pair.
+    // The pair belongs to the body that was added first.
     if (body && (index[e] != ContactConstraint::fixed || !bodies_.in_group(e) || !bodies_.islands.same(e, i))) continue;
     const Touch there = touch(world, i, x, e, bodies_.position_of(e));
     set.near.add({k, ContactConstraint::fixed, there.normal}, {i, e, there.feature}, there.gap);
@@ -72,42 +78,43 @@ void SimultaneousImpacts::take_in(Struck& set, Entity i) const {
   set.added.resize(set.near.pairs.size(), 0);
   for (std::size_t c = first; c < set.near.pairs.size(); ++c) {
     const Entity e = set.near.names[c].e;
-    set.held.push_back(set.rest > 0 ? pressing(i, e) * remaining(set, i, e) : 0);  // else the next step finds it anew
+    // Otherwise the next step computes it anew.
+    set.held.push_back(set.rest > 0 ? pressing(i, e) * remaining(set, i, e) : 0);
   }
 }
 
-/// s, that forces are in member i's velocity for, or will be.
+/// The time (s) for which member i's velocity contains forces, or will.
 double SimultaneousImpacts::remaining(const Struck& set, Entity i) const {
   const Instant& until = bodies_.islands.kicked_until[i];
   return bodies_.now < until ? until - bodies_.now : set.rest;
 }
 
-/// The same of a pair: what it presses with ends with the first of the two.
+/// The same for a pair. Its force ends with the first of the two.
 double SimultaneousImpacts::remaining(const Struck& set, Entity i, Entity e) const {
   return std::min(remaining(set, i), bodies_.world.is_body(e) ? remaining(set, e) : never);
 }
 
-/// m/s: what forces do to member i in that time, as far as is known.
+/// The change of member i's velocity by forces in that time (m/s), as far as it is determined.
 Vec3 SimultaneousImpacts::forced(const Struck& set, Entity i) const {
   const double rest = remaining(set, i);
   return bodies_.now < bodies_.islands.kicked_until[i] ? Vec3(rest * bodies_.islands.kick[i])
                                                        : flights_.by_forces(i, rest);
 }
 
-/// N: between member i and what is near it, by the last step.
+/// The force between member i and a thing near it in the last step (N).
 double SimultaneousImpacts::pressing(Entity i, Entity e) const {
   for (const PressingContact& p : group_.pressing[std::min(i, e)])
     if (p.partner == std::max(i, e)) return p.force;
   return 0;
 }
 
-/// m, that time stepping keeps the two apart.
+/// The distance that time stepping keeps between the two (m).
 double SimultaneousImpacts::margin(const Struck& set, std::size_t near) const {
   const auto& [i, e, feature] = set.near.names[near];
   return std::max(group_.margin[i], bodies_.world.is_body(e) ? group_.margin[e] : 0);
 }
 
-/// m/s: of what is near, with these velocities of the set's members.
+/// The speed of approach of a near pair (m/s), with these velocities of the set's members.
 double SimultaneousImpacts::approach(const Struck& set, const std::vector<Vec3>& velocities, std::size_t near) const {
   const Entity e = set.near.names[near].e;
   Vec3 v = Vec3::Zero();
@@ -117,20 +124,20 @@ double SimultaneousImpacts::approach(const Struck& set, const std::vector<Vec3>&
   return p.normal.dot(velocities[p.a] - v);
 }
 
-/// m/s: how fast two may approach that are to be no closer than their margin at the next step; infinite, where it is
-/// due,
+/// The allowed speed of approach (m/s) for which the two are no closer than their margin at the next step. It is
+/// infinite where that step is due.
 double SimultaneousImpacts::allowed(const Struck& set, std::size_t near) const {
   const double beyond = set.near.gaps[near] - margin(set, near);
   return beyond > 0 ? beyond / set.rest : 0;
 }
 
-/// and how much faster if they are to keep a share of their gap.
+/// The additional speed of approach (m/s) that leaves them a share of their gap.
 double SimultaneousImpacts::slack(const Struck& set, std::size_t near) const {
   const double room = tol::gap_share * std::min(set.near.gaps[near], margin(set, near));
   return room > 0 && set.rest > 0 ? room / set.rest : 0;
 }
 
-/// Adds what is near to the pairs.
+/// Adds a near thing to the pairs.
 void SimultaneousImpacts::add(Struck& set, std::size_t near) const {
   set.added[near] = 1;
   const Entity e = set.near.names[near].e;
@@ -139,12 +146,13 @@ void SimultaneousImpacts::add(Struck& set, std::size_t near) const {
     take_in(set, e);
     pair.b = group_.index[e];
   }
-  // Rows of a problem are to be of one scale: faster than at several times their speeds these bodies cannot approach.
+  // The rows of a problem need one scale. These bodies cannot approach faster than at several times their speeds.
   double speeds = set.before[pair.a].norm() + set.forced[pair.a].norm();
   if (pair.b != ContactConstraint::fixed) speeds += set.before[pair.b].norm() + set.forced[pair.b].norm();
   pair.target = -std::min(allowed(set, near), 4 * speeds);
   pair.slack = slack(set, near);
-  pair.force = set.held[near];  // found anew
+  // The solution replaces it.
+  pair.force = set.held[near];
   set.forced[pair.a] += pair.force * set.inverse_mass[pair.a] * pair.normal;
   if (pair.b != ContactConstraint::fixed) set.forced[pair.b] -= pair.force * set.inverse_mass[pair.b] * pair.normal;
   set.pairs.push_back(pair);
@@ -153,7 +161,7 @@ void SimultaneousImpacts::add(Struck& set, std::size_t near) const {
   set.which.push_back(near);
 }
 
-/// Adds the pairs that would meet before the next step with these velocities, and those that press and part. False:
+/// Adds pairs that would meet before the next step with these velocities, and pairs that press and separate. False:
 /// there are none.
 bool SimultaneousImpacts::add_meeting(Struck& set) const {
   const std::size_t before = set.pairs.size(), count = set.near.pairs.size();
@@ -166,7 +174,7 @@ bool SimultaneousImpacts::add_meeting(Struck& set) const {
   return set.pairs.size() > before;
 }
 
-/// What the impacts leave of the velocities.
+/// Computes the velocities after the impacts.
 void SimultaneousImpacts::take_impacts(Struck& set) const {
   set.struck = set.before;
   double fastest = 0;  // m/s
@@ -178,7 +186,7 @@ void SimultaneousImpacts::take_impacts(Struck& set) const {
   bodies_.log.note(carom::solve({set.inverse_mass, set.struck, set.impacts, ContactAccuracy::energy}));
 }
 
-/// The velocities that the impacts, and forces in the rest of the step, give.
+/// Computes the velocities after the impacts and the forces in the rest of the step.
 void SimultaneousImpacts::solve(Struck& set) const {
   take_impacts(set);
   std::vector<Vec3> free = set.struck;
@@ -204,7 +212,7 @@ void SimultaneousImpacts::solve(Struck& set) const {
   bodies_.log.note(certificate);
 }
 
-/// Whether there is more energy than before, but for what forces do.
+/// Whether the energy has grown by more than the work of forces.
 bool SimultaneousImpacts::makes_energy(const Struck& set) {
   double made = 0;  // J
   for (std::size_t k = 0; k < set.members.size(); ++k) {
@@ -214,7 +222,7 @@ bool SimultaneousImpacts::makes_energy(const Struck& set) {
   return made > 0;
 }
 
-/// What presses from now on.
+/// Stores the forces that act from this instant on.
 void SimultaneousImpacts::note_forces(const Struck& set) {
   for (std::size_t c = 0; c < set.pairs.size(); ++c) {
     const auto& [i, e, feature] = set.near.names[set.which[c]];
@@ -228,7 +236,7 @@ void SimultaneousImpacts::note_forces(const Struck& set) {
   }
 }
 
-/// Gives those whose velocities have changed.
+/// Begins the flights. Returns the bodies with changed velocities.
 std::vector<Entity> SimultaneousImpacts::begin_flights(const Struck& set) {
   std::vector<Entity> changed;
   bodies_.log.take_up(set.inverse_mass, set.before, set.struck, set.impacts);

@@ -1,10 +1,12 @@
 #pragma once
-// Impacts at one instant among bodies of the contact group. One that is pushed to and fro between others would go on so
-// for ever: then it and all that touch it are struck at once, and with them all that would meet before the next step
-// for it. For these bodies the rest of the time step is solved anew, as a step is: impacts first, then what forces do.
-// So no contact goes on to press on what has been struck off it, which would make energy. Time stepping keeps bodies
-// apart by a margin: those within it touch. Where margins are wide they part a little, lest they strike again at the
-// next rounding.
+// Impacts at one instant among bodies of the contact group. A body that others push to and fro would be struck for
+// ever.
+// It and all that touch it are therefore struck at once, together with all that would meet before the next step because
+// of it.
+// The rest of the time step is solved anew for these bodies, as a step is: impacts first, then forces.
+// No contact then continues to press on a body that was struck off it, which would make energy.
+// Time stepping keeps a margin between bodies. Those within it count as touching.
+// Where margins are wide they separate a little, so that the next rounding does not make them strike again.
 #include <vector>
 
 #include "simulate/contact_list.h"
@@ -23,26 +25,30 @@ class SimultaneousImpacts {
   SimultaneousImpacts(ExactBodies& bodies, ExactGroup& group, FlightChanges& flights, EventPredictor& predictor)
       : bodies_(bodies), group_(group), flights_(flights), predictor_(predictor) {}
 
-  /// An impact of body i has ended in contact. After some of them since the last time step it is struck with others at
-  /// once.
+  /// Counts an impact of body i that has ended in contact. After some of them since the last time step, the body is
+  /// struck together with others.
   void count_impact(Entity i);
 
  private:
   /// Members that are struck together, in numbers of their own.
   struct Struck {
-    double rest = 0;    // s, until the next step
-    double slack = 0;   // m/s, that any pair may approach by
-    bool part = false;  // those that touch part, if that is possible and makes no energy
+    double rest = 0;   // s, until the next step
+    double slack = 0;  // m/s, allowed approach of any pair
+    // Touching pairs separate, if that is possible and makes no energy.
+    bool part = false;
     std::vector<Entity> members;
-    ContactList near;                               // what the members are near; a of its pairs: the member's number
-    std::vector<std::uint8_t> added;                // of what is near: whether it is among the pairs
-    std::vector<double> held;                       // kg m/s, of what is near: what presses, in the rest of the step
-    std::vector<std::size_t> which;                 // by pair: of what is near
-    std::vector<ContactConstraint> pairs, impacts;  // forces in the rest of the step, and now
+    ContactList near;                 // things near the members; a of its pairs: the member's number
+    std::vector<std::uint8_t> added;  // by near thing: whether it is among the pairs
+    std::vector<double> held;         // kg m/s, by near thing: impulse of its force in the rest of the step
+    std::vector<std::size_t> which;   // by pair: number of the near thing
+    std::vector<ContactConstraint> pairs, impacts;  // with the forces in the rest of the step, and at this instant
     std::vector<double> inverse_mass;               // 1/kg
-    std::vector<Vec3> before, path;                 // m/s: now, and with what forces were to do in the rest of the step
-    std::vector<Vec3> struck, after;                // m/s: after the impacts, and from now on, with what
-    std::vector<Vec3> forced;                       // m/s, forces do in it
+    // m/s: at this instant, and with the effect of forces expected for the rest of the step.
+    std::vector<Vec3> before, path;
+    // m/s: after the impacts, and from this instant on, with the effect of forces.
+    std::vector<Vec3> struck, after;
+    // m/s: the effect of forces in the rest of the step.
+    std::vector<Vec3> forced;
   };
 
   Struck strike(Entity first) const;

@@ -1,3 +1,5 @@
+// Detects that events continue while the clock does not advance, and ends the run with an error.
+// Elastic impacts and exits from regions count separately, with a limit a thousand times as high.
 #include "simulate/stall_guard.h"
 
 #include <fmt/format.h>
@@ -16,7 +18,8 @@ void StallGuard::count(Happened what, double now) {
   Watch& watch = elastic ? elastic_ : lossy_;
   const bool full = ++watch.events >= (elastic ? 1000 * many_ : many_);
   if (!full && watch.events % many_ != 0) return;
-  // At a billionth of the duration per million events a run would never end, nor at a clock's rounding in as many.
+  // At a billionth of the duration in a million events a run would never end. The same holds for progress by the
+  // clock's rounding.
   if (now - watch.seen <= exact_tolerance::clock_rounding * now ||
       (full && now - watch.since < exact_tolerance::least_progress * duration_)) {
     const char* advice =

@@ -1,7 +1,8 @@
 #pragma once
-// When one ball meets each of many others that fall as it does, so that their ways past it are straight: two, four or
-// eight pairs at a time, whatever the processor has. The arithmetic is that of sphere_contact_time (contact_time.h), in
-// the same order, so the bits are the same; pairs for which that takes more than a quadratic are left to it.
+// Times of impact of one ball with many others under the same acceleration, for which relative paths are straight.
+// Two, four or eight pairs are computed at a time, as the processor allows.
+// The arithmetic is that of sphere_contact_time (contact_time.h) in the same order, so that the bits are the same.
+// Pairs that need more than a quadratic are left to that function.
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -11,7 +12,7 @@
 
 namespace carom {
 
-/// An impact that only sphere_contact_time can tell the time of, or that there is none: touching, or grazing.
+/// Marks a pair that only sphere_contact_time can decide, because it touches or grazes.
 inline constexpr double unsure = -std::numeric_limits<double>::infinity();
 
 struct Meet {
@@ -19,22 +20,23 @@ struct Meet {
   Entity with;
 };
 
-/// Body i's impacts with others are asked for. None of them is in the contact group; all have the same acceleration.
+/// The task: impacts of body i with others. None of them is in the contact group, and all have the same acceleration.
 struct StraightTask {
   const Flights::Core* flights;
-  const double* radius;  // m, by body; null: all have the same,
-  double own_radius;     // m, as body i
+  const double* radius;  // m, by body; null: all have own_radius
+  double own_radius;     // m, of body i
   Entity i;
   std::span<const Entity> others;
   Vec3 a;       // m/s^2
-  bool latest;  // none of the others' flights began after body i's
-  double end;   // s, later impacts are none
+  bool latest;  // no other flight began after that of body i
+  double end;   // s, later impacts are left out
 };
 
-/// Writes the impacts, each by itself, in the others' order; gives how many. There must be room for as many as others.
+/// Writes the impacts, independently of each other, in the others' order. Returns their number. `found` needs room for
+/// as many as there are others.
 std::size_t straight_times(const StraightTask& task, Meet* found);
 
-/// What straight_times chooses from, on this processor.
+/// The kernels that straight_times can choose from on this processor.
 using StraightKernel = std::size_t (*)(const StraightTask& task, Meet* found);
 std::vector<StraightKernel> straight_kernels();
 

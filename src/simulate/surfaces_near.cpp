@@ -1,3 +1,6 @@
+// Fixed surfaces near a position. With many surfaces, a cache by cell of space holds those that come near the cell.
+// Cells are two to four times as wide as the reach, so that one cell serves many searches. With few surfaces a loop
+// over all is as fast.
 #include "simulate/surfaces_near.h"
 
 #include <algorithm>
@@ -11,8 +14,10 @@ namespace carom {
 
 namespace {
 
-constexpr std::size_t few = 12;            // surfaces that are as soon asked one by one
-constexpr std::size_t most_cells = 65536;  // that are remembered
+// For so many surfaces a loop over all is as fast.
+constexpr std::size_t few = 12;
+// Number of cells in the cache.
+constexpr std::size_t most_cells = 65536;
 
 }  // namespace
 
@@ -46,7 +51,7 @@ bool SurfacesNear::is_near(Entity e, const Vec3& center, double reach) const {
 void SurfacesNear::find(const Vec3& center, double reach, std::vector<Entity>& found) {
   found.clear();
   const std::vector<Entity>* asked = &all_;
-  // Cells twice to four times as wide as the reach, so that one serves many.
+  // Cells are two to four times as wide as the reach, so that one serves many searches.
   int size;
   std::frexp(2 * reach, &size);
   const double width = std::ldexp(1.0, size);
@@ -60,7 +65,8 @@ void SurfacesNear::find(const Vec3& center, double reach, std::vector<Entity>& f
                                        static_cast<double>(cell.z) + 0.5);
       std::vector<Entity> in_reach;
       for (const Entity e : all_)
-        if (is_near(e, middle, (0.5 + 0.8661) * width)) in_reach.push_back(e);  // half its diagonal
+        // Half of the cell's diagonal.
+        if (is_near(e, middle, (0.5 + 0.8661) * width)) in_reach.push_back(e);
       known = cells_.emplace(cell, std::move(in_reach)).first;
     }
     asked = &known->second;

@@ -1,6 +1,6 @@
 #pragma once
-// Which fixed surfaces are near a place. Where there are many, the few that come near a cell of space are found out
-// once, when somebody first asks there.
+// The fixed surfaces near a position. Where there are many, the few near a cell of space are collected once, at the
+// first search in that cell.
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -14,10 +14,11 @@ struct World;
 
 class SurfacesNear {
  public:
-  /// `world` must outlive this.
+  /// `world` must outlive this object.
   explicit SurfacesNear(const World& world);
 
-  /// Those that come within `reach` (m) of `center` (m), ascending, and perhaps some that do not quite.
+  /// Finds surfaces within `reach` (m) of `center` (m), ascending. Some that are slightly farther away may be among
+  /// them.
   void find(const Vec3& center, double reach, std::vector<Entity>& found);
 
  private:

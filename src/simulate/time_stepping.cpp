@@ -1,3 +1,9 @@
+// Time stepping by one complementarity problem a step (Stewart & Trinkle, Int. J. Numer. Meth. Eng. 39 (1996) 2673),
+// without friction and with exact impacts.
+// A step finds the pairs that may press, takes away slow approaches, and solves for velocities that keep all pairs
+// apart until its end.
+// It serves where contacts change too often to be followed one by one. The step adapts to speeds and forces, and an
+// island in balance is put to rest.
 #include "simulate/time_stepping.h"
 
 #include <algorithm>
@@ -19,7 +25,7 @@ namespace tol = exact_tolerance;
 
 namespace {
 
-/// Whether any of the pairs falls short of its target at these velocities.
+/// Whether any of the pairs is below its target at these velocities.
 bool approaching(const std::vector<Vec3>& v, const std::vector<ContactConstraint>& pairs) {
   return std::any_of(pairs.begin(), pairs.end(),
                      [&](const ContactConstraint& p) { return -approach(v, p) < p.target - p.slack; });
@@ -38,7 +44,7 @@ void TimeStepping::advance(Entity i) {
   begin_flights(step);
 }
 
-/// Solves the step, as long as speeds allow. False: bodies of other islands are near.
+/// Solves the step, with the length that speeds allow. False: bodies of other islands are near.
 bool TimeStepping::solve_step(Step& step) const {
   const Island& island = bodies_.islands.of(step.members.front());
   const double shortest = shortest_step(step);
@@ -60,7 +66,7 @@ bool TimeStepping::solve_step(Step& step) const {
   return true;
 }
 
-/// s: in a share of the time of falling by a radius, and of that in which forces change.
+/// The shortest step (s): a share of the time of falling by a radius, and of the time in which forces change.
 double TimeStepping::shortest_step(const Step& step) const {
   if (step.greatest == 0) return 0;
   double rate = 0;  // 1/s
@@ -71,7 +77,8 @@ double TimeStepping::shortest_step(const Step& step) const {
   return rate > 0 ? std::min(shortest, tol::shortest_step / rate) : shortest;
 }
 
-/// Where members are and how fast, without what the last step's kick gave them for a time that is to come.
+/// The positions and velocities of the members, without the part of the last step's kick for the time that is left of
+/// it.
 TimeStepping::Step TimeStepping::begin_step(Entity one) const {
   const Islands& islands = bodies_.islands;
   Step step;
@@ -93,13 +100,14 @@ TimeStepping::Step TimeStepping::begin_step(Entity one) const {
   return step;
 }
 
-/// Whether the step is to be solved for again: shorter, or with contacts searched for farther away.
+/// Whether the step must be solved again: shorter, or with a wider search for contacts.
 bool TimeStepping::shorten(Step& step, double shortest) const {
-  double fastest = 0, displacements = 0;  // m/s, m
+  // m/s and m.
+  double fastest = 0, displacements = 0;
   bool farther = false;
   for (std::size_t k = 0; k < step.x.size(); ++k) {
     const double speed = step.solved[k].norm();
-    // A change of speed may take a body less far than speed: impacts find it done from the start.
+    // A change of speed may move a body less far than its speed does, but impacts see it from the start.
     fastest = std::max({fastest, speed, 8 * (step.solved[k] - step.after_impacts[k]).norm()});
     displacements += step.length * speed;
     if (speed <= 2 * step.expected[k] || 4 * step.length * speed <= tol::pressing_gap * step.smallest) continue;
@@ -114,7 +122,8 @@ bool TimeStepping::shorten(Step& step, double shortest) const {
   return farther && !(displacements > tol::converged_displacement * step.smallest * static_cast<double>(step.x.size()));
 }
 
-/// The pairs that may press on each other before the step ends, and how fast they must part, or may approach, for it.
+/// Finds the pairs that may press on each other before the step ends, and the speeds at which they must separate, or
+/// may approach.
 void TimeStepping::find_pairs(Step& step) const {
   const World& world = bodies_.world;
   const double h = step.length;
@@ -135,7 +144,7 @@ void TimeStepping::find_pairs(Step& step) const {
     const Entity i = step.members[k];
     const std::size_t first = step.contacts.pairs.size();
     for (const Entity e : bodies_.known_to(i)) {
-      // A sleeping body is as if fixed; if pressed on, it wakes.
+      // A sleeping body acts as a fixed one. If pressed on, it wakes.
       const bool asleep = world.is_body(e) && bodies_.body[e].state == ContactState::asleep;
       const bool body = world.is_body(e) && !asleep;
       if (body && !bodies_.in_group(e)) continue;
@@ -161,7 +170,7 @@ void TimeStepping::find_pairs(Step& step) const {
                              -std::max(there.gap - margin, 0.0) / h,
                              std::max(tol::margin_slack * margin, tol::gap_share * std::min(there.gap, margin)) / h,
                              0};
-      // With a wide margin, those that the slack would let strike at once part by as much.
+      // With a wide margin, pairs that the slack would let strike at once separate by as much.
       if (step.greatest > 0 && margin > tol::parting_margin * step.smallest && there.gap < tol::margin_slack * margin &&
           pair_restitution(world, i, e) < 1)
         pair.target = (tol::margin_slack * margin - std::max(there.gap, 0.0)) / h;
@@ -173,7 +182,7 @@ void TimeStepping::find_pairs(Step& step) const {
   }
 }
 
-/// What is left of the velocities once contact has taken slow approaches.
+/// Computes the velocities after contact has taken away slow approaches.
 void TimeStepping::take_slow_impacts(Step& step) const {
   step.after_impacts = step.v;
   step.impacts.clear();
@@ -189,11 +198,12 @@ void TimeStepping::take_slow_impacts(Step& step) const {
   bodies_.log.note(carom::solve({step.inverse_mass, step.after_impacts, step.impacts, ContactAccuracy::energy}));
 }
 
-/// The velocities that keep every pair apart until the step ends. Where margins are wide some pairs are to part. They
-/// do if that is possible and takes no more energy than slow impacts have lost.
+/// Computes the velocities that keep every pair apart until the step ends. Where margins are wide some pairs separate.
+/// They do so if that is possible and takes no more energy than slow impacts have lost.
 void TimeStepping::keep_apart(Step& step) const {
   std::vector<Vec3> free = step.after_impacts;
-  std::vector<double> inverse_mass = step.inverse_mass;  // 1/kg: linear drag is implicit, as if bodies were heavier
+  // 1/kg. Linear drag is implicit, as if bodies were heavier.
+  std::vector<double> inverse_mass = step.inverse_mass;
   for (std::size_t k = 0; k < free.size(); ++k) {
     const Entity i = step.members[k];
     free[k] += step.length * bodies_.applied[i];
@@ -213,7 +223,8 @@ void TimeStepping::keep_apart(Step& step) const {
     part = false;
   };
   const double lost = part ? lost_by_impacts(step) : 0;
-  if (part && parting_work(step) > lost) press_only();  // by the last step's forces
+  // This uses the last step's forces.
+  if (part && parting_work(step) > lost) press_only();
   Certificate certificate = press();
   if (part && (!certificate.solved() || parting_work(step) > lost || makes_energy(step, free))) {
     press_only();
@@ -222,7 +233,7 @@ void TimeStepping::keep_apart(Step& step) const {
   bodies_.log.note(certificate);
 }
 
-/// J, that slow impacts have lost.
+/// The energy lost in slow impacts (J).
 double TimeStepping::lost_by_impacts(const Step& step) {
   double lost = 0;
   for (std::size_t k = 0; k < step.x.size(); ++k) {
@@ -232,14 +243,14 @@ double TimeStepping::lost_by_impacts(const Step& step) {
   return lost;
 }
 
-/// J, that forces do where pairs are to part.
+/// The work of forces on pairs that separate (J).
 double TimeStepping::parting_work(const Step& step) {
   double work = 0;
   for (const ContactConstraint& p : step.contacts.pairs) work += p.force * std::max(p.target, 0.0);
   return work;
 }
 
-/// Whether the step makes energy. free (m/s): its velocities without contact.
+/// Whether the step makes energy. free: its velocities without contact (m/s).
 bool TimeStepping::makes_energy(const Step& step, const std::vector<Vec3>& free) const {
   double made = 0;  // J
   for (std::size_t k = 0; k < free.size(); ++k) {
@@ -251,7 +262,8 @@ bool TimeStepping::makes_energy(const Step& step, const std::vector<Vec3>& free)
   return made > 0;
 }
 
-/// Members that press on one another are an island. The faster one of its bodies is, the wider are its margins.
+/// Finds the islands of members that press on each other. Margins are the wider, the faster an island's fastest body
+/// is.
 void TimeStepping::find_parts(Step& step) {
   const std::size_t n = step.x.size();
   DisjointSets sets(n);
@@ -280,7 +292,7 @@ void TimeStepping::find_parts(Step& step) {
   for (std::uint32_t k = 0; k < n; ++k) group_.margin.write(step.members[k]) = margin[island[k]];
 }
 
-/// By island: whether all its bodies are carried and hardly move. In a jam slow bodies stop.
+/// By island: whether all its bodies are carried and hardly move. In a jam, slow bodies are stopped.
 std::vector<std::uint8_t> TimeStepping::stop_slow(Step& step) const {
   const std::size_t n = step.x.size();
   std::vector<std::uint8_t> still(n);
@@ -296,7 +308,8 @@ std::vector<std::uint8_t> TimeStepping::stop_slow(Step& step) const {
   return still;
 }
 
-/// The forces among the bodies of still islands, from none: where these are not unique, no more than needed.
+/// Computes the forces among the bodies of still islands, starting from none. Where they are not unique, they are then
+/// no greater than necessary.
 TimeStepping::Holding TimeStepping::hold(const Step& step, const std::vector<std::uint8_t>& still) const {
   Holding holding;
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
@@ -310,7 +323,7 @@ TimeStepping::Holding TimeStepping::hold(const Step& step, const std::vector<std
   return holding;
 }
 
-/// At rest are those islands that hardly move and that forces hold in balance.
+/// Puts to rest the islands that hardly move and that forces hold in balance.
 void TimeStepping::put_to_rest(Step& step) const {
   const std::size_t n = step.x.size();
   step.rests.assign(n, 0);
@@ -319,7 +332,7 @@ void TimeStepping::put_to_rest(Step& step) const {
   const Holding holding = hold(step, still);
   for (std::uint32_t k = 0; k < n; ++k)
     if (!(holding.a[k].norm() <= tol::balance * step.greatest)) still[step.island[k]] = 0;
-  // What rests on a sleeping body wakes it first: they are in balance together, or not at all.
+  // A body that rests on a sleeping body wakes it first. They are in balance together, or not at all.
   for (std::size_t c = 0; c < holding.pairs.size(); ++c) {
     const Entity e = step.contacts.names[holding.which[c]].e;
     if (holding.pairs[c].force > 0 && bodies_.world.is_body(e) && holding.pairs[c].b == ContactConstraint::fixed) {
@@ -336,8 +349,9 @@ void TimeStepping::put_to_rest(Step& step) const {
       step.contacts.pairs[holding.which[c]].force = step.length * holding.pairs[c].force;
 }
 
-/// The impacts of pairs whose gaps close within the step: the force between them takes their approach, as the step goes
-/// on. Together they take no more than the step does: its weights work along paths that they shorten.
+/// Counts the impacts of pairs with gaps that close within the step. The force between the two takes away their
+/// approach in the course of the step.
+/// Together they take no more energy than the step does, because its weights do work along paths that they shorten.
 void TimeStepping::take_closings(Step& step) const {
   step.taking.assign(step.members.size(), 0);
   double fastest = 0, all = 0;  // m/s, J
@@ -346,7 +360,8 @@ void TimeStepping::take_closings(Step& step) const {
     const double speed = approach(step.after_impacts, p);
     if (!(p.force > 0 && speed > std::max(tol::drift * fastest, p.slack))) continue;
     bodies_.log.take_up(speed, 0);
-    const double lost = 0.5 * p.force * (speed + approach(step.solved, p));  // J, by the mean speed
+    // J, by the mean speed.
+    const double lost = 0.5 * p.force * (speed + approach(step.solved, p));
     step.taking[p.a] += lost / step.length;
     all += lost;
   }
@@ -355,7 +370,7 @@ void TimeStepping::take_closings(Step& step) const {
   for (double& power : step.taking) power *= share;
 }
 
-/// J, that contact takes in the step from those that it carries.
+/// The energy that contact takes from carried members in the step (J).
 double TimeStepping::taken(const Step& step) const {
   double sum = 0;
   for (std::size_t k = 0; k < step.members.size(); ++k) {
@@ -368,7 +383,7 @@ double TimeStepping::taken(const Step& step) const {
   return sum;
 }
 
-/// The members' flights until the step's end.
+/// Starts the members' flights until the step's end.
 void TimeStepping::begin_flights(Step& step) {
   const double h = step.length;
   bodies_.log.take_up(step.inverse_mass, step.v, step.after_impacts, step.impacts);
@@ -404,7 +419,7 @@ void TimeStepping::begin_flights(Step& step) {
   for (const Entity i : step.members) predictor_.predict(i);
 }
 
-/// Steps in which the same pairs press: after some of them constrained motion can follow the island again.
+/// Counts steps in which the same pairs press. After some of them constrained motion can follow the island again.
 void TimeStepping::count_calm(const Step& step, Island& island) {
   std::uint64_t hash = 0;
   for (std::size_t c = 0; c < step.contacts.pairs.size(); ++c) {
@@ -419,7 +434,7 @@ void TimeStepping::count_calm(const Step& step, Island& island) {
   island.calm = 0;
 }
 
-/// Those that have stayed and that no pair connects any more are islands of their own.
+/// Splits off the remaining members that no pair connects. They become islands of their own.
 void TimeStepping::split(const Step& step) {
   DisjointSets sets(step.members.size());
   for (const ContactConstraint& p : step.contacts.pairs)
@@ -437,7 +452,7 @@ void TimeStepping::split(const Step& step) {
   if (one != no_entity) bodies_.islands.split(one, label);
 }
 
-/// Body i, the step's member k, falls asleep, leaves its island, or goes on. Gives whether it stays.
+/// Body i, member k of the step, falls asleep, leaves its island or continues. Returns whether it stays.
 bool TimeStepping::begin_flight(const Step& step, std::size_t k, Entity i) {
   Islands& islands = bodies_.islands;
   const Vec3 &v = step.after_impacts[k], &solved = step.solved[k];
@@ -467,7 +482,7 @@ bool TimeStepping::begin_flight(const Step& step, std::size_t k, Entity i) {
     islands.kicked_until.write(i) = islands.of(i).end;
     islands.kick.write(i) = step.greatest > 0 ? Vec3((solved - v) / step.length) : Vec3(Vec3::Zero());
     begin(solved);
-    // What forces do is in the kick.
+    // The kick contains the effect of forces.
     bodies_.flights.accelerate(i, Vec3::Zero());
   } else {  // flies as free bodies do
     islands.kicked_until.write(i) = bodies_.now;

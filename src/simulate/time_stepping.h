@@ -1,18 +1,22 @@
 #pragma once
-// Time stepping of an island whose contacts change too often to be followed. Between two steps a member that is carried
-// flies straight and the others fall freely, so that impacts with and within the island are found and resolved as
-// everywhere else. At a step contact takes slow approaches at once; fast ones are left to be impacts. Then the
-// velocities are those nearest to what forces alone would make of them that keep every pair apart until the next step
-// (contact_problem.h): linearised at the closest points, which for convex bodies on straight paths is on the safe side.
-// (Stewart & Trinkle, Int. J. Numer. Meth. Eng. 39 (1996) 2673, without friction and with exact impacts.) An impact
-// meets the velocities that bodies have by then, not those that the step's kick has given them for its end. A body that
-// an impact throws off what carries it falls freely, and the next step is due after a shortest one. A step that ends
-// early takes back what forces would have done in its rest.
+// Time stepping of an island with contacts that change too often to be followed.
+// Between two steps a carried member flies straight and the others fall freely. Impacts with and within the island are
+// found and resolved as everywhere else.
+// At a step contact takes away slow approaches at once. Fast ones stay impacts.
+// The new velocities are then the nearest to those by forces alone that keep every pair apart until the next step
+// (contact_problem.h).
+// They are linearised at the closest points, which is on the safe side for convex bodies on straight paths.
+// (Stewart & Trinkle, Int. J. Numer. Meth. Eng. 39 (1996) 2673, without friction and with exact impacts.)
+// An impact uses the velocities that bodies have at its time, not those of the step's kick at its end.
+// A body that an impact throws off its support falls freely, and the next step is due after a shortest one.
+// A step that ends early takes back the effect of forces in its rest.
 //
-// Members that have just been struck are kept apart by a margin, so that the small motions that a strike causes wait
-// for the next step instead of making thousands of impacts at one instant. The margin shrinks as the group slows down.
-// Bodies that touch inside their margin part a little, as far as what slow approaches have lost pays for it.
-// An island that forces hold in balance is put to rest: velocities exactly zero, no more steps, until struck.
+// Members that were just struck keep a margin. The small motions after a strike then wait for the next step instead of
+// making thousands of impacts at one instant.
+// The margin shrinks as the group slows down. Bodies that touch within their margin separate a little, as far as the
+// loss of slow approaches pays for it.
+// An island that forces hold in balance is put to rest: its velocities are exactly zero, and it takes no steps until it
+// is struck.
 #include <vector>
 
 #include "simulate/contact_list.h"
@@ -32,33 +36,36 @@ class TimeStepping {
   TimeStepping(ExactBodies& bodies, ExactGroup& group, FlightChanges& flights, EventPredictor& predictor)
       : bodies_(bodies), group_(group), flights_(flights), predictor_(predictor) {}
 
-  /// Takes the next step of member i's island, with those of other islands that it may press on before the step ends.
+  /// Takes the next step of member i's island. Islands that it may press on before the step ends are united with it.
   void advance(Entity i);
 
  private:
   /// A step, in numbers of its own.
   struct Step {
-    std::vector<Entity> members;               // ascending
-    double length = 0, shortest = 0;           // s
-    std::uint32_t short_steps = 0;             // on end, that simultaneous impacts ended at once
-    double smallest = never, greatest = 0;     // m, the least radius; m/s^2, the greatest acceleration
-    std::vector<Vec3> x, v;                    // m, m/s: now,
-    std::vector<Vec3> after_impacts;           // m/s: without the approaches that contact takes at once,
-    std::vector<Vec3> solved;                  // m/s: from now on
-    std::vector<double> expected;              // m/s: half of the speed that contacts are searched for
-    std::vector<double> inverse_mass;          // 1/kg
-    std::vector<Entity> near;                  // bodies of other islands that members may press on
-    ContactList contacts;                      // that may press before the step ends
-    std::vector<ContactConstraint> impacts;    // by pair: what contact takes at once, or none
-    std::vector<std::uint32_t> island;         // by member: one of those that press on one another with it
-    std::vector<double> taking;                // W, by member: what impacts within the step take
-    std::vector<std::uint8_t> carried, rests;  // by member: something presses on it; it is at rest
+    std::vector<Entity> members;      // ascending
+    double length = 0, shortest = 0;  // s
+    // Consecutive steps that simultaneous impacts ended at once.
+    std::uint32_t short_steps = 0;
+    // The least radius (m), and the greatest acceleration (m/s^2).
+    double smallest = never, greatest = 0;
+    std::vector<Vec3> x, v;                  // m and m/s, at present
+    std::vector<Vec3> after_impacts;         // m/s, without the approaches that contact takes away at once
+    std::vector<Vec3> solved;                // m/s, from this instant on
+    std::vector<double> expected;            // m/s: half of the speed for which contacts are searched
+    std::vector<double> inverse_mass;        // 1/kg
+    std::vector<Entity> near;                // bodies of other islands that members may press on
+    ContactList contacts;                    // contacts that may press before the step ends
+    std::vector<ContactConstraint> impacts;  // by pair: impulses that contact takes at once, or empty
+    std::vector<std::uint32_t> island;       // by member: a member that represents its island
+    std::vector<double> taking;              // W, by member: power of impacts within the step
+    // By member: whether a thing presses on it, and whether it is at rest.
+    std::vector<std::uint8_t> carried, rests;
   };
   /// The forces among bodies that may be at rest.
   struct Holding {
     std::vector<ContactConstraint> pairs;
-    std::vector<std::size_t> which;  // of the step's pairs
-    std::vector<Vec3> a;             // m/s^2: what they leave of the members' accelerations
+    std::vector<std::size_t> which;  // number in the step's pairs
+    std::vector<Vec3> a;             // m/s^2: the members' accelerations under these forces
   };
 
   Step begin_step(Entity one) const;

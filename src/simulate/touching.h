@@ -1,6 +1,6 @@
 #pragma once
-// Which of many regions may touch one: four, eight or sixteen at a time, whatever the processor has; the same bits as
-// may_touch (region.h).
+// The regions, of many, that may touch a given one: four, eight or sixteen at a time, as the processor allows. The bits
+// are those of may_touch (region.h).
 #include <cstddef>
 #include <vector>
 
@@ -9,13 +9,14 @@
 
 namespace carom {
 
-/// Writes those of `count` bodies whose regions may touch `region`, or (touching = false) those whose do not, in their
-/// order; gives how many. `to` may be `bodies`; it needs room for `select_slack` more than it gets.
+/// Writes those of `count` bodies with regions that may touch `region`, or (touching = false) that cannot, in their
+/// order. Returns their number.
+/// `to` may be `bodies`. It needs room for `select_slack` more entries than are written.
 std::size_t select_touching(const Region& region, const Region* regions, const Entity* bodies, std::size_t count,
                             bool touching, Entity* to);
 inline constexpr std::size_t select_slack = 16;
 
-/// What select_touching chooses from, on this processor.
+/// The kernels that select_touching can choose from on this processor.
 using SelectKernel = decltype(&select_touching);
 std::vector<SelectKernel> select_kernels();
 

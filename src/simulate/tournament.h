@@ -1,7 +1,8 @@
 #pragma once
-// A priority queue with one entry a body: a tournament among eight at a time. Each node keeps its winner and that
-// winner's time, so that the eight times of a game stand side by side, and only equal times ask for more. An entry that
-// changes replays its games up to where the outcome stays the same.
+// A priority queue with one entry for each body: a tournament with games of eight.
+// Each node keeps its winner and the winner's time. The eight times of a game are contiguous, and only equal times need
+// more data.
+// A changed entry replays its games up to the first one with the same result.
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -18,7 +19,8 @@
 
 namespace carom {
 
-/// Before(i, j): whether entry i comes before entry j, of two with the same time. With it, a total order.
+/// Before(i, j): whether entry i comes before entry j, for two entries with the same time. Together with the time it is
+/// a total order.
 template <typename Before>
 class Tournament {
  public:
@@ -43,11 +45,11 @@ class Tournament {
   Tournament(const Tournament&) = delete;
   Tournament& operator=(const Tournament&) = delete;
 
-  std::uint32_t first() const { return first_; }  // none: nothing is due
+  std::uint32_t first() const { return first_; }  // none: no entry is due
   double first_time() const { return first_time_; }
   double time(std::uint32_t i) const { return levels_[0].time[i]; }  // as of the last update
 
-  /// Call after entry i has changed; its time (s) may be infinite: it is never due.
+  /// Call this after entry i has changed. Its time (s) may be infinite: it is then never due.
   void update(std::uint32_t i, double time) {
     std::size_t at = i;
     std::uint32_t winner = i;
@@ -55,7 +57,7 @@ class Tournament {
     for (std::size_t l = 1; l < levels_.size(); ++l) {
       at /= width;
       Level& up = levels_[l];
-      // An entry that did not win before and comes later than the winner changes nothing.
+      // An entry that did not win before, and that comes later than the winner, changes nothing.
       if (up.winner[at] != i && up.time[at] < time) return;
       play(l - 1, at, winner, time);
       // Entry i itself may have changed in more than its time.
@@ -73,12 +75,13 @@ class Tournament {
     if (levels_.size() > 1) carom::prefetch(&levels_[1].winner[i / width]);
   }
 
-  /// An entry and when it is due.
+  /// An entry and its time.
   struct Due {
     double time;
     std::uint32_t entry;
   };
-  /// Appends entries that are due up to `until`, in no order: of those in the same games below, only the first.
+  /// Appends entries that are due up to `until`, in no order. Of entries in the same games at the lowest levels, only
+  /// the first is appended.
   void due_until(double until, std::vector<Due>& due) const {
     if (first_time_ <= until) collect(levels_.size() - 1, 0, until, due);
   }
@@ -88,8 +91,9 @@ class Tournament {
   static constexpr double never_ = std::numeric_limits<double>::infinity();
 
   struct Level {
-    double* time;           // s, padded to whole games
-    std::uint32_t* winner;  // whose time it is; at the bottom: none, for it is the entry itself
+    double* time;  // s, padded to whole games
+    // The winner with that time. There is none at the bottom, where it is the entry itself.
+    std::uint32_t* winner;
   };
 
   void collect(std::size_t l, std::size_t game, double until, std::vector<Due>& due) const {
@@ -135,7 +139,7 @@ class Tournament {
 
   Before before_;
   LargeVector<double> times_;           // of all levels
-  LargeVector<std::uint32_t> winners_;  // of all but the first
+  LargeVector<std::uint32_t> winners_;  // of all levels but the first
   std::vector<Level> levels_;
   std::uint32_t first_ = none;
   double first_time_ = never_;

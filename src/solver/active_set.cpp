@@ -1,3 +1,10 @@
+// The dual active set method of Goldfarb & Idnani, Math. Programming 27 (1983) 1, on orthogonal factors that are
+// updated row by row.
+// It starts from a guess of the active rows. Each round appends the most violated row, and drops rows with a negative
+// force.
+// The answer is then refined with residuals in double-double, so that the factors' rounding does not limit it.
+// Where a set of rows returns, the method ends with what it has. A looser or stricter limit for dependent rows is tried
+// then.
 #include "solver/active_set.h"
 
 #include <algorithm>
@@ -9,15 +16,17 @@ namespace carom {
 
 namespace {
 
-constexpr double dependent = 0x1p-43;    // of a row of unit length: what others span but for rounding
-constexpr double pulling = 8 * 0x1p-53;  // of the greatest force: a negative one that is only rounding
-constexpr double refined_change =
-    4 * 0x1p-53;  // of a row's scale: what is rounding of the data where residuals are exact
+// A row of unit length with a smaller tail depends on the others, but for rounding.
+constexpr double dependent = 0x1p-43;
+// A share of the greatest force: a smaller negative force is only rounding.
+constexpr double pulling = 8 * 0x1p-53;
+// A share of a row's scale: the rounding of the data, where residuals are exact.
+constexpr double refined_change = 4 * 0x1p-53;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-/// Q^T of row c, in row_.
+/// Stores Q^T of row c in row_.
 void DualActiveSet::transform(const ContactIsland& island, std::uint32_t c) {
   const ContactIsland::Row& r = island.rows[c];
   const std::size_t at[2] = {3 * r.a, 3 * static_cast<std::size_t>(r.moves_b() ? r.b : 0)};
@@ -25,7 +34,7 @@ void DualActiveSet::transform(const ContactIsland& island, std::uint32_t c) {
   factors_.transform(at, values, r.moves_b() ? 2 : 1, row_.data());
 }
 
-/// Takes row c in without a force. False: others span it.
+/// Appends row c without a force. False: it depends on the others.
 bool DualActiveSet::append(const ContactIsland& island, std::uint32_t c) {
   if (factors_.rank() == factors_.columns()) return false;
   transform(island, c);
@@ -38,7 +47,7 @@ bool DualActiveSet::append(const ContactIsland& island, std::uint32_t c) {
   return true;
 }
 
-/// Lets go of the active row at `place`; row_ goes along.
+/// Removes the active row at `place`, and updates row_.
 void DualActiveSet::drop(std::size_t place) {
   factors_.remove(place, row_.data());
   place_[active_[place]] = none;
@@ -49,7 +58,7 @@ void DualActiveSet::drop(std::size_t place) {
   for (std::size_t k = place; k < active_.size(); ++k) place_[active_[k]] = static_cast<std::uint32_t>(k);
 }
 
-/// New factors, of the bilateral rows and then of these.
+/// Makes new factors, of the bilateral rows and then of these.
 void DualActiveSet::rebuild(const ContactIsland& island, const std::vector<std::uint32_t>& rows) {
   factors_.reset(island.unknowns());
   active_.clear();
@@ -63,7 +72,7 @@ void DualActiveSet::rebuild(const ContactIsland& island, const std::vector<std::
     if (place_[c] == none) append(island, c);
 }
 
-/// The motion that keeps the active rows exactly, and their forces.
+/// Computes the motion that satisfies the active rows exactly, and their forces.
 void DualActiveSet::balance(const ContactIsland& island) {
   const std::size_t k = active_.size();
   std::fill(step_.begin(), step_.end(), 0.0);
@@ -78,13 +87,13 @@ void DualActiveSet::balance(const ContactIsland& island) {
   std::copy(step_.begin(), step_.begin() + static_cast<std::ptrdiff_t>(k), force_.begin());
 }
 
-/// Goes back to the motion that the active rows make, without those that pull.
+/// Returns to the motion of the active rows, without those that pull.
 void DualActiveSet::settle(const ContactIsland& island) {
   do balance(island);
   while (drop_one_that_pulls(0));
 }
 
-/// Lets go of the row that pulls most, if one does.
+/// Removes the row that pulls most, if one does.
 bool DualActiveSet::drop_one_that_pulls(double tolerance) {
   double greatest = 0, least = 0;
   std::size_t which = none;
@@ -100,7 +109,7 @@ bool DualActiveSet::drop_one_that_pulls(double tolerance) {
   return true;
 }
 
-/// How far row_'s force may grow before that of an active row is gone: the first of them.
+/// The growth of row_'s force at which the first active row loses its force, and that row.
 double DualActiveSet::blocking(std::size_t& first) const {
   double most = infinite;
   for (std::size_t k = 0; k < active_.size(); ++k)
@@ -111,7 +120,7 @@ double DualActiveSet::blocking(std::size_t& first) const {
   return most;
 }
 
-/// Lets row c, which is short by this much, press until it is kept. False: it cannot be.
+/// Appends row c, which is violated by `shortfall`: its force grows until it is satisfied. False: that is impossible.
 bool DualActiveSet::take_in(const ContactIsland& island, std::uint32_t c, double shortfall) {
   double force = 0;
   transform(island, c);
@@ -119,7 +128,7 @@ bool DualActiveSet::take_in(const ContactIsland& island, std::uint32_t c, double
     const bool full = factors_.rank() == factors_.columns();
     const double tail = full ? 0 : factors_.tail(row_.data());
     const bool free = tail > dependent_;
-    // How the active rows' forces change for each unit of this one's.
+    // The change of the active rows' forces for each unit of this one's.
     std::copy(row_.begin(), row_.begin() + static_cast<std::ptrdiff_t>(active_.size()), step_.begin());
     factors_.solve(step_.data());
     std::size_t first = none;
@@ -144,17 +153,19 @@ bool DualActiveSet::take_in(const ContactIsland& island, std::uint32_t c, double
       fixed_.push_back(0);
       return true;
     }
-    if (first == none) return false;  // no number
+    // A value is not finite.
+    if (first == none) return false;
     drop(first);
   }
 }
 
-/// Until no row is shorter of its target than rounding makes it. The answer's energy grows with every row that is taken
-/// in; where it does not, for as many as there are, nothing but rounding is left.
+/// Appends rows until none is violated by more than rounding. The answer's energy grows with every row.
+/// If it does not for as many steps as there are rows, only rounding is left.
 void DualActiveSet::take_in_violated(const ContactIsland& island) {
   double energy = 0;
   std::size_t idle = 0;
-  std::vector<double>& load = load_;  // by body, the speed that forces give it one by one
+  // By body: the sum of the speeds that single forces give it.
+  std::vector<double>& load = load_;
   load.resize(island.free.size());
   for (;;) {
     std::fill(load.begin(), load.end(), 0.0);
@@ -181,14 +192,15 @@ void DualActiveSet::take_in_violated(const ContactIsland& island) {
       settle(island);
       continue;
     }
-    const double more = 0.5 * least * least;  // at least, for rows of unit length
+    // A lower bound, for rows of unit length.
+    const double more = 0.5 * least * least;
     idle = more > 0x1p-50 * energy ? 0 : idle + 1;
     energy += more;
     if (idle > island.rows.size()) return;
   }
 }
 
-/// Newton's method on the active rows: the factors are rounded, the residuals are not.
+/// Iterative refinement on the active rows: the factors are rounded, the residuals are not.
 void DualActiveSet::refine(const ContactIsland& island, ContactAnswer& answer) {
   const std::size_t n = island.unknowns(), k = active_.size();
   answer.motion.resize(n);
@@ -202,7 +214,7 @@ void DualActiveSet::refine(const ContactIsland& island, ContactAnswer& answer) {
   for (std::size_t j = 0; j < k; ++j) answer.force[active_[j]] = {island.rows[active_[j]].scale * force_[j], 0};
   double all = 0;
   for (const double y : y_) all = std::max(all, std::abs(y));
-  // What the rows are off by and what the forces lack, each for as long as there is less and less of it.
+  // The rows' errors and the imbalance of forces. Each is reduced as long as it at least halves.
   double off = infinite, unbalanced = infinite;
   std::vector<double>&p = row_, &g = step_, &dy = work_;
   const auto greatest = [](const std::vector<double>& v) {
@@ -210,8 +222,8 @@ void DualActiveSet::refine(const ContactIsland& island, ContactAnswer& answer) {
     for (const double x : v) most = std::max(most, std::abs(x));
     return most;
   };
-  // A round leaves as much of it as the factors' rounding makes: where that is little the next one need not be looked
-  // at.
+  // A pass leaves the share of an error that the factors' rounding makes. Where that is small enough, no further pass
+  // is needed.
   const double left = 0x1p-50 / (factors_.least_diagonal() * factors_.least_diagonal()), enough = 0x1p-92 * all;
   while (off > 0 || unbalanced > 0) {
     std::fill(g.begin(), g.end(), 0.0);
@@ -249,7 +261,7 @@ void DualActiveSet::refine(const ContactIsland& island, ContactAnswer& answer) {
   for (std::size_t j = 0; j < k; ++j) force_[j] = answer.force[active_[j]].hi / island.rows[active_[j]].scale;
 }
 
-/// Of the rows that are not taken in the one that is shortest of its target by more than rounding of the data.
+/// The inactive row that is violated most, by more than the rounding of the data.
 std::uint32_t DualActiveSet::worst_after_refining(const ContactIsland& island, const ContactAnswer& answer,
                                                   double& shortfall) const {
   std::uint32_t worst = none;
@@ -257,7 +269,8 @@ std::uint32_t DualActiveSet::worst_after_refining(const ContactIsland& island, c
   for (std::uint32_t c = 0; c < island.rows.size(); ++c) {
     if (place_[c] != none || aside_[c] > 1) continue;
     const ContactIsland::Row& r = island.rows[c];
-    if (r.dot(y_.data()) - r.scale * r.target > 0x1p-40 * island.noise_scale(r)) continue;  // surely not
+    // Surely satisfied.
+    if (r.dot(y_.data()) - r.scale * r.target > 0x1p-40 * island.noise_scale(r)) continue;
     const double w = r.scale * excess(r, answer.motion);
     if (w >= -shortfall || w >= -refined_change * island.noise_scale(r)) continue;
     shortfall = -w;
@@ -266,7 +279,7 @@ std::uint32_t DualActiveSet::worst_after_refining(const ContactIsland& island, c
   return worst;
 }
 
-/// Of the set of active rows, whatever their order.
+/// A hash of the set of active rows, independent of their order.
 std::uint64_t DualActiveSet::signature() const {
   std::uint64_t sum = active_.size();
   for (const std::uint32_t c : active_) {
@@ -278,7 +291,7 @@ std::uint64_t DualActiveSet::signature() const {
   return sum;
 }
 
-/// Takes in, lets go and refines until neither has anything left to do, or a set of rows comes back.
+/// Appends, removes and refines until nothing is left to do, or a set of rows returns.
 void DualActiveSet::run(const ContactIsland& island, ContactAnswer& answer) {
   std::vector<std::uint64_t> seen;
   infeasible_ = false;
@@ -353,7 +366,7 @@ DualActiveSet::Result DualActiveSet::solve_again(const ContactIsland& island, st
   return finish(island, answer);
 }
 
-/// From the rows that are active to the answer, if need be with other ideas of which rows depend on one another.
+/// Solves from the active rows. If need be it repeats that with other limits for dependent rows.
 DualActiveSet::Result DualActiveSet::finish(const ContactIsland& island, ContactAnswer& answer) {
   Result best;
   best.judgement = {infinite, false};
@@ -369,7 +382,8 @@ DualActiveSet::Result DualActiveSet::finish(const ContactIsland& island, Contact
       rebuild(island, rows);
     }
     run(island, attempt);
-    for (std::size_t c = 0; c < island.rows.size(); ++c)  // negative by rounding alone
+    // These are negative by rounding alone.
+    for (std::size_t c = 0; c < island.rows.size(); ++c)
       if (!island.rows[c].bilateral && attempt.force[c].hi < 0) attempt.force[c] = {0, 0};
     const Result result{judge(island, attempt), infeasible_};
     if (looser == 1 || result.judgement.change < best.judgement.change) {

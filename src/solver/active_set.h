@@ -1,8 +1,10 @@
 #pragma once
-// Contact by a dual active set (Goldfarb & Idnani, Math. Programming 27 (1983) 1): rows that fall short are taken in
-// one by one, those that would have to pull are let go, and the answer's energy only grows on the way. On orthogonal
-// factors, in coordinates in which the motion sought is the nearest one, so that bodies of any masses keep their
-// digits; then refined with residuals in twice as many digits (contact_island.h). Factors are kept for the next island.
+// Contact by a dual active set (Goldfarb & Idnani, Math. Programming 27 (1983) 1).
+// Violated rows are appended one by one, rows that would have to pull are removed, and the answer's energy only grows.
+// The factors are orthogonal, in coordinates in which the solution is the nearest motion, so that bodies of any masses
+// keep their digits.
+// Residuals in twice as many digits then refine the answer (contact_island.h). The factors are kept for the next
+// island.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,23 +16,24 @@ namespace carom {
 
 class DualActiveSet {
  public:
-  /// What an island's answer is like.
+  /// The quality of an island's answer.
   struct Result {
     Judgement judgement;
-    bool infeasible = false;  // some row can be kept by no motion that keeps those taken in before
+    // Some row is violated by every motion that satisfies the rows appended before it.
+    bool infeasible = false;
   };
 
-  /// From the rows with a guess, the greatest forces first.
+  /// Starts from the rows with a guess, the greatest forces first.
   Result solve(const ContactIsland& island, ContactAnswer& answer);
 
-  /// From the rows that pressed in the last island, of which row c is now row now[c], or gone(); the masses are the
-  /// same.
+  /// Starts from the rows that pressed in the last island. Its row c is row now[c] of this island, or gone(). The
+  /// masses must be the same.
   Result solve_again(const ContactIsland& island, std::span<const std::uint32_t> now, ContactAnswer& answer);
   static constexpr std::uint32_t gone() { return none; }
 
-  /// Whether it has factors of a last island.
+  /// Whether it holds the factors of a last island.
   bool has_factors() const { return factors_.columns() > 0; }
-  /// They are of an island that is no more the last.
+  /// Discards the factors, when their island is not the last one.
   void forget() { factors_.reset(0); }
 
  private:
@@ -55,14 +58,14 @@ class DualActiveSet {
 
   OrthogonalFactors factors_;
   std::vector<std::uint32_t> active_;             // rows, in the order of the factors
-  std::vector<double> force_;                     // by active row, of a row of unit length
+  std::vector<double> force_;                     // by active row, for a row of unit length
   std::vector<std::uint8_t> fixed_;               // by active row: bilateral, it stays
-  std::vector<std::uint32_t> place_;              // by row: where it is in active_, or none
-  std::vector<double> y_, free_;                  // 3 a body
-  std::vector<std::uint8_t> aside_;               // by row: how often no motion was found that keeps it
-  std::vector<double> row_, step_, work_, load_;  // scratch: a row in the factors' coordinates, ...
+  std::vector<std::uint32_t> place_;              // by row: its index in active_, or none
+  std::vector<double> y_, free_;                  // 3 for each body
+  std::vector<std::uint8_t> aside_;               // by row: number of times that no motion satisfied it
+  std::vector<double> row_, step_, work_, load_;  // scratch: a row in the factors' coordinates, and others
   ContactAnswer attempt_;                         // scratch
-  double dependent_ = 0;                          // a row's tail under which it is spanned by others
+  double dependent_ = 0;                          // a row with a smaller tail depends on the others
   bool infeasible_ = false;
 };
 

@@ -1,3 +1,10 @@
+// Contact among many bodies: a primal-dual interior point (Mehrotra, SIAM J. Optim. 2 (1992) 575), then a proximal
+// Newton method.
+// The interior point comes near the solution in few factorisations, however many contacts there are. It does not find
+// the exact set of rows that press.
+// The proximal Newton method finds that set. Its contacts yield a little, so that dependent contacts make no system
+// singular.
+// Refinement with residuals in double-double then removes what yielding and rounding have left.
 #include "solver/contact_interior_point.h"
 
 #include <Eigen/Sparse>
@@ -17,10 +24,14 @@ using Row = ContactIsland::Row;
 using Vector = std::vector<double>;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double loosest = 1,
-                 tightest = 1e-8;     // of a row's own effect on itself: by what a force may change the motion
-constexpr int guess_worth = 16;       // factorisations, half of what takes an island without a guess: then it was none
-constexpr double handed_over = 1e-8;  // of the motion: where the interior point hands over
+// A share of the effect of a force on its own row, by which a contact yields: at first.
+constexpr double loosest = 1;
+// The same at last.
+constexpr double tightest = 1e-8;
+// Factorisations that a guess is worth: half of those of an island without a guess.
+constexpr int guess_worth = 16;
+// A share of the motion: the interior point ends at this error.
+constexpr double handed_over = 1e-8;
 
 /// 1 + J^T D J and its factors: a block for every body and one for every pair of bodies.
 class ContactMatrix {
@@ -55,7 +66,7 @@ class ContactMatrix {
   double operations() const { return factors_.operations(); }
   int factorisations() const { return count_; }
 
-  /// With D = weight, by row. False: it is not positive in numbers.
+  /// Factorises the matrix with D = weight, by row. False: it is not positive definite in floating point.
   bool factorise(const Vector& weight) {
     double* value = matrix_.valuePtr();
     std::fill(value, value + matrix_.nonZeros(), 0.0);
@@ -106,12 +117,13 @@ class ContactMatrix {
   const ContactIsland& island_;
   Eigen::SparseMatrix<double> matrix_;  // lower half
   std::vector<std::array<int, 6>> diagonal_;
-  std::vector<std::array<int, 9>> places_;  // of a row's block off the diagonal, among the matrix's values
+  // Positions of a row's off-diagonal block among the matrix's values.
+  std::vector<std::array<int, 9>> places_;
   Factors factors_;
   int count_ = 0;
 };
 
-/// Of the rows that press: the same for all.
+/// The weight of the rows that press. It is the same for all.
 double weight_of(const Vector& weight) {
   return weight.empty() ? 0 : *std::max_element(weight.begin(), weight.end());
 }
@@ -124,7 +136,7 @@ double greatest(const Vector& v) {
 
 }  // namespace
 
-/// Unknowns: y, and by row z, its force, and w, its excess.
+/// The unknowns are y, and for each row its force z and its excess w.
 class ContactInteriorPoint::Method {
  public:
   explicit Method(const ContactIsland& island)
@@ -137,7 +149,7 @@ class ContactInteriorPoint::Method {
   const ContactMatrix& matrix() const { return matrix_; }
 
   Judgement solve(ContactAnswer& answer) {
-    // From forces that were right a moment ago the proximal Newton method alone is there in a few factorisations.
+    // From forces of a moment ago, the proximal Newton method alone converges in a few factorisations.
     bool guessed = false;
     for (std::size_t c = 0; c < rows(); ++c) {
       const Row& r = island_.rows[c];
@@ -167,8 +179,8 @@ class ContactInteriorPoint::Method {
     return r.dot(y.data()) - r.scale * r.target;
   }
 
-  /// Newton's method on y = free + J^T z, w = J y + d, z w = less and less, until it is nearly there or gets no
-  /// further. False: it got nowhere.
+  /// Newton's method on y = free + J^T z, w = J y + d and z w = a value that decreases. It ends near the solution, or
+  /// when progress ends. False: it got nowhere.
   bool approach() {
     const std::size_t m = rows();
     double worst = 0, size = greatest(free_);
@@ -205,7 +217,7 @@ class ContactInteriorPoint::Method {
       if (count == 0) return true;
       const double mean = gap / static_cast<double>(count);
       if (mean <= handed_over * handed_over * size * size && off <= handed_over * size) return true;
-      // Forces grow through a stack, and the mean with them, while the motion comes to be what they make it.
+      // Forces grow through a stack, and the mean with them, while the motion approaches what they imply.
       idle = mean < 0.9 * least_mean || off < 0.9 * least_off ? 0 : idle + 1;
       least_mean = std::min(least_mean, mean);
       least_off = std::min(least_off, off);
@@ -219,7 +231,7 @@ class ContactInteriorPoint::Method {
     }
   }
 
-  /// One of Mehrotra's steps.
+  /// One predictor-corrector step of Mehrotra's method.
   bool step(const Vector& lacking, Vector& w, double gap, std::size_t count) {
     const std::size_t m = rows();
     Vector missing(m), product(m), dz(m), dw(m), dy;
@@ -250,7 +262,8 @@ class ContactInteriorPoint::Method {
       }
       return length;
     };
-    solve();  // straight at the goal: how far does that get?
+    // The predictor step goes straight for the solution. Its length sets the corrector's aim.
+    solve();
     double length = std::min(1.0, room()), left = 0;
     for (std::size_t c = 0; c < m; ++c)
       if (!island_.rows[c].bilateral) left += (z_[c] + length * dz[c]) * (w[c] + length * dw[c]);
@@ -277,9 +290,10 @@ class ContactInteriorPoint::Method {
     return y;
   }
 
-  /// The nearest motion where contacts yield: min |y - free|^2 / 2 + sum max(0, t_c)^2 / (2 rho), t = rho z - w, by
-  /// Newton's method with exact steps along its ways, which come to an end when the set of t > 0 is right; and the
-  /// forces t / rho. False: it gets no further, or not with so many factorisations.
+  /// The nearest motion where contacts yield: the minimum of |y - free|^2 / 2 + sum max(0, t_c)^2 / (2 rho), t = rho z
+  /// - w. The forces are t / rho.
+  /// The method is Newton's with exact line searches. It ends when the set of t > 0 is right.
+  /// False: there is no progress, or not within so many factorisations.
   bool find_pressing(double rho, int most = std::numeric_limits<int>::max()) {
     const std::size_t m = rows();
     Vector t(m), slope(m), weight(m), former, dy;
@@ -315,9 +329,10 @@ class ContactInteriorPoint::Method {
     return matrix_.factorisations() < most;
   }
 
-  /// Where along dy the sum is least: its derivative is linear between the points where a row begins or ends to press.
+  /// The minimum along dy. The derivative is linear between the points where a row starts or ceases to press.
   double best_length(const Vector& dy, const Vector& t, const Vector& slope, double rho) const {
-    double at = 0, rise = 0;  // the derivative at 0, and how it grows
+    // The derivative at 0, and its rate of growth.
+    double at = 0, rise = 0;
     for (std::size_t i = 0; i < dy.size(); ++i) {
       at += dy[i] * (y_[i] - free_[i]);
       rise += dy[i] * dy[i];
@@ -346,9 +361,10 @@ class ContactInteriorPoint::Method {
     return from - at / rise;
   }
 
-  /// The same proximal steps with residuals in twice as many digits. Each leaves rho / (rho + lambda) of what was off,
-  /// lambda the least eigenvalue among the rows that press, and what the factors' rounding makes, about eps / rho:
-  /// where the first is slow contacts are made to yield less.
+  /// The same proximal steps with residuals in twice as many digits. Each leaves the share rho / (rho + lambda) of the
+  /// error.
+  /// lambda is the least eigenvalue among the rows that press. The factors' rounding leaves about eps / rho.
+  /// Where the first limits progress, contacts are made to yield less.
   void refine(ContactAnswer& answer) {
     constexpr double stiffest = 1e-13;
     const std::size_t n = y_.size(), m = rows();

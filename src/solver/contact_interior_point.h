@@ -1,7 +1,8 @@
 #pragma once
-// Contact among many bodies by a primal-dual interior point (Mehrotra, SIAM J. Optim. 2 (1992) 575), handed over to a
-// proximal Newton method, which finds which rows press, and refined with residuals in twice as many digits. Every
-// system is (1 + J^T D J) dy = r on the bodies, sparse and never singular, however many contacts depend on one another.
+// Contact among many bodies by a primal-dual interior point (Mehrotra, SIAM J. Optim. 2 (1992) 575).
+// A proximal Newton method then finds which rows press. Residuals in twice as many digits refine the answer.
+// Every system is (1 + J^T D J) dy = r on the bodies. It is sparse and never singular, however many contacts depend on
+// each other.
 #include <memory>
 
 #include "solver/contact_island.h"
@@ -13,7 +14,7 @@ class ContactInteriorPoint {
   explicit ContactInteriorPoint(const ContactIsland& island);
   ~ContactInteriorPoint();
 
-  /// What one factorisation takes: multiplications and additions, about.
+  /// An estimate of the multiplications and additions of one factorisation.
   double operations() const;
 
   Judgement solve(ContactAnswer& answer);

@@ -1,3 +1,6 @@
+// Scaling of a contact island, residuals in double-double, and the certificate of an answer.
+// Residuals are evaluated on the given data, not on scaled rows. The certificate thus holds for the problem that was
+// given.
 #include "solver/contact_island.h"
 
 #include <algorithm>
@@ -14,7 +17,7 @@ int exponent_of(double x) {
   return exponent;
 }
 
-/// sum += a b, about as well as in double-double (Ogita, Rump & Oishi's Dot2) and in half of the operations.
+/// sum += a b, about as well as in double-double (Ogita, Rump & Oishi's Dot2) and with half of the operations.
 void add_product(DoubleDouble& sum, double a, const DoubleDouble& b) {
   const DoubleDouble p = two_product(a, b.hi), s = two_sum(sum.hi, p.hi);
   sum.hi = s.hi;
@@ -57,7 +60,7 @@ void ContactIsland::scale() {
 }
 
 std::size_t ContactIsland::reach() const {
-  // The rows of every body, one body after the other.
+  // The rows of each body, one body after the other.
   std::vector<std::uint32_t> first(free.size() + 1, 0), of;
   for (const Row& r : rows) {
     ++first[r.a];

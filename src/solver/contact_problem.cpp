@@ -1,3 +1,7 @@
+// Frictionless contact by Gauss's principle of least constraint, island by island. Each island goes to the cheapest
+// method, by an estimate of costs.
+// An island without pressing contacts and one of a single contact need no method. Where a method fails, the certificate
+// shows that, and the next one follows.
 #include "solver/contact_problem.h"
 
 #include <algorithm>
@@ -17,16 +21,17 @@ namespace carom {
 
 namespace {
 
-/// Contacts that share bodies, islands one after the other; `fixed` things do not connect.
+/// Contacts that share bodies, one island after the other. `fixed` things do not connect.
 struct ContactIslands {
-  std::vector<std::uint32_t> contacts;  // by island, ascending
-  std::vector<std::uint32_t> first;     // of each island among contacts; and their number
+  std::vector<std::uint32_t> contacts;  // contacts, by island, ascending
+  // The first contact of each island, and at the end the number of contacts.
+  std::vector<std::uint32_t> first;
 
   void find(std::size_t bodies, std::span<const ContactConstraint> all) {
     DisjointSets sets(bodies);
     for (const ContactConstraint& c : all)
       if (c.b != ContactConstraint::fixed) sets.join(c.a, c.b);
-    // Sorted by root: how many contacts each has, and then where the next one goes.
+    // A counting sort by root: first the number of contacts of each, then the position of the next one.
     next_.assign(bodies, 0);
     for (const ContactConstraint& c : all) ++next_[sets.root(c.a)];
     first.assign(1, 0);
@@ -43,19 +48,20 @@ struct ContactIslands {
   std::vector<std::uint32_t> next_;  // by root
 };
 
-/// What is known of an island since it was last solved.
+/// The last solution of an island.
 struct Known {
   DualActiveSet method;
   std::vector<double> inverse_mass;
   std::vector<ContactIsland::Row> rows;  // with their forces
-  std::vector<std::uint32_t> now;        // by row: which of the present island's it is, or DualActiveSet::gone()
+  std::vector<std::uint32_t> now;        // by row: its number in the present island, or DualActiveSet::gone()
 
   bool resembles(const ContactIsland& island);
 };
 
-/// Whether factors, or the forces, of last time are a start: the same masses, and few of the rows are others.
+/// Whether the last factors or forces are a start: the masses are the same, and few rows differ.
 bool Known::resembles(const ContactIsland& island) {
-  constexpr std::size_t few = 16;  // of a number of rows, one in so many
+  // One row in so many may differ.
+  constexpr std::size_t few = 16;
   if (island.inverse_mass != inverse_mass || rows.empty()) return false;
   const auto key = [](const ContactIsland::Row& r) { return std::uint64_t{r.a} << 32 | r.b; };
   std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
@@ -80,8 +86,9 @@ bool Known::resembles(const ContactIsland& island) {
   return others <= 1 + rows.size() / few;
 }
 
-/// The commonest problem by far, one contact, needs no method: twice, the second time for what rounding has left.
-/// False: it is left as it was, for there is more to it.
+/// Solves a problem of one contact, by far the most common, in closed form. A second pass removes the rounding of the
+/// first.
+/// False: the problem needs a method, and is unchanged.
 bool solve_single(const ContactProblem& problem, ContactConstraint& c, Certificate& certificate) {
   const bool fixed = c.b == ContactConstraint::fixed;
   const Vec3 none = Vec3::Zero();
@@ -108,7 +115,7 @@ bool solve_single(const ContactProblem& problem, ContactConstraint& c, Certifica
   return true;
 }
 
-/// Whether the free motion is what contact allows.
+/// Whether contact allows the free motion.
 bool nothing_presses(const ContactProblem& problem, std::span<const std::uint32_t> contacts) {
   return std::all_of(contacts.begin(), contacts.end(), [&](std::uint32_t k) {
     const ContactConstraint& c = problem.contacts[k];
@@ -117,8 +124,9 @@ bool nothing_presses(const ContactProblem& problem, std::span<const std::uint32_
   });
 }
 
-/// What an exact answer would cost, ns on one core: only what it is to other costs matters. Orthogonal factors take
-/// three in unknowns for every row, sparse ones some thirty factorisations and a set-up that finds their pattern.
+/// The cost of an exact answer, in ns on one core. Only its ratio to other costs matters.
+/// Orthogonal factors take three operations in unknowns for every row. Sparse ones take some thirty factorisations and
+/// a set-up that finds their pattern.
 class ExactCost {
  public:
   explicit ExactCost(const ContactIsland& island) : island_(island) {
@@ -131,13 +139,13 @@ class ExactCost {
   }
 
   double dense() const { return dense_; }
-  /// At least what the sparse method costs, whatever its factors' fill.
+  /// A lower bound of the sparse method's cost, for any fill of its factors.
   double least_sparse() const { return least_sparse_; }
   double sparse() {
     constexpr double per_operation = 0.35;
     return least_sparse_ + factorisations * per_operation * method().operations();
   }
-  /// The sparse method, set up once it is asked for.
+  /// The sparse method, set up on first use.
   ContactInteriorPoint& method() {
     if (!method_) method_.emplace(island_);
     return *method_;
@@ -203,7 +211,7 @@ void ContactSolver::Workspace::take_island(const ContactProblem& problem, std::s
   island.scale();
 }
 
-/// What contact leaves of a speed is nothing if doubled precision does not resolve it.
+/// A speed that contact leaves is zero if double-double precision does not resolve it.
 void ContactSolver::Workspace::give_back(const ContactProblem& problem, std::span<const std::uint32_t> contacts) const {
   const double nothing = 0x1p-96 * island.speed;
   const PowerOfTwo unit(island.motion_exponent), unit_of_force(island.motion_exponent - island.mass_exponent);
@@ -217,12 +225,14 @@ void ContactSolver::Workspace::give_back(const ContactProblem& problem, std::spa
     problem.contacts[contacts[k]].force = unit_of_force * answer.force[k].value();
 }
 
-/// Here and in solve_to_slack a method is chosen: by what each would cost, and orthogonal factors where masses are too
-/// unequal for sparse ones. Where the one fails the other comes next, and then orthogonal factors from nothing.
+/// This function and solve_to_slack choose a method: the cheaper one, or orthogonal factors where masses are too
+/// unequal for sparse ones.
+/// If one method fails, the other follows, and then orthogonal factors from nothing.
 Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, Known& last) {
-  constexpr double worth_while = 8;  // solutions: factors for which one pays once pay for so many
+  // Solutions for which factors are reused: factors may cost so many times more.
+  constexpr double worth_while = 8;
   Certificate best{Certificate::Verdict::doubtful, std::numeric_limits<double>::infinity()};
-  // Whether that was it.
+  // Keeps the better answer. Returns whether it is accepted.
   const auto take = [&](const Judgement& judgement, bool infeasible) {
     if (answer.motion.empty() || judgement.within_slack || judgement.change < best.change) {
       std::swap(answer, attempt);
@@ -260,8 +270,8 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, Known& last
   return best;
 }
 
-/// By projected gradients, until they have cost as much as an exact answer would, which is found then. So the two cost
-/// at most about twice what the cheaper one does.
+/// Projected gradients run until they have cost as much as an exact answer, which is then computed. Both together cost
+/// at most about twice the cheaper one.
 Certificate ContactSolver::Workspace::solve_to_slack(ContactAccuracy accuracy) {
   ExactCost cost(island);
   gradients.start(island);
@@ -324,7 +334,7 @@ Certificate ContactSolver::solve(const ContactProblem& problem) {
 }
 
 Certificate solve(const ContactProblem& problem) {
-  // Nothing of a problem but room for the next one stays.
+  // The workspace keeps nothing of a problem except its memory.
   thread_local ContactSolver::Workspace room;
   room.remembers = false;
   return room.solve(problem);

@@ -1,3 +1,9 @@
+// MPRGP (Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23): conjugate gradients on the rows that press, projected
+// steps elsewhere.
+// The matrix is never formed. A product with it goes over the rows twice: forces to bodies, and bodies' motion to rows.
+// Four rows are side by side in vectors of four doubles. Sums have one order, so that the bits do not depend on the
+// vector width of the processor.
+// Sweeps from row to row (projected Gauss-Seidel) make no progress in an island that is nearly at rest.
 #include "solver/contact_projected_gradients.h"
 
 #include <algorithm>
@@ -6,12 +12,13 @@
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
-#define __SANITIZE_ADDRESS__  // as gcc says it
+// The name that gcc uses.
+#define __SANITIZE_ADDRESS__
 #endif
 #endif
 
-// Of the same arithmetic in vectors of 2 or of 4 the processor at hand takes what it has. (The choice comes before a
-// sanitizer is ready.)
+// The same arithmetic in vectors of 2 or of 4, as the processor has them. The choice happens before a sanitizer is
+// ready.
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
 #define CAROM_FOR_ALL_PROCESSORS __attribute__((target_clones("avx2", "default")))
 #else
@@ -33,7 +40,7 @@ inline __attribute__((always_inline)) void ContactProjectedGradients::push(const
                                                                            Motion* moved) {
   const Four zero{};
   const Four px = x * rows.normal[0], py = x * rows.normal[1], pz = x * rows.normal[2];
-  // By row, from by axis.
+  // Transposed: from axes to rows.
   const Four xy_even = __builtin_shufflevector(px, py, 0, 4, 2, 6);
   const Four xy_odd = __builtin_shufflevector(px, py, 1, 5, 3, 7);
   const Four z_even = __builtin_shufflevector(pz, zero, 0, 4, 2, 6);
@@ -42,7 +49,7 @@ inline __attribute__((always_inline)) void ContactProjectedGradients::push(const
   const Four p1 = __builtin_shufflevector(xy_odd, z_odd, 0, 1, 4, 5);
   const Four p2 = __builtin_shufflevector(xy_even, z_even, 2, 3, 6, 7);
   const Four p3 = __builtin_shufflevector(xy_odd, z_odd, 2, 3, 6, 7);
-  // One after the other: they may share bodies.
+  // One after the other, because they may share bodies.
   moved[rows.a[0]].u -= p0;
   moved[rows.b[0]].u += p0;
   moved[rows.a[1]].u -= p1;
@@ -53,12 +60,12 @@ inline __attribute__((always_inline)) void ContactProjectedGradients::push(const
   moved[rows.b[3]].u += p3;
 }
 
-/// Of the four rows, of unit length, what such motion of their bodies is along them.
+/// The motion of the bodies along the four rows of unit length.
 inline __attribute__((always_inline)) void ContactProjectedGradients::find_rate(const Rows& rows, const Motion* moved,
                                                                                 Four& rate) {
   const Four w0 = moved[rows.b[0]].u - moved[rows.a[0]].u, w1 = moved[rows.b[1]].u - moved[rows.a[1]].u;
   const Four w2 = moved[rows.b[2]].u - moved[rows.a[2]].u, w3 = moved[rows.b[3]].u - moved[rows.a[3]].u;
-  // By axis, from by row.
+  // Transposed: from rows to axes.
   const Four low01 = __builtin_shufflevector(w0, w1, 0, 4, 2, 6);
   const Four low23 = __builtin_shufflevector(w2, w3, 0, 4, 2, 6);
   const Four high01 = __builtin_shufflevector(w0, w1, 1, 5, 3, 7);
@@ -69,12 +76,12 @@ inline __attribute__((always_inline)) void ContactProjectedGradients::find_rate(
   rate = rows.normal[0] * x + rows.normal[1] * y + rows.normal[2] * z;
 }
 
-/// From forces on bodies what they do to them.
+/// Turns forces on bodies into the bodies' motion.
 inline __attribute__((always_inline)) void divide_by_mass(const double* inverse_mass, auto* moved, std::size_t bodies) {
   for (std::size_t k = 0; k < bodies; ++k) moved[k].u *= inverse_mass[k];
 }
 
-/// What the next forces do to every body.
+/// The motion of every body under the next forces.
 CAROM_FOR_ALL_PROCESSORS
 void ContactProjectedGradients::move_next(const Rows* rows, const Next* next, std::size_t count,
                                           const double* inverse_mass, Motion* moved, std::size_t bodies) {
@@ -83,7 +90,7 @@ void ContactProjectedGradients::move_next(const Rows* rows, const Next* next, st
   divide_by_mass(inverse_mass, moved, bodies);
 }
 
-/// The direction in which rows are to press that do not, and what it does to every body.
+/// The direction for rows that must press and do not, and the motion of every body along it.
 CAROM_FOR_ALL_PROCESSORS
 void ContactProjectedGradients::chop(const Rows* rows, Forces* forces, std::size_t count, const double* inverse_mass,
                                      Motion* turned, std::size_t bodies, Sums& sums) {
@@ -102,7 +109,7 @@ void ContactProjectedGradients::chop(const Rows* rows, Forces* forces, std::size
   sums.square = sum(square);
 }
 
-/// From what the direction does to bodies what it does to rows.
+/// The image of the direction in the rows, from the bodies' motion.
 CAROM_FOR_ALL_PROCESSORS
 void ContactProjectedGradients::find_image(const Rows* rows, Forces* forces, std::size_t count, const Motion* turned,
                                            Sums& sums) {
@@ -115,7 +122,7 @@ void ContactProjectedGradients::find_image(const Rows* rows, Forces* forces, std
   sums.pap = sum(pap);
 }
 
-/// Where this step leads, and the gradient there.
+/// The forces after this step, and their gradient.
 inline __attribute__((always_inline)) void ContactProjectedGradients::reach(const Forces& f, double step, double least,
                                                                             Next& next) {
   const Four zero{};
@@ -124,7 +131,7 @@ inline __attribute__((always_inline)) void ContactProjectedGradients::reach(cons
   next.g = (g < zero ? -g : g) < least ? zero : g;
 }
 
-/// Whether this step leaves all bounds kept, and what the next direction needs.
+/// Whether the step keeps all bounds, and the sums for the next direction.
 CAROM_FOR_ALL_PROCESSORS
 void ContactProjectedGradients::try_step(const Forces* forces, std::size_t count, double step, double least,
                                          Sums& sums) {
@@ -152,8 +159,8 @@ struct ContactProjectedGradients::Parts {
   }
 };
 
-/// Takes the next forces. The direction of the conjugate gradients on the face of the rows that press: g less `turn`
-/// times the last one.
+/// Takes the next forces, and sets the direction of the conjugate gradients on the face of the rows that press: g less
+/// `turn` times the last direction.
 inline __attribute__((always_inline)) void ContactProjectedGradients::take(const Rows& rows, Forces& f,
                                                                            const Next& next, double turn,
                                                                            double per_step, double least,
@@ -176,11 +183,13 @@ inline __attribute__((always_inline)) void ContactProjectedGradients::take(const
   // A row that presses falls short, or presses while it parts.
   const Four least_of = x < g ? x : g, part = g >= zero ? zero : -g;
   const Four off = x > zero ? (least_of < zero ? -least_of : least_of) : part;
-  parts.beyond = off <= f.slack ? parts.beyond : zero + 1;  // what is no number, too
+  // This catches values that are not finite too.
+  parts.beyond = off <= f.slack ? parts.beyond : zero + 1;
 }
 
-/// Takes the next forces, or where there are none those to which this step leads; and a direction conjugate to the last
-/// one, or where turn is 0 the gradient, with what it does to every body.
+/// Takes the next forces, or without them those after this step. The new direction is conjugate to the last one, or the
+/// gradient where turn is 0.
+/// Computes the motion of every body along it.
 CAROM_FOR_ALL_PROCESSORS
 void ContactProjectedGradients::take_all(const Rows* rows, Forces* forces, const Next* next, std::size_t count,
                                          double step, double turn, double per_step, double least,
@@ -199,7 +208,8 @@ void ContactProjectedGradients::take_all(const Rows* rows, Forces* forces, const
   parts.add_up(sums);
 }
 
-/// The next forces: as far as this step leads, and onto their bounds. How far along the direction the first bound is.
+/// The next forces: those after this step, projected onto their bounds. Returns the step along the direction to the
+/// first bound.
 CAROM_FOR_ALL_PROCESSORS
 double ContactProjectedGradients::project(const Forces* forces, Next* next, std::size_t count, double step,
                                           double least) {
@@ -215,7 +225,7 @@ double ContactProjectedGradients::project(const Forces* forces, Next* next, std:
   return std::min(std::min(lowest[0], lowest[1]), std::min(lowest[2], lowest[3]));
 }
 
-/// Along the direction to the first bound, and from there by this step along the projected gradient.
+/// Goes along the direction to the first bound, and from there by this step along the projected gradient.
 CAROM_FOR_ALL_PROCESSORS
 void ContactProjectedGradients::bend(const Forces* forces, Next* next, std::size_t count, double first, double step) {
   const Four zero{};
@@ -260,7 +270,7 @@ void ContactProjectedGradients::take_rows() {
   slack_energy_ = least * least * static_cast<double>(island.rows.size());
 }
 
-/// At least the greatest eigenvalue of A: by the rows that share a body (Gershgorin's discs, |n . n'| <= 1).
+/// An upper bound of the greatest eigenvalue of A, from the rows that share a body (Gershgorin's discs, |n . n'| <= 1).
 double ContactProjectedGradients::norm() {
   std::fill(moved_.begin(), moved_.end(), Motion{});
   const ContactIsland& island = *island_;
@@ -277,7 +287,7 @@ double ContactProjectedGradients::norm() {
   return most;
 }
 
-/// Of the next forces. Twice their potential.
+/// Computes the gradient of the next forces. Returns twice their potential.
 double ContactProjectedGradients::find_next_gradient() {
   move_next(rows_.data(), next_.data(), next_.size(), inverse_mass_.data(), moved_.data(), moved_.size());
   Four potential{};
@@ -296,7 +306,8 @@ void ContactProjectedGradients::start(const ContactIsland& island) {
   products_ = reach_ = 0;
   take_rows();
   step_ = 1.9 / norm();
-  // What has died away to nothing is none: its squares would underflow, and other units would give other bits.
+  // Values that have decayed this far are set to zero. Their squares would underflow, and other units would give other
+  // bits.
   Four most{};
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     const Four constant = forces_[k].constant, size = constant < Four{} ? -constant : constant;
@@ -311,13 +322,14 @@ void ContactProjectedGradients::start(const ContactIsland& island) {
   potential_.assign(1, sums_.potential);
 }
 
-/// Whether forces x do more to bodies than rounding, by x A x and x x: some press against one another and do nothing.
+/// Whether forces x have an effect on bodies beyond rounding, by x A x and x x. Some forces press against each other
+/// and have none.
 bool ContactProjectedGradients::moves_bodies(double xax, double xx) const {
   return xax * step_ > 0x1p-46 * xx;
 }
 
-/// The next forces times the factor for which the potential is least, which is not above that of no forces at all; or
-/// `else_by`, if they do nothing.
+/// Multiplies the next forces by the factor of least potential, which is not above that without forces. The factor is
+/// `else_by` if they have no effect.
 void ContactProjectedGradients::scale_next(double else_by) {
   Four quadratic{}, linear{}, square{};
   for (std::size_t k = 0; k < forces_.size(); ++k) {
@@ -336,14 +348,14 @@ void ContactProjectedGradients::scale_next(double else_by) {
   for (Motion& m : moved_) m.u *= factor;
 }
 
-/// Takes the next forces, whose gradient is known; the gradient is the new direction.
+/// Takes the next forces with their gradient. The gradient is the new direction.
 void ContactProjectedGradients::begin() {
   take_all(rows_.data(), forces_.data(), next_.data(), forces_.size(), 0, 0, 1 / step_, least_, inverse_mass_.data(),
            turned_.data(), turned_.size(), sums_);
 }
 
-/// One step: along the face of the rows that press, onto its bound, or with the rows that are to press. False: nothing
-/// is left but rounding, or no motion keeps all rows.
+/// One step: along the face of the rows that press, onto its bound, or with rows that must press.
+/// False: only rounding is left, or no motion satisfies all rows.
 bool ContactProjectedGradients::iterate() {
   fresh_ = false;
   const bool on_face = sums_.chopped <= sums_.reduced;
@@ -362,9 +374,10 @@ bool ContactProjectedGradients::iterate() {
   return true;
 }
 
-/// On in the same direction as if there were no bounds, then onto them, if that is better than to stop at the first
-/// one. Else from there along the projected gradient, as far as surely gains. (Kruzik, Horak, Cermak, Pospisil & Pecha,
-/// Adv. Eng. Softw. 149 (2020) 102895.)
+/// Continues in the same direction past the bounds and projects onto them, if that is better than a stop at the first
+/// bound.
+/// Otherwise it goes from there along the projected gradient, as far as gain is certain. (Kruzik, Horak, Cermak,
+/// Pospisil & Pecha, Adv. Eng. Softw. 149 (2020) 102895.)
 void ContactProjectedGradients::go_on_at_bounds(double step) {
   const double first = project(forces_.data(), next_.data(), forces_.size(), step, least_);
   const double at_first = sums_.potential - first * (2 * sums_.gp - first * sums_.pap);
@@ -375,14 +388,14 @@ void ContactProjectedGradients::go_on_at_bounds(double step) {
   begin();
 }
 
-/// What products with the matrix have taken, with all that goes with them: ns, as ExactCost.
+/// The cost of products with the matrix and of the work that goes with them, in ns, as ExactCost.
 double ContactProjectedGradients::cost() const {
   constexpr double per_four_rows = 18, per_product = 25;
   return static_cast<double>(products_) * (per_four_rows * static_cast<double>(rows_.size()) + per_product);
 }
 
-/// Whether the second half of all iterations has gained no more than the slack's energy. Asked once an iteration has
-/// come from every row to every other.
+/// Whether the second half of all iterations gained no more than the slack's energy.
+/// It takes as many iterations as a force needs to reach every row from every other.
 bool ContactProjectedGradients::gains_little() {
   const std::size_t now = potential_.size() - 1;
   if (now == 0 || !(potential_[now / 2] - potential_[now] <= slack_energy_)) return false;
@@ -390,8 +403,8 @@ bool ContactProjectedGradients::gains_little() {
   return now >= reach_;
 }
 
-/// The gradient that steps have carried along is rounded. And what is left of it does no work: all forces change by one
-/// factor, for which the potential is least.
+/// Recomputes the gradient, because the one that steps have updated is rounded. What remains of it does no work.
+/// For that, all forces change by one factor, that of least potential.
 void ContactProjectedGradients::renew() {
   for (std::size_t k = 0; k < forces_.size(); ++k) next_[k].x = forces_[k].x;
   find_next_gradient();

@@ -1,9 +1,12 @@
 #pragma once
 // Contact to within the rows' slack: conjugate gradients on the rows that press, which are found on the way (MPRGP:
-// Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23). The unknowns are the forces of rows of unit length, so that
-// the matrix has a unit diagonal and bodies of any masses weigh alike. It is never formed: its product with forces is
-// what they do to the rows' motion. The potential x A x / 2 + c x only falls. Sweeps from row to row (projected
-// Gauss-Seidel) are the way not taken: in what is nearly at rest they get nowhere.
+// Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23).
+// The unknowns are the forces of rows of unit length. The matrix then has a unit diagonal, and bodies of any masses
+// have equal weight.
+// It is never formed: its product with forces is their effect on the rows' motion. The potential x A x / 2 + c x only
+// falls.
+// Sweeps from row to row (projected Gauss-Seidel) were not chosen, because they make no progress where bodies are
+// nearly at rest.
 #include <cstdint>
 #include <vector>
 
@@ -13,18 +16,18 @@ namespace carom {
 
 class ContactProjectedGradients {
  public:
-  /// From the rows' guesses, all times one factor; no row is bilateral. The island must outlive this.
+  /// Starts from the rows' guesses, all times one factor. No row may be bilateral. The island must outlive this object.
   void start(const ContactIsland& island);
 
-  /// Goes on until the answer is as near as `accuracy` asks, or has cost about `most_cost` ns since start(). Whether it
-  /// is.
+  /// Continues until the answer has the required accuracy, or has cost about `most_cost` ns since start(). Returns
+  /// whether it has the accuracy.
   bool run(ContactAccuracy accuracy, double most_cost);
 
-  /// Leaves the answer, once it is near enough: bodies move as the forces make them, to rounding. By how much targets
-  /// differ of which it is the exact solution, as in Judgement.
+  /// Stores the answer, once it is accurate enough. Bodies move as the forces imply, to rounding.
+  /// Returns the change of the targets for which it is the exact solution, as in Judgement.
   double finish(ContactAnswer& answer) const;
 
-  /// Gives the rows of the island as a guess the forces found so far.
+  /// Gives the island's rows the present forces as a guess.
   void guess(ContactIsland& island) const;
 
  private:
@@ -40,33 +43,35 @@ class ContactProjectedGradients {
     Four normal[3];  // times the scale of rows (ContactIsland::Row)
     std::uint32_t a[width], b[width];
   };
-  /// The unknowns of four rows, and what goes with them.
+  /// The unknowns of four rows, and related values.
   struct alignas(aligned) Forces {
-    Four x, g;       // of a row of unit length, >= 0; and the gradient: how far the row is from its target
-    Four direction;  // along which x is to fall,
-    Four image;      // and A times it
+    // The force of a row of unit length, >= 0, and the gradient: the row's distance from its target.
+    Four x, g;
+    Four direction;  // x falls along it
+    Four image;      // A times the direction
     Four constant;   // g without forces
     Four slack;      // of a row of unit length
   };
-  /// Forces to go to, and their gradient.
+  /// The next forces, and their gradient.
   struct alignas(aligned) Next {
     Four x, g;
   };
-  /// What a pass over all rows adds up.
+  /// Sums of a pass over all rows.
   struct Sums {
-    double square = 0;                // of the direction
-    double gp = 0, pap = 0;           // direction times gradient and times image
-    double turn = 0;                  // where rows press, the next gradient times image
-    bool feasible = true;             // no next force is negative
-    double reduced = 0, chopped = 0;  // squares of the gradient: where rows press, as far as bounds let it; elsewhere
-    double potential = 0;             // twice
+    double square = 0;       // of the direction
+    double gp = 0, pap = 0;  // direction times gradient, and direction times image
+    double turn = 0;         // over rows that press, the next gradient times image
+    bool feasible = true;    // no next force is negative
+    // Squares of the gradient: over rows that press, as far as bounds allow, and over the other rows.
+    double reduced = 0, chopped = 0;
+    double potential = 0;  // twice its value
     bool within_slack = true;
   };
 
   struct Place {
     std::size_t four, lane;
   };
-  /// Where row c stands: side by side are rows from far apart, which mostly share no body.
+  /// The place of row c. Rows side by side are far apart in number, so that they mostly share no body.
   Place place(std::size_t c) const { return {c % rows_.size(), c / rows_.size()}; }
   void take_rows();
   double norm();
@@ -80,7 +85,7 @@ class ContactProjectedGradients {
   bool gains_little();
   double cost() const;
 
-  /// The same, in four parts.
+  /// The same sums, in four parts.
   struct Parts;
 
   static void push(const Rows& rows, const Four& x, Motion* moved);
@@ -104,16 +109,17 @@ class ContactProjectedGradients {
   std::vector<Rows> rows_;
   std::vector<Forces> forces_;
   std::vector<Next> next_;
-  std::vector<double> inverse_mass_;      // by body; and one more, which nothing moves
-  std::vector<Motion> moved_;             // by body: what the last forces whose gradient was found do to it,
-  std::vector<Motion> turned_;            // and what the direction does
+  std::vector<double> inverse_mass_;      // by body; and a last one that is immovable
+  std::vector<Motion> moved_;             // by body: its motion by the last forces with a gradient
+  std::vector<Motion> turned_;            // by body: its motion along the direction
   double step_ = 0;                       // along the projected gradient
-  double least_ = 0;                      // less is nothing
-  double slack_energy_ = 0;               // twice that of rows off by the least slack
-  std::vector<double> potential_;         // twice, by iteration
-  std::size_t products_ = 0, reach_ = 0;  // with the matrix; the island's, 0: not looked for yet
+  double least_ = 0;                      // smaller values are set to zero
+  double slack_energy_ = 0;               // twice the energy of rows off by the least slack
+  std::vector<double> potential_;         // twice its value, by iteration
+  std::size_t products_ = 0, reach_ = 0;  // products with the matrix; the island's reach, 0: not computed yet
   Sums sums_;
-  bool fresh_ = false;  // the gradient and moved_ are those of x but for rounding, and the gradient does no work
+  // The gradient and moved_ are those of x but for rounding, and the gradient does no work.
+  bool fresh_ = false;
 };
 
 }  // namespace carom
