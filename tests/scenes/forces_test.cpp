@@ -13,7 +13,7 @@ namespace {
 TEST(Raindrops, StrikeWhenTheClosedFormSays) {
   const std::string file = "raindrops";
   const Played run = play(file);
-  EXPECT_EQ(choose_engine(run.scene).name, "exact");
+  EXPECT_EQ(choose_engine(run.scene).engine, Engine::exact);
   const Collision heavy = run.of("heavy").front(), light = run.of("light").front(), steady = run.of("steady").front();
   EXPECT_NEAR(heavy.time, said(file, "heavy ball strikes at t = "), 1e-14);
   EXPECT_NEAR(heavy.approach_speed, 9.572362817880828, 1e-13);
