@@ -11,7 +11,7 @@ namespace {
 // Each instance is a rectangle that lies on a surface around the shadow that one ball casts there, or around the place
 // where it comes close; the backdrop's depth keeps it to where that surface is seen. The darkest of all balls' effects
 // on a pixel counts: shadows that overlap are not darker than one.
-const char* const vertex_shader = R"(
+const char* const thing_vertex_shader = R"(
 layout(location = 0) in vec3 origin;     // middle of the rectangle
 layout(location = 1) in vec3 u;          // half side
 layout(location = 2) in vec3 v;          // half side
@@ -45,7 +45,7 @@ void main() {
 }
 )";
 
-const char* const fragment_shader = R"(
+const char* const thing_fragment_shader = R"(
 #ifdef SOLIDS
 flat in vec4 solid;
 #endif
@@ -114,11 +114,11 @@ Shade::Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces,
       surfaces_(surfaces),
       meshes_(meshes),
       solids_(solids),
-      program_(
-          {solids ? "#define SOLIDS\n" : "", vertex_shader},
-          {solids ? "#define SOLIDS\n" : "", surfaces.walls() ? "#define WALLS\n" : "",
-           fmt::format("#define PLANES {}\n#define LEAST_TAKEN {}\n", cutting_planes(surfaces), least_taken),
-           meshes ? "#define MESHES\n" : "", lighting.shader(), meshes ? MeshShadows::shader() : "", fragment_shader}),
+      program_({solids ? "#define SOLIDS\n" : "", thing_vertex_shader},
+               {solids ? "#define SOLIDS\n" : "", surfaces.walls() ? "#define WALLS\n" : "",
+                fmt::format("#define PLANES {}\n#define LEAST_TAKEN {}\n", cutting_planes(surfaces), least_taken),
+                meshes ? "#define MESHES\n" : "", lighting.shader(), meshes ? MeshShadows::shader() : "",
+                thing_fragment_shader}),
       instances_(solids ? gl::Instances{3, 3, 3, 4, 3, 3, 4} : gl::Instances{3, 3, 3, 4, 3, 3}) {
   program_.use();
   lighting.set(program_);

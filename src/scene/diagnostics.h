@@ -49,7 +49,7 @@ class Diagnostics {
 std::size_t count_characters(std::string_view text);
 
 /// `text` between backticks, shortened and free of control characters, for use inside a message.
-std::string quoted(std::string_view text);
+std::string in_backticks(std::string_view text);
 
 /// The name in `candidates` that `name` was probably meant to be: few letters apart (two swapped letters count as one).
 /// Empty: none is near. The first of equally near ones wins.

@@ -268,7 +268,7 @@ constexpr Field sheet_fields[] = {
 };
 // clang-format on
 
-constexpr Kind all_kinds[] = {
+constexpr Kind kinds_of_scenes[] = {
     {"scene", "the", "One scene: what there is, what happens, what is wanted of it.", scene_fields},
     {"restitution", "", "How bodies bounce off one another.", restitution_fields},
     {"pair", "a", "A coefficient of restitution for two bodies, whatever theirs are.", pair_fields},
@@ -307,7 +307,7 @@ constexpr Kind all_kinds[] = {
 }  // namespace
 
 std::span<const Kind> kinds() {
-  return all_kinds;
+  return kinds_of_scenes;
 }
 
 std::vector<std::span<const Kind>> families() {

@@ -39,7 +39,7 @@ Json optional_json(const std::optional<double>& value) {
   return value ? Json(*value) : Json();
 }
 
-constexpr OutputKind all_kinds[] = {
+constexpr OutputKind output_table[] = {
     {.name = "trajectory",
      .asked = [](const Output& o) { return o.trajectory.has_value(); },
      .add = [](Output& to, const Output& asked) { take(to.trajectory, asked.trajectory); },
@@ -179,32 +179,32 @@ bool OutputKind::has_file(std::string_view file) const {
 }
 
 std::span<const OutputKind> output_kinds() {
-  return all_kinds;
+  return output_table;
 }
 
 Output restricted(const Output& asked, const std::vector<std::string>& only) {
   Output output;
-  for (const OutputKind& kind : all_kinds)
+  for (const OutputKind& kind : output_table)
     if (std::find(only.begin(), only.end(), kind.name) != only.end()) kind.add(output, asked);
   return output;
 }
 
 bool holds_all(const Output& asked, const std::vector<std::string>& only) {
   return std::all_of(only.begin(), only.end(), [&](const std::string& name) {
-    return std::any_of(std::begin(all_kinds), std::end(all_kinds),
+    return std::any_of(std::begin(output_table), std::end(output_table),
                        [&](const OutputKind& kind) { return kind.name == name && kind.asked(asked); });
   });
 }
 
 Output with_all(const Output& asked) {
   Output output;
-  for (const OutputKind& kind : all_kinds) kind.add(output, asked);
+  for (const OutputKind& kind : output_table) kind.add(output, asked);
   return output;
 }
 
 std::vector<std::string> output_files(const Output& output) {
   std::vector<std::string> names;
-  for (const OutputKind& kind : all_kinds) {
+  for (const OutputKind& kind : output_table) {
     if (!kind.asked(output)) continue;
     for (const std::string_view name : parts_of(kind.files)) names.emplace_back(name);
     if (kind.named) names.push_back(kind.named(output));
@@ -215,7 +215,7 @@ std::vector<std::string> output_files(const Output& output) {
 bool is_reserved(std::string_view name) {
   for (const std::string_view always : {"scene.yaml", "summary.csv", "manifest.json"})
     if (name == always) return true;
-  return std::any_of(std::begin(all_kinds), std::end(all_kinds), [&](const OutputKind& kind) {
+  return std::any_of(std::begin(output_table), std::end(output_table), [&](const OutputKind& kind) {
     return kind.has_file(name) || (!kind.series.folder.empty() && kind.series.folder == name);
   });
 }

@@ -89,7 +89,7 @@ std::optional<std::uint64_t> parse_whole(std::string_view text) {
 Complaint explain_number(const Node& node, const Field& field) {
   const std::string& text = node.text;
   const std::string wanted = "expected " + expected(field);
-  const std::string shown = quoted(text);
+  const std::string shown = in_backticks(text);
   if (node.quoted) {
     if (parse_number(text))
       return {fmt::format("{} in quotes is text, not a number", shown), fmt::format("without quotes: {}", text)};
@@ -138,9 +138,9 @@ Complaint explain_number(const Node& node, const Field& field) {
       return {fmt::format("{} carries a unit", shown), "expected " + expected(field) + ", the number alone"};
     if (rest.substr(unit) == field.unit)
       return {fmt::format("{} carries a unit", shown),
-              fmt::format("{} is always in {}: write {}", quoted(field.key), field.unit, prefix)};
+              fmt::format("{} is always in {}: write {}", in_backticks(field.key), field.unit, prefix)};
     return {fmt::format("{} carries a unit", shown),
-            fmt::format("{} is always in {}: write the number alone", quoted(field.key), field.unit)};
+            fmt::format("{} is always in {}: write the number alone", in_backticks(field.key), field.unit)};
   }
   return {fmt::format("{} is not a number", shown), wanted};
 }
