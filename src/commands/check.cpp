@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t names_shown = 10, crossings_shown = 10, crossings_listed = 1000;
+constexpr std::size_t bodies_shown = 10, crossings_shown = 10, crossings_listed = 1000;
 constexpr double trial_budget = 0.1;  // s of wall time
 
 // "red, blue and gas (1,000)".
@@ -32,7 +32,7 @@ std::string bodies_text(const Scene& scene) {
     names.push_back(range.group ? fmt::format("{} ({})", range.name, grouped(range.count)) : range.name);
   }
   const std::string count = counted(scene.world.body_count(), "body", "bodies");
-  return names.empty() ? count : fmt::format("{}: {}", count, listed(names, names_shown));
+  return names.empty() ? count : fmt::format("{}: {}", count, listed(names, bodies_shown));
 }
 
 std::string fixed_text(const World& world) {
@@ -78,7 +78,7 @@ std::string out_of_view_text(const PlannedScene& planned, const CameraPreview& v
   if (view.out_of_view.empty()) return "no body at time 0";
   std::vector<std::string> names;
   for (const Entity body : view.out_of_view) {
-    if (names.size() == names_shown) break;
+    if (names.size() == bodies_shown) break;
     names.push_back(planned.scene->roster.name(body));
   }
   const std::size_t more = view.out_of_view.size() - names.size();
@@ -97,7 +97,7 @@ std::string crossings_text(const PlannedScene& planned, const Foresight& foresig
     for (; i < all.size() && all[i].time == first.time && all[i].enters == first.enters; ++i)
       names.push_back(planned.scene->roster.name(all[i].body));
     const bool one = names.size() == 1;
-    texts.push_back(fmt::format("{} {} at {}", listed(names, names_shown),
+    texts.push_back(fmt::format("{} {} at {}", listed(names, bodies_shown),
                                 first.enters ? (one ? "enters" : "enter") : (one ? "leaves" : "leave"),
                                 quantity(first.time, "s")));
   }
@@ -221,7 +221,7 @@ Json camera_json(const Scene& scene, const CameraPreview& camera, const Foresigh
   }
   Json names = Json::array();
   for (const Entity body : camera.out_of_view) {
-    if (names.size() == names_shown) break;
+    if (names.size() == bodies_shown) break;
     names.push_back(scene.roster.name(body));
   }
   return {{"plus_x", camera.plus_x},

@@ -72,7 +72,7 @@ void refuse_single_dash(const CLI::App& app, const std::vector<std::string>& wor
     const std::string name = word.substr(1, word.find('=') - 1);
     for (const CLI::Option* option : app.get_options()) {
       if (option->check_lname(name)) {
-        throw UsageError(fmt::format("no option {}; did you mean `--{}`?", carom::quoted(word), name));
+        throw UsageError(fmt::format("no option {}; did you mean `--{}`?", in_backticks(word), name));
       }
     }
   }
@@ -87,7 +87,7 @@ void refuse_unknown(const CLI::App& app) {
   }
   const std::string word = extras.front().substr(0, extras.front().find('='));
   throw UsageError(
-      fmt::format("no option {}{}", carom::quoted(word), word.starts_with("--") ? did_you_mean(word, known) : ""));
+      fmt::format("no option {}{}", in_backticks(word), word.starts_with("--") ? did_you_mean(word, known) : ""));
 }
 
 // CLI11's texts begin with the option's name; what it minds is either a value too few or one too many.
@@ -105,11 +105,11 @@ void check_operands(const CommandText& command, const std::vector<std::string>& 
   if (operands.size() <= command.most) return;
   const std::string& extra = operands[command.most];
   throw UsageError(command.most == 0
-                       ? fmt::format("it takes no {}", carom::quoted(extra))
+                       ? fmt::format("it takes no {}", in_backticks(extra))
                        : fmt::format("it takes {}, not {} too",
                                      command.most == 1 ? "one " + command.operand
                                                        : fmt::format("{} {}", command.most, command.operand),
-                                     carom::quoted(extra)));
+                                     in_backticks(extra)));
 }
 
 }  // namespace

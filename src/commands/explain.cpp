@@ -199,7 +199,7 @@ std::vector<std::string> asked_words(const std::vector<std::string>& operands) {
 [[noreturn]] void refuse(const std::string& key) {
   const std::string near = suggest_place(key);
   const std::size_t line = near.find('\n');
-  throw UsageError(fmt::format("the format has no {}{}", carom::quoted(key),
+  throw UsageError(fmt::format("the format has no {}{}", in_backticks(key),
                                near.empty() ? "; `carom explain` lists its kinds" : "; " + near.substr(0, line)));
 }
 

@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr std::uint64_t largest_text = 1 << 30;  // bytes
-constexpr std::size_t names_shown = 10;
+constexpr std::size_t parts_shown = 10;
 
 class GatherSession {
  public:
@@ -95,7 +95,7 @@ class GatherSession {
     if (!missing.empty()) {
       progress.clear();
       complain(options_, fmt::format("{}: {} of {} runs are missing: {}\n  run the parts that have them again",
-                                     printable(folder_), missing.size(), sweep.size(), listed(missing, names_shown)));
+                                     printable(folder_), missing.size(), sweep.size(), listed(missing, parts_shown)));
       show("incomplete", sweep, missing, failed);
       return 1;
     }
@@ -109,7 +109,7 @@ class GatherSession {
     progress.clear();
     if (!failed.empty())
       complain(options_,
-               fmt::format("{} failed: {}", counted(failed.size(), "run", "runs"), listed(failed, names_shown)));
+               fmt::format("{} failed: {}", counted(failed.size(), "run", "runs"), listed(failed, parts_shown)));
     show("done", sweep, missing, failed);
     return failed.empty() ? 0 : 3;
   }

@@ -33,7 +33,7 @@ fs::path scene_path(const std::string& name) {
     throw UsageError(
         fmt::format("{} is no name for a scene; name a file such as demos/first.yaml, without control characters, "
                     "backslashes or a dot or dash at its start",
-                    carom::quoted(name)));
+                    in_backticks(name)));
   }
   return path;
 }

@@ -31,7 +31,7 @@ Choice chosen(const Words& words, std::string_view option, std::span<const std::
   const std::string& word = single(words, option);
   const auto found = std::find(names.begin(), names.end(), word);
   if (found == names.end()) {
-    throw UsageError(fmt::format("{} is {}, not {}{}", option, fmt::join(names, ", "), carom::quoted(word),
+    throw UsageError(fmt::format("{} is {}, not {}{}", option, fmt::join(names, ", "), in_backticks(word),
                                  did_you_mean(word, {names.begin(), names.end()})));
   }
   return static_cast<Choice>(found - names.begin());
@@ -44,7 +44,7 @@ std::uint64_t whole(const Words& words, std::string_view option, std::uint64_t l
   const auto [stop, error] = std::from_chars(word.data(), end, value);
   if (error != std::errc() || stop != end || value < least || value > most) {
     throw UsageError(
-        fmt::format("{} is a whole number from {} to {}, not {}", option, least, most, carom::quoted(word)));
+        fmt::format("{} is a whole number from {} to {}, not {}", option, least, most, in_backticks(word)));
   }
   return value;
 }
@@ -55,7 +55,7 @@ double number(const std::string& word, std::string_view option) {
   const char* end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data(), end, value);
   if (error != std::errc() || stop != end || !(value > 0) || !std::isfinite(value))
-    throw UsageError(fmt::format("{} takes a number above 0, not {}", option, carom::quoted(word)));
+    throw UsageError(fmt::format("{} takes a number above 0, not {}", option, in_backticks(word)));
   return value;
 }
 
@@ -63,7 +63,7 @@ void read_set(Options& options, const Words& words) {
   options.set = words;
   for (const std::string& set : words) {
     if (const std::size_t equals = set.find('='); equals == std::string::npos || equals == 0)
-      throw UsageError(fmt::format("--set takes path=value, balls.red.mass=2 say, not {}", carom::quoted(set)));
+      throw UsageError(fmt::format("--set takes path=value, balls.red.mass=2 say, not {}", in_backticks(set)));
   }
 }
 
@@ -85,7 +85,7 @@ void read_only(Options& options, const Words& words) {
   for (const std::string& name : split_lists(words)) {
     const auto& known = output_names();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw UsageError(fmt::format("--only takes {}, not {}{}", fmt::join(known, ", "), carom::quoted(name),
+      throw UsageError(fmt::format("--only takes {}, not {}{}", fmt::join(known, ", "), in_backticks(name),
                                    did_you_mean(name, known)));
     }
     if (std::find(only.begin(), only.end(), name) == only.end()) only.push_back(name);
@@ -102,7 +102,7 @@ void read_charts(Options& options, const Words& words) {
     const bool lacks_by = second != std::string::npos && first != std::string::npos && chart.by.empty();
     if (chart.x.empty() || chart.y.empty() || lacks_by || chart.by.find(':') != std::string::npos)
       throw UsageError(fmt::format("--charts takes x:y or x:y:by, restitution.default:energy_lost_J say, not {}",
-                                   carom::quoted(text)));
+                                   in_backticks(text)));
     options.compare.charts.push_back(std::move(chart));
   }
 }
@@ -116,10 +116,10 @@ void read_steps(Options& options, const Words& words) {
   bench.shortest = colon == std::string::npos ? bench.longest : number(steps.substr(colon + 1), "--steps");
   if (!(*bench.shortest <= *bench.longest))
     throw UsageError(
-        fmt::format("--steps goes from the longest step to the shortest, 0.1:0.001 say, not {}", carom::quoted(steps)));
+        fmt::format("--steps goes from the longest step to the shortest, 0.1:0.001 say, not {}", in_backticks(steps)));
   if (std::log2(*bench.longest / *bench.shortest) > most_halvings)
     throw UsageError(
-        fmt::format("--steps halves at most {} times, not as often as {}", most_halvings, carom::quoted(steps)));
+        fmt::format("--steps halves at most {} times, not as often as {}", most_halvings, in_backticks(steps)));
 }
 
 std::string_view only_help() {
@@ -142,7 +142,7 @@ Shard read_shard(const std::string& word) {
   };
   if (slash == std::string::npos || !part(std::string_view(word).substr(0, slash), shard.index) ||
       !part(std::string_view(word).substr(slash + 1), shard.count) || shard.index < 1 || shard.index > shard.count)
-    throw UsageError(fmt::format("--shard takes I/N, 1/4 to 4/4 say, not {}", carom::quoted(word)));
+    throw UsageError(fmt::format("--shard takes I/N, 1/4 to 4/4 say, not {}", in_backticks(word)));
   return shard;
 }
 
@@ -162,7 +162,7 @@ const Option table[] = {
        for (const std::string& grid : w)
          if (const std::size_t equals = grid.find('='); equals == std::string::npos || equals == 0)
            throw UsageError(
-               fmt::format("--grid takes path=from:to:count or path=value,value, not {}", carom::quoted(grid)));
+               fmt::format("--grid takes path=from:to:count or path=value,value, not {}", in_backticks(grid)));
        o.grid = w;
      }},
     {"--shard", "", "I/N", "part I of N, the first is 1; gather joins them (in a\njob array of Slurm: the task's part)",
@@ -175,7 +175,7 @@ const Option table[] = {
        for (const std::string& option : w)
          if (!option.starts_with("-") || option.find('\n') != std::string::npos)
            throw UsageError(fmt::format("--batch takes an option of sbatch, --batch=--time=1:00:00 say, not {}",
-                                        carom::quoted(option)));
+                                        in_backticks(option)));
        o.submit.batch = w;
      }},
     {"--plan", "", "", "show the runs, their values and what is done already",
@@ -249,7 +249,7 @@ const std::vector<std::string>& output_names() {
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
   const std::string name = nearest(word, {known.begin(), known.end()});
-  return name.empty() ? "" : fmt::format("; did you mean {}?", carom::quoted(name));
+  return name.empty() ? "" : fmt::format("; did you mean {}?", in_backticks(name));
 }
 
 }  // namespace carom

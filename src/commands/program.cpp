@@ -58,12 +58,12 @@ const Command* find_command(const std::string& name) {
   std::vector<std::string_view> names = {"help"};
   for (const Command& command : commands()) names.push_back(command.text.name);
   if (const std::string near = nearest(word, names); !near.empty()) {
-    throw UsageError(fmt::format("no command {}; did you mean {}?", carom::quoted(word), carom::quoted(near)));
+    throw UsageError(fmt::format("no command {}; did you mean {}?", in_backticks(word), in_backticks(near)));
   }
   if (word.ends_with(".yaml") || word.ends_with(".yml")) {
     throw UsageError(fmt::format("name a command first: carom run {}", printable(word)));
   }
-  throw UsageError(fmt::format("no command {}; it has {}", carom::quoted(word), command_names()));
+  throw UsageError(fmt::format("no command {}; it has {}", in_backticks(word), command_names()));
 }
 
 int usage_error(const std::string& command, const UsageError& error) {

@@ -36,7 +36,7 @@ int schema_command(const Options& options) {
   std::vector<std::string> known;
   for (const auto family : families()) known.emplace_back(family.front().name);
   if (std::find(known.begin(), known.end(), name) == known.end()) {
-    throw UsageError(fmt::format("there is no kind of file {}{}; it has {}", carom::quoted(name),
+    throw UsageError(fmt::format("there is no kind of file {}{}; it has {}", in_backticks(name),
                                  did_you_mean(name, known), listed(known, known.size())));
   }
   write_out(json_schema(name));

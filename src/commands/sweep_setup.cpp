@@ -34,7 +34,7 @@ void set_for_all(Sweep& sweep, const std::string& text, std::string_view option)
   const std::size_t equals = text.find('=');
   const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
   if (varies(sweep, path))
-    throw UsageError(fmt::format("{} sets {}, which varies in this sweep", option, carom::quoted(path)));
+    throw UsageError(fmt::format("{} sets {}, which varies in this sweep", option, in_backticks(path)));
   // Of several values the last counts.
   std::erase_if(sweep.set_values, [&](const SweepValue& set) { return set.text.starts_with(path + "="); });
   // In a file an unquoted # begins a comment; here it can only be a colour.
@@ -50,7 +50,7 @@ std::optional<std::size_t> slurm(const char* name) {
   const char* end = text + std::string_view(text).size();
   const auto [stop, error] = std::from_chars(text, end, value);
   if (error != std::errc() || stop != end)
-    throw UsageError(fmt::format("{} is {}, which is no number: say --shard I/N", name, carom::quoted(text)));
+    throw UsageError(fmt::format("{} is {}, which is no number: say --shard I/N", name, in_backticks(text)));
   return value;
 }
 

@@ -23,14 +23,14 @@ namespace {
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t motion_size = 6;
 
-[[noreturn]] void refuse(const std::string& folder, const std::string& text) {
+[[noreturn]] void refuse_run(const std::string& folder, const std::string& text) {
   throw ExportError(fmt::format("{} {}", folder, text));
 }
 
 std::vector<std::string> read_summary(const RunRecord& run) {
   StoredTable table = open_table(run, summary_name);
   const std::vector<std::string_view>* row = table.next();
-  if (row == nullptr) refuse(run.run.folder, "has an empty summary.csv: run it again with --force");
+  if (row == nullptr) refuse_run(run.run.folder, "has an empty summary.csv: run it again with --force");
   std::vector<std::string> cells;
   for (const SummaryColumn& column : summary_columns()) {
     const auto at = table.find(column.name);
@@ -78,9 +78,10 @@ void read_measures(RunRecord& run, const std::vector<Measure>& measures) {
     }
     if (!motions) {
       if (!has_file(run, "trajectory.csv"))
-        refuse(run.run.folder, fmt::format("has no trajectory.csv, which tells {}: run its scene.yaml again with the "
-                                           "output `trajectory`",
-                                           measure.name));
+        refuse_run(run.run.folder,
+                   fmt::format("has no trajectory.csv, which tells {}: run its scene.yaml again with the "
+                               "output `trajectory`",
+                               measure.name));
       motions = end_of_trajectory(run);
     }
     if (measure.quantity == Quantity::kinetic && !scene) scene = load_run_scene(run.run.folder);
@@ -92,7 +93,7 @@ void read_measures(RunRecord& run, const std::vector<Measure>& measures) {
 
 StoredTable open_table(const RunRecord& run, const char* name) {
   Descriptor file = open_stored(run.folder.get(), name);
-  if (!file) refuse(run.run.folder, fmt::format("has no {}", name));
+  if (!file) refuse_run(run.run.folder, fmt::format("has no {}", name));
   return StoredTable(std::move(file));
 }
 
@@ -114,10 +115,10 @@ bool tells(const std::string& path, const std::vector<Measure>& measures) {
 RunRecord read_run(ComparedRun run, const std::vector<Measure>& measures) {
   RunRecord record{std::move(run), false, Descriptor(), {}, {}};
   record.folder = open_folder(AT_FDCWD, record.run.folder, true);
-  if (!record.folder && !record.run.failed) refuse(record.run.folder, "cannot be opened: there is no such folder");
+  if (!record.folder && !record.run.failed) refuse_run(record.run.folder, "cannot be opened: there is no such folder");
   record.done = !record.run.failed && has_file(record, manifest_name) && has_file(record, summary_name);
   if (!record.done && !record.run.failed && !has_file(record, failure_file))
-    refuse(record.run.folder, "holds no whole run: run its scene again, or leave it out");
+    refuse_run(record.run.folder, "holds no whole run: run its scene again, or leave it out");
   if (!record.done) {
     record.summary.assign(summary_columns().size(), "");
     record.measures.assign(measures.size(), undefined);

@@ -189,9 +189,9 @@ void check_charts(const ComparisonPlan& plan) {
   const auto refuse = [&](const std::string& name, const char* what) {
     const std::string near = nearest(name, paths);
     std::string remedy;
-    if (!near.empty()) remedy = fmt::format("; did you mean {}?", quoted(near));
+    if (!near.empty()) remedy = fmt::format("; did you mean {}?", in_backticks(near));
     if (near.empty() && !paths.empty()) remedy = fmt::format("; what varies is {}", fmt::join(paths, ", "));
-    throw MeasureError(fmt::format("a chart's {} {}{}", quoted(name), what, remedy));
+    throw MeasureError(fmt::format("a chart's {} {}{}", in_backticks(name), what, remedy));
   };
   for (const Chart& chart : plan.charts) {
     if (!chart.by.empty() && !find_parameter(plan, chart.by)) refuse(chart.by, "does not vary");

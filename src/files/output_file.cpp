@@ -15,7 +15,7 @@ namespace carom {
 namespace {
 
 /// Large enough to make system calls negligible, and small enough to stay in cache during hashing.
-constexpr std::size_t piece_size = std::size_t{256} * 1024;
+constexpr std::size_t least_block = std::size_t{256} * 1024;
 
 /// The number of pieces after which a file starts a thread.
 constexpr std::uint64_t pieces_alone = 8;
@@ -48,7 +48,7 @@ void OutputFile::write(std::string_view bytes) {
 void OutputFile::make_room(std::size_t size) {
   flush();
   std::vector<char>& bytes = pieces_.item().bytes;
-  if (bytes.size() < size) bytes.resize(std::max(size, piece_size));
+  if (bytes.size() < size) bytes.resize(std::max(size, least_block));
   data_ = bytes.data();
   size_ = bytes.size();
 }

@@ -11,7 +11,7 @@
 namespace carom {
 namespace {
 
-constexpr std::size_t piece_size = std::size_t{64} * 1024;
+constexpr std::size_t read_size = std::size_t{64} * 1024;
 
 /// Whether this errno of openat() means that there is no regular file of this name. A link or a socket counts as none.
 bool is_no_file(int error) {
@@ -53,7 +53,7 @@ std::optional<FileRecord> read_record(int folder, const std::string& name) {
   if (!file) return std::nullopt;
   FileRecord record{name, 0, {}};
   Sha256 hash;
-  std::vector<char> buffer(4 * piece_size);
+  std::vector<char> buffer(4 * read_size);
   while (const std::size_t n = read_some(file.get(), buffer.data(), buffer.size())) {
     hash.add({buffer.data(), n});
     record.bytes += n;
@@ -66,7 +66,7 @@ std::optional<std::string> read_text(int folder, const std::string& name, std::u
   const Descriptor file = open_stored(folder, name);
   if (!file) return std::nullopt;
   std::string text;
-  std::vector<char> buffer(piece_size);
+  std::vector<char> buffer(read_size);
   while (const std::size_t n = read_some(file.get(), buffer.data(), buffer.size())) {
     text.append(buffer.data(), n);
     if (text.size() > most) return std::nullopt;

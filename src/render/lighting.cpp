@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t most_lights = 32;
 
 // A matt surface that faces a light of intensity 1 has its own colour. Light does not weaken with distance.
-const char* const functions = R"(
+const char* const light_functions = R"(
 const float softness = SOFTNESS;
 uniform float lamp_radius;                // of a key light with a position
 uniform vec4 light_vector[LIGHTS + 1];    // position (w = 1) or unit direction towards the light (w = 0)
@@ -150,7 +150,7 @@ Lighting::Lighting(const Scene& scene, const Eye& eye)
   }
   if (lights_[0].near) lamp_radius_ = softness * (eye.point(eye.camera.target) - lights_[0].vector).norm();
   ambient_ = scene.ambient ? linear(*scene.ambient) : std::array<float, 3>{0.26F, 0.28F, 0.31F};
-  shader_ = fmt::format("#define LIGHTS {}\n#define SOFTNESS {:.6f}\n{}", lights_.size(), softness, functions);
+  shader_ = fmt::format("#define LIGHTS {}\n#define SOFTNESS {:.6f}\n{}", lights_.size(), softness, light_functions);
 }
 
 void Lighting::set(const gl::Program& program) const {

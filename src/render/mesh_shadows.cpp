@@ -9,9 +9,9 @@ namespace carom {
 namespace {
 
 // Side of the largest picture, a power of two.
-constexpr int side = 1024;
+constexpr int shadow_side = 1024;
 
-const char* const vertex_shader = R"(
+const char* const depth_vertex_shader = R"(
 layout(location = 0) in vec3 vertex;
 uniform mat3 axes;  // the world's
 uniform vec3 across_u, across_v;
@@ -23,12 +23,12 @@ void main() {
 }
 )";
 
-const char* const fragment_shader = R"(
+const char* const depth_fragment_shader = R"(
 layout(location = 0) out float covered;
 void main() { covered = 1; }
 )";
 
-const char* const functions = R"(
+const char* const shadow_functions = R"(
 uniform sampler2DArray mesh_outlines;
 uniform vec3 across_u, across_v;
 
@@ -49,15 +49,15 @@ void set_vector(const gl::Program& program, const char* name, const Vec3& v) {
 }  // namespace
 
 const char* MeshShadows::shader() {
-  return functions;
+  return shadow_functions;
 }
 
 MeshShadows::MeshShadows(const Shapes& shapes, std::size_t files, const Eye& eye, const Lighting& lighting) {
   const Vec3& l = lighting.key();
   across_u_ = l.cross(std::abs(l.x()) < 0.7 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)).normalized();
   across_v_ = l.cross(across_u_);
-  outlines_ = gl::make_outlines(side, static_cast<int>(files));
-  const gl::Program program({vertex_shader}, {fragment_shader});
+  outlines_ = gl::make_outlines(shadow_side, static_cast<int>(files));
+  const gl::Program program({depth_vertex_shader}, {depth_fragment_shader});
   program.use();
   std::array<float, 9> axes{};
   for (int i = 0; i < 9; ++i)
@@ -68,7 +68,7 @@ MeshShadows::MeshShadows(const Shapes& shapes, std::size_t files, const Eye& eye
   shapes.fill_instances(std::array<float, Shapes::row>{});
   for (std::size_t i = 0; i < files; ++i) {
     const gl::Framebuffer framebuffer = gl::make_layer_framebuffer(outlines_, static_cast<int>(i));
-    gl::Viewport(0, 0, side, side);
+    gl::Viewport(0, 0, shadow_side, shadow_side);
     gl::Disable(GL_BLEND);
     gl::Disable(GL_DEPTH_TEST);
     const float nothing[4] = {};

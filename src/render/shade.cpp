@@ -15,7 +15,7 @@ namespace {
 // close.
 // The backdrop's depth confines it to the visible part of that surface.
 // The darkest effect of all balls on a pixel counts, so that overlapping shadows are not darker than one.
-const char* const vertex_shader = R"(
+const char* const thing_vertex_shader = R"(
 layout(location = 0) in vec3 origin;     // middle of the rectangle
 layout(location = 1) in vec3 u;          // half side
 layout(location = 2) in vec3 v;          // half side
@@ -49,7 +49,7 @@ void main() {
 }
 )";
 
-const char* const fragment_shader = R"(
+const char* const thing_fragment_shader = R"(
 #ifdef SOLIDS
 flat in vec4 solid;
 #endif
@@ -120,11 +120,11 @@ Shade::Shade(const Eye& eye, const Lighting& lighting, const Surfaces& surfaces,
       surfaces_(surfaces),
       meshes_(meshes),
       solids_(solids),
-      program_(
-          {solids ? "#define SOLIDS\n" : "", vertex_shader},
-          {solids ? "#define SOLIDS\n" : "", surfaces.walls() ? "#define WALLS\n" : "",
-           fmt::format("#define PLANES {}\n#define LEAST_TAKEN {}\n", cutting_planes(surfaces), least_taken),
-           meshes ? "#define MESHES\n" : "", lighting.shader(), meshes ? MeshShadows::shader() : "", fragment_shader}),
+      program_({solids ? "#define SOLIDS\n" : "", thing_vertex_shader},
+               {solids ? "#define SOLIDS\n" : "", surfaces.walls() ? "#define WALLS\n" : "",
+                fmt::format("#define PLANES {}\n#define LEAST_TAKEN {}\n", cutting_planes(surfaces), least_taken),
+                meshes ? "#define MESHES\n" : "", lighting.shader(), meshes ? MeshShadows::shader() : "",
+                thing_fragment_shader}),
       instances_(solids ? gl::Instances{3, 3, 3, 4, 3, 3, 4} : gl::Instances{3, 3, 3, 4, 3, 3}) {
   program_.use();
   lighting.set(program_);

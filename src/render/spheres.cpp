@@ -14,7 +14,7 @@
 namespace carom {
 namespace {
 
-const char* const vertex_shader = R"(
+const char* const sphere_vertex_shader = R"(
 layout(location = 0) in vec4 ball_in;       // centre, radius
 layout(location = 1) in vec4 outline_in;    // centre and longer half axis in the plane z = 1; a zero axis: no ellipse
 layout(location = 2) in vec4 shape_in;      // shorter half axis' length, depth2, opacity, -
@@ -44,7 +44,7 @@ void main() {
 }
 )";
 
-const char* const fragment_shader = R"(
+const char* const sphere_fragment_shader = R"(
 flat in vec4 ball, outline, shape;
 flat in vec3 color;
 flat in ivec2 occluders;
@@ -114,9 +114,10 @@ Spheres::Spheres(const Eye& eye, const Lighting& lighting, const Surfaces& surfa
       surfaces_(surfaces),
       meshes_(meshes),
       smooth_(smooth),
-      program_({vertex_shader}, {smooth ? "#define SMOOTH\n" : "", surfaces.walls() ? "#define WALLS\n" : "",
-                                 solids ? "#define SOLIDS\n" : "", meshes ? "#define MESHES\n" : "", lighting.shader(),
-                                 meshes ? MeshShadows::shader() : "", material_shader, fragment_shader}),
+      program_({sphere_vertex_shader},
+               {smooth ? "#define SMOOTH\n" : "", surfaces.walls() ? "#define WALLS\n" : "",
+                solids ? "#define SOLIDS\n" : "", meshes ? "#define MESHES\n" : "", lighting.shader(),
+                meshes ? MeshShadows::shader() : "", material_shader, sphere_fragment_shader}),
       instances_({4, 4, 4, 4, 2}) {
   program_.use();
   lighting.set(program_);

@@ -63,13 +63,13 @@ std::vector<std::string_view> known_names() {
 
 std::string meant(std::string_view word, const std::vector<std::string_view>& names) {
   const std::string near = nearest(word, names);
-  return near.empty() ? "" : fmt::format("; did you mean {}?", quoted(near));
+  return near.empty() ? "" : fmt::format("; did you mean {}?", in_backticks(near));
 }
 
 [[noreturn]] void refuse_name(std::string_view name) {
   const std::string near = meant(name, known_names());
   throw MeasureError(fmt::format(
-      "no measure {}{}", quoted(name),
+      "no measure {}{}", in_backticks(name),
       near.empty() ? "; a measure is a column of numbers of summary.csv, or balls.NAME.speed_m_per_s and its like"
                    : near));
 }
@@ -89,15 +89,15 @@ Entity entity_of(const Measure& measure, const Scene& scene) {
     std::vector<std::string_view> names;
     for (const BodyRange& other : scene.roster.bodies)
       if (other.group == (measure.kind == "groups")) names.push_back(other.name);
-    throw MeasureError(
-        fmt::format("{}: {} has no {}{}", quoted(measure.name), measure.kind, quoted(name), meant(name, names)));
+    throw MeasureError(fmt::format("{}: {} has no {}{}", in_backticks(measure.name), measure.kind, in_backticks(name),
+                                   meant(name, names)));
   }
   if (!range->group) return range->first;
   Entity member = 0;
   const char* end = measure.body.data() + measure.body.size();
   const auto [stop, error] = std::from_chars(measure.body.data() + dot + 1, end, member);
   if (error != std::errc() || stop != end || member >= range->count)
-    throw MeasureError(fmt::format("{}: the members of {} are 0 to {}", quoted(measure.name), quoted(name),
+    throw MeasureError(fmt::format("{}: the members of {} are 0 to {}", in_backticks(measure.name), in_backticks(name),
                                    range->count == 0 ? "none" : std::to_string(range->count - 1)));
   return range->first + member;
 }
@@ -118,14 +118,15 @@ Measure parse_measure(std::string_view name) {
   measure.column = find_summary_column(name);
   if (measure.column != nullptr) {
     if (measure.column->number == nullptr)
-      throw MeasureError(fmt::format("{} of summary.csv is text, no measure", quoted(name)));
+      throw MeasureError(fmt::format("{} of summary.csv is text, no measure", in_backticks(name)));
     return measure;
   }
   const std::size_t first = name.find('.'), last = name.rfind('.');
   measure.kind = name.substr(0, first);
   if (first == std::string_view::npos || !is_kind(measure.kind)) refuse_name(name);
   if (first == last)
-    throw MeasureError(fmt::format("{} names no quantity: {}.NAME.speed_m_per_s, say", quoted(name), measure.kind));
+    throw MeasureError(
+        fmt::format("{} names no quantity: {}.NAME.speed_m_per_s, say", in_backticks(name), measure.kind));
   measure.body = name.substr(first + 1, last - first - 1);
   const std::string_view quantity = name.substr(last + 1);
   const auto found = std::find_if(quantities.begin(), quantities.end(),
@@ -134,15 +135,17 @@ Measure parse_measure(std::string_view name) {
     std::vector<std::string_view> names;
     for (const QuantityText& text : quantities) names.push_back(text.name);
     throw MeasureError(fmt::format(
-        "{}: no quantity {}{}", quoted(name), quoted(quantity),
+        "{}: no quantity {}{}", in_backticks(name), in_backticks(quantity),
         meant(quantity, names).empty() ? fmt::format("; it is {}", fmt::join(names, ", ")) : meant(quantity, names)));
   }
   measure.quantity = static_cast<Quantity>(found - quantities.begin());
   const bool has_member = measure.body.find('.') != std::string::npos;
   if (measure.kind == "groups" && !has_member)
-    throw MeasureError(fmt::format("{} names no member: groups.{}.0.{}, say", quoted(name), measure.body, quantity));
+    throw MeasureError(
+        fmt::format("{} names no member: groups.{}.0.{}, say", in_backticks(name), measure.body, quantity));
   if (measure.kind != "groups" && has_member)
-    throw MeasureError(fmt::format("{}: only groups have members: {}.NAME.{}", quoted(name), measure.kind, quantity));
+    throw MeasureError(
+        fmt::format("{}: only groups have members: {}.NAME.{}", in_backticks(name), measure.kind, quantity));
   return measure;
 }
 

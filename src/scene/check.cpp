@@ -54,7 +54,7 @@ class Checker : ValueChecker {
       const Node* part = defaults->find(field.key);
       if (part == nullptr || !part->is(Node::Kind::map) || kind_named(field.of).defaults.empty()) continue;
       Node whole = *part;
-      needed(whole, defaults_for(root_, kind_named(field.of)), kind_named(field.of), quoted(field.key), where);
+      needed(whole, defaults_for(root_, kind_named(field.of)), kind_named(field.of), in_backticks(field.key), where);
     }
   }
 
@@ -75,8 +75,8 @@ class Checker : ValueChecker {
       node.bad = true;
       diagnostics_.add(
           key == nullptr ? view.where() : key->place,
-          fmt::format("{} has a {} but no {}", what, quoted(field.key), quoted(field.with)),
-          fmt::format("expected {}: {}", quoted(field.with), expected(*find_field(view.kind(), field.with))));
+          fmt::format("{} has a {} but no {}", what, in_backticks(field.key), in_backticks(field.with)),
+          fmt::format("expected {}: {}", in_backticks(field.with), expected(*find_field(view.kind(), field.with))));
     }
   }
 
@@ -88,8 +88,8 @@ class Checker : ValueChecker {
     std::string message = what + " has", remedy = "expected ";
     for (const std::string_view key : keys) {
       const bool first = key == keys.front();
-      message += fmt::format("{} no {}", first ? "" : " and", quoted(key));
-      remedy += fmt::format("{}{} ({})", first ? "" : ", ", quoted(key), find_field(kind, key)->unit);
+      message += fmt::format("{} no {}", first ? "" : " and", in_backticks(key));
+      remedy += fmt::format("{}{} ({})", first ? "" : ", ", in_backticks(key), find_field(kind, key)->unit);
     }
     node.bad = true;
     diagnostics_.add(where, std::move(message), remedy + " or both");
@@ -130,12 +130,12 @@ class Checker : ValueChecker {
           fmt::format("expected `fit`: {}, the tightest one around the mesh", expected(*find_field(kind, "fit"))));
       return;
     }
-    std::string message = fmt::format("{} has no {}", what, quoted(field.key));
-    std::string remedy = fmt::format("expected {}: {}", quoted(field.key), expected(field));
+    std::string message = fmt::format("{} has no {}", what, in_backticks(field.key));
+    std::string remedy = fmt::format("expected {}: {}", in_backticks(field.key), expected(field));
     for (const std::string_view key : rivals(field)) {
       const Field& other = *find_field(kind, key);
-      message += fmt::format(" and no {}", quoted(key));
-      remedy += fmt::format("\nor {}: {}", quoted(key), expected(other));
+      message += fmt::format(" and no {}", in_backticks(key));
+      remedy += fmt::format("\nor {}: {}", in_backticks(key), expected(other));
     }
     diagnostics_.add(where, std::move(message), std::move(remedy));
   }
@@ -147,13 +147,14 @@ class Checker : ValueChecker {
       const std::string_view head = std::string_view(key.text).substr(0, gap);
       const std::size_t tail = key.text.find_first_not_of(": ", gap);
       const std::string suggestion = find_field(kind, head) != nullptr || is_name(head) ? std::string(head) : "key";
-      diagnostics_.add(key.place, fmt::format("{} is a key without a value", quoted(key.text)),
-                       tail == std::string::npos ? "expected `key: value`"
-                                                 : fmt::format("did you mean {}? A ':' and a space part key and value",
-                                                               quoted(suggestion + ": " + key.text.substr(tail))));
+      diagnostics_.add(key.place, fmt::format("{} is a key without a value", in_backticks(key.text)),
+                       tail == std::string::npos
+                           ? "expected `key: value`"
+                           : fmt::format("did you mean {}? A ':' and a space part key and value",
+                                         in_backticks(suggestion + ": " + key.text.substr(tail))));
       return;
     }
-    diagnostics_.add(key.place, fmt::format("unknown key {} in {}", quoted(key.text), what),
+    diagnostics_.add(key.place, fmt::format("unknown key {} in {}", in_backticks(key.text), what),
                      suggest_key(key.text, kind));
   }
 
@@ -171,7 +172,8 @@ class Checker : ValueChecker {
       if (found != nullptr && is_before(found->place, other == nullptr ? key.place : other->place)) other = found;
     }
     if (other != nullptr) {
-      diagnostics_.add(key.place, fmt::format("{} has both {} and {}", what, quoted(other->text), quoted(key.text)),
+      diagnostics_.add(key.place,
+                       fmt::format("{} has both {} and {}", what, in_backticks(other->text), in_backticks(key.text)),
                        "remove one of them");
     }
     check_value(value, *field, key, partial);
@@ -179,17 +181,17 @@ class Checker : ValueChecker {
 
   void file(Node& value, const Field& field) {
     if (!value.is(Node::Kind::scalar) || value.text.empty() || value.text.find('\n') != std::string::npos) {
-      wrong_type(value, quoted(field.key), "expected " + expected(field));
+      wrong_type(value, in_backticks(field.key), "expected " + expected(field));
       return;
     }
     const std::string why = why_no_file(beneath(folder_, value.text));
     if (!why.empty())
-      refuse(value, fmt::format("{} {}", why, quoted(value.text)), "paths start at the folder of the scene");
+      refuse(value, fmt::format("{} {}", why, in_backticks(value.text)), "paths start at the folder of the scene");
   }
 
   void check_value(Node& value, const Field& field, const Key& key, bool partial) {
     if (value.bad) return;
-    const std::string name = quoted(field.key);
+    const std::string name = in_backticks(field.key);
     const std::string wanted = "expected " + expected(field);
     switch (field.type) {
       case Type::number:
@@ -299,7 +301,7 @@ class Checker : ValueChecker {
   void part(Node& value, const Field& field, const Key& key, bool partial) {
     const Kind& kind = kind_named(field.of);
     // `defaults: {ball: ...}` is partial. So is a part inside it, if that part has defaults of its own.
-    map(value, kind, quoted(key.text), key.place, kind.name == "defaults" || (partial && !kind.defaults.empty()));
+    map(value, kind, in_backticks(key.text), key.place, kind.name == "defaults" || (partial && !kind.defaults.empty()));
   }
 
   bool has_entries(Node& value, const std::string& name, const std::string& wanted) {
@@ -314,14 +316,14 @@ class Checker : ValueChecker {
     if (!has_entries(value, name, wanted)) return;
     for (std::size_t i = 0; i < value.keys.size(); ++i) {
       if (value.items[i].is(Node::Kind::null))
-        wrong_type(value.items[i], quoted(value.keys[i].text), "expected a value");
+        wrong_type(value.items[i], in_backticks(value.keys[i].text), "expected a value");
     }
   }
 
   void axes(Node& value, const std::string& name, const std::string& wanted) {
     if (!has_entries(value, name, wanted)) return;
     for (std::size_t i = 0; i < value.keys.size(); ++i) {
-      const std::string path = quoted(value.keys[i].text);
+      const std::string path = in_backticks(value.keys[i].text);
       Node& values = value.items[i];
       if (values.is(Node::Kind::map)) {
         map(values, kind_named("range"), path, value.keys[i].place, false);
@@ -345,14 +347,14 @@ class Checker : ValueChecker {
     for (std::size_t i = 0; i < value.keys.size(); ++i) {
       const Key& key = value.keys[i];
       if (kind.also != nullptr && key.text == kind.also->key) {
-        color(value.items[i], quoted(key.text));
+        color(value.items[i], in_backticks(key.text));
         continue;
       }
       if (!is_name(key.text)) {
-        diagnostics_.add(key.place, fmt::format("{} is not a name", quoted(key.text)),
+        diagnostics_.add(key.place, fmt::format("{} is not a name", in_backticks(key.text)),
                          "expected letters, digits, _ and -, a letter or _ first");
       }
-      map(value.items[i], kind, fmt::format("{} {}", kind.name, quoted(key.text)), key.place, false);
+      map(value.items[i], kind, fmt::format("{} {}", kind.name, in_backticks(key.text)), key.place, false);
     }
   }
 
@@ -393,12 +395,12 @@ std::string suggest_key(std::string_view wrong, const Kind& kind) {
   for (const Kind& other : of_sweep ? sweep_kinds() : kinds()) {
     if (other.name == kind.name || other.name == "member" || find_field(other, wrong) == nullptr) continue;
     shown.push_back(other.name == "scene" || other.name == "sweep" ? fmt::format("the {} itself", other.name)
-                                                                   : quoted(other.name));
+                                                                   : in_backticks(other.name));
   }
   for (const std::string& owner : shown) owners.push_back(owner);
-  if (!owners.empty()) return fmt::format("{} is a key of {}\n{}", quoted(wrong), listed(owners), known);
+  if (!owners.empty()) return fmt::format("{} is a key of {}\n{}", in_backticks(wrong), listed(owners), known);
   const std::string near = nearest(wrong, keys);
-  return near.empty() ? known : fmt::format("did you mean {}?", quoted(near));
+  return near.empty() ? known : fmt::format("did you mean {}?", in_backticks(near));
 }
 
 }  // namespace carom

@@ -26,7 +26,7 @@ void ValueChecker::wrong_type(Node& node, const std::string& name, const std::st
       refuse(node, name + " has no value", wanted);
       break;
     case Node::Kind::scalar:
-      refuse(node, fmt::format("{} is {}", name, quoted(node.text)), wanted);
+      refuse(node, fmt::format("{} is {}", name, in_backticks(node.text)), wanted);
       break;
     case Node::Kind::sequence:
       refuse(node, name + " is a list", wanted);
@@ -110,8 +110,8 @@ void ValueChecker::choice(Node& value, const Field& field, const std::string& na
     return;
   }
   const std::string near = nearest(value.text, all);
-  refuse(value, fmt::format("{} is {}", name, quoted(value.text)),
-         near.empty() ? wanted : fmt::format("did you mean {}?\n{}", quoted(near), wanted));
+  refuse(value, fmt::format("{} is {}", name, in_backticks(value.text)),
+         near.empty() ? wanted : fmt::format("did you mean {}?\n{}", in_backticks(near), wanted));
 }
 
 void ValueChecker::color(Node& value, const std::string& name) {
@@ -125,8 +125,8 @@ void ValueChecker::color(Node& value, const std::string& name) {
                value.is(Node::Kind::null) ? wanted + "\na colour that begins with # needs quotes" : wanted);
   } else if (!parse_color(value.text)) {
     const std::string near = nearest(value.text, color_names());
-    refuse(value, fmt::format("{} is not a colour", quoted(value.text)),
-           near.empty() ? wanted : fmt::format("did you mean {}?", quoted(near)));
+    refuse(value, fmt::format("{} is not a colour", in_backticks(value.text)),
+           near.empty() ? wanted : fmt::format("did you mean {}?", in_backticks(near)));
   }
 }
 

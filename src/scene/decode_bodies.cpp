@@ -109,7 +109,7 @@ class Bodies {
     if (!min || !max || !arrange) return;
     const double radius = world_.radius[body.first];
     if (!((*max - *min) * 2).allFinite() || !((*max - *min).array() > 0).all()) {
-      diagnostics_.add(box.place("max"), fmt::format("the box of {} has no inside", quoted(body.key->text)),
+      diagnostics_.add(box.place("max"), fmt::format("the box of {} has no inside", in_backticks(body.key->text)),
                        "expected min below max on every axis");
       return;
     }
@@ -126,7 +126,7 @@ class Bodies {
       diagnostics_.add(group.place("count"),
                        fmt::format("{} of radius {} {} not fit into the box of {}",
                                    body.count == 1 ? "1 ball" : fmt::format("{} balls", body.count), shortest(radius),
-                                   body.count == 1 ? "does" : "do", quoted(body.key->text)),
+                                   body.count == 1 ? "does" : "do", in_backticks(body.key->text)),
                        fmt::format("{} would fit{}", placed.fit,
                                    *arrange == "lattice"     ? " as a lattice; `arrange: hexagonal` packs closer"
                                    : *arrange == "hexagonal" ? ""

@@ -27,7 +27,8 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
     if (it != inventory.bodies.end()) {
       if (member && *member < it->count) return Inventory::Range{it->first + static_cast<Entity>(*member), 1};
       diagnostics.add(
-          name.place, fmt::format("the group {} has no member {}", quoted(group), quoted(name.text.substr(dot + 1))),
+          name.place,
+          fmt::format("the group {} has no member {}", in_backticks(group), in_backticks(name.text.substr(dot + 1))),
           it->count == 0 ? "it has none" : fmt::format("expected {}.0 to {}.{}", group, group, it->count - 1));
       return std::nullopt;
     }
@@ -41,9 +42,9 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
     }
   }
   const std::string near = nearest(name.text, std::vector<std::string_view>(all.begin(), all.end()));
-  diagnostics.add(name.place, fmt::format("nothing is named {}", quoted(name.text)),
+  diagnostics.add(name.place, fmt::format("nothing is named {}", in_backticks(name.text)),
                   near.empty() ? "expected a ball, body, group, member (gas.3) or fixed thing, such as room.y_min"
-                               : fmt::format("did you mean {}?", quoted(near)));
+                               : fmt::format("did you mean {}?", in_backticks(near)));
   return std::nullopt;
 }
 
@@ -57,13 +58,13 @@ void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Dia
   if (!a || !b || !value) return;
   if (a->first >= inventory.body_count && b->first >= inventory.body_count && a->count > 0 && b->count > 0) {
     diagnostics.add(between->place,
-                    fmt::format("{} and {} never move, so they never meet", quoted(between->items[0].text),
-                                quoted(between->items[1].text)),
+                    fmt::format("{} and {} never move, so they never meet", in_backticks(between->items[0].text),
+                                in_backticks(between->items[1].text)),
                     "expected at least one ball, body or group");
     return;
   }
   if (a->first == b->first && a->count == 1 && b->count == 1) {
-    diagnostics.add(between->place, fmt::format("{} does not meet itself", quoted(between->items[0].text)),
+    diagnostics.add(between->place, fmt::format("{} does not meet itself", in_backticks(between->items[0].text)),
                     "expected two names");
     return;
   }
@@ -82,7 +83,7 @@ std::optional<std::vector<Entity>> decode_on(const View& force, const Inventory&
     good = good && range;
     if (!range) continue;
     if (range->first >= inventory.body_count && range->count > 0) {
-      diagnostics.add(item.place, fmt::format("{} never moves: no force acts on it", quoted(item.text)),
+      diagnostics.add(item.place, fmt::format("{} never moves: no force acts on it", in_backticks(item.text)),
                       "expected balls, bodies, groups or members (gas.3)");
       good = false;
       continue;

@@ -113,7 +113,7 @@ class Requests {
     });
     if (!plain || !video.file.ends_with(".mp4") || video.file.size() < 5 || video.file.size() > 200 ||
         video.file[0] == '.' || video.file[0] == '-') {
-      diagnostics_.add(part.place("file"), fmt::format("{} is not a name for a video", quoted(video.file)),
+      diagnostics_.add(part.place("file"), fmt::format("{} is not a name for a video", in_backticks(video.file)),
                        "expected a plain file name such as animation.mp4, without folders");
     }
     if (video.size.width % 2 != 0 || video.size.height % 2 != 0) {

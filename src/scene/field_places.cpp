@@ -197,7 +197,7 @@ std::string suggest_place(std::string_view key) {
     const std::vector<FieldPlaces> found = find_steps(Steps(said).first(count));
     const Kind* held = found.empty() ? nullptr : held_kind(*found.front().field);
     if (held == nullptr) continue;
-    return fmt::format("in {}: {}", quoted(held->name), suggest_key(said[count], *held));
+    return fmt::format("in {}: {}", in_backticks(held->name), suggest_key(said[count], *held));
   }
   std::vector<std::string_view> known;
   for (const Spot& spot : all_spots()) known.push_back(spot.field->key);
@@ -207,7 +207,7 @@ std::string suggest_place(std::string_view key) {
   for (const AbsentWord& word : absent_words())
     for (const std::string_view name : parts_of(word.words)) known.push_back(name);
   const std::string near = nearest(said.front(), known);
-  return near.empty() ? "" : fmt::format("did you mean {}?", quoted(near));
+  return near.empty() ? "" : fmt::format("did you mean {}?", in_backticks(near));
 }
 
 }  // namespace carom

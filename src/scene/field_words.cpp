@@ -10,8 +10,6 @@
 namespace carom {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 std::string capital(std::string text) {
   if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
   return text;
@@ -55,7 +53,7 @@ std::string limit_text(const Range& limits, std::string_view unit) {
 
 std::string describe(const Range& range) {
   if (range.min == range.max) return fmt::format("{}", range.min);
-  const bool low = range.min > -infinity, high = range.max < infinity;
+  const bool low = range.min > Range{}.min, high = range.max < Range{}.max;
   if (low && high) {
     return range.above_min || range.below_max ? fmt::format("between {} and {}", range.min, range.max)
                                               : fmt::format("from {} to {}", range.min, range.max);

@@ -214,7 +214,7 @@ constexpr Field light_fields[] = {
 
 // clang-format on
 
-constexpr Kind rows[] = {
+constexpr Kind kinds_of_scenes[] = {
     {"scene", "the", "One scene: what there is, what happens, what is wanted of it.", scene_fields},
     {"restitution", "", "How bodies bounce off one another.", restitution_fields},
     {"pair", "a", "A coefficient of restitution for two bodies, whatever theirs are.", pair_fields},
@@ -254,7 +254,7 @@ Field row_of(const OutputKind& kind) {
 class FormatTable {
  public:
   FormatTable() {
-    for (const Kind& kind : rows) add(kind);
+    for (const Kind& kind : kinds_of_scenes) add(kind);
     std::vector<Field> of_output;
     for (const OutputKind& kind : output_kinds()) of_output.push_back(row_of(kind));
     add({"output", "", "What the run writes; absent parts are not made.", of_output});

@@ -94,7 +94,7 @@ std::optional<Fit> Forms::fit(Shape shape, const Node& mesh) {
     tight = tightest(shape, *vertices);
   } catch (const std::invalid_argument&) {
     diagnostics_.add(place_of(mesh),
-                     fmt::format("the mesh {} is flat: its tightest {} has no inside", carom::quoted(mesh.text),
+                     fmt::format("the mesh {} is flat: its tightest {} has no inside", in_backticks(mesh.text),
                                  shape_names[static_cast<std::size_t>(shape)]),
                      "expected a mesh with width, height and depth");
   }
@@ -107,7 +107,7 @@ const std::vector<Vec3>* Forms::points(const Node& mesh) {
   if (!is_new) return entry->second.empty() ? nullptr : &entry->second;
   order_.push_back(path);
   const auto refuse = [&](const std::string& what) {
-    diagnostics_.add(place_of(mesh), fmt::format("the mesh {} cannot be used: {}", carom::quoted(mesh.text), what),
+    diagnostics_.add(place_of(mesh), fmt::format("the mesh {} cannot be used: {}", in_backticks(mesh.text), what),
                      "expected a file of triangles with finite vertices");
     return nullptr;
   };

@@ -46,7 +46,7 @@ class Census {
  private:
   void claim(const Key& key) {
     if (inventory_.names.emplace(key.text, Inventory::Range{0, 0}).second) return;
-    diagnostics_.add(key.place, fmt::format("the name {} is taken", quoted(key.text)),
+    diagnostics_.add(key.place, fmt::format("the name {} is taken", in_backticks(key.text)),
                      "names of bodies, groups, fixed things and the room are unique in a scene");
   }
 

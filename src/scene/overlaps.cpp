@@ -17,7 +17,7 @@ constexpr std::size_t max_overlaps_shown = 20;
 // In the grid. A heap of bodies in one place must not cost n^2.
 constexpr std::size_t max_overlapping_kept = 1000;
 // A share of the smaller reach. Places are decimals that were rounded by hand.
-constexpr double as_written = 1e-9;
+constexpr double rounding_of_places = 1e-9;
 
 struct Found {
   Entity later, other;
@@ -27,7 +27,7 @@ struct Found {
 
 void report(const Scene& scene, const Found& found, const std::string& more, Diagnostics& diagnostics) {
   const World& world = scene.world;
-  const std::string a = quoted(scene.roster.name(found.later)), b = quoted(scene.roster.name(found.other));
+  const std::string a = in_backticks(scene.roster.name(found.later)), b = in_backticks(scene.roster.name(found.other));
   if (world.is_plane(found.other) &&
       found.depth > 2 * world.volume_of(found.later).support(world.plane(found.other).normal)) {
     diagnostics.add(found.place, fmt::format("{} is behind {} at the start", a, b),
@@ -56,7 +56,7 @@ void check_overlaps(const Scene& scene, std::vector<SingleBody> singles, BodyGri
   });
   std::vector<Found> found;
   for (const SingleBody& single : singles) {
-    if (const auto overlap = grid.find_overlap(member(single.body), as_written)) {
+    if (const auto overlap = grid.find_overlap(member(single.body), rounding_of_places)) {
       const bool is_later = single.body > overlap->entity;
       const Entity later = std::max(overlap->entity, single.body), other = std::min(overlap->entity, single.body);
       found.push_back({later, other, overlap->depth, is_later ? single.position : place_of(later)});
@@ -79,12 +79,12 @@ void check_overlaps(const Scene& scene, std::vector<SingleBody> singles, BodyGri
                    [](const BodyGrid::Member& a, const BodyGrid::Member& b) { return a.radius > b.radius; });
   for (const BodyGrid::Member& obstacle : members) obstacles.insert(obstacle);
   for (const SingleBody& single : singles) {
-    if (const auto overlap = obstacles.find_overlap(member(single.body), as_written)) {
+    if (const auto overlap = obstacles.find_overlap(member(single.body), rounding_of_places)) {
       found.push_back({single.body, overlap->entity, overlap->depth, single.position});
     }
     for (Entity surface = world.body_count(); surface < world.body_count() + surfaces; ++surface) {
       const Vec3& center = scene.initial.position[single.body];
-      if (const auto depth = overlap_depth(world, single.body, center, surface, as_written)) {
+      if (const auto depth = overlap_depth(world, single.body, center, surface, rounding_of_places)) {
         found.push_back({single.body, surface, *depth, single.position});
       }
     }

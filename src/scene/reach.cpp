@@ -61,7 +61,7 @@ class Reach {
     if (length <= farthest_) return;
     diagnostics_.add(
         place,
-        fmt::format(fmt::runtime(message), quoted(name), shortest(length)) +
+        fmt::format(fmt::runtime(message), in_backticks(name), shortest(length)) +
             fmt::format(", more than {:g} times the smallest size, {} m", farthest_by_size, shortest(smallest_)),
         fmt::format("doubles do not resolve contact there: {}, or make what is smallest larger", change));
   }
@@ -77,7 +77,7 @@ class Reach {
     const std::string_view key = !kick.isZero(0) ? "impulse" : deviation ? "speed" : "velocity";
     const Place place = (key == "speed" || (common && key == "velocity") ? view : each).place(key);
     if (!(speed <= largest_speed)) {
-      diagnostics_.add(place, fmt::format("{} starts with {} m/s", quoted(body.key->text), shortest(speed)),
+      diagnostics_.add(place, fmt::format("{} starts with {} m/s", in_backticks(body.key->text), shortest(speed)),
                        fmt::format("expected at most {:g} m/s", largest_speed));
       return;
     }
@@ -85,7 +85,7 @@ class Reach {
     if (way <= farthest_) return;
     diagnostics_.add(place,
                      fmt::format("{} goes {} m in the duration, more than {:g} times the smallest size, {} m",
-                                 quoted(body.key->text), shortest(way), farthest_by_size, shortest(smallest_)),
+                                 in_backticks(body.key->text), shortest(way), farthest_by_size, shortest(smallest_)),
                      "doubles do not resolve where it is then: expected a shorter duration, a lower speed, or larger "
                      "things");
   }
@@ -99,10 +99,10 @@ class Reach {
         if (const auto* uniform = std::get_if<UniformForce>(&force.law)) pull += uniform->force.norm() / world_.mass[i];
       }
       if (pull <= largest_acceleration) continue;
-      diagnostics_.add(
-          root_.find_key("forces")->place,
-          fmt::format("the uniform forces accelerate {} by {} m/s^2", quoted(scene_.roster.name(i)), shortest(pull)),
-          fmt::format("expected at most {:g} m/s^2", largest_acceleration));
+      diagnostics_.add(root_.find_key("forces")->place,
+                       fmt::format("the uniform forces accelerate {} by {} m/s^2", in_backticks(scene_.roster.name(i)),
+                                   shortest(pull)),
+                       fmt::format("expected at most {:g} m/s^2", largest_acceleration));
       return;
     }
   }

@@ -55,7 +55,7 @@ class Walk {
   Node& node() { return *node_; }
 
   bool step(const Step& step, bool last) {
-    if (done_) return refuse(step, fmt::format("{} has no parts", quoted(before_)), "end the path before it");
+    if (done_) return refuse(step, fmt::format("{} has no parts", in_backticks(before_)), "end the path before it");
     if (step.text.empty())
       return refuse(step, "a name is missing in the path", "expected names with single dots between them");
     const bool moved = kind_ != nullptr ? into_key(step, last) : into_value(step);
@@ -74,7 +74,7 @@ class Walk {
     if (!node_->is(Node::Kind::map)) {
       // A list is not a map, so the step fails. A flag or an absent value is replaced by a map.
       if (node_->is(Node::Kind::sequence))
-        return refuse(step, fmt::format("{} is a list", quoted(before_)), "expected a map of keys");
+        return refuse(step, fmt::format("{} is a list", in_backticks(before_)), "expected a map of keys");
       const Place place = node_->place;
       *node_ = Node{};
       node_->kind = Node::Kind::map;
@@ -83,8 +83,8 @@ class Walk {
     const Field* field = find_field(*kind_, step.text);
     if (field == nullptr) {
       return refuse(step,
-                    fmt::format("unknown key {} in {}", quoted(step.text),
-                                kind_->name == "scene" ? "the scene" : quoted(kind_->name)),
+                    fmt::format("unknown key {} in {}", in_backticks(step.text),
+                                kind_->name == "scene" ? "the scene" : in_backticks(kind_->name)),
                     suggest_key(step.text, *kind_));
     }
     for (const std::string_view rival : rivals(*field)) erase(*node_, rival);
@@ -123,7 +123,7 @@ class Walk {
       case Type::list: {
         const std::optional<std::uint64_t> i = parse_index(step.text);
         if (!i || *i >= node_->items.size() || !node_->is(Node::Kind::sequence)) {
-          return refuse(step, fmt::format("{} has no entry {}", quoted(before_), quoted(step.text)),
+          return refuse(step, fmt::format("{} has no entry {}", in_backticks(before_), in_backticks(step.text)),
                         fmt::format("it has {} entries, the first is 0", node_->items.size()));
         }
         node_ = &node_->items[static_cast<std::size_t>(*i)];
@@ -137,7 +137,7 @@ class Walk {
       case Type::pixels:
         return into_numbers(step, {"width", "height"});
       default:
-        return refuse(step, fmt::format("{} has no parts", quoted(before_)), "end the path before it");
+        return refuse(step, fmt::format("{} has no parts", in_backticks(before_)), "end the path before it");
     }
   }
 
@@ -146,9 +146,9 @@ class Walk {
     Node* child = node_->is(Node::Kind::map) ? node_->find(step.text) : nullptr;
     if (child == nullptr) {
       const std::string near = nearest(step.text, names_in(*node_));
-      return refuse(step, fmt::format("there is no {} {}", kind.name, quoted(step.text)),
+      return refuse(step, fmt::format("there is no {} {}", kind.name, in_backticks(step.text)),
                     near.empty() ? "--set changes what is there; it makes nothing new"
-                                 : fmt::format("did you mean {}?", quoted(near)));
+                                 : fmt::format("did you mean {}?", in_backticks(near)));
     }
     node_ = child;
     if (kind.also != nullptr && step.text == kind.also->key) {
@@ -163,14 +163,15 @@ class Walk {
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (step.text != names[i]) continue;
       if (!node_->is(Node::Kind::sequence) || node_->items.size() != names.size()) {
-        return refuse(step, fmt::format("{} has no numbers yet", quoted(before_)),
-                      fmt::format("set all of {}", quoted(before_)));
+        return refuse(step, fmt::format("{} has no numbers yet", in_backticks(before_)),
+                      fmt::format("set all of {}", in_backticks(before_)));
       }
       node_ = &node_->items[i];
       done_ = true;
       return true;
     }
-    return refuse(step, fmt::format("{} has no {}", quoted(before_), quoted(step.text)), "expected " + listed(names));
+    return refuse(step, fmt::format("{} has no {}", in_backticks(before_), in_backticks(step.text)),
+                  "expected " + listed(names));
   }
 
   const Node& root_;

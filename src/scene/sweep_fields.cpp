@@ -4,8 +4,6 @@
 namespace carom {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // clang-format off
 constexpr Field grid{.key = "grid", .type = Type::axes, .doc = "Every combination of the values; the last path varies fastest.", .example = "{balls.red.mass: {from: 1, to: 2, count: 3}, balls.red.position.z: [-0.025, 0, 0.025]}"};
 constexpr Field zip{.key = "zip", .type = Type::axes, .doc = "Values in step: as many of each path.", .example = "{balls.red.mass: [1, 2], balls.blue.mass: [2, 1]}"};
@@ -37,7 +35,7 @@ constexpr Field range_fields[] = {
 
 constexpr Field repeat_fields[] = {
     {.key = "seeds", .type = Type::whole, .range = {1, 1e6}, .needed = true, .doc = "How many seeds, one after the other.", .example = "10"},
-    {.key = "first", .type = Type::whole, .range = {0, infinity}, .doc = "The first one. Default: the scene's seed.", .example = "1"},
+    {.key = "first", .type = Type::whole, .range = {.min = 0}, .doc = "The first one. Default: the scene's seed.", .example = "1"},
 };
 
 constexpr Field compare_fields[] = {
@@ -52,7 +50,7 @@ constexpr Field chart_fields[] = {
 };
 // clang-format on
 
-constexpr Kind all_kinds[] = {
+constexpr Kind kinds_of_sweeps[] = {
     {"sweep", "the", "Many runs of one scene with other values.", sweep_fields},
     {"block", "a", "Runs with other values.", block_fields},
     {"range", "a", "Evenly spread numbers, computed as decimals.", range_fields},
@@ -64,7 +62,7 @@ constexpr Kind all_kinds[] = {
 }  // namespace
 
 std::span<const Kind> sweep_kinds() {
-  return all_kinds;
+  return kinds_of_sweeps;
 }
 
 }  // namespace carom

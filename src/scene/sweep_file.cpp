@@ -43,7 +43,7 @@ class SweepReader {
     const Node* base = usable(root_.find("base"));
     if (base != nullptr && !sources_.front().option) {
       if (const std::string why = why_no_file(sweep_.base); !why.empty())
-        diagnostics_.add(base->place, fmt::format("{} {}", why, carom::quoted(base->text)),
+        diagnostics_.add(base->place, fmt::format("{} {}", why, in_backticks(base->text)),
                          "expected a scene file, by its path from the folder of this file");
     }
     blocks();
@@ -101,7 +101,7 @@ class SweepReader {
     }
     for (const std::string_view key : {"grid", "zip", "list", "skip"}) {
       if (const Key* beside = root_.find_key(key))
-        diagnostics_.add(beside->place, fmt::format("`runs` and {} stand side by side", carom::quoted(key)),
+        diagnostics_.add(beside->place, fmt::format("`runs` and {} stand side by side", in_backticks(key)),
                          "expected it in an entry of `runs`");
     }
     for (const Node& item : runs->items)
@@ -151,7 +151,7 @@ class SweepReader {
   /// Marks a path as varied. It may vary only once in a block.
   void take(const Key& key) {
     if (taken_.emplace(key.text, &key).second) return;
-    diagnostics_.add(key.place, fmt::format("{} varies twice", carom::quoted(key.text)), "remove one of them");
+    diagnostics_.add(key.place, fmt::format("{} varies twice", in_backticks(key.text)), "remove one of them");
   }
 
   SweepCase one_case(const Node& map) {
@@ -174,8 +174,8 @@ class SweepReader {
       }
       if (column.size() != axis.cases.size()) {
         diagnostics_.add(key.place,
-                         fmt::format("{} has {} values, {} has {}", carom::quoted(key.text), column.size(),
-                                     carom::quoted(zip.keys.front().text), axis.cases.size()),
+                         fmt::format("{} has {} values, {} has {}", in_backticks(key.text), column.size(),
+                                     in_backticks(zip.keys.front().text), axis.cases.size()),
                          "expected as many of each path: they go in step");
         column.resize(axis.cases.size());
       }
@@ -205,7 +205,7 @@ class SweepReader {
       const Node& value = *node.find(name);
       const std::optional<Decimal> decimal = parse_decimal(value.text);
       if (!decimal)
-        diagnostics_.add(value.place, fmt::format("{} has more than 18 digits", carom::quoted(value.text)),
+        diagnostics_.add(value.place, fmt::format("{} has more than 18 digits", in_backticks(value.text)),
                          "give such values one by one");
       return decimal;
     };
@@ -228,7 +228,7 @@ class SweepReader {
           fmt::format("a step of {} does not lead from {} to {}", step->text, to_text(*from), to_text(*to)),
           "expected a step that does");
     if (out.size() > most_runs) {
-      diagnostics_.add(key.place, fmt::format("{} has more than {} values", carom::quoted(key.text), most_runs),
+      diagnostics_.add(key.place, fmt::format("{} has more than {} values", in_backticks(key.text), most_runs),
                        "expected a longer step");
       out.clear();
     }

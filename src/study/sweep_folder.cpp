@@ -36,7 +36,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr std::uint64_t largest = 1 << 30;  // bytes of sweep.yaml and of base.yaml
-constexpr auto patience = std::chrono::seconds(30);
+constexpr auto lock_patience = std::chrono::seconds(30);
 
 constexpr const char* sweep_key = "sweep";
 
@@ -121,7 +121,7 @@ SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, c
     if (!lock(LockKind::shared, look)) fail("write", place_, "", busy);
     if (has(stored_sweep, sweep.resolved(stored_base)) && has(stored_base, base_text)) break;
     if (lock_folder(place_, LockKind::alone)) begin(sweep, base_text);
-    if (std::chrono::steady_clock::now() - start > patience) fail("write", place_, "", busy);
+    if (std::chrono::steady_clock::now() - start > lock_patience) fail("write", place_, "", busy);
     flock(folder_.get(), LOCK_UN);
     look();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -139,7 +139,7 @@ void SweepFolder::begin(const Sweep& sweep, const std::string& base_text) {
 bool SweepFolder::lock(LockKind kind, const std::function<void()>& look) const {
   const auto start = std::chrono::steady_clock::now();
   while (!lock_folder(place_, kind)) {
-    if (std::chrono::steady_clock::now() - start > patience) return false;
+    if (std::chrono::steady_clock::now() - start > lock_patience) return false;
     look();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }

@@ -28,7 +28,7 @@ namespace {
 
 constexpr int look_every = 50;  // ms
 /// A process that does not end when requested is killed after this time.
-constexpr auto patience = std::chrono::seconds(1);
+constexpr auto end_patience = std::chrono::seconds(1);
 
 /// The header of an outcome's text.
 struct Head {
@@ -165,7 +165,7 @@ class Pool {
   void end_all() {
     for (Worker& worker : workers_)
       if (worker.process > 0) hang_up(worker);
-    const auto limit = std::chrono::steady_clock::now() + patience;
+    const auto limit = std::chrono::steady_clock::now() + end_patience;
     for (Worker& worker : workers_)
       if (worker.process > 0) wait_for(worker, limit);
     workers_.clear();
@@ -238,7 +238,7 @@ class Pool {
 
   static int end(Worker& worker) {
     hang_up(worker);
-    wait_for(worker, std::chrono::steady_clock::now() + patience);
+    wait_for(worker, std::chrono::steady_clock::now() + end_patience);
     const int status = *worker.status;
     worker.process = 0;
     worker.status.reset();

@@ -98,7 +98,7 @@ std::size_t count_characters(std::string_view text) {
   return count;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_backticks(std::string_view text) {
   constexpr std::size_t longest = 60;
   const std::vector<Character> all = characters(text);
   std::string out = "`";

@@ -49,7 +49,7 @@ class Diagnostics {
 std::size_t count_characters(std::string_view text);
 
 /// `text` between backticks, for use inside a message: shortened and free of control characters.
-std::string quoted(std::string_view text);
+std::string in_backticks(std::string_view text);
 
 /// The closest name in `candidates`: few letters differ, and two swapped letters count as one difference.
 /// Empty: none is near. Of equally near names the first is returned.

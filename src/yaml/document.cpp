@@ -212,7 +212,7 @@ class DocumentBuilder : public YAML::EventHandler {
       const Key* first = first_with(parent, name.text);
       if (first != nullptr) {
         const auto line = 1 + std::count(text_.begin(), text_.begin() + first->place.offset, '\n');
-        refuse(name.place, fmt::format("{} is here twice", quoted(name.text)),
+        refuse(name.place, fmt::format("{} is here twice", in_backticks(name.text)),
                fmt::format("it stands in line {} already", line));
         return;
       }

@@ -138,7 +138,7 @@ class ParseFailure {
   bool explain_character() {
     if (says("unknown token")) {
       const char c = noticed_ < text_.size() ? text_[noticed_] : ' ';
-      add(noticed_, fmt::format("plain text cannot begin with {}", quoted(std::string(1, c))),
+      add(noticed_, fmt::format("plain text cannot begin with {}", in_backticks(std::string(1, c))),
           "put the text in quotes");
       return true;
     }
@@ -154,17 +154,17 @@ class ParseFailure {
     const Unpaired unpaired = find_unpaired(text_, begin_);
     if (unpaired.open == std::string::npos) return false;
     const char c = text_[unpaired.open];
-    const std::string open = quoted(text_.substr(unpaired.open, 1));
+    const std::string open = in_backticks(text_.substr(unpaired.open, 1));
     const std::string closing = c == '[' ? "]" : c == '{' ? "}" : std::string(1, c);
     if (unpaired.close != std::string::npos) {
       const auto before = text_.begin() + static_cast<std::ptrdiff_t>(unpaired.open);
       add(unpaired.close,
-          fmt::format("{} cannot close the {} of line {}", quoted(text_.substr(unpaired.close, 1)), open,
+          fmt::format("{} cannot close the {} of line {}", in_backticks(text_.substr(unpaired.close, 1)), open,
                       1 + std::count(text_.begin(), before, '\n')),
-          fmt::format("expected {}", quoted(closing)));
+          fmt::format("expected {}", in_backticks(closing)));
     } else {
       add(unpaired.open, fmt::format("this {} is never closed", open),
-          fmt::format("expected {} before the next key", quoted(closing)));
+          fmt::format("expected {} before the next key", in_backticks(closing)));
     }
     return true;
   }

@@ -92,7 +92,7 @@ std::optional<std::uint64_t> parse_whole(std::string_view text) {
 Complaint explain_number(const Node& node, const WantedNumber& number) {
   const std::string& text = node.text;
   const std::string& wanted = number.expected;
-  const std::string shown = quoted(text);
+  const std::string shown = in_backticks(text);
   if (node.quoted) {
     if (parse_number(text))
       return {fmt::format("{} in quotes is text, not a number", shown), fmt::format("without quotes: {}", text)};
@@ -140,9 +140,9 @@ Complaint explain_number(const Node& node, const WantedNumber& number) {
     if (number.unit.empty()) return {fmt::format("{} carries a unit", shown), wanted + ", the number alone"};
     if (rest.substr(unit) == number.unit)
       return {fmt::format("{} carries a unit", shown),
-              fmt::format("{} is always in {}: write {}", quoted(number.key), number.unit, prefix)};
+              fmt::format("{} is always in {}: write {}", in_backticks(number.key), number.unit, prefix)};
     return {fmt::format("{} carries a unit", shown),
-            fmt::format("{} is always in {}: write the number alone", quoted(number.key), number.unit)};
+            fmt::format("{} is always in {}: write the number alone", in_backticks(number.key), number.unit)};
   }
   return {fmt::format("{} is not a number", shown), wanted};
 }
