@@ -132,7 +132,7 @@ Json difference_json(const RunDifference& difference) {
   return json;
 }
 
-int fail(const Options& options, const std::string& text, int code) {
+int fail_diff(const Options& options, const std::string& text, int code) {
   complain(options, text);
   if (options.json) write_out(document("diff", {{"status", code == 2 ? "wrong" : "failed"}, {"error", text}}));
   return code;
@@ -172,11 +172,11 @@ int diff_command(const Options& options) {
     }
     return 0;
   } catch (const ExportError& error) {
-    return fail(options, error.what(), 2);
+    return fail_diff(options, error.what(), 2);
   } catch (const SceneError& error) {
-    return fail(options, error.what(), 2);
+    return fail_diff(options, error.what(), 2);
   } catch (const std::bad_alloc&) {
-    return fail(options, "not enough memory", 1);
+    return fail_diff(options, "not enough memory", 1);
   }
 }
 

@@ -42,7 +42,7 @@ void refuse_shared_folders(const std::vector<PlannedScene>& scenes) {
   }
 }
 
-void fail(PlannedScene& planned, std::size_t errors, const std::string& text) {
+void mark_failed(PlannedScene& planned, std::size_t errors, const std::string& text) {
   planned.scene.reset();
   planned.errors = errors;
   planned.error = text;
@@ -121,11 +121,11 @@ std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes,
     try {
       check_one(planned);
     } catch (const SceneError& error) {
-      fail(planned, error.count, error.what());
+      mark_failed(planned, error.count, error.what());
     } catch (const std::bad_alloc&) {
-      fail(planned, 1, fmt::format("{}: not enough memory for this scene", printable(planned.file)));
+      mark_failed(planned, 1, fmt::format("{}: not enough memory for this scene", printable(planned.file)));
     } catch (const std::exception& error) {
-      fail(planned, 1, fmt::format("{}: {}", printable(planned.file), error.what()));
+      mark_failed(planned, 1, fmt::format("{}: {}", printable(planned.file), error.what()));
     }
   }
   return scenes;

@@ -7,7 +7,7 @@
 namespace carom {
 namespace {
 
-constexpr std::array<ColumnText, 15> collisions = {
+constexpr std::array<ColumnText, 15> collision_texts = {
     {{"time_s", "when they met"},
      {"kind", "body-body, body-fixed, rest (bounces ended) or merge (two became one)"},
      {"a", "the body; of two the first"},
@@ -24,7 +24,7 @@ constexpr std::array<ColumnText, 15> collisions = {
      {"impulse_N_s", "along the normal"},
      {"energy_lost_J", "by this collision; below 0: made"}}};
 
-constexpr std::array<ColumnText, 3> series = {{{"time_s", "instant of the columns to its right, up to the next time_s"},
+constexpr std::array<ColumnText, 3> series_texts = {{{"time_s", "instant of the columns to its right, up to the next time_s"},
                                                {"kinetic_J", "kinetic energy of all bodies"},
                                                {"total_J", "kinetic and potential energy of all bodies"}}};
 
@@ -51,7 +51,7 @@ std::string meaning_of(const Measure& measure) {
 }  // namespace
 
 std::span<const ColumnText> collision_columns() {
-  return collisions;
+  return collision_texts;
 }
 
 void write_about(Worksheet& sheet, const ComparisonPlan& plan, const std::vector<Measure>& measures,
@@ -96,7 +96,7 @@ void write_about(Worksheet& sheet, const ComparisonPlan& plan, const std::vector
     for (const Measure& measure : measures)
       column("Repeats", measure.name + ".mean, .sd, .min, .max", unit_of(measure.name), meaning_of(measure));
   }
-  for (const ColumnText& text : series) column("Series", text.name, unit_of(text.name), text.meaning);
+  for (const ColumnText& text : series_texts) column("Series", text.name, unit_of(text.name), text.meaning);
   for (const ColumnText& text : collision_columns()) column("Collisions", text.name, unit_of(text.name), text.meaning);
   sheet.fit(0, 12, 20);
   sheet.fit(1, 20, 48);

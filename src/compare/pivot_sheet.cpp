@@ -12,7 +12,7 @@
 namespace carom {
 namespace {
 
-constexpr std::size_t most_blocks = 6, most_values = 250, most_formulas = 2500;
+constexpr std::size_t most_blocks = 6, most_labels = 250, most_formulas = 2500;
 
 /// The mean over the points with both values, by row, then column. A point counts as often as it has runs.
 struct Mean {
@@ -67,8 +67,8 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const std::vector
                  const std::vector<std::size_t>& parameter_columns, const std::vector<std::size_t>& measure_columns,
                  std::size_t rows) {
   const Varied &down = outcomes.varied()[parameters.first], &across = outcomes.varied()[parameters.second];
-  const std::size_t height = std::min(down.values.size(), most_values);
-  const std::size_t width = std::min(across.values.size(), most_values);
+  const std::size_t height = std::min(down.values.size(), most_labels);
+  const std::size_t width = std::min(across.values.size(), most_labels);
   const std::size_t blocks = std::min(measures.size(), most_blocks);
   const bool literal = std::all_of(down.values.begin(), down.values.end(), is_literal) &&
                        std::all_of(across.values.begin(), across.values.end(), is_literal);
@@ -79,7 +79,7 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const std::vector
       fmt::format("down: {}; across: {}{}{}", label_of(plan.parameters[parameters.first]),
                   label_of(plan.parameters[parameters.second]), formulas ? "; formulas on the sheet Summary" : "",
                   height < down.values.size() || width < across.values.size()
-                      ? fmt::format("; only the first {} values of each", most_values)
+                      ? fmt::format("; only the first {} values of each", most_labels)
                       : ""),
       CellStyle::note);
   std::size_t row = 3;

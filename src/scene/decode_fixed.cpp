@@ -10,7 +10,7 @@
 namespace carom {
 namespace {
 
-constexpr std::string_view sides[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
+constexpr std::string_view face_names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
 std::optional<double> restitution_of(const View& view) {
   return view.number("restitution");
@@ -39,7 +39,7 @@ void add_room(const View& view, const std::string& name, Scene& scene, Diagnosti
     normal[axis] = side % 2 == 0 ? 1 : -1;
     const std::optional<Vec3>& corner = side % 2 == 0 ? min : max;
     scene.world.planes.push_back({corner.value_or(Vec3::Zero()), normal, restitution_of(view)});
-    scene.roster.fixed.push_back({name + "." + std::string(sides[side]),
+    scene.roster.fixed.push_back({name + "." + std::string(face_names[side]),
                                   view.color("color").value_or(*parse_color(room_color)),
                                   view.flag("visible").value_or(true)});
   }
