@@ -110,7 +110,7 @@ class ConservativeAdvancement {
 
   /// For a point within rounding of a sharp edge: the face over which it leaves or along which it slides, if there is
   /// one.
-  /// Faces that lie in one plane, but for rounding, do not meet.
+  /// Faces that lie in one plane, up to rounding, do not meet.
   Separation over_the_edge(const Separation& s, double t, const Vec3& v) const {
     const Vec3 p = m_.d + displacement(t);
     const double ahead = 8 * rounding * (set_.size() + far_);

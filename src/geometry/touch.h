@@ -1,6 +1,6 @@
 #pragma once
 // The relative position of any two things of a World, and their times of impact: the one table of pairs of volumes.
-// a is a body. b is a body or a fixed thing with the position world.fixed_position(b).
+// The first, a, is a body. The second, b, is a body or a fixed thing with the position world.fixed_position(b).
 // Two volumes that do not turn touch where the point x_b - x_a meets their Minkowski sum:
 // - sphere and box: a rounded box
 // - two cylinders: a cylinder
@@ -28,7 +28,7 @@ struct Touch {
 };
 
 /// Where the gap is small it is as exact as the positions (compensated sums).
-/// Sharp volumes may overlap, or touch but for rounding at edges or corners only. The normal is then that of the face
+/// Sharp volumes may overlap, or touch up to rounding at edges or corners only. The normal is then that of the face
 /// over which they are farthest apart (x before y before z).
 /// `feature`: the feature to look at; no_feature: the nearest.
 Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature = no_feature);
@@ -44,7 +44,7 @@ bool is_flat(const World& world, Entity a, Entity b, std::uint8_t feature);
 
 /// Whether a fixed thing lies wholly behind the plane in which body a, at xa (m), touches on the side against the unit
 /// vector n.
-/// It then extends no farther along n than the body's own surface does against it, but for rounding. A body that slides
+/// It then extends no farther along n than the body's own surface does against it, up to rounding. A body that slides
 /// in that plane cannot strike it.
 bool lies_behind(const World& world, Entity a, const Vec3& xa, Entity fixed, const Vec3& n);
 

@@ -37,7 +37,7 @@ FadingPath FadingPath::from(double t) const {
 double FadingPath::squared_speed(double t) const {
   // s is here the integral of the velocity's share of a: s' = 1 - fade s. Hence fade times the integral of s^2 is t^2
   // bend - s^2/2.
-  // Integrals of s and of s^2 over [0, t], here without drag.
+  // Integrals of s and of s^2 over [0, t], here without drag. Their units are s^2 and s^3.
   double once = 0.5 * t * t, twice = t * t * t / 3;
   if (fade > 0) {
     const double z = fade * t;

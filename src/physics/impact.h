@@ -28,7 +28,8 @@ inline double impact_mass(const World& world, Entity e) {
 
 /// The record of an impact of body a on b, a body or a fixed thing, at `time` (s). The masses give its impulse and the
 /// energy lost.
-/// point: m. normal: unit, from a to b. approach, separation: m/s along it. restitution: the pair's coefficient.
+/// Units: `point` m, `approach` and `separation` m/s along the normal. `normal` is unit, from a to b; `restitution` is
+/// the pair's coefficient.
 inline Collision make_collision(const World& world, CollisionKind kind, double time, Entity a, Entity b,
                                 const Vec3& point, const Vec3& normal, double approach, double separation,
                                 double restitution) {

@@ -13,7 +13,7 @@ class MeshShadows {
   MeshShadows(const Shapes& shapes, std::size_t files, const Eye& eye, const Lighting& lighting);
 
   /// For a fragment shader behind Lighting::shader():
-  ///   float through_mesh(vec3 p, vec3 l, vec3 to_middle, float file, float reach)
+  ///   float through_mesh(vec3 p, vec3 l, vec3 to_middle, float file, float reach).
   /// The part of the key light that a mesh lets through to p. `reach`: scale * reach().
   static const char* shader();
   void set(const gl::Program& program, GLuint unit) const;  // the program must be in use

@@ -17,7 +17,7 @@ std::vector<StillThing> still_things(const Scene& scene, const Extent& seen);
 
 /// The ball of radius 1 as 2048 triangles, with corners on the sphere and its normals.
 Mesh round_ball();
-/// The upright cylinder of radius 1 and half height 1 with 64 sides, whose edges lie on it.
+/// The upright cylinder of radius 1 and half height 1 with 64 sides. Their edges lie on it.
 Mesh round_cylinder();
 
 /// A mesh with its vertices p at `middle` + scale * p (by axis), and normals to match.

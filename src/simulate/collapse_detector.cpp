@@ -26,7 +26,7 @@ bool CollapseDetector::in_burst(Entity i, double window, int many) {
 }
 
 bool CollapseDetector::collapses(Entity i, Entity other, double e, double approach, double length) {
-  // No impact has lost anything yet.
+  // No impact has lost energy.
   if (e >= 1 && collapse_.empty()) return false;
   Collapse& collapse = collapse_.write(i);
   const double away = std::max(exact_tolerance::collapse_gap * length,

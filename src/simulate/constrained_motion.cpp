@@ -414,8 +414,8 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
   step.path = std::make_shared<Path>(Path{bodies_.now, std::move(followed.motion), tol::step_error * step.smallest});
 }
 
-/// The time (s) at which the pair crosses its feature's rim, on parabolas. Motion along a rim, but for rounding, does
-/// not cross it.
+/// The time (s) at which the pair crosses its feature's rim, on parabolas. Motion along a rim, up to rounding, does not
+/// cross it.
 double ConstrainedMotion::rim_time(const Step& step, std::size_t pair, double length) const {
   const World& world = bodies_.world;
   const auto& [i, e, feature] = step.contacts.names[pair];

@@ -32,7 +32,7 @@ class ConstrainedSystem {
 
   /// Adds a contact of members number a and b, or of a and a fixed thing. normal: from a to b.
   void add(const Contact& contact, std::uint32_t a, std::uint32_t b, const Vec3& normal);
-  /// Opens the closed contacts that are marked in `which`. They are not followed any more, but watched.
+  /// Opens the closed contacts that are marked in `which`. From then on they are watched, and not followed.
   void open(const std::vector<std::uint8_t>& which);
 
   /// Accelerations (m/s^2) by member at x (m) and v (m/s): the nearest to the applied ones for which closed contacts do
@@ -54,8 +54,8 @@ class ConstrainedSystem {
 
   /// The decay rate by linear drag (1/s), if it is the same for all members; otherwise -1.
   double common_fade() const;
-  /// The time (s) for which all members move along parabolas, or along paths that a common drag bends, from velocities
-  /// v (m/s) and accelerations a (m/s^2).
+  /// The time (s) for which all members move along parabolas, or along paths that a common drag bends.
+  /// They start with velocities v (m/s) and accelerations a (m/s^2).
   double straight_time(const std::vector<Vec3>& v, const std::vector<Vec3>& a) const;
 
   /// The motion from there on until a change, or for `longest` (s).

@@ -135,8 +135,8 @@ CurvedFlights::Reached CurvedFlights::closed_place(Entity i, const Instant& at) 
 }
 
 /// Whether the next step, of `length` (s) by the method before, is to be implicit.
-/// It is if an implicit step is no shorter, or if a braking force holds dop853 to a share of its time (1 / damping),
-/// step after step.
+/// It is if an implicit step is no shorter. It is too if a braking force holds dop853 to a share of its time (1 /
+/// damping), step after step.
 bool CurvedFlights::is_implicit(Entity i, double length, double damping) const {
   const double damped = length * damping;
   if (method_[i] == implicit_method) return damped >= 0.5;

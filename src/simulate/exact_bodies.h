@@ -61,8 +61,8 @@ struct ExactBodies {
   Vec3 position(Entity i) const { return flights[i].position(now - flights[i].start); }  // m, at present
   /// The present velocity in its flight (m/s), with the kick of time stepping.
   Vec3 velocity(Entity i) const { return flights[i].velocity(now - flights[i].start); }
-  /// The velocity at an instant of its flight (m/s), without the effect of forces later in a step, and with that of
-  /// curved surfaces so far.
+  /// The velocity at an instant of its flight (m/s), without the effect of forces later in a step. It includes the
+  /// effect of curved surfaces so far.
   Vec3 velocity_without_kick(Entity i, const Instant& at) const;
   /// The acceleration of body i by forces at x (m) and v (m/s), in m/s^2.
   Vec3 force_at(Entity i, const Vec3& x, const Vec3& v) const {

@@ -89,7 +89,7 @@ double ExactImpacts::press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb
 }
 
 /// The acceleration of body i at x (m), in m/s^2, after an impact has ended the approach.
-/// w is the velocity of the second body relative to the first (m/s).
+/// The impact is at w, the velocity of the second body relative to the first (m/s).
 Vec3 ExactImpacts::pull_after(Entity i, const Vec3& x, const Flight& f, Entity other, const Touch& there,
                               const Vec3& w) const {
   const double mi = bodies_.world.mass[i], mo = bodies_.world.mass[other], share = mo / (mi + mo);

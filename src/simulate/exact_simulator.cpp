@@ -18,7 +18,7 @@ namespace {
 // Collisions that one event causes, as a rule at most.
 constexpr std::size_t collisions_of_event = 8;
 constexpr std::uint32_t events_at_a_time = 65536;
-// Number of bodies whose data fit into a processor's cache.
+// Number of bodies with data that fit into a processor's cache.
 constexpr Entity cached_bodies = 24576;
 
 }  // namespace

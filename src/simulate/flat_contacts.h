@@ -22,7 +22,7 @@ struct FlatContact {
   Entity surface;
   std::uint8_t feature;  // of the pair (touch.h; of a ball and a wall: contact_time.h)
   Vec3 normal;           // unit, from the surface to the body
-  // Bounces have not ended yet. They end at the time below.
+  // Bounces have not ended. They end at the time below.
   bool settling;
   Instant rest_time;      //
   double residual_speed;  // m/s, left by the last bounce
@@ -56,7 +56,7 @@ class FlatContacts {
   /// Returns that surface and the feature of contact, or no_entity.
   FlightOrigin hand_over(Entity i, Entity surface);
   void clear(Entity i);
-  /// At the start, a body may touch a flat surface, but for rounding of the scene's numbers, without motion along its
+  /// At the start, a body may touch a flat surface, up to rounding of the scene's numbers, without motion along its
   /// normal.
   /// If it is pressed on, it rests there from the beginning.
   void find_initial(Entity i);

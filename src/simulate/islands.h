@@ -20,8 +20,8 @@ namespace carom {
 struct Island {
   std::vector<Entity> members;  // ascending after each step
   Instant end{never, 0};        // time of the next step
-  bool fresh = true;            // no step has been taken yet
-  bool constrained = false;     // moves by constrained motion (constrained_motion.h), else by time stepping
+  bool fresh = true;            // no step has been taken
+  bool constrained = false;     // moves by constrained motion (constrained_motion.h), otherwise by time stepping
   bool busy = false;            // its contacts change too often for constrained motion
   // Constrained: the end of the step if nothing happens before.
   Instant planned{never, 0};
@@ -30,7 +30,7 @@ struct Island {
   Instant counted, changed;
   std::uint32_t changes = 0;  // changes of contact since `counted`
   std::uint32_t calm = 0;     // consecutive time steps in which the same pairs pressed
-  // Number of such steps after which the island is not busy any more.
+  // After so many of these the island is not busy.
   std::uint32_t calm_needed = 0;
   std::uint64_t pressing = 0;  // a hash of those pairs
   double step_length = 0;      // s, of the last time step
@@ -85,7 +85,7 @@ class Islands {
   /// Reduces an island to the members in `stay`.
   void retain(Entity member, std::vector<Entity> stay);
   /// Splits an island. Members with another label become islands of their own, equal in all other data.
-  /// labels: by member, the index of the first member of its part. Returns one member of each part.
+  /// `labels`: by member, the index of the first member of its part. Returns one member of each part.
   std::vector<Entity> split(Entity i, std::span<const std::uint32_t> labels);
 
  private:

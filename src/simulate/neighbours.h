@@ -65,7 +65,7 @@ class Neighbours {
   /// list.
   void hold(Entity i, const Vec3& x, double reach);
 
-  /// Frees memory that lists no more use. Call it from time to time, when no list is being read.
+  /// Frees memory that lists have left. Call it from time to time, when no list is being read.
   void tidy();
 
   /// Removes body i.

@@ -5,8 +5,8 @@
 // At a step contact takes away slow approaches at once. Fast ones stay impacts.
 // The new velocities are then the nearest to those by forces alone that keep every pair apart until the next step
 // (contact_problem.h).
-// They are linearised at the closest points, which is on the safe side for convex bodies on straight paths.
-// (Stewart & Trinkle, Int. J. Numer. Meth. Eng. 39 (1996) 2673, without friction and with exact impacts.)
+// They are linearised at the closest points, which is on the safe side for convex bodies on straight paths. (Stewart &
+// Trinkle, Int. J. Numer. Meth. Eng. 39 (1996) 2673, without friction and with exact impacts.)
 // An impact uses the velocities that bodies have at its time, not those of the step's kick at its end.
 // A body that an impact throws off its support falls freely, and the next step is due after a shortest one.
 // A step that ends early takes back the effect of forces in its rest.

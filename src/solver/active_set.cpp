@@ -16,7 +16,7 @@ namespace carom {
 
 namespace {
 
-// A row of unit length with a smaller tail depends on the others, but for rounding.
+// A row of unit length with a smaller tail depends on the others, up to rounding.
 constexpr double dependent = 0x1p-43;
 // A share of the greatest force: a smaller negative force is only rounding.
 constexpr double pulling = 8 * 0x1p-53;
@@ -200,7 +200,7 @@ void DualActiveSet::take_in_violated(const ContactIsland& island) {
   }
 }
 
-/// Iterative refinement on the active rows: the factors are rounded, the residuals are not.
+/// Newton's method on the active rows (iterative refinement): the factors are rounded, the residuals are not.
 void DualActiveSet::refine(const ContactIsland& island, ContactAnswer& answer) {
   const std::size_t n = island.unknowns(), k = active_.size();
   answer.motion.resize(n);

@@ -28,7 +28,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double loosest = 1;
 // The same at last.
 constexpr double tightest = 1e-8;
-// Factorisations that a guess is worth: half of those of an island without a guess.
+// After so many factorisations a guess is given up. That is half of the number for an island without a guess.
 constexpr int guess_worth = 16;
 // A share of the motion: the interior point ends at this error.
 constexpr double handed_over = 1e-8;

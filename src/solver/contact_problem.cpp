@@ -1,7 +1,7 @@
 // Frictionless contact by Gauss's principle of least constraint, island by island. Each island goes to the cheapest
 // method, by an estimate of costs.
-// An island without pressing contacts and one of a single contact need no method. Where a method fails, the certificate
-// shows that, and the next one follows.
+// An island without pressing contacts and one of a single contact need no method. The certificate shows where a method
+// fails. The next one then follows.
 #include "solver/contact_problem.h"
 
 #include <algorithm>

@@ -28,7 +28,7 @@ struct ContactConstraint {
   static constexpr std::uint32_t fixed = std::numeric_limits<std::uint32_t>::max();
   // Indices in the problem's arrays. b = `fixed`: an immovable thing.
   std::uint32_t a, b;
-  Vec3 normal;        // from a to b; unit but for rounding
+  Vec3 normal;        // from a to b; unit up to rounding
   double target = 0;  // lower bound of normal . (u_b - u_a); in the unit of u
   double slack = 0;   // allowed shortfall from the target; in the unit of u
   double force = 0;   // in: a guess; out: mass times the unit of u, along the normal; >= 0 unless bilateral

@@ -159,8 +159,8 @@ struct ContactProjectedGradients::Parts {
   }
 };
 
-/// Takes the next forces, and sets the direction of the conjugate gradients on the face of the rows that press: g less
-/// `turn` times the last direction.
+/// Takes the next forces, and sets the direction of the conjugate gradients on the face of the rows that press.
+/// It is g less `turn` times the last direction.
 inline __attribute__((always_inline)) void ContactProjectedGradients::take(const Rows& rows, Forces& f,
                                                                            const Next& next, double turn,
                                                                            double per_step, double least,
@@ -395,7 +395,7 @@ double ContactProjectedGradients::cost() const {
 }
 
 /// Whether the second half of all iterations gained no more than the slack's energy.
-/// It takes as many iterations as a force needs to reach every row from every other.
+/// It is tested only after as many iterations as a force needs to get from any row to any other.
 bool ContactProjectedGradients::gains_little() {
   const std::size_t now = potential_.size() - 1;
   if (now == 0 || !(potential_[now / 2] - potential_[now] <= slack_energy_)) return false;

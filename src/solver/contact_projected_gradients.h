@@ -116,9 +116,9 @@ class ContactProjectedGradients {
   double least_ = 0;                      // smaller values are set to zero
   double slack_energy_ = 0;               // twice the energy of rows off by the least slack
   std::vector<double> potential_;         // twice its value, by iteration
-  std::size_t products_ = 0, reach_ = 0;  // products with the matrix; the island's reach, 0: not computed yet
+  std::size_t products_ = 0, reach_ = 0;  // products with the matrix; the island's reach, 0: not computed
   Sums sums_;
-  // The gradient and moved_ are those of x but for rounding, and the gradient does no work.
+  // The gradient and moved_ are those of x up to rounding, and the gradient does no work.
   bool fresh_ = false;
 };
 
