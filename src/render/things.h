@@ -22,7 +22,7 @@ struct Thing {
   double radius;                    // m, of a ball around it
   Shape shape = Shape::sphere;      // of its volume
   Vec3 half = Vec3::Zero();         // m, of its volume, along the world's axes
-  std::uint32_t look = 0;           // the argument of Things::look
+  std::uint32_t look = 0;           // number of its look (Things::look)
   bool mesh = false;                // is drawn as its look's mesh
   Vec3 mesh_middle = Vec3::Zero();  // m, of that mesh
 

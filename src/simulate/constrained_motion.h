@@ -112,9 +112,8 @@ class ConstrainedMotion {
   void forget_index(const std::vector<Entity>& members) const;
 
   Vec3 at(const std::vector<Vec3>& x, Entity e) const;  // m, of a member or a fixed thing
-  Vec3 rate(const std::vector<Vec3>& v,
-            // The same of a velocity or an acceleration: fixed things have none.
-            Entity e) const;
+  // The same of a velocity or an acceleration: fixed things have none.
+  Vec3 rate(const std::vector<Vec3>& v, Entity e) const;
 
   ExactBodies& bodies_;
   ExactGroup& group_;

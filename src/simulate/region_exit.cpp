@@ -1,6 +1,6 @@
 // A lower bound of the time at which a body leaves its region. A straight path has a closed form.
-// Other paths are bounded by their greatest acceleration, again and again until that gains little. An exact root would
-// cost more than an early exit.
+// Other paths are bounded by their greatest acceleration, again and again until that gains little. The result may be
+// too early, but not too late.
 #include "simulate/region_exit.h"
 
 #include <algorithm>
