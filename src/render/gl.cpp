@@ -1,6 +1,5 @@
 // OpenGL off-screen, by OSMesa with its software renderer llvmpipe. It needs no display. Other drivers of OSMesa give
-// other bytes, or are many times slower.
-// Objects free themselves, and every error becomes a RenderError.
+// other bytes, or are many times slower. Objects free themselves, and every error becomes a RenderError.
 #include "render/gl.h"
 
 #include <fmt/format.h>

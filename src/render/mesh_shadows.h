@@ -1,7 +1,7 @@
 #pragma once
 // The shadows of meshes in parallel light. Bodies do not turn, so a mesh has one outline along the light, which is
-// drawn once.
-// In the light of a lamp the direction differs from body to body. A mesh then casts the shadow of its volume.
+// drawn once. In the light of a lamp the direction differs from body to body. A mesh then casts the shadow of its
+// volume.
 #include "render/lighting.h"
 #include "render/shapes.h"
 

@@ -1,7 +1,6 @@
 // Renders boxes, cylinders and meshes by a tiled, deferred pass. Four points along a pixel's side record only the thing
-// and its normal.
-// Each pixel is then shaded once, from the mean of its points. Multisampling of the full shader would evaluate all
-// lights sixteen times.
+// and its normal. Each pixel is then shaded once, from the mean of its points. Multisampling of the full shader would
+// evaluate all lights sixteen times.
 #include "render/solids.h"
 
 #include <fmt/format.h>

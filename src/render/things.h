@@ -53,8 +53,7 @@ class Things {
   bool any_solids() const { return any_solids_; }  // whether some things may not be balls
 
   /// Places the bodies of `state`, and the obstacles. A body that is part of another is left out, and the joint body
-  /// has the volume of the state.
-  /// Returns whether anything has changed since the last call.
+  /// has the volume of the state. Returns whether anything has changed since the last call.
   bool place(const State& state);
   std::span<const Thing> all() const { return all_; }
   // Numbers in all() of the balls in the picture, back to front.

@@ -1,7 +1,6 @@
 // Decides when bouncing ends in lasting contact: by inelastic collapse (McNamara & Young, Phys. Fluids A 4 (1992) 496),
-// or by slow impacts under load.
-// A limit on speed alone would miss a collapse, which can be fast.
-// So impacts are counted for each body, over the time of a hop and over the distance that the body moves.
+// or by slow impacts under load. A limit on speed alone would miss a collapse, which can be fast. So impacts are
+// counted for each body, over the time of a hop and over the distance that the body moves.
 #include "simulate/collapse_detector.h"
 
 #include <algorithm>

@@ -3,10 +3,9 @@
 // and the log.
 //
 // Each body keeps its Flight and is not moved when others collide. Each body keeps one event, the first of its own. The
-// first of all these is the next event.
-// A predicted collision is a function of the two flights alone. It has the same bits from either side and at any time
-// of prediction.
-// Neither outputs nor the search for neighbours can therefore change it.
+// first of all these is the next event. A predicted collision is a function of the two flights alone. It has the same
+// bits from either side and at any time of prediction. Neither outputs nor the search for neighbours can therefore
+// change it.
 #include <vector>
 
 #include "geometry/touch.h"

@@ -1,9 +1,7 @@
 // The effect of impacts on velocities, one pair at a time: an impulse along the normal, by the pair's restitution
-// (physics/impact.h).
-// An impact ends in lasting contact if it is slow under load, or part of a collapse. The bodies then join an island
-// instead of bouncing for ever.
-// In time stepping, velocities contain a kick by later forces. Impacts use the approach without it, and the difference
-// is booked as the method's error.
+// (physics/impact.h). An impact ends in lasting contact if it is slow under load, or part of a collapse. The bodies
+// then join an island instead of bouncing for ever. In time stepping, velocities contain a kick by later forces.
+// Impacts use the approach without it, and the difference is booked as the method's error.
 #include "simulate/exact_impacts.h"
 
 #include <algorithm>

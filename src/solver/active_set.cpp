@@ -1,10 +1,8 @@
 // The dual active set method of Goldfarb & Idnani, Math. Programming 27 (1983) 1, on orthogonal factors that are
-// updated row by row.
-// It starts from a guess of the active rows. Each round appends the most violated row, and drops rows with a negative
-// force.
-// The answer is then refined with residuals in double-double, so that the factors' rounding does not limit it.
-// Where a set of rows returns, the method ends with what it has. A looser or stricter limit for dependent rows is tried
-// then.
+// updated row by row. It starts from a guess of the active rows. Each round appends the most violated row, and drops
+// rows with a negative force. The answer is then refined with residuals in double-double, so that the factors' rounding
+// does not limit it. Where a set of rows returns, the method ends with what it has. A looser or stricter limit for
+// dependent rows is tried then.
 #include "solver/active_set.h"
 
 #include <algorithm>

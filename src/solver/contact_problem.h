@@ -1,18 +1,15 @@
 #pragma once
 // The one interface to frictionless contact. Of all motions that no contact forbids, it finds the one nearest to the
-// free motion (Gauss's principle of least constraint).
-// With the forces x_c >= 0 along the normals n_c as unknowns it is the complementarity problem
+// free motion (Gauss's principle of least constraint). With the forces x_c >= 0 along the normals n_c as unknowns it is
+// the complementarity problem
 //   u = u_free + M^-1 N x,  w = N^T u - target,  0 <= x, 0 <= w, x w = 0.
 // The motion u is unique, the forces need not be.
 //
-// Two methods solve it to rounding. Each is the other's fallback, and one certificate judges both (contact_island.h).
-// A dual active set on orthogonal factors (active_set.h) serves small or ill-conditioned problems, and those similar to
-// the last one.
-// An interior point with a proximal Newton method on the bodies' sparse matrix (contact_interior_point.h) serves large
-// ones.
-// The cheaper method is chosen, unless masses are too unequal for the sparse one.
-// Where contacts may be off by their slack, projected gradients (contact_projected_gradients.h) go first, while they
-// are cheaper.
+// Two methods solve it to rounding. Each is the other's fallback, and one certificate judges both (contact_island.h). A
+// dual active set on orthogonal factors (active_set.h) serves small or ill-conditioned problems, and those similar to
+// the last one. An interior point with a proximal Newton method on the bodies' sparse matrix (contact_interior_point.h)
+// serves large ones. The cheaper method is chosen, unless masses are too unequal for the sparse one. Where contacts may
+// be off by their slack, projected gradients (contact_projected_gradients.h) go first, while they are cheaper.
 #include <algorithm>
 #include <cstdint>
 #include <limits>

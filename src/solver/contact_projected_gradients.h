@@ -1,12 +1,9 @@
 #pragma once
 // Contact to within the rows' slack: conjugate gradients on the rows that press, which are found on the way (MPRGP:
-// Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23).
-// The unknowns are the forces of rows of unit length. The matrix then has a unit diagonal, and bodies of any masses
-// have equal weight.
-// It is never formed: its product with forces is their effect on the rows' motion. The potential x A x / 2 + c x only
-// falls.
-// Sweeps from row to row (projected Gauss-Seidel) were not chosen, because they make no progress where bodies are
-// nearly at rest.
+// Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23). The unknowns are the forces of rows of unit length. The
+// matrix then has a unit diagonal, and bodies of any masses have equal weight. It is never formed: its product with
+// forces is their effect on the rows' motion. The potential x A x / 2 + c x only falls. Sweeps from row to row
+// (projected Gauss-Seidel) were not chosen, because they make no progress where bodies are nearly at rest.
 #include <cstdint>
 #include <vector>
 
