@@ -1,11 +1,9 @@
 #pragma once
-// The first contact of a point with a convex set, by conservative advancement with separating planes.
-// The set lies wholly beyond the plane through its nearest point. Until the path arrives at that plane there is no
-// contact.
-// On a parabola that time is the root of a quadratic. The search moves there and repeats, so that no contact can be
-// missed.
-// Head on, this is Newton's method on a convex gap. Where the path only grazes, each step halves the rest.
-// At the end the time is computed once more from the feature's own equation.
+// The first contact of a point with a convex set, by conservative advancement with separating planes. The set lies
+// wholly beyond the plane through its nearest point. Until the path arrives at that plane there is no contact. On a
+// parabola that time is the root of a quadratic. The search moves there and repeats, so that no contact can be missed.
+// Head on, this is Newton's method on a convex gap. Where the path only grazes, each step halves the rest. At the end
+// the time is computed once more from the feature's own equation.
 #include <algorithm>
 #include <cmath>
 
@@ -109,8 +107,7 @@ class ConservativeAdvancement {
   }
 
   /// For a point within rounding of a sharp edge: the face over which it leaves or along which it slides, if there is
-  /// one.
-  /// Faces that lie in one plane, but for rounding, do not meet.
+  /// one. Faces that lie in one plane, up to rounding, do not meet.
   Separation over_the_edge(const Separation& s, double t, const Vec3& v) const {
     const Vec3 p = m_.d + displacement(t);
     const double ahead = 8 * rounding * (set_.size() + far_);
@@ -137,8 +134,7 @@ class ConservativeAdvancement {
     const Vec3 p = m_.d + displacement(t);
     if (!(acceleration + set_.bending(p, s.feature, v) > 0)) return 0;
     // The path flies off along a curved surface that turns away faster than it does. The plane gives no information
-    // here.
-    // A short step, relative to the surface's size, lifts the path off.
+    // here. A short step, relative to the surface's size, lifts the path off.
     constexpr double step = 0x1p-26;
     return step * std::min(set_.size() / v.norm(), std::sqrt(set_.size() / relative_acceleration.norm()));
   }

@@ -142,7 +142,7 @@ double plane_contact_time(double gap, double speed, double acceleration, double 
   } else if (gap <= 0 && speed == 0) {
     t = acceleration < 0 ? 0 : never;
   } else if (gap <= 0) {
-    // The body leaves from a gap that is closed but for rounding. It returns as one that leaves from zero.
+    // The body leaves from a gap that is closed up to rounding. It returns as one that leaves from zero.
     if (acceleration < 0) t = 2 * speed / -acceleration;
   } else if (acceleration == 0) {
     if (speed < 0) t = gap / -speed;

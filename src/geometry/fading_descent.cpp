@@ -1,7 +1,6 @@
 // The first zero of a distance under linear drag. Its second derivative is a sum of two exponentials, which changes
-// sign once at most.
-// That divides the horizon into a convex and a concave piece. On each, Newton's method with bisection finds the zero or
-// shows that there is none.
+// sign once at most. That divides the horizon into a convex and a concave piece. On each, Newton's method with
+// bisection finds the zero or shows that there is none.
 #include "geometry/fading_descent.h"
 
 #include <algorithm>

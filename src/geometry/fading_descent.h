@@ -24,8 +24,8 @@ struct FadingDistance {
 };
 
 /// The first t in [0, horizon] at which f crosses zero downwards, or `never`. With start = 0 that is t = 0 if f falls
-/// from there.
-/// The second derivative changes its sign once at most, so that f is a convex and a concave piece. No root is missed.
+/// from there. The second derivative changes its sign once at most, so that f is a convex and a concave piece. No root
+/// is missed.
 double first_descent(const FadingDistance& f, double horizon);
 
 }  // namespace carom

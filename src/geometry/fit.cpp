@@ -1,7 +1,6 @@
 // The smallest enclosing sphere, circle or box of a cloud of points. Sphere and circle take the farthest point into a
-// basis of at most four points, again and again (Gärtner 1999).
-// Weights that are wrong by rounding only give a smaller sphere, so that points nearly in a line or a plane need no
-// special case.
+// basis of at most four points, again and again (Gärtner 1999). Weights that are wrong by rounding only give a smaller
+// sphere, so that points nearly in a line or a plane need no special case.
 #include "geometry/fit.h"
 
 #include <Eigen/QR>
@@ -74,8 +73,7 @@ bool solve(Basis& basis) {
 }
 
 /// The smallest sphere around the basis and one more point outside of it: the largest of the smallest spheres around
-/// their subsets.
-/// Only those with the new point can have grown.
+/// their subsets. Only those with the new point can have grown.
 Basis joined(const Basis& basis, const Vec3& point) {
   Basis best = basis;
   for (unsigned subset = 0; subset < 1U << basis.count; ++subset) {

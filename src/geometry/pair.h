@@ -39,9 +39,8 @@ PairPrism pair_prism(const World& world, Entity a, Entity b);
 std::uint8_t prism_feature(std::uint8_t wall_feature, const Vec3& p);
 std::uint8_t wall_feature(std::uint8_t prism_feature);
 
-/// The closest points on the surfaces of a and b in the world (m). a is a box or a cylinder, b a wall at an angle to
-/// it.
-/// Where there are several, it is the middle of all.
+/// The closest points on the surfaces of a and b in the world (m). Body a is a box or a cylinder, b a wall at an angle
+/// to it. Where there are several, it is the middle of all.
 struct ClosestPoints {
   Vec3 on_a, on_b;
 };

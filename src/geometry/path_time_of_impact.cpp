@@ -1,7 +1,6 @@
 // Times of impact on paths that are not parabolas, by conservative advancement from separating plane to separating
-// plane.
-// Until a path arrives at the plane through the closest points there is no contact. Sampling in time could miss a
-// contact, this cannot.
+// plane. Until a path arrives at the plane through the closest points there is no contact. Sampling in time could miss
+// a contact, this cannot.
 #include "geometry/path_time_of_impact.h"
 
 #include <algorithm>

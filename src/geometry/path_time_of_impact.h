@@ -6,12 +6,10 @@
 
 namespace carom {
 
-/// First t in [0, horizon] at which a and b touch and approach, on paths that linear drag bends.
-/// Both paths, pa and pb, start at the same instant. A fixed b has a path that stays at its position. `left`: as in
-/// touch.h.
-/// Velocities are rounded on the scale of speeds (m/s).
-/// The search advances from separating plane to separating plane. Until the path arrives at the plane through the
-/// closest points there is no contact, so that none is missed.
+/// First t in [0, horizon] at which a and b touch and approach, on paths that linear drag bends. Both paths, pa and pb,
+/// start at the same instant. A fixed b has a path that stays at its position. `left`: as in touch.h. Velocities are
+/// rounded on the scale of speeds (m/s). The search advances from separating plane to separating plane. Until the path
+/// arrives at the plane through the closest points there is no contact, so that none is missed.
 FeatureTime time_of_impact(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,
                            double speeds, std::uint8_t left, double horizon);
 

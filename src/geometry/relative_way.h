@@ -1,7 +1,7 @@
 #pragma once
 // The path of one thing as seen from another, for paths of different kinds: the interface of the search by separating
-// planes.
-// Lengths and times count from the instant at which the search begins. Displacements are those of b less those of a.
+// planes. Lengths and times count from the instant at which the search begins. Displacements are those of b less those
+// of a.
 #include <utility>
 
 #include "geometry/contact_time.h"

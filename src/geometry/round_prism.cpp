@@ -1,7 +1,6 @@
 // Minkowski sums of volumes along the axes: a point against a rectangle, enlarged by a disc, extended in height and
-// enlarged by a ball.
-// One set of formulas serves rounded boxes, cylinders and their sums, because each lacks only some of these parts.
-// Gaps near zero are compensated, and the round rim has a double-double form.
+// enlarged by a ball. One set of formulas serves rounded boxes, cylinders and their sums, because each lacks only some
+// of these parts. Gaps near zero are compensated, and the round rim has a double-double form.
 #include "geometry/round_prism.h"
 
 #include <algorithm>

@@ -1,6 +1,5 @@
 // The Minkowski sum of a box and a wall at any angle, as an intersection of slabs. Each pair of its five segments spans
-// the faces of one slab.
-// There are at most ten slabs, so that all are tried.
+// the faces of one slab. There are at most ten slabs, so that all are tried.
 #include "geometry/slab_sum.h"
 
 #include <cmath>

@@ -1,7 +1,6 @@
 // The Minkowski sum of an upright cylinder and a wall at any angle: flat faces, caps, and patches of an oblique
-// cylinder.
-// A patch is treated in the shadow along its segment, where it is an arc of a circle. Contact with it is then contact
-// of spheres in closed form.
+// cylinder. A patch is treated in the shadow along its segment, where it is an arc of a circle. Contact with it is then
+// contact of spheres in closed form.
 #include "geometry/tilted_sum.h"
 
 #include <algorithm>

@@ -1,10 +1,9 @@
 #pragma once
-// The Minkowski sum of an upright cylinder and a wall at any angle: a disc extended along three segments.
-// The segments are the cylinder's axis and the wall's width and height. The surface has two caps and three pairs of
-// flat faces, which two segments span.
-// The round patches between them are the disc's rim extended along one segment.
-// The projection along that segment into the disc's plane is a parallelogram with round corners. There a patch is an
-// arc of a circle, at any angle.
+// The Minkowski sum of an upright cylinder and a wall at any angle: a disc extended along three segments. The segments
+// are the cylinder's axis and the wall's width and height. The surface has two caps and three pairs of flat faces,
+// which two segments span. The round patches between them are the disc's rim extended along one segment. The projection
+// along that segment into the disc's plane is a parallelogram with round corners. There a patch is an arc of a circle,
+// at any angle.
 #include <array>
 
 #include "geometry/contact_time.h"

@@ -1,6 +1,6 @@
 // Times of impact on parabolas, by the kind of pair. Spheres, planes and walls have closed forms.
 // All other pairs take conservative advancement on their Minkowski sum, which finishes with the closed form of the
-// feature that was met.
+// feature, where there is one.
 #include "geometry/conservative_advancement.h"
 #include "geometry/pair.h"
 #include "physics/world.h"

@@ -71,8 +71,7 @@ Touch touch_wall(const World& world, Entity a, Entity b, const Wall& wall, const
 }
 
 /// The middle of the area that a disc shares with a rectangle or another disc with its centre at d, from the disc's
-/// centre.
-/// The disc lies about the origin in the xz-plane.
+/// centre. The disc lies about the origin in the xz-plane.
 Vec3 middle_of_areas(double disc, const Volume& other, const Vec3& d) {
   if (other.shape == Shape::cylinder) {
     const Vec3 level(d.x(), 0, d.z());

@@ -1,6 +1,6 @@
 #pragma once
 // The relative position of any two things of a World, and their times of impact: the one table of pairs of volumes.
-// a is a body. b is a body or a fixed thing with the position world.fixed_position(b).
+// The first, a, is a body. The second, b, is a body or a fixed thing with the position world.fixed_position(b).
 // Two volumes that do not turn touch where the point x_b - x_a meets their Minkowski sum:
 // - sphere and box: a rounded box
 // - two cylinders: a cylinder
@@ -22,15 +22,14 @@ struct Touch {
   // m, the closest point on a's surface, or the middle of an area of them.
   Vec3 point;
   // The nearest face, edge, corner or rim of the Minkowski sum. It is 0 for two spheres and for planes, and a
-  // WallFeature for a sphere and a wall.
-  // Other pairs number features as in round_prism.h, slab_sum.h or tilted_sum.h (walls at an angle).
+  // WallFeature for a sphere and a wall. Other pairs number features as in round_prism.h, slab_sum.h or tilted_sum.h
+  // (walls at an angle).
   std::uint8_t feature;
 };
 
-/// Where the gap is small it is as exact as the positions (compensated sums).
-/// Sharp volumes may overlap, or touch but for rounding at edges or corners only. The normal is then that of the face
-/// over which they are farthest apart (x before y before z).
-/// `feature`: the feature to look at; no_feature: the nearest.
+/// Where the gap is small it is as exact as the positions (compensated sums). Sharp volumes may overlap, or touch up to
+/// rounding at edges or corners only. The normal is then that of the face over which they are farthest apart (x before
+/// y before z). `feature`: the feature to look at; no_feature: the nearest.
 Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature = no_feature);
 
 /// Second derivative of the gap (m/s^2) under the constant relative velocity w = v_b - v_a (m/s).
@@ -43,9 +42,8 @@ double bending(const World& world, Entity a, const Vec3& xa, Entity b, const Vec
 bool is_flat(const World& world, Entity a, Entity b, std::uint8_t feature);
 
 /// Whether a fixed thing lies wholly behind the plane in which body a, at xa (m), touches on the side against the unit
-/// vector n.
-/// It then extends no farther along n than the body's own surface does against it, but for rounding. A body that slides
-/// in that plane cannot strike it.
+/// vector n. It then extends no farther along n than the body's own surface does against it, up to rounding. A body
+/// that slides in that plane cannot strike it.
 bool lies_behind(const World& world, Entity a, const Vec3& xa, Entity fixed, const Vec3& n);
 
 /// An instant, and the feature at which two things touch then.
@@ -71,8 +69,7 @@ inline FeatureTime time_of_impact(const World& world, Entity a, Entity b, const 
 }
 
 /// First t in (0, horizon] at which a pair in lasting contact at this feature arrives at the feature's rim, and the
-/// feature beyond it.
-/// It is never, no_feature where there is no rim. The motion must keep to the feature.
+/// feature beyond it. It is never, no_feature where there is no rim. The motion must keep to the feature.
 FeatureTime leave_feature(const World& world, Entity a, Entity b, std::uint8_t feature, const RelativeMotion& motion,
                           double horizon);
 

@@ -1,8 +1,7 @@
 // The embedded Runge-Kutta method DOP853, of order 8 (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations
-// I, 2nd ed. 1993, II.5 and II.6).
-// The coefficients are those of their program, zeros left out. Velocities and accelerations of all points advance
-// together as one system of first order.
-// The dense output costs three more stages. They are evaluated only when interpolate() is called.
+// I, 2nd ed. 1993, II.5 and II.6). The coefficients are those of their program, zeros left out. Velocities and
+// accelerations of all points advance together as one system of first order. The dense output costs three more stages.
+// They are evaluated only when interpolate() is called.
 #include "numerics/dormand_prince.h"
 
 #include <algorithm>

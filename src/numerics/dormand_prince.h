@@ -1,9 +1,7 @@
 #pragma once
 // x'' = a(x, x') of many points by the method DOP853: order 8, an error estimate of orders 5 and 3, dense output of
-// order 7.
-// Source: Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, II.5 and II.6. The
-// coefficients are those of their program.
-// A step takes twelve accelerations, and three more for the dense output.
+// order 7. Source: Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, 2nd ed. 1993, II.5 and II.6.
+// The coefficients are those of their program. A step takes twelve accelerations, and three more for the dense output.
 #include <functional>
 #include <vector>
 

@@ -1,9 +1,8 @@
 // Elementary functions from + - * / and the square root alone. Tables and minimax polynomials would be faster, but
-// series can be checked by reading.
-// Sine, cosine and exponential are Taylor's series. Cody & Waite's method reduces the argument to two doubles (Software
-// Manual for the Elementary Functions, 1980, chapters 6 and 8).
-// Logarithm and angle start from a guess g by a short series. One step with exp(-g), or with sin(g) and cos(g), then
-// makes them right to the rounding of those.
+// series can be checked by reading. Sine, cosine and exponential are Taylor's series. Cody & Waite's method reduces the
+// argument to two doubles (Software Manual for the Elementary Functions, 1980, chapters 6 and 8). Logarithm and angle
+// start from a guess g by a short series. One step with exp(-g), or with sin(g) and cos(g), then makes them right to
+// the rounding of those.
 #include "numerics/elementary.h"
 
 #include <algorithm>

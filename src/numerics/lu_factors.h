@@ -1,7 +1,6 @@
 #pragma once
 // P M = L U of a small dense matrix, by rows with partial pivoting (Golub & Van Loan, Matrix Computations, 4th ed.
-// 2013, 3.4).
-// Sums have one order. A library that fits its blocks to a machine's caches does not give that.
+// 2013, 3.4). Sums have one order. A library that fits its blocks to a machine's caches does not give that.
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -96,7 +96,7 @@ void OrthogonalFactors::append(double* d) {
   double* h = reflector_.data();
   std::copy(d + rank_, d + n_, h);
   // If the first component is 0, it gives the reflection no sign, and a mirrored scene would need the opposite one.
-  // Exchange it with the largest component, whose sign turns with the mirror.
+  // Exchange it with the largest component: the sign of that turns with the mirror.
   if (h[0] == 0 && rest > 1) {
     std::size_t k = 1;
     for (std::size_t j = 2; j < rest; ++j)

@@ -1,8 +1,7 @@
 #pragma once
 // J^T = Q1 R for a growing and shrinking set of rows J of unit length. All of the orthogonal matrix Q = [Q1 Q2] is
-// stored.
-// A row is appended by one Householder reflection and removed by Givens rotations. Both keep Q orthogonal to rounding,
-// however often they are applied (Golub & Van Loan, Matrix Computations, 4th ed., section 6.5).
+// stored. A row is appended by one Householder reflection and removed by Givens rotations. Both keep Q orthogonal to
+// rounding, however often they are applied (Golub & Van Loan, Matrix Computations, 4th ed., section 6.5).
 #include <cstddef>
 #include <vector>
 

@@ -1,7 +1,6 @@
-// Roots of polynomials by the derivative cascade: the roots of f' are computed first, by recursion.
-// Between two of them f is monotone, so that a change of sign brackets its only root. Newton's method with bisection
-// refines it. No root can be missed.
-// Degree 2 has the closed form, with its discriminant in double-double arithmetic.
+// Roots of polynomials by the derivative cascade: the roots of f' are computed first, by recursion. Between two of them
+// f is monotone, so that a change of sign brackets its only root. Newton's method with bisection refines it. No root
+// can be missed. Degree 2 has the closed form, with its discriminant in double-double arithmetic.
 #include "numerics/polynomial.h"
 
 #include <algorithm>

@@ -1,9 +1,7 @@
 // Collocation of order 17 at nine Radau points (Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed.
-// 1996, IV.5), for forces with stiff drag.
-// The stages are solved by spectral deferred correction (Dutt, Greengard & Rokhlin, BIT 40 (2000) 241), with the
-// triangular factor of Weiser, BIT 55 (2015) 1219.
-// Newton's method on all stages at once would couple them. A sweep treats one stage at a time, and `hold` can apply the
-// constraints there.
+// 1996, IV.5), for forces with stiff drag. The stages are solved by spectral deferred correction (Dutt, Greengard &
+// Rokhlin, BIT 40 (2000) 241), with the triangular factor of Weiser, BIT 55 (2015) 1219. Newton's method on all stages
+// at once would couple them. A sweep treats one stage at a time, and `hold` can apply the constraints there.
 #include "numerics/radau_collocation.h"
 
 #include <algorithm>

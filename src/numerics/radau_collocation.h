@@ -1,10 +1,10 @@
 #pragma once
 // x'' = pull - fade x' with points held on surfaces, by collocation at Radau's points.
 // It serves where fade is so great that an explicit method would take steps of 1 / fade.
-// Radau IIA with nine stages has order 17 at a step's end and 9 within it (Hairer & Wanner, Solving Ordinary
-// Differential Equations II, 2nd ed. 1996, IV.5).
-// Sweeps of implicit Euler's method from point to point compute the stages. Each sweep raises the order by one
-// (spectral deferred correction: Dutt, Greengard & Rokhlin, BIT 40 (2000) 241).
+// Radau IIA with nine stages has order 17 at a step's end and 9 within it.
+// Source: Hairer & Wanner, Solving Ordinary Differential Equations II, 2nd ed. 1996, IV.5.
+// Sweeps of implicit Euler's method from point to point compute the stages. Each sweep raises the order by one.
+// (Spectral deferred correction: Dutt, Greengard & Rokhlin, BIT 40 (2000) 241.)
 // The triangular factor of Weiser, BIT 55 (2015) 1219, keeps this so where fade is great. In a sweep drag only makes
 // points heavier, by the factor 1 + s fade.
 #include <functional>

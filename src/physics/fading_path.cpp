@@ -1,7 +1,6 @@
 // Flight under constant forces and linear drag. Its factors are differences of exp(-z) from its first terms, and would
-// lose digits for small z.
-// A power series up to z = 1/2 and repeated doubling avoid that. They need no exponential function of a library, so
-// that the bits are the same everywhere.
+// lose digits for small z. A power series up to z = 1/2 and repeated doubling avoid that. They need no exponential
+// function of a library, so that the bits are the same everywhere.
 #include "physics/fading_path.h"
 
 #include <algorithm>
@@ -36,8 +35,7 @@ FadingPath FadingPath::from(double t) const {
 
 double FadingPath::squared_speed(double t) const {
   // s is here the integral of the velocity's share of a: s' = 1 - fade s. Hence fade times the integral of s^2 is t^2
-  // bend - s^2/2.
-  // Integrals of s and of s^2 over [0, t], here without drag.
+  // bend - s^2/2. Integrals of s and of s^2 over [0, t], here without drag. Their units are s^2 and s^3.
   double once = 0.5 * t * t, twice = t * t * t / 3;
   if (fade > 0) {
     const double z = fade * t;

@@ -1,5 +1,5 @@
 #pragma once
-// What gravity and the World's forces do to a body. A force acts from its `from` until just before its `until`.
+// The effect of gravity and the World's forces on a body. A force acts from its `from` until just before its `until`.
 //
 // In the energy balance a force that acts for ever has a potential, as gravity has. A force that starts or ends does
 // work, and so does a part without potential.

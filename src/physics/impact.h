@@ -10,8 +10,8 @@
 namespace carom {
 
 /// The impulse (N s) between two masses (kg) that approach at `approach` (m/s) and separate at `separation` (m/s): J =
-/// (approach + separation) m1 m2 / (m1 + m2).
-/// With separation = e approach this is the chapter's v1' = ((m1 - e m2) v1 + (1 + e) m2 v2) / (m1 + m2).
+/// (approach + separation) m1 m2 / (m1 + m2). With separation = e approach this is the chapter's v1' = ((m1 - e m2) v1
+/// + (1 + e) m2 v2) / (m1 + m2).
 inline double impact_impulse(double m1, double m2, double approach, double separation) {
   return (approach + separation) / (1 / m1 + 1 / m2);
 }
@@ -27,8 +27,8 @@ inline double impact_mass(const World& world, Entity e) {
 }
 
 /// The record of an impact of body a on b, a body or a fixed thing, at `time` (s). The masses give its impulse and the
-/// energy lost.
-/// point: m. normal: unit, from a to b. approach, separation: m/s along it. restitution: the pair's coefficient.
+/// energy lost. Units: `point` m, `approach` and `separation` m/s along the normal. `normal` is unit, from a to b;
+/// `restitution` is the pair's coefficient.
 inline Collision make_collision(const World& world, CollisionKind kind, double time, Entity a, Entity b,
                                 const Vec3& point, const Vec3& normal, double approach, double separation,
                                 double restitution) {

@@ -1,10 +1,10 @@
 // Radau IIA with seven stages, for one point under stiff forces (Hairer & Wanner, Solving Ordinary Differential
-// Equations II, 2nd ed. 1996, IV.5 and IV.8).
-// The unknowns are the changes Z_i of the velocity at the stages, X_i = x + c_i h v + h sum_j A_ij Z_j:
+// Equations II, 2nd ed. 1996, IV.5 and IV.8). The unknowns are the changes Z_i of the velocity at the stages, X_i = x +
+// c_i h v + h sum_j A_ij Z_j:
 //   Z_i = h sum_j A_ij a(X_j, v + Z_j)
-// Newton's method solves them, from the solution for forces that are linear about the start.
-// Its matrix has the Jacobian of the start while that converges fast, and then those of all stages.
-// Only the latter converge where a stiff direction turns within a step, as that of a damper does across its line.
+// Newton's method solves them, from the solution for forces that are linear about the start. Its matrix has the
+// Jacobian of the start while that converges fast, and then those of all stages. Only the latter converge where a stiff
+// direction turns within a step, as that of a damper does across its line.
 #include "physics/implicit_step.h"
 
 #include <algorithm>
@@ -105,8 +105,7 @@ struct SevenStages {
   }
 
   /// Radau's weights integrate the products exactly for degrees up to 6. A multiple of (P_6 - P_7) / 2 then brings the
-  /// polynomial to 0 at 0.
-  /// That one is 1 at 0 and zero at the points.
+  /// polynomial to 0 at 0. That one is 1 at 0 and zero at the points.
   void set_tail(std::size_t j) {
     const auto p = legendre<nodes>(c[j]);
     double missed = 0, sign = 1;
@@ -264,8 +263,7 @@ double ImplicitStep::step(double h, const Vec3& x, const Vec3& v, const Accelera
 }
 
 /// The error of the velocity (m/s), from the last terms of its polynomial. They fade by a similar factor each, and
-/// terms of one parity may vanish.
-/// A transient that is small beside the slow motion stays hidden from this estimate.
+/// terms of one parity may vanish. A transient that is small beside the slow motion stays hidden from this estimate.
 double ImplicitStep::error_by_terms() const {
   // Sizes of the terms of degrees 4 to 7.
   std::array<double, 4> size;
@@ -281,10 +279,9 @@ double ImplicitStep::error_by_terms() const {
 }
 
 /// The error of the velocity (m/s), from the difference between the polynomial's acceleration and a (m/s^2) at the
-/// start.
-/// The start is the one point where the polynomial's acceleration is not that of the forces.
-/// The filter (Hairer & Wanner, IV.8, eq. 8.20) reduces a fast transient to the size of its velocity.
-/// The estimate is too small near a sign change of the error at the start.
+/// start. The start is the one point where the polynomial's acceleration is not that of the forces. The filter (Hairer
+/// & Wanner, IV.8, eq. 8.20) reduces a fast transient to the size of its velocity. The estimate is too small near a
+/// sign change of the error at the start.
 double ImplicitStep::error_by_start(const Vec3& a, const ForceJacobian& j) const {
   const double s = filter * length_;
   LuFactors<axes> factors;

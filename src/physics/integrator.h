@@ -27,8 +27,7 @@ struct StepChange {
 };
 
 /// A step of the classical method, of length h (s). The particle starts at x (m) with velocity v (m/s) and acceleration
-/// a (m/s^2).
-/// `acceleration(x, v)` gives the acceleration at other positions and velocities.
+/// a (m/s^2). `acceleration(x, v)` gives the acceleration at other positions and velocities.
 template <typename Acceleration>
 StepChange runge_kutta(double h, const Vec3& x, const Vec3& v, const Vec3& a, const Acceleration& acceleration) {
   const Vec3 v1 = v + (0.5 * h) * a;

@@ -1,12 +1,10 @@
 // Universal variables (Stumpff; Everhart & Pitkin, Am. J. Phys. 51, 1983, 712; Wisdom & Hernandez, MNRAS 453, 2015,
-// 3015).
-// With beta = 2 mu / r - v^2 and ds = dt / r, every conic obeys r = r0 + eta G1 + zeta G2 and t = r0 s + eta G2 + zeta
-// G3, where G_n(s) = s^n (1/n! - beta s^2 / (n + 2)! + ...).
-// Usually s counts from the start. Here it counts from the nearer end of the long axis, where eta = x . v is 0.
-// All terms then have one sign, and nothing cancels: neither at a pericentre of 1e-17 of the start's distance, nor in a
-// fall from rest.
-// Anomalies need a case for each conic, and lose digits where the conics meet.
-// Factors of many revolutions and differences that cancel are computed once, in two doubles.
+// 3015). With beta = 2 mu / r - v^2 and ds = dt / r, every conic obeys r = r0 + eta G1 + zeta G2 and t = r0 s + eta G2
+// + zeta G3. Here G_n(s) = s^n (1/n! - beta s^2 / (n + 2)! + ...). Usually s counts from the start. Here it counts from
+// the nearer end of the long axis, where eta = x . v is 0. All terms then have one sign, and nothing cancels: neither
+// at a pericentre of 1e-17 of the start's distance, nor in a fall from rest. Anomalies need a case for each conic, and
+// lose digits where the conics meet. Factors of many revolutions and differences that cancel are computed once, in two
+// doubles.
 #include "physics/kepler_orbit.h"
 
 #include <algorithm>

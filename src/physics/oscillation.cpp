@@ -1,11 +1,8 @@
 // The damped oscillator (Landau & Lifshitz, Mechanics, section 25), by its response S = (exp(-q t) - exp(-p t)) / (p -
-// q).
-// Here p and q are the roots of z^2 - fade z + stiffness = 0. S' and the integral of S have similar forms.
-// These are divided differences of the exponential function. Rounding destroys them where the roots, or a root and 0,
-// are close in units of 1/t.
-// Each case has a form without that: complex roots sin(w t) / w, real roots 1 - exp(-(p - q) t), and small roots the
-// power series.
-// (p - q)^2 and the phase w t have two doubles.
+// q). Here p and q are the roots of z^2 - fade z + stiffness = 0. S' and the integral of S have similar forms. These
+// are divided differences of the exponential function. Rounding destroys them where the roots, or a root and 0, are
+// close in units of 1/t. Each case has a form without that: complex roots sin(w t) / w, real roots 1 - exp(-(p - q) t),
+// and small roots the power series. (p - q)^2 and the phase w t have two doubles.
 #include "physics/oscillation.h"
 
 #include "numerics/elementary.h"

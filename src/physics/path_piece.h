@@ -16,8 +16,8 @@ struct PathBend {
 };
 
 /// A piece holds from `from` until the body's next piece. With t the time since `start`, the position is x + t (v + t a
-/// / 2) and the velocity v + t a.
-/// A kicked piece has (until - time) kick less velocity. A piece bent by contact has t (linear + t quadratic) more.
+/// / 2) and the velocity v + t a. A kicked piece has (until - time) kick less velocity. A piece bent by contact has t
+/// (linear + t quadratic) more.
 struct PathPiece {
   Entity body = no_entity;
   double from = 0;           // s, the first double at which it holds

@@ -1,3 +1,5 @@
+// Rules that make a pair's coefficient of restitution from two. The chapter's text has the average, its listing 8.4
+// prints e1 e2 / 2. A pair's own value takes precedence, and the last match in the scene counts.
 #include "physics/restitution.h"
 
 #include <algorithm>

@@ -1,8 +1,7 @@
 #pragma once
 // F = -(k (|d| - l) + c d|d|/dt) d/|d|, d = x - anchor: a spring with a damper beside it, both along the line from the
-// anchor.
-// At the anchor the damper acts along the body's velocity. A spring with a rest length has no direction there, and does
-// not push.
+// anchor. At the anchor the damper acts along the body's velocity. A spring with a rest length has no direction there,
+// and does not push.
 #include <cmath>
 
 #include "physics/particle.h"

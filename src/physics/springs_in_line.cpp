@@ -1,7 +1,6 @@
 // Along a line s the push of a spring is k (l sign(s) - s). Between anchors that is linear, so that a method of any
-// order keeps its order there.
-// A step must end at an anchor. The error control alone would approach each passage in ever shorter steps.
-// One of these would then step over the turn, with an error that the estimate just allows.
+// order keeps its order there. A step must end at an anchor. The error control alone would approach each passage in
+// ever shorter steps. One of these would then step over the turn, with an error that the estimate just allows.
 #include "physics/springs_in_line.h"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Draws background, planes and walls by tracing one ray for each pixel, in a fragment shader over the whole picture.
-// Endless planes cannot be drawn as triangles.
-// Where neighbouring rays meet different surfaces, a pixel takes 16 samples.
+// Endless planes cannot be drawn as triangles. Where neighbouring rays meet different surfaces, a pixel takes 16
+// samples.
 #include "render/backdrop.h"
 
 #include <fmt/format.h>
@@ -14,10 +14,9 @@ namespace carom {
 namespace {
 
 // Finds the surface that a ray meets. With s = 1 / z every plane is a linear function of the picture, s = -(n.d) / h,
-// and the horizon is s = 0.
-// The free sides of all planes together are a convex room. A ray shows the plane through which it leaves the room.
-// Before that it must have entered the room through the planes that the eye is behind.
-// Planes thus cut each other off where they meet, a room is visible from outside, and no plane hides a movable thing.
+// and the horizon is s = 0. The free sides of all planes together are a convex room. A ray shows the plane through
+// which it leaves the room. Before that it must have entered the room through the planes that the eye is behind. Planes
+// thus cut each other off where they meet, a room is visible from outside, and no plane hides a movable thing.
 const char* const tracing = R"(
 uniform samplerBuffer rows;
 uniform int planes, walls;

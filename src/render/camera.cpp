@@ -1,7 +1,6 @@
-// The scene's camera, or a default one, and the test whether it sees a sphere.
-// The default camera looks at the box of all bodies and of the fixed things near them, as near as all its corners
-// allow.
-// The test uses the distance to the frustum. Tests of single planes would accept spheres beyond its edges.
+// The scene's camera, or a default one, and the test whether it sees a sphere. The default camera looks at the box of
+// all bodies and of the fixed things near them, as near as all its corners allow. The test uses the distance to the
+// frustum. Tests of single planes would accept spheres beyond its edges.
 #include "render/camera.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // The camera's frame in the render passes: x to the right, y up, z ahead, the eye at the origin. A ray through a
-// picture point is (x, y, 1).
-// World coordinates are converted to this frame in double precision. Floats are used only after that.
+// picture point is (x, y, 1). World coordinates are converted to this frame in double precision. Floats are used only
+// after that.
 #include <cmath>
 #include <numbers>
 

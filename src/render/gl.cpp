@@ -1,6 +1,5 @@
-// OpenGL off-screen, by OSMesa with its software renderer llvmpipe: the same bytes on every machine, without a display.
-// A GPU would be faster, but its drivers give other pictures. Objects free themselves, and every error becomes a
-// RenderError.
+// OpenGL off-screen, by OSMesa with its software renderer llvmpipe. It needs no display. Other drivers of OSMesa give
+// other bytes, or are many times slower. Objects free themselves, and every error becomes a RenderError.
 #include "render/gl.h"
 
 #include <fmt/format.h>

@@ -4,9 +4,8 @@
 
 namespace carom::gl {
 
-/// Chooses the number of threads that llvmpipe will start, and sets LP_NUM_THREADS to it.
-/// It is the value in the environment, or the number of processors. It is 0, and the caller draws, where the system
-/// cannot provide so many.
+/// Chooses the number of threads that llvmpipe will start, and sets LP_NUM_THREADS to it. It is the value in the
+/// environment, or the number of processors. It is 0, and the caller draws, where the system cannot provide so many.
 /// Call this before the first context is made.
 void choose_threads();
 

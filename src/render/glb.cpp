@@ -1,6 +1,6 @@
 // Builds an assimp scene from a Scene and its keyframes, and exports it as binary glTF 2.
-// The exporter writes meshes, materials and animation. The functions of glb_nodes.h add cameras and lights, and correct nodes.
-// Volumes of one shape and colour share a mesh of half size 1, scaled by the node.
+// The exporter writes meshes, materials and animation. The functions of glb_nodes.h add cameras and lights, and correct
+// nodes. Volumes of one shape and colour share a mesh of half size 1, scaled by the node.
 #include "render/glb.h"
 
 #include <assimp/material.h>

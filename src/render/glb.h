@@ -1,8 +1,7 @@
 #pragma once
-// A scene and its motion as a binary glTF 2 file, for Blender and similar programs.
-// It has a node for each body and for each fixed thing, the camera and the lights. assimp writes meshes, materials and
-// animation.
-// What its exporter cannot write is added afterwards.
+// A scene and its motion as a binary glTF 2 file, for Blender and similar programs. It has a node for each body and for
+// each fixed thing, the camera and the lights. assimp writes meshes, materials and animation. What its exporter cannot
+// write is added afterwards.
 #include <string>
 
 #include "render/model.h"
@@ -12,8 +11,8 @@ namespace carom {
 struct Scene;
 
 /// Bodies have a translation for each keyframe, exact to float, with linear interpolation. From a merge on, the smaller
-/// body has scale 0, and the joint one its new size.
-/// Colours are in linear light, y is up, times are in seconds. Throws RenderError.
+/// body has scale 0, and the joint one its new size. Colours are in linear light, y is up, times are in seconds. Throws
+/// RenderError.
 std::string glb(const Scene& scene, const KeyedMotion& motion);
 
 }  // namespace carom

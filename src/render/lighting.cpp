@@ -1,6 +1,5 @@
 // The lights of a scene, and GLSL functions for them. Shadows are analytic: the part of the key light's disc that a
-// shape covers, as seen from a point.
-// Soft edges follow from the disc's size without any sampling.
+// shape covers, as seen from a point. Soft edges follow from the disc's size without any sampling.
 #include "render/lighting.h"
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 // The one GLSL text for the light that surfaces send to the eye: matt reflection, a highlight, and light at grazing
-// angles.
-// Occluders of the key light are a list for each thing, so that a pixel tests only those that may shade it.
+// angles. Occluders of the key light are a list for each thing, so that a pixel tests only those that may shade it.
 #include "render/material.h"
 
 namespace carom {

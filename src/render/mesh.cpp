@@ -1,7 +1,6 @@
-// Reads a mesh file in a child process, because a damaged file can crash assimp, hang it or fill the memory.
-// The child has limits of memory, processor time and files, and sends the mesh through a pipe. The parent waits with a
-// deadline and never trusts the data.
-// A thread could not be stopped or limited like this.
+// Reads a mesh file in a child process, because a damaged file can crash assimp, hang it or fill the memory. The child
+// has limits of memory, processor time and files, and sends the mesh through a pipe. The parent waits with a deadline
+// and never trusts the data. A thread could not be stopped or limited like this.
 #include "render/mesh.h"
 
 #include <fcntl.h>

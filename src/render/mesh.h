@@ -27,15 +27,12 @@ struct MeshLimits {
 };
 
 /// Reads a Wavefront (.obj), STL (.stl) or glTF 2 (.gltf, .glb) file. Of other files it reads only those in the same
-/// folder that the file names.
-/// Polygons become triangles, and vertices at one position are joined. Missing normals are computed, smooth where faces
-/// meet at less than 45 degrees.
-/// Throws std::runtime_error with the path and the fault.
+/// folder that the file names. Polygons become triangles, and vertices at one position are joined. Missing normals are
+/// computed, smooth where faces meet at less than 45 degrees. Throws std::runtime_error with the path and the fault.
 Mesh read_mesh(const std::string& path, const MeshLimits& limits = {});
 
 /// Sets the function that is called 20 times a second during the wait for a mesh. An exception from it passes to the
-/// caller of read_mesh.
-/// Set it once, at the start of the program.
+/// caller of read_mesh. Set it once, at the start of the program.
 void look_while_reading(std::function<void()> look);
 
 /// The vertices alone, for the fit of a volume.

@@ -1,6 +1,5 @@
 // Imports a mesh with assimp, in the child process. Only readers for the file's ending are left, and only files of its
-// own folder can be opened.
-// Vertices and indices are checked here, so that a defect of a reader becomes an error.
+// own folder can be opened. Vertices and indices are checked here, so that a defect of a reader becomes an error.
 // Normals are made here for files without them, because the smoothing of a shared vertex depends on the angle between
 // faces.
 #include "render/mesh_import.h"
@@ -88,10 +87,9 @@ constexpr double cos_smooth = 0.70710678118654752;  // cosine of 45 degrees
 // Greatest number of triangles at a vertex for which normals are smoothed.
 constexpr std::size_t most_around = 256;
 
-/// Makes normals for the triangles from `triangle` on, with vertices from `first` on that have none.
-/// The normal at a corner is the mean over triangles around it, weighted by area, that lean less than 45 degrees
-/// against its own.
-/// At sharp edges a vertex is split into several.
+/// Makes normals for the triangles from `triangle` on, with vertices from `first` on that have none. The normal at a
+/// corner is the mean over triangles around it, weighted by area, that lean less than 45 degrees against its own. At
+/// sharp edges a vertex is split into several.
 void make_normals(ImportedMesh& mesh, std::size_t first, std::size_t triangle) {
   const std::size_t count = mesh.triangles.size() / 3 - triangle, vertices = mesh.vertices.size() / 3 - first;
   std::vector<Vec3> area(count), normal(count);

@@ -1,7 +1,7 @@
 #pragma once
 // The shadows of meshes in parallel light. Bodies do not turn, so a mesh has one outline along the light, which is
-// drawn once.
-// In the light of a lamp the direction differs from body to body. A mesh then casts the shadow of its volume.
+// drawn once. In the light of a lamp the direction differs from body to body. A mesh then casts the shadow of its
+// volume.
 #include "render/lighting.h"
 #include "render/shapes.h"
 
@@ -13,7 +13,7 @@ class MeshShadows {
   MeshShadows(const Shapes& shapes, std::size_t files, const Eye& eye, const Lighting& lighting);
 
   /// For a fragment shader behind Lighting::shader():
-  ///   float through_mesh(vec3 p, vec3 l, vec3 to_middle, float file, float reach)
+  ///   float through_mesh(vec3 p, vec3 l, vec3 to_middle, float file, float reach).
   /// The part of the key light that a mesh lets through to p. `reach`: scale * reach().
   static const char* shader();
   void set(const gl::Program& program, GLuint unit) const;  // the program must be in use

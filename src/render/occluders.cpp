@@ -1,6 +1,6 @@
 // Finds the things that may shade a given one, by a grid across the light. A test of all pairs would grow with the
-// square of their number.
-// Parallel light has one plane grid, a lamp the six faces of a cube around it. Things count as the balls around them.
+// square of their number. Parallel light has one plane grid, a lamp the six faces of a cube around it. Things count as
+// the balls around them.
 #include "render/occluders.h"
 
 #include <algorithm>

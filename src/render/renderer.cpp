@@ -1,6 +1,5 @@
 // Draws a picture in passes: a copy of the backdrop, shadows, solids that cover whole pixels, balls from back to front,
-// and edges of solids.
-// Everything that does not move is drawn once. A picture equal to the last one is not drawn again.
+// and edges of solids. Everything that does not move is drawn once. A picture equal to the last one is not drawn again.
 #include "render/renderer.h"
 
 #include <fmt/format.h>
@@ -35,8 +34,8 @@ Size checked(Size size, int samples) {
 }  // namespace
 
 // Edges are smoothed by the computed coverage of a pixel, without sampling. Balls are drawn back to front and blend
-// with what is behind them.
-// One sample for each pixel gives hard edges. Any larger number gives smooth ones, finer than so many samples would be.
+// with what is behind them. One sample for each pixel gives hard edges. Any larger number gives smooth ones, finer than
+// so many samples would be.
 struct Renderer::Impl {
   Impl(const Scene& s, Size size, int samples)
       : scene(s),

@@ -1,6 +1,6 @@
 // Draws shadows and contact darkening onto a copy of the backdrop, as rectangles that the depth test confines to their
-// surface.
-// Shadows are computed for each pixel by the analytic functions of lighting.cpp, so that they have no resolution.
+// surface. Shadows are computed for each pixel by the analytic functions of lighting.cpp, so that they have no
+// resolution.
 #include "render/shade.h"
 
 #include <fmt/format.h>
@@ -12,9 +12,8 @@ namespace carom {
 namespace {
 
 // Each instance is a rectangle on a surface, around the shadow of one ball there or around the place where the ball is
-// close.
-// The backdrop's depth confines it to the visible part of that surface.
-// The darkest effect of all balls on a pixel counts, so that overlapping shadows are not darker than one.
+// close. The backdrop's depth confines it to the visible part of that surface. The darkest effect of all balls on a
+// pixel counts, so that overlapping shadows are not darker than one.
 const char* const thing_vertex_shader = R"(
 layout(location = 0) in vec3 origin;     // middle of the rectangle
 layout(location = 1) in vec3 u;          // half side

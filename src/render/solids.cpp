@@ -1,7 +1,6 @@
 // Renders boxes, cylinders and meshes by a tiled, deferred pass. Four points along a pixel's side record only the thing
-// and its normal.
-// Each pixel is then shaded once, from the mean of its points. Multisampling of the full shader would evaluate all
-// lights sixteen times.
+// and its normal. Each pixel is then shaded once, from the mean of its points. Multisampling of the full shader would
+// evaluate all lights sixteen times.
 #include "render/solids.h"
 
 #include <fmt/format.h>
@@ -88,8 +87,8 @@ void Solids::set_constants(const Lighting& lighting, const MeshShadows* meshes) 
   gl::Uniform1i(programs_.draw.at("color_depth"), 1);
 }
 
-/// The pixels in which a box in the camera's frame may be visible: those of its corners, or all if it reaches before
-/// the near plane.
+/// The pixels in which a box in the camera's frame may be visible. They are those of its corners, or all if it reaches
+/// before the near plane.
 Solids::Rect Solids::bounds_of(const Vec3& origin, const Vec3& half, bool& cut) const {
   const auto [width, height] = eye_.size;
   double left = width, right = 0, top = height, bottom = 0;

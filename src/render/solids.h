@@ -1,9 +1,8 @@
 #pragma once
-// Boxes, cylinders and meshes. Their triangles are drawn in tiles at four times the picture's width and height.
-// Each point records only the visible thing and its normal. A pixel is then shaded once from its sixteen points, which
-// also give its coverage.
-// Pixels that are wholly covered are drawn before the balls, the others after them.
-// The edges of both kinds then blend with what is behind them, in any order.
+// Boxes, cylinders and meshes. Their triangles are drawn in tiles at four times the picture's width and height. Each
+// point records only the visible thing and its normal. A pixel is then shaded once from its sixteen points, which also
+// give its coverage. Pixels that are wholly covered are drawn before the balls, the others after them. The edges of
+// both kinds then blend with what is behind them, in any order.
 #include <array>
 #include <cstdint>
 #include <vector>

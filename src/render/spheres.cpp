@@ -1,6 +1,6 @@
 // Draws each ball as one quadrilateral, in which the ray of every pixel is intersected with the sphere. Balls of any
-// size are exactly round.
-// Edges have analytic coverage. Balls smaller than a pixel become larger and fainter, so that they do not flicker.
+// size are exactly round. Edges have analytic coverage. Balls smaller than a pixel become larger and fainter, with the
+// same coverage.
 #include "render/spheres.h"
 
 #include <algorithm>

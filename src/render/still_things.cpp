@@ -1,6 +1,5 @@
 // Converts planes, walls and obstacles to triangles. Planes are cut off at a cube around the scene, and at each other.
-// Round shapes are subdivided by midpoints and square roots alone, because sines differ from machine to machine in the
-// last bits.
+// Round shapes are subdivided by midpoints and square roots alone, so that corners are the same on every machine.
 #include "render/still_things.h"
 
 #include <algorithm>

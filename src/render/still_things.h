@@ -11,13 +11,13 @@ struct MeshUse;
 struct Scene;
 
 /// The visible planes, walls and obstacles, in the order of the file. A plane is cut off at a cube around `seen`, the
-/// walls and the obstacles.
-/// It is also cut off where it is behind other visible planes. Throws RenderError for a mesh that cannot be read.
+/// walls and the obstacles. It is also cut off where it is behind other visible planes. Throws RenderError for a mesh
+/// that cannot be read.
 std::vector<StillThing> still_things(const Scene& scene, const Extent& seen);
 
 /// The ball of radius 1 as 2048 triangles, with corners on the sphere and its normals.
 Mesh round_ball();
-/// The upright cylinder of radius 1 and half height 1 with 64 sides, whose edges lie on it.
+/// The upright cylinder of radius 1 and half height 1 with 64 sides. Their edges lie on it.
 Mesh round_cylinder();
 
 /// A mesh with its vertices p at `middle` + scale * p (by axis), and normals to match.

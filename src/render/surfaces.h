@@ -26,8 +26,7 @@ const FixedName& name_of_obstacle(const Scene& scene, std::size_t obstacle);
 bool is_surface(const Scene& scene, std::size_t obstacle);
 
 /// Planes come first, then walls and the sides of box obstacles. Shaders use number i + 1 for surface i, and 0 for the
-/// background.
-/// Planes that are not visible are left out. They cut nothing off the others.
+/// background. Planes that are not visible are left out. They cut nothing off the others.
 class Surfaces {
  public:
   Surfaces(const Scene& scene, const Eye& eye);

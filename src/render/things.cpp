@@ -1,6 +1,6 @@
 // Places bodies and obstacles in the camera's frame, and sorts them into balls and solids. Things outside the picture
-// stay as occluders only.
-// Comparison with the last picture shows whether anything has changed, so that an equal picture is not drawn.
+// stay as occluders only. Comparison with the last picture shows whether anything has changed, so that an equal picture
+// is not drawn.
 #include "render/things.h"
 
 #include <algorithm>
@@ -119,8 +119,8 @@ bool Things::place(const State& state) {
 
 void Things::sort_balls() {
   // Of balls that do not overlap, a ball can only hide another of greater power |c|^2 - r^2. The cells of a power
-  // diagram have this order from any eye.
-  // The distance alone would put a small ball beside a large one on the wrong side.
+  // diagram have this order from any eye. The distance alone would put a small ball beside a large one on the wrong
+  // side.
   order_.clear();
   for (const std::uint32_t i : balls_) {
     const double distance = all_[i].center.norm();

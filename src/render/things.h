@@ -22,7 +22,7 @@ struct Thing {
   double radius;                    // m, of a ball around it
   Shape shape = Shape::sphere;      // of its volume
   Vec3 half = Vec3::Zero();         // m, of its volume, along the world's axes
-  std::uint32_t look = 0;           // the argument of Things::look
+  std::uint32_t look = 0;           // number of its look (Things::look)
   bool mesh = false;                // is drawn as its look's mesh
   Vec3 mesh_middle = Vec3::Zero();  // m, of that mesh
 
@@ -53,8 +53,7 @@ class Things {
   bool any_solids() const { return any_solids_; }  // whether some things may not be balls
 
   /// Places the bodies of `state`, and the obstacles. A body that is part of another is left out, and the joint body
-  /// has the volume of the state.
-  /// Returns whether anything has changed since the last call.
+  /// has the volume of the state. Returns whether anything has changed since the last call.
   bool place(const State& state);
   std::span<const Thing> all() const { return all_; }
   // Numbers in all() of the balls in the picture, back to front.

@@ -1,8 +1,7 @@
 // Perfectly inelastic collisions (chapter 8's two lumps of clay). The lighter body becomes part of the heavier one,
-// which keeps its number and shape.
-// Momentum, mass, volume and centre of mass are conserved. The energy lost includes that of the motion along the
-// surfaces.
-// The larger volume may overlap others. Fixed things push it out, and overlapping bodies merge too.
+// which keeps its number and shape. Momentum, mass, volume and centre of mass are conserved. The energy lost includes
+// that of the motion along the surfaces. The larger volume may overlap others. Fixed things push it out, and
+// overlapping bodies merge too.
 #include "simulate/body_merging.h"
 
 #include <algorithm>

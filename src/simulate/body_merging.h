@@ -1,8 +1,8 @@
 #pragma once
-// Perfectly inelastic collisions: bodies that meet become one (chapter 8's two lumps of clay).
-// The joint body keeps mass, momentum, volume and the centre of mass. It has the number and the shape of the heavier
-// body, or of the first if both have the same mass.
-// Where the joint volume overlaps a third body, that one merges too. Where it overlaps a fixed thing, it is moved out.
+// Perfectly inelastic collisions: bodies that meet become one (chapter 8's two lumps of clay). The joint body keeps
+// mass, momentum, volume and the centre of mass. It has the number and the shape of the heavier body, or of the first
+// if both have the same mass. Where the joint volume overlaps a third body, that one merges too. Where it overlaps a
+// fixed thing, it is moved out.
 
 #include "physics/entity.h"
 namespace carom {

@@ -1,10 +1,9 @@
 // The source chapter's program (ParticleBounce, listings 8.3 and 8.4). Each frame tests for overlap and handles every
-// overlapping pair.
-// Then it moves every body by semi-implicit Euler, v += a dt, x += v dt.
+// overlapping pair. Then it moves every body by semi-implicit Euler, v += a dt, x += v dt.
 //
 // By default it does what the text means: the average of the two coefficients (or the scene's rule) and the sum of both
-// radii.
-// The velocity changes once, and only for bodies that approach. `as_printed` does what the listings print instead:
+// radii. The velocity changes once, and only for bodies that approach. `as_printed` does what the listings print
+// instead:
 //   e = (e1 e2) / 2, where the text has the average;
 //   |d|^2 < (r0 + r0)^2, the first body's radius twice;
 //   after v' is set, the acceleration becomes v'/dt, so that the same frame's update adds v' once more;

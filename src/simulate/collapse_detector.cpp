@@ -1,8 +1,6 @@
 // Decides when bouncing ends in lasting contact: by inelastic collapse (McNamara & Young, Phys. Fluids A 4 (1992) 496),
-// or by slow impacts under load.
-// A limit on speed alone would fail in a collapse, which can be fast, and in a pile, where slow impacts have many
-// causes.
-// So impacts are counted for each body, over the time of a hop and over the distance that the body moves.
+// or by slow impacts under load. A limit on speed alone would miss a collapse, which can be fast. So impacts are
+// counted for each body, over the time of a hop and over the distance that the body moves.
 #include "simulate/collapse_detector.h"
 
 #include <algorithm>
@@ -26,7 +24,7 @@ bool CollapseDetector::in_burst(Entity i, double window, int many) {
 }
 
 bool CollapseDetector::collapses(Entity i, Entity other, double e, double approach, double length) {
-  // No impact has lost anything yet.
+  // No impact has lost energy.
   if (e >= 1 && collapse_.empty()) return false;
   Collapse& collapse = collapse_.write(i);
   const double away = std::max(exact_tolerance::collapse_gap * length,

@@ -2,13 +2,12 @@
 // The end of bouncing in lasting contact: inelastic collapse, and slow impacts under load in quick succession.
 //
 // Inelastic collapse (McNamara & Young, Phys. Fluids A 4 (1992) 496): a body between others that close in on it strikes
-// them in turn, ever sooner. What is left of the gaps vanishes in no time.
-// The detector sums 1 - e over a body's impacts, where an e above 1 counts against the others. The sum ends when the
-// body has moved away by a billionth of its length.
-// Far from the origin the limit is the rounding of positions. Repeated bounces on the same thing count once.
-// Impacts in turn that end multiply the speeds by sqrt(e) each, by the determinant of their map. At the sum that counts
-// as a collapse, exp(-8) of the speeds is left.
-// Impacts that continue beyond it are a collapse, or as good as over.
+// them in turn, ever sooner. What is left of the gaps vanishes in no time. The detector sums 1 - e over a body's
+// impacts, where an e above 1 counts against the others. The sum ends when the body has moved away by a billionth of
+// its length. Far from the origin the limit is the rounding of positions. Repeated bounces on the same thing count
+// once. Impacts in turn that end multiply the speeds by sqrt(e) each, by the determinant of their map. At the sum that
+// counts as a collapse, exp(-8) of the speeds is left. Impacts that continue beyond it are a collapse, or practically
+// over.
 #include "simulate/exact_bodies.h"
 
 namespace carom {
@@ -19,11 +18,10 @@ class CollapseDetector {
       : bodies_(bodies), burst_(bodies.body.size()), collapse_(bodies.body.size()) {}
 
   /// Counts an impact of a on b at `approach` (m/s). Returns whether it ends in contact, so that nothing is left of the
-  /// approach.
-  /// press: the acceleration that drives the two together (m/s^2). length: the diameter of the smaller one (m). alone:
-  /// on a flat surface, not among bodies.
-  /// An inelastic collapse ends bouncing at any speed. Under load a slow impact also ends it in two cases.
-  /// It is one of very many within the time of a hop at that speed, or it meets bodies in lasting contact.
+  /// approach. `press`: the acceleration that drives the two together (m/s^2). `length`: the diameter of the smaller
+  /// one (m). `alone`: on a flat surface, not among bodies. An inelastic collapse ends bouncing at any speed. Under
+  /// load a slow impact also ends it in two cases. It is one of very many within the time of a hop at that speed, or it
+  /// meets bodies in lasting contact.
   bool count_impact(Entity a, Entity b, double e, double approach, double press, double length, bool alone);
   /// Counts an impact of body i in turn with the impact that caused it. lost: its 1 - e.
   void count_in_turn(Entity i, double lost);

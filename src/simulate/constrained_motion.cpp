@@ -1,10 +1,8 @@
 // Constrained motion of an island by event-driven integration (Acary & Brogliato, Numerical Methods for Nonsmooth
-// Dynamical Systems, 2008, ch. 8).
-// A step closes overlaps, takes away approaches, computes forces and picks a motion: parabolas where they are exact,
-// otherwise a method of order 8.
-// It ends at the first change of contact. Bodies fly along parabolas between two points of the path, so that the event
-// queue treats them as any others.
-// An island with too many changes in the time of a time step is left to time stepping.
+// Dynamical Systems, 2008, ch. 8). A step closes overlaps, takes away approaches, computes forces and picks a motion:
+// parabolas where they are exact, otherwise a method of order 8. It ends at the first change of contact. Bodies fly
+// along parabolas between two points of the path, so that the event queue treats them as any others. An island with too
+// many changes in the time of a time step is left to time stepping.
 #include "simulate/constrained_motion.h"
 
 #include <algorithm>
@@ -81,8 +79,8 @@ void ConstrainedMotion::settle(Entity i) {
 }
 
 /// Sets the bend: the velocity of body i's path less that of its parabola. Both start alike and meet `length` (s) after
-/// the flight's start.
-/// Up to the fourth power of that, the bend is a multiple of 3 t^2 - 2 t length, the slope of a cubic.
+/// the flight's start. Up to the fourth power of that, the bend is a multiple of 3 t^2 - 2 t length, the slope of a
+/// cubic.
 void ConstrainedMotion::bend(Entity i, double length) {
   PathBend& bend = bodies_.islands.bend.write(i);
   bend = {};
@@ -275,8 +273,7 @@ void ConstrainedMotion::take_approaches(Step& step) {
 }
 
 /// Records the impacts at velocities `met` (m/s) that contact absorbed although they were not slow: those that struck
-/// bodies passed on at once.
-/// Returns for each pair whether it is recorded.
+/// bodies passed on at once. Returns for each pair whether it is recorded.
 std::vector<std::uint8_t> ConstrainedMotion::record_fast(const Step& step, const std::vector<Vec3>& met) const {
   const World& world = bodies_.world;
   std::vector<std::uint8_t> recorded(step.contacts.pairs.size(), 0);
@@ -414,8 +411,8 @@ void ConstrainedMotion::choose_motion(Step& step, ConstrainedSystem& system) {
   step.path = std::make_shared<Path>(Path{bodies_.now, std::move(followed.motion), tol::step_error * step.smallest});
 }
 
-/// The time (s) at which the pair crosses its feature's rim, on parabolas. Motion along a rim, but for rounding, does
-/// not cross it.
+/// The time (s) at which the pair crosses its feature's rim, on parabolas. Motion along a rim, up to rounding, does not
+/// cross it.
 double ConstrainedMotion::rim_time(const Step& step, std::size_t pair, double length) const {
   const World& world = bodies_.world;
   const auto& [i, e, feature] = step.contacts.names[pair];
@@ -548,8 +545,7 @@ bool ConstrainedMotion::begin_flight(const Step& step, std::size_t k, Entity i) 
 }
 
 /// From this instant on body i flies along the parabola through two points of its path, with the path's velocity at the
-/// first.
-/// Between them the error is at most 4/27 of the term of third order in its length.
+/// first. Between them the error is at most 4/27 of the term of third order in its length.
 void ConstrainedMotion::begin_piece(Entity i) {
   Following& following = following_.write(i);
   const DenseMotion& motion = *following.path->motion;

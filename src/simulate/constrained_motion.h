@@ -1,11 +1,10 @@
 #pragma once
-// Constrained motion of an island: bodies that press on each other stay on each other's surfaces.
-// Where all contacts are flat, or nothing slides, paths are parabolas, and a step lasts until a contact reaches its
-// rim.
-// Where surfaces are curved, a method of order 8 follows the motion step by step (constrained_system.h).
-// Within a step a body flies along parabolas that differ from its path by less than a step's error.
-// All bodies take part in impacts as elsewhere, except the pairs in contact. After a change the first step is a moment.
-// It is too short for anything but impacts at the same place, so that many of these cost one step.
+// Constrained motion of an island: bodies that press on each other stay on each other's surfaces. Where all contacts
+// are flat, or nothing slides, paths are parabolas, and a step lasts until a contact reaches its rim. Where surfaces
+// are curved, a method of order 8 follows the motion step by step (constrained_system.h). Within a step a body flies
+// along parabolas that differ from its path by less than a step's error. All bodies take part in impacts as elsewhere,
+// except the pairs in contact. After a change the first step is a moment. It is too short for anything but impacts at
+// the same place, so that many of these cost one step.
 #include <memory>
 #include <vector>
 
@@ -112,9 +111,8 @@ class ConstrainedMotion {
   void forget_index(const std::vector<Entity>& members) const;
 
   Vec3 at(const std::vector<Vec3>& x, Entity e) const;  // m, of a member or a fixed thing
-  Vec3 rate(const std::vector<Vec3>& v,
-            // The same of a velocity or an acceleration: fixed things have none.
-            Entity e) const;
+  // The same of a velocity or an acceleration: fixed things have none.
+  Vec3 rate(const std::vector<Vec3>& v, Entity e) const;
 
   ExactBodies& bodies_;
   ExactGroup& group_;

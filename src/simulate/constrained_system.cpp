@@ -1,9 +1,7 @@
 // The constrained equations of motion of an island, with the accelerations from the complementarity conditions of its
-// closed contacts.
-// While the set of contacts is the same the motion is smooth, and DOP853 follows it. Stiff drag goes to collocation at
-// Radau's points.
-// Openings are found from the accelerations of gaps, because forces need not be unique. Rims are found at samples of
-// the dense output.
+// closed contacts. While the set of contacts is the same the motion is smooth, and DOP853 follows it. Stiff drag goes
+// to collocation at Radau's points. Openings are found from the accelerations of gaps, because forces need not be
+// unique. Rims are found at samples of the dense output.
 #include "simulate/constrained_system.h"
 
 #include <algorithm>

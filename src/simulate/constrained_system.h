@@ -1,14 +1,11 @@
 #pragma once
 // Bodies that press on each other and on fixed things. While the set of closed contacts stays the same, their motion is
-// smooth.
-// Forces keep pressing pairs in contact: 0 <= force, 0 <= the gap's second derivative, and one of them is zero. The
-// second derivative includes the surfaces' curvature.
-// A method of order 8 follows the motion (dormand_prince.h). Contacts open when their force ends, and pass to the next
-// feature at a rim.
-// These instants are found on the method's dense output, and a step ends there. (Event-driven integration: Acary &
-// Brogliato, Numerical Methods for Nonsmooth Dynamical Systems, 2008, ch. 8.)
-// Openings are visible without the forces, which need not be unique: some gap grows under the accelerations that
-// contacts allow.
+// smooth. Forces keep pressing pairs in contact: 0 <= force, 0 <= the gap's second derivative, and one of them is zero.
+// The second derivative includes the surfaces' curvature. A method of order 8 follows the motion (dormand_prince.h).
+// Contacts open when their force ends, and pass to the next feature at a rim. These instants are found on the method's
+// dense output, and a step ends there. (Event-driven integration: Acary & Brogliato, Numerical Methods for Nonsmooth
+// Dynamical Systems, 2008, ch. 8.) Openings are visible without the forces, which need not be unique: some gap grows
+// under the accelerations that contacts allow.
 #include <memory>
 #include <vector>
 
@@ -32,12 +29,11 @@ class ConstrainedSystem {
 
   /// Adds a contact of members number a and b, or of a and a fixed thing. normal: from a to b.
   void add(const Contact& contact, std::uint32_t a, std::uint32_t b, const Vec3& normal);
-  /// Opens the closed contacts that are marked in `which`. They are not followed any more, but watched.
+  /// Opens the closed contacts that are marked in `which`. From then on they are watched, and not followed.
   void open(const std::vector<std::uint8_t>& which);
 
   /// Accelerations (m/s^2) by member at x (m) and v (m/s): the nearest to the applied ones for which closed contacts do
-  /// not approach, n . (a_b - a_a) >= -bending.
-  /// Afterwards the rows hold the forces, the normals and the bending.
+  /// not approach, n . (a_b - a_a) >= -bending. Afterwards the rows hold the forces, the normals and the bending.
   std::vector<Vec3> accelerate(const std::vector<Vec3>& x, const std::vector<Vec3>& v);
   /// The second derivative of closed contact c's gap (m/s^2), for accelerations a.
   double gap_acceleration(std::size_t c, const std::vector<Vec3>& a) const;
@@ -54,8 +50,8 @@ class ConstrainedSystem {
 
   /// The decay rate by linear drag (1/s), if it is the same for all members; otherwise -1.
   double common_fade() const;
-  /// The time (s) for which all members move along parabolas, or along paths that a common drag bends, from velocities
-  /// v (m/s) and accelerations a (m/s^2).
+  /// The time (s) for which all members move along parabolas, or along paths that a common drag bends.
+  /// They start with velocities v (m/s) and accelerations a (m/s^2).
   double straight_time(const std::vector<Vec3>& v, const std::vector<Vec3>& a) const;
 
   /// The motion from there on until a change, or for `longest` (s).

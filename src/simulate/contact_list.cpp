@@ -1,6 +1,5 @@
 // Drops contacts that another contact of the same body makes impossible: a thing wholly behind a flat surface that the
-// body touches.
-// Level surfaces stay, so that a floor of several pieces carries a body over its seams.
+// body touches. Level surfaces stay, so that a floor of several pieces carries a body over its seams.
 #include "simulate/contact_list.h"
 
 #include <algorithm>

@@ -23,8 +23,7 @@ struct ContactList {
   void clear();
   void add(const ContactConstraint& pair, const Contact& name, double gap);
   /// Drops contacts of a body at x (m), from number `first` on, with things that lie wholly behind a flat fixed surface
-  /// beside it.
-  /// The surface must be no farther away than `beside` (m). Surfaces level with it stay.
+  /// beside it. The surface must be no farther away than `beside` (m). Surfaces level with it stay.
   void drop_hidden(const World& world, const Vec3& x, std::size_t first, double beside = never);
   /// Drops the contacts from number `first` on for which drops(number) is true.
   template <typename Drops>

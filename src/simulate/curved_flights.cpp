@@ -1,8 +1,7 @@
 // Flights under forces that bend paths, in steps of each body's own. A step's polynomial gives the path for impacts.
 // Where a closed form exists, every step starts from it, so that no error adds up. Otherwise DOP853 takes steps by its
-// error estimate.
-// Radau's collocation takes over where forces brake so strongly that they would hold up an explicit method. A common
-// step for all bodies would be the shortest of all.
+// error estimate. Radau's collocation takes over where forces brake so strongly that they would hold up an explicit
+// method. A common step for all bodies would be the shortest of all.
 #include "simulate/curved_flights.h"
 
 #include <fmt/format.h>
@@ -84,8 +83,7 @@ double CurvedFlights::longest_step(double reach, const Vec3& v, const Vec3& a) c
 }
 
 /// Interpolates the velocity at the step's start, middle and end. Positions differ by less than their rounding in a
-/// short step, and the polynomial would waver.
-/// The polynomial is compared with the motion where its error is greatest.
+/// short step, and the polynomial would waver. The polynomial is compared with the motion where its error is greatest.
 PolynomialPath CurvedFlights::closed_step(Entity i, const ClosedForces& forces, const Vec3& x, const Vec3& v) {
   if (closed_.empty()) closed_.resize(bodies_.body.size());
   Closed& closed = closed_[i];
@@ -135,8 +133,8 @@ CurvedFlights::Reached CurvedFlights::closed_place(Entity i, const Instant& at) 
 }
 
 /// Whether the next step, of `length` (s) by the method before, is to be implicit.
-/// It is if an implicit step is no shorter, or if a braking force holds dop853 to a share of its time (1 / damping),
-/// step after step.
+/// It is if an implicit step is no shorter. It is too if a braking force holds dop853 to a share of its time (1 /
+/// damping), step after step.
 bool CurvedFlights::is_implicit(Entity i, double length, double damping) const {
   const double damped = length * damping;
   if (method_[i] == implicit_method) return damped >= 0.5;
@@ -195,9 +193,8 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
   const double left = left_of_speed(world, i, now, x, v);
   const double place = std::max(share * left * width, tol::position_rounding * x.cwiseAbs().maxCoeff());
   // The allowed error of a velocity: a share of itself, of the speed gained over a width, or of that at which drag
-  // balances forces.
-  // It is never below the speed of a swing as wide as a position's error or rounding, because forces that balance are
-  // rounding.
+  // balances forces. It is never below the speed of a swing as wide as a position's error or rounding, because forces
+  // that balance are rounding.
   const double swing = std::max(share * width, 0x1p-51 * x.cwiseAbs().maxCoeff());
   const double gained = std::min(std::sqrt(a.norm() * width), a.norm() / std::max(damping, 0x1p-900));
   // Across a spring that is nearly at its anchor the slope is unbounded. Damping is not a swing.

@@ -1,10 +1,8 @@
 #pragma once
-// Flights under forces that bend paths, in steps of each body's own. Polynomials give the path within a step.
-// Where there is a closed form (closed_motion.h), each step's polynomial is made from it anew, so that no error adds
-// up.
+// Flights under forces that bend paths, in steps of each body's own. Polynomials give the path within a step. Where
+// there is a closed form (closed_motion.h), each step's polynomial is made from it anew, so that no error adds up.
 // Otherwise a method of order 8 takes steps by its error estimate (dormand_prince.h), or an implicit one where forces
-// are stiff (implicit_step.h).
-// A scene may also choose the method and the step (integrator.h).
+// are stiff (implicit_step.h). A scene may also choose the method and the step (integrator.h).
 #include <vector>
 
 #include "physics/closed_motion.h"

@@ -1,6 +1,5 @@
 // The record of a run: collisions in a buffer, and running sums of energy, work and extremes.
-// Impacts that contact absorbs are booked from velocities before and after a solution, because the forces of single
-// pairs need not be unique.
+// The energy of impacts that contact absorbs is that of the velocities before and after a solution.
 #include "simulate/event_log.h"
 
 #include <fmt/format.h>

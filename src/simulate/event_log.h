@@ -15,8 +15,7 @@ namespace carom {
 class EventLog {
  public:
   /// max_collisions: one more is an error; 0: no limit. record_collisions: if false, collisions are only counted,
-  /// without a buffer.
-  /// `forces`: number of forces with sums of their own.
+  /// without a buffer. `forces`: number of forces with sums of their own.
   EventLog(std::uint64_t max_collisions, bool record_collisions, std::size_t forces = 0);
 
   /// Empties the buffer for the next advance.
@@ -62,11 +61,9 @@ class EventLog {
   /// elsewhere.
   void take_up(double approach, double energy);
   /// The same for all pairs that press in a solution for the velocities `after` from those before (m/s). `inverse_mass`
-  /// (1/kg) is by body.
-  /// Approaches within a pair's slack, or within path errors, do not count. `recorded`: by pair, whether the impact is
-  /// recorded, or empty.
-  /// Their energy is booked as lost, and removed from the deviation, because the caller books the whole change of
-  /// velocities as deviation.
+  /// (1/kg) is by body. Approaches within a pair's slack, or within path errors, do not count. `recorded`: by pair,
+  /// whether the impact is recorded, or empty. Their energy is booked as lost, and removed from the deviation, because
+  /// the caller books the whole change of velocities as deviation.
   void take_up(std::span<const double> inverse_mass, std::span<const Vec3> before, std::span<const Vec3> after,
                std::span<const ContactConstraint> pairs, std::span<const std::uint8_t> recorded = {});
   /// Books energy (J) of impacts that are already counted, in lasting contact.

@@ -1,7 +1,6 @@
-// Predicts a body's next event: the first of all that may happen to it. Each body keeps one event only.
-// A pair's collision may be found from either side. Both sides give the same bits, so that the order of predictions has
-// no effect.
-// Balls under equal accelerations, the common case, are tested several at a time (straight_times.h).
+// Predicts a body's next event: the first of all that may happen to it. Each body keeps one event only. A pair's
+// collision may be found from either side. Both sides give the same bits, so that the order of predictions has no
+// effect. Balls under equal accelerations, the common case, are tested several at a time (straight_times.h).
 #include "simulate/event_predictor.h"
 
 #include <algorithm>

@@ -1,6 +1,10 @@
 #pragma once
-// The next event of a body, the first of these: collisions with neighbours and fixed things, the end of its bounces, a
-// rim that it slides over, a force that starts or ends, the next step of its contact group.
+// The next event of a body, the first of these:
+// - a collision with a neighbour or a fixed thing
+// - the end of its bounces
+// - a rim that it slides over
+// - a force that starts or ends
+// - the next step of its contact group
 #include <span>
 #include <vector>
 

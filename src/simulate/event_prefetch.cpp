@@ -1,6 +1,6 @@
 // Prefetches memory for the events that are due soon. The queue gives an estimate of the next events, and each is
-// prefetched in four steps.
-// Each step loads the addresses that the next one follows. The results of the simulation do not depend on it.
+// prefetched in four steps. Each step loads the addresses that the next one follows. The results of the simulation do
+// not depend on it.
 #include "simulate/event_prefetch.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 // Prefetching for events. With more bodies than the processor's caches hold, an event waits for memory a dozen times in
-// a row.
-// Each wait is for an address that leads to the next. Memory for events due soon is therefore prefetched step by step.
+// a row. Each wait is for an address that leads to the next. Memory for events due soon is therefore prefetched step by
+// step.
 #include <vector>
 
 #include "simulate/event_queue.h"

@@ -15,9 +15,8 @@ struct World;
 
 struct ExactOptions {
   double duration = 0;  // s; no later event is scheduled
-  double rest_speed =
-      // m/s; slower impacts under load end in resting contact; 0: depends on the case (exact_bodies.h).
-      0;
+  // m/s; slower impacts under load end in resting contact; 0: depends on the case (exact_bodies.h).
+  double rest_speed = 0;
   std::uint64_t max_collisions = 0;  // limit, an error beyond it; 0: no limit
   // The method for free flights without a closed form; except with dop853, for all flights that bend.
   Integrator integrator = Integrator::dop853;

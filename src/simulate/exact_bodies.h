@@ -3,10 +3,9 @@
 // and the log.
 //
 // Each body keeps its Flight and is not moved when others collide. Each body keeps one event, the first of its own. The
-// first of all these is the next event.
-// A predicted collision is a function of the two flights alone. It has the same bits from either side and at any time
-// of prediction.
-// Neither outputs nor the search for neighbours can therefore change it.
+// first of all these is the next event. A predicted collision is a function of the two flights alone. It has the same
+// bits from either side and at any time of prediction. Neither outputs nor the search for neighbours can therefore
+// change it.
 #include <vector>
 
 #include "geometry/touch.h"
@@ -61,8 +60,8 @@ struct ExactBodies {
   Vec3 position(Entity i) const { return flights[i].position(now - flights[i].start); }  // m, at present
   /// The present velocity in its flight (m/s), with the kick of time stepping.
   Vec3 velocity(Entity i) const { return flights[i].velocity(now - flights[i].start); }
-  /// The velocity at an instant of its flight (m/s), without the effect of forces later in a step, and with that of
-  /// curved surfaces so far.
+  /// The velocity at an instant of its flight (m/s), without the effect of forces later in a step. It includes the
+  /// effect of curved surfaces so far.
   Vec3 velocity_without_kick(Entity i, const Instant& at) const;
   /// The acceleration of body i by forces at x (m) and v (m/s), in m/s^2.
   Vec3 force_at(Entity i, const Vec3& x, const Vec3& v) const {

@@ -1,8 +1,6 @@
 // Times of collision of bodies on their flights, from the later of the two flights' starts and with the lower number
-// first.
-// Every prediction of a pair therefore has the same bits. Relative paths are used throughout, so that the common motion
-// costs no digits.
-// Parabolas take the closed forms of geometry/, paths under drag and polynomials the search by separating planes.
+// first. Every prediction of a pair therefore has the same bits. Parabolas take the closed forms of geometry/, paths
+// under drag and polynomials the search by separating planes.
 #include "simulate/exact_collision_times.h"
 
 #include <algorithm>

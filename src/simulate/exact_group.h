@@ -1,9 +1,8 @@
 #pragma once
 // Bodies of the exact simulator in lasting contact with each other or with things that are not flat. Their paths have
-// no closed form.
-// Each island moves in steps of its own: by constrained motion (constrained_motion.h), or by time stepping where
-// contacts change too often (time_stepping.h).
-// This class holds the data of these bodies, and the effects of impacts on them between steps.
+// no closed form. Each island moves in steps of its own: by constrained motion (constrained_motion.h), or by time
+// stepping where contacts change too often (time_stepping.h). This class holds the data of these bodies, and the
+// effects of impacts on them between steps.
 #include <vector>
 
 #include "simulate/exact_bodies.h"
@@ -55,14 +54,12 @@ class ExactGroup {
   /// For a while, bodies keep about the distance that they could move at that speed until the next step.
   void widen_margin(Entity i, double approach);
   /// The part of an approach (m/s) along n that is already there. In time stepping, flights contain a kick by forces of
-  /// the rest of the step.
-  /// It is 0 where the part is only rounding.
+  /// the rest of the step. It is 0 where the part is only rounding.
   double approach_without_kick(double approach, const Vec3& n, Entity i, Entity e) const;
   /// Whether member i separates from a thing that pressed on it in the last time step.
   bool opens(Entity i) const;
   /// Whether members i and e approach each other (m/s) for an impact of their own: one that bounces, or if they are
-  /// `apart`.
-  /// Contact must not take that speed. `greatest`: the greatest acceleration in the group (m/s^2).
+  /// `apart`. Contact must not take that speed. `greatest`: the greatest acceleration in the group (m/s^2).
   bool strikes(Entity i, Entity e, double approach, double greatest, bool apart = false) const;
 
   /// Ends the contacts of body i, which leaves its island. It may meet all these things again.

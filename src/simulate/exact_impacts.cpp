@@ -1,9 +1,7 @@
 // The effect of impacts on velocities, one pair at a time: an impulse along the normal, by the pair's restitution
-// (physics/impact.h).
-// An impact ends in lasting contact if it is slow under load, or part of a collapse. The bodies then join an island
-// instead of bouncing for ever.
-// In time stepping, velocities contain a kick by later forces. Impacts use the approach without it, and the difference
-// is booked as the method's error.
+// (physics/impact.h). An impact ends in lasting contact if it is slow under load, or part of a collapse. The bodies
+// then join an island instead of bouncing for ever. In time stepping, velocities contain a kick by later forces.
+// Impacts use the approach without it, and the difference is booked as the method's error.
 #include "simulate/exact_impacts.h"
 
 #include <algorithm>
@@ -89,7 +87,7 @@ double ExactImpacts::press_of(Entity a, const Vec3& xa, Entity b, const Vec3& xb
 }
 
 /// The acceleration of body i at x (m), in m/s^2, after an impact has ended the approach.
-/// w is the velocity of the second body relative to the first (m/s).
+/// The impact is at w, the velocity of the second body relative to the first (m/s).
 Vec3 ExactImpacts::pull_after(Entity i, const Vec3& x, const Flight& f, Entity other, const Touch& there,
                               const Vec3& w) const {
   const double mi = bodies_.world.mass[i], mo = bodies_.world.mass[other], share = mo / (mi + mo);

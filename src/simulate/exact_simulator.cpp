@@ -1,8 +1,7 @@
 // The event loop of the exact simulator. It takes the first event of the total order, updates the bodies concerned and
-// predicts their next events.
-// Other bodies do not move, so that a step costs as much as the event and not as the scene. Each kind of event belongs
-// to one part.
-// The loop returns early when a buffer is full, or after many events, so that the caller keeps control.
+// predicts their next events. Other bodies do not move, so that a step costs as much as the event and not as the scene.
+// Each kind of event belongs to one part. The loop returns early when a buffer is full, or after many events, so that
+// the caller keeps control.
 #include "simulate/exact_simulator.h"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ namespace {
 // Collisions that one event causes, as a rule at most.
 constexpr std::size_t collisions_of_event = 8;
 constexpr std::uint32_t events_at_a_time = 65536;
-// Number of bodies whose data fit into a processor's cache.
+// Number of bodies with data that fit into a processor's cache.
 constexpr Entity cached_bodies = 24576;
 
 }  // namespace

@@ -1,7 +1,6 @@
-// Rest on flat fixed surfaces, where bounces end at a time in closed form and paths stay parabolas.
-// A change of velocity may lift a body off a surface, or press it into one. The contact solver gives the allowed
-// velocity and acceleration.
-// Hops that rounding hides are suppressed, because they would cost events without an effect.
+// Rest on flat fixed surfaces, where bounces end at a time in closed form and paths stay parabolas. A change of
+// velocity may lift a body off a surface, or press it into one. The contact solver gives the allowed velocity and
+// acceleration. Hops that rounding hides are suppressed, because they would cost events without an effect.
 #include "simulate/flat_contacts.h"
 
 #include <algorithm>

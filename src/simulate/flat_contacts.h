@@ -1,12 +1,10 @@
 #pragma once
 // Rest on flat fixed surfaces. A body's bounces under load end at a time in closed form, by a geometric series of
-// flights.
-// After an impact that leaves the speed u, they end 2u / (p (1 - e)) later. Here p is the acceleration that presses the
-// body on.
-// The body is put to rest when that time is less than the clock resolves, or when the impact is slower than rest_speed.
-// It then moves in the surface, the reaction reduces its acceleration, and its path is a parabola again.
-// Contact of any other kind, with a body, an edge, a corner or a round thing, has no such path. Such bodies join the
-// contact group (exact_group.h).
+// flights. After an impact that leaves the speed u, they end 2u / (p (1 - e)) later. Here p is the acceleration that
+// presses the body on. The body is put to rest when that time is less than the clock resolves, or when the impact is
+// slower than rest_speed. It then moves in the surface, the reaction reduces its acceleration, and its path is a
+// parabola again. Contact of any other kind, with a body, an edge, a corner or a round thing, has no such path. Such
+// bodies join the contact group (exact_group.h).
 #include <array>
 #include <vector>
 
@@ -22,7 +20,7 @@ struct FlatContact {
   Entity surface;
   std::uint8_t feature;  // of the pair (touch.h; of a ball and a wall: contact_time.h)
   Vec3 normal;           // unit, from the surface to the body
-  // Bounces have not ended yet. They end at the time below.
+  // Bounces have not ended. They end at the time below.
   bool settling;
   Instant rest_time;      //
   double residual_speed;  // m/s, left by the last bounce
@@ -52,13 +50,11 @@ class FlatContacts {
   /// instant on.
   void remove_level(Entity i, const Vec3& normal);
   /// Removes the surface at its rim, over which body i slides. If another surface is level with it, that one carries
-  /// the body on.
-  /// Returns that surface and the feature of contact, or no_entity.
+  /// the body on. Returns that surface and the feature of contact, or no_entity.
   FlightOrigin hand_over(Entity i, Entity surface);
   void clear(Entity i);
-  /// At the start, a body may touch a flat surface, but for rounding of the scene's numbers, without motion along its
-  /// normal.
-  /// If it is pressed on, it rests there from the beginning.
+  /// At the start, a body may touch a flat surface, up to rounding of the scene's numbers, without motion along its
+  /// normal. If it is pressed on, it rests there from the beginning.
   void find_initial(Entity i);
   /// Records the end of bounces that are due. The body has been carried since the last impact.
   void end_bounces(Entity i);

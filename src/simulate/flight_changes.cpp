@@ -1,6 +1,5 @@
 // Begins and ends flights, and books the work of forces and the method's own error on each flight that ends.
-// Work is booked from the flight as a whole, in closed form where forces are constant. A sum over small steps would add
-// its own errors.
+// Work is booked from the flight as a whole, in closed form where forces are constant.
 // In time stepping a flight has the step's forces in its velocity from the start (the kick). Changes within the step
 // adjust it.
 #include "simulate/flight_changes.h"
@@ -33,9 +32,9 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
     stepped_.write(i) = stepped;
     take(i, 0);
   }
-  const bool falls = bodies_.is_stepped(i) && (bodies_.flights.acceleration(i) != Vec3::Zero() ||
-                                               // The body falls through a time step.
-                                               bodies_.flights.curve(i) != nullptr);
+  // The body falls through a time step.
+  const bool falls =
+      bodies_.is_stepped(i) && (bodies_.flights.acceleration(i) != Vec3::Zero() || bodies_.flights.curve(i) != nullptr);
   const double negligible = bodies_.negligible_speed();
   const bool still = speed <= negligible ||
                      (flat_.of(i).count > 0 && speed * speed < exact_tolerance::negligible_hop *

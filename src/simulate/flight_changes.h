@@ -56,8 +56,8 @@ class FlightChanges {
   }
   /// Continues body i's flight with the corrected velocity v (m/s). Its events stay.
   void correct(Entity i, const Vec3& v);
-  /// Books the effect of forces on body i for the flight that ends at x (m) and `end`: the World's forces, and contact
-  /// forces against them.
+  /// Books the effect of forces on body i for the flight that ends at x (m) and `end`.
+  /// These are the World's forces, and contact forces against them.
   void book(Entity i, const Vec3& x, const Instant& end) {
     const World& world = bodies_.world;
     if (stepped_[i]) book_stepped(i, end);

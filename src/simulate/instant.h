@@ -1,7 +1,6 @@
 #pragma once
-// The clock of the exact simulator: a time in two doubles, so that an event at 1e6 s is as exact as one at 1 s.
-// In one double, a ball in a box is off by 1e-6 m after 1e5 s and 4e5 events. In two doubles it is off by 1e-9 m
-// (measured).
+// The clock of the exact simulator: a time in two doubles. An event at 1e6 s is as exact as one at 1 s. In one double,
+// a ball in a box is off by 1e-6 m after 1e5 s and 4e5 events. In two doubles it is off by 1e-9 m (measured).
 #include <compare>
 
 #include "numerics/compensated.h"

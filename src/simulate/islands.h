@@ -1,7 +1,7 @@
 #pragma once
 // Islands of the exact simulator: connected components of awake bodies in lasting contact. Fixed things and sleeping
-// bodies do not connect.
-// Each island moves by itself, in steps of its own. The number and the motion of other islands have no effect on it.
+// bodies do not connect. Each island moves by itself, in steps of its own. The number and the motion of other islands
+// have no effect on it.
 #include <algorithm>
 #include <cstdint>
 #include <deque>
@@ -20,8 +20,8 @@ namespace carom {
 struct Island {
   std::vector<Entity> members;  // ascending after each step
   Instant end{never, 0};        // time of the next step
-  bool fresh = true;            // no step has been taken yet
-  bool constrained = false;     // moves by constrained motion (constrained_motion.h), else by time stepping
+  bool fresh = true;            // no step has been taken
+  bool constrained = false;     // moves by constrained motion (constrained_motion.h), otherwise by time stepping
   bool busy = false;            // its contacts change too often for constrained motion
   // Constrained: the end of the step if nothing happens before.
   Instant planned{never, 0};
@@ -30,9 +30,9 @@ struct Island {
   Instant counted, changed;
   std::uint32_t changes = 0;  // changes of contact since `counted`
   std::uint32_t calm = 0;     // consecutive time steps in which the same pairs pressed
-  // Number of such steps after which the island is not busy any more.
+  // After so many of these the island is not busy.
   std::uint32_t calm_needed = 0;
-  std::uint64_t pressing = 0;  // a hash of those pairs
+  std::uint64_t pressing = 0;  // a hash of the pairs that pressed
   double step_length = 0;      // s, of the last time step
   // s: length of the shortest step of the method.
   double shortest_step = 0;
@@ -53,7 +53,7 @@ class Islands {
 
   // By member, in time stepping: its velocity contains forces up to this instant.
   LazyArray<Instant> kicked_until;
-  LazyArray<Vec3> kick;  // m/s^2: the average of these, from the start
+  LazyArray<Vec3> kick;  // m/s^2: the average of these forces, from the start of the flight
   // By member, in constrained motion: the end of its present parabola along its path.
   LazyArray<Instant> piece_end;
   LazyArray<PathBend> bend;  // the velocity of its path less that of its flight until then
@@ -79,13 +79,12 @@ class Islands {
   /// Makes an island of body i, which is in none. Its step is due at `end`.
   void create(Entity i, const Instant& end);
   /// Unites the islands of two members. Its next step is due at `now`, unless a fresh island joins a time step, which
-  /// then continues.
-  /// If either moves by time stepping, the union does.
+  /// then continues. If either moves by time stepping, the union does.
   void merge(Entity a, Entity b, const Instant& now);
   /// Reduces an island to the members in `stay`.
   void retain(Entity member, std::vector<Entity> stay);
   /// Splits an island. Members with another label become islands of their own, equal in all other data.
-  /// labels: by member, the index of the first member of its part. Returns one member of each part.
+  /// `labels`: by member, the index of the first member of its part. Returns one member of each part.
   std::vector<Entity> split(Entity i, std::span<const std::uint32_t> labels);
 
  private:

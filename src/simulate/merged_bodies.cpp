@@ -1,6 +1,5 @@
 // Book-keeping of merged bodies. Forces act on each part by its share of the mass, with the mass and position that the
-// scene gave it.
-// Volumes add up: the joint body has the shape of the heavier one, scaled to the sum of both volumes.
+// scene gave it. Volumes add up: the joint body has the shape of the heavier one, scaled to the sum of both volumes.
 #include "simulate/merged_bodies.h"
 
 #include <algorithm>

@@ -1,8 +1,6 @@
 // Near-neighbour lists (Donev, Torquato & Stillinger, J. Comput. Phys. 202 (2005) 737) on a grid without bounds
-// (region_grid.h).
-// A list is valid until its body leaves its region, so that a body that flies far alone costs little. A grid of fixed
-// cells would cost an event for each cell.
-// The size of a region adapts to the number of bodies in it.
+// (region_grid.h). A list is valid until its body leaves its region, so that a body that flies far alone costs little.
+// A grid of fixed cells would cost an event for each cell. The size of a region adapts to the number of bodies in it.
 #include "simulate/neighbours.h"
 
 #include <algorithm>

@@ -1,10 +1,9 @@
 #pragma once
-// Which bodies may meet soon. A body has a region: a ball that its centre does not leave without an event.
-// Bodies are neighbours if their regions are so near that they may touch. Surfaces within its region are neighbours of
-// a body too.
-// The method is that of near-neighbour lists (Donev, Torquato & Stillinger, J. Comput. Phys. 202 (2005) 737).
-// A region with few neighbours grows, so that a ball that flies off costs little, however far it goes.
-// Results must not depend on extra neighbours, nor on the order of lists.
+// Which bodies may meet soon. A body has a region: a ball that its centre does not leave without an event. Bodies are
+// neighbours if their regions are so near that they may touch. Surfaces within its region are neighbours of a body too.
+// The method is that of near-neighbour lists (Donev, Torquato & Stillinger, J. Comput. Phys. 202 (2005) 737). A region
+// with few neighbours grows, so that a ball that flies off costs little, however far it goes. Results must not depend
+// on extra neighbours, nor on the order of lists.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -60,12 +59,11 @@ class Neighbours {
   void shrink(Entity i, const Vec3& x);
 
   /// Makes a region for a body that stays about x (m). It extends at least `reach` (m) from there, and not much
-  /// farther.
-  /// Two bodies that both reach half of a gap are neighbours. The caller must examine the bodies that are new in the
-  /// list.
+  /// farther. Two bodies that both reach half of a gap are neighbours. The caller must examine the bodies that are new
+  /// in the list.
   void hold(Entity i, const Vec3& x, double reach);
 
-  /// Frees memory that lists no more use. Call it from time to time, when no list is being read.
+  /// Frees memory that lists have left. Call it from time to time, when no list is being read.
   void tidy();
 
   /// Removes body i.

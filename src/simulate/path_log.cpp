@@ -1,5 +1,4 @@
-// Records the pieces of paths for a replay without simulation. A piece is written once all changes at its instant have
-// happened.
+// Records the pieces of paths for a replay without simulation. A piece is written after all changes at its instant.
 // Only bodies that changed get a new piece, so that the log grows with events and not with outputs.
 #include "simulate/path_log.h"
 

@@ -2,8 +2,7 @@
 // The vector instructions of the present processor, for kernels in several widths.
 //
 // Functions between CAROM_BEGIN_AVX2 or CAROM_BEGIN_AVX512 and CAROM_END_TARGET are compiled for processors with these
-// instructions.
-// Headers must be included before. Their functions are not affected.
+// instructions. Headers must be included before. Their functions are not affected.
 
 #ifdef __clang__
 #define CAROM_BEGIN_AVX2 _Pragma("clang attribute push(__attribute__((target(\"avx2\"))), apply_to = function)")

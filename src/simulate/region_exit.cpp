@@ -1,6 +1,6 @@
 // A lower bound of the time at which a body leaves its region. A straight path has a closed form.
-// Other paths are bounded by their greatest acceleration, again and again until that gains little. An exact root would
-// cost more than an early exit.
+// Other paths are bounded by their greatest acceleration, again and again until that gains little. The result may be
+// too early, but not too late.
 #include "simulate/region_exit.h"
 
 #include <algorithm>
@@ -44,8 +44,7 @@ double region_exit(const ExactBodies& bodies, Entity i) {
   // Drag never increases an acceleration.
   if (const double size = curve == nullptr ? a.norm() : curve->greatest_acceleration(); size > 0) {
     // The greater of two bounds: a straight path within the room less the acceleration's share, and the greatest
-    // possible speed.
-    // It continues from there as long as that gains time.
+    // possible speed. It continues from there as long as that gains time.
     const double end = bodies.body[i].event.time.hi - bodies.now.hi;
     const auto bound = [&](double straight) {
       const double narrowed = room - 0.5 * size * straight * straight, left = room - off.norm();

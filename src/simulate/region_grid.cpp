@@ -1,7 +1,6 @@
 // A hash-free grid for each octave of region sizes. Cells wrap around at the grid's end, so that space has no bounds
-// and no cell needs a key.
-// One grid for all sizes would have cells as wide as the largest region. Cells are cache lines, with overflow lines for
-// crowded ones.
+// and no cell needs a key. One grid for all sizes would have cells as wide as the largest region. Cells are cache
+// lines, with overflow lines for crowded ones.
 #include "simulate/region_grid.h"
 
 #include <algorithm>

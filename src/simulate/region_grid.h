@@ -1,9 +1,8 @@
 #pragma once
-// Regions in unbounded space, found by position. Each octave of half widths has a grid of its own.
-// Its cells are as wide as its widest regions. A region is stored in the cell of its centre.
-// A grid has about as many cells as its contents need. It continues after its last cell with its first, so that it has
-// no bounds and empty space costs nothing.
-// A search may therefore return distant regions as well as near ones.
+// Regions in unbounded space, found by position. Each octave of half widths has a grid of its own. Its cells are as
+// wide as its widest regions. A region is stored in the cell of its centre. A grid has about as many cells as its
+// contents need. It continues after its last cell with its first, so that it has no bounds and empty space costs
+// nothing. A search may therefore return distant regions as well as near ones.
 #include <cstddef>
 #include <cstdint>
 #include <span>

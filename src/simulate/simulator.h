@@ -33,15 +33,14 @@ class Simulator {
   virtual void advance_to(double time) = 0;
   virtual double time() const = 0;   // s
   virtual const State& state() = 0;  // at time(); valid until the next advance_to
-  virtual std::span<const Collision> collisions()
-      // Collisions since the last advance_to, in order. Empty if they are not recorded.
-      const = 0;
+  /// Collisions since the last advance_to, in order. Empty if they are not recorded.
+  virtual std::span<const Collision> collisions() const = 0;
   /// Pieces of paths since the last advance_to, in order. Before the first advance these are the paths at time 0. Empty
   /// if they are not recorded.
   virtual std::span<const PathPiece> paths() const { return {}; }
   virtual const Tally& tally() const = 0;       // up to time()
   virtual Effort effort() const { return {}; }  // up to the present; zero where it is not counted
-  // At time(), ordered by a, then b. Valid until the next advance_to.
+  /// At time(), ordered by a, then b. Valid until the next advance_to.
   virtual std::span<const ContactForce> contacts() { return {}; }
 };
 

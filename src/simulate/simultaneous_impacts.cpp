@@ -1,9 +1,7 @@
 // Resolves impacts within a time step for all bodies that are in contact at once, as one complementarity problem
-// without restitution.
-// Resolved one pair at a time, a body between others would be struck for ever. The set grows until no pair outside it
-// is affected.
-// Forces for the rest of the step are solved anew with the impacts. Otherwise a contact would press on a body that was
-// struck off it, and make energy.
+// without restitution. Resolved one pair at a time, a body between others would be struck for ever. The set grows until
+// no pair outside it is affected. Forces for the rest of the step are solved anew with the impacts. Otherwise a contact
+// would press on a body that was struck off it, and make energy.
 #include "simulate/simultaneous_impacts.h"
 
 #include <algorithm>

@@ -1,7 +1,6 @@
 // Times of impact of one ball with many, in vectors. The kernel is compiled for each vector width and chosen by the
-// processor at run time.
-// All widths have the arithmetic of sphere_contact_time in the same order, so that the bits do not depend on the
-// processor.
+// processor at run time. All widths have the arithmetic of sphere_contact_time in the same order, so that the bits do
+// not depend on the processor.
 #include "simulate/straight_times.h"
 
 #include "simulate/processor.h"

@@ -1,9 +1,7 @@
 // Time stepping by one complementarity problem a step (Stewart & Trinkle, Int. J. Numer. Meth. Eng. 39 (1996) 2673),
-// without friction and with exact impacts.
-// A step finds the pairs that may press, takes away slow approaches, and solves for velocities that keep all pairs
-// apart until its end.
-// It serves where contacts change too often to be followed one by one. The step adapts to speeds and forces, and an
-// island in balance is put to rest.
+// without friction and with exact impacts. A step finds the pairs that may press, takes away slow approaches, and
+// solves for velocities that keep all pairs apart until its end. It serves where contacts change too often to be
+// followed one by one. The step adapts to speeds and forces, and an island in balance is put to rest.
 #include "simulate/time_stepping.h"
 
 #include <algorithm>
@@ -350,8 +348,8 @@ void TimeStepping::put_to_rest(Step& step) const {
 }
 
 /// Counts the impacts of pairs with gaps that close within the step. The force between the two takes away their
-/// approach in the course of the step.
-/// Together they take no more energy than the step does, because its weights do work along paths that they shorten.
+/// approach in the course of the step. Together they take no more energy than the step does, because its weights do
+/// work along paths that they shorten.
 void TimeStepping::take_closings(Step& step) const {
   step.taking.assign(step.members.size(), 0);
   double fastest = 0, all = 0;  // m/s, J

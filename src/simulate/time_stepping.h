@@ -1,22 +1,18 @@
 #pragma once
-// Time stepping of an island with contacts that change too often to be followed.
-// Between two steps a carried member flies straight and the others fall freely. Impacts with and within the island are
-// found and resolved as everywhere else.
-// At a step contact takes away slow approaches at once. Fast ones stay impacts.
-// The new velocities are then the nearest to those by forces alone that keep every pair apart until the next step
-// (contact_problem.h).
-// They are linearised at the closest points, which is on the safe side for convex bodies on straight paths.
-// (Stewart & Trinkle, Int. J. Numer. Meth. Eng. 39 (1996) 2673, without friction and with exact impacts.)
-// An impact uses the velocities that bodies have at its time, not those of the step's kick at its end.
-// A body that an impact throws off its support falls freely, and the next step is due after a shortest one.
-// A step that ends early takes back the effect of forces in its rest.
+// Time stepping of an island with contacts that change too often to be followed. Between two steps a carried member
+// flies straight and the others fall freely. Impacts with and within the island are found and resolved as everywhere
+// else. At a step contact takes away slow approaches at once. Fast ones stay impacts. The new velocities are then the
+// nearest to those by forces alone that keep every pair apart until the next step (contact_problem.h). They are
+// linearised at the closest points, which is on the safe side for convex bodies on straight paths. (Stewart & Trinkle,
+// Int. J. Numer. Meth. Eng. 39 (1996) 2673, without friction and with exact impacts.) An impact uses the velocities
+// that bodies have at its time, not those of the step's kick at its end. A body that an impact throws off its support
+// falls freely, and the next step is due after a shortest one. A step that ends early takes back the effect of forces
+// in its rest.
 //
 // Members that were just struck keep a margin. The small motions after a strike then wait for the next step instead of
-// making thousands of impacts at one instant.
-// The margin shrinks as the group slows down. Bodies that touch within their margin separate a little, as far as the
-// loss of slow approaches pays for it.
-// An island that forces hold in balance is put to rest: its velocities are exactly zero, and it takes no steps until it
-// is struck.
+// making thousands of impacts at one instant. The margin shrinks as the group slows down. Bodies that touch within
+// their margin separate a little, as far as the loss of slow approaches pays for it. An island that forces hold in
+// balance is put to rest: its velocities are exactly zero, and it takes no steps until it is struck.
 #include <vector>
 
 #include "simulate/contact_list.h"

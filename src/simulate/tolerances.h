@@ -11,6 +11,7 @@
 namespace carom::exact_tolerance {
 
 // Rounding.
+
 // Share of speeds: rounding of a component. [9e-20 1e-14]
 inline constexpr double velocity_rounding = 0x1p-48;
 // Share of coordinates: a displacement that is rounding.
@@ -55,6 +56,7 @@ inline constexpr double negligible_hop = 0x1p-120;
 inline constexpr double approach_rounding = 0x1p-50;
 
 // Impacts that end in contact (collapse_detector.h).
+
 // Share of the speed of falling by a length: a slower approach is no impact in contact. [4e-7 4e-2]
 inline constexpr double slow_impact = 0.03;
 // Share of a length: impacts within it are at one place.
@@ -75,12 +77,14 @@ inline constexpr double waking_lift = 1e-4;
 inline constexpr double least_volume = 1e-3;
 
 // The contact group (exact_group.h).
+
 // Share of a radius: bodies within this gap of a waking body wake too.
 inline constexpr double waking_gap = 1e-6;
 // Share of a radius: greatest margin of bodies that were just struck.
 inline constexpr double widest_margin = 2e-2;
 
 // Simultaneous impacts (simultaneous_impacts.h).
+
 // So many impacts of a member between two steps are resolved one by one. [2e-11 1e-10]
 inline constexpr std::uint32_t few_impacts = 3;
 // Share of the fastest approach: speed of separation of bodies that are struck at once.
@@ -93,6 +97,7 @@ inline constexpr double open_margin = 0.5;
 inline constexpr std::size_t pairs_of_a_step = 16;
 
 // Constrained motion (constrained_motion.h).
+
 // Share of a radius: a gap that counts as contact. [5e-16 4e-16]
 inline constexpr double contact_gap = 1e-9;
 // Share of coordinates: the same.
@@ -127,6 +132,7 @@ inline constexpr double velocity_change = 0x1p-40;
 inline constexpr double free_time = 1e-6;
 
 // Time stepping (time_stepping.h).
+
 // Share of the time of falling by a radius. [1e-2 6e-3]
 inline constexpr double shortest_step = 0.04;
 // Multiple of the shortest step. [- 6e-3]
@@ -161,7 +167,7 @@ inline constexpr double resting_gap = 3e-8;
 inline constexpr double rest_slack = 1e-13;
 // Share of gravity: a body is held by forces with a smaller sum.
 inline constexpr double balance = 1e-11;
-// Share of the speed of falling by a radius: a slower body is as good as at rest.
+// Share of the speed of falling by a radius: a slower body counts as at rest.
 inline constexpr double standstill = 1e-5;
 // Share of the speed of falling by a radius: in a jam slower bodies stop.
 inline constexpr double jammed_speed = 1e-3;
@@ -173,6 +179,7 @@ inline constexpr std::uint32_t many_short_steps = 8;
 namespace carom::accuracy_tolerance {
 
 // Which steps meet a tolerance (run/accuracy.h).
+
 // Instants of a run at which two runs are compared, at most.
 inline constexpr int most_instants = 64;
 // Positions kept for it, of all bodies together. With more bodies there are fewer instants.
@@ -205,7 +212,7 @@ inline constexpr double few_steps = 1e5;
 inline constexpr double told_radius = 0.01;
 // Share of speeds and masses: a disturbance that is carried along. Its growth shows chaos.
 inline constexpr double carried_disturbance = 1e-12;
-// Share of the largest radius: a larger disturbance is not small any more.
+// Share of the largest radius: a larger disturbance does not count as small.
 inline constexpr double saturated = 0.01;
 // Instants at which a disturbance must be small, so that its growth can be measured.
 inline constexpr std::size_t least_small = 8;
@@ -217,6 +224,7 @@ inline constexpr double clock_share = 1e-6;
 namespace carom::stepped_tolerance {
 
 // The book simulator (book.h).
+
 // Share of a frame: a time as near to a frame's time belongs to that frame.
 inline constexpr double frame_rounding = 1e-9;
 

@@ -1,6 +1,6 @@
 // Selection of regions that may touch a given one, in vectors of four, eight or sixteen. The widest that the processor
-// has is chosen at run time.
-// All kernels give the bits of may_touch (region.h), so that results do not depend on the processor.
+// has is chosen at run time. All kernels give the bits of may_touch (region.h), so that results do not depend on the
+// processor.
 #include "simulate/touching.h"
 
 #include "simulate/processor.h"

@@ -10,8 +10,7 @@
 namespace carom {
 
 /// Writes those of `count` bodies with regions that may touch `region`, or (touching = false) that cannot, in their
-/// order. Returns their number.
-/// `to` may be `bodies`. It needs room for `select_slack` more entries than are written.
+/// order. Returns their number. `to` may be `bodies`. It needs room for `select_slack` more entries than are written.
 std::size_t select_touching(const Region& region, const Region* regions, const Entity* bodies, std::size_t count,
                             bool touching, Entity* to);
 inline constexpr std::size_t select_slack = 16;

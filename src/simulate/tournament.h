@@ -1,8 +1,7 @@
 #pragma once
-// A priority queue with one entry for each body: a tournament with games of eight.
-// Each node keeps its winner and the winner's time. The eight times of a game are contiguous, and only equal times need
-// more data.
-// A changed entry replays its games up to the first one with the same result.
+// A priority queue with one entry for each body: a tournament with games of eight. Each node keeps its winner and the
+// winner's time. The eight times of a game are contiguous, and only equal times need more data. A changed entry replays
+// its games up to the first one with the same result.
 #include <algorithm>
 #include <bit>
 #include <cstddef>

@@ -1,10 +1,8 @@
 // The dual active set method of Goldfarb & Idnani, Math. Programming 27 (1983) 1, on orthogonal factors that are
-// updated row by row.
-// It starts from a guess of the active rows. Each round appends the most violated row, and drops rows with a negative
-// force.
-// The answer is then refined with residuals in double-double, so that the factors' rounding does not limit it.
-// Where a set of rows returns, the method ends with what it has. A looser or stricter limit for dependent rows is tried
-// then.
+// updated row by row. It starts from a guess of the active rows. Each round appends the most violated row, and drops
+// rows with a negative force. The answer is then refined with residuals in double-double, so that the factors' rounding
+// does not limit it. Where a set of rows returns, the method ends with what it has. A looser or stricter limit for
+// dependent rows is tried then.
 #include "solver/active_set.h"
 
 #include <algorithm>
@@ -16,7 +14,7 @@ namespace carom {
 
 namespace {
 
-// A row of unit length with a smaller tail depends on the others, but for rounding.
+// A row of unit length with a smaller tail depends on the others, up to rounding.
 constexpr double dependent = 0x1p-43;
 // A share of the greatest force: a smaller negative force is only rounding.
 constexpr double pulling = 8 * 0x1p-53;
@@ -200,7 +198,7 @@ void DualActiveSet::take_in_violated(const ContactIsland& island) {
   }
 }
 
-/// Iterative refinement on the active rows: the factors are rounded, the residuals are not.
+/// Newton's method on the active rows (iterative refinement): the factors are rounded, the residuals are not.
 void DualActiveSet::refine(const ContactIsland& island, ContactAnswer& answer) {
   const std::size_t n = island.unknowns(), k = active_.size();
   answer.motion.resize(n);

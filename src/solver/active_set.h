@@ -1,10 +1,8 @@
 #pragma once
-// Contact by a dual active set (Goldfarb & Idnani, Math. Programming 27 (1983) 1).
-// Violated rows are appended one by one, rows that would have to pull are removed, and the answer's energy only grows.
-// The factors are orthogonal, in coordinates in which the solution is the nearest motion, so that bodies of any masses
-// keep their digits.
-// Residuals in twice as many digits then refine the answer (contact_island.h). The factors are kept for the next
-// island.
+// Contact by a dual active set (Goldfarb & Idnani, Math. Programming 27 (1983) 1). Violated rows are appended one by
+// one, rows that would have to pull are removed, and the answer's energy only grows. The factors are orthogonal, in
+// coordinates in which the solution is the nearest motion, so that bodies of any masses keep their digits. Residuals in
+// twice as many digits then refine the answer (contact_island.h). The factors are kept for the next island.
 #include <cstdint>
 #include <span>
 #include <vector>

@@ -1,10 +1,8 @@
 // Contact among many bodies: a primal-dual interior point (Mehrotra, SIAM J. Optim. 2 (1992) 575), then a proximal
-// Newton method.
-// The interior point comes near the solution in few factorisations, however many contacts there are. It does not find
-// the exact set of rows that press.
-// The proximal Newton method finds that set. Its contacts yield a little, so that dependent contacts make no system
-// singular.
-// Refinement with residuals in double-double then removes what yielding and rounding have left.
+// Newton method. The interior point comes near the solution in few factorisations, however many contacts there are. It
+// does not find the exact set of rows that press. The proximal Newton method finds that set. Its contacts yield a
+// little, so that dependent contacts make no system singular. Refinement with residuals in double-double then removes
+// what yielding and rounding have left.
 #include "solver/contact_interior_point.h"
 
 #include <Eigen/Sparse>
@@ -28,7 +26,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double loosest = 1;
 // The same at last.
 constexpr double tightest = 1e-8;
-// Factorisations that a guess is worth: half of those of an island without a guess.
+// After so many factorisations a guess is given up. That is half of the number for an island without a guess.
 constexpr int guess_worth = 16;
 // A share of the motion: the interior point ends at this error.
 constexpr double handed_over = 1e-8;
@@ -362,8 +360,7 @@ class ContactInteriorPoint::Method {
   }
 
   /// The same proximal steps with residuals in twice as many digits. Each leaves the share rho / (rho + lambda) of the
-  /// error.
-  /// lambda is the least eigenvalue among the rows that press. The factors' rounding leaves about eps / rho.
+  /// error. lambda is the least eigenvalue among the rows that press. The factors' rounding leaves about eps / rho.
   /// Where the first limits progress, contacts are made to yield less.
   void refine(ContactAnswer& answer) {
     constexpr double stiffest = 1e-13;

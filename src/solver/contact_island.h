@@ -24,8 +24,7 @@ class PowerOfTwo {
 };
 
 /// The unit of motion is a power of two near the greatest free motion or target. That of inverse mass is one near the
-/// greatest.
-/// Other units therefore give the same digits. In y = u / root every contact is a row of unit length.
+/// greatest. Other units therefore give the same digits. In y = u / root every contact is a row of unit length.
 struct ContactIsland {
   struct Row {
     std::uint32_t a = 0, b = 0;  // b = ContactConstraint::fixed: an immovable thing
@@ -86,11 +85,9 @@ double excess(const ContactIsland::Row& row, const std::vector<DoubleDouble>& mo
 void find_imbalance(const ContactIsland& island, ContactAnswer& answer);
 
 /// The certificate of an answer. It is the exact solution of data that differ by `change`, relative to each row's own
-/// scale.
-/// Rows that press are off their target by that, and others fall short of it.
-/// The same holds for the difference between motion and forces, relative to the greatest given motion or the body's
-/// own.
-/// `within_slack`: no row is farther off than its slack (than rounding, where the slack is 0).
+/// scale. Rows that press are off their target by that, and others fall short of it. The same holds for the difference
+/// between motion and forces, relative to the greatest given motion or the body's own. `within_slack`: no row is
+/// farther off than its slack (than rounding, where the slack is 0).
 struct Judgement {
   double change = 0;
   bool within_slack = true;

@@ -1,7 +1,6 @@
 // Frictionless contact by Gauss's principle of least constraint, island by island. Each island goes to the cheapest
-// method, by an estimate of costs.
-// An island without pressing contacts and one of a single contact need no method. Where a method fails, the certificate
-// shows that, and the next one follows.
+// method, by an estimate of costs. An island without pressing contacts and one of a single contact need no method. The
+// certificate shows where a method fails. The next one then follows.
 #include "solver/contact_problem.h"
 
 #include <algorithm>
@@ -87,8 +86,7 @@ bool Known::resembles(const ContactIsland& island) {
 }
 
 /// Solves a problem of one contact, by far the most common, in closed form. A second pass removes the rounding of the
-/// first.
-/// False: the problem needs a method, and is unchanged.
+/// first. False: the problem needs a method, and is unchanged.
 bool solve_single(const ContactProblem& problem, ContactConstraint& c, Certificate& certificate) {
   const bool fixed = c.b == ContactConstraint::fixed;
   const Vec3 none = Vec3::Zero();
@@ -226,8 +224,7 @@ void ContactSolver::Workspace::give_back(const ContactProblem& problem, std::spa
 }
 
 /// This function and solve_to_slack choose a method: the cheaper one, or orthogonal factors where masses are too
-/// unequal for sparse ones.
-/// If one method fails, the other follows, and then orthogonal factors from nothing.
+/// unequal for sparse ones. If one method fails, the other follows, and then orthogonal factors from nothing.
 Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, Known& last) {
   // Solutions for which factors are reused: factors may cost so many times more.
   constexpr double worth_while = 8;

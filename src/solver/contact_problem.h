@@ -1,18 +1,15 @@
 #pragma once
 // The one interface to frictionless contact. Of all motions that no contact forbids, it finds the one nearest to the
-// free motion (Gauss's principle of least constraint).
-// With the forces x_c >= 0 along the normals n_c as unknowns it is the complementarity problem
+// free motion (Gauss's principle of least constraint). With the forces x_c >= 0 along the normals n_c as unknowns it is
+// the complementarity problem
 //   u = u_free + M^-1 N x,  w = N^T u - target,  0 <= x, 0 <= w, x w = 0.
 // The motion u is unique, the forces need not be.
 //
-// Two methods solve it to rounding. Each is the other's fallback, and one certificate judges both (contact_island.h).
-// A dual active set on orthogonal factors (active_set.h) serves small or ill-conditioned problems, and those similar to
-// the last one.
-// An interior point with a proximal Newton method on the bodies' sparse matrix (contact_interior_point.h) serves large
-// ones.
-// The cheaper method is chosen, unless masses are too unequal for the sparse one.
-// Where contacts may be off by their slack, projected gradients (contact_projected_gradients.h) go first, while they
-// are cheaper.
+// Two methods solve it to rounding. Each is the other's fallback, and one certificate judges both (contact_island.h). A
+// dual active set on orthogonal factors (active_set.h) serves small or ill-conditioned problems, and those similar to
+// the last one. An interior point with a proximal Newton method on the bodies' sparse matrix (contact_interior_point.h)
+// serves large ones. The cheaper method is chosen, unless masses are too unequal for the sparse one. Where contacts may
+// be off by their slack, projected gradients (contact_projected_gradients.h) go first, while they are cheaper.
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -28,7 +25,7 @@ struct ContactConstraint {
   static constexpr std::uint32_t fixed = std::numeric_limits<std::uint32_t>::max();
   // Indices in the problem's arrays. b = `fixed`: an immovable thing.
   std::uint32_t a, b;
-  Vec3 normal;        // from a to b; unit but for rounding
+  Vec3 normal;        // from a to b; unit up to rounding
   double target = 0;  // lower bound of normal . (u_b - u_a); in the unit of u
   double slack = 0;   // allowed shortfall from the target; in the unit of u
   double force = 0;   // in: a guess; out: mass times the unit of u, along the normal; >= 0 unless bilateral

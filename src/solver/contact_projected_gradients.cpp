@@ -1,9 +1,8 @@
 // MPRGP (Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23): conjugate gradients on the rows that press, projected
-// steps elsewhere.
-// The matrix is never formed. A product with it goes over the rows twice: forces to bodies, and bodies' motion to rows.
-// Four rows are side by side in vectors of four doubles. Sums have one order, so that the bits do not depend on the
-// vector width of the processor.
-// Sweeps from row to row (projected Gauss-Seidel) make no progress in an island that is nearly at rest.
+// steps elsewhere. The matrix is never formed. A product with it goes over the rows twice: forces to bodies, and
+// bodies' motion to rows. Four rows are side by side in vectors of four doubles. Sums have one order, so that the bits
+// do not depend on the vector width of the processor. Sweeps from row to row (projected Gauss-Seidel) make no progress
+// in an island that is nearly at rest.
 #include "solver/contact_projected_gradients.h"
 
 #include <algorithm>
@@ -159,8 +158,8 @@ struct ContactProjectedGradients::Parts {
   }
 };
 
-/// Takes the next forces, and sets the direction of the conjugate gradients on the face of the rows that press: g less
-/// `turn` times the last direction.
+/// Takes the next forces, and sets the direction of the conjugate gradients on the face of the rows that press.
+/// It is g less `turn` times the last direction.
 inline __attribute__((always_inline)) void ContactProjectedGradients::take(const Rows& rows, Forces& f,
                                                                            const Next& next, double turn,
                                                                            double per_step, double least,
@@ -188,8 +187,7 @@ inline __attribute__((always_inline)) void ContactProjectedGradients::take(const
 }
 
 /// Takes the next forces, or without them those after this step. The new direction is conjugate to the last one, or the
-/// gradient where turn is 0.
-/// Computes the motion of every body along it.
+/// gradient where turn is 0. Computes the motion of every body along it.
 CAROM_FOR_ALL_PROCESSORS
 void ContactProjectedGradients::take_all(const Rows* rows, Forces* forces, const Next* next, std::size_t count,
                                          double step, double turn, double per_step, double least,
@@ -375,8 +373,7 @@ bool ContactProjectedGradients::iterate() {
 }
 
 /// Continues in the same direction past the bounds and projects onto them, if that is better than a stop at the first
-/// bound.
-/// Otherwise it goes from there along the projected gradient, as far as gain is certain. (Kruzik, Horak, Cermak,
+/// bound. Otherwise it goes from there along the projected gradient, as far as gain is certain. (Kruzik, Horak, Cermak,
 /// Pospisil & Pecha, Adv. Eng. Softw. 149 (2020) 102895.)
 void ContactProjectedGradients::go_on_at_bounds(double step) {
   const double first = project(forces_.data(), next_.data(), forces_.size(), step, least_);
@@ -395,7 +392,7 @@ double ContactProjectedGradients::cost() const {
 }
 
 /// Whether the second half of all iterations gained no more than the slack's energy.
-/// It takes as many iterations as a force needs to reach every row from every other.
+/// It is tested only after as many iterations as a force needs to get from any row to any other.
 bool ContactProjectedGradients::gains_little() {
   const std::size_t now = potential_.size() - 1;
   if (now == 0 || !(potential_[now / 2] - potential_[now] <= slack_energy_)) return false;

@@ -1,12 +1,9 @@
 #pragma once
 // Contact to within the rows' slack: conjugate gradients on the rows that press, which are found on the way (MPRGP:
-// Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23).
-// The unknowns are the forces of rows of unit length. The matrix then has a unit diagonal, and bodies of any masses
-// have equal weight.
-// It is never formed: its product with forces is their effect on the rows' motion. The potential x A x / 2 + c x only
-// falls.
-// Sweeps from row to row (projected Gauss-Seidel) were not chosen, because they make no progress where bodies are
-// nearly at rest.
+// Dostal & Schoeberl, Comput. Optim. Appl. 30 (2005) 23). The unknowns are the forces of rows of unit length. The
+// matrix then has a unit diagonal, and bodies of any masses have equal weight. It is never formed: its product with
+// forces is their effect on the rows' motion. The potential x A x / 2 + c x only falls. Sweeps from row to row
+// (projected Gauss-Seidel) were not chosen, because they make no progress where bodies are nearly at rest.
 #include <cstdint>
 #include <vector>
 
@@ -116,9 +113,9 @@ class ContactProjectedGradients {
   double least_ = 0;                      // smaller values are set to zero
   double slack_energy_ = 0;               // twice the energy of rows off by the least slack
   std::vector<double> potential_;         // twice its value, by iteration
-  std::size_t products_ = 0, reach_ = 0;  // products with the matrix; the island's reach, 0: not computed yet
+  std::size_t products_ = 0, reach_ = 0;  // products with the matrix; the island's reach, 0: not computed
   Sums sums_;
-  // The gradient and moved_ are those of x but for rounding, and the gradient does no work.
+  // The gradient and moved_ are those of x up to rounding, and the gradient does no work.
   bool fresh_ = false;
 };
 
