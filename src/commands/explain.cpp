@@ -109,8 +109,10 @@ std::string row_text(const FieldPlaces& row, const Palette& palette, std::size_t
 std::string kind_text(const Kind& kind, const Palette& palette, std::size_t width) {
   Block block(palette, width);
   block.heading(kind.name, kind.doc);
-  if (const std::vector<std::string> paths = paths_of(kind); !paths.empty())
-    block.line("stands at", listed(paths, paths.size()));
+  std::vector<std::string> paths = paths_of(kind);
+  std::stable_partition(paths.begin(), paths.end(),
+                        [](const std::string& path) { return !path.starts_with("defaults."); });
+  if (!paths.empty()) block.line("stands at", listed(paths, paths.size()));
   block.line("keys", "those below");
   return block.text() + keys_text(kind, width);
 }

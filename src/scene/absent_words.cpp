@@ -69,7 +69,7 @@ constexpr AbsentWord all_words[] = {
      "Volumes are spheres, upright cylinders and boxes along the axes. A mesh is drawn in place of a volume, or `fit` "
      "finds the volume around it.",
      "mesh|fit|body"},
-    {"floor|ground|table|ramp|slope|incline|ceiling",
+    {"floor|ground|ramp|slope|incline|ceiling",
      "An unbounded surface is a plane; its normal tilts it. A rectangle is a wall.", "plane|wall|room"},
     {"static|fixed|kinematic|immovable|infinite mass|anchor point",
      "Things that never move are planes, walls, a room and obstacles.", "plane|wall|room|obstacle"},

@@ -65,8 +65,8 @@ constexpr Field video_fields[] = {
      .pattern = R"(^(?![-.])[^/\\\u0000-\u001f]{1,196}\.mp4$)", .member = fills<VideoOutput, &VideoOutput::file>},
     with(fps, fills<VideoOutput, &VideoOutput::fps>),
     with(film_size, fills<VideoOutput, &VideoOutput::size>),
-    with(samples, fills<VideoOutput, &VideoOutput::samples>),
     {.key = "crf", .type = Type::whole, .range = {0, 51}, .doc = "0: largest and best, 51: smallest and worst.", .example = "23", .title = "Constant rate factor", .member = fills<VideoOutput, &VideoOutput::crf>},
+    with(samples, fills<VideoOutput, &VideoOutput::samples>),
     with(from, fills<VideoOutput, &VideoOutput::from>),
     with(until, fills<VideoOutput, &VideoOutput::until>),
 };

@@ -205,8 +205,7 @@ TEST(Explain, SaysWhatThereIsInsteadOfWhatIsAbsent) {
   const Workplace here;
   EXPECT_EQ(here.carom({"explain", "hinge"}).out,
             "hinge: no key of the format\n"
-            "  instead     There are no hinges. A stiff spring with a rest length holds a body near a\n"
-            "              circle.\n"
+            "  instead     There are no hinges. A stiff spring with a rest length holds a body near a circle.\n"
             "  see         carom explain spring\n");
   EXPECT_EQ(here.carom({"explain", "slow", "motion"}).out, here.carom({"explain", "Slow-Motion"}).out);
   for (const char* word : {"friction", "rotation", "spin", "joint", "rope", "hinge", "timestep", "speed", "slow motion",
