@@ -180,7 +180,7 @@ class Checker : ValueChecker {
     }
     const std::string why = why_no_file(beneath(folder_, value.text));
     if (!why.empty())
-      refuse(value, fmt::format("{} {}", why, quoted(value.text)), "paths start at the folder of the scene");
+      refuse(value, fmt::format("{} {}", why, quoted(value.text)), "paths are relative to the folder of the scene");
   }
 
   void check_value(Node& value, const Field& field, const Key& key, bool partial) {

@@ -102,7 +102,8 @@ class Requests {
     const bool parabolas = goes_along_parabolas(scene_.world, scene_.simulate);
     scene_.output.flights = parabolas && said.value_or(scene_.output.pictures());
     if (parabolas || !said.value_or(false)) return;
-    diagnostics_.add(view.place("flights"), "`flights` are parabolas from impact to impact, which this scene has not",
+    diagnostics_.add(view.place("flights"),
+                     "`flights` need parabolas from impact to impact, and this scene has other paths",
                      "expected `flights: false`, or `engine: exact` under forces that are the same everywhere");
   }
 
@@ -213,8 +214,8 @@ void check_steps(const Node& root, const Scene& scene, const Budget& budget, Dia
   const View simulate = scene_part(root, "simulate");
   const bool said = simulate.given("step") != nullptr;
   const Key* forces = root.find_key("forces");
-  const std::string figure = many ? fmt::format("{:.4g} steps of time; the limit is {}", *steps, budget.steps)
-                                  : fmt::format("{:.4g} steps of time for each of {} bodies; the limit is {} in all",
+  const std::string figure = many ? fmt::format("{:.4g} time steps; the limit is {}", *steps, budget.steps)
+                                  : fmt::format("{:.4g} time steps for each of {} bodies; the limit is {} in all",
                                                 *steps, scene.world.body_count(), budget.body_steps);
   diagnostics.add(said || forces == nullptr ? simulate.place(said ? "step" : "duration") : forces->place,
                   fmt::format("the run would take {}", figure),

@@ -208,8 +208,8 @@ class DocumentBuilder : public YAML::EventHandler {
       const Key* first = first_with(parent, name.text);
       if (first != nullptr) {
         const auto line = 1 + std::count(text_.begin(), text_.begin() + first->place.offset, '\n');
-        refuse(name.place, fmt::format("{} is here twice", quoted(name.text)),
-               fmt::format("it stands in line {} already", line));
+        refuse(name.place, fmt::format("{} is repeated", quoted(name.text)),
+               fmt::format("it is in line {} already", line));
         return;
       }
       parent.node.keys.push_back(std::move(name));

@@ -84,7 +84,7 @@ constexpr SyntaxCause causes_in_values[] = {
 };
 constexpr SyntaxCause causes_in_brackets[] = {
     {"illegal flow end", "this bracket closes nothing", "remove it"},
-    {"flow not found", "a value ends and another thing begins",
+    {"flow not found", "a value ends and something else follows",
      "expected ',' or the closing bracket; is a ',' missing?"},
 };
 constexpr SyntaxCause causes_in_lines[] = {

@@ -160,7 +160,7 @@ TEST(CompareCommand, SaysWhatIsWrongWithFoldersAndWords) {
             "carom: runs/a has no film: run its scene again with the output `video` (--only video)\n");
   EXPECT_EQ(here.carom({"compare"}).code, 2);
   here.write("runs/b/collisions.csv", "cut");
-  EXPECT_EQ(error({"runs/b"}), "carom: runs/b: collisions.csv is not as the run wrote it: run its scene again\n");
+  EXPECT_EQ(error({"runs/b"}), "carom: runs/b: collisions.csv has changed since the run: run its scene again\n");
 }
 
 TEST(CompareCommand, JsonTellsTheSame) {

@@ -86,7 +86,7 @@ TEST(Doubtful, AToleranceThatIsNotMetIsSaid) {
   here.write("crowd.yaml", scene + "simulate: {duration: 80, tolerance: 1e-6}\n");
   const Finished run = here.carom({"run", "crowd.yaml"});
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.out.find("doubtful    places are told to 1e-06 m until "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("doubtful    positions are right to 1e-06 m until "), std::string::npos) << run.out;
   EXPECT_NE(run.out.find(": chaotic, a"), std::string::npos) << run.out;
 }
 

@@ -106,7 +106,7 @@ TEST(Interop, TooManyFilesAndKeysAreRefused) {
   here.write("gltf.yaml", two_balls("output:\n  gltf: {fps: 1e8}\n"));
   const Finished keys = here.carom({"check", "gltf.yaml"});
   EXPECT_EQ(keys.code, 2);
-  EXPECT_NE(keys.err.find("keys of animation.glb; the limit is 10000000"), std::string::npos) << keys.err;
+  EXPECT_NE(keys.err.find("keyframes of animation.glb; the limit is 10000000"), std::string::npos) << keys.err;
   EXPECT_NE(keys.err.find("expected a lower `fps`, a shorter duration or fewer bodies"), std::string::npos) << keys.err;
 }
 

@@ -151,7 +151,7 @@ TEST(Render, RefusesWhatIsNoWholeRun) {
     return render.err.substr(0, render.err.find('\n'));
   };
   EXPECT_EQ(refusal("nowhere"), "nowhere: there is no such folder");
-  EXPECT_EQ(refusal("balls.yaml"), "balls.yaml: it is no folder");
+  EXPECT_EQ(refusal("balls.yaml"), "balls.yaml: it is not a folder");
   EXPECT_EQ(refusal("."), ".: it holds no whole run: there is no manifest.json");
   const std::string flights = here.read("run/flights.bin"), manifest = here.read("run/manifest.json");
   const std::string changed = "run: flights.bin is missing or has changed";
@@ -163,7 +163,7 @@ TEST(Render, RefusesWhatIsNoWholeRun) {
   EXPECT_EQ(refusal("run"), changed);
   here.write("run/flights.bin", flights);
   here.write("run/manifest.json", manifest.substr(0, 99));
-  EXPECT_EQ(refusal("run"), "run: its manifest.json is none that carom wrote, or damaged");
+  EXPECT_EQ(refusal("run"), "run: its manifest.json is damaged, or not written by carom");
   here.write("run/manifest.json", manifest);
   const std::string scene = here.read("run/scene.yaml");
   here.write("run/scene.yaml", scene + "# changed\nbackground: black\n");
@@ -200,12 +200,12 @@ TEST(Render, RefusesFlightsOfWhatIsNoParabola) {
   EXPECT_EQ(here.carom({"run", "balls.yaml"}).code, 0);
   const Finished run = here.carom({"run", "balls.yaml", "--set", "simulate.engine=stepped"});
   EXPECT_EQ(run.code, 2);
-  EXPECT_NE(run.err.find("`flights` are parabolas from impact to impact"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("`flights` need parabolas from impact to impact"), std::string::npos) << run.err;
   here.write("balls.yaml", two_balls());
   const Finished only = here.carom({"run", "balls.yaml", "--set", "simulate.engine=book", "--only", "flights"});
   EXPECT_EQ(only.code, 2);
   EXPECT_EQ(only.err,
-            "balls.yaml: flights are parabolas from impact to impact, which this scene has not: leave them out\n"
+            "balls.yaml: flights need parabolas from impact to impact, and this scene has other paths: leave them out\n"
             "carom: 1 error; nothing was run\n");
 }
 

@@ -242,7 +242,7 @@ TEST_F(ComparisonOfSix, WhatCannotBeReadIsSaidWithItsRemedy) {
                              "out"));
   place->run(two_balls, "silent", {"output={collisions: true}"});
   EXPECT_NE(
-      error({"x", *place / "silent", {"1", "1"}}).find("silent has no trajectory.csv, which tells balls.red.speed_"),
+      error({"x", *place / "silent", {"1", "1"}}).find("silent has no trajectory.csv, needed for balls.red.speed_"),
       std::string::npos);
 }
 

@@ -352,7 +352,7 @@ TEST(Folder, LinksAreNotFollowedOut) {
   fs::create_symlink("../outside", temp / "run/frames");
   EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::incomplete);
   EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }),
-            "cannot open " + temp / "run" + "/frames: it is no folder, or a link; remove it");
+            "cannot open " + temp / "run" + "/frames: it is not a folder, or a link; remove it");
   EXPECT_EQ(read(temp / "outside/frame_00000.png"), "mine");
   // The run's folder itself may be a link: that is where its owner wants it.
   fs::create_directory(temp / "elsewhere");

@@ -306,7 +306,7 @@ TEST(MeshErrors, FitAndMeshNeedOneAnother) {
             "scene.yaml:3:17: error: obstacle `a` has a `fit` but no `mesh`\n"
             "   3 | obstacles: {a: {fit: box, position: [0, 0, 0]}}\n"
             "     |                 ^~~\n"
-            "     = expected `mesh`: the path of a file, from the folder of the scene\n");
+            "     = expected `mesh`: the path of a file, relative to the folder of the scene\n");
 }
 
 }  // namespace

@@ -94,15 +94,15 @@ TEST(SceneErrors, MeshThatIsNotThereIsAnErrorOfItsOwn) {
             "scene.yaml:3:56: error: there is no file `pin.stl`\n"
             "   3 |   pin: {mass: 1, radius: 1, position: [0, 0, 0], mesh: pin.stl}\n"
             "     |                                                        ^~~~~~~\n"
-            "     = paths start at the folder of the scene\n");
+            "     = paths are relative to the folder of the scene\n");
 }
 
 TEST(SceneErrors, DuplicateKeySaysWhereTheFirstStands) {
   EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1}\nseed: 1\nseed: 2\n"),
-            "scene.yaml:4:1: error: `seed` is here twice\n"
+            "scene.yaml:4:1: error: `seed` is repeated\n"
             "   4 | seed: 2\n"
             "     | ^~~~\n"
-            "     = it stands in line 3 already\n");
+            "     = it is in line 3 already\n");
 }
 
 TEST(SceneErrors, MergeKeyAliasAnchorAndTagAreRefused) {
@@ -270,7 +270,7 @@ TEST(SceneErrors, SyntaxErrorsPointAtTheCause) {
             "     |        ^\n"
             "     = expected `\"` before the next key\n");
   EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1 step: 2}\n"),
-            "scene.yaml:2:28: error: a value ends and another thing begins\n"
+            "scene.yaml:2:28: error: a value ends and something else follows\n"
             "   2 | simulate: {duration: 1 step: 2}\n"
             "     |                            ^\n"
             "     = expected ',' or the closing bracket; is a ',' missing?\n");

@@ -75,7 +75,7 @@ TEST(StandingClock, EndsARunWithAdviceForItsRestitution) {
     return error.substr(std::min(error.size(), error.find(what)));
   };
   EXPECT_EQ(ends(squeezed(0x1p-30, 1 + 1e-9)),
-            what + "(restitution above 1 makes energy at every collision): lower it, or shorten simulate.duration");
+            what + "(restitution above 1 adds energy at every collision): lower it, or shorten simulate.duration");
   EXPECT_EQ(ends(squeezed(0, 1)),
             what + "(jammed, or masses too unequal): give them room, or shorten simulate.duration");
 }
