@@ -42,7 +42,7 @@ void set_for_all(Sweep& sweep, const std::string& text, std::string_view option)
       {path + "=" + (value.starts_with('#') ? in_quotes(value) : value), fmt::format("--set {}", text)});
 }
 
-/// A variable of Slurm's that is a number.
+/// The number in a variable of Slurm.
 std::optional<std::size_t> slurm(const char* name) {
   const char* text = std::getenv(name);
   if (text == nullptr) return std::nullopt;
@@ -50,7 +50,7 @@ std::optional<std::size_t> slurm(const char* name) {
   const char* end = text + std::string_view(text).size();
   const auto [stop, error] = std::from_chars(text, end, value);
   if (error != std::errc() || stop != end)
-    throw UsageError(fmt::format("{} is {}, which is no number: say --shard I/N", name, carom::quoted(text)));
+    throw UsageError(fmt::format("{} is {}, which is not a number: use --shard I/N", name, carom::quoted(text)));
   return value;
 }
 
@@ -142,7 +142,7 @@ Shard shard_of(const Options& options) {
   const std::size_t least = slurm("SLURM_ARRAY_TASK_MIN").value_or(1);
   const Shard shard{*task < least ? 0 : (*task - least) / step + 1, *count};
   if (shard.index < 1 || shard.index > shard.count || (*task - least) % step != 0)
-    throw UsageError("SLURM_ARRAY_TASK_ID is not within its array, or the array has gaps: say --shard I/N");
+    throw UsageError("SLURM_ARRAY_TASK_ID is not within its array, or the array has gaps: use --shard I/N");
   return shard;
 }
 

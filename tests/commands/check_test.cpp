@@ -130,7 +130,7 @@ TEST(Check, TellsWhatStopsARunLater) {
   const Finished check = here.carom({"check", "bouncing.yaml"}), run = here.carom({"run", "bouncing.yaml"});
   EXPECT_EQ(check.code, 0);
   EXPECT_EQ(run.code, 1);
-  const std::size_t at = check.out.find("  trouble     a run stops: ") + 27;
+  const std::size_t at = check.out.find("  trouble     a run would stop: ") + 32;
   const std::string why = check.out.substr(at, 20);
   EXPECT_NE(run.err.find(why), std::string::npos) << check.out << run.err;
 }
@@ -194,11 +194,11 @@ TEST(Check, BookSceneGetsTheExactPrediction) {
   here.write("balls.yaml", two_balls());
   const Finished check = here.carom({"check", "balls.yaml", "--set", "simulate.engine=book"});
   EXPECT_EQ(check.code, 0) << check.err;
-  EXPECT_NE(check.out.find(
-                "  engine      book, 1 s of motion\n"
-                "  first hit   red and blue at 0.445 s, at (0, 0, 0) m, closing at 4 m/s (exact; the book engine sees\n"
-                "              it at a later frame)\n"),
-            std::string::npos)
+  EXPECT_NE(
+      check.out.find("  engine      book, 1 s of motion\n"
+                     "  first hit   red and blue at 0.445 s, at (0, 0, 0) m, closing at 4 m/s (exact; the book engine\n"
+                     "              detects it in a later frame)\n"),
+      std::string::npos)
       << check.out;
 }
 
@@ -276,7 +276,7 @@ TEST(Check, TellsOfVolumesObstaclesAndForces) {
                 "  fixed       0 planes, 0 walls, 1 obstacle\n"
                 "  volumes     crate a box of 1 x 2 x 3 m; can a cylinder of radius 0.25 m and height 2 m; post a\n"
                 "              sphere of radius 0.5 m\n"
-                "  forces      1 force beside gravity\n"),
+                "  forces      1 force in addition to gravity\n"),
             std::string::npos)
       << check.out;
   const std::string json = here.carom({"check", "things.yaml", "--json"}).out;

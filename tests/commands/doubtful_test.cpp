@@ -23,7 +23,7 @@ TEST(Doubtful, RunsSaySoInTheReportTheManifestJsonAndSummary) {
   here.write("damped.yaml", damped("0.012"));
   const Finished run = here.carom({"run", "damped.yaml"});
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.out.find("\n  doubtful    the method took "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("\n  doubtful    the method lost "), std::string::npos) << run.out;
   EXPECT_NE(run.out.find("\n  doubtful    forces turned by 1.2 rad in a step"), std::string::npos) << run.out;
   EXPECT_NE(here.read("output/damped/summary.csv").find(",stepped,doubtful,2,"), std::string::npos);
   const Json manifest = Json::parse(here.read("output/damped/manifest.json"));
@@ -39,7 +39,7 @@ TEST(Doubtful, RunsSaySoInTheReportTheManifestJsonAndSummary) {
   EXPECT_EQ(fresh.at("warnings"), manifest.at("warnings"));
   const Finished quiet = here.carom({"run", "damped.yaml", "-q", "--force"});
   EXPECT_EQ(quiet.out, "");
-  EXPECT_NE(quiet.err.find("carom: damped.yaml: doubtful: the method took "), std::string::npos) << quiet.err;
+  EXPECT_NE(quiet.err.find("carom: damped.yaml: doubtful: the method lost "), std::string::npos) << quiet.err;
 }
 
 TEST(Doubtful, IsNoRunWithAGoodStep) {

@@ -108,7 +108,7 @@ TEST(Render, DrawsWhatTheRunDidNotAskFor) {
   const Finished none = here.carom({"render", "run"});
   EXPECT_EQ(none.code, 2);
   EXPECT_EQ(none.err,
-            "run: its scene asks for no pictures\n  --only frames, video or sheet asks for them\n"
+            "run: its scene has no pictures\n  add them with --only frames, video or sheet\n"
             "carom: 1 error; nothing was run\n");
   EXPECT_EQ(here.carom({"render", "run", "--only", "sheet"}).code, 0);
   EXPECT_TRUE(here.has("run/sheet.png") && here.has("run/energy.csv") && here.has("run/flights.bin"));
@@ -123,8 +123,8 @@ TEST(Render, RefusesAnotherMotionAndSaysHowToSimulateIt) {
       here.carom({"render", "run", "--set", "camera.eye.y=2", "--set", "balls.red.velocity=[3, 0, 0]"});
   EXPECT_EQ(render.code, 2);
   EXPECT_EQ(render.err,
-            "run: --set balls.red.velocity=[3, 0, 0] changes the motion, which has to be simulated anew\n"
-            "  carom run run/scene.yaml --set camera.eye.y=2 --set 'balls.red.velocity=[3, 0, 0]' -o OTHER does that\n"
+            "run: --set balls.red.velocity=[3, 0, 0] changes the motion, which needs a new simulation\n"
+            "  carom run run/scene.yaml --set camera.eye.y=2 --set 'balls.red.velocity=[3, 0, 0]' -o OTHER runs it\n"
             "carom: 1 error; nothing was run\n");
   EXPECT_EQ(here.files("run"), before);
 }
@@ -185,7 +185,7 @@ TEST(Render, SimulatesAgainWhereNoFlightsAreStored) {
     EXPECT_FALSE(here.has(engine + "/flights.bin"));
     const Finished render = here.carom({"render", engine, "--set", "output.frames.fps=3", "-o", "again " + engine});
     EXPECT_EQ(render.code, 0) << render.err;
-    EXPECT_EQ(render.err, engine + ": no flights are stored there: simulating again\n");
+    EXPECT_EQ(render.err, engine + ": no flights are stored: simulating again\n");
     ASSERT_EQ(here.carom({"run", engine + "/scene.yaml", "-o", "fresh " + engine, "--only", "frames", "--set",
                           "output.frames.fps=3"})
                   .code,

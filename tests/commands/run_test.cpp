@@ -202,8 +202,9 @@ TEST(Run, JobsChangeNoResult) {
   one.erase("manifest.json");
   four.erase("manifest.json");
   EXPECT_EQ(one, four);
-  EXPECT_EQ(here.carom({"run", "balls.yaml", "--jobs", "0"}).err,
-            "carom run: --jobs is a whole number from 1 to 4096, not `0`\n  carom run --help shows how it is used\n");
+  EXPECT_EQ(
+      here.carom({"run", "balls.yaml", "--jobs", "0"}).err,
+      "carom run: --jobs takes a whole number from 1 to 4096, not `0`\n  carom run --help shows how it is used\n");
 }
 
 TEST(Run, ScenesAtOnceAreToldInTheirOrderAndHaveTheSameBytes) {

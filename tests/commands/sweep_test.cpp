@@ -243,7 +243,7 @@ TEST(Sweep, RunThatWasReplacedIsNotUpToDateAndNotGathered) {
   const Finished again = here.carom({"sweep", "offsets.yaml", "-q"});
   EXPECT_EQ(again.code, 2);
   EXPECT_EQ(again.err,
-            "carom: offsets.yaml: the folder output/offsets/runs/r0001 holds something else than this run\n"
+            "carom: offsets.yaml: the folder output/offsets/runs/r0001 holds something other than this run\n"
             "  write elsewhere with -o, or overwrite it with --force\n");
   EXPECT_EQ(here.carom({"gather", "output/offsets", "-q"}).code, 1);
   EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q", "--force"}).code, 0);
