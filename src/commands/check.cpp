@@ -59,7 +59,8 @@ std::string first_collision_text(const PlannedScene& planned, const Foresight& f
   if (!foresight.first) return fmt::format("none within {}", quantity(planned.scene->simulate.duration, "s"));
   const Collision& c = *foresight.first;
   const Roster& roster = planned.scene->roster;
-  const double nothing = 1e-9 * planned.scene->world.radius[c.a];  // smaller coordinates are rounding errors
+  // Smaller coordinates are rounding errors.
+  const double nothing = 1e-9 * planned.scene->world.radius[c.a];
   const auto shown = [&](double x) { return std::abs(x) < nothing ? 0.0 : x; };
   std::string text = fmt::format("{} and {} at {}, at ({:.4g}, {:.4g}, {:.4g}) m, closing at {}", roster.name(c.a),
                                  roster.name(c.b), quantity(c.time, "s"), shown(c.position.x()), shown(c.position.y()),

@@ -127,9 +127,11 @@ ParsedOptions parse_options(const CommandText& command, const std::vector<std::s
   for (const OptionUse& use : options_of(command)) given.push_back({use, {}});
   for (Given& option : given) add_option(app, option);
   refuse_single_dash(app, words);
-  const auto mark = std::find(words.begin(), words.end(), "--");  // all that follows is operands
+  // Every word after "--" is an operand.
+  const auto mark = std::find(words.begin(), words.end(), "--");
   try {
-    app.parse(std::vector<std::string>(std::reverse_iterator(mark), words.rend()));  // CLI11 reads from the back
+    // CLI11 reads from the back.
+    app.parse(std::vector<std::string>(std::reverse_iterator(mark), words.rend()));
   } catch (const CLI::CallForHelp&) {
     parsed.help = app.help();
     return parsed;

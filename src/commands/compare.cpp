@@ -54,7 +54,8 @@ class CompareSession {
     } catch (const std::bad_alloc&) {
       return fail("failed", "not enough memory", 1);
     } catch (const std::exception& error) {
-      stop_if_interrupted();  // Ctrl-C ends ffmpeg too: its error is then the interrupt
+      // Ctrl-C ends ffmpeg too: its error is then the interrupt.
+      stop_if_interrupted();
       return fail("failed", error.what(), 1);
     }
   }

@@ -74,7 +74,8 @@ class Planner {
     planned.content = inspect_folder(planned.folder, *planned.scene);
     const bool renews = planned.folder == planned.file;
     if (renews && planned.content != FolderContent::this_run) planned.content = FolderContent::incomplete;
-    former->scene = {};  // two of them are one too many
+    // One scene in memory is enough.
+    former->scene = {};
     planned.former = std::move(former);
   }
 

@@ -1,4 +1,4 @@
-// Plan, refuse, run each, report.
+// Plans all scenes, refuses wrong ones, runs each and reports.
 #include "commands/run.h"
 
 #include <fmt/format.h>

@@ -35,7 +35,7 @@ void set_for_all(Sweep& sweep, const std::string& text, std::string_view option)
   const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
   if (varies(sweep, path))
     throw UsageError(fmt::format("{} sets {}, which varies in this sweep", option, carom::quoted(path)));
-  // Of several values the last counts.
+  // The last of several values counts.
   std::erase_if(sweep.set_values, [&](const SweepValue& set) { return set.text.starts_with(path + "="); });
   // In a file an unquoted # begins a comment; here it can only be a colour.
   sweep.set_values.push_back(
@@ -84,7 +84,7 @@ SweepSettings sweep_settings(const Options& options) {
   SweepSettings settings;
   settings.load.budget.enforced = !options.force;
   settings.load.color = !options.json && wants_color(options.color, STDERR_FILENO);
-  // Every scenario has the base's meshes: each is read once.
+  // Every scenario has the base's meshes, so each mesh is read once.
   auto known = std::make_shared<std::map<std::string, std::vector<Vec3>>>();
   settings.load.mesh_points = [known](const std::string& path) {
     const auto found = known->find(path);
