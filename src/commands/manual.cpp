@@ -142,7 +142,7 @@ std::string manual_page() {
       ".TP\nSLURM_ARRAY_TASK_ID, SLURM_ARRAY_TASK_COUNT\nset by a Slurm job array: the part of a sweep to "
       "run\n"
       ".SH FILES\n"
-      ".TP\noutput/<scene file's stem>/\nwhat a run writes, unless \\-o says otherwise\n";
+      ".TP\noutput/<scene file's stem>/\nthe files of a run, without \\-o\n";
   return out;
 }
 

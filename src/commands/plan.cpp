@@ -60,7 +60,7 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
   planned.engine = choose_engine(*planned.scene);
   planned.forecast = forecast(*planned.scene);
   // With --only the outputs it leaves or adds count, not those of the file.
-  if (options.only && !options.force) hold_to_budget(*planned.scene, planned.forecast, "--only asks for");
+  if (options.only && !options.force) hold_to_budget(*planned.scene, planned.forecast, "--only requests");
   if (what_stands(planned.folder) == Standing::other)
     throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
   settle_folder(planned.folder);

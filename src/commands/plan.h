@@ -42,7 +42,7 @@ std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes,
 /// Options to load scenes of a command line. `lifted`: no limit on pictures and rows; hold_to_budget checks these.
 LoadOptions load_options(const Options& options, bool lifted);
 
-/// Throws ExportError if a run would draw or write too much. `asker`: "--only asks for".
+/// Throws ExportError if a run would draw or write too much. `asker`: "--only requests".
 void hold_to_budget(const Scene& scene, const Forecast& forecast, std::string_view asker);
 
 /// Adds an error for each folder that holds something else, unless --force.

@@ -296,7 +296,7 @@ TEST(Run, OnlyIsHeldToTheBudgetByWhatItLeaves) {
   EXPECT_EQ(run.code, 2);
   EXPECT_EQ(
       run.err,
-      "short.yaml: --only asks for 3,000,001 pictures, more than the 100,000 that a run may draw without --force\n"
+      "short.yaml: --only requests 3,000,001 pictures, more than the 100,000 that a run may draw without --force\n"
       "carom: 1 error; nothing was run\n");
 }
 

@@ -139,7 +139,7 @@ TEST(ReadMesh, RefusesMoreThanItsLimits) {
   MeshLimits small;
   small.file_bytes = 1000;
   EXPECT_EQ(trouble(pin, small),
-            "it has " + std::to_string(std::filesystem::file_size(pin)) + " bytes; 1000 are the most that is read");
+            "it has " + std::to_string(std::filesystem::file_size(pin)) + " bytes; at most 1000 are read");
   MeshLimits few;
   few.vertices = 100;
   EXPECT_EQ(trouble(pin, few), "it has more than 100 vertices");
