@@ -163,7 +163,7 @@ TEST(Explain, TellsEveryPlaceOfABareKey) {
   for (const char* path : {"restitution", "balls.NAME.restitution", "defaults.ball.restitution",
                            "groups.NAME.ball.restitution", "planes.NAME.restitution", "room.restitution"})
     EXPECT_TRUE(paths.contains(path)) << path;
-  // One entry for all that say the same.
+  // One entry for equal rows.
   EXPECT_EQ(fields.size(), 3u);
 }
 

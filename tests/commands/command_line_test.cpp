@@ -1,4 +1,4 @@
-// What the program says to a command line, whole.
+// Complete answers to command lines.
 #include "commands/command_line.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace carom::testing {
 namespace {
 
-// The text on stderr of a command line that is wrong: exit code 2, nothing on stdout, no scene looked at.
+// The text on stderr of a command line that is wrong: exit code 2, nothing on stdout, no scene read.
 std::string complaint(const std::vector<std::string>& words) {
   const Workplace here;
   const Finished finished = here.carom(words);

@@ -225,7 +225,7 @@ TEST(DiffCommand, TellsWhereRunsPartAndHowFarApartTheyEnd) {
             "  outcome     collision 1, red and blue at 0.44499999999999995 s (body-body), differs: they leave at\n"
             "              2.8 m/s in a, 3.3 m/s in b\n"
             "  end         at most 0.13875000000000004 m apart: red\n");
-  // As fast, but with another impulse.
+  // The same speeds with another impulse.
   ASSERT_EQ(here.shell("$CAROM run balls.yaml -q -o runs/heavy --set balls.red.restitution=0.5 --set balls.red.mass=20 "
                        "--set balls.blue.mass=20")
                 .code,

@@ -1,4 +1,4 @@
-// Runs whose own books tell that they are wrong say so, everywhere; those that cannot go on end with a remedy.
+// Runs with wrong energy balances are reported as doubtful everywhere; runs that cannot go on end with a remedy.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -89,7 +89,7 @@ TEST(Render, InPlaceReplacesWhatShowsLooksAndKeepsTheTables) {
   EXPECT_FALSE(here.has("run/frames/frame_00004.png"));
   EXPECT_NE(here.carom({"run", "run/scene.yaml", "-o", "run"}).out.find("up to date"), std::string::npos);
   EXPECT_NE(here.carom({"render", "run"}).out.find("up to date"), std::string::npos);
-  // All but what is measured, and the order of the files.
+  // All except measurements and the order of the files.
   const auto facts = [&](const std::string& folder) {
     auto json = nlohmann::json::parse(here.read(folder + "/manifest.json"));
     json.erase("wall_times_s");
@@ -169,7 +169,7 @@ TEST(Render, RefusesWhatIsNoWholeRun) {
   here.write("run/scene.yaml", scene + "# changed\nbackground: black\n");
   EXPECT_EQ(refusal("run"), "run: its scene.yaml is not the one that was run");
   here.write("run/scene.yaml", scene);
-  here.shell("rm -r run/frames");  // pictures may be gone
+  here.shell("rm -r run/frames");  // pictures may be missing
   EXPECT_EQ(here.carom({"render", "run"}).code, 0);
   EXPECT_TRUE(here.has("run/frames/frame_00004.png"));
 }

@@ -1,4 +1,4 @@
-// What is printed of a run that the summary's columns do not hold.
+// Lines of a run's report that have no column in summary.csv.
 #include "commands/report.h"
 
 #include <gtest/gtest.h>

@@ -43,7 +43,7 @@ std::string error_of(const std::function<void()>& action) {
   return "no error";
 }
 
-/// What ffprobe says of a film's picture stream.
+/// ffprobe's facts of a film's picture stream.
 std::string probe(const std::string& film, const std::string& entries) {
   const Descriptor folder(open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   Child child({find_film_tools().ffprobe, "-v", "error", "-select_streams", "v:0", "-count_frames", "-show_entries",
@@ -313,7 +313,7 @@ TEST(Film, AnFfmpegThatOutlivesItsKilledRunSpoilsNothing) {
     }
     int status = 0;
     waitpid(child, &status, 0);
-    run(scene, temp / "run");  // its ffmpeg has just seen the end of its input
+    run(scene, temp / "run");  // its ffmpeg has just reached the end of its input
     EXPECT_TRUE(read(temp / "run/animation.mp4") == whole) << pictures;
     EXPECT_EQ(names_in(temp / "run"), names_in(temp / "whole")) << pictures;
   }

@@ -26,7 +26,7 @@ LoadOptions with_reader(int* reads = nullptr) {
   return options;
 }
 
-/// A scene in a folder with the meshes that with_reader() knows.
+/// A scene in a folder with the meshes of with_reader().
 Scene load_with_meshes(const std::string& text, const LoadOptions& options = with_reader()) {
   for (const char* name : {"pin.stl", "torn.stl", "flat.stl"}) write_file("solid\n", name);
   return load_text(text, options);

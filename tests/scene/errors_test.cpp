@@ -1,4 +1,4 @@
-// The texts of errors, whole: what an author sees is designed, not left to chance.
+// Complete texts of errors, as an author sees them.
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 

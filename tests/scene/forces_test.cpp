@@ -1,4 +1,4 @@
-// Forces, and what the engines have of them.
+// Forces, and the engines that support them.
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"

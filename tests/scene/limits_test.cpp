@@ -1,4 +1,4 @@
-// What doubles do not carry is refused before anything is computed with it.
+// Numbers beyond the range of doubles are refused before any computation.
 #include <fmt/format.h>
 
 #include "physics/bounds.h"

@@ -1,4 +1,4 @@
-// What a scene file means.
+// The meaning of scene files.
 #include <cmath>
 
 #include "physics/world.h"

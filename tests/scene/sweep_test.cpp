@@ -1,4 +1,4 @@
-// Sweep files: which runs they ask for.
+// Sweep files and their runs.
 #include "scene/sweep.h"
 
 #include "scene/scenes_in_text.h"

@@ -1,4 +1,4 @@
-// A run ends where doubles carry its bodies no farther.
+// A run ends where doubles no longer resolve its bodies.
 #include "physics/bounds.h"
 
 #include <gtest/gtest.h>
@@ -87,7 +87,7 @@ TEST(Bounds, SpeedsThatGrowWithoutEndAreTold) {
   EXPECT_NE(error.find("restitution above 1 adds energy at every collision"), std::string::npos) << error;
 }
 
-// Outputs change no verdict: one on a way out and back is the same whether it was looked at or not.
+// Outputs change no result: a body that goes out and comes back is treated the same with or without outputs.
 TEST(Bounds, LookingChangesNoVerdict) {
   for (const double speed : {31'000.0, 33'000.0, 60'000.0}) {  // to 0.98e9, 1.04e9 and 2.3e9 m
     Problem problem;

@@ -35,7 +35,7 @@ TEST(PiBilliard, ALineAlongAWedgesSideDoesNotCrossIt) {
   EXPECT_EQ(heavy_against_wall(3, 1e6).collisions(), 5u);
 }
 
-// A thousandth of an angle decides whether there is one more collision, when the heavy ball is already far away.
+// A thousandth of an angle decides on one more collision, with the heavy ball already far away.
 TEST(PiBilliard, AThousandthOfAnAngleDecidesBetweenNeighbours) {
   for (int n : {5, 7, 10, 100, 1000, 10000, 100000, 1000000}) {
     for (long double side : {-1e-3L, 1e-3L}) {
