@@ -20,8 +20,8 @@ constexpr AbsentWord all_words[] = {
     {"spin|angular velocity|torque|moment of inertia|inertia|angular momentum",
      "Bodies do not turn, so they have no spin, torque or moment of inertia.", "velocity|impulse"},
     {"joint|constraint|ball joint|slider|weld|motor|ragdoll|linkage",
-     "There are no joints. A stiff spring ties a body to a point, and `simulate.contact: merge` makes bodies that meet "
-     "one.",
+     "There are no joints. A stiff spring ties a body to a point, and `simulate.contact: merge` merges bodies that "
+     "meet.",
      "spring|contact"},
     {"hinge|pivot|pendulum|axle", "There are no hinges. A stiff spring with a rest length holds a body near a circle.",
      "spring"},

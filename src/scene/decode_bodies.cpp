@@ -104,7 +104,7 @@ class Bodies {
     if (!min || !max || !arrange) return;
     const double radius = world_.radius[body.first];
     if (!((*max - *min) * 2).allFinite() || !((*max - *min).array() > 0).all()) {
-      diagnostics_.add(box.place("max"), fmt::format("the box of {} has no inside", quoted(body.key->text)),
+      diagnostics_.add(box.place("max"), fmt::format("the box of {} has no volume", quoted(body.key->text)),
                        "expected min below max on every axis");
       return;
     }

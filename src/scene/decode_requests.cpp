@@ -154,7 +154,7 @@ class Requests {
     const auto refuse = [&](Place place, double figure, std::string_view what, std::uint64_t limit,
                             std::string_view change) {
       diagnostics_.add(place, fmt::format("the run would write {:.15g} {}; the limit is {}", figure, what, limit),
-                       fmt::format("expected {}, or --force if that is meant", change));
+                       fmt::format("expected {}, or --force to allow it", change));
     };
     const double bodies = inventory_.fits ? inventory_.body_count : 0;
     for (const Excess& excess : excesses(out, scene_.simulate.duration, bodies, budget_)) {
@@ -219,9 +219,9 @@ void check_steps(const Node& root, const Scene& scene, const Budget& budget, Dia
                                                 *steps, scene.world.body_count(), budget.body_steps);
   diagnostics.add(said || forces == nullptr ? simulate.place(said ? "step" : "duration") : forces->place,
                   fmt::format("the run would take {}", figure),
-                  said ? "expected a longer `step` or a shorter duration, or --force if that is meant"
+                  said ? "expected a longer `step` or a shorter duration, or --force to allow it"
                        : "steps follow the fastest change of a force: expected forces that change more slowly, a "
-                         "`step` or a shorter duration, or --force if that is meant");
+                         "`step` or a shorter duration, or --force to allow it");
 }
 
 void decode_requests(const Node& root, const Inventory& inventory, const Budget& budget, Scene& scene,

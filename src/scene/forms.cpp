@@ -91,7 +91,7 @@ std::optional<Fit> Forms::fit(Shape shape, const Node& mesh) {
     tight = tightest(shape, *vertices);
   } catch (const std::invalid_argument&) {
     diagnostics_.add(place_of(mesh),
-                     fmt::format("the mesh {} is flat: its tightest {} has no inside", carom::quoted(mesh.text),
+                     fmt::format("the mesh {} is flat: its tightest {} has no volume", carom::quoted(mesh.text),
                                  shape_names[static_cast<std::size_t>(shape)]),
                      "expected a mesh with width, height and depth");
   }

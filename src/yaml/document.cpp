@@ -129,7 +129,7 @@ class DocumentBuilder : public YAML::EventHandler {
   }
   void check_tag(const YAML::Mark& mark, const std::string& tag) {
     if (!tag.empty() && tag != "?" && tag != "!") {
-      refuse(at(mark, word_length(mark)), "a tag", "remove it: the key decides what kind of value it has");
+      refuse(at(mark, word_length(mark)), "a tag", "remove it: the key determines the type of its value");
     }
   }
   /// Escapes such as "\0" or "\uD800" make text that the check of the raw bytes has not seen.

@@ -74,7 +74,7 @@ struct SyntaxCause {
   std::string_view message, remedy;
 };
 
-constexpr std::string_view no_tags = "remove it: the key decides what kind of value it has";
+constexpr std::string_view no_tags = "remove it: the key determines the type of its value";
 constexpr std::string_view own_lines = "expected lists as [a, b], or `- ` in lines of their own";
 
 constexpr SyntaxCause causes_in_values[] = {

@@ -62,7 +62,7 @@ class WorkbookFilesTest : public ::testing::Test {
 };
 
 TEST_F(WorkbookFilesTest, APartThatIsNotToTheByteWhatWasWrittenIsFound) {
-  const std::string other = "cannot write out/book.xlsx: the workbook is not what was written to it";
+  const std::string other = "cannot write out/book.xlsx: the workbook differs from what was written";
   put("rows");
   files_.begin_parts();
   put("<one/>");

@@ -285,7 +285,7 @@ TEST(MeshErrors, NameTheFileAndWhatIsWrongWithIt) {
             "     |                             ^~~~~~~~\n"
             "     = expected a file of triangles with finite vertices\n");
   EXPECT_EQ(mesh_errors(start + "bodies: {a: {mass: 1, mesh: flat.stl, fit: box, position: [0, 0, 0]}}\n"),
-            "scene.yaml:3:29: error: the mesh `flat.stl` is flat: its tightest box has no inside\n"
+            "scene.yaml:3:29: error: the mesh `flat.stl` is flat: its tightest box has no volume\n"
             "   3 | bodies: {a: {mass: 1, mesh: flat.stl, fit: box, position: [0, 0, 0]}}\n"
             "     |                             ^~~~~~~~\n"
             "     = expected a mesh with width, height and depth\n");

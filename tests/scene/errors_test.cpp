@@ -118,7 +118,7 @@ TEST(SceneErrors, MergeKeyAliasAnchorAndTagAreRefused) {
             "scene.yaml:3:34: error: a tag\n"
             "   3 | simulate: {<<: {a: 1}, duration: !!int 1, step: *s}\n"
             "     |                                  ^~~~~\n"
-            "     = remove it: the key decides what kind of value it has\n"
+            "     = remove it: the key determines the type of its value\n"
             "scene.yaml:3:49: error: an alias\n"
             "   3 | simulate: {<<: {a: 1}, duration: !!int 1, step: *s}\n"
             "     |                                                 ^~\n"

@@ -117,7 +117,7 @@ TEST(Steps, MoreThanTheBudgetAreRefusedUnlessForced) {
             "scene.yaml:4:48: error: the run would take 1e+09 time steps; the limit is 100000000\n"
             "   4 | simulate: {duration: 1, engine: stepped, step: 1e-9}\n"
             "     |                                                ^~~~\n"
-            "     = expected a longer `step` or a shorter duration, or --force if that is meant\n");
+            "     = expected a longer `step` or a shorter duration, or --force to allow it\n");
   LoadOptions forced;
   forced.budget.enforced = false;
   EXPECT_EQ(errors_of(text, forced), "");
@@ -132,7 +132,7 @@ TEST(Steps, ThoseThatAForceAsksForAreCountedToo) {
             "   4 | forces: [{spring: {anchor: [0, 9, 0], stiffness: 1e16, rest_length: 1}}]\n"
             "     | ^~~~~~\n"
             "     = steps follow the fastest change of a force: expected forces that change more slowly, a `step` or a "
-            "shorter duration, or --force if that is meant\n");
+            "shorter duration, or --force to allow it\n");
 }
 
 TEST(Steps, AreNoneWhereTheEngineGoesFromEventToEvent) {

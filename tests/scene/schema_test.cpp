@@ -91,7 +91,7 @@ const std::vector<Beyond>& beyond_schemas() {
       {"there is no file", "what files there are"},
       {"at the start", "where things are"},
       {"not fit into the box", "how many balls a box holds"},
-      {"has no inside", "two vectors against one another"},
+      {"has no volume", "two vectors against one another"},
       {"is not above its min", "two vectors against one another"},
       {"the camera's target is where its eye is", "two vectors against one another"},
       {"the camera looks along its up direction", "vectors against one another"},
