@@ -208,7 +208,7 @@ const CommandText& compare_text() {
       {{"--output", "the comparison's folder (output/comparison)"},
        {"--measures"},
        {"--charts"},
-       {"--video", "the runs' films side by side, in step, as\ncomparison.mp4; of 16 runs at most"},
+       {"--video", "the runs' films side by side, in step, as\ncomparison.mp4; of at most 16 runs"},
        {"--force", "overwrite other content of the folder, compare again\nwhat is up to date"},
        {"--progress"}},
       "DIR",
