@@ -121,7 +121,7 @@ const CommandText& bench_text() {
       "  carom bench scenes/*.yaml --budget 5 -o benches       benches/<scene file's stem>/...\n",
       "Without -o a scene's bench goes to output/<scene file's stem>.bench/: bench.csv, the plot as\n"
       "bench.png and bench.svg, scene.yaml and manifest.json. A bench of the same scene is replaced.\n"
-      "Scenes are measured one after another; --jobs has no effect.\n\n"
+      "\n"
       "Exit codes: 0 done, 1 a bench failed, 2 the command line or a scene is wrong, 130 or 143\n"
       "interrupted.",
       {{"--output",
@@ -132,7 +132,7 @@ const CommandText& bench_text() {
        {"--repeat"},
        {"--budget"},
        {"--reference"},
-       {"--jobs"},
+       {"--jobs", "no effect: scenes are measured one after another"},
        {"--force", "overwrite other content of the folder"},
        {"--progress"}}};
   return text;

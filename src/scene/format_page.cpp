@@ -25,7 +25,7 @@ for `true`: write `1.0e-3` and `"on"` for them. A flag is `true` or `false`. Nam
 unique in a scene. An unknown or repeated key, an alias, an anchor, a tag, `<<`, a tab and a second document are errors.
 
 In paths NAME stands for a name, and N for the index of a list's entry, from 0. A key in bold is needed, here or in
-`defaults`. Of keys that exclude one another, one is needed.
+`defaults`. Of bold keys that exclude one another, one is needed.
 
 )";
 

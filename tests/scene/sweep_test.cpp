@@ -146,7 +146,7 @@ TEST(SweepErrors, NameWhatNoSweepCanBe) {
   has(head + "grid: {a: [1]}\nruns: [{}]\n", "`grid` stands beside `runs`");
   has(head + "grid: {a: [1, 2]}\nskip: [{a: 3}]\n", "no run has these values");
   has(head + "grid: {a: [1, 2]}\nskip: [{a: [1, 2]}]\n", "every run is left out");
-  has(head + "grid: {seed: [1, 2]}\nrepeat: {seeds: 2}\n", "`repeat` varies it too");
+  has(head + "grid: {seed: [1, 2]}\nrepeat: {seeds: 2}\n", "`seed` is varied twice: here and by `repeat`");
   has(head + "grid: {a: {from: 1, to: 1000, count: 1000}, b: {from: 1, to: 1001, count: 1001}}\n",
       "more than 1000000 runs");
   std::string many;
