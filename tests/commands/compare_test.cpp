@@ -231,7 +231,7 @@ TEST(DiffCommand, TellsWhereRunsPartAndHowFarApartTheyEnd) {
                 .code,
             0);
   const Finished heavy = here.carom({"diff", "runs/a", "runs/heavy"});
-  EXPECT_NE(heavy.out.find("impulse_N_s is "), std::string::npos) << heavy.out;
+  EXPECT_NE(heavy.out.find("differs: impulse_N_s"), std::string::npos) << heavy.out;
   EXPECT_EQ(heavy.out.find("they leave at"), std::string::npos) << heavy.out;
   const Json part = Json::parse(here.carom({"diff", "runs/b", "runs/aside", "--json"}).out);
   EXPECT_EQ(part["equal"], false);
