@@ -1,17 +1,17 @@
 #!/bin/sh
-# The README's two commands where nothing is installed but git: a bare Debian 12 in a temporary folder, first as root, then in a second
-# one as a user with sudo. Each clones HEAD. Needs root, debootstrap, and the Debian mirror that this machine's apt uses.
+# The README's two commands with only git installed: in a bare Debian 12 in a temporary folder as root, and in a second one as a user
+# with sudo. Each clones HEAD. Needs root, debootstrap, and the Debian mirror of the host's apt.
 set -eu
 
 [ "$(id -u)" -eq 0 ] || {
-  echo "$0: needs root, to make and enter another system's tree" >&2
+  echo "$0: needs root to create and enter another system's tree" >&2
   exit 1
 }
 root=$(cd "$(dirname "$0")/.." && pwd)
 # shellcheck disable=SC2016  # apt-get's own variable
 mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Codename: bookworm' 'Component: main' | head -n 1)
 [ -n "$mirror" ] || {
-  echo "$0: this machine's apt knows no mirror of Debian 12 (bookworm)" >&2
+  echo "$0: apt has no mirror of Debian 12 (bookworm)" >&2
   exit 1
 }
 
@@ -19,14 +19,14 @@ bare=$(mktemp -d)
 trap 'rm -rf --one-file-system "$bare"' EXIT
 trap 'exit 130' INT TERM
 
-# in_tree USER SCRIPT: mounts and processes end with the namespaces, however the script ends.
+# in_tree USER SCRIPT: mounts and processes end with the namespaces, even if the script fails.
 in_tree() {
   unshare --mount --pid --fork --kill-child chroot "$bare/$1" /usr/bin/env -i \
     PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin TERM=dumb HOME=/root ${http_proxy:+http_proxy="$http_proxy"} \
     sh -euc "mount -t proc proc /proc; mount -t devpts -o newinstance,ptmxmode=666 devpts /dev/pts; $2"
 }
 
-# timed NAME COMMAND...: how long it took, on stdout.
+# timed NAME COMMAND...: prints the duration on stdout.
 timed() {
   name=$1
   shift

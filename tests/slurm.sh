@@ -1,6 +1,6 @@
 #!/bin/sh
-# slurm.sh CAROM: what `carom submit` prints, run by a Slurm of its own on 127.0.0.1 (Debian's slurm-wlm and munge; as
-# root). A sweep as two parts and a gather, one part requeued while it runs, has the bytes of the sweep made at once.
+# slurm.sh CAROM: runs the script of `carom submit` by a separate Slurm on 127.0.0.1 (Debian's slurm-wlm and munge; as
+# root). A sweep in two parts and a gather, one part requeued while it runs, has the bytes of the sweep in one part.
 set -eu
 carom=$1
 work=$(mktemp -d)
@@ -19,7 +19,7 @@ die() {
   exit 1
 }
 
-# Munge and Slurm: one machine, two processors, nothing kept.
+# Munge and Slurm: one machine, two processors, no state kept.
 mkdir state spool
 head -c 1024 /dev/urandom > munge.key
 chown -R munge: munge.key 2> /dev/null || true
@@ -90,7 +90,7 @@ echo "$said"
 parts=$(echo "$said" | sed 's/.*parts: job \([0-9]*\).*/\1/')
 gather=$(echo "$said" | sed 's/.*gather: job \([0-9]*\).*/\1/')
 
-# As soon as the first part has made a run, it is thrown back into the queue.
+# The first part is requeued as soon as it has finished a run.
 i=0
 until ls parts/runs/*/manifest.json > /dev/null 2>&1; do
   i=$((i + 1))
@@ -98,7 +98,7 @@ until ls parts/runs/*/manifest.json > /dev/null 2>&1; do
   sleep 0.1
 done
 scontrol requeue "${parts}_1" || die 'the first part was done too early to be requeued'
-# (Slurm lets a requeued task wait for two minutes.)
+# (Slurm delays a requeued task by two minutes.)
 sleep 1
 scontrol update JobId="${parts}_1" StartTime=now || true
 
@@ -110,7 +110,7 @@ until [ "$(scontrol show job "$gather" | sed -n 's/.*JobState=\([A-Z]*\).*/\1/p'
 done
 scontrol show job "${parts}_1" | grep -q 'Restarts=1' || die 'the first part was not requeued'
 
-# The manifests of runs have times; all else is the same, and nothing is left over.
+# The manifests of runs have times; all else is equal, and no file is left over.
 diff -r -x manifest.json whole parts
 cmp whole/manifest.json parts/manifest.json
 [ "$(ls whole/runs | wc -l)" = 44 ]

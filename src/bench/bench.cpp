@@ -138,8 +138,9 @@ class Bench {
     double share = left_ / 4, bare = 0, records = 0;
     for (const double step : steps_) {
       if (records + (2 + least_repeats) * 2 * bare > share) {
-        result_.left_out.push_back(fmt::format("{}: steps below {:.4g} s, for the budget of {:.4g} s of CPU time",
-                                               name_of(method), 2 * step, options_.budget));
+        result_.left_out.push_back(
+            fmt::format("{}: steps below {:.4g} s, which exceed the budget of {:.4g} s of CPU time", name_of(method),
+                        2 * step, options_.budget));
         return;
       }
       method.steps.length = step;
@@ -202,7 +203,7 @@ class Bench {
     const SimulationMethod& method = row.method;
     const Simulate settings = settings_of(scene_.simulate, method);
     if (bare_run(world_, scene_.initial, settings, method.steps, watch_.look) != row.hash)
-      throw std::runtime_error(fmt::format("the result is another one at each run of {}", full_name_of(method)));
+      throw std::runtime_error(fmt::format("the result differs from run to run of {}", full_name_of(method)));
     return cpu_time() - start;
   }
 

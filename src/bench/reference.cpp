@@ -52,7 +52,7 @@ class Making {
       run();
     } catch (const Overrun&) {
       throw SimulationError(
-          fmt::format("the reference, by {}, takes too long for a budget of {} s: give it more (--budget), or "
+          fmt::format("the reference, by {}, exceeds the budget of {} s: raise it (--budget), or "
                       "shorten simulate.duration",
                       name_of(reference_.method), options_.budget));
     }

@@ -22,13 +22,13 @@ Json finite_or_null(double value) {
 
 std::string integrator_text(const Assessment& assessment) {
   return assessment.integrator
-             ? fmt::format("{} at most between two accuracies of its steps", quantity(*assessment.integrator, "m"))
-             : "closed forms: no error of a step";
+             ? fmt::format("{} at most, between runs with two step errors", quantity(*assessment.integrator, "m"))
+             : "closed forms: no step error";
 }
 
 std::string contact_text(const Assessment& assessment) {
-  if (assessment.stepped_contact == 0) return "none of it by time steps";
-  return fmt::format("{}, summed over bodies, by time steps, which took {} beside impacts",
+  if (assessment.stepped_contact == 0) return "none by time stepping";
+  return fmt::format("{} by time stepping, summed over bodies; it lost {} beyond impacts",
                      quantity(assessment.stepped_contact, "s"), quantity(assessment.method_error, "J"));
 }
 
@@ -36,16 +36,16 @@ std::string chaos_text(const Assessment& assessment) {
   const Growth& growth = assessment.growth;
   if (growth.chaotic) return fmt::format("a disturbance grows e-fold in {}", quantity(growth.lyapunov_time, "s"));
   if (!std::isfinite(growth.large_at))
-    return fmt::format("none: a disturbance of 1e-12 grows {:.3g} times", growth.factor);
-  return fmt::format("no steady growth, but a disturbance of 1e-12 decides what happens before {}",
+    return fmt::format("none: a disturbance of 1e-12 grows by a factor of {:.3g}", growth.factor);
+  return fmt::format("no steady growth, but a disturbance of 1e-12 changes the motion before {}",
                      quantity(growth.large_at, "s"));
 }
 
 std::string right_text(const Assessment& assessment) {
   const std::string to = quantity(assessment.tolerance, "m");
   return std::isfinite(assessment.right_until)
-             ? fmt::format("places are right to {} until {}", to, quantity(assessment.right_until, "s"))
-             : fmt::format("places are right to {} until the end", to);
+             ? fmt::format("positions are right to {} until {}", to, quantity(assessment.right_until, "s"))
+             : fmt::format("positions are right to {} until the end", to);
 }
 
 Json json_of(const Assessment& assessment) {
@@ -76,7 +76,7 @@ AccuracyReport report_accuracy(const Scene& scene, EngineChoice engine) {
   } catch (const SimulationError& error) {
     const SimulationError named =
         error.named([&](Entity body) { return fmt::format("`{}`", scene.roster.name(body)); });
-    return {{{"accuracy", fmt::format("a run stops: {}", named.what())}}, {{"failure", named.what()}}};
+    return {{{"accuracy", fmt::format("a run would stop: {}", named.what())}}, {{"failure", named.what()}}};
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a run's accuracy consists of, for people and as JSON.
+// The sources of a run's error, as text and as JSON.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
@@ -13,7 +13,7 @@ struct Scene;
 
 struct AccuracyReport {
   std::vector<std::pair<std::string, std::string>> lines;  // label, text
-  nlohmann::ordered_json json;                             // an object; null: there is nothing to tell
+  nlohmann::ordered_json json;                             // an object; null: the scene has no motion
 };
 
 /// Runs the scene several times for it. Throws Interrupted.

@@ -30,7 +30,7 @@ int run_in_turn(const Batch& batch, std::vector<PlannedScene>& scenes, const Opt
   return code;
 }
 
-/// Scenes in processes of their own.
+/// Runs scenes in separate processes.
 class Together {
  public:
   Together(const Batch& batch, const std::vector<PlannedScene>& scenes, const Options& options,

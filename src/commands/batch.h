@@ -1,6 +1,5 @@
 #pragma once
-// The scenes of a command line, run one after another or in several processes; what is printed of them comes in their
-// order.
+// Runs the scenes of a command line one after another or in several processes, and prints them in their order.
 #include <functional>
 #include <vector>
 

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// All scenes of one command line, one after the other, so that none disturbs another's times.
+/// All scenes of one command line, one after another, so that no scene disturbs the times of another.
 class BenchSession {
  public:
   explicit BenchSession(const Options& options)
@@ -61,7 +61,7 @@ class BenchSession {
     return 2;
   }
 
-  /// Whether it came about. Throws Interrupted.
+  /// Returns whether the bench succeeded. Throws Interrupted.
   bool measure(const PlannedScene& planned, Json& entry) {
     try {
       bench(planned, entry);
@@ -69,7 +69,8 @@ class BenchSession {
     } catch (const std::bad_alloc&) {
       fail(planned, entry, "not enough memory");
     } catch (const std::exception& error) {
-      stop_if_interrupted();  // gnuplot hears a Ctrl-C too: what looks like an error of the plot is the interrupt
+      // Ctrl-C ends gnuplot too: its error is then the interrupt.
+      stop_if_interrupted();
       fail(planned, entry, error.what());
     }
     return false;
@@ -120,7 +121,7 @@ const CommandText& bench_text() {
       "  carom bench scenes/*.yaml --budget 5 -o benches       benches/<scene file's stem>/...\n",
       "Without -o a scene's bench goes to output/<scene file's stem>.bench/: bench.csv, the plot as\n"
       "bench.png and bench.svg, scene.yaml and manifest.json. A bench of the same scene is replaced.\n"
-      "Scenes are measured one after another: --jobs is taken and changes nothing.\n\n"
+      "\n"
       "Exit codes: 0 done, 1 a bench failed, 2 the command line or a scene is wrong, 130 or 143\n"
       "interrupted.",
       {{"--output",
@@ -131,7 +132,7 @@ const CommandText& bench_text() {
        {"--repeat"},
        {"--budget"},
        {"--reference"},
-       {"--jobs"},
+       {"--jobs", "no effect: scenes are measured one after another"},
        {"--force", "overwrite other content of the folder"},
        {"--progress"}}};
   return text;

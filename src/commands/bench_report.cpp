@@ -30,15 +30,15 @@ std::string reference_text(const BenchResult& result) {
   const std::string text = full_name_of(result.reference);
   if (!(result.horizon > 0)) return text;
   const bool disputed = !result.witnesses.empty() && !is_confirmed(result);
-  const char* how = disputed                                   ? "no other method agrees with it: it is trusted to"
-                    : result.reference.engine == Engine::exact ? "rounding moves it by"
+  const char* how = disputed ? "no other method agrees with it: its estimated error is"
+                    : result.reference.engine == Engine::exact           ? "rounding moves it by"
                     : result.reference.is_stepped_by(Integrator::dop853) ? "rounding and smaller step errors move it by"
-                                                                         : "twice its steps move it by";
+                                                                         : "doubled steps move it by";
   return text +
          fmt::format("; {} {} and {} at most", how, quantity(error.position, "m"), quantity(error.velocity, "m/s"));
 }
 
-/// What other methods say of the reference.
+/// How the other methods agree with the reference.
 std::string witnesses_text(const BenchResult& result) {
   if (result.witnesses.empty()) return "nothing: no other method converges, or all follow the same paths";
   std::vector<std::string> agree, differ;
@@ -48,7 +48,7 @@ std::string witnesses_text(const BenchResult& result) {
   std::string text = agree.empty() ? "" : "in agreement: " + listed(agree, agree.size());
   if (differ.empty()) return text;
   if (!text.empty()) text += "; ";
-  return text + "elsewhere: " + listed(differ, differ.size());
+  return text + "in disagreement: " + listed(differ, differ.size());
 }
 
 std::string motion_text(const BenchResult& result) {
@@ -56,7 +56,7 @@ std::string motion_text(const BenchResult& result) {
     return fmt::format("regular: rounding moves no body by more than {}", quantity(result.rounding, "m"));
   return fmt::format(
       "chaotic: rounding moves bodies by up to {}; trajectories are compared until {}, statistics with those of {} "
-      "runs that differ by rounding (a deviation below {} is theirs too)",
+      "runs that differ by rounding (these deviate by up to {} as well)",
       quantity(result.rounding, "m"), quantity(result.horizon, "s"), result.members, significant_deviation);
 }
 

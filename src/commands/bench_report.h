@@ -1,5 +1,5 @@
 #pragma once
-// A bench's result as lines and a table for a person, and as JSON for a program.
+// A bench's result as text with a table, and as JSON.
 #include <nlohmann/json.hpp>
 
 #include "bench/bench.h"

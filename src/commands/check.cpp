@@ -43,7 +43,7 @@ std::string fixed_text(const World& world) {
 }
 
 std::string forces_text(const World& world) {
-  return counted(world.forces.size(), "force", "forces") + " beside gravity";
+  return counted(world.forces.size(), "force", "forces") + " in addition to gravity";
 }
 
 std::string engine_text(const PlannedScene& planned) {
@@ -59,12 +59,13 @@ std::string first_collision_text(const PlannedScene& planned, const Foresight& f
   if (!foresight.first) return fmt::format("none within {}", quantity(planned.scene->simulate.duration, "s"));
   const Collision& c = *foresight.first;
   const Roster& roster = planned.scene->roster;
-  const double nothing = 1e-9 * planned.scene->world.radius[c.a];  // a rounding error is no place
+  // Smaller coordinates are rounding errors.
+  const double nothing = 1e-9 * planned.scene->world.radius[c.a];
   const auto shown = [&](double x) { return std::abs(x) < nothing ? 0.0 : x; };
   std::string text = fmt::format("{} and {} at {}, at ({:.4g}, {:.4g}, {:.4g}) m, closing at {}", roster.name(c.a),
                                  roster.name(c.b), quantity(c.time, "s"), shown(c.position.x()), shown(c.position.y()),
                                  shown(c.position.z()), quantity(c.approach_speed, "m/s"));
-  if (planned.engine.engine == Engine::book) text += " (exact; the book engine sees it at a later frame)";
+  if (planned.engine.engine == Engine::book) text += " (exact; the book engine detects it in a later frame)";
   return text;
 }
 
@@ -103,7 +104,7 @@ std::string crossings_text(const PlannedScene& planned, const Foresight& foresig
   }
   if (i < all.size()) texts.push_back(fmt::format("{} more", grouped(all.size() - i)));
   std::string text = texts.empty() ? "no body enters or leaves the picture" : fmt::format("{}", fmt::join(texts, "; "));
-  if (foresight.cut) text += fmt::format(" (looked at up to {})", quantity(foresight.watched_until, "s"));
+  if (foresight.cut) text += fmt::format(" (checked up to {})", quantity(foresight.watched_until, "s"));
   return text;
 }
 
@@ -141,7 +142,7 @@ std::string content_name(FolderContent content) {
 
 struct Findings {
   Foresight foresight;
-  std::optional<CameraPreview> camera;  // none where no picture is wanted and no camera set
+  std::optional<CameraPreview> camera;  // none: the scene has neither pictures nor a camera
 };
 
 Findings examine(const PlannedScene& planned) {
@@ -152,7 +153,7 @@ Findings examine(const PlannedScene& planned) {
   return findings;
 }
 
-// Wall time of a run (s): what was tried, and what its outputs take as a rule.
+// Wall time of a run (s): of the part that was simulated, scaled up, and of its outputs.
 std::optional<double> seconds_to_come(const PlannedScene& planned, const Findings& findings) {
   if (!findings.foresight.simulate_s) return std::nullopt;
   return planned.load_s + *findings.foresight.simulate_s + planned.forecast.seconds;
@@ -170,7 +171,7 @@ std::string to_come_text(const PlannedScene& planned, const Findings& findings) 
                      counted(planned.forecast.frames, "picture", "pictures"),
                      counted(planned.forecast.rows, "trajectory row", "trajectory rows"),
                      bytes_text(planned.forecast.bytes),
-                     !seconds         ? "a time that only a run can tell"
+                     !seconds         ? "an unknown time"
                      : *seconds < 0.5 ? "less than a second"
                      : *seconds < 9.5 ? fmt::format("roughly {:.0f} s", *seconds)
                                       : "roughly " + wait_text(std::round(*seconds)));
@@ -185,14 +186,14 @@ std::string as_text(const PlannedScene& planned, const Findings& findings, const
   if (!planned.scene->world.forces.empty()) block.line("forces", forces_text(planned.scene->world));
   block.line("engine", engine_text(planned));
   block.line("first hit", first_collision_text(planned, findings.foresight));
-  if (!findings.foresight.failure.empty()) block.line("trouble", "a run stops: " + findings.foresight.failure);
+  if (!findings.foresight.failure.empty()) block.line("trouble", "a run would stop: " + findings.foresight.failure);
   if (findings.camera) {
     block.line("camera", fmt::format("{}; fields of view {:.4g} x {:.4g} degrees", plus_x_text(findings.camera->plus_x),
                                      findings.camera->fov_x, findings.camera->fov_y));
     block.line("unseen", out_of_view_text(planned, *findings.camera));
     block.line("in and out", crossings_text(planned, findings.foresight));
   } else {
-    block.line("camera", "none, no pictures are wanted");
+    block.line("camera", "none: the scene has no pictures");
   }
   block.line("to come", to_come_text(planned, findings));
   block.line("folder", fmt::format("{}: {}", printable(planned.folder), content_text(planned)));
@@ -272,11 +273,11 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
 const CommandText& check_text() {
   static const CommandText text = {
       "check",
-      "shows what a run would do and all that is wrong with scenes, and writes nothing",
+      "shows what a run would do and every error of its scene, and writes nothing",
       "  carom check scenes/two_bowling_balls.yaml\n"
-      "  carom check scenes/*.yaml -q                          only what is wrong\n"
-      "  carom check scene.yaml --set simulate.duration=60     is it still of a size to run?\n",
-      "Exit codes: 0 all scenes are right, 2 the command line or a scene is wrong.",
+      "  carom check scenes/*.yaml -q                          only errors\n"
+      "  carom check scene.yaml --set simulate.duration=60     how long would 60 s take?\n",
+      "Exit codes: 0 all scenes are valid, 2 the command line or a scene is wrong.",
       {{"--output"}, {"--set"}, {"--only"}, {"--seed"}, {"--accuracy"}, {"--force", "lift the budget"}}};
   return text;
 }

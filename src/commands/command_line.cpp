@@ -40,7 +40,7 @@ class HelpFormatter : public CLI::Formatter {
   const CommandText& command_;
 };
 
-/// An option of the table and what the command line gives it; it may come several times until it is read.
+/// An option of the table and its values on the command line; it may be repeated until it is read.
 struct Given {
   OptionUse use;
   std::vector<std::string> words;
@@ -64,7 +64,7 @@ void add_option(CLI::App& app, Given& given) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-// "-output x" would read as "-o utput": a long option after a single dash is never meant so.
+// "-output x" would parse as "-o utput": a long option after a single dash is an error.
 void refuse_single_dash(const CLI::App& app, const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     if (word == "--") return;
@@ -90,7 +90,7 @@ void refuse_unknown(const CLI::App& app) {
       fmt::format("no option {}{}", in_backticks(word), word.starts_with("--") ? did_you_mean(word, known) : ""));
 }
 
-// CLI11's texts begin with the option's name; what it minds is either a value too few or one too many.
+// CLI11's texts begin with the option's name; the error is a missing value or one too many.
 std::string in_our_words(const CLI::ParseError& error) {
   const std::string text = error.what();
   std::string name = text.substr(0, text.find_first_of(": "));
@@ -105,7 +105,7 @@ void check_operands(const CommandText& command, const std::vector<std::string>& 
   if (operands.size() <= command.most) return;
   const std::string& extra = operands[command.most];
   throw UsageError(command.most == 0
-                       ? fmt::format("it takes no {}", in_backticks(extra))
+                       ? fmt::format("unexpected {}", in_backticks(extra))
                        : fmt::format("it takes {}, not {} too",
                                      command.most == 1 ? "one " + command.operand
                                                        : fmt::format("{} {}", command.most, command.operand),
@@ -117,7 +117,7 @@ void check_operands(const CommandText& command, const std::vector<std::string>& 
 ParsedOptions parse_options(const CommandText& command, const std::vector<std::string>& words) {
   CLI::App app;
   app.formatter(std::make_shared<HelpFormatter>(command));
-  app.set_help_flag("-h,--help", "this text");
+  app.set_help_flag("-h,--help", "show this help");
   app.allow_extras();
   if (!command.notes.empty()) app.footer(command.notes);
   ParsedOptions parsed;
@@ -127,9 +127,11 @@ ParsedOptions parse_options(const CommandText& command, const std::vector<std::s
   for (const OptionUse& use : options_of(command)) given.push_back({use, {}});
   for (Given& option : given) add_option(app, option);
   refuse_single_dash(app, words);
-  const auto mark = std::find(words.begin(), words.end(), "--");  // all that follows is operands
+  // Every word after "--" is an operand.
+  const auto mark = std::find(words.begin(), words.end(), "--");
   try {
-    app.parse(std::vector<std::string>(std::reverse_iterator(mark), words.rend()));  // CLI11 reads from the back
+    // CLI11 reads from the back.
+    app.parse(std::vector<std::string>(std::reverse_iterator(mark), words.rend()));
   } catch (const CLI::CallForHelp&) {
     parsed.help = app.help();
     return parsed;

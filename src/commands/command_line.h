@@ -1,6 +1,6 @@
 #pragma once
-// The words of the command line -> options, or a text that says what is wrong and what to do. The only place with
-// CLI11, whose own texts and exit codes the user never meets.
+// Words of the command line -> options, or an error with its remedy. The only place with CLI11, whose texts and exit
+// codes never reach the user.
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -22,7 +22,7 @@ struct UsageError : std::runtime_error {
 
 enum class ProgressChoice { automatic, bar, lines, none };
 
-/// A chart that was asked for: x:y, or x:y:by.
+/// A requested chart: x:y, or x:y:by.
 struct ChartWords {
   std::string x, y, by;
 };
@@ -41,12 +41,12 @@ struct SubmitOptions {
   std::vector<std::string> batch;    // further options of the batch system
 };
 
-/// What one command was asked to do. A command that lacks an option leaves its default.
+/// The options of one command. A command that lacks an option leaves its default.
 struct Options {
-  std::vector<std::string> operands;             // scene files or what else the command takes, in order
+  std::vector<std::string> operands;             // scene files or other operands, in order
   std::optional<std::string> output;             // folder
   std::vector<std::string> set;                  // path=value
-  std::optional<std::vector<std::string>> only;  // names of outputs, none empty
+  std::optional<std::vector<std::string>> only;  // names of outputs, not empty
   std::optional<std::uint64_t> seed;
   std::optional<std::uint64_t> jobs;  // at a time; no result depends on it
   bool force = false;
@@ -60,31 +60,31 @@ struct Options {
   std::vector<std::string> grid;  // path=from:to:count, path=value,value
   std::optional<Shard> shard;
   bool plan = false;      // show, do not do
-  bool accuracy = false;  // of check and run: tell the expected error, by more runs
+  bool accuracy = false;  // of check and run: estimate the error by more runs
   bool page = false;      // of explain: the whole format
 };
 
 /// An option that a command has, by its name in the table of options (options.h).
 struct OptionUse {
   std::string_view name;       // "--jobs"
-  std::string_view help = {};  // what it means for this command; empty: the table's text
+  std::string_view help = {};  // its meaning for this command; empty: the table's text
 };
 
-/// One command: what it takes, and what its help says. --color, --json, --quiet and --help are every command's.
+/// One command: its operands, options and help. Every command has --color, --json, --quiet and --help too.
 struct CommandText {
   std::string name;                // "run"
   std::string line;                // one sentence
-  std::string examples;            // lines, stand first in the help
-  std::string notes;               // lines, stand last
+  std::string examples;            // lines, first in the help
+  std::string notes;               // lines, last in the help
   std::vector<OptionUse> options;  // in the order of the help
-  std::string operand = "SCENE";   // what its other words are
+  std::string operand = "SCENE";   // name of the operands
   std::string operand_help = "scene files (YAML)";
-  std::size_t least = 1, most = std::numeric_limits<std::size_t>::max();  // so many of them
-  std::string missing =
-      "name a scene file: carom {} scenes/two_bowling_balls.yaml";  // the answer to a command line with too few
+  std::size_t least = 1, most = std::numeric_limits<std::size_t>::max();  // number of operands
+  // Error for too few operands.
+  std::string missing = "name a scene file: carom {} scenes/two_bowling_balls.yaml";
 };
 
-/// Reads the words after the command's name. Throws UsageError. `help`: its text was asked for instead.
+/// Reads the words after the command's name. Throws UsageError. `help`: the text, if --help was given.
 struct ParsedOptions {
   Options options;
   std::optional<std::string> help;

@@ -1,5 +1,5 @@
 #pragma once
-// Every command there is.
+// The table of commands.
 #include <vector>
 
 #include "commands/command_line.h"

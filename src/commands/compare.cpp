@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-/// The runs as they were named, shortened: what the workbook is called.
+/// Title of the workbook: the names of the runs, shortened.
 std::string title_of(const std::vector<std::string>& folders) {
   std::vector<std::string> names;
   for (const std::string& folder : folders) names.push_back(name_of_folder(folder));
@@ -54,7 +54,8 @@ class CompareSession {
     } catch (const std::bad_alloc&) {
       return fail("failed", "not enough memory", 1);
     } catch (const std::exception& error) {
-      stop_if_interrupted();  // ffmpeg hears a Ctrl-C too: what looks like its error is the interrupt
+      // Ctrl-C ends ffmpeg too: its error is then the interrupt.
+      stop_if_interrupted();
       return fail("failed", error.what(), 1);
     }
   }
@@ -69,7 +70,7 @@ class CompareSession {
     } catch (const ExportError& error) {
       return fail("wrong", error.what(), 2);
     }
-    // Of one sweep its own file says what was varied, and what to compare.
+    // The file of a single sweep has the varied paths and the measures.
     const auto sweep = options_.operands.size() == 1 ? sweep_of(options_.operands[0], runs) : std::nullopt;
     const RunSet differences = sweep ? RunSet(std::move(runs), *sweep) : RunSet(std::move(runs), stop_if_interrupted);
     std::vector<FilmTile> tiles;
@@ -100,14 +101,14 @@ class CompareSession {
     return done(plan, differences);
   }
 
-  /// The comparison's folder is no run, and no run is overwritten by what compares it.
+  /// A comparison never overwrites a run that it compares.
   void refuse_own_folder(const std::string& folder) const {
     if (canonical(folder) == canonical(folder_))
       throw UsageError(
           fmt::format("{} is both compared and written to: name another folder with -o", printable(folder)));
   }
 
-  /// Measures and charts must be those of the first run that is whole.
+  /// Measures and charts must exist in the first whole run.
   static void check(const ComparisonPlan& plan, const std::vector<ListedRun>& runs) {
     check_charts(plan);
     const auto whole = std::find_if(runs.begin(), runs.end(), [](const ListedRun& run) { return run.done; });
@@ -195,19 +196,19 @@ class CompareSession {
 const CommandText& compare_text() {
   static const CommandText text = {
       "compare",
-      "sets any runs side by side: a table, a workbook with charts, a film",
+      "compares any runs: a table, a workbook with charts, a film",
       "  carom compare output/half output/full            writes output/comparison/\n"
       "  carom compare output/falls --measures collisions,balls.red.speed_m_per_s\n"
       "  carom compare output/a output/b --video -o side  their films side by side too\n",
-      "A folder is a run's, or a sweep's, and then all its runs are meant. What their scenes differ in are the\n"
-      "parameters. The folder gets summary.csv (a row a run), comparison.xlsx, with repeats (scenes that differ in\n"
-      "nothing but the seed) repeats.csv, and manifest.json.\n\n"
+      "A folder is that of a run, or of a sweep with all its runs. The parameters are the values in which the\n"
+      "scenes differ. The comparison gets summary.csv (a row a run), comparison.xlsx, manifest.json and, with\n"
+      "repeats (scenes that differ only in the seed), repeats.csv.\n\n"
       "Exit codes: 0 done or up to date, 1 the comparison failed, 2 the command line is wrong, 130 or 143\n"
       "interrupted.",
       {{"--output", "the comparison's folder (output/comparison)"},
        {"--measures"},
        {"--charts"},
-       {"--video", "the runs' films side by side, in step, as\ncomparison.mp4; of 16 runs at most"},
+       {"--video", "the runs' films side by side, in step, as\ncomparison.mp4; of at most 16 runs"},
        {"--force", "overwrite other content of the folder, compare again\nwhat is up to date"},
        {"--progress"}},
       "DIR",

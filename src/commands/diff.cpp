@@ -21,20 +21,21 @@ namespace {
 constexpr std::size_t most_shown = 20;  // values, bodies
 
 std::string exact(double value) {
-  return fmt::format("{}", value == 0 ? 0.0 : value);  // the shortest digits: two runs may differ in the last
+  return fmt::format("{}",
+                     value == 0 ? 0.0 : value);  // shortest digits that read back: two runs may differ in the last one
 }
 
 std::string collision_text(const std::optional<CollisionFacts>& collision) {
-  if (!collision) return "nothing more happens";
-  const std::string who = collision->b.empty() ? collision->a : fmt::format("{} and {}", collision->a, collision->b);
-  return fmt::format("{} at {} s ({})", who, exact(collision->time), collision->kind);
+  if (!collision) return "no more collisions";
+  const std::string bodies = collision->b.empty() ? collision->a : fmt::format("{} and {}", collision->a, collision->b);
+  return fmt::format("{} at {} s ({})", bodies, exact(collision->time), collision->kind);
 }
 
 std::string count_text(const CollisionDifference& difference) {
   if (!difference.part)
     return difference.same == 0 ? "none in both" : fmt::format("{}, the same in both", grouped(difference.same));
   const std::string all = fmt::format("{} and {}", grouped(difference.count_a), grouped(difference.count_b));
-  return difference.same == 0 ? all : fmt::format("{}, of which the same: the first {}", all, grouped(difference.same));
+  return difference.same == 0 ? all : fmt::format("{}, the first {} the same", all, grouped(difference.same));
 }
 
 std::string end_text(const RunDifference& difference) {
@@ -43,7 +44,7 @@ std::string end_text(const RunDifference& difference) {
                        printable(difference.no_end));
   const EndDifference& end = *difference.end;
   std::string text = end.bodies == 0     ? std::string("no body is in both")
-                     : end.greatest == 0 ? std::string("all bodies at the same places")
+                     : end.greatest == 0 ? std::string("all bodies at the same positions")
                                          : fmt::format("at most {} m apart: {}", exact(end.greatest), end.body);
   if (end.time_a != end.time_b)
     text += fmt::format("; the ends are at {} s and {} s", exact(end.time_a), exact(end.time_b));
@@ -55,12 +56,10 @@ std::string end_text(const RunDifference& difference) {
 void describe(Block& block, const RunDifference& difference) {
   const std::string a = printable(difference.a.id), b = printable(difference.b.id);
   block.heading(fmt::format("{} and {}", a, b), "");
-  if (difference.equal()) block.line("equal", "scenes, collisions and where the bodies end");
-  block.line("scenes", difference.values.empty()
-                           ? "the same values"
-                           : fmt::format("{} not the same", difference.values.size() == 1
-                                                                ? std::string("1 value is")
-                                                                : grouped(difference.values.size()) + " values are"));
+  if (difference.equal()) block.line("equal", "scenes, collisions and final positions");
+  block.line("scenes", difference.values.empty()       ? "the same values"
+                       : difference.values.size() == 1 ? "1 value differs"
+                                                       : grouped(difference.values.size()) + " values differ");
   std::vector<std::vector<std::string>> rows = {{"", a, b}};
   for (const ValueDifference& value : difference.values) {
     if (rows.size() > most_shown) break;
@@ -80,12 +79,12 @@ void describe(Block& block, const RunDifference& difference) {
                                a, exact(collisions.outcome_b.separation_speed), b)
                  : fmt::format("{} is {} in {}, {} in {}", collisions.column, printable(collisions.cell_a), a,
                                printable(collisions.cell_b), b);
-    block.line("outcome", fmt::format("of collision {}, {}, is not the same: {}", grouped(*collisions.outcome + 1),
+    block.line("outcome", fmt::format("collision {}, {}, differs: {}", grouped(*collisions.outcome + 1),
                                       collision_text(collisions.outcome_a), how));
   }
   if (collisions.part)
-    block.line("part", fmt::format("in collision {}: {}: {}; {}: {}", grouped(collisions.same + 1), a,
-                                   collision_text(collisions.next_a), b, collision_text(collisions.next_b)));
+    block.line("diverge", fmt::format("in collision {}: {}: {}; {}: {}", grouped(collisions.same + 1), a,
+                                      collision_text(collisions.next_a), b, collision_text(collisions.next_b)));
   block.line("end", end_text(difference));
 }
 
@@ -98,7 +97,7 @@ Json collision_json(const std::optional<CollisionFacts>& collision) {
           {"separation_speed_m_per_s", collision->separation_speed}};
 }
 
-/// Empty: the scene does not have it.
+/// Null for an empty text: the scene lacks the value.
 Json value_json(const std::string& text) {
   if (text.empty()) return nullptr;
   const Json number = Json::parse(text, nullptr, false);
@@ -143,10 +142,10 @@ int fail_diff(const Options& options, const std::string& text, int code) {
 const CommandText& diff_text() {
   static const CommandText text = {
       "diff",
-      "tells where two runs part, and how far apart they end",
+      "shows where two runs diverge, and how far apart they end",
       "  carom diff output/half output/full\n"
       "  carom diff output/falls/runs/r0001 output/falls/runs/r0002 --json\n",
-      "Scenes are held against each other value by value, collisions by kind, bodies and time. Both runs need\n"
+      "Scenes are compared value by value, collisions by kind, bodies and time. Both runs need\n"
       "collisions.csv, and trajectory.csv for their ends. Nothing is written.\n\n"
       "Exit codes: 0 done, whether equal or not, 2 the command line or a folder is wrong.",
       {},

@@ -1,5 +1,5 @@
 #pragma once
-// carom diff: where two runs part, and how far apart they end.
+// carom diff: where two runs diverge, and how far apart they end.
 #include "commands/command_line.h"
 
 namespace carom {

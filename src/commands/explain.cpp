@@ -33,7 +33,7 @@ bool has_defaults(const FieldPlaces& row) {
   return std::any_of(row.kinds.begin(), row.kinds.end(), [](const Kind* kind) { return !kind->defaults.empty(); });
 }
 
-// The keys of which one is needed; empty: none is.
+// The keys of which one is needed; empty: none.
 std::vector<std::string> needed_keys(const Field& field, const Kind& kind) {
   if (field.needed && field.one_of.empty()) return {std::string(field.key)};
   for (const Field& other : kind.fields) {
@@ -56,7 +56,7 @@ std::string needed_text(const FieldPlaces& row) {
   return has_defaults(row) ? text + ", here or in `defaults`" : text;
 }
 
-/// Lines of keys or kinds and what they are.
+/// A line for each key or kind with its meaning.
 std::string key_list(const std::vector<std::pair<std::string_view, std::string>>& rows, std::size_t width) {
   constexpr std::size_t column = 20;
   std::string text;
@@ -65,7 +65,7 @@ std::string key_list(const std::vector<std::pair<std::string_view, std::string>>
   return text;
 }
 
-/// "kg; mass or density needed", "m/s; default [0, 0, 0]": what a list says of a key beside its meaning.
+/// "kg; mass or density needed", "m/s; default [0, 0, 0]": follows the meaning of a key in a list.
 std::string facts_text(const Field& field, const Kind& kind) {
   std::vector<std::string> facts;
   if (!field.unit.empty()) facts.emplace_back(field.unit);
@@ -96,7 +96,7 @@ std::string row_text(const FieldPlaces& row, const Palette& palette, std::size_t
   block.line("needed", needed_text(row));
   if (const auto others = rivals(field); !others.empty())
     block.line("excludes", listed(strings(others), others.size()));
-  if (!field.with.empty()) block.line("beside", fmt::format("{}, without which it means nothing", field.with));
+  if (!field.with.empty()) block.line("requires", field.with);
   if (!field.engines.empty()) block.line("engines", fmt::format("{} only", listed(parts_of(field.engines))));
   block.line("stands at", listed(row.paths, row.paths.size()));
   const Kind* held = held_kind(field);
@@ -186,7 +186,7 @@ std::string overview(std::size_t width) {
   return text + "`carom explain KEY` explains a key (rest_speed, balls.red.mass) or a kind (ball).\n";
 }
 
-/// Whether all that it says is where `defaults` has values for a kind.
+/// Whether every path of the row is below `defaults`.
 bool is_default_alone(const FieldPlaces& row) {
   return std::all_of(row.paths.begin(), row.paths.end(),
                      [](const std::string& path) { return path.starts_with("defaults."); });
@@ -210,24 +210,24 @@ std::vector<std::string> asked_words(const std::vector<std::string>& operands) {
 const CommandText& explain_text() {
   static const CommandText text = {
       "explain",
-      "prints what a key of the format means",
+      "explains a key of the format",
       "  carom explain simulate.rest_speed\n"
-      "  carom explain restitution                             every place that has such a key\n"
-      "  carom explain balls.red.mass                          a path as --set has it\n"
-      "  carom explain friction                                what there is instead of what is absent\n"
+      "  carom explain restitution                             every place with such a key\n"
+      "  carom explain balls.red.mass                          a path as in --set\n"
+      "  carom explain friction                                what the format has instead\n"
       "  carom explain                                         the kinds of maps in a scene\n"
       "  carom explain --page > format.md                      all keys on a page\n",
       "Exit codes: 0 done, 2 there is no such key.",
       {{"--page"}},
       "KEY",
-      "a key, a path, a kind of map or a word of the field",
+      "a key, a path, a kind of map or another word",
       0};
   return text;
 }
 
 int explain_command(const Options& options) {
   if (options.page) {
-    if (!options.operands.empty()) throw UsageError("--page is of the whole format: it takes no key");
+    if (!options.operands.empty()) throw UsageError("--page prints the whole format and takes no key");
     write_out(format_page());
     return 0;
   }
@@ -239,7 +239,7 @@ int explain_command(const Options& options) {
     const AbsentWord* word = find_absent_word(key);
     const Kind* kind = find_kind(key);
     std::vector<FieldPlaces> rows = find_places(key);
-    // `ball` is the kind, not the key of `defaults` that is called like it.
+    // `ball` is the kind, not the key of `defaults` with the same name.
     if (kind != nullptr) std::erase_if(rows, is_default_alone);
     if (rows.empty() && kind == nullptr && word == nullptr) refuse(key);
     if (word != nullptr) {
@@ -250,7 +250,7 @@ int explain_command(const Options& options) {
       texts.push_back(row_text(row, palette, width));
       fields.push_back(row_json(row));
     }
-    // A key that is called like its kind has its keys shown already.
+    // The row of a key with the name of its kind shows the kind's keys already.
     const bool shown =
         std::any_of(rows.begin(), rows.end(), [&](const FieldPlaces& row) { return held_kind(*row.field) == kind; });
     if (kind == nullptr || shown) continue;

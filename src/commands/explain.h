@@ -1,5 +1,5 @@
 #pragma once
-// `carom explain`: what a key of the format means.
+// `carom explain`: the meaning of a key of the format.
 #include "commands/command_line.h"
 
 namespace carom {

@@ -24,7 +24,7 @@ double since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The instants of the pictures, or where there are more than are looked at, as many evenly spread over their time.
+/// The instants of the pictures; if there are too many, the largest allowed number, evenly spaced.
 Ticks instants_of(const Scene& scene, Foresight& result) {
   constexpr std::int64_t most = 2000;
   const Output& output = scene.output;
@@ -42,7 +42,7 @@ Ticks instants_of(const Scene& scene, Foresight& result) {
   return ticks;
 }
 
-/// Runs the oracle from instant to instant.
+/// Runs the most exact simulator from instant to instant.
 class Trial {
  public:
   Trial(const Scene& scene, bool watch, double budget)
@@ -68,7 +68,7 @@ class Trial {
     return std::move(result_);
   }
 
-  /// Wall time of the whole simulation, if this was a part of it; none: nothing was simulated.
+  /// Wall time of the whole simulation, scaled up from this part of it; none: nothing was simulated.
   std::optional<double> whole() const {
     const double duration = scene_.simulate.duration;
     if (!oracle_ || !(oracle_->time() > 0 || duration == 0)) return std::nullopt;
@@ -79,12 +79,13 @@ class Trial {
   bool wants_more() {
     if (since(start_) < budget_) return true;
     if (next_ <= last_) result_.cut = true;
-    next_ = last_ + 1;  // crossings are not worth more
+    // Crossings are not worth more time.
+    next_ = last_ + 1;
     return !result_.first;
   }
 
-  /// To the next instant, and before the first collision no further than to twice the time reached, so that little is
-  /// simulated beyond it.
+  /// To the next instant. Before the first collision at most to twice the time reached, so that little is simulated
+  /// beyond it.
   void advance() {
     const double duration = scene_.simulate.duration, time = oracle_->time();
     double target = std::min(duration, result_.first ? time + duration / 100 : std::max(2 * time, duration * 0x1p-20));
@@ -121,14 +122,14 @@ class Trial {
   Camera camera_;
   CameraFrame view_;
   Ticks ticks_ = Ticks::even(0, 0);
-  std::int64_t next_ = 0, last_ = -1;  // ticks that are still to be looked at
-  std::vector<bool> seen_;             // by body, at the tick before; empty: none was
+  std::int64_t next_ = 0, last_ = -1;  // ticks left to check
+  std::vector<bool> seen_;             // by body, at the previous tick; empty: there was none
   std::unique_ptr<Simulator> oracle_;
   double made_s_ = 0, advance_s_ = 0;  // wall times
   Foresight result_;
 };
 
-/// Wall time of a simulation by the scene's own engine, from as much of it as the budget (s) allows.
+/// Wall time of a simulation by the scene's own engine, extrapolated from the part that the budget (s) allows.
 std::optional<double> own_engine_s(const Scene& scene, const EngineChoice& engine, double budget) {
   const double duration = scene.simulate.duration;
   const auto start = Clock::now();
@@ -152,8 +153,10 @@ Foresight foresee(const Scene& scene, const EngineChoice& engine, bool watch, do
   Trial trial(scene, watch, budget);
   Foresight result = trial.go();
   const Engine oracle = most_exact(scene.world);
-  if (engine.engine != oracle) result.failure.clear();  // of another simulator
-  const bool settled = !scene.simulate.tolerance;       // it takes an unknown number of runs
+  // A failure of another simulator.
+  if (engine.engine != oracle) result.failure.clear();
+  // A tolerance takes an unknown number of runs.
+  const bool settled = !scene.simulate.tolerance;
   if (!settled) return result;
   result.simulate_s = engine.engine == oracle ? trial.whole() : own_engine_s(scene, engine, budget);
   return result;

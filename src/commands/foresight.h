@@ -1,6 +1,6 @@
 #pragma once
-// What is seen of a scene before it is run by simulating its beginning: the first collision, which bodies come into the
-// picture and leave it, how long a run takes.
+// Simulates the beginning of a scene: the first collision, the bodies that enter and leave the picture, and the time a
+// run takes.
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@ namespace carom {
 
 struct Scene;
 
-/// A body comes into the picture or leaves it between the instant before and this one.
+/// A body enters or leaves the picture between the previous instant and this one.
 struct Crossing {
   Entity body;
   double time;  // s
@@ -21,18 +21,18 @@ struct Crossing {
 };
 
 struct Foresight {
-  std::optional<Collision> first;              // none: none before the duration
-  std::string trouble;                         // why it is not known; empty: it is
-  std::string failure;                         // what stops a run later on, as far as was looked; empty: nothing
+  std::optional<Collision> first;              // none: no collision within the duration
+  std::string trouble;                         // why the first collision is unknown; empty: it is known
+  std::string failure;                         // what stops a run later, as far as was simulated; empty: nothing
   std::vector<Crossing> crossings;             // in order of time
   double watched_from = 0, watched_until = 0;  // s: crossings are known in between
-  double every = 0;                            // s between the instants that were looked at; 0: none was
-  bool cut = false;                            // the budget ended before the pictures do
-  std::optional<double> simulate_s;            // wall time that the whole simulation takes, roughly; none: not known
+  double every = 0;                            // s between the watched instants; 0: there were none
+  bool cut = false;                            // the budget ended before the pictures
+  std::optional<double> simulate_s;            // approximate wall time of the whole simulation; none: unknown
 };
 
-/// By the exact simulator, whatever engine the scene names, to the first collision, and on while that takes no longer
-/// than `budget` (s). `watch`: whether crossings are wanted.
+/// Simulates by the most exact engine, whatever the scene names, to the first collision, and further for at most
+/// `budget` (s). `watch`: whether to find crossings.
 Foresight foresee(const Scene& scene, const EngineChoice& engine, bool watch, double budget);
 
 }  // namespace carom

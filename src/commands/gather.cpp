@@ -43,14 +43,14 @@ class GatherSession {
       const Sweep sweep = load_sweep(source + "/" + stored_sweep);
       const auto base = text_of(source, stored_base);
       if (!base || text_of(source, stored_sweep) != sweep.resolved(stored_base))
-        return refuse(fmt::format("{}/{} is not what a sweep wrote", printable(source), stored_sweep));
+        return refuse(fmt::format("{}/{} was not written by a sweep", printable(source), stored_sweep));
       if (inspect_sweep_folder(folder_, sweep, *base) == SweepContent::other)
         return refuse(fmt::format("the folder {} holds something else", printable(folder_)));
       for (std::size_t i = 1; i < options_.operands.size(); ++i) refuse_other(options_.operands[i], sweep, *base);
       return gather(sweep, *base);
     } catch (const SceneError& error) {
       write_err(error.what());
-      return refuse("this is not what a sweep wrote");
+      return refuse("this was not written by a sweep");
     }
   }
 
@@ -90,11 +90,11 @@ class GatherSession {
       statuses.push_back(bring(sweep.id(number), static_cast<std::size_t>(has - whole.begin())));
       if (statuses.back() == RunStatus::missing) missing.push_back(sweep.id(number));
       if (statuses.back() == RunStatus::failed) failed.push_back(sweep.id(number));
-      progress.update(number, 2 * sweep.size(), "runs looked at or compared");
+      progress.update(number, 2 * sweep.size(), "runs checked or compared");
     }
     if (!missing.empty()) {
       progress.clear();
-      complain(options_, fmt::format("{}: {} of {} runs are missing: {}\n  run the parts that have them again",
+      complain(options_, fmt::format("{}: {} of {} runs are missing: {}\n  run the parts with these runs again",
                                      printable(folder_), missing.size(), sweep.size(), listed(missing, parts_shown)));
       show("incomplete", sweep, missing, failed);
       return 1;
@@ -102,7 +102,7 @@ class GatherSession {
     ComparisonWatch watch;
     watch.look = stop_if_interrupted;
     watch.done = [&](std::size_t done) {
-      progress.update(sweep.size() + done, 2 * sweep.size(), "runs looked at or compared");
+      progress.update(sweep.size() + done, 2 * sweep.size(), "runs checked or compared");
     };
     watch.doubtful = [&](std::size_t runs) { doubtful_ = runs; };
     folder.finish(sweep, statuses, watch);
@@ -114,10 +114,10 @@ class GatherSession {
     return failed.empty() ? 0 : 3;
   }
 
-  /// Which of the sweep's runs are whole in a folder.
+  /// Flags of the sweep's runs that are whole in a folder.
   std::vector<bool> whole_runs(Sweep sweep, const std::string& folder, const std::string& base) const {
     std::vector<bool> whole(sweep.size());
-    // Meshes lie where the sweep was made: what cannot be made anew is taken as it is.
+    // Meshes lie where the sweep ran: a run that cannot be checked against its scene is taken as it is.
     if (may_have_meshes(sweep, base)) {
       for (std::size_t number = 0; number < sweep.size(); ++number)
         whole[number] = is_whole_since(fmt::format("{}/runs/{}", folder, sweep.id(number)), "");
@@ -135,7 +135,8 @@ class GatherSession {
     return whole;
   }
 
-  /// A run's status here; copied if need be from folder `from` of the operands; none has it: their number.
+  /// A run's status here, copied if necessary from folder `from` of the operands; `from` is their number if none has
+  /// it.
   RunStatus bring(const std::string& id, std::size_t from) const {
     const auto path = [&](const std::string& folder) { return fmt::format("{}/runs/{}", folder, id); };
     if (from < options_.operands.size()) {
@@ -184,8 +185,8 @@ const CommandText& gather_text() {
       "joins the parts of a sweep that was made with --shard",
       "  carom gather output/falls                             parts that were written into one folder\n"
       "  carom gather output/falls part1 part2                 parts from elsewhere, copied into it\n",
-      "What it writes has the bytes of the same sweep made in one part: summary.csv, comparison.xlsx and\n"
-      "manifest.json. Runs that are missing are named; then none of these is written.\n\n"
+      "It writes summary.csv, comparison.xlsx and manifest.json, byte for byte as the same sweep in one part.\n"
+      "If runs are missing, it lists them and writes nothing.\n\n"
       "Exit codes: 0 done, 1 runs are missing, 2 the command line is wrong or there is no sweep, 3 some\n"
       "runs failed, 130 or 143 interrupted.",
       {{"--progress"}},

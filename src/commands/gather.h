@@ -1,5 +1,5 @@
 #pragma once
-// carom gather: the parts of a sweep become the sweep.
+// carom gather: joins the parts of a sweep.
 #include "commands/command_line.h"
 
 namespace carom {

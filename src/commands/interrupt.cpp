@@ -26,7 +26,7 @@ void catch_signals() {
   sigemptyset(&action.sa_mask);
   for (const int signal : {SIGINT, SIGTERM}) {
     struct sigaction before {};
-    // A signal that the parent has set to be ignored (nohup, a background job of a plain shell) stays ignored.
+    // A signal ignored by the parent (nohup, a background job of a plain shell) stays ignored.
     if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
     sigaction(signal, &action, nullptr);
   }

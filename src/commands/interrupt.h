@@ -1,17 +1,17 @@
 #pragma once
-// SIGINT and SIGTERM as a flag that the run loop looks at, so that part files are removed and whole ones stay.
+// SIGINT and SIGTERM as a flag that the run loop checks, so that part files are removed and whole ones stay.
 
 namespace carom {
 
-/// The run was asked to stop by `signal`.
+/// `signal` stops the run.
 struct Interrupted {
   int signal;
   int exit_code() const { return 128 + signal; }
 };
 
 /// From here on the first SIGINT or SIGTERM sets the flag; a second one ends the program at once.
-/// Waiting for other programs hears it too. SIGPIPE and SIGXFSZ are ignored: a reader that went away, or a file that
-/// may not grow, shows as an error of the write.
+/// Waits for other programs check the flag too. SIGPIPE and SIGXFSZ are ignored: a closed pipe or a file at its limit
+/// then makes the write fail.
 void catch_signals();
 /// Throws Interrupted if a signal has come.
 void stop_if_interrupted();

@@ -17,7 +17,7 @@ namespace carom {
 
 namespace {
 
-/// Text of ours for roff: what it would read as a request or an escape is neither.
+/// Plain text for roff: nothing in it is a request or an escape.
 std::string roff(std::string_view text) {
   std::string out;
   bool begins = true;
@@ -34,14 +34,14 @@ std::string roff(std::string_view text) {
   return out;
 }
 
-/// Lines that stand as they are.
+/// Lines without filling.
 std::string example(std::string_view text) {
   std::string lines(text);
   while (lines.ends_with('\n')) lines.pop_back();
   return fmt::format(".PP\n.nf\n{}\n.fi\n", roff(lines));
 }
 
-/// Paragraphs, their lines filled anew.
+/// Paragraphs, filled by roff.
 std::string paragraphs(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
@@ -83,13 +83,13 @@ std::string command_section(const CommandText& command) {
   return out;
 }
 
-/// A shell's word list of these.
+/// A word list for the shell.
 template <typename Words>
 std::string list(const Words& words) {
   return fmt::format("{}", fmt::join(words, " "));
 }
 
-/// What is offered for an operand or a value that is called so; empty: nothing, it is the user's own.
+/// Completion of an operand or a value of this name; empty: none.
 std::string offer_for(std::string_view name) {
   const auto words = [](std::string_view all) { return fmt::format("_carom_words '{}'", all); };
   if (name == "DIR") return "_carom_files -d";
@@ -119,8 +119,9 @@ std::string manual_page() {
       ".SH NAME\ncarom \\- exact motion of colliding balls, walls and planes, as data and pictures\n"
       ".SH SYNOPSIS\n.B carom\n\\fICOMMAND\\fR [\\fIOPERAND\\fR...] [\\fIOPTIONS\\fR]\n.br\n.B carom\n\\-\\-help | "
       "\\-\\-version | help \\fICOMMAND\\fR\n"
-      ".SH DESCRIPTION\nScenes of balls, walls and planes, written in YAML, become motion, computed from collision to "
-      "collision in closed form or in time steps, and that becomes CSV tables, pictures and films.\n"
+      ".SH DESCRIPTION\nCarom reads scenes of balls, walls and planes in YAML. It computes their motion from collision "
+      "to "
+      "collision in closed form, or in time steps, and writes CSV tables, pictures and films.\n"
       "Results go to standard output, progress and errors to standard error.\n"
       ".SH COMMANDS\n",
       CAROM_VERSION);
@@ -128,20 +129,20 @@ std::string manual_page() {
   out += ".SH OPTIONS OF EVERY COMMAND\n";
   for (const std::string_view name : {"--color", "--json", "--quiet"})
     out += option_item({name, option_named(name).help});
-  out += ".TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\nwhat the command is for, examples first\n";
+  out += ".TP\n\\fB\\-h\\fR, \\fB\\-\\-help\\fR\nthe help of the command, examples first\n";
   out +=
       ".SH EXIT STATUS\n"
       ".TP\n0\ndone; also: up to date, nothing to do\n"
       ".TP\n1\nthe run failed\n"
       ".TP\n2\nthe command line or a scene is wrong; nothing was run\n"
       ".TP\n3\na sweep is done and some of its runs failed\n"
-      ".TP\n130, 143\ninterrupted; what is finished stays, and the same command goes on\n"
+      ".TP\n130, 143\ninterrupted; finished files stay, and the same command resumes\n"
       ".SH ENVIRONMENT\n"
       ".TP\nNO_COLOR\nset and not empty: no colour, unless \\-\\-color always\n"
-      ".TP\nSLURM_ARRAY_TASK_ID, SLURM_ARRAY_TASK_COUNT\nset by a job array of Slurm: the part of a sweep that is "
-      "done\n"
+      ".TP\nSLURM_ARRAY_TASK_ID, SLURM_ARRAY_TASK_COUNT\nset by a Slurm job array: the part of a sweep to "
+      "run\n"
       ".SH FILES\n"
-      ".TP\noutput/<scene file's stem>/\nwhat a run writes, unless \\-o says otherwise\n";
+      ".TP\noutput/<scene file's stem>/\nthe files of a run, without \\-o\n";
   return out;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The program's own words for `man` and for bash, made from the tables of commands and options.
+// The manual page and bash completion, made from the tables of commands and options.
 #include <string>
 
 namespace carom {

@@ -28,17 +28,17 @@ fs::path scene_path(const std::string& name) {
   const std::string ending = path.extension().string();
   if (ending != ".yaml" && ending != ".yml") path += ".yaml";
   const std::string file = path.filename().string();
-  // Longer names would leave no room for those of a run's folder and files.
+  // Longer names leave no room for the names of a run's folder and files.
   if (path.stem().empty() || name.ends_with('/') || !is_plain_name(file) || file.front() == '-' || file.size() > 150) {
     throw UsageError(
-        fmt::format("{} is no name for a scene; name a file such as demos/first.yaml, without control characters, "
+        fmt::format("{} is not a name for a scene; name a file such as demos/first.yaml, without control characters, "
                     "backslashes or a dot or dash at its start",
                     in_backticks(name)));
   }
   return path;
 }
 
-/// Makes the folder if need be and opens it.
+/// Creates the folder if necessary and opens it.
 Descriptor opened(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -48,7 +48,7 @@ Descriptor opened(const std::string& folder) {
   return open;
 }
 
-/// Throws UsageError where something has the name, a folder, or unless --force anything.
+/// Throws UsageError if a folder has the name, or any other file has it and --force is not given.
 void refuse_existing(const FilePlace& place, const std::string& name, bool force) {
   struct stat info {};
   if (fstatat(place.folder, name.c_str(), &info, AT_SYMLINK_NOFOLLOW) != 0) {
@@ -58,10 +58,10 @@ void refuse_existing(const FilePlace& place, const std::string& name, bool force
   const std::string path = printable((fs::path(place.path) / name).lexically_normal().string());
   if (S_ISDIR(info.st_mode)) throw UsageError(fmt::format("{} is a folder: choose another name", path));
   if (!force)
-    throw UsageError(fmt::format("{} is there already: choose another name, or overwrite it with --force", path));
+    throw UsageError(fmt::format("{} exists already: choose another name, or overwrite it with --force", path));
 }
 
-/// A schema that another version wrote is replaced; anything else of that name is the author's.
+/// A schema of another version is replaced; any other file of that name stays.
 bool is_schema(const FilePlace& place) {
   constexpr std::uint64_t most = 10'000'000;
   const std::string whole = json_schema("scene"), start = whole.substr(0, whole.find("\"description\""));
@@ -76,13 +76,13 @@ const CommandText& new_text() {
       "new",
       "writes a scene to start from, with comments",
       "  carom new first                                       writes first.yaml and scene.schema.json\n"
-      "  carom new demos/second.yaml                           the same in demos/, which is made if need be\n",
-      "The scene runs as it is. By the schema beside it an editor with a YAML language server completes and\n"
-      "checks keys. Exit codes: 0 done, 1 a file could not be written, 2 the command line is wrong or the\n"
-      "file is there already.",
-      {{"--force", "overwrite what is there"}},
+      "  carom new demos/second.yaml                           the same in demos/, created if necessary\n",
+      "The scene runs as it is. With the schema beside it, an editor with a YAML language server completes\n"
+      "and checks keys. Exit codes: 0 done, 1 a file could not be written, 2 the command line is wrong or the\n"
+      "file exists already.",
+      {{"--force", "overwrite existing files"}},
       "NAME",
-      "of the scene file, .yaml or not, in a folder or not",
+      "the scene file, with or without .yaml and a folder",
       1,
       1,
       "name the scene: carom {} first"};

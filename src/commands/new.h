@@ -6,7 +6,7 @@
 
 namespace carom {
 
-/// The scene that `carom new` writes: whole, with comments that teach.
+/// The scene that `carom new` writes: complete, with explanatory comments.
 std::string_view starting_scene();
 
 const CommandText& new_text();

@@ -31,7 +31,7 @@ Choice chosen(const Words& words, std::string_view option, std::span<const std::
   const std::string& word = single(words, option);
   const auto found = std::find(names.begin(), names.end(), word);
   if (found == names.end()) {
-    throw UsageError(fmt::format("{} is {}, not {}{}", option, fmt::join(names, ", "), in_backticks(word),
+    throw UsageError(fmt::format("{} takes {}, not {}{}", option, fmt::join(names, ", "), in_backticks(word),
                                  did_you_mean(word, {names.begin(), names.end()})));
   }
   return static_cast<Choice>(found - names.begin());
@@ -44,7 +44,7 @@ std::uint64_t whole(const Words& words, std::string_view option, std::uint64_t l
   const auto [stop, error] = std::from_chars(word.data(), end, value);
   if (error != std::errc() || stop != end || value < least || value > most) {
     throw UsageError(
-        fmt::format("{} is a whole number from {} to {}, not {}", option, least, most, in_backticks(word)));
+        fmt::format("{} takes a whole number from {} to {}, not {}", option, least, most, in_backticks(word)));
   }
   return value;
 }
@@ -63,11 +63,11 @@ void read_set(Options& options, const Words& words) {
   options.set = words;
   for (const std::string& set : words) {
     if (const std::size_t equals = set.find('='); equals == std::string::npos || equals == 0)
-      throw UsageError(fmt::format("--set takes path=value, balls.red.mass=2 say, not {}", in_backticks(set)));
+      throw UsageError(fmt::format("--set takes path=value, such as balls.red.mass=2, not {}", in_backticks(set)));
   }
 }
 
-/// What stands between commas, of all words.
+/// The parts between commas, of all words.
 std::vector<std::string> split_lists(const Words& words) {
   std::vector<std::string> parts;
   for (const std::string& list : words) {
@@ -101,7 +101,7 @@ void read_charts(Options& options, const Words& words) {
     if (first != std::string::npos && second != std::string::npos) chart.by = text.substr(second + 1);
     const bool lacks_by = second != std::string::npos && first != std::string::npos && chart.by.empty();
     if (chart.x.empty() || chart.y.empty() || lacks_by || chart.by.find(':') != std::string::npos)
-      throw UsageError(fmt::format("--charts takes x:y or x:y:by, restitution.default:energy_lost_J say, not {}",
+      throw UsageError(fmt::format("--charts takes x:y or x:y:by, such as restitution.default:energy_lost_J, not {}",
                                    in_backticks(text)));
     options.compare.charts.push_back(std::move(chart));
   }
@@ -116,19 +116,18 @@ void read_steps(Options& options, const Words& words) {
   bench.shortest = colon == std::string::npos ? bench.longest : number(steps.substr(colon + 1), "--steps");
   if (!(*bench.shortest <= *bench.longest))
     throw UsageError(
-        fmt::format("--steps goes from the longest step to the shortest, 0.1:0.001 say, not {}", in_backticks(steps)));
+        fmt::format("--steps takes the longest and the shortest step, such as 0.1:0.001, not {}", in_backticks(steps)));
   if (std::log2(*bench.longest / *bench.shortest) > most_halvings)
     throw UsageError(
-        fmt::format("--steps halves at most {} times, not as often as {}", most_halvings, in_backticks(steps)));
+        fmt::format("--steps takes at most {} halvings, fewer than {}", most_halvings, in_backticks(steps)));
 }
 
 std::string_view only_help() {
   constexpr std::size_t width = 56;  // columns
-  static const std::string text = wrapped(
-      fmt::format(
-          "write these outputs alone, of {}; one that the scene does not ask for is written with default settings",
-          fmt::join(output_names(), ", ")),
-      0, width);
+  static const std::string text =
+      wrapped(fmt::format("write only these outputs, of {}; one that the scene lacks is written with default settings",
+                          fmt::join(output_names(), ", ")),
+              0, width);
   return text;
 }
 
@@ -142,7 +141,7 @@ Shard read_shard(const std::string& word) {
   };
   if (slash == std::string::npos || !part(std::string_view(word).substr(0, slash), shard.index) ||
       !part(std::string_view(word).substr(slash + 1), shard.count) || shard.index < 1 || shard.index > shard.count)
-    throw UsageError(fmt::format("--shard takes I/N, 1/4 to 4/4 say, not {}", in_backticks(word)));
+    throw UsageError(fmt::format("--shard takes I/N, such as 1/4 to 4/4, not {}", in_backticks(word)));
   return shard;
 }
 
@@ -154,10 +153,10 @@ const Option table[] = {
     {"--output", "-o", "DIR",
      "the run's folder; with several scenes, the folder that\nholds theirs (output/<scene file's stem>)",
      [](Options& o, const Words& w) { o.output = single(w, "--output"); }},
-    {"--set", "", "PATH=VALUE", "change a value of the scene, balls.red.mass=2 say;\nmay be repeated", read_set},
+    {"--set", "", "PATH=VALUE", "change a value of the scene, such as balls.red.mass=2;\nmay be repeated", read_set},
     {"--only", "", "LIST", only_help(), read_only},
     {"--grid", "", "PATH=FROM:TO:COUNT",
-     "vary a value of a scene, restitution.default=0.5:1:6\nor balls.red.mass=1,2,5; several make every combination",
+     "vary a value of a scene, restitution.default=0.5:1:6\nor balls.red.mass=1,2,5; several give all combinations",
      [](Options& o, const Words& w) {
        for (const std::string& grid : w)
          if (const std::size_t equals = grid.find('='); equals == std::string::npos || equals == 0)
@@ -165,46 +164,48 @@ const Option table[] = {
                fmt::format("--grid takes path=from:to:count or path=value,value, not {}", in_backticks(grid)));
        o.grid = w;
      }},
-    {"--shard", "", "I/N", "part I of N, the first is 1; gather joins them (in a\njob array of Slurm: the task's part)",
+    {"--shard", "", "I/N",
+     "run part I of N, from 1 on; gather joins the parts (in a\nSlurm job array: the task's part)",
      [](Options& o, const Words& w) { o.shard = read_shard(single(w, "--shard")); }},
-    {"--slurm", "", "", "for Slurm", [](Options& o, const Words&) { o.submit.slurm = true; }},
+    {"--slurm", "", "", "write the script for Slurm", [](Options& o, const Words&) { o.submit.slurm = true; }},
     {"--parts", "", "N", "tasks of the array (one for 50 runs, at most 16)",
      [](Options& o, const Words& w) { o.submit.parts = whole(w, "--parts", 1, 1'000'000); }},
-    {"--batch", "", "OPTION", "a further option of sbatch, --batch=--time=1:00:00 say;\nmay be repeated",
+    {"--batch", "", "OPTION", "an additional option of sbatch, such as\n--batch=--time=1:00:00; may be repeated",
      [](Options& o, const Words& w) {
        for (const std::string& option : w)
          if (!option.starts_with("-") || option.find('\n') != std::string::npos)
-           throw UsageError(fmt::format("--batch takes an option of sbatch, --batch=--time=1:00:00 say, not {}",
+           throw UsageError(fmt::format("--batch takes an option of sbatch, such as --batch=--time=1:00:00, not {}",
                                         in_backticks(option)));
        o.submit.batch = w;
      }},
-    {"--plan", "", "", "show the runs, their values and what is done already",
+    {"--plan", "", "", "show the runs, their values and which are done",
      [](Options& o, const Words&) { o.plan = true; }},
     {"--seed", "", "N", "the scene's seed",
      [](Options& o, const Words& w) { o.seed = whole(w, "--seed", 0, std::numeric_limits<std::uint64_t>::max()); }},
-    {"--steps", "", "FROM:TO", "step sizes in s, from FROM down to TO by halves (by\nthe scene: ten halvings)",
+    {"--steps", "", "FROM:TO", "step sizes in s, from FROM down to TO by halving (set by\nthe scene: ten halvings)",
      read_steps},
-    {"--repeat", "", "N", "timed runs of each row, at most (5)",
+    {"--repeat", "", "N", "at most N timed runs of each row (5)",
      [](Options& o, const Words& w) { o.bench.repeat = static_cast<int>(whole(w, "--repeat", 1, 1000)); }},
-    {"--budget", "", "SECONDS", "of CPU time for each scene, roughly; steps that cost\nmore are left out (20)",
+    {"--budget", "", "SECONDS", "approximate CPU time for each scene; steps that cost\nmore are left out (20)",
      [](Options& o, const Words& w) { o.bench.budget = number(single(w, "--budget"), "--budget"); }},
-    {"--reference", "", "ENGINE", "exact or stepped (exact, if it has all that the scene\nasks for)",
+    {"--reference", "", "ENGINE", "exact or stepped (exact, if it supports the scene)",
      [](Options& o, const Words& w) {
        o.bench.reference = chosen<int>(w, "--reference", reference_names) == 0 ? Engine::exact : Engine::stepped;
      },
      reference_names},
     {"--measures", "", "LIST",
-     "what runs are compared by: columns of summary.csv, or\nballs.red.speed_m_per_s and its like at the run's end",
+     "what to compare: columns of summary.csv, or values at\nthe run's end such as balls.red.speed_m_per_s",
      [](Options& o, const Words& w) { o.compare.measures = split_lists(w); }},
-    {"--charts", "", "LIST", "x:y or x:y:by, x and by of what was varied, y a measure\n(by what varies)", read_charts},
+    {"--charts", "", "LIST", "x:y or x:y:by; x and by are varied paths, y a measure\n(chosen from the varied paths)",
+     read_charts},
     {"--video", "", "", "a film", [](Options& o, const Words&) { o.compare.video = true; }},
     {"--jobs", "-j", "N", "N scenes at a time (1); changes no result",
      [](Options& o, const Words& w) { o.jobs = whole(w, "--jobs", 1, 4096); }},
     {"--force", "", "", "overwrite other content of the folder, run again what\nis up to date, lift the budget",
      [](Options& o, const Words&) { o.force = true; }},
-    {"--accuracy", "", "", "the expected error, by what it consists of; takes four\nruns more",
+    {"--accuracy", "", "", "the expected error by its sources; takes four more runs",
      [](Options& o, const Words&) { o.accuracy = true; }},
-    {"--verbose", "-v", "", "the expected error too, by what it consists of; takes\nfour runs more",
+    {"--verbose", "-v", "", "also the expected error by its sources; takes four more\nruns",
      [](Options& o, const Words&) { o.accuracy = true; }},
     {"--page", "", "", "the whole format as a page of Markdown", [](Options& o, const Words&) { o.page = true; }},
     {"--progress", "", "HOW", "auto, bar, lines or none (auto: a bar on a terminal,\nlines elsewhere)",
@@ -213,7 +214,7 @@ const Option table[] = {
     {"--color", "", "WHEN", "auto, always or never (auto: on a terminal, unless\nNO_COLOR is set)",
      [](Options& o, const Words& w) { o.color = chosen<ColorChoice>(w, "--color", color_names); }, color_names},
     {"--json", "", "", "results as one JSON document", [](Options& o, const Words&) { o.json = true; }},
-    {"--quiet", "-q", "", "nothing but errors, and the document of --json",
+    {"--quiet", "-q", "", "print only errors, and the document of --json",
      [](Options& o, const Words&) { o.quiet = true; }},
 };
 

@@ -1,6 +1,5 @@
 #pragma once
-// Every option of every command, in one table: the parser, the helps, the manual page and the shell's completion are
-// made from it.
+// The table of all options. The parser, the helps, the manual page and the shell's completion are made from it.
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,11 +12,11 @@ namespace carom {
 struct Option {
   std::string_view name;         // "--output"
   std::string_view letter = {};  // "-o"
-  std::string_view value = {};   // what its value is called; empty: it takes none
+  std::string_view value = {};   // name of its value; empty: it takes none
   std::string_view help;         // lines
-  /// Reads the values it was given, at least one (of one without a value: as many empty texts). Throws UsageError.
+  /// Reads its values, at least one; a flag has an empty text for each use. Throws UsageError.
   void (*read)(Options& options, const std::vector<std::string>& words);
-  std::span<const std::string_view> choices = {};  // all that a value may be
+  std::span<const std::string_view> choices = {};  // the allowed values
 };
 
 /// All rows.
@@ -29,7 +28,7 @@ const Option& option_named(std::string_view name);
 /// A command's options in the order of its help: its own, then those of all commands.
 std::vector<OptionUse> options_of(const CommandText& command);
 
-/// The outputs that --only knows.
+/// The names of outputs for --only.
 const std::vector<std::string>& output_names();
 
 /// "; did you mean `x`?", or nothing.

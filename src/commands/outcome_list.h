@@ -1,6 +1,5 @@
 #pragma once
-// What is printed of all scenes of a command line: each as it ends, and at the end the document of --json or a line
-// that counts them.
+// Prints the scenes of a command line: each as it ends, and at the end the document of --json or a line of counts.
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>

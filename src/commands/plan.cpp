@@ -59,8 +59,8 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
   planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   planned.engine = choose_engine(*planned.scene);
   planned.forecast = forecast(*planned.scene);
-  // With --only it is not the file's outputs that count, but those that are left or added.
-  if (options.only && !options.force) hold_to_budget(*planned.scene, planned.forecast, "--only asks for");
+  // With --only the outputs it leaves or adds count, not those of the file.
+  if (options.only && !options.force) hold_to_budget(*planned.scene, planned.forecast, "--only requests");
   if (what_stands(planned.folder) == Standing::other)
     throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
   settle_folder(planned.folder);
@@ -71,7 +71,7 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
   planned.content = inspect_folder(planned.folder, *planned.scene);
   const bool differs = planned.content == FolderContent::incomplete || planned.content == FolderContent::more;
   if (options.only && differs && holds_all(asked, *options.only)) {
-    // A whole run of this scene has all that is named, and more.
+    // A whole run of this scene has the named outputs and more.
     Scene whole = *planned.scene;
     whole.output = asked;
     if (inspect_folder(planned.folder, whole) == FolderContent::this_run) planned.content = FolderContent::this_run;

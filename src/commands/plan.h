@@ -1,5 +1,5 @@
 #pragma once
-// All checks of all scenes on the command line, which come before the first is simulated and change nothing.
+// Checks all scenes of the command line before the first is simulated. Changes nothing.
 #include <functional>
 #include <memory>
 #include <string>
@@ -14,7 +14,7 @@
 
 namespace carom {
 
-/// A scene of the command line, checked: either `scene` and what follows from it, or `error`.
+/// A checked scene of the command line: either `scene` and what follows from it, or `error`.
 struct PlannedScene {
   std::string file;    // as on the command line
   std::string name;    // the file's stem
@@ -26,26 +26,26 @@ struct PlannedScene {
   EngineChoice engine;
   Forecast forecast;
   FolderContent content = FolderContent::nothing;
-  std::shared_ptr<const FormerRun> former{};  // a run whose motion is drawn again; in its own folder: renewed there
+  std::shared_ptr<const FormerRun> former{};  // a run to draw again; in its own folder: renewed there
 };
 
 enum class Purpose { run, bench };
 
-/// Loads and checks every scene, a wrong one too far as it goes, so that all errors of all files are shown in one run.
+/// Loads and checks every scene, wrong ones as far as possible, so that one run shows all errors of all files.
 /// Throws UsageError where two scenes would share a folder.
 std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose = Purpose::run);
 
-/// The same for scenes that have a file, a name and a folder: `check` fills in the rest, or throws what is wrong.
+/// The same for scenes with a file, a name and a folder: `check` fills in the rest, or throws the error.
 std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes,
                                       const std::function<void(PlannedScene&)>& check);
 
-/// How scenes of a command line are read. With `lifted` pictures and rows are not limited: hold_to_budget does that.
+/// Options to load scenes of a command line. `lifted`: no limit on pictures and rows; hold_to_budget checks these.
 LoadOptions load_options(const Options& options, bool lifted);
 
-/// Throws ExportError if a run would draw or write too much. `asker`: "--only asks for".
+/// Throws ExportError if a run would draw or write too much. `asker`: "--only requests".
 void hold_to_budget(const Scene& scene, const Forecast& forecast, std::string_view asker);
 
-/// Makes an error of each folder that holds something else, unless --force.
+/// Adds an error for each folder that holds something else, unless --force.
 void refuse_other_content(std::vector<PlannedScene>& scenes, const Options& options);
 
 /// "2 errors in 1 of 3 scenes", or empty if there is none.

@@ -11,7 +11,7 @@ namespace carom {
 
 namespace {
 
-// The picture's axis that +x lies along most; ahead and back only where it has no length in the picture at all.
+// The picture's axis closest to +x; away or toward only if +x has no length in the picture.
 std::string direction_of_plus_x(const CameraFrame& view) {
   const double right = view.right.x(), up = view.up.x();
   if (std::max(std::abs(right), std::abs(up)) < 1e-9) return view.forward.x() > 0 ? "away" : "toward";

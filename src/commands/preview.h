@@ -12,10 +12,10 @@ struct Scene;
 struct CameraPreview {
   std::string plus_x;               // where +x points in the picture: "right", "left", "up", "down", "away", "toward"
   double fov_x = 0, fov_y = 0;      // degrees, full angles
-  std::vector<Entity> out_of_view;  // bodies no part of which is in the picture at time 0
+  std::vector<Entity> out_of_view;  // bodies wholly outside the picture at time 0
 };
 
-/// Of the scene's camera, or of the one that a picture without camera would be taken with.
+/// For the scene's camera, or the default camera if it has none.
 CameraPreview preview_camera(const Scene& scene);
 
 }  // namespace carom

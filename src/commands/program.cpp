@@ -28,7 +28,7 @@ std::string program_help() {
       "carom turns scenes of balls, walls and planes into exact motion, data and pictures.\n\n"
       "Examples:\n"
       "  carom new first                               writes first.yaml, a scene to start from\n"
-      "  carom check scenes/two_bowling_balls.yaml     what would happen, and all that is wrong\n"
+      "  carom check scenes/two_bowling_balls.yaml     what a run would do, and every error\n"
       "  carom run scenes/two_bowling_balls.yaml       writes output/two_bowling_balls/\n"
       "  carom run scenes/*.yaml --only collisions     many scenes, only their collisions\n\n"
       "Usage:\n"
@@ -37,10 +37,10 @@ std::string program_help() {
   for (const Command& command : commands()) text += fmt::format("  {:24}{}\n", command.text.name, command.text.line);
   text +=
       "\nOptions:\n"
-      "  -h,--help               this text; after a command, its own\n"
+      "  -h,--help               this help; after a command, its own\n"
       "  --version               the version\n"
       "  --man                   the manual page, as man reads it: carom --man | man -l -\n"
-      "  --bash-completion       what bash completes by: source <(carom --bash-completion)\n";
+      "  --bash-completion       completion for bash: source <(carom --bash-completion)\n";
   return text;
 }
 
@@ -53,7 +53,7 @@ const Command* find_command(const std::string& name) {
 
 [[noreturn]] void refuse_command(const std::string& word) {
   if (word.starts_with('-')) {
-    throw UsageError(fmt::format("options stand after the command: carom run SCENE {}", printable(word)));
+    throw UsageError(fmt::format("options come after the command: carom run SCENE {}", printable(word)));
   }
   std::vector<std::string_view> names = {"help"};
   for (const Command& command : commands()) names.push_back(command.text.name);
@@ -63,7 +63,7 @@ const Command* find_command(const std::string& name) {
   if (word.ends_with(".yaml") || word.ends_with(".yml")) {
     throw UsageError(fmt::format("name a command first: carom run {}", printable(word)));
   }
-  throw UsageError(fmt::format("no command {}; it has {}", in_backticks(word), command_names()));
+  throw UsageError(fmt::format("no command {}; the commands are {}", in_backticks(word), command_names()));
 }
 
 int usage_error(const std::string& command, const UsageError& error) {

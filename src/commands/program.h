@@ -1,5 +1,5 @@
 #pragma once
-// The program but for main(): which command, and what becomes of what goes wrong.
+// The program except main(): picks the command and reports errors.
 #include <string>
 #include <vector>
 

@@ -33,7 +33,7 @@ void Progress::clear() {
 
 namespace {
 
-// Whole seconds: an estimate has no more.
+// Whole seconds: the estimate is no more precise.
 std::string left_text(double elapsed, double done) {
   if (!(done > 0)) return "";
   const double left = std::ceil(elapsed / done * (1 - done));
@@ -43,7 +43,7 @@ std::string left_text(double elapsed, double done) {
 }  // namespace
 
 void Progress::draw_bar(double done, const std::string& counts, const std::string& left) {
-  // One line, never wider than the terminal: a line that wraps could not be drawn over.
+  // One line, narrower than the terminal: a wrapped line cannot be drawn over.
   const std::size_t width = terminal_width(STDERR_FILENO) - 1;
   constexpr std::size_t bar_width = 20;
   std::string text = fmt::format("{} ", name_);
@@ -68,7 +68,7 @@ bool Progress::due() const {
   return since_last >= (choice_ == ProgressChoice::bar ? 0.1 : 2.0);
 }
 
-/// "1,830/s", or by the minute what takes longer.
+/// "1,830/s", or per minute for slower rates.
 std::string Progress::rate(double count) const {
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
   const double per_second = elapsed > 0 ? count / elapsed : 0;
@@ -86,7 +86,8 @@ void Progress::show(double done, const std::string& what) {
     draw_bar(done, counts, left);
   } else {
     const int tenth = static_cast<int>(whole_below(std::clamp(done, 0.0, 1.0) * 10));
-    if (tenth == 10 || (tenth == tenth_ && since_last < 5)) return;  // the result tells the end
+    // At the end the result is printed instead.
+    if (tenth == 10 || (tenth == tenth_ && since_last < 5)) return;
     tenth_ = tenth;
     write_err(fmt::format("{}: {:.0f} %, {}\n", name_, done * 100, counts));
   }

@@ -1,5 +1,5 @@
 #pragma once
-// How far a run is, on stderr: a bar on a terminal, lines in a log, or nothing.
+// Progress of a run on stderr: a bar on a terminal, lines in a log, or nothing.
 #include <chrono>
 #include <cstdint>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace carom {
 
-/// How --progress is to be taken where stderr is what it is.
+/// The choice of --progress for this stderr.
 ProgressChoice progress_choice(const Options& options);
 
 class Progress {
@@ -23,11 +23,11 @@ class Progress {
   /// Cheap: writes at most ten times a second (bar), or a line at each tenth of the way and after five seconds, but
   /// never two within two seconds.
   void update(double time, std::uint64_t collisions, std::uint64_t frames);
-  /// The same for `done` of so many things, runs say; `more`: what else there is to tell of them.
+  /// The same for `done` of so many things, such as runs; `more`: a text that follows.
   void update(std::size_t done, std::size_t of, std::string_view things, const std::string& more = "");
-  /// The same for other work: `done` of it, 0 to 1, and what it is at.
+  /// The same for other work: the fraction `done`, 0 to 1, and its present step.
   void update(double done, const std::string& what);
-  /// The bar's line is free again; to be called before anything else is written to the terminal.
+  /// Clears the bar's line. Call it before writing anything else to the terminal.
   void clear();
 
  private:

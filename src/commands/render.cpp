@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The outputs of these that tell how things look, or those that do not; flights are neither.
+/// The outputs that are drawn, or those that are not; flights are neither.
 std::vector<std::string> names_of(const Output& output, bool looks) {
   std::vector<std::string> names;
   for (const OutputKind& kind : output_kinds())
@@ -74,7 +74,8 @@ class Planner {
     planned.content = inspect_folder(planned.folder, *planned.scene);
     const bool renews = planned.folder == planned.file;
     if (renews && planned.content != FolderContent::this_run) planned.content = FolderContent::incomplete;
-    former->scene = {};  // two of them are one too many
+    // One scene in memory is enough.
+    former->scene = {};
     planned.former = std::move(former);
   }
 
@@ -87,9 +88,9 @@ class Planner {
     for (const std::string& set : options_.set) {
       settings.push_back({set, ""});
       if (motion_text(file.scene(settings)) == motion) continue;
-      throw ExportError(fmt::format(
-          "--set {} changes the motion, which has to be simulated anew\n  carom run {}{} -o OTHER does that",
-          printable(set), printable(path), printable(settings_text(options_.set))));
+      throw ExportError(
+          fmt::format("--set {} changes the motion, which needs a new simulation\n  carom run {}{} -o OTHER runs it",
+                      printable(set), printable(path), printable(settings_text(options_.set))));
     }
   }
 
@@ -98,7 +99,7 @@ class Planner {
     const Output asked = output;
     output = restricted(asked, options_.only.value_or(names_of(asked, true)));
     if (names_of(output, true).empty())
-      throw ExportError("its scene asks for no pictures\n  --only frames, video or sheet asks for them");
+      throw ExportError("its scene has no pictures\n  add them with --only frames, video or sheet");
     output.flights = asked.flights;
     if (planned.folder != planned.file) return;
     const std::vector<std::string> tables = names_of(former.scene.output, false);
@@ -121,20 +122,20 @@ const CommandText& render_text() {
       "render",
       "draws other pictures of a run, without simulating again",
       "  carom render output/ten_pins --set camera.eye.y=9       the run's pictures, from higher up\n"
-      "  carom render output/ten_pins --set output.video.fps=240 -o output/slow\n"
+      "  carom render output/ten_pins --set output.video.fps=240 -o output/smooth\n"
       "  carom render output/ten_pins --only sheet --set \"output.sheet={columns: 8, rows: 8}\"\n",
       "A run keeps the paths of its bodies in flights.bin, so that any instant is exact. With -o the\n"
-      "pictures go to another folder, as carom run --only frames,video,sheet would write it. Without,\n"
-      "they take the place of the run's own, and its other files stay. --set may change the camera,\n"
-      "lights, colours, background and what is drawn when; what changes the motion is refused.\n"
+      "pictures go to another folder, as carom run --only frames,video,sheet would write it. Without -o\n"
+      "they replace the run's own, and its other files stay. --set may change the camera, lights,\n"
+      "colours, background and the pictures and their times. A change of the motion is an error.\n"
       "A run without flights (engines stepped and book, or output.flights: false) is simulated again.\n\n"
       "Exit codes: 0 done or up to date, 1 failed, 2 the command line, a folder or a change is wrong,\n"
       "130 or 143 interrupted.",
       {{"--output", "the folder of the pictures; with several runs, the folder\nthat holds theirs (the run's own)"},
        {"--set"},
        {"--only",
-        "draw these alone, of frames, video, sheet, vtk, xyz, gltf;\none that the scene does not ask for is made "
-        "with default\nsettings"},
+        "draw only these, of frames, video, sheet, vtk, xyz, gltf;\none that the scene lacks is drawn with default "
+        "settings"},
        {"--jobs", "N runs at a time (1); changes no result"},
        {"--force"},
        {"--progress"}},

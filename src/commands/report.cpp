@@ -55,14 +55,14 @@ std::string rest_text(const Summary& summary) {
   std::string text = fmt::format("{} of {} in resting contact at the end", grouped(summary.resting),
                                  counted(summary.bodies, "body", "bodies"));
   if (summary.contact.collapses == 0) return text;
-  return text + fmt::format("; {} of ever faster collisions taken into contact",
+  return text + fmt::format("; {} of accelerating collisions turned into contact",
                             counted(summary.contact.collapses, "cluster", "clusters"));
 }
 
 std::string energy_text(const Summary& summary) {
   std::string text = summary.energy.lost == 0  ? "none lost"
                      : summary.energy.lost > 0 ? quantity(summary.energy.lost, "J lost")
-                                               : quantity(-summary.energy.lost, "J made by collisions");
+                                               : quantity(-summary.energy.lost, "J gained in collisions");
   text += fmt::format(", {} -> {}", quantity(summary.energy.start, "J"), quantity(summary.energy.end, "J"));
   if (summary.energy.work != 0) text += fmt::format(" with {} of work", quantity(summary.energy.work, "J"));
   return text + fmt::format(", residual {}", quantity(summary.energy.residual, "J"));
@@ -136,8 +136,9 @@ void describe(Block& block, const std::vector<Warning>& warnings) {
 
 void describe_doubtful(Block& block, std::size_t runs) {
   if (runs > 0)
-    block.warning("doubtful", fmt::format("{}: the column `status` of summary.csv has them, their manifests say why",
-                                          counted(runs, "run", "runs")));
+    block.warning("doubtful",
+                  fmt::format("{}: see the column `status` of summary.csv, and the warnings in their manifests",
+                              counted(runs, "run", "runs")));
 }
 
 void describe(Block& block, const PlannedScene& planned, const RunResult& result) {
@@ -149,10 +150,10 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   block.line("rest", rest_text(summary));
   if (summary.stepped_contact > 0)
     block.line("contact",
-               fmt::format("{} of lasting contact, summed over bodies, by time stepping: right to first order",
+               fmt::format("{} of lasting contact, summed over bodies, by time stepping: accurate to first order",
                            quantity(summary.stepped_contact, "s")));
   if (const TakenUp& all = summary.contact.taken_up; all.impacts > 0)
-    block.line("taken up", fmt::format("{} by lasting contact, at {} at most, {} of the energy lost",
+    block.line("absorbed", fmt::format("{} by lasting contact, at {} at most, {} of the energy lost",
                                        counted(all.impacts, "impact", "impacts"), quantity(all.fastest, "m/s"),
                                        quantity(all.energy, "J")));
   block.line("energy", energy_text(summary));
@@ -230,7 +231,7 @@ std::string document(std::string_view command, Json scenes) {
     whole.update(scenes);
   else
     whole["scenes"] = std::move(scenes);
-  // A file's name may hold any bytes; those that are no UTF-8 are replaced.
+  // A file's name may hold any bytes; bytes that are not UTF-8 are replaced.
   return whole.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// How results look: aligned lines for a person, one JSON document for a program.
+// The form of results: aligned lines, or one JSON document.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -17,9 +17,9 @@ class Block {
   Block(const Palette& palette, std::size_t width) : palette_(palette), width_(width) {}
   void heading(std::string_view name, std::string_view title);
   void line(std::string_view label, std::string_view text);
-  /// The same, to be seen at once.
+  /// The same, highlighted.
   void warning(std::string_view label, std::string_view text);
-  /// Rows of as many cells each, the first the heading; the first column to the left, numbers to the right.
+  /// Rows of equal length, the first the heading; the first column left-aligned, numbers right-aligned.
   void table(const std::vector<std::vector<std::string>>& rows);
   const std::string& text() const { return text_; }
 
@@ -32,19 +32,19 @@ class Block {
 /// Names of a whole run's files, sorted, those of frames/ included; empty if there is no whole run.
 std::vector<std::string> files_in(const std::string& folder);
 
-/// Of the whole run in a folder.
+/// Warnings of the whole run in a folder.
 std::vector<Warning> warnings_in(const std::string& folder);
 /// A line for each.
 void describe(Block& block, const std::vector<Warning>& warnings);
 /// A line about so many runs, if there are any.
 void describe_doubtful(Block& block, std::size_t runs);
-/// Lines about a run that was done.
+/// Lines about a finished run.
 void describe(Block& block, const PlannedScene& planned, const RunResult& result);
 /// The same as JSON members, named as summary.csv's columns are.
 nlohmann::ordered_json summary_json(const Summary& summary);
 /// A list of objects with the members `code` and `text`.
 nlohmann::ordered_json warnings_json(const std::vector<Warning>& warnings);
-/// What became of bodies that met and stayed together; not all of it has a column.
+/// Bodies that met and stayed together; not every member has a column.
 nlohmann::ordered_json contact_json(const Summary& summary);
 /// J, by force: "forces.0.drag_J".
 nlohmann::ordered_json work_json(const Summary& summary);

@@ -1,4 +1,4 @@
-// Plan, refuse, run each, report.
+// Plans all scenes, refuses wrong ones, runs each and reports.
 #include "commands/run.h"
 
 #include <fmt/format.h>
@@ -41,9 +41,9 @@ std::string label(const std::vector<PlannedScene>& scenes, const PlannedScene& p
 const CommandText& run_text() {
   static const CommandText text = {
       "run",
-      "simulates scenes and writes what they ask for",
+      "simulates scenes and writes their outputs",
       "  carom run scenes/two_bowling_balls.yaml\n"
-      "  carom run scene.yaml --only trajectory,collisions     data alone, no pictures\n"
+      "  carom run scene.yaml --only trajectory,collisions     data only, no pictures\n"
       "  carom run scene.yaml --set balls.red.restitution=0.5 -o output/half\n"
       "  carom run scenes/*.yaml -o results                    results/<scene file's stem>/...\n",
       "Without -o a scene's run goes to output/<scene file's stem>/. All scenes are checked before\n"

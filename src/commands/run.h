@@ -12,7 +12,7 @@ const CommandText& run_text();
 /// The program's exit code. Throws UsageError, Interrupted.
 int run_command(const Options& options);
 
-/// Runs scenes that are planned, and tells of it; `command`: in the document of --json. Gives the program's exit code.
+/// Runs planned scenes and reports them; `command`: for the document of --json. Returns the program's exit code.
 int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes);
 
 }  // namespace carom

@@ -17,7 +17,7 @@ Show show_of(const PlannedScene& planned) {
   return show;
 }
 
-/// Of a former run the motion is taken from its flights, and its warnings and measures as they are.
+/// A former run supplies the motion by its flights, and its warnings and measures unchanged.
 RunSettings settings_of(const PlannedScene& planned, bool quiet) {
   RunSettings settings;
   if (!planned.former) return settings;
@@ -26,11 +26,11 @@ RunSettings settings_of(const PlannedScene& planned, bool quiet) {
   if (former.has_flights())
     settings.simulator = [&former](const Scene& scene) { return former.motion(scene); };
   else if (!quiet)
-    write_err(fmt::format("{}: no flights are stored there: simulating again\n", printable(former.folder)));
+    write_err(fmt::format("{}: no flights are stored: simulating again\n", printable(former.folder)));
   settings.measure = [&former](const Scene&, const State&, const Summary& summary) {
     if (summary.collisions != former.manifest.collisions)
-      throw ExportError(fmt::format("the motion is another one: {} collisions, not {}", summary.collisions,
-                                    former.manifest.collisions));
+      throw ExportError(
+          fmt::format("the motion differs: {} collisions, not {}", summary.collisions, former.manifest.collisions));
     return former.manifest.measures;
   };
   return settings;

@@ -1,5 +1,5 @@
 #pragma once
-// What became of a scene of a command line: for the terminal, and as an entry of the document of --json.
+// The outcome of a scene: for the terminal, and as an entry of the document of --json.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -23,20 +23,20 @@ struct SceneOutcome {
   std::string complaint;         // for stderr; empty: none
 };
 
-/// How stdout is written to.
+/// Form of the text on stdout.
 struct Style {
   Palette palette;
   std::size_t width;  // columns
 };
 
 SceneOutcome without_run(const PlannedScene& planned, std::string_view status);
-SceneOutcome wrong_scene(const PlannedScene& planned);  // its error, which the terminal has already
+SceneOutcome wrong_scene(const PlannedScene& planned);  // its error has been printed already
 SceneOutcome run_done(const PlannedScene& planned, const RunResult& result, const Options& options, const Style& style);
 SceneOutcome run_up_to_date(const PlannedScene& planned, const Style& style);
 SceneOutcome run_failed(const PlannedScene& planned, std::string_view text);
 SceneOutcome run_interrupted(const PlannedScene& planned);
 
-/// As text from process to process.
+/// As text, to pass between processes.
 std::string packed(const SceneOutcome& outcome);
 SceneOutcome unpacked(const std::string& text);
 

@@ -20,9 +20,8 @@ const CommandText& schema_text() {
       "prints the JSON Schema of scene files, for editors and other programs",
       "  carom schema > scene.schema.json                      beside a scene whose first line is\n"
       "                                                        # yaml-language-server: $schema=scene.schema.json\n"
-      "  carom schema sweep > sweep.schema.json                the same of sweep files\n",
-      "Draft-07, made from the table that scenes are read by. Exit codes: 0 done, 2 the command line is\n"
-      "wrong.",
+      "  carom schema sweep > sweep.schema.json                the same for sweep files\n",
+      "Draft-07, made from the loader's table of keys. Exit codes: 0 done, 2 the command line is wrong.",
       {},
       "KIND",
       "of files: scene (the default) or sweep",
@@ -36,7 +35,7 @@ int schema_command(const Options& options) {
   std::vector<std::string> known;
   for (const auto family : families()) known.emplace_back(family.front().name);
   if (std::find(known.begin(), known.end(), name) == known.end()) {
-    throw UsageError(fmt::format("there is no kind of file {}{}; it has {}", in_backticks(name),
+    throw UsageError(fmt::format("no kind of file {}{}; the kinds are {}", in_backticks(name),
                                  did_you_mean(name, known), listed(known, known.size())));
   }
   write_out(json_schema(name));

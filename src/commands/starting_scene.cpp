@@ -5,9 +5,9 @@ namespace carom {
 
 std::string_view starting_scene() {
   return R"(# yaml-language-server: $schema=scene.schema.json
-# A red ball is thrown over a floor, bounces, and lands on a blue one. Change what you like: `carom check` tells what a
-# run would do, `carom explain KEY` what a key means, and an editor with a YAML language server completes and checks
-# keys by the first line.
+# A red ball is thrown over a floor, bounces, and lands on a blue one. Change any of it: `carom check` shows what a run
+# would do, and `carom explain KEY` explains a key. By the first line an editor with a YAML language server completes
+# and checks keys.
 #
 # Expect the red ball to strike the floor first: it falls 1.2 - 0.2 = 1 m in sqrt(2 * 1 / 9.80665) = 0.4516 s.
 # Units: m, kg, s, N, J; angles in degrees. Positions are [x, y, z], y is up.
@@ -16,7 +16,7 @@ title: A thrown ball meets another
 # seed: 7                         # of groups made at random
 # gravity: [0, 0, 0]              # without this line [0, -9.80665, 0]
 
-# What every ball takes that does not say otherwise. restitution: 0 does not bounce, 1 loses nothing.
+# Values for every ball that has none of its own. restitution: 0 does not bounce, 1 loses nothing.
 defaults:
   ball: {mass: 1, radius: 0.2, restitution: 0.8}
 
@@ -41,7 +41,7 @@ simulate: {duration: 3}
 camera: {eye: [0.5, 1.6, 6], target: [0.5, 0.6, 0], fov: 40}
 
 output:
-  trajectory: {every: 0.01}       # trajectory.csv: where every ball is
+  trajectory: {every: 0.01}       # trajectory.csv: position and velocity
   collisions: true                # collisions.csv: every collision
   energy: {every: 0.01}           # energy.csv
   frames: {fps: 10, size: [640, 360]}

@@ -1,4 +1,4 @@
-// One task of the array does many runs: what a task costs the scheduler is more than most runs take.
+// One task of the array does many runs: scheduling a task takes longer than most runs.
 #include "commands/submit.h"
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr std::size_t runs_a_part = 50, most_parts = 16;  // unless --parts says otherwise
+constexpr std::size_t runs_a_part = 50, most_parts = 16;  // without --parts
 
 std::string words_of(const std::vector<std::string>& words) {
   std::string out;
@@ -27,7 +27,7 @@ std::string words_of(const std::vector<std::string>& words) {
   return out;
 }
 
-/// No option, whatever it begins with.
+/// Never parsed as an option, even with a leading dash.
 std::string as_operand(const std::string& path) {
   return path.starts_with('-') ? "./" + path : path;
 }
@@ -65,7 +65,7 @@ int submit(const Options& options) {
   std::string batch;
   for (const std::string& line : options.submit.batch) batch += fmt::format("#SBATCH {}\n", line);
   const std::string name = "carom-" + (stem.empty() ? "sweep" : stem);
-  // Asked for its end, a task has half a minute to put its files in order. --open-mode: a requeued task's log goes on.
+  // After SIGTERM a task has half a minute to finish its files. --open-mode: a requeued task appends to its log.
   const std::string script = fmt::format(
       R"(#!/bin/sh
 #SBATCH --job-name={0}
@@ -77,8 +77,8 @@ int submit(const Options& options) {
 #SBATCH --signal=B:TERM@30
 #SBATCH --output={0}-%A_%a.log
 {3}
-# {4} in {7}, as a job array of Slurm. `sh` of this file submits the parts and, after them, what gathers
-# them; `sbatch` of it the parts alone.
+# {4} in {7}, as a Slurm job array. `sh` of this file submits the parts and, after them, a job that gathers
+# them; `sbatch` of this file submits only the parts.
 set -eu
 if [ -z "${{SLURM_ARRAY_TASK_ID:-}}" ]; then
   parts=$(sbatch --parsable "$0")
@@ -107,14 +107,14 @@ exec {6} --jobs {2} --shard "$SLURM_ARRAY_TASK_ID/{1}"
 const CommandText& submit_text() {
   static const CommandText text = {
       "submit",
-      "prints a script that makes a sweep as a job array of Slurm",
+      "prints a script that runs a sweep as a Slurm job array",
       "  carom submit sweep.yaml --slurm > job.sh\n"
-      "  sh job.sh                                             submits the parts, and what gathers them\n"
-      "  sbatch job.sh                                         submits the parts alone\n"
+      "  sh job.sh                                             submits the parts and a job that gathers them\n"
+      "  sbatch job.sh                                         submits only the parts\n"
       "  carom submit sweep.yaml --slurm --parts 8 -j 4 --batch=--time=1:00:00\n",
-      "Each task of the array does one part of the sweep, many runs; a task that is requeued goes on with\n"
-      "what is missing. The sweep's folder must be on a file system that all tasks see. All scenarios are\n"
-      "checked here, before anything waits in a queue.\n\n"
+      "Each task of the array runs one part of the sweep. A requeued task continues with the missing runs.\n"
+      "The sweep's folder must be on a file system that all tasks share. All scenarios are checked before\n"
+      "the script is printed.\n\n"
       "Exit codes: 0 done, 2 the command line, the sweep or its scene is wrong.",
       {{"--slurm"},
        {"--parts"},
@@ -122,7 +122,7 @@ const CommandText& submit_text() {
        {"--output", "the sweep's folder (output/<sweep file's stem>)"},
        {"--grid"},
        {"--jobs", "processors of a task, and runs at a time in it (1)"},
-       {"--set", "change a value of every run, simulate.duration=2 say;\nmay be repeated"},
+       {"--set", "change a value of every run, such as\nsimulate.duration=2; may be repeated"},
        {"--only"},
        {"--seed", "the seed of every run; with repeats, the first one"},
        {"--force", "lift the budget"}},

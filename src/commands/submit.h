@@ -1,5 +1,5 @@
 #pragma once
-// carom submit: a sweep as a job array of a batch system.
+// carom submit: a script that runs a sweep as a job array.
 #include "commands/command_line.h"
 
 namespace carom {

@@ -69,9 +69,10 @@ class SweepSession {
     job.plan([&](const SweepProgress& p) { tell(p); });
     progress_.reset();
     if (const auto other = options_.force ? std::nullopt : job.other_content())
-      return refuse(fmt::format("the folder {} holds something else than this run", printable(job.run_folder(*other))));
+      return refuse(
+          fmt::format("the folder {} holds something other than this run", printable(job.run_folder(*other))));
     for (const std::string& path : job.idle_paths())
-      complain(options_, fmt::format("{} makes no difference to the motion: what it sets is not used", path));
+      complain(options_, fmt::format("{} has no effect on the motion: its value is not used", path));
     if (options_.plan) {
       show_plan(options_, job);
       return 0;
@@ -144,23 +145,23 @@ const CommandText& sweep_text() {
       "sweep",
       "runs a scene with many combinations of values, and compares the runs",
       "  carom sweep scenes/sweeps/bowling.yaml\n"
-      "  carom sweep sweep.yaml --plan                         the runs, their values, what is done\n"
+      "  carom sweep sweep.yaml --plan                         the runs, their values, which are done\n"
       "  carom sweep sweep.yaml -j 4                           four runs at a time\n"
       "  carom sweep scene.yaml --grid restitution.default=0.5:1:6 --grid balls.red.mass=5,10\n"
       "  carom sweep sweep.yaml --shard 2/8                    the second of eight parts\n",
       "Without -o a sweep goes to output/<sweep file's stem>/: runs/r0001/..., summary.csv with a row a\n"
       "run, comparison.xlsx and manifest.json; with --grid to output/<scene file's stem>.sweep/. All\n"
-      "scenarios are checked before the first is run. Scenarios that move alike share one simulation. A\n"
-      "run that fails leaves error.txt in its folder and does not stop the others; the same command runs\n"
-      "what is missing or failed.\n\n"
+      "scenarios are checked before the first is run. Scenarios with the same motion share one\n"
+      "simulation. A failed run leaves error.txt in its folder and does not stop the others. The same\n"
+      "command runs what is missing or failed.\n\n"
       "Exit codes: 0 done or up to date, 1 the folder cannot be written, 2 the command line, the sweep or\n"
       "its scene is wrong, 3 some runs failed, 130 or 143 interrupted.",
       {{"--output", "the sweep's folder (output/<sweep file's stem>)"},
        {"--grid"},
        {"--plan"},
-       {"--jobs", "N runs at a time (as many as there are processors);\nchanges no result"},
+       {"--jobs", "N runs at a time (the number of processors); changes no\nresult"},
        {"--shard"},
-       {"--set", "change a value of every run, simulate.duration=2 say;\nmay be repeated"},
+       {"--set", "change a value of every run, such as\nsimulate.duration=2; may be repeated"},
        {"--only"},
        {"--seed", "the seed of every run; with repeats, the first one"},
        {"--force"},

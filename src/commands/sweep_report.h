@@ -1,5 +1,5 @@
 #pragma once
-// What a sweep says of itself, for people or as JSON.
+// The report of a sweep, as text or as JSON.
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,20 +12,20 @@ namespace carom {
 
 struct SweepOutcome {
   std::string status;                                         // "done", "up to date"
-  std::size_t to_do = 0;                                      // runs that were not done before
+  std::size_t to_do = 0;                                      // runs that were not done yet
   std::size_t runs = 0;                                       // of the whole sweep
   std::vector<std::pair<std::size_t, std::string>> failures;  // run, why
   double wall_s = 0;
-  std::size_t doubtful = 0;  // runs of the whole sweep; of a part: not known
+  std::size_t doubtful = 0;  // runs of the whole sweep; unknown for a part
 };
 
 /// The end of a sweep, on stdout, and the runs that failed, on stderr.
 void show_outcome(const Options& options, const SweepOutcome& outcome, const SweepJob& job);
 
-/// With --json: that nothing came of it ("wrong", "interrupted", "failed"), and why.
+/// With --json: the status of a sweep without a result ("wrong", "interrupted", "failed"), and the reason.
 void show_failure(const Options& options, std::string_view status, std::string_view error);
 
-/// --plan: every run's id, values and whether it is done. Wants the job planned.
+/// --plan: id, values and state of every run. The job must be planned.
 void show_plan(const Options& options, const SweepJob& job);
 
 }  // namespace carom

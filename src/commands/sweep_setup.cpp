@@ -35,14 +35,14 @@ void set_for_all(Sweep& sweep, const std::string& text, std::string_view option)
   const std::string path = text.substr(0, equals), value = text.substr(equals + 1);
   if (varies(sweep, path))
     throw UsageError(fmt::format("{} sets {}, which varies in this sweep", option, in_backticks(path)));
-  // Of several values the last counts.
+  // The last of several values counts.
   std::erase_if(sweep.set_values, [&](const SweepValue& set) { return set.text.starts_with(path + "="); });
   // In a file an unquoted # begins a comment; here it can only be a colour.
   sweep.set_values.push_back(
       {path + "=" + (value.starts_with('#') ? in_quotes(value) : value), fmt::format("--set {}", text)});
 }
 
-/// A variable of Slurm's that is a number.
+/// The number in a variable of Slurm.
 std::optional<std::size_t> slurm(const char* name) {
   const char* text = std::getenv(name);
   if (text == nullptr) return std::nullopt;
@@ -50,7 +50,7 @@ std::optional<std::size_t> slurm(const char* name) {
   const char* end = text + std::string_view(text).size();
   const auto [stop, error] = std::from_chars(text, end, value);
   if (error != std::errc() || stop != end)
-    throw UsageError(fmt::format("{} is {}, which is no number: say --shard I/N", name, in_backticks(text)));
+    throw UsageError(fmt::format("{} is {}, which is not a number: use --shard I/N", name, in_backticks(text)));
   return value;
 }
 
@@ -84,7 +84,7 @@ SweepSettings sweep_settings(const Options& options) {
   SweepSettings settings;
   settings.load.budget.enforced = !options.force;
   settings.load.color = !options.json && wants_color(options.color, STDERR_FILENO);
-  // Every scenario has the base's meshes: each is read once.
+  // Every scenario has the base's meshes, so each mesh is read once.
   auto known = std::make_shared<std::map<std::string, std::vector<Vec3>>>();
   settings.load.mesh_points = [known](const std::string& path) {
     const auto found = known->find(path);
@@ -142,7 +142,7 @@ Shard shard_of(const Options& options) {
   const std::size_t least = slurm("SLURM_ARRAY_TASK_MIN").value_or(1);
   const Shard shard{*task < least ? 0 : (*task - least) / step + 1, *count};
   if (shard.index < 1 || shard.index > shard.count || (*task - least) % step != 0)
-    throw UsageError("SLURM_ARRAY_TASK_ID is not within its array, or the array has gaps: say --shard I/N");
+    throw UsageError("SLURM_ARRAY_TASK_ID is not within its array, or the array has gaps: use --shard I/N");
   return shard;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A sweep of the command line, as sweep, gather and submit see it.
+// Setup of a sweep from the command line, for sweep, gather and submit.
 #include <string>
 
 #include "commands/command_line.h"
@@ -14,14 +14,14 @@ Sweep read_sweep(const Options& options);
 /// Where its runs go.
 std::string sweep_folder_of(const Options& options);
 
-/// How its runs are made here; without --shard a job array's task does its own part.
+/// Settings of its runs; without --shard a job array's task runs its own part.
 SweepSettings sweep_settings(const Options& options);
 
-/// Whether measures and charts mean something for the first scenario; if that is wrong itself, plan() tells. Throws
+/// Checks measures and charts against the first scenario; plan() reports errors of the scenario itself. Throws
 /// SceneError.
 void check_comparison(SweepJob& job);
 
-/// The part that a task of a job array does, by SLURM_ARRAY_TASK_ID, _MIN, _STEP and _COUNT; else everything. Throws
+/// The part of a job array's task, by SLURM_ARRAY_TASK_ID, _MIN, _STEP and _COUNT; without these everything. Throws
 /// UsageError.
 Shard shard_of(const Options& options);
 

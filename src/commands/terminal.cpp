@@ -64,8 +64,8 @@ std::size_t own_sequence(std::string_view text) {
   return 0;
 }
 
-/// Whatever has found its way into `text` from files and names: lines, tabs and the program's own colours are all that
-/// is left of what a terminal would obey.
+/// Escapes control characters that came into `text` from files and names. Line ends, tabs and the program's own colours
+/// stay.
 std::string harmless(std::string_view text) {
   std::string result;
   result.reserve(text.size());
@@ -112,8 +112,8 @@ void draw_line(std::string_view text) {
 void hold_standard_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(descriptor, F_GETFD) != -1 || errno != EBADF) continue;
-    // Read-only, so that writing to a closed stdout still fails and is reported. The lowest free descriptor is this
-    // one.
+    // Read-only, so that writing to a closed stdout still fails and is reported. The lowest free descriptor is
+    // `descriptor`.
     if (open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
   }
 }

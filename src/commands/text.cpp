@@ -64,7 +64,8 @@ std::size_t columns_of(std::string_view text) {
 
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width) {
   std::string result;
-  std::size_t column = indent;  // the first line's own beginning is the caller's
+  // The caller writes the beginning of the first line.
+  std::size_t column = indent;
   while (!text.empty()) {
     const std::size_t end = std::min(text.find(' '), text.size());
     const std::string_view word = text.substr(0, end);
@@ -85,7 +86,7 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
 
 std::string shell_word(const std::string& word) {
   if (printable(word) != word) {
-    // By numbers, so that the word can be seen, and copied.
+    // In octal, so that the word can be read and copied.
     std::string octal;
     for (const char c : word) octal += fmt::format("\\{:03o}", static_cast<unsigned char>(c));
     return "\"$(printf '" + octal + "')\"";

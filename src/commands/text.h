@@ -1,5 +1,5 @@
 #pragma once
-// Numbers, lists and names as a person reads them. Not for files: those carry every digit.
+// Numbers, lists and names for display. Not for files: those carry every digit.
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -17,7 +17,7 @@ std::string counted(std::uint64_t count, std::string_view singular, std::string_
 std::string grouped(std::uint64_t count);
 /// "512 bytes", "3.2 MB" (powers of 1000).
 std::string bytes_text(std::uint64_t bytes);
-/// A time to wait, seconds in: "2.4 ms", "1.24 s", "3 min 20 s", "2 h 5 min".
+/// A time in seconds as text: "2.4 ms", "1.24 s", "3 min 20 s", "2 h 5 min".
 std::string wait_text(double seconds);
 /// "a", "a and b", "a, b and c"; beyond `most` names: "a, b and 7 more".
 std::string listed(const std::vector<std::string>& names, std::size_t most = 10);
@@ -25,7 +25,7 @@ std::string listed(const std::vector<std::string>& names, std::size_t most = 10)
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width);
 /// Columns that UTF-8 `text` takes, a code point counted as one.
 std::size_t columns_of(std::string_view text);
-/// A word as a shell takes it: quoted if need be, unprintable characters by their bytes.
+/// A word for a shell: quoted if necessary, unprintable characters by their bytes.
 std::string shell_word(const std::string& word);
 
 /// The last name of a folder's path: "half" of "output/half/", the name of the working folder of ".".

@@ -79,7 +79,7 @@ void read_measures(RunRecord& run, const std::vector<Measure>& measures) {
     if (!motions) {
       if (!has_file(run, "trajectory.csv"))
         refuse_run(run.run.folder,
-                   fmt::format("has no trajectory.csv, which tells {}: run its scene.yaml again with the "
+                   fmt::format("has no trajectory.csv, needed for {}: run its scene.yaml again with the "
                                "output `trajectory`",
                                measure.name));
       motions = end_of_trajectory(run);

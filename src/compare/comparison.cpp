@@ -119,14 +119,14 @@ class Comparison {
   std::vector<std::string> remarks() const {
     std::vector<std::string> remarks;
     if (!summary_.is_table())
-      remarks.push_back(fmt::format("Summary is a table of up to {} runs; of more it is a range with filters.",
+      remarks.push_back(fmt::format("Summary is a table for up to {} runs, and a range with filters for more.",
                                     SummarySheet::most_in_table));
     if (count_ + 1 > most_rows)
       remarks.push_back(fmt::format("Summary holds the first {} runs; summary.csv has all.", most_rows - 1));
     remarks.push_back(fmt::format("Series: at most {} points of a run, evenly chosen.", series_.points()));
     if (series_.left_out() > 0)
-      remarks.push_back(
-          fmt::format("Series: {} runs had no room, or have tables too long for it.", series_.left_out()));
+      remarks.push_back(fmt::format("Series: {} runs left out, for lack of room or for tables that are too long.",
+                                    series_.left_out()));
     if (collisions_.full())
       remarks.push_back(
           fmt::format("Collisions: the first {}; collisions.csv of each run has all.", CollisionSheet::most));
@@ -190,16 +190,16 @@ void check_charts(const ComparisonPlan& plan) {
     const std::string near = nearest(name, paths);
     std::string remedy;
     if (!near.empty()) remedy = fmt::format("; did you mean {}?", in_backticks(near));
-    if (near.empty() && !paths.empty()) remedy = fmt::format("; what varies is {}", fmt::join(paths, ", "));
+    if (near.empty() && !paths.empty()) remedy = fmt::format("; the varied paths are {}", fmt::join(paths, ", "));
     throw MeasureError(fmt::format("a chart's {} {}{}", in_backticks(name), what, remedy));
   };
   for (const Chart& chart : plan.charts) {
-    if (!chart.by.empty() && !find_parameter(plan, chart.by)) refuse(chart.by, "does not vary");
+    if (!chart.by.empty() && !find_parameter(plan, chart.by)) refuse(chart.by, "is not varied");
     if (find_parameter(plan, chart.x)) continue;
     try {
       parse_measure(chart.x);
     } catch (const MeasureError&) {
-      refuse(chart.x, "does not vary and is no measure");
+      refuse(chart.x, "is neither varied nor a measure");
     }
   }
   measures_of(plan);

@@ -8,38 +8,39 @@ namespace carom {
 namespace {
 
 constexpr std::array<ColumnText, 15> collision_texts = {
-    {{"time_s", "when they met"},
-     {"kind", "body-body, body-fixed, rest (bounces ended) or merge (two became one)"},
-     {"a", "the body; of two the first"},
+    {{"time_s", "time of the collision"},
+     {"kind", "body-body, body-fixed, rest (end of the bounces) or merge (two become one)"},
+     {"a", "the body; the first of two"},
      {"b", "the other body, or the fixed thing"},
      {"x_m", "x coordinate of the point of contact"},
      {"y_m", "y coordinate of the point of contact"},
      {"z_m", "z coordinate of the point of contact"},
-     {"nx", "the normal's x part; it points from a to b"},
-     {"ny", "the normal's y part"},
-     {"nz", "the normal's z part"},
-     {"approach_speed_m_per_s", "relative speed along the normal before; above 0: approaching"},
-     {"separation_speed_m_per_s", "the same after; above 0: separating"},
-     {"restitution", "the pair's coefficient"},
-     {"impulse_N_s", "along the normal"},
-     {"energy_lost_J", "by this collision; below 0: made"}}};
+     {"nx", "x component of the normal, which points from a to b"},
+     {"ny", "y component of the normal"},
+     {"nz", "z component of the normal"},
+     {"approach_speed_m_per_s", "relative speed along the normal before the collision; above 0: approaching"},
+     {"separation_speed_m_per_s", "the same after the collision; above 0: separating"},
+     {"restitution", "the pair's coefficient of restitution"},
+     {"impulse_N_s", "impulse along the normal"},
+     {"energy_lost_J", "energy lost in this collision; below 0: gained"}}};
 
-constexpr std::array<ColumnText, 3> series_texts = {{{"time_s", "instant of the columns to its right, up to the next time_s"},
-                                               {"kinetic_J", "kinetic energy of all bodies"},
-                                               {"total_J", "kinetic and potential energy of all bodies"}}};
+constexpr std::array<ColumnText, 3> series_texts = {
+    {{"time_s", "instant of the columns to its right, up to the next time_s"},
+     {"kinetic_J", "kinetic energy of all bodies"},
+     {"total_J", "kinetic and potential energy of all bodies"}}};
 
 struct SheetText {
   const char *name, *text;
 };
 constexpr SheetText sheets[] = {
-    {"Compare", "charts of the measures by what was varied; beneath them the numbers that they draw"},
-    {"Summary", "a row a run: summary.csv of each run, what was varied (tinted), further measures"},
+    {"Compare", "charts of the measures over the varied values, and below them their numbers"},
+    {"Summary", "a row for each run: its summary.csv, the varied values (tinted), further measures"},
     {"Repeats",
-     "a row a scenario: mean, standard deviation (n - 1), least and greatest of its repeats; where there are"},
-    {"Pivot", "means of the measures by two parameters; where two vary"},
+     "a row for each scenario: mean, standard deviation (n - 1), minimum and maximum of its repeats, if any"},
+    {"Pivot", "means of the measures by two parameters, if two vary"},
     {"Series", "energy and bodies' motion over time, thinned; a column for each run"},
     {"Collisions", "the collisions of all runs"},
-    {"Parameters", "what was varied, run by run, and what all runs have in common"},
+    {"Parameters", "varied values, run by run, and the values that all runs share"},
     {"About", "this sheet"}};
 
 std::string meaning_of(const Measure& measure) {
@@ -71,7 +72,7 @@ void write_about(Worksheet& sheet, const ComparisonPlan& plan, const std::vector
   sheet.text(row++, 0,
              "written by carom " CAROM_VERSION
              "; SI units, right-handed axes, y is up; numbers have 16 digits here and "
-             "all of theirs in the CSV files",
+             "all digits in the CSV files",
              CellStyle::note);
   section("Sheets");
   for (const SheetText& text : sheets) {
@@ -88,7 +89,7 @@ void write_about(Worksheet& sheet, const ComparisonPlan& plan, const std::vector
   ++row;
   for (const SummaryColumn& text : summary_columns()) column("Summary", text.name, unit_of(text.name), text.meaning);
   for (const Parameter& parameter : plan.parameters)
-    column("Summary", parameter.path, parameter.unit, "varied: this value of the scene");
+    column("Summary", parameter.path, parameter.unit, "value of the scene that is varied");
   for (const Measure& measure : measures)
     if (measure.column == nullptr) column("Summary", measure.name, unit_of(measure.name), meaning_of(measure));
   if (plan.seed) {

@@ -16,7 +16,7 @@ void write_head(Worksheet& sheet, std::size_t row, std::size_t column, std::init
 }  // namespace
 
 ParameterSheet::ParameterSheet(Worksheet& sheet, const ComparisonPlan& plan) : sheet_(sheet), plan_(plan) {
-  sheet_.text(0, 0, "What was varied, run by run", CellStyle::title);
+  sheet_.text(0, 0, "Varied values, run by run", CellStyle::title);
   sheet_.text(head_row, 0, "run", CellStyle::header);
   for (std::size_t p = 0; p < plan.parameters.size(); ++p)
     sheet_.text(head_row, 1 + p, label_of(plan.parameters[p]), CellStyle::swept_header);
@@ -25,21 +25,21 @@ ParameterSheet::ParameterSheet(Worksheet& sheet, const ComparisonPlan& plan) : s
 void ParameterSheet::add(const ComparedRun& run) {
   ++runs_;
   const std::size_t row = head_row + runs_;
-  if (runs_ == most + 1) sheet_.text(row, 0, "The sheet Summary has them all.", CellStyle::note);
+  if (runs_ == most + 1) sheet_.text(row, 0, "The sheet Summary has all of them.", CellStyle::note);
   if (runs_ > most) return;
   sheet_.text(row, 0, run.id);
   for (std::size_t p = 0; p < run.values.size(); ++p) sheet_.cell(row, 1 + p, cell_of(run.values[p]), CellStyle::swept);
 }
 
 std::size_t ParameterSheet::write_varied(const Outcomes& outcomes, std::size_t row, std::size_t first) {
-  sheet_.text(row++, first, "Its range", CellStyle::title);
+  sheet_.text(row++, first, "Ranges", CellStyle::title);
   write_head(sheet_, row++, first, {"parameter", "unit", "values", "from", "to"});
   for (const Varied& varied : outcomes.varied()) {
     const Parameter& parameter = plan_.parameters[varied.parameter];
     sheet_.text(row, first, parameter.path, CellStyle::swept);
     sheet_.text(row, first + 1, parameter.unit);
     if (varied.values.empty()) {
-      sheet_.text(row++, first + 3, "tells repeats apart", CellStyle::note);
+      sheet_.text(row++, first + 3, "distinguishes repeats", CellStyle::note);
       continue;
     }
     sheet_.number(row, first + 2, static_cast<double>(varied.values.size()), CellStyle::whole);
@@ -53,7 +53,7 @@ void ParameterSheet::finish(const Outcomes& outcomes, const std::vector<SceneVal
   const std::size_t first = plan_.parameters.size() + 2;
   std::size_t row = 0;
   if (!plan_.parameters.empty()) row = write_varied(outcomes, row, first) + 1;
-  sheet_.text(row++, first, "What all runs have in common", CellStyle::title);
+  sheet_.text(row++, first, "Values that all runs share", CellStyle::title);
   write_head(sheet_, row++, first, {"value of the scene", "unit", "value"});
   for (const SceneValue& value : common) {
     if (find_parameter(plan_, value.path) || row >= most_rows) continue;

@@ -77,7 +77,7 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const std::vector
   sheet.text(
       1, 0,
       fmt::format("down: {}; across: {}{}{}", label_of(plan.parameters[parameters.first]),
-                  label_of(plan.parameters[parameters.second]), formulas ? "; formulas on the sheet Summary" : "",
+                  label_of(plan.parameters[parameters.second]), formulas ? "; formulas over the sheet Summary" : "",
                   height < down.values.size() || width < across.values.size()
                       ? fmt::format("; only the first {} values of each", most_labels)
                       : ""),

@@ -42,7 +42,7 @@ std::vector<SummarySheet::Column> SummarySheet::make_columns(const ComparisonPla
     if (measures[k].column == nullptr) columns.push_back({measures[k].name, CellStyle::plain, false, {}, {}, k});
   if (columns.size() > most_columns)
     throw ExportError(
-        fmt::format("a comparison of {} columns is more than a spreadsheet's {}: compare fewer parameters",
+        fmt::format("a comparison of {} columns exceeds the {} of a spreadsheet: compare fewer parameters",
                     columns.size(), most_columns));
   return columns;
 }

@@ -162,7 +162,7 @@ void WorkbookFiles::check_archive(int archive) const {
   std::sort(found.begin(), found.end());
   std::sort(wanted.begin(), wanted.end());
   if (!whole || !ends_whole(archive) || found != wanted)
-    fail("write", place_, name_, "the workbook is not what was written to it");
+    fail("write", place_, name_, "the workbook differs from what was written");
 }
 
 FILE* WorkbookFiles::make() {

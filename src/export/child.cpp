@@ -43,7 +43,7 @@ std::string text_of(int file) {
   while (size < text.size()) {
     const ssize_t n = pread(file, text.data() + size, text.size() - size, static_cast<off_t>(size));
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail("read", {-1, "what a program wrote"}, "");
+    if (n < 0) fail("read", {-1, "the output of a program"}, "");
     if (n == 0) break;
     size += static_cast<std::size_t>(n);
   }

@@ -27,7 +27,7 @@ std::string complaint(const std::string& text) {
   std::string tail = text.size() > most ? "..." + text.substr(text.size() - most) : text;
   while (!tail.empty() && tail.back() == '\n') tail.pop_back();
   for (char& c : tail) c = c == '\n' ? ';' : static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-  return tail.empty() ? "it said nothing" : tail;
+  return tail.empty() ? "no message" : tail;
 }
 
 /// The properties of a film's only stream as printed by ffprobe, separated by commas.
@@ -55,9 +55,8 @@ std::uint64_t take_number(std::string_view& text) {
 FilmTools find_film_tools() {
   const auto ffmpeg = find_program("ffmpeg"), ffprobe = find_program("ffprobe");
   if (!ffmpeg || !ffprobe) {
-    throw ExportError(
-        std::string("the scene asks for a video, but ") + (ffmpeg ? "ffprobe" : "ffmpeg") +
-        " is not on this machine's PATH: install it (on Debian: apt install ffmpeg), or leave the video out");
+    throw ExportError(std::string("a video needs ") + (ffmpeg ? "ffprobe" : "ffmpeg") +
+                      ", which is not on the PATH: install it (on Debian: apt install ffmpeg), or leave the video out");
   }
   return {*ffmpeg, *ffprobe};
 }
@@ -119,12 +118,13 @@ void FilmFile::send(const void* bytes, std::size_t size) {
       fail_with("ffmpeg ended too early: " + complaint(ffmpeg_->errors()));
     case Child::Sent::stuck:
       ffmpeg_->kill();
-      fail_with("ffmpeg took no picture for " + std::to_string(patience_.each.count() / 1000) + " s and was stopped");
+      fail_with("ffmpeg accepted no picture for " + std::to_string(patience_.each.count() / 1000) +
+                " s and was stopped");
   }
 }
 
 void FilmFile::complete(std::uint64_t frames) {
-  if (!ffmpeg_) fail_with("no picture falls into it");
+  if (!ffmpeg_) fail_with("it has no pictures");
   ffmpeg_->end_input();
   const std::optional<int> code = ffmpeg_->wait(patience_.end);
   if (!code) {

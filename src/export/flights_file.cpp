@@ -157,16 +157,16 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
       buffer_(std::size_t{256} * 1024),
       acceleration_(scene.world.body_count(), Vec3::Zero()) {
   struct stat info {};
-  if (!file_ || fstat(file_.get(), &info) != 0) refuse("it cannot be opened, or is no file");
+  if (!file_ || fstat(file_.get(), &info) != 0) refuse("it cannot be opened, or is not a file");
   const auto size = static_cast<std::uint64_t>(info.st_size);
-  if (size < header_size + tail_size) refuse("it is cut off");
+  if (size < header_size + tail_size) refuse("it is truncated");
 
   char tail[tail_size];
   if (pread(file_.get(), tail, tail_size, static_cast<off_t>(size - tail_size)) != static_cast<ssize_t>(tail_size))
     refuse("it cannot be read");
   std::memcpy(buffer_.data(), tail, tail_size);
   end_ = tail_size;
-  if (take<std::uint32_t>() != last_entry || take<std::uint32_t>() != 0) refuse("it is cut off");
+  if (take<std::uint32_t>() != last_entry || take<std::uint32_t>() != 0) refuse("it is truncated");
   entries_ = take<std::uint64_t>();
   for (std::uint64_t* count : {&tally_.body_body, &tally_.body_fixed, &tally_.merges, &tally_.collapses,
                                &tally_.resting, &tally_.taken_up.impacts})
@@ -179,12 +179,12 @@ FlightsReader::FlightsReader(int folder, const std::string& path, const Scene& s
   at_ = end_ = 0;
   left_ = size - tail_size;
   fill(header_size);
-  if (std::string_view(buffer_.data(), magic.size()) != magic) refuse("it is no record of flights");
+  if (std::string_view(buffer_.data(), magic.size()) != magic) refuse("it is not a file of flights");
   at_ += magic.size();
   if (take<std::uint32_t>() != version) refuse("another version of carom wrote it");
   if (take<std::uint32_t>() != byte_order) refuse("it is damaged");
   if (take<std::uint64_t>() != scene.world.body_count() || take<double>() != scene.simulate.duration)
-    refuse("it is another scene's");
+    refuse("it belongs to another scene");
 }
 
 bool FlightsReader::next(PathPiece& piece) {
@@ -251,7 +251,7 @@ void FlightsReader::fill(std::size_t size) {
     const ssize_t n = read(file_.get(), buffer_.data() + end_, std::min<std::uint64_t>(buffer_.size() - end_, left_));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail("read", {-1, path_}, flights_name);
-    if (n == 0) refuse("it is cut off");
+    if (n == 0) refuse("it is truncated");
     end_ += static_cast<std::size_t>(n);
     left_ -= static_cast<std::uint64_t>(n);
   }
@@ -259,7 +259,7 @@ void FlightsReader::fill(std::size_t size) {
 
 template <typename T>
 T FlightsReader::take() {
-  if (end_ - at_ < sizeof(T)) refuse("it is cut off");
+  if (end_ - at_ < sizeof(T)) refuse("it is truncated");
   T value;
   std::memcpy(&value, buffer_.data() + at_, sizeof value);
   at_ += sizeof value;

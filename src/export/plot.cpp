@@ -174,7 +174,7 @@ std::string find_gnuplot() {
   const auto gnuplot = find_program("gnuplot");
   if (!gnuplot)
     throw ExportError(
-        "gnuplot, which draws the plots, is not on this machine's PATH: install it (on Debian: apt install "
+        "the plots need gnuplot, which is not on the PATH: install it (on Debian: apt install "
         "gnuplot-nox)");
   return *gnuplot;
 }

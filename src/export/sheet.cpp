@@ -28,7 +28,7 @@ Sheet::Sheet(const SheetOutput& sheet, Size shape) : columns_(sheet.columns), ro
   if (columns < 1 || rows < 1 || total_height > most_pixels || total_width * total_height > most_pixels)
     throw ExportError("cannot make a contact sheet of " + std::to_string(columns) + " x " + std::to_string(rows) +
                       " pictures: it would have " + std::to_string(total_width) + " x " + std::to_string(total_height) +
-                      " pixels; ask for fewer columns or rows");
+                      " pixels; use fewer columns or rows");
   picture_ = {static_cast<int>(width), static_cast<int>(height)};
   whole_ = {static_cast<int>(total_width), static_cast<int>(total_height)};
 }

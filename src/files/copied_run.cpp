@@ -25,7 +25,7 @@ namespace {
 void copy_file(const FileSpot& from, const FilePlace& to, const FileRecord& record) {
   const std::string& name = from.name;
   const Descriptor source = open_stored(from.folder, name);
-  if (!source) fail("copy", to, name, "the run that it is a copy of does not have it any more");
+  if (!source) fail("copy", to, name, "it is missing from the original run");
   OutputFile file(to, name);
   std::array<char, 65536> buffer{};
   ssize_t n;
@@ -35,7 +35,7 @@ void copy_file(const FileSpot& from, const FilePlace& to, const FileRecord& reco
     file.write({buffer.data(), static_cast<std::size_t>(n)});
   }
   file.complete();
-  if (file.record().sha256 != record.sha256) fail("copy", to, name, "the run that it is a copy of has changed");
+  if (file.record().sha256 != record.sha256) fail("copy", to, name, "the original run has changed");
   file.publish();
 }
 

@@ -143,7 +143,7 @@ void OpenFolder::lock() {
     if (info.st_nlink > 0) return;
     folder_.reset();
   }
-  fail("open", place_, "", "it is a link to nothing, or something else removes it");
+  fail("open", place_, "", "it is a dangling link, or another program removes it");
 }
 
 OpenFolder::~OpenFolder() {
@@ -170,7 +170,7 @@ void OpenFolder::refuse_folders(const Scene& scene) const {
     if (kind.series.folder.empty() || !kind.asked(scene.output)) continue;
     const std::string series(kind.series.folder);
     if (!open_folder(place_.folder, series, false) && errno != ENOENT)
-      fail("open", place_, series, "it is no folder, or a link; remove it");
+      fail("open", place_, series, "it is not a folder, or a link; remove it");
   }
 }
 
@@ -226,7 +226,7 @@ FilePlace OpenFolder::series(const FileSeries& series) {
   const FilePlace place{-1, place_.path + "/" + name};
   if (mkdirat(place_.folder, name.c_str(), 0777) != 0 && errno != EEXIST) fail("make", place, "");
   Descriptor folder = open_folder(place_.folder, name, false);
-  if (!folder) fail("open", place, "", "it is no folder, or a link; remove it");
+  if (!folder) fail("open", place, "", "it is not a folder, or a link; remove it");
   series_.push_back(std::move(folder));
   return {series_.back().get(), place.path};
 }

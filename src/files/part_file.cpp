@@ -99,7 +99,7 @@ Descriptor nameless_file(const FilePlace& place) {
 
 PartFile::PartFile(const FilePlace& place, std::string name) : place_(place) {
   if (!is_plain_name(name))
-    fail("write", place, name, "a file's name may hold no slash, no control character and no dot at its start");
+    fail("write", place, name, "a file name must not contain a slash or a control character, or start with a dot");
   record_.name = std::move(name);
   refuse_folder(place_, record_.name);
   // A temporary file of an interrupted run is removed and never opened for writing, because it may be a link.

@@ -39,7 +39,7 @@ void name_series(const FilePlace& place, const std::string& part, const std::set
   if (!from) return;
   if (mkdirat(place.folder, series.c_str(), 0777) != 0 && errno != EEXIST) fail("make", inner, "");
   const Descriptor to = open_folder(place.folder, series, false);
-  if (!to) fail("open", inner, "", "it is no folder, or a link; remove it");
+  if (!to) fail("open", inner, "", "it is not a folder, or a link; remove it");
   for (const std::string& name : folder_names(from.get()))
     if (names.contains(series + "/" + name)) give_name(from.get(), name, {to.get(), inner.path}, name);
 }

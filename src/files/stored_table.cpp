@@ -24,7 +24,7 @@ void read_at(int file, char* to, std::size_t size, std::uint64_t offset) {
     const ssize_t n = pread(file, to, size, static_cast<off_t>(offset));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail("read", place_of(file), "");
-    if (n == 0) fail("read", place_of(file), "", "it has become shorter");
+    if (n == 0) fail("read", place_of(file), "", "it was truncated");
     to += n;
     size -= static_cast<std::size_t>(n);
     offset += static_cast<std::uint64_t>(n);

@@ -117,7 +117,7 @@ Framebuffer make_layer_framebuffer(const Texture& outlines, int layer) {
   Framebuffer framebuffer(made(gl::GenFramebuffers));
   gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   gl::FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, outlines.name(), 0, layer);
-  check("making room for a mesh's outline");
+  check("allocating the outline of a mesh");
   return framebuffer;
 }
 
@@ -131,7 +131,7 @@ Framebuffer make_framebuffer(std::span<const GLuint> colors, GLuint depth) {
   }
   if (depth) gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
   gl::DrawBuffers(static_cast<GLsizei>(targets.size()), targets.data());
-  check("making room for the picture");
+  check("allocating the picture");
   if (gl::CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
     throw RenderError("this OpenGL cannot draw into pictures of this size");
   return framebuffer;

@@ -14,7 +14,7 @@ namespace {
   throw RenderError(
       fmt::format("cannot load OSMesa for pictures: {}. Remedy: install libosmesa6 22.3 or later (Debian: "
                   "apt-get install libosmesa6), or run without frames, video and sheet.",
-                  reason ? reason : "no reason is given"));
+                  reason ? reason : "no reason given"));
 }
 
 template <typename Function>

@@ -102,7 +102,7 @@ class GlbBuilder {
     for (const BodyRange& range : scene_.roster.bodies)
       for (Entity body = range.first; body < range.first + range.count; ++body) add_body(range, body);
     for (const StillThing& thing : still_things(scene_, motion_.extent)) add_still(thing);
-    if (meshes_.empty()) throw RenderError("the scene has nothing that animation.glb could show");
+    if (meshes_.empty()) throw RenderError("the scene has nothing to show in animation.glb");
     add_camera_and_lights();
     animate();
     return exported();

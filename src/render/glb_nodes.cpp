@@ -21,7 +21,7 @@ constexpr std::size_t head_size = 12, chunk_head_size = 8;
 
 std::uint32_t word_at(std::string_view file, std::size_t at) {
   std::uint32_t word = 0;
-  if (at + sizeof word > file.size()) throw RenderError("assimp has written half a glTF file");
+  if (at + sizeof word > file.size()) throw RenderError("assimp wrote an incomplete glTF file");
   std::memcpy(&word, file.data() + at, sizeof word);
   return word;
 }
@@ -73,7 +73,7 @@ class Mender {
       mend_node(json, nodes_[number->second]);
       ++found;
     }
-    if (found != nodes_.size()) throw RenderError("assimp has lost nodes of a glTF file");
+    if (found != nodes_.size()) throw RenderError("assimp dropped nodes of a glTF file");
     if (!lights_.empty()) {
       gltf_["extensionsUsed"] = {"KHR_lights_punctual"};
       gltf_["extensions"]["KHR_lights_punctual"]["lights"] = lights_;
@@ -142,9 +142,9 @@ std::string exported_name(std::size_t node) {
 std::string mended_glb(std::string_view file, const std::string& title, const std::vector<GlbNode>& nodes) {
   const std::size_t json_size = word_at(file, head_size), json_from = head_size + chunk_head_size;
   if (word_at(file, 0) != magic || word_at(file, head_size + 4) != json_chunk || json_from + json_size > file.size())
-    throw RenderError("assimp has written no glTF file");
+    throw RenderError("assimp wrote no glTF file");
   Json gltf = Json::parse(file.substr(json_from, json_size), nullptr, false);
-  if (!gltf.is_object()) throw RenderError("assimp has written a glTF file without its JSON");
+  if (!gltf.is_object()) throw RenderError("assimp wrote a glTF file without its JSON");
   Mender(gltf, nodes).mend();
   gltf["asset"]["generator"] = "carom " CAROM_VERSION ", by assimp";
   gltf["scenes"][0]["name"] = title;
@@ -157,7 +157,7 @@ std::string mended_glb(std::string_view file, const std::string& title, const st
   out += file.substr(json_from + json_size);
   // Bytes, the largest size that the format can represent.
   constexpr std::size_t largest = 0xFFFFFFFF;
-  if (out.size() > largest) throw RenderError("animation.glb would be larger than 4 GB: ask for fewer keys a second");
+  if (out.size() > largest) throw RenderError("animation.glb would be larger than 4 GB: use fewer keyframes a second");
   put_word(out, 8, out.size());
   return out;
 }

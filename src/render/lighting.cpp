@@ -136,7 +136,7 @@ KeyLight default_light(const CameraFrame& view) {
 Lighting::Lighting(const Scene& scene, const Eye& eye)
     : axes_{eye.direction(Vec3(1, 0, 0)), eye.direction(Vec3(0, 1, 0)), eye.direction(Vec3(0, 0, 1))} {
   if (scene.lights.size() > most_lights)
-    throw RenderError(fmt::format("the scene names {} lights; pictures can have {}", scene.lights.size(), most_lights));
+    throw RenderError(fmt::format("the scene has {} lights; pictures allow {}", scene.lights.size(), most_lights));
   for (const Light& light : scene.lights) {
     Source source{light.position.has_value(), Vec3::Zero(), linear(light.color)};
     source.vector = source.near ? eye.point(*light.position) : -eye.direction(light.direction->normalized());

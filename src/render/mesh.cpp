@@ -63,7 +63,7 @@ std::string check_file(const std::string& path, const MeshLimits& limits) {
   if (!S_ISREG(info.st_mode)) fail(path, "it is not a regular file");
   if (info.st_size == 0) fail(path, "it is empty");
   if (static_cast<std::uint64_t>(info.st_size) > limits.file_bytes)
-    fail(path, fmt::format("it has {} bytes; {} are the most that is read", info.st_size, limits.file_bytes));
+    fail(path, fmt::format("it has {} bytes; at most {} are read", info.st_size, limits.file_bytes));
   return ending;
 }
 

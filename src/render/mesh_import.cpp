@@ -157,7 +157,7 @@ void append(const aiMesh& part, ImportedMesh& mesh, const MeshLimits& limits) {
     const aiFace& face = part.mFaces[i];
     if (face.mNumIndices != 3) continue;
     for (unsigned k = 0; k < 3; ++k) {
-      if (face.mIndices[k] >= part.mNumVertices) throw std::runtime_error("a triangle has a vertex that is not there");
+      if (face.mIndices[k] >= part.mNumVertices) throw std::runtime_error("a triangle refers to a missing vertex");
       mesh.triangles.push_back(static_cast<std::uint32_t>(first + face.mIndices[k]));
     }
   }

@@ -48,7 +48,7 @@ Mesh receive_mesh(const MeshReplySource& source, const MeshLimits& limits) {
   if (!std::all_of(positions.begin(), positions.end(), finite) || !std::all_of(normals.begin(), normals.end(), finite))
     throw std::runtime_error("a vertex is not finite");
   for (std::uint32_t i : mesh.triangles)
-    if (i >= head.vertices) throw std::runtime_error("a triangle has a vertex that is not there");
+    if (i >= head.vertices) throw std::runtime_error("a triangle refers to a missing vertex");
   mesh.vertices = vectors(positions);
   mesh.normals = vectors(normals);
   return mesh;

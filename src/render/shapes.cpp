@@ -65,7 +65,7 @@ Shapes::Shapes(const std::vector<std::string>& files) : instances_(gl::make_buff
     upload(mesh);
     points_.push_back(std::move(mesh.vertices));
   }
-  gl::check("taking up the meshes");
+  gl::check("loading the meshes");
 }
 
 void Shapes::upload(const Mesh& mesh) {

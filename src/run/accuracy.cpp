@@ -191,7 +191,7 @@ class Settling {
     if (!trouble.empty()) throw SimulationError(trouble);
     throw SimulationError(fmt::format(
         "the forces change so fast that even steps of {:.4g} s take more than {:g} steps of bodies: shorten "
-        "simulate.duration, or name a simulate.step in place of the tolerance",
+        "simulate.duration, or set simulate.step instead of the tolerance",
         step, most_steps));
   }
 

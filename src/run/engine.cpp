@@ -102,7 +102,7 @@ EngineChoice choose_engine(const Scene& scene) {
   if (choice.engine != Engine::stepped || scene.simulate.tolerance) return choice;
   if (chooses_steps(scene.simulate)) {
     const std::string limit = scene.simulate.step ? fmt::format(", {:.4g} s at most", *scene.simulate.step) : "";
-    choice.why = joined(choice.why, "dop853, steps of its own" + limit);
+    choice.why = joined(choice.why, "dop853, adaptive steps" + limit);
   } else {
     choice.steps.length = scene.simulate.step.value_or(default_step(scene.world, scene.initial));
     choice.why = joined(choice.why,
@@ -119,17 +119,17 @@ std::string shortfall_of(const Scene& scene, const Simulate& way, const Accuracy
   std::string text;
   if (!accuracy.reached)
     text = fmt::format(
-        "not converged: with the shortest steps that were tried, {:.3g} s, places are off by {:.2g} m, not {} m",
+        "not converged: the shortest steps tried, {:.3g} s, leave an error of {:.2g} m in positions, not {} m",
         *accuracy.steps.length, accuracy.difference, tolerance);
   if (!(accuracy.right_until < way.duration)) return text;
   const std::string since =
-      fmt::format("places are told to {} m until {:.4g} s, and differ by up to {:.2g} m later: ", tolerance,
+      fmt::format("positions are right to {} m until {:.4g} s, and differ by up to {:.2g} m later: ", tolerance,
                   accuracy.right_until, accuracy.beyond);
-  const std::string why = growth.chaotic
-                              ? fmt::format("chaotic, a disturbance grows e-fold in {:.3g} s", growth.lyapunov_time)
-                              : std::string(
-                                    "not converged, though not chaotic: rounding is grown by the motion, or forces are "
-                                    "too sharp for doubles");
+  const std::string why =
+      growth.chaotic ? fmt::format("chaotic, a disturbance grows e-fold in {:.3g} s", growth.lyapunov_time)
+                     : std::string(
+                           "not converged, though not chaotic: the motion amplifies rounding, or forces change "
+                           "too fast for doubles");
   return joined(text, since + why);
 }
 
@@ -144,11 +144,12 @@ void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<
   if (engine.engine == Engine::stepped)
     engine.why =
         joined(engine.why, chooses_steps(way)
-                               ? fmt::format("dop853, steps that err by {:.1g} of a radius", engine.steps.error)
+                               ? fmt::format("dop853, step error {:.1g} of a radius", engine.steps.error)
                                : fmt::format("{}, steps of {:.4g} s", name_of(way.integrator), *engine.steps.length));
   const bool known = accuracy.right_until >= way.duration;
   if (accuracy.reached && known)
-    engine.why = joined(engine.why, fmt::format("places agree within {:.2g} m with a finer run", accuracy.difference));
+    engine.why =
+        joined(engine.why, fmt::format("positions agree within {:.2g} m with a finer run", accuracy.difference));
   if (!known) engine.growth = growth_of(scene, way, engine.steps, look);
   engine.right_until = accuracy.right_until;
   engine.shortfall = shortfall_of(scene, way, accuracy, engine.growth);
@@ -165,7 +166,7 @@ std::unique_ptr<Simulator> make_simulator(const Scene& scene, Recording recordin
 
 void check_flights(const Scene& scene) {
   if (!scene.output.flights || goes_along_parabolas(scene.world, scene.simulate)) return;
-  throw SimulationError("flights are parabolas from impact to impact, which this scene has not: leave them out");
+  throw SimulationError("flights need parabolas from impact to impact, and this scene has other paths: leave them out");
 }
 
 Engine most_exact(const World& world) {

@@ -28,7 +28,7 @@ namespace {
 }
 
 [[noreturn]] void refuse_damaged(const std::string& folder, const std::string& reason) {
-  refuse(reason, fmt::format("carom run {}/scene.yaml -o {} --force makes the run anew", folder, folder));
+  refuse(reason, fmt::format("carom run {}/scene.yaml -o {} --force runs it again", folder, folder));
 }
 
 /// The names of outputs in its manifest.
@@ -45,7 +45,7 @@ std::vector<std::string> output_names_of(const Manifest& manifest) {
 std::string former_scene_file(const std::string& folder) {
   const Standing stands = what_stands(folder);
   if (stands == Standing::nothing) refuse("there is no such folder", "name the folder of a run");
-  if (stands == Standing::other) refuse("it is no folder", "name the folder of a run, which has a manifest.json");
+  if (stands == Standing::other) refuse("it is not a folder", "name the folder of a run, which has a manifest.json");
   const std::string file = (std::filesystem::path(folder) / "scene.yaml").string();
   const bool has_scene = what_stands(file) != Standing::nothing;
   if (!has_scene && what_stands((std::filesystem::path(folder) / "runs").string()) == Standing::folder)
@@ -61,10 +61,11 @@ FormerRun read_former_run(const std::string& folder, SceneFile& file) {
   run.folder = folder;
   const Descriptor opened = open_folder(AT_FDCWD, folder, true);
   const auto manifest = opened ? read_manifest(opened.get(), manifest_name) : std::nullopt;
-  if (!manifest) refuse_damaged(folder, "its manifest.json is none that carom wrote, or damaged");
+  if (!manifest) refuse_damaged(folder, "its manifest.json is damaged, or not written by carom");
   run.manifest = *manifest;
   if (manifest->version != CAROM_VERSION)
-    refuse_damaged(folder, fmt::format("carom {} made it, and this is {}", manifest->version, CAROM_VERSION));
+    refuse_damaged(folder,
+                   fmt::format("it is a run of carom {}, and this is carom {}", manifest->version, CAROM_VERSION));
   run.scene = file.scene();
   if (sha256(run.scene.resolved) != manifest->scene_sha256)
     refuse_damaged(folder, "its scene.yaml is not the one that was run");

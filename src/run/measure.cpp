@@ -70,7 +70,7 @@ std::string meant(std::string_view word, const std::vector<std::string_view>& na
   const std::string near = meant(name, known_names());
   throw MeasureError(fmt::format(
       "no measure {}{}", in_backticks(name),
-      near.empty() ? "; a measure is a column of numbers of summary.csv, or balls.NAME.speed_m_per_s and its like"
+      near.empty() ? "; a measure is a numeric column of summary.csv, or a quantity such as balls.NAME.speed_m_per_s"
                    : near));
 }
 
@@ -118,15 +118,15 @@ Measure parse_measure(std::string_view name) {
   measure.column = find_summary_column(name);
   if (measure.column != nullptr) {
     if (measure.column->number == nullptr)
-      throw MeasureError(fmt::format("{} of summary.csv is text, no measure", in_backticks(name)));
+      throw MeasureError(fmt::format("{} of summary.csv is text, not a measure", in_backticks(name)));
     return measure;
   }
   const std::size_t first = name.find('.'), last = name.rfind('.');
   measure.kind = name.substr(0, first);
   if (first == std::string_view::npos || !is_kind(measure.kind)) refuse_name(name);
   if (first == last)
-    throw MeasureError(
-        fmt::format("{} names no quantity: {}.NAME.speed_m_per_s, say", in_backticks(name), measure.kind));
+    throw MeasureError(fmt::format("{} has no quantity: expected one such as {}.NAME.speed_m_per_s", in_backticks(name),
+                                   measure.kind));
   measure.body = name.substr(first + 1, last - first - 1);
   const std::string_view quantity = name.substr(last + 1);
   const auto found = std::find_if(quantities.begin(), quantities.end(),
@@ -134,15 +134,16 @@ Measure parse_measure(std::string_view name) {
   if (found == quantities.end()) {
     std::vector<std::string_view> names;
     for (const QuantityText& text : quantities) names.push_back(text.name);
-    throw MeasureError(fmt::format(
-        "{}: no quantity {}{}", in_backticks(name), in_backticks(quantity),
-        meant(quantity, names).empty() ? fmt::format("; it is {}", fmt::join(names, ", ")) : meant(quantity, names)));
+    throw MeasureError(fmt::format("{}: no quantity {}{}", in_backticks(name), in_backticks(quantity),
+                                   meant(quantity, names).empty()
+                                       ? fmt::format("; the quantities are {}", fmt::join(names, ", "))
+                                       : meant(quantity, names)));
   }
   measure.quantity = static_cast<Quantity>(found - quantities.begin());
   const bool has_member = measure.body.find('.') != std::string::npos;
   if (measure.kind == "groups" && !has_member)
-    throw MeasureError(
-        fmt::format("{} names no member: groups.{}.0.{}, say", in_backticks(name), measure.body, quantity));
+    throw MeasureError(fmt::format("{} has no member: expected one such as groups.{}.0.{}", in_backticks(name),
+                                   measure.body, quantity));
   if (measure.kind != "groups" && has_member)
     throw MeasureError(
         fmt::format("{}: only groups have members: {}.NAME.{}", in_backticks(name), measure.kind, quantity));

@@ -106,7 +106,7 @@ class Run {
       record(collisions, paths);
       if (collisions.empty() && paths.empty() && !(simulator_->time() > before) &&
           simulator_->tally().collisions() == collisions_before)
-        throw SimulationError("the simulator does not go on");
+        throw SimulationError("the simulator makes no progress");
       watch_.look();
       tell();
     }

@@ -51,9 +51,9 @@ class Warnings {
     if (has_fixed_steps(scene_, engine_)) return "use a shorter simulate.step, or `integrator: dop853`";
     if (engine_.engine == Engine::book) return "use `engine: exact` for true impacts, or a shorter simulate.step";
     if (summary_.stepped_contact > 0)
-      return "lasting contact of many bodies was told by time steps, to first order: compare figures that hang on it "
-             "with other seeds";
-    return "shorten simulate.duration, or soften what attracts";
+      return "lasting contact was computed in time steps, to first order: compare figures that depend on it with those "
+             "of other seeds";
+    return "shorten simulate.duration, or soften the attractor";
   }
 
   void look_at_energy() {
@@ -61,23 +61,24 @@ class Warnings {
     const double residual = energy.residual;
     const double least = energy_rounding * std::max(std::abs(energy.start), std::abs(energy.end));
     if (std::isfinite(residual) && std::abs(residual) <= std::max(residual_share * energy.turnover, least)) return;
-    add("energy", fmt::format("the method {} {:.3g} J beside impacts and work, {:.2g} of the energy turned over: {}",
-                              residual > 0 ? "made" : "took", std::abs(residual), std::abs(residual) / energy.turnover,
-                              remedy()));
+    add("energy", fmt::format("the method {} {:.3g} J beyond impacts and work, {:.2g} of the energy turned over: {}",
+                              residual > 0 ? "gained" : "lost", std::abs(residual),
+                              std::abs(residual) / energy.turnover, remedy()));
   }
 
   void look_at_steps() {
     if (!(tally_.greatest_phase > longest_phase)) return;
     add("step",
-        fmt::format("forces turned by {:.3g} rad in a step, which follows no more than 1: use steps of {:.2g} s "
-                    "at most, or `integrator: dop853`",
-                    tally_.greatest_phase, *engine_.steps.length * 0.1 / tally_.greatest_phase));
+        fmt::format(
+            "forces turned by {:.3g} rad in a step, which resolves at most 1: use steps of at most {:.2g} s, or "
+            "`integrator: dop853`",
+            tally_.greatest_phase, *engine_.steps.length * 0.1 / tally_.greatest_phase));
   }
 
   void look_at_contact() {
     if (tally_.doubtful == 0) return;
-    add("contact", fmt::format("{} contact problem{} solved to less than rounding: make masses less unequal",
-                               tally_.doubtful, tally_.doubtful == 1 ? " was" : "s were"));
+    add("contact", fmt::format("{} contact problem{} not solved to rounding: make masses less unequal", tally_.doubtful,
+                               tally_.doubtful == 1 ? " was" : "s were"));
   }
 
   /// Warns of positions far from the origin, and of clock times too coarse for the speeds.
@@ -86,12 +87,13 @@ class Warnings {
     double farthest = 0;
     for (const Vec3& x : end_.position) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
     if (place_rounding * farthest > told_place * size)
-      add("place", fmt::format("bodies are {:.3g} m from the origin, where doubles tell places to {:.2g} m: shorten "
-                               "simulate.duration, or put the scene nearer to the origin",
-                               farthest, place_rounding * farthest));
+      add("place",
+          fmt::format("bodies are {:.3g} m from the origin, where doubles resolve positions to {:.2g} m: shorten "
+                      "simulate.duration, or move the scene nearer to the origin",
+                      farthest, place_rounding * farthest));
     const double path = tally_.max_speed * summary_.duration;
     if (place_rounding * path > told_place * size)
-      add("speed", fmt::format("at {:.3g} m/s an instant of the clock is {:.2g} m: shorten simulate.duration",
+      add("speed", fmt::format("at {:.3g} m/s the clock resolves positions to {:.2g} m: shorten simulate.duration",
                                tally_.max_speed, place_rounding * path));
   }
 

@@ -10,18 +10,18 @@ namespace {
 
 constexpr AbsentWord all_words[] = {
     {"friction|rub|roughness|traction|coefficient of friction|mu|sliding friction|rolling friction",
-     "There is none: contact forces stand upright on the surfaces, so bodies slide freely. Drag slows bodies down "
+     "There is none: contact forces are perpendicular to the surfaces, so bodies slide freely. Drag slows bodies down "
      "everywhere; restitution takes energy at impacts.",
      "drag|restitution"},
     {"rotation|rotate|turning|orientation|angle|euler angles|quaternion|tilt|roll|rolling",
-     "Bodies do not turn: they are point particles in bounding volumes that keep their directions. A plane or a wall "
+     "Bodies do not turn: they are point particles in bounding volumes of fixed orientation. A plane or a wall "
      "can be tilted by its normal.",
      "plane|wall"},
     {"spin|angular velocity|torque|moment of inertia|inertia|angular momentum",
      "Bodies do not turn, so they have no spin, torque or moment of inertia.", "velocity|impulse"},
     {"joint|constraint|ball joint|slider|weld|motor|ragdoll|linkage",
-     "There are no joints. A stiff spring ties a body to a point, and `simulate.contact: merge` makes bodies that meet "
-     "one.",
+     "There are no joints. A stiff spring ties a body to a point, and `simulate.contact: merge` merges bodies that "
+     "meet.",
      "spring|contact"},
     {"hinge|pivot|pendulum|axle", "There are no hinges. A stiff spring with a rest length holds a body near a circle.",
      "spring"},
@@ -30,29 +30,28 @@ constexpr AbsentWord all_words[] = {
      "as well as it pulls.",
      "spring"},
     {"timestep|time step|dt|delta time|substeps|step size|tick|iterations",
-     "Engine exact needs none: it goes from collision to collision. For engine stepped it is `simulate.step`, or "
-     "`simulate.tolerance` finds it. How often tables are written is `every`, pictures `fps`; neither changes the "
+     "Engine exact needs none: it goes from collision to collision. Engine stepped takes `simulate.step`, or finds "
+     "a step for `simulate.tolerance`. `every` spaces the rows of tables and `fps` the pictures; neither changes the "
      "motion.",
      "simulate.step|simulate.tolerance|engine"},
     {"speed|fast|velocity magnitude",
-     "A ball or body has a `velocity`, a vector. `speed` is of groups: the spread of random velocities. How fast a "
-     "film "
-     "plays is a matter of its `fps`.",
+     "A ball or body has a `velocity`, a vector. `speed` belongs to groups: the spread of random velocities. A "
+     "film plays in real time, whatever its `fps`.",
      "velocity|groups.speed|video.fps"},
     {"slow motion|slowmo|slow|slowdown|time lapse|playback speed|time scale|timescale|replay speed|speed up",
-     "A film plays as time passes, whatever its `fps`. For slow motion write frames with a high `fps` and put them "
+     "A film plays in real time, whatever its `fps`. For slow motion write frames with a high `fps` and put them "
      "together at a lower rate; every instant is exact.",
      "frames.fps|video.fps"},
     {"bounce|bounciness|rebound|bouncy|bouncing",
-     "How bodies bounce is their coefficient of restitution: 1 keeps the speed, 0 none of it.",
+     "The coefficient of restitution sets how bodies bounce: 1 keeps the speed, 0 none of it.",
      "restitution|restitution.combine"},
     {"elasticity|elastic|inelastic|coefficient of restitution|cor|hardness|stiff|damping ratio",
-     "Elasticity is the coefficient of restitution: 1 elastic, below 1 inelastic, 0 perfectly inelastic. Bodies that "
-     "stick together for good are `simulate.contact: merge`.",
+     "Elasticity is the coefficient of restitution: 1 elastic, below 1 inelastic, 0 perfectly inelastic. "
+     "`simulate.contact: merge` makes bodies stick together for good.",
      "restitution|contact"},
     {"camera path|camera motion|fly through|flythrough|follow|tracking shot|keyframe|keyframes|dolly|orbit camera|zoom",
-     "The camera stands still: `eye`, `target` and `fov` hold for the whole run. Other views of the same run cost no "
-     "simulation: `carom render`.",
+     "The camera stands still: `eye`, `target` and `fov` hold for the whole run. "
+     "`carom render` draws other views of a run without simulating again.",
      "camera|camera.fov"},
     {"loop|repeat|for|foreach|array|instances|copies|clone|duplicate",
      "A scene has no loops. Many balls made by rule are a group; many runs with other values are a sweep.",
@@ -63,10 +62,10 @@ constexpr AbsentWord all_words[] = {
      "defaults|sweep"},
     {"sphere|particle|marble|point mass|circle|disc|disk", "A sphere that moves is a ball.", "ball|balls"},
     {"cube|cuboid|block|brick|crate|rigid body|rigidbody|object|solid|prism|shape|volume|collider",
-     "A box along the axes is a body with `box: [x, y, z]`; an upright cylinder one with `cylinder`.",
+     "An axis-aligned box is a body with `box: [x, y, z]`; an upright cylinder is one with `cylinder`.",
      "body|box|cylinder"},
     {"capsule|cone|ellipsoid|convex hull|polygon|triangle|terrain|heightfield",
-     "Volumes are spheres, upright cylinders and boxes along the axes. A mesh is drawn in place of a volume, or `fit` "
+     "Volumes are spheres, upright cylinders and axis-aligned boxes. A mesh is drawn in place of a volume, or `fit` "
      "finds the volume around it.",
      "mesh|fit|body"},
     {"floor|ground|ramp|slope|incline|ceiling",
@@ -77,9 +76,9 @@ constexpr AbsentWord all_words[] = {
      "There are no regions. collisions.csv has every collision; trajectory.csv has where bodies are.",
      "output.collisions|output.trajectory"},
     {"air|air resistance|resistance|viscosity|damping|friction of air|medium|fluid|buoyancy",
-     "A medium acts by drag, linear or quadratic in the velocity against it; it may move as wind.", "drag|drag.wind"},
+     "A medium acts by drag, linear or quadratic in the relative velocity; it may move as wind.", "drag|drag.wind"},
     {"magnet|magnetism|charge|electric|coulomb|attraction|planet|sun|gravitation|orbit",
-     "Attraction to a fixed point by the square of the distance is an attractor. Bodies do not attract one another.",
+     "An attractor attracts to a fixed point by the inverse square of the distance. Bodies do not attract one another.",
      "attractor|gravity"},
     {"explosion|kick|push|hit|throw|launch|initial force",
      "A blow at time 0 is an impulse; a force for a while has `from` and `until`.", "impulse|force"},
@@ -93,7 +92,7 @@ constexpr AbsentWord all_words[] = {
     {"resolution|width|height|image size|picture size", "The size of pictures is `size: [width, height]`, in pixels.",
      "frames.size|video.size"},
     {"frame rate|framerate|frames per second|sample rate|sampling",
-     "Pictures come by `fps`, the rows of tables by `every`. Neither changes the motion.",
+     "`fps` spaces the pictures, `every` the rows of tables. Neither changes the motion.",
      "frames.fps|trajectory.every"},
     {"gif|webp|mp4|movie|film|animation", "A film is `output.video`, H.264 in an .mp4 file.", "video"},
     {"csv|table|spreadsheet|excel|xlsx|data",
@@ -101,12 +100,12 @@ constexpr AbsentWord all_words[] = {
      "workbook.",
      "output"},
     {"solver|physics engine|method|algorithm",
-     "The engine is chosen by `simulate.engine`, the method of its steps by `integrator`.", "engine|integrator"},
+     "`simulate.engine` chooses the engine, `integrator` the method of its steps.", "engine|integrator"},
     {"time|length of run|end time|stop|end|run time", "A run lasts `simulate.duration`.", "duration"},
     {"unit|units|metre|meter|inch|feet|gram|degree",
-     "Units are SI: m, kg, s, N; angles are in degrees. Numbers stand without a unit.", "scene"},
+     "Units are SI: m, kg, s, N; angles are in degrees. Numbers carry no unit.", "scene"},
     {"sleep|sleeping|rest|resting|deactivation",
-     "Bodies that rest cost nothing until something strikes them. `rest_speed` says which impacts end in rest.",
+     "Bodies that rest cost nothing until something strikes them. `rest_speed` sets which impacts end in rest.",
      "rest_speed"},
     {"comment|include|import|extends|inherit",
      "A scene is one YAML file; `#` begins a comment. `defaults` holds shared values.", "defaults"},

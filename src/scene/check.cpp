@@ -186,7 +186,8 @@ class Checker : ValueChecker {
     }
     const std::string why = why_no_file(beneath(folder_, value.text));
     if (!why.empty())
-      refuse(value, fmt::format("{} {}", why, in_backticks(value.text)), "paths start at the folder of the scene");
+      refuse(value, fmt::format("{} {}", why, in_backticks(value.text)),
+             "paths are relative to the folder of the scene");
   }
 
   void check_value(Node& value, const Field& field, const Key& key, bool partial) {

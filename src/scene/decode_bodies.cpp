@@ -109,7 +109,7 @@ class Bodies {
     if (!min || !max || !arrange) return;
     const double radius = world_.radius[body.first];
     if (!((*max - *min) * 2).allFinite() || !((*max - *min).array() > 0).all()) {
-      diagnostics_.add(box.place("max"), fmt::format("the box of {} has no inside", in_backticks(body.key->text)),
+      diagnostics_.add(box.place("max"), fmt::format("the box of {} has no volume", in_backticks(body.key->text)),
                        "expected min below max on every axis");
       return;
     }

@@ -103,7 +103,8 @@ class Requests {
     const bool parabolas = goes_along_parabolas(scene_.world, scene_.simulate);
     scene_.output.flights = parabolas && said.value_or(scene_.output.pictures());
     if (parabolas || !said.value_or(false)) return;
-    diagnostics_.add(view.place("flights"), "`flights` are parabolas from impact to impact, which this scene has not",
+    diagnostics_.add(view.place("flights"),
+                     "`flights` need parabolas from impact to impact, and this scene has other paths",
                      "expected `flights: false`, or `engine: exact` under forces that are the same everywhere");
   }
 
@@ -154,7 +155,7 @@ class Requests {
     const auto refuse = [&](Place place, double figure, std::string_view what, std::uint64_t limit,
                             std::string_view change) {
       diagnostics_.add(place, fmt::format("the run would write {:.15g} {}; the limit is {}", figure, what, limit),
-                       fmt::format("expected {}, or --force if that is meant", change));
+                       fmt::format("expected {}, or --force to allow it", change));
     };
     const double bodies = inventory_.fits ? inventory_.body_count : 0;
     for (const Excess& excess : excesses(out, scene_.simulate.duration, bodies, budget_)) {
@@ -214,14 +215,14 @@ void check_steps(const Node& root, const Scene& scene, const Budget& budget, Dia
   const View simulate = scene_part(root, "simulate");
   const bool said = simulate.given("step") != nullptr;
   const Key* forces = root.find_key("forces");
-  const std::string figure = many ? fmt::format("{:.4g} steps of time; the limit is {}", *steps, budget.steps)
-                                  : fmt::format("{:.4g} steps of time for each of {} bodies; the limit is {} in all",
+  const std::string figure = many ? fmt::format("{:.4g} time steps; the limit is {}", *steps, budget.steps)
+                                  : fmt::format("{:.4g} time steps for each of {} bodies; the limit is {} in all",
                                                 *steps, scene.world.body_count(), budget.body_steps);
   diagnostics.add(said || forces == nullptr ? simulate.place(said ? "step" : "duration") : forces->place,
                   fmt::format("the run would take {}", figure),
-                  said ? "expected a longer `step` or a shorter duration, or --force if that is meant"
+                  said ? "expected a longer `step` or a shorter duration, or --force to allow it"
                        : "steps follow the fastest change of a force: expected forces that change more slowly, a "
-                         "`step` or a shorter duration, or --force if that is meant");
+                         "`step` or a shorter duration, or --force to allow it");
 }
 
 void decode_requests(const Node& root, const Inventory& inventory, const Budget& budget, Scene& scene,

@@ -49,7 +49,8 @@ void book_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
   if (!world.volume.empty()) lack("engine", "cylinders and boxes: its bodies are spheres", "`engine: exact`");
   if (!world.obstacles.empty()) lack("obstacles", "obstacles", "`engine: exact`");
   if (!world.forces.empty())
-    lack("forces", "forces beside gravity", varying_force(world) == nullptr ? "`engine: exact`" : "`engine: stepped`");
+    lack("forces", "forces other than gravity",
+         varying_force(world) == nullptr ? "`engine: exact`" : "`engine: stepped`");
 }
 
 }  // namespace
@@ -75,9 +76,9 @@ std::string open_force_text(const Force& force) {
   if (const Spring* spring = std::get_if<Spring>(&force.law); spring != nullptr)
     if (spring->rest_length != 0 || spring->damping != 0) return "a `spring` with a rest length or damping";
   if (const Attractor* attractor = std::get_if<Attractor>(&force.law); attractor != nullptr)
-    return attractor->softening != 0 ? "a softened `attractor`" : "an `attractor` beside other forces";
+    return attractor->softening != 0 ? "a softened `attractor`" : "an `attractor` with other forces";
   return std::holds_alternative<Drag>(force.law) ? "quadratic `drag`"
-                                                 : fmt::format("a `{}` beside other forces", name_of(force.law));
+                                                 : fmt::format("a `{}` with other forces", name_of(force.law));
 }
 
 Lacks unsupported(const World& world, const Simulate& simulate) {

@@ -47,7 +47,7 @@ Range limited_range(const Field& field) {
 }
 
 std::string limit_text(const Range& limits, std::string_view unit) {
-  return fmt::format("a run computes with numbers from {} to {}{}", limits.min, limits.max,
+  return fmt::format("a run takes numbers from {} to {}{}", limits.min, limits.max,
                      unit.empty() ? "" : fmt::format(" {}", unit));
 }
 
@@ -101,8 +101,8 @@ std::string described(const Field& field) {
   if (!field.initial.empty()) text += fmt::format(" Default: {}.", field.initial);
   std::vector<std::string> others;
   for (const std::string_view rival : rivals(field)) others.push_back(fmt::format("`{}`", rival));
-  if (!others.empty()) text += fmt::format(" Not beside {}.", listed({others.begin(), others.end()}));
-  if (!field.with.empty()) text += fmt::format(" Only beside `{}`.", field.with);
+  if (!others.empty()) text += fmt::format(" Not with {}.", listed({others.begin(), others.end()}));
+  if (!field.with.empty()) text += fmt::format(" Only with `{}`.", field.with);
   if (!field.engines.empty()) text += fmt::format(" Only with engine {}.", listed(parts_of(field.engines)));
   return text;
 }
@@ -158,7 +158,7 @@ std::string expected(const Field& field) {
     case Type::color:
       return "a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
     case Type::file:
-      return "the path of a file, from the folder of the scene";
+      return "the path of a file, relative to the folder of the scene";
     case Type::two_names:
       return "[name, name]";
     case Type::names:
@@ -169,7 +169,7 @@ std::string expected(const Field& field) {
     case Type::part_or_flag:
       return "true, false or a map of keys";
     case Type::named:
-      return "a map from names to what they are";
+      return "a map from names to entries";
     case Type::list:
       return "a list";
     case Type::settings:

@@ -22,31 +22,31 @@ constexpr Range from_1{1, infinity, false, false};
 // clang-format off
 constexpr Field scene_fields[] = {
     {.key = "scene", .type = Type::whole, .range = {1, 1}, .needed = true, .doc = "Kind of file and version of the format.", .example = "1", .title = "Format"},
-    {.key = "title", .type = Type::text, .initial = "\"\"", .doc = "What the scene is, in one line.", .example = "Two bowling balls meet near the origin"},
+    {.key = "title", .type = Type::text, .initial = "\"\"", .doc = "Title of the scene, one line.", .example = "Two bowling balls meet near the origin"},
     {.key = "seed", .type = Type::whole, .range = from_0, .initial = "0", .doc = "The only source of randomness.", .example = "7"},
     {.key = "gravity", .type = Type::vector, .unit = "m/s^2", .initial = "[0, -9.80665, 0]", .doc = "Acceleration of every body; y is up.", .example = "[0, 0, 0]"},
     {.key = "restitution", .type = Type::part, .of = "restitution", .doc = "How bodies bounce off one another.", .example = "{default: 0.9, combine: minimum}"},
-    {.key = "defaults", .type = Type::part, .of = "defaults", .doc = "Values that things of a kind take where they name none themselves.", .example = "{ball: {mass: 10, radius: 0.11, restitution: 0.9}}"},
+    {.key = "defaults", .type = Type::part, .of = "defaults", .doc = "Default values for things of each kind.", .example = "{ball: {mass: 10, radius: 0.11, restitution: 0.9}}"},
     {.key = "balls", .type = Type::named, .of = "ball", .doc = "Single balls by name.", .example = "{red: {mass: 10, radius: 0.11, position: [3, 1, 0], velocity: [-2, 0, 0], color: crimson}}"},
     {.key = "bodies", .type = Type::named, .of = "body", .doc = "Movable bodies with any bounding volume.", .example = "{crate: {mass: 2, box: [0.4, 0.3, 0.4], position: [-1, 1, 0]}}"},
     {.key = "groups", .type = Type::named, .of = "group", .doc = "Many balls made by rule, by name.", .example = "{gas: {count: 20, in: {min: [-2, 2, -2], max: [2, 4, 2]}, speed: 1, ball: {mass: 1, radius: 0.1}}}"},
     {.key = "planes", .type = Type::named, .of = "plane", .doc = "Unbounded fixed surfaces, free on one side.", .example = "{floor: {point: [0, 0, 0], normal: [0, 1, 0], color: tan}}"},
-    {.key = "walls", .type = Type::named, .of = "wall", .doc = "Fixed rectangles that can be struck from both sides.", .example = "{fence: {center: [5, 1, 0], normal: [-1, 0, 0], size: [2, 2]}}"},
-    {.key = "room", .type = Type::part, .of = "room", .doc = "Six planes that look inward: room.x_min to room.z_max.", .example = "{min: [-9, -1, -9], max: [9, 9, 9]}"},
+    {.key = "walls", .type = Type::named, .of = "wall", .doc = "Two-sided fixed rectangles.", .example = "{fence: {center: [5, 1, 0], normal: [-1, 0, 0], size: [2, 2]}}"},
+    {.key = "room", .type = Type::part, .of = "room", .doc = "Six planes that face inward: room.x_min to room.z_max.", .example = "{min: [-9, -1, -9], max: [9, 9, 9]}"},
     {.key = "obstacles", .type = Type::named, .of = "obstacle", .doc = "Bodies that never move.", .example = "{post: {cylinder: {radius: 0.1, height: 1}, position: [-3, 1, 0]}}"},
-    {.key = "forces", .type = Type::list, .of = "force", .doc = "Forces on bodies, beside gravity.", .example = "[{drag: {linear: 0.1}}]"},
-    {.key = "simulate", .type = Type::part, .of = "simulate", .needed = true, .doc = "For how long and how.", .example = "{duration: 2}"},
-    {.key = "camera", .type = Type::part, .of = "camera", .doc = "Where the pictures are taken from; without it a view of all bodies at time 0 is chosen.", .example = "{eye: [0, 3, -5], target: [0, 0, 0]}"},
-    {.key = "lights", .type = Type::named, .of = "light", .doc = "Lights by name, and `ambient`, the colour of the light that comes from everywhere.", .example = "{sun: {direction: [1, -2, 1]}, ambient: dimgray}"},
-    {.key = "background", .type = Type::color, .doc = "Colour behind everything.", .example = "skyblue"},
-    {.key = "output", .type = Type::part, .of = "output", .doc = "What the run writes; without it trajectory, collisions and energy, no pictures.", .example = "{trajectory: {every: 0.01}, collisions: true, energy: true}"},
+    {.key = "forces", .type = Type::list, .of = "force", .doc = "Forces on bodies, in addition to gravity.", .example = "[{drag: {linear: 0.1}}]"},
+    {.key = "simulate", .type = Type::part, .of = "simulate", .needed = true, .doc = "Duration, engine and accuracy.", .example = "{duration: 2}"},
+    {.key = "camera", .type = Type::part, .of = "camera", .doc = "Camera of the pictures. Default: a view of all bodies at time 0.", .example = "{eye: [0, 3, -5], target: [0, 0, 0]}"},
+    {.key = "lights", .type = Type::named, .of = "light", .doc = "Lights by name, and `ambient`, the colour of the ambient light.", .example = "{sun: {direction: [1, -2, 1]}, ambient: dimgray}"},
+    {.key = "background", .type = Type::color, .doc = "Background colour.", .example = "skyblue"},
+    {.key = "output", .type = Type::part, .of = "output", .doc = "What the run writes. Default: trajectory, collisions and energy, no pictures.", .example = "{trajectory: {every: 0.01}, collisions: true, energy: true}"},
 };
 
 constexpr Field restitution_fields[] = {
-    {.key = "default", .type = Type::number, .range = from_0, .initial = "1", .doc = "Coefficient of a body that names none.", .example = "0.9", .title = "Coefficient of those that name none"},
+    {.key = "default", .type = Type::number, .range = from_0, .initial = "1", .doc = "Coefficient of a body without one of its own.", .example = "0.9", .title = "Default coefficient of restitution"},
     {.key = "combine", .type = Type::choice, .initial = "average", .of = "average|minimum|maximum|product|geometric_mean|mass_weighted|book",
-     .doc = "How two bodies' coefficients make the pair's; book is e1 e2 / 2.", .example = "minimum", .title = "Rule for two coefficients"},
-    {.key = "pairs", .type = Type::list, .of = "pair", .doc = "Pairs with a coefficient of their own; the last that fits wins.", .example = "[{between: [red, floor], value: 0.5}]"},
+     .doc = "How two bodies' coefficients combine into the pair's; book is e1 e2 / 2.", .example = "minimum", .title = "Rule for two coefficients"},
+    {.key = "pairs", .type = Type::list, .of = "pair", .doc = "Pairs with a coefficient of their own; the last match wins.", .example = "[{between: [red, floor], value: 0.5}]"},
 };
 
 // A name, a group's member, or a side of the room.
@@ -54,7 +54,7 @@ constexpr std::string_view reference = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.([0-9]+|[xy
 
 constexpr Field pair_fields[] = {
     {.key = "between", .type = Type::two_names, .needed = true,
-     .doc = "Two names: balls, bodies, groups, members (gas.3), planes, walls, obstacles, room, room.y_min.", .example = "[red, floor]", .title = "The two", .pattern = reference},
+     .doc = "Two names: balls, bodies, groups, members (gas.3), planes, walls, obstacles, room, room.y_min.", .example = "[red, floor]", .title = "Two names", .pattern = reference},
     {.key = "value", .type = Type::number, .range = from_0, .needed = true, .doc = "The pair's coefficient of restitution.", .example = "0.5", .title = "Coefficient of restitution"},
 };
 
@@ -68,13 +68,13 @@ constexpr Field defaults_fields[] = {
 };
 
 constexpr Field mass{.key = "mass", .type = Type::number, .unit = "kg", .range = above_0, .one_of = "mass|density", .needed = true, .doc = "Mass.", .example = "10"};
-constexpr Field density{.key = "density", .type = Type::number, .unit = "kg/m^3", .range = above_0, .one_of = "mass|density", .doc = "Mass by volume, instead of mass.", .example = "700"};
+constexpr Field density{.key = "density", .type = Type::number, .unit = "kg/m^3", .range = above_0, .one_of = "mass|density", .doc = "Mass per volume, instead of mass.", .example = "700"};
 constexpr Field radius{.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .needed = true, .doc = "Radius.", .example = "0.11"};
 constexpr Field ball_velocity{.key = "velocity", .type = Type::vector, .unit = "m/s", .initial = "[0, 0, 0]", .doc = "Velocity at time 0.", .example = "[2, 0, 0]"};
-constexpr Field ball_restitution{.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution; above 1 makes energy. Default: restitution.default.", .example = "0.9"};
-constexpr Field impulse{.key = "impulse", .type = Type::vector, .unit = "N s", .doc = "Impulse given at time 0.", .example = "[-20, 0, 0]"};
-constexpr Field color{.key = "color", .type = Type::color, .doc = "Colour in pictures; without it one is chosen.", .example = "crimson"};
-constexpr Field mesh{.key = "mesh", .type = Type::file, .doc = "A file, drawn scaled to the ball.", .example = "meshes/duck.obj"};
+constexpr Field ball_restitution{.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution; above 1 adds energy. Default: restitution.default.", .example = "0.9"};
+constexpr Field impulse{.key = "impulse", .type = Type::vector, .unit = "N s", .doc = "Impulse at time 0.", .example = "[-20, 0, 0]"};
+constexpr Field color{.key = "color", .type = Type::color, .doc = "Colour in pictures. Default: one is chosen.", .example = "crimson"};
+constexpr Field mesh{.key = "mesh", .type = Type::file, .doc = "Mesh file, drawn scaled to the ball.", .example = "meshes/duck.obj"};
 constexpr Field ball_position{.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre at time 0.", .example = "[3, 1, 0]"};
 
 constexpr Field ball_fields[] = {
@@ -86,11 +86,11 @@ constexpr std::string_view volumes = "radius|cylinder|box|fit";
 
 // A body's volume is one of these four keys. A mesh with `fit` is the volume itself.
 // A mesh beside one of the other three is drawn in its place.
-constexpr Field radius_of{.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .one_of = volumes, .needed = true, .doc = "Of a sphere.", .example = "0.11"};
+constexpr Field radius_of{.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .one_of = volumes, .needed = true, .doc = "Radius of a sphere.", .example = "0.11"};
 constexpr Field cylinder{.key = "cylinder", .type = Type::part, .of = "cylinder", .one_of = volumes, .doc = "An upright cylinder, its axis along y.", .example = "{radius: 0.1, height: 1}"};
-constexpr Field box{.key = "box", .type = Type::vector, .unit = "m", .range = above_0, .one_of = volumes, .doc = "A box along the axes: its full edges.", .example = "[0.4, 0.3, 0.4]"};
+constexpr Field box{.key = "box", .type = Type::vector, .unit = "m", .range = above_0, .one_of = volumes, .doc = "An axis-aligned box: its full edge lengths.", .example = "[0.4, 0.3, 0.4]"};
 constexpr Field fit{.key = "fit", .type = Type::choice, .of = "sphere|cylinder|box", .one_of = volumes, .doc = "The tightest such volume around the mesh; position is its centre.", .example = "box", .with = "mesh"};
-constexpr Field mesh_of{.key = "mesh", .type = Type::file, .doc = "A file: with `fit` in its own size, else drawn scaled into the volume.", .example = "meshes/pin.obj"};
+constexpr Field mesh_of{.key = "mesh", .type = Type::file, .doc = "Mesh file: in its own size with `fit`, else drawn scaled into the volume.", .example = "meshes/pin.obj"};
 
 constexpr Field body_fields[] = {
     mass, density, radius_of, cylinder, box, mesh_of, fit,
@@ -105,11 +105,11 @@ constexpr Field cylinder_fields[] = {
 constexpr Field member_fields[] = {mass, density, radius, ball_velocity, ball_restitution, impulse, color, mesh};
 
 constexpr Field group_fields[] = {
-    {.key = "count", .type = Type::whole, .range = from_0, .needed = true, .doc = "How many balls: name.0, name.1, ...", .example = "20"},
-    {.key = "ball", .type = Type::part, .of = "member", .needed = true, .doc = "What each is like: a ball without position.", .example = "{mass: 1, radius: 0.1}"},
-    {.key = "in", .type = Type::part, .of = "in", .needed = true, .doc = "The box that holds every ball wholly.", .example = "{min: [-2, 2, -2], max: [2, 4, 2]}", .title = "Box of the balls"},
+    {.key = "count", .type = Type::whole, .range = from_0, .needed = true, .doc = "Number of balls: name.0, name.1, ...", .example = "20"},
+    {.key = "ball", .type = Type::part, .of = "member", .needed = true, .doc = "A ball of the group, without position.", .example = "{mass: 1, radius: 0.1}"},
+    {.key = "in", .type = Type::part, .of = "in", .needed = true, .doc = "The box that every ball lies wholly inside.", .example = "{min: [-2, 2, -2], max: [2, 4, 2]}", .title = "Box of the balls"},
     {.key = "arrange", .type = Type::choice, .initial = "random", .of = "random|lattice|hexagonal",
-     .doc = "random; lattice: cubic, spread evenly over the box; hexagonal: close-packed layers, spread as far as they go.", .example = "hexagonal"},
+     .doc = "random; lattice: cubic, spread evenly over the box; hexagonal: close-packed layers, spread as far as the box allows.", .example = "hexagonal"},
     {.key = "speed", .type = Type::number, .unit = "m/s", .range = from_0, .one_of = "speed|velocity", .doc = "Standard deviation of each component of a ball's velocity.", .example = "1"},
     {.key = "velocity", .type = Type::vector, .unit = "m/s", .one_of = "speed|velocity", .doc = "Velocity of every ball at time 0.", .example = "[0, -1, 0]"},
 };
@@ -130,9 +130,9 @@ constexpr Field plane_fields[] = {
 
 constexpr Field wall_fields[] = {
     {.key = "center", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre of the rectangle.", .example = "[5, 1, 0]"},
-    {.key = "normal", .type = Type::direction, .needed = true, .doc = "Stands upright on the rectangle; any length.", .example = "[-1, 0, 0]"},
+    {.key = "normal", .type = Type::direction, .needed = true, .doc = "Perpendicular to the rectangle; any length.", .example = "[-1, 0, 0]"},
     {.key = "size", .type = Type::extent, .unit = "m", .range = above_0, .needed = true, .doc = "Width and height.", .example = "[2, 2]", .title = "Width and height"},
-    {.key = "up", .type = Type::direction, .doc = "The way the height runs; made upright to the normal. Default: y, for a level wall z.", .example = "[0, 1, 0.5]", .title = "The way the height runs"},
+    {.key = "up", .type = Type::direction, .doc = "Direction of the height, made perpendicular to the normal. Default: y; z for a level wall.", .example = "[0, 1, 0.5]", .title = "Direction of the height"},
     fixed_restitution, color, visible,
 };
 
@@ -153,90 +153,90 @@ constexpr std::string_view forces = "uniform|acceleration|drag|spring|attractor"
 constexpr Field force_fields[] = {
     {.key = "uniform", .type = Type::vector, .unit = "N", .one_of = forces, .needed = true, .doc = "The same force on each body.", .example = "[2, 0, 0]"},
     {.key = "acceleration", .type = Type::vector, .unit = "m/s^2", .one_of = forces, .doc = "The same acceleration of each body.", .example = "[3, 0, 0]"},
-    {.key = "drag", .type = Type::part, .of = "drag", .one_of = forces, .doc = "Drag of the air, or of another medium.", .example = "{linear: 0.1, wind: [5, 0, 0]}"},
+    {.key = "drag", .type = Type::part, .of = "drag", .one_of = forces, .doc = "Drag of air or another medium.", .example = "{linear: 0.1, wind: [5, 0, 0]}"},
     {.key = "spring", .type = Type::part, .of = "spring", .one_of = forces, .doc = "A spring from a fixed point to each body.", .example = "{anchor: [0, 3, 0], stiffness: 40, rest_length: 0.5}"},
     {.key = "attractor", .type = Type::part, .of = "attractor", .one_of = forces, .doc = "Attraction to a fixed point, as by gravity.", .example = "{center: [0, 0, 0], strength: 10}"},
     {.key = "on", .type = Type::names, .doc = "Balls, bodies, groups and members that it acts on. Default: all.", .example = "[red, gas.3]", .title = "Bodies that it acts on", .pattern = reference},
-    {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .initial = "0", .doc = "When it sets in.", .example = "0.5", .title = "Start"},
-    {.key = "until", .type = Type::number, .unit = "s", .range = above_0, .doc = "When it ceases. Default: never.", .example = "1.5", .title = "End"},
+    {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .initial = "0", .doc = "When the force starts.", .example = "0.5", .title = "Start"},
+    {.key = "until", .type = Type::number, .unit = "s", .range = above_0, .doc = "When the force ends. Default: never.", .example = "1.5", .title = "End"},
 };
 
 constexpr Field drag_fields[] = {
-    {.key = "linear", .type = Type::number, .unit = "kg/s", .range = from_0, .doc = "Force for each m/s against the medium.", .example = "0.1", .member = fills_if_given<Drag, &Drag::linear>},
-    {.key = "quadratic", .type = Type::number, .unit = "kg/m", .range = from_0, .doc = "Force for each (m/s)^2; half of density, drag coefficient and cross-section.", .example = "0.02", .member = fills_if_given<Drag, &Drag::quadratic>},
+    {.key = "linear", .type = Type::number, .unit = "kg/s", .range = from_0, .doc = "Force per m/s of speed relative to the medium.", .example = "0.1", .member = fills_if_given<Drag, &Drag::linear>},
+    {.key = "quadratic", .type = Type::number, .unit = "kg/m", .range = from_0, .doc = "Force per (m/s)^2: half the product of density, drag coefficient and cross-section.", .example = "0.02", .member = fills_if_given<Drag, &Drag::quadratic>},
     {.key = "wind", .type = Type::vector, .unit = "m/s", .doc = "Velocity of the medium.", .example = "[5, 0, 0]", .member = fills<Drag, &Drag::wind>},
 };
 
 constexpr Field spring_fields[] = {
-    {.key = "anchor", .type = Type::vector, .unit = "m", .needed = true, .doc = "Its fixed end; the other is a body's centre.", .example = "[0, 3, 0]", .member = fills<Spring, &Spring::anchor>},
-    {.key = "stiffness", .type = Type::number, .unit = "N/m", .range = from_0, .needed = true, .doc = "Force for each m that it is stretched.", .example = "40", .member = fills<Spring, &Spring::stiffness>},
-    {.key = "rest_length", .type = Type::number, .unit = "m", .range = from_0, .doc = "Length at which it neither pulls nor pushes.", .example = "0.5", .title = "Length at rest", .member = fills<Spring, &Spring::rest_length>},
-    {.key = "damping", .type = Type::number, .unit = "kg/s", .range = from_0, .doc = "Force for each m/s along it.", .example = "0.2", .member = fills<Spring, &Spring::damping>},
+    {.key = "anchor", .type = Type::vector, .unit = "m", .needed = true, .doc = "Fixed end; the other end is a body's centre.", .example = "[0, 3, 0]", .member = fills<Spring, &Spring::anchor>},
+    {.key = "stiffness", .type = Type::number, .unit = "N/m", .range = from_0, .needed = true, .doc = "Force per m of stretch.", .example = "40", .member = fills<Spring, &Spring::stiffness>},
+    {.key = "rest_length", .type = Type::number, .unit = "m", .range = from_0, .doc = "Length at which the spring neither pulls nor pushes.", .example = "0.5", .title = "Rest length", .member = fills<Spring, &Spring::rest_length>},
+    {.key = "damping", .type = Type::number, .unit = "kg/s", .range = from_0, .doc = "Force per m/s along the spring.", .example = "0.2", .member = fills<Spring, &Spring::damping>},
 };
 
 constexpr Field attractor_fields[] = {
-    {.key = "center", .type = Type::vector, .unit = "m", .needed = true, .doc = "Where it attracts to.", .example = "[0, 0, 0]", .member = fills<Attractor, &Attractor::center>},
-    {.key = "strength", .type = Type::number, .unit = "m^3/s^2", .needed = true, .doc = "Acceleration at 1 m; G M of a mass M. Negative: it repels.", .example = "10", .member = fills<Attractor, &Attractor::strength>},
-    {.key = "softening", .type = Type::number, .unit = "m", .range = from_0, .doc = "Added to the distance as sides of a right angle: near the centre the attraction stays finite.", .example = "0.05", .member = fills<Attractor, &Attractor::softening>},
+    {.key = "center", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre of attraction.", .example = "[0, 0, 0]", .member = fills<Attractor, &Attractor::center>},
+    {.key = "strength", .type = Type::number, .unit = "m^3/s^2", .needed = true, .doc = "Acceleration at 1 m; G M of a mass M. Negative: repulsion.", .example = "10", .member = fills<Attractor, &Attractor::strength>},
+    {.key = "softening", .type = Type::number, .unit = "m", .range = from_0, .doc = "Length s: sqrt(d^2 + s^2) takes the place of the distance d, so that the attraction stays finite.", .example = "0.05", .member = fills<Attractor, &Attractor::softening>},
 };
 
 constexpr Field simulate_fields[] = {
-    {.key = "duration", .type = Type::number, .unit = "s", .range = from_0, .needed = true, .doc = "How much time passes in the scene.", .example = "2", .member = fills<Simulate, &Simulate::duration>},
+    {.key = "duration", .type = Type::number, .unit = "s", .range = from_0, .needed = true, .doc = "Simulated time.", .example = "2", .member = fills<Simulate, &Simulate::duration>},
     {.key = "engine", .type = Type::choice, .of = engine_names,
      .doc = "exact: from collision to collision; stepped: in time steps, for any force; book: the source chapter's frame loop; auto: exact where the forces allow it, else stepped.", .example = "exact", .member = fills<Simulate, &Simulate::engine>},
-    {.key = "step", .type = Type::number, .unit = "s", .range = above_0, .one_of = "step|tolerance", .doc = "Time step of engines that step; with dop853 the longest. Default of euler, verlet and rk4: 1/1000, or shorter where forces change faster; of book: 1/60.", .example = "0.001", .member = fills<Simulate, &Simulate::step>},
-    {.key = "as_printed", .type = Type::flag, .doc = "book only: the chapter's listings with their slips.", .example = "true", .engines = "book", .member = fills<Simulate, &Simulate::as_printed>},
-    {.key = "rest_speed", .type = Type::number, .unit = "m/s", .range = from_0, .doc = "Slower impacts under load end in resting contact. Default: on a flat surface as slow as the clock resolves, among bodies in contact 0.03 sqrt(p L).", .example = "0.01", .member = fills<Simulate, &Simulate::rest_speed>},
-    {.key = "max_collisions", .type = Type::whole, .range = from_1, .doc = "A run with more stops with an error.", .example = "1000000", .title = "Most collisions", .member = fills<Simulate, &Simulate::max_collisions>},
-    {.key = "integrator", .type = Type::choice, .of = integrator_names, .doc = "Of engine stepped: Dormand and Prince's method of order 8, which chooses its steps; semi-implicit Euler, velocity Verlet or Runge-Kutta, of order 1, 2 and 4. Default: dop853; with a step: rk4.", .example = "verlet", .member = fills_if_given<Simulate, &Simulate::integrator>},
-    {.key = "contact", .type = Type::choice, .of = "bounce|merge", .doc = "Whether bodies that meet bounce or become one; merge is engine exact's.", .example = "merge", .engines = "auto|exact", .member = fills<Simulate, &Simulate::merge>},
-    {.key = "tolerance", .type = Type::number, .unit = "m", .range = above_0, .one_of = "step|tolerance", .doc = "Instead of step: places are right to this, or the run says until when and by how much not. It is run several times for it.", .example = "0.000001", .engines = "auto|exact|stepped", .member = fills<Simulate, &Simulate::tolerance>},
+    {.key = "step", .type = Type::number, .unit = "s", .range = above_0, .one_of = "step|tolerance", .doc = "Time step of engines stepped and book; with dop853 the longest one. Default of euler, verlet and rk4: 1/1000, or shorter where forces change faster; of book: 1/60.", .example = "0.001", .member = fills<Simulate, &Simulate::step>},
+    {.key = "as_printed", .type = Type::flag, .doc = "book only: the chapter's listings as printed, errors included.", .example = "true", .engines = "book", .member = fills<Simulate, &Simulate::as_printed>},
+    {.key = "rest_speed", .type = Type::number, .unit = "m/s", .range = from_0, .doc = "Slower impacts under load end in resting contact. Default: on a flat surface the slowest speed that the clock resolves; among bodies in contact 0.03 sqrt(p L).", .example = "0.01", .member = fills<Simulate, &Simulate::rest_speed>},
+    {.key = "max_collisions", .type = Type::whole, .range = from_1, .doc = "A run with more collisions stops with an error.", .example = "1000000", .title = "Maximum number of collisions", .member = fills<Simulate, &Simulate::max_collisions>},
+    {.key = "integrator", .type = Type::choice, .of = integrator_names, .doc = "Integrator of engine stepped. dop853: Dormand-Prince, order 8, chooses its steps; euler: semi-implicit, order 1; verlet: velocity Verlet, order 2; rk4: Runge-Kutta, order 4. Default: dop853; with a step: rk4.", .example = "verlet", .member = fills_if_given<Simulate, &Simulate::integrator>},
+    {.key = "contact", .type = Type::choice, .of = "bounce|merge", .doc = "Whether bodies that meet bounce or merge into one; merge needs engine exact.", .example = "merge", .engines = "auto|exact", .member = fills<Simulate, &Simulate::merge>},
+    {.key = "tolerance", .type = Type::number, .unit = "m", .range = above_0, .one_of = "step|tolerance", .doc = "Tolerance of positions, instead of step. If it cannot be met, a warning gives the time until which it holds and the error after that. The scene is simulated several times.", .example = "0.000001", .engines = "auto|exact|stepped", .member = fills<Simulate, &Simulate::tolerance>},
 };
 
 constexpr Field camera_fields[] = {
-    {.key = "eye", .type = Type::vector, .unit = "m", .needed = true, .doc = "Where it stands.", .example = "[0, 3, -5]", .title = "The camera's place", .member = fills<Camera, &Camera::eye>},
-    {.key = "target", .type = Type::vector, .unit = "m", .needed = true, .doc = "What it looks at.", .example = "[0, 0, 0]", .member = fills<Camera, &Camera::target>},
-    {.key = "up", .type = Type::direction, .doc = "What is up in the picture.", .example = "[0, 0, 1]", .title = "Up in the picture", .member = fills<Camera, &Camera::up>},
+    {.key = "eye", .type = Type::vector, .unit = "m", .needed = true, .doc = "Position of the camera.", .example = "[0, 3, -5]", .title = "Position of the camera", .member = fills<Camera, &Camera::eye>},
+    {.key = "target", .type = Type::vector, .unit = "m", .needed = true, .doc = "Point that the camera looks at.", .example = "[0, 0, 0]", .member = fills<Camera, &Camera::target>},
+    {.key = "up", .type = Type::direction, .doc = "Direction that is up in the picture.", .example = "[0, 0, 1]", .title = "Up in the picture", .member = fills<Camera, &Camera::up>},
     {.key = "fov", .type = Type::number, .unit = "degrees", .range = {0, 180, true, true}, .doc = "Field of view, the full angle along fov_axis.", .example = "30", .title = "Field of view", .member = fills<Camera, &Camera::fov>},
-    {.key = "fov_axis", .type = Type::choice, .of = "vertical|horizontal", .doc = "The way fov is measured.", .example = "horizontal", .title = "The field of view's axis", .member = fills<Camera, &Camera::fov_horizontal>},
-    {.key = "near", .type = Type::number, .unit = "m", .range = above_0, .doc = "Nothing nearer is drawn.", .example = "1", .title = "Nearest that is drawn", .member = fills<Camera, &Camera::near>},
-    {.key = "far", .type = Type::number, .unit = "m", .range = above_0, .doc = "Nothing farther is drawn.", .example = "100", .title = "Farthest that is drawn", .member = fills<Camera, &Camera::far>},
+    {.key = "fov_axis", .type = Type::choice, .of = "vertical|horizontal", .doc = "Axis along which fov is measured.", .example = "horizontal", .title = "Axis of the field of view", .member = fills<Camera, &Camera::fov_horizontal>},
+    {.key = "near", .type = Type::number, .unit = "m", .range = above_0, .doc = "Nothing nearer is drawn.", .example = "1", .title = "Near limit", .member = fills<Camera, &Camera::near>},
+    {.key = "far", .type = Type::number, .unit = "m", .range = above_0, .doc = "Nothing farther is drawn.", .example = "100", .title = "Far limit", .member = fills<Camera, &Camera::far>},
 };
 
-constexpr Field ambient{.key = "ambient", .type = Type::color, .doc = "Colour of the light that comes from everywhere.", .example = "dimgray"};
+constexpr Field ambient{.key = "ambient", .type = Type::color, .doc = "Colour of the ambient light, which comes from all directions.", .example = "dimgray"};
 
 constexpr Field light_fields[] = {
-    {.key = "direction", .type = Type::direction, .one_of = "direction|position", .needed = true, .doc = "The way the light travels, from infinitely far.", .example = "[1, -2, 1]", .member = fills<Light, &Light::direction>},
-    {.key = "position", .type = Type::vector, .unit = "m", .one_of = "direction|position", .doc = "Where a lamp stands, instead of direction.", .example = "[0, 5, 0]", .member = fills<Light, &Light::position>},
+    {.key = "direction", .type = Type::direction, .one_of = "direction|position", .needed = true, .doc = "Direction in which the light travels, from infinitely far.", .example = "[1, -2, 1]", .member = fills<Light, &Light::direction>},
+    {.key = "position", .type = Type::vector, .unit = "m", .one_of = "direction|position", .doc = "Position of a lamp, instead of direction.", .example = "[0, 5, 0]", .member = fills<Light, &Light::position>},
     {.key = "color", .type = Type::color, .doc = "Its colour.", .example = "lightyellow", .member = fills<Light, &Light::color>},
-    {.key = "intensity", .type = Type::number, .range = from_0, .doc = "How bright; 1 is usual.", .example = "0.8", .member = fills<Light, &Light::intensity>},
+    {.key = "intensity", .type = Type::number, .range = from_0, .doc = "Brightness; 1 is usual.", .example = "0.8", .member = fills<Light, &Light::intensity>},
 };
 
 // clang-format on
 
 constexpr Kind kinds_of_scenes[] = {
-    {"scene", "the", "One scene: what there is, what happens, what is wanted of it.", scene_fields},
+    {"scene", "the", "One scene: its bodies, surfaces, forces and outputs.", scene_fields},
     {"restitution", "", "How bodies bounce off one another.", restitution_fields},
-    {"pair", "a", "A coefficient of restitution for two bodies, whatever theirs are.", pair_fields},
-    {"defaults", "", "Values that things of a kind take where they name none themselves.", defaults_fields},
+    {"pair", "a", "A coefficient of restitution for two things, which overrides their own.", pair_fields},
+    {"defaults", "", "Default values for things of each kind.", defaults_fields},
     {"ball", "a", "A sphere that moves without turning.", ball_fields, nullptr, "ball"},
-    {"body", "a", "A body with any bounding volume that moves without turning.", body_fields, nullptr, "body"},
+    {"body", "a", "A body with any bounding volume; it moves without turning.", body_fields, nullptr, "body"},
     {"cylinder", "a", "An upright cylinder.", cylinder_fields},
     {"member", "a", "The ball of a group.", member_fields, nullptr, "ball"},
     {"group", "a", "Many balls made by rule, without overlap, the same on every machine.", group_fields, nullptr,
      "group"},
-    {"in", "", "A box along the axes.", in_fields},
+    {"in", "", "An axis-aligned box.", in_fields},
     {"plane", "a", "An unbounded fixed surface, free on one side.", plane_fields, nullptr, "plane"},
-    {"wall", "a", "A fixed rectangle that can be struck from both sides.", wall_fields, nullptr, "wall"},
-    {"room", "", "Six planes that look inward.", room_fields},
+    {"wall", "a", "A two-sided fixed rectangle.", wall_fields, nullptr, "wall"},
+    {"room", "", "Six planes that face inward.", room_fields},
     {"obstacle", "an", "A body that never moves.", obstacle_fields, nullptr, "obstacle"},
-    {"force", "a", "A force on bodies, in a window of time if it says so.", force_fields},
-    {"drag", "", "Drag of a medium: against a body's velocity relative to it.", drag_fields, nullptr, "",
+    {"force", "a", "A force on bodies, for the whole run or a window of time.", force_fields},
+    {"drag", "", "Drag of a medium, against a body's velocity relative to it.", drag_fields, nullptr, "",
      "linear|quadratic"},
-    {"spring", "", "A spring from a fixed point, with a damper beside it.", spring_fields},
-    {"attractor", "", "Attraction to a fixed point by the square of the distance.", attractor_fields},
-    {"simulate", "", "For how long and how.", simulate_fields},
-    {"camera", "", "Where the pictures are taken from.", camera_fields},
+    {"spring", "", "A spring from a fixed point, with a damper in parallel.", spring_fields},
+    {"attractor", "", "Attraction to a fixed point by the inverse square of the distance.", attractor_fields},
+    {"simulate", "", "Duration, engine and accuracy.", simulate_fields},
+    {"camera", "", "Camera of the pictures.", camera_fields},
     {"light", "a", "A light.", light_fields, &ambient},
 };
 
@@ -257,7 +257,7 @@ class FormatTable {
     for (const Kind& kind : kinds_of_scenes) add(kind);
     std::vector<Field> of_output;
     for (const OutputKind& kind : output_kinds()) of_output.push_back(row_of(kind));
-    add({"output", "", "What the run writes; absent parts are not made.", of_output});
+    add({"output", "", "What the run writes; an output that is absent is not written.", of_output});
     for (const OutputKind& kind : output_kinds()) {
       if (kind.keys.empty()) continue;
       Kind map{kind.name, "", kind.keys_doc, kind.keys};

@@ -13,20 +13,19 @@ namespace {
 constexpr std::string_view introduction =
     R"(# The format of scene and sweep files
 
-Made from the table that the loader reads files by; `carom explain KEY` prints the same for a key, `carom schema` the
-table as a JSON Schema. A scene whose first line is `# yaml-language-server: $schema=scene.schema.json` is completed and
-checked by editors with a YAML language server, if that file stands beside it; `carom new NAME` writes both.
+This page is made from the loader's table of keys. `carom explain KEY` prints one key, `carom schema` the table as a
+JSON Schema. Editors with a YAML language server complete and check a scene whose first line is
+`# yaml-language-server: $schema=scene.schema.json`, if that file lies beside it. `carom new NAME` writes both.
 
 SI units: m, kg, s, N, J; angles in degrees. Right-handed axes, y is up.
 
 A file is one YAML document, a map of keys. Numbers are decimal: `2`, `-0.5`, `.5`, `1e-3`; a leading zero (`010`), a unit,
-quotes, `_` between digits, `.inf` and `.nan` are errors. Readers of YAML 1.1 take `1e-3` for text, where they want
-`1.0e-3`, and an unquoted key `on` for `true`: write `1.0e-3` and `"on"` for them. A flag is `true` or `false`. Names
-match `[A-Za-z_][A-Za-z0-9_-]*` and are unique in a scene. A key that is not known or there twice, an alias, an anchor, a
-tag, `<<`, a tab and a second document are errors.
+quotes, `_` between digits, `.inf` and `.nan` are errors. YAML 1.1 readers take `1e-3` for text and an unquoted key `on`
+for `true`: write `1.0e-3` and `"on"` for them. A flag is `true` or `false`. Names match `[A-Za-z_][A-Za-z0-9_-]*` and are
+unique in a scene. An unknown or repeated key, an alias, an anchor, a tag, `<<`, a tab and a second document are errors.
 
-In paths NAME stands for a name, N for the number of a list's entry, from 0. A key in bold is needed, though `defaults`
-may say it; of keys that exclude one another one is.
+In paths NAME stands for a name, and N for the index of a list's entry, from 0. A key in bold is needed, here or in
+`defaults`. Of bold keys that exclude one another, one is needed.
 
 )";
 
@@ -65,8 +64,8 @@ std::string value_text(const Field& field) {
 
 std::string meaning(const Field& field) {
   std::string text(field.doc);
-  if (!rivals(field).empty()) text += fmt::format(" Not beside {}.", quoted_list(rivals(field)));
-  if (!field.with.empty()) text += fmt::format(" Only beside `{}`.", field.with);
+  if (!rivals(field).empty()) text += fmt::format(" Not with {}.", quoted_list(rivals(field)));
+  if (!field.with.empty()) text += fmt::format(" Only with `{}`.", field.with);
   if (!field.engines.empty()) text += fmt::format(" Only with engine {}.", listed(parts_of(field.engines)));
   return text;
 }
@@ -82,7 +81,7 @@ std::string section(const Kind& kind, bool is_file) {
     for (const std::string& path : paths_of(kind)) paths += fmt::format("{}`{}`", paths.empty() ? "" : ", ", path);
     text += fmt::format("At {}.", paths);
     if (!kind.defaults.empty())
-      text += fmt::format(" What it does not say itself it takes from `defaults.{}`.", kind.defaults);
+      text += fmt::format(" A key left out takes its value from `defaults.{}`.", kind.defaults);
     if (!kind.any_of.empty()) text += fmt::format(" One of {} is needed.", quoted_list(parts_of(kind.any_of)));
     text += "\n\n";
   }
@@ -93,7 +92,7 @@ std::string section(const Kind& kind, bool is_file) {
                         code(field.initial), code(field.example), meaning(field), more);
   };
   for (const Field& field : kind.fields) row(field, "");
-  if (kind.also != nullptr) row(*kind.also, " Stands beside the names.");
+  if (kind.also != nullptr) row(*kind.also, " Stands among the names.");
   return text + "\n";
 }
 
@@ -102,22 +101,21 @@ std::string limits() {
   const Budget budget;
   std::string text =
       "## Limits\n\n"
-      "Numbers lie within what doubles carry through energies, distances and their powers.\n\n"
-      "| unit | least of what must be above 0 | largest |\n| --- | --- | --- |\n";
+      "The limits keep energies, distances and their powers within the range of doubles.\n\n"
+      "| unit | smallest, if it must be above 0 | largest |\n| --- | --- | --- |\n";
   for (const UnitLimit& limit : unit_limits())
     text +=
         fmt::format("| {} | {:g} | {:g} |\n", limit.unit.empty() ? "none" : limit.unit, limit.smallest, limit.largest);
   text += fmt::format(
       "\nThe smallest size is the smallest radius, height or edge of a body, an obstacle or a wall. Nothing lies "
       "farther\n"
-      "from the origin than {0:g} times that, and no starting speed times the duration is longer. A body that gets "
-      "there\n"
-      "on its way, or to more than {1:g} m/s, ends the run. Its uniform forces accelerate it by at most {2:g} "
-      "m/s^2.\n\n"
-      "A run has a budget, which `--force` lifts and `carom check` holds it against:\n\n"
+      "from the origin than {0:g} times that size, and no starting speed times the duration is longer. A body that "
+      "gets\n"
+      "farther, or faster than {1:g} m/s, ends the run. Uniform forces accelerate a body by at most {2:g} m/s^2.\n\n"
+      "A run has a budget. `carom check` compares the scene with it, and `--force` lifts it:\n\n"
       "| of a run | at most |\n| --- | --- |\n"
-      "| bodies | {3} |\n| pictures | {4} |\n| rows of a table | {5} |\n| steps of time | {6} |\n"
-      "| steps of time, times bodies | {7} |\n\n",
+      "| bodies | {3} |\n| pictures | {4} |\n| rows of a table | {5} |\n| time steps | {6} |\n"
+      "| time steps, times bodies | {7} |\n\n",
       farthest_by_size, largest_speed, largest_acceleration, budget.bodies, budget.frames, budget.rows, budget.steps,
       budget.body_steps);
   return text;

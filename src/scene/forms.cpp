@@ -94,7 +94,7 @@ std::optional<Fit> Forms::fit(Shape shape, const Node& mesh) {
     tight = tightest(shape, *vertices);
   } catch (const std::invalid_argument&) {
     diagnostics_.add(place_of(mesh),
-                     fmt::format("the mesh {} is flat: its tightest {} has no inside", in_backticks(mesh.text),
+                     fmt::format("the mesh {} is flat: its tightest {} has no volume", in_backticks(mesh.text),
                                  shape_names[static_cast<std::size_t>(shape)]),
                      "expected a mesh with width, height and depth");
   }

@@ -43,7 +43,7 @@ struct SceneFile::Impl {
     }
     if (tree->find("scene") == nullptr && tree->find("sweep") != nullptr) {
       parsing.add(tree->find_key("sweep")->place, "this is a sweep, not a scene",
-                  fmt::format("its runs are made by `carom sweep {}`", path));
+                  fmt::format("run it by `carom sweep {}`", path));
       stop_if_wrong(parsing, options);
     }
     root = std::move(*tree);

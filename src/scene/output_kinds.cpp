@@ -41,7 +41,7 @@ constexpr Field xyz_fields[] = {
 };
 
 constexpr Field gltf_fields[] = {
-    {.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .doc = "Keys a second; one more at the end.", .example = "24", .title = "Keys a second", .member = fills<GltfOutput, &GltfOutput::fps>},
+    {.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .doc = "Keyframes a second; one more at the end.", .example = "24", .title = "Keyframes a second", .member = fills<GltfOutput, &GltfOutput::fps>},
 };
 
 constexpr Field fps{.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .doc = "Pictures a second.", .example = "25", .title = "Pictures a second"};
@@ -49,8 +49,8 @@ constexpr Field size{.key = "size", .type = Type::pixels, .unit = "pixels", .ran
 // A film stores colours for blocks of 2 x 2 pixels.
 constexpr Field film_size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = {16, 16384, false, false, true}, .doc = "Width and height of a picture, both even.", .example = "[640, 360]", .title = "Width and height"};
 constexpr Field samples{.key = "samples", .type = Type::choice, .of = "1|2|4|8", .doc = "Samples a pixel, against jagged edges.", .example = "8"};
-constexpr Field from{.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture before.", .example = "0.5", .title = "Start"};
-constexpr Field until{.key = "until", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture after. Default: the duration.", .example = "1.5", .title = "End"};
+constexpr Field from{.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture before this time.", .example = "0.5", .title = "Start"};
+constexpr Field until{.key = "until", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture after this time. Default: the duration.", .example = "1.5", .title = "End"};
 
 constexpr Field frames_fields[] = {
     with(fps, fills<FramesOutput, &FramesOutput::fps>),
@@ -125,7 +125,7 @@ constexpr OutputMember flag = {[](const Output& output) { return output.*member;
 
 constexpr OutputKind all_kinds[] = {
     {.name = "trajectory",
-     .doc = "trajectory.csv: where every body is.",
+     .doc = "trajectory.csv: position and velocity of every body.",
      .example = "{every: 0.01}",
      .keys = trajectory_fields,
      .keys_doc = "trajectory.csv.",
@@ -153,7 +153,7 @@ constexpr OutputKind all_kinds[] = {
      .member = part<&Output::contacts>,
      .files = "contacts.csv"},
     {.name = "frames",
-     .doc = "frames/frame_00000.png and on.",
+     .doc = "frames/frame_00000.png and so on.",
      .example = "{fps: 30, size: [1280, 720]}",
      .keys = frames_fields,
      .keys_doc = "One PNG a picture.",
@@ -164,7 +164,7 @@ constexpr OutputKind all_kinds[] = {
      .doc = "A film, H.264.",
      .example = "true",
      .keys = video_fields,
-     .keys_doc = "A film; what it does not say itself is taken from frames.",
+     .keys_doc = "A film; a key left out takes its value from frames.",
      .beneath = "frames",
      .member = pictures<&Output::video, &Output::frames>,
      .named = [](const Output& o) { return o.video->file; },
@@ -178,7 +178,7 @@ constexpr OutputKind all_kinds[] = {
      .files = "sheet.png",
      .looks = true},
     {.name = "vtk",
-     .doc = "For ParaView: trajectory.pvd, vtk/bodies_00000.vtp and on, surfaces.vtp.",
+     .doc = "For ParaView: trajectory.pvd, vtk/bodies_00000.vtp and so on, surfaces.vtp.",
      .example = "{every: 0.1}",
      .keys = vtk_fields,
      .keys_doc = "Files for ParaView.",
@@ -205,13 +205,14 @@ constexpr OutputKind all_kinds[] = {
      .keys_doc = "An animation for Blender.",
      .member = part<&Output::gltf>,
      .files = "animation.glb",
-     .rows = "keys of animation.glb",
+     .rows = "keyframes of animation.glb",
      .spacing = "fps",
      .in_memory = true,
      .looks = true},
     {.name = "flights",
-     .doc = "flights.bin: the paths, from which carom render draws other pictures; where the engine goes along "
-            "parabolas. Default: true with pictures.",
+     .doc =
+         "flights.bin: the paths of the bodies, from which carom render draws other pictures. Only for paths that are "
+         "parabolas. Default: true with pictures.",
      .example = "true",
      .member = flag<&Output::flights, fills_if_given<Output, &Output::flights>>,
      .files = "flights.bin"},

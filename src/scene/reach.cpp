@@ -46,7 +46,7 @@ class Reach {
     }
     for (const std::string_view key : {"radius", "cylinder", "box", "size"}) {
       if (find_field(view.kind(), key) == nullptr || view.find(key) == nullptr) continue;
-      check_length(largest_number(*view.find(key)), view.place(key), "{} is {} m large", name, "make it smaller");
+      check_length(largest_number(*view.find(key)), view.place(key), "{} is {} m in size", name, "make it smaller");
     }
   }
 
@@ -63,7 +63,7 @@ class Reach {
         place,
         fmt::format(fmt::runtime(message), in_backticks(name), shortest(length)) +
             fmt::format(", more than {:g} times the smallest size, {} m", farthest_by_size, shortest(smallest_)),
-        fmt::format("doubles do not resolve contact there: {}, or make what is smallest larger", change));
+        fmt::format("doubles do not resolve contact there: {}, or make the smallest thing larger", change));
   }
 
   void check_speed(const BodyEntry& body, const View& view) {
@@ -77,16 +77,16 @@ class Reach {
     const std::string_view key = !kick.isZero(0) ? "impulse" : deviation ? "speed" : "velocity";
     const Place place = (key == "speed" || (common && key == "velocity") ? view : each).place(key);
     if (!(speed <= largest_speed)) {
-      diagnostics_.add(place, fmt::format("{} starts with {} m/s", in_backticks(body.key->text), shortest(speed)),
+      diagnostics_.add(place, fmt::format("{} starts at {} m/s", in_backticks(body.key->text), shortest(speed)),
                        fmt::format("expected at most {:g} m/s", largest_speed));
       return;
     }
     const double way = speed * scene_.simulate.duration;
     if (way <= farthest_) return;
     diagnostics_.add(place,
-                     fmt::format("{} goes {} m in the duration, more than {:g} times the smallest size, {} m",
+                     fmt::format("{} travels {} m in the duration, more than {:g} times the smallest size, {} m",
                                  in_backticks(body.key->text), shortest(way), farthest_by_size, shortest(smallest_)),
-                     "doubles do not resolve where it is then: expected a shorter duration, a lower speed, or larger "
+                     "doubles do not resolve its position then: expected a shorter duration, a lower speed, or larger "
                      "things");
   }
 

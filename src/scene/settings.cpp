@@ -147,7 +147,7 @@ class Walk {
     if (child == nullptr) {
       const std::string near = nearest(step.text, names_in(*node_));
       return refuse(step, fmt::format("there is no {} {}", kind.name, in_backticks(step.text)),
-                    near.empty() ? "--set changes what is there; it makes nothing new"
+                    near.empty() ? "--set changes existing entries and adds none"
                                  : fmt::format("did you mean {}?", in_backticks(near)));
     }
     node_ = child;

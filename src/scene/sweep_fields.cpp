@@ -6,19 +6,19 @@ namespace {
 
 // clang-format off
 constexpr Field grid{.key = "grid", .type = Type::axes, .doc = "Every combination of the values; the last path varies fastest.", .example = "{balls.red.mass: {from: 1, to: 2, count: 3}, balls.red.position.z: [-0.025, 0, 0.025]}"};
-constexpr Field zip{.key = "zip", .type = Type::axes, .doc = "Values in step: as many of each path.", .example = "{balls.red.mass: [1, 2], balls.blue.mass: [2, 1]}"};
-constexpr Field list{.key = "list", .type = Type::cases, .doc = "Combinations as given.", .example = "[{balls.red.mass: 1}, {balls.red.mass: 2, simulate.duration: 5}]"};
-constexpr Field skip{.key = "skip", .type = Type::cases, .doc = "Runs that are left out: those that have all values of an entry. A list of numbers or words stands for any of them.", .example = "[{balls.red.mass: [1, 2], balls.blue.mass: 2}]"};
+constexpr Field zip{.key = "zip", .type = Type::axes, .doc = "Values in step: as many for each path.", .example = "{balls.red.mass: [1, 2], balls.blue.mass: [2, 1]}"};
+constexpr Field list{.key = "list", .type = Type::cases, .doc = "Combinations, listed one by one.", .example = "[{balls.red.mass: 1}, {balls.red.mass: 2, simulate.duration: 5}]"};
+constexpr Field skip{.key = "skip", .type = Type::cases, .doc = "Runs to leave out: those with all values of an entry. A list of numbers or words matches any of them.", .example = "[{balls.red.mass: [1, 2], balls.blue.mass: 2}]"};
 
 constexpr Field sweep_fields[] = {
     {.key = "sweep", .type = Type::whole, .range = {1, 1}, .needed = true, .doc = "Kind of file and version of the format.", .example = "1"},
-    {.key = "title", .type = Type::text, .initial = "\"\"", .doc = "What the sweep is, in one line.", .example = "Masses"},
-    {.key = "base", .type = Type::text, .needed = true, .doc = "The scene file that is varied, from the folder of the sweep file.", .example = "two_bowling_balls.yaml"},
-    {.key = "set", .type = Type::settings, .doc = "What differs from the base in every run.", .example = "{simulate.duration: 5}"},
+    {.key = "title", .type = Type::text, .initial = "\"\"", .doc = "Title of the sweep, one line.", .example = "Masses"},
+    {.key = "base", .type = Type::text, .needed = true, .doc = "The scene file to vary, relative to the folder of the sweep file.", .example = "two_bowling_balls.yaml"},
+    {.key = "set", .type = Type::settings, .doc = "Values that differ from the base in every run.", .example = "{simulate.duration: 5}"},
     grid, zip, list, skip,
-    {.key = "runs", .type = Type::list, .of = "block", .doc = "Several such blocks, one after the other, instead of grid, zip, list and skip.", .example = "[{grid: {balls.red.mass: [1, 2]}}, {list: [{balls.red.mass: 9}]}]", .needs_entries = true},
-    {.key = "repeat", .type = Type::part, .of = "repeat", .doc = "Each combination several times, with other seeds.", .example = "{seeds: 10}"},
-    {.key = "only", .type = Type::names, .of = "trajectory|collisions|energy|contacts|frames|video|sheet|vtk|xyz|gltf|flights", .doc = "The outputs that are written. Default: what the base asks for.", .example = "[collisions, energy]"},
+    {.key = "runs", .type = Type::list, .of = "block", .doc = "A list of blocks, each with grid, zip, list and skip of its own, instead of these keys.", .example = "[{grid: {balls.red.mass: [1, 2]}}, {list: [{balls.red.mass: 9}]}]", .needs_entries = true},
+    {.key = "repeat", .type = Type::part, .of = "repeat", .doc = "Runs each combination several times, with other seeds.", .example = "{seeds: 10}"},
+    {.key = "only", .type = Type::names, .of = "trajectory|collisions|energy|contacts|frames|video|sheet|vtk|xyz|gltf|flights", .doc = "The outputs to write. Default: those of the base.", .example = "[collisions, energy]"},
     {.key = "compare", .type = Type::part, .of = "compare", .doc = "What the comparison shows.", .example = "{measures: [energy_lost_J]}"},
 };
 
@@ -28,14 +28,14 @@ constexpr Field block_fields[] = {
 
 constexpr Field range_fields[] = {
     {.key = "from", .type = Type::number, .needed = true, .doc = "The first value.", .example = "0.5"},
-    {.key = "to", .type = Type::number, .needed = true, .doc = "The last value; with step none lies beyond.", .example = "1"},
-    {.key = "count", .type = Type::whole, .range = {1, 1e6}, .one_of = "count|step", .needed = true, .doc = "How many values, ends included, evenly spread.", .example = "6"},
-    {.key = "step", .type = Type::number, .one_of = "count|step", .doc = "From one value to the next.", .example = "0.1"},
+    {.key = "to", .type = Type::number, .needed = true, .doc = "The last value; with step, no value lies beyond it.", .example = "1"},
+    {.key = "count", .type = Type::whole, .range = {1, 1e6}, .one_of = "count|step", .needed = true, .doc = "Number of values, evenly spaced, both ends included.", .example = "6"},
+    {.key = "step", .type = Type::number, .one_of = "count|step", .doc = "Difference between one value and the next.", .example = "0.1"},
 };
 
 constexpr Field repeat_fields[] = {
-    {.key = "seeds", .type = Type::whole, .range = {1, 1e6}, .needed = true, .doc = "How many seeds, one after the other.", .example = "10"},
-    {.key = "first", .type = Type::whole, .range = {.min = 0}, .doc = "The first one. Default: the scene's seed.", .example = "1"},
+    {.key = "seeds", .type = Type::whole, .range = {1, 1e6}, .needed = true, .doc = "Number of consecutive seeds.", .example = "10"},
+    {.key = "first", .type = Type::whole, .range = {.min = 0}, .doc = "The first seed. Default: the scene's.", .example = "1"},
 };
 
 constexpr Field compare_fields[] = {
@@ -52,10 +52,10 @@ constexpr Field chart_fields[] = {
 
 constexpr Kind kinds_of_sweeps[] = {
     {"sweep", "the", "Many runs of one scene with other values.", sweep_fields},
-    {"block", "a", "Runs with other values.", block_fields},
-    {"range", "a", "Evenly spread numbers, computed as decimals.", range_fields},
-    {"repeat", "", "The same with other seeds.", repeat_fields},
-    {"compare", "", "What summary.csv and the workbook have beside the usual.", compare_fields},
+    {"block", "a", "A block of runs with other values.", block_fields},
+    {"range", "a", "Evenly spaced numbers, computed as decimals.", range_fields},
+    {"repeat", "", "Repeats with other seeds.", repeat_fields},
+    {"compare", "", "Measures and charts that summary.csv and the workbook have in addition.", compare_fields},
     {"chart", "a", "A chart of the workbook.", chart_fields},
 };
 

@@ -44,7 +44,7 @@ class SweepReader {
     if (base != nullptr && !sources_.front().option) {
       if (const std::string why = why_no_file(sweep_.base); !why.empty())
         diagnostics_.add(base->place, fmt::format("{} {}", why, in_backticks(base->text)),
-                         "expected a scene file, by its path from the folder of this file");
+                         "expected the path of a scene file, relative to the folder of this file");
     }
     blocks();
     repeat();
@@ -101,7 +101,7 @@ class SweepReader {
     }
     for (const std::string_view key : {"grid", "zip", "list", "skip"}) {
       if (const Key* beside = root_.find_key(key))
-        diagnostics_.add(beside->place, fmt::format("`runs` and {} stand side by side", in_backticks(key)),
+        diagnostics_.add(beside->place, fmt::format("{} stands beside `runs`", in_backticks(key)),
                          "expected it in an entry of `runs`");
     }
     for (const Node& item : runs->items)
@@ -151,7 +151,7 @@ class SweepReader {
   /// Marks a path as varied. It may vary only once in a block.
   void take(const Key& key) {
     if (taken_.emplace(key.text, &key).second) return;
-    diagnostics_.add(key.place, fmt::format("{} varies twice", in_backticks(key.text)), "remove one of them");
+    diagnostics_.add(key.place, fmt::format("{} is varied twice", in_backticks(key.text)), "remove one of them");
   }
 
   SweepCase one_case(const Node& map) {
@@ -176,7 +176,7 @@ class SweepReader {
         diagnostics_.add(key.place,
                          fmt::format("{} has {} values, {} has {}", in_backticks(key.text), column.size(),
                                      in_backticks(zip.keys.front().text), axis.cases.size()),
-                         "expected as many of each path: they go in step");
+                         "expected as many for each path: they vary in step");
         column.resize(axis.cases.size());
       }
       for (std::size_t k = 0; k < column.size(); ++k) axis.cases[k].values.emplace_back(path(key.text), column[k]);
@@ -206,7 +206,7 @@ class SweepReader {
       const std::optional<Decimal> decimal = parse_decimal(value.text);
       if (!decimal)
         diagnostics_.add(value.place, fmt::format("{} has more than 18 digits", in_backticks(value.text)),
-                         "give such values one by one");
+                         "list such values one by one");
       return decimal;
     };
     const std::optional<Decimal> from = number("from"), to = number("to");
@@ -214,8 +214,8 @@ class SweepReader {
     if (const Node* count = node.find("count")) {
       const std::uint64_t n = parse_whole(count->text).value_or(1);
       if (n == 1 && to_text(*from) != to_text(*to))
-        diagnostics_.add(count->place, "one value has no two ends",
-                         "expected `from` and `to` to be the same, or more values");
+        diagnostics_.add(count->place, "a single value cannot have two ends",
+                         "expected `from` equal to `to`, or more values");
       return spread(*from, *to, n);
     }
     const Node* step = node.find("step");
@@ -268,11 +268,11 @@ class SweepReader {
     for (std::size_t s = 0; s < skipped.size(); ++s) {
       const Node& entry = skip->items[s];
       if (skipped[s] > 0 || entry.bad || !diagnostics_.empty()) continue;
-      diagnostics_.add(entry.keys.front().place, "no run has these values",
-                       "expected paths and values that vary in this block");
+      diagnostics_.add(entry.keys.front().place, "no run has these values", "expected paths and values of this block");
     }
     if (block.kept.empty() && diagnostics_.empty())
-      diagnostics_.add(skip->items.front().keys.front().place, "all runs are left out", "expected some to be left");
+      diagnostics_.add(skip->items.front().keys.front().place, "every run is left out",
+                       "expected at least one run to remain");
   }
 
   bool matches(const Node& entry, const std::vector<const SweepValue*>& values) const {
@@ -299,10 +299,10 @@ class SweepReader {
     sweep_.seeds = view.whole("seeds").value_or(1);
     sweep_.first_seed = view.whole("first");
     if (sweep_.first_seed.value_or(0) > std::numeric_limits<std::uint64_t>::max() - sweep_.seeds)
-      diagnostics_.add(node->find_key("first")->place, "there are not so many seeds after this one",
+      diagnostics_.add(node->find_key("first")->place, "there are too few seeds after this one",
                        "expected a smaller `first`");
     if (std::find(sweep_.paths.begin(), sweep_.paths.end(), "seed") != sweep_.paths.end()) {
-      diagnostics_.add(root_.find_key("repeat")->place, "`seed` varies, and `repeat` varies it too",
+      diagnostics_.add(root_.find_key("repeat")->place, "`seed` is varied twice: here and by `repeat`",
                        "remove one of them");
       return;
     }
@@ -347,7 +347,7 @@ Sweep read(std::vector<Source>& sources, Diagnostics& diagnostics, bool color) {
                     "expected a map of keys, such as `sweep: 1`");
   } else if (root->find("sweep") == nullptr && root->find("scene") != nullptr) {
     diagnostics.add(root->find_key("scene")->place, "this is a scene, not a sweep",
-                    "expected a sweep file, or what is to vary: --grid balls.red.mass=1:2:3");
+                    "expected a sweep file, or a scene with --grid, such as --grid balls.red.mass=1:2:3");
   } else {
     check_sweep(*root, diagnostics);
     Sweep sweep = SweepReader(sources, *root, diagnostics).run();

@@ -70,7 +70,7 @@ PolynomialPath CurvedFlights::step_of_its_own(Entity i, const Vec3& x, const Vec
 void CurvedFlights::check_clock(Entity i, double length) const {
   if (bodies_.now < bodies_.now + length) return;
   throw SimulationError(fmt::format("at t = {} s the forces on ", bodies_.now.hi), i,
-                        " change faster than the clock can tell: soften what attracts, or weaken a stiff force");
+                        " change faster than the clock resolves: soften an attractor, or weaken a stiff force");
 }
 
 /// The longest step (s): within the requested step, the run, and `reach` (m), the distance in which forces are smooth.
@@ -240,7 +240,7 @@ double CurvedFlights::step_length() const {
   const Instant& now = bodies_.now;
   if (!(now.hi + step > now.hi))
     throw SimulationError(
-        fmt::format("at t = {} s steps of {} s no longer move the clock: use a longer simulate.step", now.hi, step));
+        fmt::format("at t = {} s steps of {} s no longer advance the clock: use a longer simulate.step", now.hi, step));
   auto steps = static_cast<double>(whole_below(now.hi / step));
   while (!(now < Instant{steps * step, 0})) ++steps;
   const double next = steps * step;

@@ -31,7 +31,7 @@ class SimulationError : public std::runtime_error {
 
 /// Remedies against a speed, and against a position, that is out of bounds.
 struct Remedies {
-  const char* speed = "restitution above 1 makes energy at every collision; lower it, or shorten simulate.duration";
+  const char* speed = "restitution above 1 adds energy at every collision; lower it, or shorten simulate.duration";
   const char* place = "shorten simulate.duration, or hold it back by a wall";
 };
 

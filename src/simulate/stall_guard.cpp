@@ -26,7 +26,7 @@ void StallGuard::count(Happened what, double now) {
         " (jammed, or inelastic collapse): give them room, raise their restitution, or simulate.rest_speed";
     if (elastic) advice = " (jammed, or masses too unequal): give them room, or shorten simulate.duration";
     if (highest_ > 1)
-      advice = " (restitution above 1 makes energy at every collision): lower it, or shorten simulate.duration";
+      advice = " (restitution above 1 adds energy at every collision): lower it, or shorten simulate.duration";
     throw SimulationError(
         fmt::format("at t = {} s bodies collide so often that the clock stands still{}", now, advice));
   }

@@ -29,8 +29,7 @@ FilmTile tile_of(const ListedRun& run) {
         fmt::format("{} has no film: run its scene again with the output `video` (--only video)", run.folder));
   const nlohmann::json& video = outputs["video"];
   const auto damaged = [&] {
-    return ExportError(
-        fmt::format("{}/{} is damaged: carom run --force makes the run anew", run.folder, manifest_name));
+    return ExportError(fmt::format("{}/{} is damaged: carom run --force runs it again", run.folder, manifest_name));
   };
   if (!video.is_object()) throw damaged();
   const nlohmann::json file = video.value("file", nlohmann::json("animation.mp4")),

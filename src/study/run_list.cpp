@@ -61,7 +61,7 @@ std::string look_at(ListedRun& run) {
     const bool is_read = file.bytes <= longest_hashed && (file.name.ends_with(".csv") || file.name == "scene.yaml");
     const bool same = stored_size(folder.get(), file.name) == file.bytes &&
                       (!is_read || read_record(folder.get(), file.name).value_or(FileRecord{}).sha256 == file.sha256);
-    if (!same) return fmt::format("{} is not as the run wrote it: run its scene again", file.name);
+    if (!same) return fmt::format("{} has changed since the run: run its scene again", file.name);
   }
   run.done = true;
   return "";

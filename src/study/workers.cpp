@@ -272,7 +272,7 @@ class Pool {
     outcome.text =
         WIFSIGNALED(status)
             ? fmt::format("its process was ended by signal {} ({}){}", WTERMSIG(status), strsignal(WTERMSIG(status)),
-                          WTERMSIG(status) == SIGKILL ? ", by a user or for want of memory" : "")
+                          WTERMSIG(status) == SIGKILL ? ", by a user or for lack of memory" : "")
             : fmt::format("its process ended with code {}", WEXITSTATUS(status));
     tasks_.done(outcome);
   }

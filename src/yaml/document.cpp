@@ -133,7 +133,7 @@ class DocumentBuilder : public YAML::EventHandler {
   }
   void check_tag(const YAML::Mark& mark, const std::string& tag) {
     if (!tag.empty() && tag != "?" && tag != "!") {
-      refuse(at(mark, word_length(mark)), "a tag", "remove it: the key decides what kind of value it has");
+      refuse(at(mark, word_length(mark)), "a tag", "remove it: the key determines the type of its value");
     }
   }
   /// Escapes such as "\0" or "\uD800" produce text that the check of the raw bytes did not cover.
@@ -212,8 +212,8 @@ class DocumentBuilder : public YAML::EventHandler {
       const Key* first = first_with(parent, name.text);
       if (first != nullptr) {
         const auto line = 1 + std::count(text_.begin(), text_.begin() + first->place.offset, '\n');
-        refuse(name.place, fmt::format("{} is here twice", in_backticks(name.text)),
-               fmt::format("it stands in line {} already", line));
+        refuse(name.place, fmt::format("{} is repeated", in_backticks(name.text)),
+               fmt::format("it is in line {} already", line));
         return;
       }
       parent.node.keys.push_back(std::move(name));

@@ -146,9 +146,9 @@ bool read_source(const std::string& path, Source& source, Diagnostics& diagnosti
 
 std::string why_no_file(const std::string& path) {
   struct stat info {};
-  if (stat(path.c_str(), &info) == 0) return S_ISREG(info.st_mode) ? "" : "this is no regular file:";
+  if (stat(path.c_str(), &info) == 0) return S_ISREG(info.st_mode) ? "" : "this is not a regular file:";
   if (errno == ENOENT || errno == ENOTDIR) return "there is no file";
-  return fmt::format("cannot be looked at ({}):", std::strerror(errno));
+  return fmt::format("cannot be inspected ({}):", std::strerror(errno));
 }
 
 bool check_text(Source& source, std::uint32_t index, Diagnostics& diagnostics) {

@@ -78,7 +78,7 @@ struct SyntaxCause {
   std::string_view message, remedy;
 };
 
-constexpr std::string_view no_tags = "remove it: the key decides what kind of value it has";
+constexpr std::string_view no_tags = "remove it: the key determines the type of its value";
 constexpr std::string_view own_lines = "expected lists as [a, b], or `- ` in lines of their own";
 
 constexpr SyntaxCause causes_in_values[] = {
@@ -88,7 +88,7 @@ constexpr SyntaxCause causes_in_values[] = {
 };
 constexpr SyntaxCause causes_in_brackets[] = {
     {"illegal flow end", "this bracket closes nothing", "remove it"},
-    {"flow not found", "a value ends and another thing begins",
+    {"flow not found", "a value ends and something else follows",
      "expected ',' or the closing bracket; is a ',' missing?"},
 };
 constexpr SyntaxCause causes_in_lines[] = {

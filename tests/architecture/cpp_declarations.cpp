@@ -8,7 +8,7 @@
 namespace carom::testing {
 namespace {
 
-/// What surrounds a declaration.
+/// The scope of a declaration.
 struct Scope {
   std::string namespaces;
   std::string class_name;          // "" at namespace scope
@@ -22,7 +22,7 @@ std::string joined(const std::string& outer, const std::string& inner) {
   return outer.empty() || inner.empty() ? outer + inner : outer + "::" + inner;
 }
 
-/// Reads declarations one after another. A function of its that skips leaves `at_` behind what it skips.
+/// Reads declarations in sequence. Functions that skip leave `at_` after the skipped tokens.
 class Reader {
  public:
   explicit Reader(const std::string& text) : tokens_(tokens_of(text)) {}
@@ -49,10 +49,10 @@ class Reader {
   bool is(const char* what) const { return text() == what; }
   bool at_name(std::size_t offset = 0) const { return at_ + offset < tokens_.size() && is_name(tokens_[at_ + offset]); }
 
-  /// Up to behind the bracket that closes the one here.
+  /// Skips to after the matching closing bracket.
   void skip_brackets() {
     static const std::map<std::string, std::string> closing = {{"(", ")"}, {"[", "]"}, {"{", "}"}};
-    std::vector<std::string> open;  // what closes those that are open
+    std::vector<std::string> open;  // the closing brackets of those that are open
     do {
       if (const auto pair = closing.find(text()); pair != closing.end()) {
         open.push_back(pair->second);
@@ -80,7 +80,7 @@ class Reader {
     found_.matched = found_.matched && depth == 0;
   }
 
-  /// An initializer's `<` opens template arguments where only what may stand in these comes before a `>`.
+  /// An initializer's `<` opens template arguments if only tokens allowed in them come before a `>`.
   bool opens_angles() const {
     static const std::set<std::string> inside = {"::", ",", "<", ">", "*", "&", "(", ")"};
     std::size_t depth = 0;
@@ -97,7 +97,7 @@ class Reader {
     return false;
   }
 
-  /// Up to the `,` or `;` that ends it.
+  /// Skips to the `,` or `;` that ends it.
   void skip_initializer() {
     while (!ended() && !is(",") && !is(";") && !is("}")) {
       if (is("(") || is("[") || is("{")) {
@@ -110,7 +110,7 @@ class Reader {
     }
   }
 
-  /// Up to behind the next `;`.
+  /// Skips to after the next `;`.
   void skip_statement() {
     for (skip_initializer(); is(","); skip_initializer()) {
       ++at_;
@@ -392,7 +392,7 @@ class Reader {
     return count;
   }
 
-  /// Either begins alike; parameters tell a function.
+  /// Both begin alike; a function has parameters.
   void read_variable_or_function(const Scope& scope, const Prefix& prefix) {
     QualifiedName name;
     while (!ended() && !is("}")) {

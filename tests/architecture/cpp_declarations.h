@@ -1,5 +1,5 @@
 #pragma once
-// The types and functions that a C++ file defines, read from its tokens: no names are looked up, no types are known.
+// The types and functions that a C++ file defines, read from its tokens, without name lookup or types.
 // It reads what clang-format leaves and this program uses. What functions hold (lambdas, local types) is not read.
 #include <cstddef>
 #include <string>
@@ -34,7 +34,7 @@ struct FunctionDefinition {
 struct Declarations {
   std::vector<TypeDefinition> types;
   std::vector<FunctionDefinition> functions;
-  bool matched = true;  // every brace and parenthesis has its other one
+  bool matched = true;  // every brace and parenthesis is matched
 };
 
 Declarations declarations_of(const std::string& text);

@@ -33,14 +33,14 @@ class Lexer {
   bool ahead(std::string_view what) const { return text_.compare(at_, what.size(), what) == 0; }
   char now(std::size_t offset = 0) const { return at_ + offset < text_.size() ? text_[at_ + offset] : '\0'; }
 
-  /// Goes on to `end`, and counts the lines on the way.
+  /// Advances to `end` and counts the lines.
   void go_to(std::size_t end) {
     end = std::min(end, text_.size());
     line_ += static_cast<std::size_t>(std::count(text_.begin() + at_, text_.begin() + end, '\n'));
     at_ = end;
   }
 
-  /// Goes on to behind the next `what`.
+  /// Advances to after the next `what`.
   void go_past(const std::string& what) {
     const std::size_t found = text_.find(what, at_);
     go_to(found == std::string::npos ? found : found + what.size());

@@ -1,4 +1,4 @@
-// What cpp_declarations.h reads of small texts, and that it gets through every file of the program.
+// cpp_declarations.h on small texts and on every file of the program.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,4 +1,4 @@
-// Every #include below src/ against the table in src/README.md of what each folder may include.
+// Every #include below src/ against the table of allowed includes in src/README.md.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct Rule {
   std::set<std::string> libraries;  // that no other folder includes
 };
 
-/// The table's words for single headers, and for libraries with the start of what is included.
+/// The table's names for single headers, and for libraries with the start of their include paths.
 const std::map<std::string, std::vector<std::string>> header_words = {
     {"scene's types", {"scene/scene.h", "scene/colors.h", "scene/output.h"}},
     {"render's Image", {"render/image.h"}},
@@ -40,7 +40,7 @@ const std::map<std::string, std::vector<std::string>> library_words = {
     {"CLI11", {"CLI/"}},
     {"the pipes of ffmpeg and gnuplot", {}},  // not a header: see OnlyExportStartsOtherPrograms
 };
-/// What any folder may include: text and JSON, and the system's own headers.
+/// Includes allowed in any folder: text and JSON, and the system's own headers.
 const std::vector<std::string> free_libraries = {"fmt/",   "nlohmann/", "sys/",     "dirent.h", "dlfcn.h", "fcntl.h",
                                                  "poll.h", "sched.h",   "signal.h", "spawn.h",  "unistd.h"};
 
@@ -60,7 +60,7 @@ std::vector<std::string> split(const std::string& text, char at) {
   return parts;
 }
 
-/// Throws where it meets a word that it does not know, so that no cell goes unheeded.
+/// Throws at an unknown word, so that no cell is ignored.
 Rule read_rule(const std::string& may_include, const std::string& only_place) {
   Rule rule;
   for (const std::string& word : split(may_include, ',')) {
@@ -205,11 +205,10 @@ TEST(Includes, OnlyExportStartsOtherPrograms) {
 }
 
 TEST(Includes, SimulatorsExportsAndLoaderNeverReachOneAnother) {
-  const std::map<std::string, std::vector<std::string>> never = {
-      {"simulate", {"export/", "files/", "scene/", "yaml/"}},
-      {"export", {"simulate/", "scene/load.h"}},
-      {"files", {"simulate/", "export/", "scene/load.h"}},
-      {"scene", {"simulate/", "export/", "files/"}}};
+  const std::map<std::string, std::vector<std::string>> never = {{"simulate", {"export/", "files/", "scene/", "yaml/"}},
+                                                                 {"export", {"simulate/", "scene/load.h"}},
+                                                                 {"files", {"simulate/", "export/", "scene/load.h"}},
+                                                                 {"scene", {"simulate/", "export/", "files/"}}};
   for (const SourceFile& file : program_files()) {
     if (!never.contains(folder_of(file))) {
       continue;

@@ -1,4 +1,4 @@
-// The tree against its layout, and what no file may hold.
+// The tree against its layout, and the banned contents of files.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -12,7 +12,7 @@
 namespace carom::testing {
 namespace {
 
-/// Names that two types share: classes, enums and aliases at namespace scope, in unnamed namespaces too. Equal aliases
+/// Names shared by two types: classes, enums and aliases at namespace scope, in unnamed namespaces too. Equal aliases
 /// are one type. Nested types and specializations have their names from others. An .inc file, which is compiled
 /// several times, has none of its own.
 std::vector<std::string> shared_names(const std::vector<SourceFile>& files) {

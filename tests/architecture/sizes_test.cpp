@@ -1,4 +1,4 @@
-// What a reader can keep in mind: functions of at most 80 lines, types of at most 20 data members, and every class in
+// Limits for readability: functions of at most 80 lines, types of at most 20 data members, and every class in
 // one .h and one .cpp.
 #include <gtest/gtest.h>
 
@@ -70,8 +70,8 @@ std::string class_of(const FunctionDefinition& function, const std::map<std::str
   return name;
 }
 
-/// Classes with functions in several files. What stands in the class itself or, inline, in its header counts for no
-/// file, unless it is a template's or stands in a .cpp.
+/// Classes with functions in several files. Functions in the class itself, or inline in its header, count for no
+/// file, except those of templates or in a .cpp.
 std::vector<std::string> scattered_classes(const std::vector<SourceFile>& files) {
   const std::map<std::string, Home> homes = homes_of(files);
   std::map<std::string, std::set<std::string>> places;

@@ -27,7 +27,7 @@ std::vector<std::string> walk(const std::string& folder, const std::vector<std::
   return paths;
 }
 
-/// Empty where there is no git or no repository. (safe.directory: the tree may belong to somebody else than the
+/// Empty where there is no git or no repository. (safe.directory: the tree may belong to another user than the
 /// tester.)
 std::vector<std::string> git_paths() {
   std::vector<std::string> paths;

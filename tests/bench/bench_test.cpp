@@ -1,4 +1,4 @@
-// Benches of real scenes: errors fall as methods promise, chaos is known, what an engine does not have is said.
+// Benches of real scenes: errors fall at the order of the method, chaos is detected, unsupported features are reported.
 #include "bench/bench.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace carom {
 namespace {
 
 constexpr const char* with_rest_length = "forces.0.spring.rest_length=0.1";
-constexpr double unlimited = 1e6;  // s, of budget: no row hangs on how fast the machine is
+constexpr double unlimited = 1e6;  // s, of budget: no row depends on the speed of the machine
 
 Scene scene_of(const std::string& name, const std::vector<std::string>& set = {}) {
   LoadOptions options;
@@ -78,7 +78,7 @@ TEST(Bench, WherePathsHaveNoClosedFormDop853IsTheReference) {
   EXPECT_LT(own.back().errors->position, 5e-11);
   for (std::size_t k = 1; k < own.size(); ++k)
     EXPECT_LT(own[k].errors->position, 0.2 * own[k - 1].errors->position);  // measured: 0.13, 1e-3, 5e-2
-  ASSERT_EQ(result.witnesses.size(), 2u);  // verlet, rk4: in such steps euler is off by more than it could tell
+  ASSERT_EQ(result.witnesses.size(), 2u);  // verlet, rk4: at these steps euler's error exceeds its estimate
   for (const Witness& witness : result.witnesses) EXPECT_TRUE(witness.agrees) << full_name_of(witness.method);
   EXPECT_NEAR(order_of(rk4, &Differences::position), 4, 0.15);
 }
@@ -154,7 +154,7 @@ TEST(Bench, WhatAnEngineDoesNotHaveIsSaid) {
       (std::vector<std::string>{
           "exact: under a `spring` with a rest length or damping paths have no closed form, which `engine: exact` "
           "follows",
-          "book: `engine: book` has no forces beside gravity"}));
+          "book: `engine: book` has no forces other than gravity"}));
   EXPECT_EQ(clay.left_out, (std::vector<std::string>{"stepped: `engine: stepped` has no `contact: merge`",
                                                      "book: `engine: book` has no `contact: merge`"}));
   EXPECT_EQ(clay.rows.size(), 1u);

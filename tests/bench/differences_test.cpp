@@ -1,4 +1,4 @@
-// What counts as an error of a run, and which collisions of two runs are the same.
+// The errors of a run, and the matching of collisions of two runs.
 #include "bench/differences.h"
 #include "physics/world.h"
 

@@ -1,4 +1,4 @@
-// Which run is trusted, and to what: runs of one body whose places are made up.
+// The choice of the reference run and its error, with runs of one body at made-up positions.
 #include "bench/evidence.h"
 #include "physics/world.h"
 
@@ -20,7 +20,7 @@ World one_body() {
   return world;
 }
 
-/// The body is `off` (m) from where it should be, at both instants.
+/// The body's position is wrong by `off` (m) at both instants.
 RecordedRun run_off(double off) {
   RecordedRun run;
   for (int k = 0; k < 2; ++k) {
@@ -83,7 +83,7 @@ TEST_F(EvidenceTest, AnExactRunThatTwoOthersContradictIsNotTheReference) {
   EXPECT_TRUE(verdict.witnesses[1].agrees);
 }
 
-// As both may step over what bends a path.
+// Both may step over a bend of the path.
 TEST_F(EvidenceTest, MethodsOfFixedStepsAloneDoNotOverruleTheExactRunButItsErrorIsTheirDifference) {
   Evidence evidence = of_exact(0);
   add_series(evidence, Integrator::verlet, 2, 1e-3, 6, 0.5);

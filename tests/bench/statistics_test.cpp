@@ -1,4 +1,4 @@
-// What chaotic runs are compared by.
+// Statistics for comparing chaotic runs.
 #include "bench/statistics.h"
 
 #include <gtest/gtest.h>

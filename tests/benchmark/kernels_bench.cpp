@@ -1,4 +1,4 @@
-// What single laws of motion and impact cost. Each kernel runs over the same thousand random inputs.
+// Cost of single laws of motion and impact. Each kernel runs over the same thousand random inputs.
 #include <benchmark/benchmark.h>
 
 #include <random>

@@ -1,5 +1,5 @@
-// What whole scenes cost: every file in scenes/benchmark loaded, simulated to its end without outputs, and drawn once.
-// Beside the time stands a hash of the final state: the same number is the same result, bit for bit.
+// Cost of whole scenes: every file in scenes/benchmark loaded, simulated to its end without outputs, and drawn once.
+// A hash of the final state follows the time: equal hashes are equal results, bit for bit.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -55,7 +55,7 @@ void frame(benchmark::State& state, const std::string& file) {
   state.counters["frames_per_s"] = benchmark::Counter(1, benchmark::Counter::kIsIterationInvariantRate);
 }
 
-/// Registers each scene before main() runs, so that --benchmark_filter knows them.
+/// Registers each scene before main() runs, so that --benchmark_filter finds them.
 const bool registered = [] {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(SCENES_DIR "/benchmark")) {

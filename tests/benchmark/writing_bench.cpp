@@ -1,5 +1,5 @@
-// What reading and writing cost where there is much of it: ten million rows of a trajectory, beside the mere making of
-// their numbers' digits; scenes of a million balls.
+// Cost of reading and writing much: ten million rows of a trajectory, compared with formatting their numbers alone;
+// scenes of a million balls.
 #include <benchmark/benchmark.h>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -19,7 +19,7 @@
 namespace carom {
 namespace {
 
-/// A folder that is gone at the end.
+/// A temporary folder.
 class Folder {
  public:
   Folder() {
@@ -38,7 +38,7 @@ class Folder {
 
 constexpr Entity bodies = 1000;
 
-/// Numbers of 16 and 17 digits, as motion has them.
+/// Numbers of 16 and 17 digits, as in trajectories.
 State motion() {
   State state;
   for (Entity i = 0; i < bodies; ++i) {
@@ -99,7 +99,7 @@ BENCHMARK_CAPTURE(load_million, lattice, "lattice")->Unit(benchmark::kSecond);
 BENCHMARK_CAPTURE(load_million, hexagonal, "hexagonal")->Unit(benchmark::kSecond);
 BENCHMARK_CAPTURE(load_million, random, "random")->Unit(benchmark::kSecond);
 
-/// Balls that stand in the file one by one.
+/// Balls listed in the file one by one.
 void load_list(benchmark::State& state) {
   const Folder folder;
   const std::string file = folder.path() + "/list.yaml";

@@ -90,7 +90,7 @@ TEST(New, OverwritesNothingWithoutForce) {
   const Finished refused = here.carom({"new", "first"});
   EXPECT_EQ(refused.code, 2);
   EXPECT_EQ(refused.err,
-            "carom new: first.yaml is there already: choose another name, or overwrite it with --force\n"
+            "carom new: first.yaml exists already: choose another name, or overwrite it with --force\n"
             "  carom new --help shows how it is used\n");
   EXPECT_EQ(here.read("first.yaml"), "mine\n");
   EXPECT_FALSE(here.has("scene.schema.json"));
@@ -124,7 +124,7 @@ TEST(New, RefusesWhatIsNoName) {
   for (const std::string name : {"", ".", "..", "demos/", ".hidden", "demos/.yaml", "a\nb", "back\\slash", "/"}) {
     const Finished made = here.carom({"new", name});
     EXPECT_EQ(made.code, 2) << name;
-    EXPECT_NE(made.err.find("is no name for a scene"), std::string::npos) << name << ": " << made.err;
+    EXPECT_NE(made.err.find("is not a name for a scene"), std::string::npos) << name << ": " << made.err;
   }
   EXPECT_EQ(here.carom({"new", "--", "-dash"}).code, 2);
   EXPECT_EQ(here.carom({"new", std::string(151, 'a')}).code, 2);
@@ -163,7 +163,7 @@ TEST(Explain, TellsEveryPlaceOfABareKey) {
   for (const char* path : {"restitution", "balls.NAME.restitution", "defaults.ball.restitution",
                            "groups.NAME.ball.restitution", "planes.NAME.restitution", "room.restitution"})
     EXPECT_TRUE(paths.contains(path)) << path;
-  // One entry for all that say the same.
+  // One entry for equal rows.
   EXPECT_EQ(fields.size(), 3u);
 }
 
@@ -265,7 +265,7 @@ TEST(SchemaCommand, KnowsTheKindsOfFiles) {
   EXPECT_TRUE(Json::parse(here.carom({"schema", "sweep"}).out)["properties"].contains("sweep"));
   const Finished wrong = here.carom({"schema", "scne"});
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_NE(wrong.err.find("there is no kind of file `scne`; did you mean `scene`?"), std::string::npos) << wrong.err;
+  EXPECT_NE(wrong.err.find("no kind of file `scne`; did you mean `scene`?"), std::string::npos) << wrong.err;
 }
 
 }  // namespace

@@ -147,9 +147,9 @@ TEST(BenchCommand, RefusesWordsThatMeanNothing) {
   };
   EXPECT_EQ(complaint({"--steps", "0.1:x"}), "carom bench: --steps takes a number above 0, not `x`");
   EXPECT_EQ(complaint({"--steps", "0.001:0.1"}),
-            "carom bench: --steps goes from the longest step to the shortest, 0.1:0.001 say, not `0.001:0.1`");
+            "carom bench: --steps takes the longest and the shortest step, such as 0.1:0.001, not `0.001:0.1`");
   EXPECT_EQ(complaint({"--budget", "-1"}), "carom bench: --budget takes a number above 0, not `-1`");
-  EXPECT_EQ(complaint({"--reference", "book"}), "carom bench: --reference is exact, stepped, not `book`");
+  EXPECT_EQ(complaint({"--reference", "book"}), "carom bench: --reference takes exact, stepped, not `book`");
   EXPECT_EQ(complaint({"--only", "energy"}), "carom bench: no option `--only`");
 }
 

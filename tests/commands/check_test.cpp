@@ -52,12 +52,12 @@ TEST(Check, GivesBothFieldsOfView) {
   const Workplace here;
   here.write("balls.yaml", two_balls(camera));
   const Json view = Json::parse(here.carom({"check", "balls.yaml", "--json"}).out).at("scenes").at(0).at("camera");
-  // Where no picture's size is given it is 1280 x 720: 2 atan(16/9 tan(22.5 degrees)).
+  // Without a picture's size it is 1280 x 720: 2 atan(16/9 tan(22.5 degrees)).
   EXPECT_NEAR(view.at("fov_x_degrees").get<double>(), 72.73435141004906, 1e-12);
   EXPECT_NEAR(view.at("fov_y_degrees").get<double>(), 45, 1e-13);
 }
 
-// From 10 m away, with a square picture of 90 degrees, a ball is seen while |x| < 10 + sqrt(2) r.
+// From 10 m away, with a square picture of 90 degrees, a ball is visible while |x| < 10 + sqrt(2) r.
 const std::string passing_ball =
     "scene: 1\ngravity: [0, 0, 0]\n"
     "balls:\n"
@@ -72,7 +72,7 @@ TEST(Check, TellsWhenABodyEntersThePictureAndLeavesIt) {
   const Json scene = Json::parse(here.carom({"check", "passing.yaml", "--json"}).out).at("scenes").at(0);
   const Json seen = scene.at("camera");
   EXPECT_EQ(seen.at("out_of_view_names"), Json({"passing"}));
-  // In at (12 - 10.1414...) / 10 = 0.18585... s, out at 2.21414... s: seen at the next picture.
+  // In at (12 - 10.1414...) / 10 = 0.18585... s, out at 2.21414... s: found at the next picture.
   EXPECT_EQ(seen.at("crossings_listed"), Json({{{"time_s", 0.19}, {"body", "passing"}, {"enters", true}},
                                                {{"time_s", 2.22}, {"body", "passing"}, {"enters", false}}}));
   EXPECT_EQ(seen.at("watched_until_s"), 3);
@@ -105,7 +105,7 @@ TEST(Check, TellsBytesAndSecondsToCome) {
   EXPECT_NE(out.find(" and roughly "), std::string::npos) << out;
 }
 
-// A hundred thousand collisions are not simulated for a look at the camera.
+// A hundred thousand collisions are not simulated to preview the camera.
 TEST(Check, EndsItsTrialSoon) {
   const Workplace here;
   here.write("gas.yaml",
@@ -130,7 +130,7 @@ TEST(Check, TellsWhatStopsARunLater) {
   const Finished check = here.carom({"check", "bouncing.yaml"}), run = here.carom({"run", "bouncing.yaml"});
   EXPECT_EQ(check.code, 0);
   EXPECT_EQ(run.code, 1);
-  const std::size_t at = check.out.find("  trouble     a run stops: ") + 27;
+  const std::size_t at = check.out.find("  trouble     a run would stop: ") + 32;
   const std::string why = check.out.substr(at, 20);
   EXPECT_NE(run.err.find(why), std::string::npos) << check.out << run.err;
 }
@@ -194,11 +194,11 @@ TEST(Check, BookSceneGetsTheExactPrediction) {
   here.write("balls.yaml", two_balls());
   const Finished check = here.carom({"check", "balls.yaml", "--set", "simulate.engine=book"});
   EXPECT_EQ(check.code, 0) << check.err;
-  EXPECT_NE(check.out.find(
-                "  engine      book, 1 s of motion\n"
-                "  first hit   red and blue at 0.445 s, at (0, 0, 0) m, closing at 4 m/s (exact; the book engine sees\n"
-                "              it at a later frame)\n"),
-            std::string::npos)
+  EXPECT_NE(
+      check.out.find("  engine      book, 1 s of motion\n"
+                     "  first hit   red and blue at 0.445 s, at (0, 0, 0) m, closing at 4 m/s (exact; the book engine\n"
+                     "              detects it in a later frame)\n"),
+      std::string::npos)
       << check.out;
 }
 
@@ -276,7 +276,7 @@ TEST(Check, TellsOfVolumesObstaclesAndForces) {
                 "  fixed       0 planes, 0 walls, 1 obstacle\n"
                 "  volumes     crate a box of 1 x 2 x 3 m; can a cylinder of radius 0.25 m and height 2 m; post a\n"
                 "              sphere of radius 0.5 m\n"
-                "  forces      1 force beside gravity\n"),
+                "  forces      1 force in addition to gravity\n"),
             std::string::npos)
       << check.out;
   const std::string json = here.carom({"check", "things.yaml", "--json"}).out;

@@ -1,4 +1,4 @@
-// What the program says to a command line, whole.
+// Complete answers to command lines.
 #include "commands/command_line.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace carom::testing {
 namespace {
 
-// The text on stderr of a command line that is wrong: exit code 2, nothing on stdout, no scene looked at.
+// The text on stderr of a command line that is wrong: exit code 2, nothing on stdout, no scene read.
 std::string complaint(const std::vector<std::string>& words) {
   const Workplace here;
   const Finished finished = here.carom(words);
@@ -30,7 +30,7 @@ TEST(CommandLine, MisspeltCommandGetsItsNearName) {
 
 TEST(CommandLine, CommandThatIsNearNothingGetsTheList) {
   const std::string list = complaint({"simulate"});
-  EXPECT_TRUE(list.starts_with("carom: no command `simulate`; it has run, check, ")) << list;
+  EXPECT_TRUE(list.starts_with("carom: no command `simulate`; the commands are run, check, ")) << list;
   EXPECT_TRUE(list.ends_with(" and explain\n  carom --help shows how it is used\n")) << list;
 }
 
@@ -42,7 +42,7 @@ TEST(CommandLine, SceneWithoutCommandIsToldTheCommand) {
 
 TEST(CommandLine, OptionBeforeTheCommandIsToldItsPlace) {
   EXPECT_EQ(complaint({"--quiet", "run", "a.yaml"}),
-            "carom: options stand after the command: carom run SCENE --quiet\n"
+            "carom: options come after the command: carom run SCENE --quiet\n"
             "  carom --help shows how it is used\n");
 }
 
@@ -78,13 +78,13 @@ TEST(CommandLine, ValuesAreCheckedBeforeAnySceneIsRead) {
   EXPECT_EQ(complaint({"run", "a.yaml", "-o"}), "carom run: --output needs a value" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--set"}), "carom run: --set needs a value" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--set", "gravity"}),
-            "carom run: --set takes path=value, balls.red.mass=2 say, not `gravity`" + end);
+            "carom run: --set takes path=value, such as balls.red.mass=2, not `gravity`" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--set", "=1"}),
-            "carom run: --set takes path=value, balls.red.mass=2 say, not `=1`" + end);
+            "carom run: --set takes path=value, such as balls.red.mass=2, not `=1`" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--seed", "-1"}),
-            "carom run: --seed is a whole number from 0 to 18446744073709551615, not `-1`" + end);
+            "carom run: --seed takes a whole number from 0 to 18446744073709551615, not `-1`" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--seed", "18446744073709551616"}),
-            "carom run: --seed is a whole number from 0 to 18446744073709551615, not `18446744073709551616`" + end);
+            "carom run: --seed takes a whole number from 0 to 18446744073709551615, not `18446744073709551616`" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--seed", "1", "--seed", "2"}), "carom run: --seed is given 2 times" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--only", "frmes"}),
             "carom run: --only takes trajectory, collisions, energy, contacts, frames, video, sheet, vtk, xyz, gltf, "
@@ -96,9 +96,9 @@ TEST(CommandLine, ValuesAreCheckedBeforeAnySceneIsRead) {
             "flights, not ``" +
                 end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--color", "sometimes"}),
-            "carom run: --color is auto, always, never, not `sometimes`" + end);
+            "carom run: --color takes auto, always, never, not `sometimes`" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--progress", "bars"}),
-            "carom run: --progress is auto, bar, lines, none, not `bars`; did you mean `bar`?" + end);
+            "carom run: --progress takes auto, bar, lines, none, not `bars`; did you mean `bar`?" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--force=yes"}), "carom run: --force takes no value" + end);
 }
 

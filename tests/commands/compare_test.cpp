@@ -160,7 +160,7 @@ TEST(CompareCommand, SaysWhatIsWrongWithFoldersAndWords) {
             "carom: runs/a has no film: run its scene again with the output `video` (--only video)\n");
   EXPECT_EQ(here.carom({"compare"}).code, 2);
   here.write("runs/b/collisions.csv", "cut");
-  EXPECT_EQ(error({"runs/b"}), "carom: runs/b: collisions.csv is not as the run wrote it: run its scene again\n");
+  EXPECT_EQ(error({"runs/b"}), "carom: runs/b: collisions.csv has changed since the run: run its scene again\n");
 }
 
 TEST(CompareCommand, JsonTellsTheSame) {
@@ -218,20 +218,20 @@ TEST(DiffCommand, TellsWhereRunsPartAndHowFarApartTheyEnd) {
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_EQ(outcome.out,
             "a and b\n"
-            "  scenes      1 value is not the same\n"
+            "  scenes      1 value differs\n"
             "                             a     b\n"
             "    balls.red.restitution  0.5  0.75\n"
             "  collisions  1, the same in both\n"
-            "  outcome     of collision 1, red and blue at 0.44499999999999995 s (body-body), is not the same:\n"
-            "              they leave at 2.8 m/s in a, 3.3 m/s in b\n"
+            "  outcome     collision 1, red and blue at 0.44499999999999995 s (body-body), differs: they leave at\n"
+            "              2.8 m/s in a, 3.3 m/s in b\n"
             "  end         at most 0.13875000000000004 m apart: red\n");
-  // As fast, but with another impulse.
+  // The same speeds with another impulse.
   ASSERT_EQ(here.shell("$CAROM run balls.yaml -q -o runs/heavy --set balls.red.restitution=0.5 --set balls.red.mass=20 "
                        "--set balls.blue.mass=20")
                 .code,
             0);
   const Finished heavy = here.carom({"diff", "runs/a", "runs/heavy"});
-  EXPECT_NE(heavy.out.find("impulse_N_s is "), std::string::npos) << heavy.out;
+  EXPECT_NE(heavy.out.find("differs: impulse_N_s"), std::string::npos) << heavy.out;
   EXPECT_EQ(heavy.out.find("they leave at"), std::string::npos) << heavy.out;
   const Json part = Json::parse(here.carom({"diff", "runs/b", "runs/aside", "--json"}).out);
   EXPECT_EQ(part["equal"], false);
@@ -241,7 +241,7 @@ TEST(DiffCommand, TellsWhereRunsPartAndHowFarApartTheyEnd) {
   EXPECT_EQ(part["values"].size(), 2u);
   const Finished same = here.carom({"diff", "runs/a", "runs/a"});
   EXPECT_EQ(same.code, 0);
-  EXPECT_NE(same.out.find("\n  equal       scenes, collisions and where the bodies end\n"), std::string::npos);
+  EXPECT_NE(same.out.find("\n  equal       scenes, collisions and final positions\n"), std::string::npos);
 }
 
 TEST(DiffCommand, SaysWhatIsMissing) {

@@ -1,4 +1,4 @@
-// The program where its surroundings fail: what it says, how it ends, and that the same command then goes on.
+// The program under failures of its environment: its messages, its end, and the same command resuming.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -54,14 +54,14 @@ TEST_P(HangingProgram, FfmpegIsLeftAtTheFirstSignal) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     EXPECT_EQ(run.code, 128 + GetParam());
     EXPECT_EQ(run.err, "carom: balls.yaml: interrupted; the same command runs what is missing\n");
-    EXPECT_LT(seconds, 60);  // a film's patience is ten minutes
+    EXPECT_LT(seconds, 60);  // a film's time limit is ten minutes
     EXPECT_FALSE(here.has("out"));
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, HangingProgram, ::testing::Values(SIGINT, SIGTERM));
 
-// One polygon of many corners takes its reader longer than the test has.
+// One polygon of many corners takes longer to read than the test allows.
 TEST(HangingMesh, IsLeftAtTheFirstSignal) {
   const Workplace here;
   std::string mesh, face = "f";
@@ -103,7 +103,7 @@ TEST(Sweep, ThatHadNoRoomForItsBaseGoesOn) {
   here.write("out/sweep.yaml", here.read("whole/sweep.yaml"));
   EXPECT_EQ(here.carom({"sweep", "sweep.yaml", "-o", "out"}).code, 0);
   EXPECT_EQ(here.read("out/summary.csv"), here.read("whole/summary.csv"));
-  // Of another sweep, it is another's.
+  // The folder of another sweep is refused.
   here.write("other/sweep.yaml", here.read("whole/sweep.yaml") + "# more\n");
   EXPECT_EQ(here.carom({"sweep", "sweep.yaml", "-o", "other"}).code, 2);
 }

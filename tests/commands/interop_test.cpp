@@ -1,4 +1,4 @@
-// What a run writes for other programs, read back by programs of others' making.
+// Files for other programs, read back by independent programs.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -32,7 +32,7 @@ TEST(Interop, BodiesThatBecomePartOfOthersVanish) {
                                     "output.xyz={every: 0.03125}", "--set", "output.gltf={fps: 32}"});
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_EQ(read_back(here, "output/clay"), "vtk\nxyz\ngltf\n");
-  // The joint lump's radius, as the scene's comment has it.
+  // The merged lump's radius, from the scene's comment.
   EXPECT_NE(here.read("output/clay/trajectory.xyz").find(" 0.3301927248894"), std::string::npos);
 }
 
@@ -66,7 +66,7 @@ TEST(Interop, OnlyAddsThemWithDefaultSettings) {
   const auto manifest = nlohmann::json::parse(here.read("output/balls/manifest.json"));
   EXPECT_EQ(manifest["outputs"]["gltf"]["fps"], 30);
   EXPECT_EQ(manifest["files"].size() + 1, files.size());
-  // The run is up to date, and one without them would take them away: only if it is forced to.
+  // The run is up to date; a run without these files would remove them, so it needs --force.
   EXPECT_NE(here.carom({"run", "balls.yaml", "--only", "vtk,xyz,gltf"}).out.find("up to date"), std::string::npos);
   EXPECT_EQ(here.carom({"run", "balls.yaml", "--only", "energy"}).code, 2);
   ASSERT_EQ(here.carom({"run", "balls.yaml", "--only", "energy", "--force", "-q"}).code, 0);
@@ -106,7 +106,7 @@ TEST(Interop, TooManyFilesAndKeysAreRefused) {
   here.write("gltf.yaml", two_balls("output:\n  gltf: {fps: 1e8}\n"));
   const Finished keys = here.carom({"check", "gltf.yaml"});
   EXPECT_EQ(keys.code, 2);
-  EXPECT_NE(keys.err.find("keys of animation.glb; the limit is 10000000"), std::string::npos) << keys.err;
+  EXPECT_NE(keys.err.find("keyframes of animation.glb; the limit is 10000000"), std::string::npos) << keys.err;
   EXPECT_NE(keys.err.find("expected a lower `fps`, a shorter duration or fewer bodies"), std::string::npos) << keys.err;
 }
 

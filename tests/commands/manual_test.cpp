@@ -1,4 +1,4 @@
-// The manual page and what bash completes by, as the program prints them.
+// The manual page and bash completion, as the program prints them.
 #include <gtest/gtest.h>
 
 #include "commands/commands.h"
@@ -48,7 +48,7 @@ TEST(SettablePaths, ArePathsThatExplainKnows) {
   for (const std::string& path : plain_paths()) EXPECT_FALSE(find_places(path).empty()) << path;
 }
 
-/// What bash offers for the last of the words, sorted, in a folder with some files.
+/// Bash's completions of the last word, sorted, in a folder with some files.
 class BashCompletion : public ::testing::Test {
  protected:
   BashCompletion() {

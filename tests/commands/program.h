@@ -1,5 +1,5 @@
 #pragma once
-// The real program as a subprocess, in a folder of its own.
+// The real program as a subprocess, in its own folder.
 #include <map>
 #include <optional>
 #include <string>
@@ -12,7 +12,7 @@ struct Finished {
   std::string out, err;
 };
 
-/// A fresh folder that a test's commands run in; removed at the end.
+/// A fresh folder for a test's commands; removed at the end.
 class Workplace {
  public:
   Workplace();

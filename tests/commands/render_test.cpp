@@ -89,7 +89,7 @@ TEST(Render, InPlaceReplacesWhatShowsLooksAndKeepsTheTables) {
   EXPECT_FALSE(here.has("run/frames/frame_00004.png"));
   EXPECT_NE(here.carom({"run", "run/scene.yaml", "-o", "run"}).out.find("up to date"), std::string::npos);
   EXPECT_NE(here.carom({"render", "run"}).out.find("up to date"), std::string::npos);
-  // All but what is measured, and the order of the files.
+  // All except measurements and the order of the files.
   const auto facts = [&](const std::string& folder) {
     auto json = nlohmann::json::parse(here.read(folder + "/manifest.json"));
     json.erase("wall_times_s");
@@ -108,7 +108,7 @@ TEST(Render, DrawsWhatTheRunDidNotAskFor) {
   const Finished none = here.carom({"render", "run"});
   EXPECT_EQ(none.code, 2);
   EXPECT_EQ(none.err,
-            "run: its scene asks for no pictures\n  --only frames, video or sheet asks for them\n"
+            "run: its scene has no pictures\n  add them with --only frames, video or sheet\n"
             "carom: 1 error; nothing was run\n");
   EXPECT_EQ(here.carom({"render", "run", "--only", "sheet"}).code, 0);
   EXPECT_TRUE(here.has("run/sheet.png") && here.has("run/energy.csv") && here.has("run/flights.bin"));
@@ -123,8 +123,8 @@ TEST(Render, RefusesAnotherMotionAndSaysHowToSimulateIt) {
       here.carom({"render", "run", "--set", "camera.eye.y=2", "--set", "balls.red.velocity=[3, 0, 0]"});
   EXPECT_EQ(render.code, 2);
   EXPECT_EQ(render.err,
-            "run: --set balls.red.velocity=[3, 0, 0] changes the motion, which has to be simulated anew\n"
-            "  carom run run/scene.yaml --set camera.eye.y=2 --set 'balls.red.velocity=[3, 0, 0]' -o OTHER does that\n"
+            "run: --set balls.red.velocity=[3, 0, 0] changes the motion, which needs a new simulation\n"
+            "  carom run run/scene.yaml --set camera.eye.y=2 --set 'balls.red.velocity=[3, 0, 0]' -o OTHER runs it\n"
             "carom: 1 error; nothing was run\n");
   EXPECT_EQ(here.files("run"), before);
 }
@@ -151,7 +151,7 @@ TEST(Render, RefusesWhatIsNoWholeRun) {
     return render.err.substr(0, render.err.find('\n'));
   };
   EXPECT_EQ(refusal("nowhere"), "nowhere: there is no such folder");
-  EXPECT_EQ(refusal("balls.yaml"), "balls.yaml: it is no folder");
+  EXPECT_EQ(refusal("balls.yaml"), "balls.yaml: it is not a folder");
   EXPECT_EQ(refusal("."), ".: it holds no whole run: there is no manifest.json");
   const std::string flights = here.read("run/flights.bin"), manifest = here.read("run/manifest.json");
   const std::string changed = "run: flights.bin is missing or has changed";
@@ -163,13 +163,13 @@ TEST(Render, RefusesWhatIsNoWholeRun) {
   EXPECT_EQ(refusal("run"), changed);
   here.write("run/flights.bin", flights);
   here.write("run/manifest.json", manifest.substr(0, 99));
-  EXPECT_EQ(refusal("run"), "run: its manifest.json is none that carom wrote, or damaged");
+  EXPECT_EQ(refusal("run"), "run: its manifest.json is damaged, or not written by carom");
   here.write("run/manifest.json", manifest);
   const std::string scene = here.read("run/scene.yaml");
   here.write("run/scene.yaml", scene + "# changed\nbackground: black\n");
   EXPECT_EQ(refusal("run"), "run: its scene.yaml is not the one that was run");
   here.write("run/scene.yaml", scene);
-  here.shell("rm -r run/frames");  // pictures may be gone
+  here.shell("rm -r run/frames");  // pictures may be missing
   EXPECT_EQ(here.carom({"render", "run"}).code, 0);
   EXPECT_TRUE(here.has("run/frames/frame_00004.png"));
 }
@@ -185,7 +185,7 @@ TEST(Render, SimulatesAgainWhereNoFlightsAreStored) {
     EXPECT_FALSE(here.has(engine + "/flights.bin"));
     const Finished render = here.carom({"render", engine, "--set", "output.frames.fps=3", "-o", "again " + engine});
     EXPECT_EQ(render.code, 0) << render.err;
-    EXPECT_EQ(render.err, engine + ": no flights are stored there: simulating again\n");
+    EXPECT_EQ(render.err, engine + ": no flights are stored: simulating again\n");
     ASSERT_EQ(here.carom({"run", engine + "/scene.yaml", "-o", "fresh " + engine, "--only", "frames", "--set",
                           "output.frames.fps=3"})
                   .code,
@@ -200,12 +200,12 @@ TEST(Render, RefusesFlightsOfWhatIsNoParabola) {
   EXPECT_EQ(here.carom({"run", "balls.yaml"}).code, 0);
   const Finished run = here.carom({"run", "balls.yaml", "--set", "simulate.engine=stepped"});
   EXPECT_EQ(run.code, 2);
-  EXPECT_NE(run.err.find("`flights` are parabolas from impact to impact"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("`flights` need parabolas from impact to impact"), std::string::npos) << run.err;
   here.write("balls.yaml", two_balls());
   const Finished only = here.carom({"run", "balls.yaml", "--set", "simulate.engine=book", "--only", "flights"});
   EXPECT_EQ(only.code, 2);
   EXPECT_EQ(only.err,
-            "balls.yaml: flights are parabolas from impact to impact, which this scene has not: leave them out\n"
+            "balls.yaml: flights need parabolas from impact to impact, and this scene has other paths: leave them out\n"
             "carom: 1 error; nothing was run\n");
 }
 

@@ -1,4 +1,4 @@
-// What is printed of a run that the summary's columns do not hold.
+// Lines of a run's report that have no column in summary.csv.
 #include "commands/report.h"
 
 #include <gtest/gtest.h>
@@ -35,8 +35,8 @@ TEST(Report, TellsOfMergesAndOfClustersTakenIntoContact) {
             "  rest        3 of 5 bodies in resting contact at the end\n");
   EXPECT_EQ(lines_of(result_with(1, 4)),
             "  collisions  6 (2 body-body, 0 body-fixed, 4 merges), first at 0.5 s, last at 1 s\n"
-            "  rest        3 of 5 bodies in resting contact at the end; 1 cluster of ever faster collisions taken\n"
-            "              into contact\n");
+            "  rest        3 of 5 bodies in resting contact at the end; 1 cluster of accelerating collisions\n"
+            "              turned into contact\n");
 }
 
 TEST(Report, SaysWhyARunIsDoubtful) {
@@ -51,9 +51,9 @@ TEST(Report, SaysWhyARunIsDoubtful) {
 
 TEST(Report, SaysWhichImpactsContactHasTakenUp) {
   RunResult result = result_with(0, 0);
-  EXPECT_EQ(lines_of(result).find("taken up"), std::string::npos);
+  EXPECT_EQ(lines_of(result).find("absorbed"), std::string::npos);
   result.summary.contact.taken_up = {3, 0.25, 0.5};
-  EXPECT_NE(lines_of(result).find("  taken up    3 impacts by lasting contact, at 0.25 m/s at most, 0.5 J of"),
+  EXPECT_NE(lines_of(result).find("  absorbed    3 impacts by lasting contact, at 0.25 m/s at most, 0.5 J of"),
             std::string::npos);
 }
 

@@ -63,7 +63,7 @@ TEST(Run, ForceRunsAgainWithTheSameBytes) {
   EXPECT_EQ(again.code, 0);
   EXPECT_NE(again.out.find("  wrote       output/balls: "), std::string::npos) << again.out;
   auto after = here.files("output/balls");
-  before.erase("manifest.json");  // wall times stand in it
+  before.erase("manifest.json");  // it has wall times
   after.erase("manifest.json");
   EXPECT_EQ(after, before);
 }
@@ -167,7 +167,7 @@ TEST(Run, OnlyRestrictsAndAddsOutputs) {
   EXPECT_EQ(here.files("output/balls").size(), 4u);
   EXPECT_TRUE(here.has("output/balls/energy.csv"));
 
-  // The same scene's other outputs would remove these: only with --force, and the folder then holds the others alone.
+  // The same scene's other outputs would remove these: only with --force, and the folder then holds only the others.
   const Finished others = here.carom({"run", "balls.yaml", "--only", "collisions,trajectory"});
   EXPECT_EQ(others.code, 2);
   EXPECT_EQ(others.err,
@@ -179,12 +179,12 @@ TEST(Run, OnlyRestrictsAndAddsOutputs) {
   EXPECT_EQ(here.files("output/balls").size(), 5u);
   EXPECT_FALSE(here.has("output/balls/energy.csv"));
 
-  // A run that writes these and more needs none. What the whole run holds is up to date for any part of it.
+  // A run that writes these and more needs no --force. A whole run is up to date for any part of it.
   EXPECT_EQ(here.carom({"run", "balls.yaml"}).code, 0);
   EXPECT_EQ(here.carom({"run", "balls.yaml", "--only", "energy"}).out,
             "balls: Two balls\n  up to date  output/balls\n");
 
-  // An output that the scene does not ask for comes with its defaults.
+  // An output that the scene lacks has default settings.
   here.write("none.yaml", two_balls("output: {collisions: true}\n"));
   EXPECT_EQ(here.carom({"run", "none.yaml", "--only", "trajectory"}).code, 0);
   const std::string trajectory = here.read("output/none/trajectory.csv");
@@ -202,8 +202,9 @@ TEST(Run, JobsChangeNoResult) {
   one.erase("manifest.json");
   four.erase("manifest.json");
   EXPECT_EQ(one, four);
-  EXPECT_EQ(here.carom({"run", "balls.yaml", "--jobs", "0"}).err,
-            "carom run: --jobs is a whole number from 1 to 4096, not `0`\n  carom run --help shows how it is used\n");
+  EXPECT_EQ(
+      here.carom({"run", "balls.yaml", "--jobs", "0"}).err,
+      "carom run: --jobs takes a whole number from 1 to 4096, not `0`\n  carom run --help shows how it is used\n");
 }
 
 TEST(Run, ScenesAtOnceAreToldInTheirOrderAndHaveTheSameBytes) {
@@ -295,7 +296,7 @@ TEST(Run, OnlyIsHeldToTheBudgetByWhatItLeaves) {
   EXPECT_EQ(run.code, 2);
   EXPECT_EQ(
       run.err,
-      "short.yaml: --only asks for 3,000,001 pictures, more than the 100,000 that a run may draw without --force\n"
+      "short.yaml: --only requests 3,000,001 pictures, more than the 100,000 that a run may draw without --force\n"
       "carom: 1 error; nothing was run\n");
 }
 
@@ -407,7 +408,7 @@ TEST(Run, FailedRunDoesNotStopTheNext) {
   const Workplace here;
   here.write("a.yaml", two_balls());
   here.write("b.yaml", two_balls());
-  here.write("taken/a/manifest.json/x", "");  // a folder where a file has to go
+  here.write("taken/a/manifest.json/x", "");  // a folder in the place of a file
   const Finished run = here.carom({"run", "a.yaml", "b.yaml", "-o", "taken", "--force"});
   EXPECT_EQ(run.code, 1) << run.err;
   EXPECT_NE(run.out.find("2 scenes: 1 done, 1 failed, in "), std::string::npos) << run.out;

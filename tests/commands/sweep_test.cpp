@@ -26,12 +26,12 @@ void prepare(const Workplace& here, const std::string& sweep = grid) {
   here.write("offsets.yaml", sweep);
 }
 
-/// What must be the same however a sweep was made: all but the runs' manifests, which have times.
+/// Files that are equal however a sweep was run: all except the runs' manifests, which have times.
 bool lasts(const std::string& name) {
   return !(name.find("runs/") != std::string::npos && name.ends_with("manifest.json"));
 }
 
-/// The names of files that two folders do not have alike, of those that must be the same.
+/// The names of files that differ between two folders but must be equal.
 std::vector<std::string> differing(const Workplace& here, const std::string& a, const std::string& b) {
   std::vector<std::string> out;
   const auto hold = [&](const std::string& one, const std::string& other) {
@@ -205,14 +205,14 @@ TEST(Sweep, PathThatABlockDoesNotSetHasTheBasesValue) {
   EXPECT_EQ(rows[0]["balls.red.position.z"], "0");
   EXPECT_EQ(rows[2]["balls.red.mass"], "10");
   EXPECT_EQ(rows[2]["balls.red.position.z"], "0.05");
-  // The same by another way.
+  // The same by another route.
   ASSERT_EQ(here.carom({"gather", "output/offsets", "-q"}).code, 0);
   EXPECT_EQ(here.read("output/offsets/summary.csv"), summary);
   ASSERT_EQ(here.carom({"compare", "output/offsets", "-o", "again", "-q"}).code, 0);
   EXPECT_EQ(here.read("again/summary.csv"), summary);
 }
 
-/// Sweeps of four masses of the red ball that write energies alone.
+/// Sweeps of four masses of the red ball that write only energies.
 std::string masses(const std::string& values, const std::string& more = "") {
   return "sweep: 1\nbase: balls.yaml\nonly: [energy]\ngrid: {balls.red.mass: [" + values + "]}\n" + more;
 }
@@ -243,7 +243,7 @@ TEST(Sweep, RunThatWasReplacedIsNotUpToDateAndNotGathered) {
   const Finished again = here.carom({"sweep", "offsets.yaml", "-q"});
   EXPECT_EQ(again.code, 2);
   EXPECT_EQ(again.err,
-            "carom: offsets.yaml: the folder output/offsets/runs/r0001 holds something else than this run\n"
+            "carom: offsets.yaml: the folder output/offsets/runs/r0001 holds something other than this run\n"
             "  write elsewhere with -o, or overwrite it with --force\n");
   EXPECT_EQ(here.carom({"gather", "output/offsets", "-q"}).code, 1);
   EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q", "--force"}).code, 0);
@@ -395,7 +395,7 @@ TEST(Gather, RefusesAFolderThatHoldsSomethingElse) {
   EXPECT_EQ(gathered.code, 2);
   EXPECT_EQ(gathered.err, "carom: the folder run holds something else; nothing was gathered\n");
   EXPECT_EQ(here.files("run"), before);
-  // An author's own file of that name is no sweep's.
+  // A user's own file of that name does not belong to the sweep.
   here.write("own/sweep.yaml", "# by hand\n" + masses("1, 2"));
   here.write("own/balls.yaml", two_balls());
   EXPECT_EQ(here.carom({"gather", "own"}).code, 2);
@@ -432,7 +432,7 @@ TEST(Sweep, EqualScenariosAreCopiesAndCamerasShareASimulation) {
                                      "output: {collisions: true, frames: {fps: 4, size: [64, 36], samples: 1}}\n"));
   EXPECT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
   const auto run = [&](const std::string& id) { return here.files("output/offsets/runs/" + id); };
-  // A copy has even the times of what it is a copy of.
+  // A copy has the times of its original too.
   EXPECT_EQ(here.read("output/offsets/runs/r0001/manifest.json"), here.read("output/offsets/runs/r0003/manifest.json"));
   EXPECT_EQ(run("r0001").size(), run("r0003").size());
   EXPECT_NE(here.read("output/offsets/runs/r0001/frames/frame_00001.png"),
@@ -539,7 +539,7 @@ TEST(Submit, ScriptRunsItsPartsAndGathers) {
   const Finished script = here.carom({"submit", "offsets.yaml", "--slurm", "--parts", "2", "-o", "a b"});
   EXPECT_EQ(script.code, 0) << script.err;
   here.write("job.sh", script.out);
-  // An sbatch that does at once what it is given.
+  // An sbatch that runs its script at once.
   here.write("bin/sbatch",
              "#!/bin/sh\ncase \"$*\" in\n*--wrap*) for w; do :; done; eval \"$w\" >&2 ;;\n"
              "*) for i in 1 2; do SLURM_ARRAY_TASK_ID=$i sh job.sh >&2; done ;;\nesac\necho 7\n");

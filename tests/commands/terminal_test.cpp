@@ -161,7 +161,7 @@ TEST(Terminal, IgnoredSignalStaysIgnored) {
   EXPECT_TRUE(here.has("output/a/manifest.json"));
 }
 
-/// Characters that show nothing or turn what follows: each is escaped wherever text meets a terminal.
+/// Characters that are invisible or reverse the following text: each is escaped on a terminal.
 TEST(Terminal, MarksThatTurnOrHideTextAreEscapedInEveryReport) {
   const Workplace here;
   const std::string turned = "a\u202eb\u2066\u00ad\u200b\U000e0041";
@@ -196,7 +196,7 @@ TEST(Terminal, MarksThatTurnOrHideTextAreEscapedInEveryReport) {
     EXPECT_FALSE(raw(run)) << words.front() << ":\n" << run.out << run.err;
   }
   EXPECT_NE(here.carom({"check", "a.yaml"}).out.find("a: " + shown), std::string::npos);
-  // The document of --json means what the file says.
+  // The document of --json keeps the meaning of the file.
   EXPECT_EQ(Json::parse(here.carom({"check", "a.yaml", "--json"}).out)["scenes"][0]["title"], turned);
 }
 

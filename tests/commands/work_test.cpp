@@ -1,4 +1,4 @@
-// What each force did is in the report and in --json, and adds up.
+// The work of each force is in the report and in --json, and sums to the total.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Bodies fall, bounce and come to rest, or are told along curves; `simulate` and the bodies' forces are the caller's.
+/// Bodies fall, bounce and come to rest, or follow curves; the caller gives `simulate` and the forces.
 std::string falling(const std::string& simulate, const std::string& forces) {
   return "scene: 1\nsimulate: {" + simulate +
          "}\nplanes: {floor: {point: [0, 0, 0], normal: [0.3, 1, 0]}}\nrestitution: {default: 0.5}\nforces:\n" +
@@ -77,7 +77,7 @@ TEST(WorkOfForces, AddsUpAlongCurvesToo) {
   EXPECT_NEAR(balance.missing, 0, 1e-9);  // measured: 3e-11
 }
 
-// Without restitution they merge on the floor, which the joint ball reaches into until it is lifted.
+// Without restitution they merge on the floor, which the merged ball overlaps until it is lifted.
 TEST(WorkOfForces, OnBodiesThatMergeIsTheirPartsAndMergingHasItsOwn) {
   const Workplace here;
   std::string scene = falling("duration: 2, engine: exact, contact: merge", gust + air);

@@ -35,7 +35,7 @@ class ComparisonOfSix : public ::testing::Test {
     delete kept;
     runs.clear();
   }
-  /// The workbook, read when it is asked for.
+  /// The workbook, read on first use.
   static const Json& book() {
     if (kept == nullptr) kept = new Json(place->workbook("out"));
     return *kept;
@@ -91,7 +91,7 @@ TEST_F(ComparisonOfSix, ChartsHaveTitlesAxesAndALineForEachValue) {
   EXPECT_EQ(charts[2]["y"], "balls.red speed (m/s)");
   EXPECT_EQ(charts[4]["title"], "kinetic energy (J) over time");
   EXPECT_EQ(charts[4]["series"].size(), 6u);
-  // None stands on another, nor on the numbers beneath.
+  // None covers another, or the numbers below.
   for (std::size_t a = 0; a < charts.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
       EXPECT_TRUE(charts[a]["row"] > charts[b]["last_row"] || charts[b]["row"] > charts[a]["last_row"] ||
@@ -126,7 +126,7 @@ TEST_F(ComparisonOfSix, SummarySheetIsATableOfNumbers) {
       else  // 16 digits
         EXPECT_NEAR(value.get<double>(), std::stod(rows[i][k]), 1e-15 * std::abs(std::stod(rows[i][k]))) << rows[0][k];
     }
-  // What was varied is tinted, what was measured is not.
+  // Varied columns are tinted, measured ones are not.
   EXPECT_EQ(summary["fills"][22], "FFFFF2CC");
   EXPECT_EQ(summary["fills"][23], "FFFFF2CC");
   EXPECT_TRUE(summary["fills"][24].is_null());
@@ -243,7 +243,7 @@ TEST_F(ComparisonOfSix, WhatCannotBeReadIsSaidWithItsRemedy) {
                              "out"));
   place->run(two_balls, "silent", {"output={collisions: true}"});
   EXPECT_NE(
-      error({"x", *place / "silent", {"1", "1"}}).find("silent has no trajectory.csv, which tells balls.red.speed_"),
+      error({"x", *place / "silent", {"1", "1"}}).find("silent has no trajectory.csv, needed for balls.red.speed_"),
       std::string::npos);
 }
 
@@ -317,7 +317,7 @@ TEST(Repeats, AreARowAScenarioWithMeansAndErrorBars) {
       "simulate: {duration: 0.5}\noutput: {collisions: true}\n";
   std::vector<ComparedRun> runs;
   std::vector<double> speeds;
-  // The seed varies slowest: a scenario's runs do not stand together.
+  // The seed varies slowest: a scenario's runs are not adjacent.
   for (const char* seed : {"1", "2", "3"})
     for (const char* e : {"0.9", "1"}) {
       const std::string id = "r" + std::to_string(runs.size() + 1);

@@ -1,5 +1,5 @@
 #pragma once
-// Folders of runs, made by running scenes; and a workbook as an independent reader sees it.
+// Folders of runs, made by running scenes; and a workbook read by an independent reader.
 #include <fcntl.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// What libxlsxwriter keeps in temporary files is watched, and the workbook is held against it.
+// The temporary files of libxlsxwriter are recorded, and the workbook is compared with them.
 #include "compare/workbook_files.h"
 
 #include <fcntl.h>
@@ -62,13 +62,13 @@ class WorkbookFilesTest : public ::testing::Test {
 };
 
 TEST_F(WorkbookFilesTest, APartThatIsNotToTheByteWhatWasWrittenIsFound) {
-  const std::string other = "cannot write out/book.xlsx: the workbook is not what was written to it";
+  const std::string other = "cannot write out/book.xlsx: the workbook differs from what was written";
   put("rows");
   files_.begin_parts();
   put("<one/>");
   put("<two/>");
   EXPECT_EQ(checked(archive(place_, {"<one/>", "<two/>"})), "no error");
-  EXPECT_EQ(checked(archive(place_, {"<two/>", "<one/>"})), "no error");  // where they stand does not matter
+  EXPECT_EQ(checked(archive(place_, {"<two/>", "<one/>"})), "no error");  // their order does not matter
   EXPECT_EQ(checked(archive(place_, {"<one/>", "<two/"})), other);
   EXPECT_EQ(checked(archive(place_, {"<one/>", "<twi/>"})), other);
   EXPECT_EQ(checked(archive(place_, {"<one/>"})), other);

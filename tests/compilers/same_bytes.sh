@@ -1,7 +1,7 @@
 #!/bin/sh
-# same_bytes.sh PROGRAM OTHER SCENE...: runs each scene by both programs, as two compilers made them, and compares every
-# byte of what they write (manifests have wall times, and are left out). Scenes that take longer than PATIENCE seconds
-# are named and left out.
+# same_bytes.sh PROGRAM OTHER SCENE...: runs each scene by the programs of two compilers and compares every byte of their
+# files (manifests have wall times and are left out). Scenes that take longer than PATIENCE seconds are listed and left
+# out.
 set -eu
 
 program=$1 other=$2

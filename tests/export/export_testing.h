@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of src/export share: folders of their own, small scenes, pictures.
+// Shared by the tests of src/export: temporary folders, small scenes, pictures.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -46,7 +46,7 @@ inline void write(const std::string& path, const std::string& text) {
   std::ofstream(path, std::ios::binary) << text;
 }
 
-/// All that stands beneath a folder, hidden files too, sorted.
+/// All entries below a folder, hidden files included, sorted.
 inline std::vector<std::string> names_in(const std::string& folder) {
   std::vector<std::string> names;
   if (fs::exists(folder))
@@ -86,7 +86,7 @@ inline Image picture(Size size, int phase) {
   return image;
 }
 
-/// Runs through a timeline as `run` does, with the scene's initial state all along.
+/// Runs through a timeline as `run` does, with the scene's initial state throughout.
 inline void play(const Scene& scene, Exports& exports, const std::vector<ContactForce>& contacts = {}) {
   while (exports.timeline().advance()) {
     exports.sample(scene.initial, contacts);

@@ -43,7 +43,7 @@ std::string error_of(const std::function<void()>& action) {
   return "no error";
 }
 
-/// What ffprobe says of a film's picture stream.
+/// ffprobe's facts of a film's picture stream.
 std::string probe(const std::string& film, const std::string& entries) {
   const Descriptor folder(open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   Child child({find_film_tools().ffprobe, "-v", "error", "-select_streams", "v:0", "-count_frames", "-show_entries",
@@ -191,16 +191,15 @@ TEST(Film, WithoutFfmpegNothingIsBegun) {
   const Scene scene = scene_with_film();
   const std::string path = std::getenv("PATH");
   const std::string remedy =
-      " is not on this machine's PATH: install it (on Debian: apt install ffmpeg), or leave the video out";
+      ", which is not on the PATH: install it (on Debian: apt install ffmpeg), or leave the video out";
   setenv("PATH", "", 1);
-  EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }), "the scene asks for a video, but ffmpeg" + remedy);
+  EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }), "a video needs ffmpeg" + remedy);
   unsetenv("PATH");
-  EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }), "the scene asks for a video, but ffmpeg" + remedy);
+  EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }), "a video needs ffmpeg" + remedy);
   write(temp / "bin/ffmpeg", "#!/bin/sh\n");
   chmod((temp / "bin/ffmpeg").c_str(), 0755);
   setenv("PATH", (temp / "bin").c_str(), 1);
-  EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }),
-            "the scene asks for a video, but ffprobe" + remedy);
+  EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }), "a video needs ffprobe" + remedy);
   setenv("PATH", path.c_str(), 1);
   EXPECT_FALSE(fs::exists(temp / "run"));
 }
@@ -269,7 +268,7 @@ TEST_F(ScriptedFfmpeg, OneThatFailsAtTheEndIsQuoted) {
 
 TEST_F(ScriptedFfmpeg, AKilledOneIsTold) {
   EXPECT_EQ(film("cat >/dev/null; kill -9 $$", 3),
-            "cannot make the film out/animation.mp4: ffmpeg failed with code 137: it said nothing");
+            "cannot make the film out/animation.mp4: ffmpeg failed with code 137: no message");
 }
 
 TEST_F(ScriptedFfmpeg, HalfAFilmIsNoticed) {
@@ -284,7 +283,7 @@ TEST_F(ScriptedFfmpeg, NoFilmAtAllIsNoticed) {
 
 TEST_F(ScriptedFfmpeg, OneThatTakesNothingIsStopped) {
   EXPECT_EQ(film("exec sleep 1000", 50, {milliseconds(1000), milliseconds(1000)}),
-            "cannot make the film out/animation.mp4: ffmpeg took no picture for 1 s and was stopped");
+            "cannot make the film out/animation.mp4: ffmpeg accepted no picture for 1 s and was stopped");
 }
 
 TEST_F(ScriptedFfmpeg, OneThatDoesNotEndIsStopped) {
@@ -314,7 +313,7 @@ TEST(Film, AnFfmpegThatOutlivesItsKilledRunSpoilsNothing) {
     }
     int status = 0;
     waitpid(child, &status, 0);
-    run(scene, temp / "run");  // its ffmpeg has just seen the end of its input
+    run(scene, temp / "run");  // its ffmpeg has just reached the end of its input
     EXPECT_TRUE(read(temp / "run/animation.mp4") == whole) << pictures;
     EXPECT_EQ(names_in(temp / "run"), names_in(temp / "whole")) << pictures;
   }

@@ -1,4 +1,4 @@
-// flights.bin: what is written is read, and nothing else is taken for it.
+// flights.bin: written files are read back, and anything else is refused.
 #include "export/flights_file.h"
 
 #include <fcntl.h>
@@ -54,7 +54,7 @@ Descriptor open(const TempFolder& folder) {
   return open_folder(AT_FDCWD, folder.path(), true);
 }
 
-/// Writes flights.bin; gives what it left out.
+/// Writes flights.bin; returns what it left out.
 std::vector<LeftOut> store(const TempFolder& folder, const Scene& scene, std::uint64_t most = largest_flights) {
   const Descriptor opened = open(folder);
   FlightsFile file({opened.get(), folder.path()}, scene, most);
@@ -128,7 +128,7 @@ TEST(Flights, CutOffAnywhereAreRefused) {
   const std::string whole = read(folder / "flights.bin");
   for (std::size_t size = 0; size < whole.size(); size += size < 64 ? 1 : 13) {
     write(folder / "flights.bin", whole.substr(0, size));
-    EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it is cut off") << size;
+    EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it is truncated") << size;
   }
 }
 
@@ -139,7 +139,7 @@ TEST(Flights, OfAnotherSceneOrVersionAreRefused) {
   const std::string whole = read(folder / "flights.bin");
   EXPECT_EQ(refusal(folder, scene), "");
   scene.simulate.duration = 3;
-  EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it is another scene's");
+  EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it belongs to another scene");
   scene = small_scene();
   const auto with = [&](std::size_t at, char byte) {
     std::string other = whole;
@@ -147,13 +147,13 @@ TEST(Flights, OfAnotherSceneOrVersionAreRefused) {
     write(folder / "flights.bin", other);
     return refusal(folder, scene);
   };
-  EXPECT_EQ(with(0, 'C'), "cannot use run/flights.bin: it is no record of flights");
+  EXPECT_EQ(with(0, 'C'), "cannot use run/flights.bin: it is not a file of flights");
   EXPECT_EQ(with(8, 1), "cannot use run/flights.bin: another version of carom wrote it");
-  EXPECT_EQ(with(35, 1), "cannot use run/flights.bin: it is damaged");   // a body that is not there
+  EXPECT_EQ(with(35, 1), "cannot use run/flights.bin: it is damaged");   // a missing body
   EXPECT_EQ(with(37, 1), "cannot use run/flights.bin: it is damaged");   // an entry of an unknown kind
   EXPECT_EQ(with(47, 64), "cannot use run/flights.bin: it is damaged");  // times that go back
   fs::remove(folder / "flights.bin");
-  EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it cannot be opened, or is no file");
+  EXPECT_EQ(refusal(folder, scene), "cannot use run/flights.bin: it cannot be opened, or is not a file");
 }
 
 TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {

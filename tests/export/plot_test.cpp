@@ -72,7 +72,7 @@ TEST(Plot, WithoutGnuplotNamesTheRemedy) {
   const std::string path = std::getenv("PATH");
   setenv("PATH", "/nowhere", 1);
   EXPECT_EQ(error_of([] { find_gnuplot(); }),
-            "gnuplot, which draws the plots, is not on this machine's PATH: install it (on Debian: apt install "
+            "the plots need gnuplot, which is not on the PATH: install it (on Debian: apt install "
             "gnuplot-nox)");
   setenv("PATH", path.c_str(), 1);
 }

@@ -124,7 +124,7 @@ TEST(Frames, APictureThatIsTheLastOneAgainIsNotEncodedAgain) {
   int number = 0;
   while (exports.timeline().advance()) {
     if (!exports.wants_state()) continue;
-    // Another picture comes with the second one: that it is not looked at shows that it need not be encoded.
+    // Another picture comes with the second one: it is not read, so it need not be encoded.
     exports.picture(0, picture({32, 18}, number), number == 1);
     ++number;
   }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Prints where every body of a run is, and how fast, at a time: read_flights.py flights.bin TIME
+"""Prints position and velocity of every body of a run at a time: read_flights.py flights.bin TIME
 
-Lines of x y z vx vy vz, as float.hex() has them; of bodies that have merged, the joint one's."""
+Lines of x y z vx vy vz in the form of float.hex(); a merged body has those of the whole."""
 import math
 import struct
 import sys

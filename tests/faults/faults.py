@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""Small commands of carom under every fault that can be made: killed at each system call and at random instants, each
-call failing once and for ever, limits of files, memory and file size, a tiny file system, other programs that hang or
-lie, interrupts.
+"""Small commands of carom under every fault: killed at each system call and at random instants, each call failing once
+and for ever, limits of files, memory and file size, a tiny file system, other programs that hang or give wrong results,
+interrupts.
 
 usage: faults.py CAROM [short] [family=NAME] [command=NAME] [try=DETAIL]
 
-Of each try: the exit code is one of those promised and says the truth (0: every byte as undisturbed), there is a
-message, no signal ends the program but the one that was sent, it ends in time, each file that has its name is whole;
-and the same command, undisturbed, then completes with the same bytes and leaves nothing else.
+Each try checks: the exit code is one of those documented and is right (0: every byte as undisturbed); there is a
+message; no signal ends the program except the one sent; it ends in time; each file with its final name is whole. The
+same command, undisturbed, then completes with the same bytes and leaves nothing else.
 """
 import concurrent.futures
 import hashlib
@@ -22,8 +22,10 @@ import sys
 import tempfile
 import time
 
-LIMIT = 40  # s, for a disturbed command: it hangs
-PROMPT = 2.0  # s, from an interrupt to the end
+# s: a disturbed command that takes longer hangs.
+LIMIT = 40
+# s, from an interrupt to the end.
+PROMPT = 2.0
 ROOT = os.path.dirname(os.path.abspath(__file__))
 
 SCENE = """scene: 1
@@ -49,7 +51,7 @@ compare: {measures: [energy_lost_J], charts: [{x: balls.red.mass, y: energy_lost
 
 
 class Command:
-    """A command line; `before`: command lines that make the folders it starts from."""
+    """A command line; `before`: command lines that make its starting folders."""
 
     def __init__(self, words, before=(), forks=False, draws=False):
         self.words, self.before, self.forks, self.draws = words.split(), [b.split() for b in before], forks, draws
@@ -66,7 +68,7 @@ COMMANDS = {
                        ["run tables.yaml -o a", "run tables.yaml -o b --set balls.red.mass=5"]),
 }
 
-# What a call that fails may say. (futex, which no program looks at, ends in an abort of the C library's.)
+# The errors of each failing call. (futex, which no program checks, ends in an abort of the C library.)
 ERRORS = {
     "openat": ["EIO", "EMFILE", "EACCES"], "open": ["EIO"], "read": ["EIO"], "pread64": ["EIO"], "write": ["ENOSPC"],
     "pwrite64": ["ENOSPC"], "close": ["EIO"], "rename": ["EIO"], "renameat": ["EIO"], "renameat2": ["EIO"],
@@ -80,12 +82,12 @@ ERRORS = {
     "prctl": ["EPERM"], "sigaltstack": ["ENOMEM"], "rt_sigaction": ["EINVAL"], "rt_sigprocmask": ["EINVAL"],
     "getrusage": ["EFAULT"], "shutdown": ["ENOTCONN"],
 }
-# (brk, when it fails, gives the former end back, which cannot be injected: a limit of memory does it.)
+# (A failing brk returns the former end, which cannot be injected: a limit of memory does it.)
 SAMPLED = {"mmap": ["ENOMEM"], "mprotect": ["ENOMEM"]}
 
 
 def tree(folder):
-    """Every file below a folder: its bytes' hash; of a manifest without times and memory."""
+    """Hashes of all files below a folder; manifests without times and memory."""
     found = {}
     for place, folders, names in os.walk(folder):
         for name in folders:
@@ -114,14 +116,14 @@ class Finished:
 
 
 def go(words, folder, limits=(), env=None, interrupt=None, limit=LIMIT):
-    """`limits`: of resource.setrlimit; `interrupt`: a signal and after how many seconds it comes."""
+    """`limits`: of resource.setrlimit; `interrupt`: a signal and the seconds before it."""
     def prepare():
         os.setsid()
         for what, value in limits:
             resource.setrlimit(what, (value, value))
 
     start = time.monotonic()
-    # (A pipe: a limit of file size does not count there. It has room for all that is said.)
+    # (A pipe: a limit of file size does not apply. It has room for all output.)
     with subprocess.Popen(words, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, preexec_fn=prepare, env=env) as child:
         late = None
@@ -138,7 +140,7 @@ def go(words, folder, limits=(), env=None, interrupt=None, limit=LIMIT):
         except subprocess.TimeoutExpired:
             code = "hang"
         try:
-            os.killpg(child.pid, signal.SIGKILL)  # what it left behind
+            os.killpg(child.pid, signal.SIGKILL)  # its remaining children
         except ProcessLookupError:
             pass
         child.wait()
@@ -147,7 +149,7 @@ def go(words, folder, limits=(), env=None, interrupt=None, limit=LIMIT):
 
 
 class Bench:
-    """All commands' starting folders, and what they come to undisturbed."""
+    """The starting folders of all commands, and their undisturbed results."""
 
     def __init__(self, carom, base):
         self.carom, self.base = carom, base
@@ -210,7 +212,7 @@ class Bench:
         return self.counts[name]
 
 
-# ---- what is tried: (family, command, detail), detail a text that says all
+# ---- tries: (family, command, detail); detail is a text with all parameters
 
 def instants(bench, name, calls):
     for call in sorted(calls):
@@ -275,7 +277,7 @@ PROGRAMS = {
 
 
 def other_program(detail, place):
-    """A PATH on which ffmpeg or ffprobe is another one."""
+    """A PATH on which ffmpeg or ffprobe is replaced."""
     bin_folder = os.path.join(place, "bin")
     os.mkdir(bin_folder)
     name = detail.split()[0]
@@ -285,20 +287,20 @@ def other_program(detail, place):
     if PROGRAMS[detail] is not None:
         path = os.path.join(bin_folder, name)
         with open(path, "w") as script:
-            # (the tools that the script itself calls)
+            # (the tools of the script itself)
             script.write("#!/bin/sh\nPATH=/usr/bin:/bin\n" + PROGRAMS[detail].replace("REAL", shutil.which(name)) + "\n")
         os.chmod(path, 0o755)
     return bin_folder
 
 
 def disturbed(bench, name, family, detail, place):
-    """Runs the command under the fault. Gives how it ended and a function that takes the fault away."""
+    """Runs the command under the fault. Returns its end and a function that removes the fault."""
     command = COMMANDS[name]
     words = [bench.carom] + command.words
     part = detail.split()
     trace = ["strace", "-qq", "-o", "/dev/null"] + (["-f"] if command.forks else [])
     if family == "kill at a call":
-        # (Each process that gets there is killed: of several, that is worse.)
+        # (Every process that gets there is killed, the worst case for several.)
         return go(trace + ["-e", "trace=" + part[0], "-e", "inject=%s:signal=KILL:when=%s" % tuple(part)] + words, place)
     if family in ("call fails once", "call fails for ever"):
         when = part[1] + ("+" if family == "call fails for ever" else "")
@@ -328,28 +330,29 @@ def disturbed(bench, name, family, detail, place):
         full = subprocess.run(["cp", "-a", kept + "/.", out], stderr=subprocess.DEVNULL).returncode
         shutil.rmtree(kept)
         if full != 0:
-            return None  # the folder to start from has no room
+            # The starting folder has no room.
+            return None
         return go(words, place)
     raise ValueError(family)
 
 
 def wrong_end(name, family, detail, done, place, reference, former):
-    """What is wrong with how the command ended; empty: nothing."""
+    """The error in the end of the command; empty: none."""
     if done.code == "hang":
         return "it hangs"
     for word in ("ended by signal 11", "ended by signal 6", "terminate called", "filesystem error", "basic_"):
         if word in done.text:
-            return "a crash, or words that are no message: " + done.text.strip()[-300:]
+            return "a crash, or output that is no message: " + done.text.strip()[-300:]
     if done.late is not None and family in ("interrupt", "other programs") and done.late > PROMPT:
         return "%.1f s from the interrupt to the end" % done.late
-    # Before the program could hear anything, or was loaded, nothing has begun.
+    # Before the program handles signals, or is loaded, nothing has begun.
     unheard = family in ("interrupt", "other programs") and done.code in (-2, -15)
     unloaded = done.code == 127 and ("loading shared libraries" in done.text or "cannot allocate TLS" in done.text)
     if (unheard or unloaded) and tree(os.path.join(place, "out")) == former:
         return ""
     killed = family in ("kill at a call", "kill at random")
     allowed = {0, 1, 2, 3, 130, 143} | ({-9, 137} if killed else set())
-    # LLVM, which draws, ends the program where it gets no memory for its code ("LLVM ERROR: Unable to allocate section
+    # LLVM, which draws, ends the program if it gets no memory for its code ("LLVM ERROR: Unable to allocate section
     # memory!"), or crashes; nothing may be torn by that.
     memory = family == "limit of memory" or (family.startswith("call") and detail.split()[0] in SAMPLED)
     if memory and COMMANDS[name].draws:
@@ -363,29 +366,29 @@ def wrong_end(name, family, detail, done, place, reference, former):
         wrong = sorted(k for k in set(now) | set(reference) if now.get(k) != reference.get(k))
         return "exit code 0, and wrong: %s\n%s" % (wrong[:8], done.text.strip()[-300:])
     if done.code in (1, 2, 3) and not done.text.strip():
-        # (A message that cannot be written is none: stderr fails too.)
+        # (Where stderr fails too, the message cannot be written.)
         if not family.startswith("call fails for ever"):
-            return "exit code %s without a word" % done.code
+            return "exit code %s without a message" % done.code
     for file, digest in now.items():
         hidden = any(part.startswith(".") for part in file.split("/"))
         if hidden or file.endswith("/") or file.endswith("error.txt"):
             continue
-        # (Where runs of a sweep failed, what compares the runs is another one; its manifest says which.)
-        if digest not in (reference.get(file), former.get(file)) and not (done.code == 3 and is_told(place, file)):
+        # (If runs of a sweep failed, the comparison differs; its manifest has the hashes.)
+        if digest not in (reference.get(file), former.get(file)) and not (done.code == 3 and is_listed(place, file)):
             return "torn, or another run's: " + file
     return ""
 
 
-def is_told(place, file):
-    """Whether the manifest in out/ is whole, and tells this file's hash."""
+def is_listed(place, file):
+    """Whether the manifest in out/ is whole and has the hash of this file."""
     with open(os.path.join(place, "out/manifest.json")) as text:
-        told = {record["name"]: record["sha256"] for record in json.load(text)["files"]}
+        listed = {record["name"]: record["sha256"] for record in json.load(text)["files"]}
     with open(os.path.join(place, "out", file), "rb") as data:
-        return file == "manifest.json" or told.get(file) == hashlib.sha256(data.read()).hexdigest()
+        return file == "manifest.json" or listed.get(file) == hashlib.sha256(data.read()).hexdigest()
 
 
 def attempt(bench, name, family, detail):
-    """What is wrong; empty: it held; None: it could not be tried."""
+    """The error; empty: none; None: the try was not possible."""
     reference, former = bench.reference[name], bench.former[name]
     place = bench.fresh(name)
     out = os.path.join(place, "out")
@@ -413,7 +416,7 @@ def attempt(bench, name, family, detail):
 
 
 def short_part(all_tries):
-    """Every so manieth of each family and command, the same ones each time."""
+    """Evenly spaced tries of each family and command, the same ones each time."""
     lots = {}
     for one in all_tries:
         lots.setdefault(one[:2], []).append(one)
@@ -425,14 +428,14 @@ def short_part(all_tries):
 
 
 def main():
-    # What a background job of a plain shell inherits as ignored, the commands would ignore too.
+    # Signals that a background job of a plain shell ignores, the commands would ignore too.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     carom = os.path.abspath(sys.argv[1])
     options = dict(word.partition("=")[::2] for word in sys.argv[2:])
     if shutil.which("strace") is None:
-        print("strace is not here: nothing is tried")
+        print("strace is not installed: nothing is tried")
         return 77
     roomy = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
     base = tempfile.mkdtemp(prefix="carom-faults-", dir=roomy)

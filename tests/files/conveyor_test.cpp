@@ -1,4 +1,4 @@
-// What a thread of its own does for a file: all of it, in order, with few items, and nothing where there is little.
+// A writer's own thread: it handles every item, in order, with few in flight, and is not started for little work.
 #include "files/conveyor.h"
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// What a run's folder holds before, during and after a run: whole files or none, no other's, nothing outside.
+// A run's folder before, during and after a run: whole files or none, no foreign files changed, nothing outside.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -226,7 +226,7 @@ TEST(Folder, ForeignFilesAreAnotherRun) {
   EXPECT_EQ(inspect_folder(temp / "d", scene), FolderContent::other_run);
   write(temp / "e/scene.yaml", "scene: 1\n");
   EXPECT_EQ(inspect_folder(temp / "e", scene), FolderContent::other_run);
-  run(scene, temp / "a");  // as --force does: what is not a run's stays
+  run(scene, temp / "a");  // as --force does: files that are not a run's stay
   EXPECT_EQ(read(temp / "a/thesis.tex"), "x");
 }
 
@@ -352,9 +352,9 @@ TEST(Folder, LinksAreNotFollowedOut) {
   fs::create_symlink("../outside", temp / "run/frames");
   EXPECT_EQ(inspect_folder(temp / "run", scene), FolderContent::incomplete);
   EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }),
-            "cannot open " + temp / "run" + "/frames: it is no folder, or a link; remove it");
+            "cannot open " + temp / "run" + "/frames: it is not a folder, or a link; remove it");
   EXPECT_EQ(read(temp / "outside/frame_00000.png"), "mine");
-  // The run's folder itself may be a link: that is where its owner wants it.
+  // The run's folder itself may be a link: its owner chose the place.
   fs::create_directory(temp / "elsewhere");
   fs::create_symlink("elsewhere", temp / "link");
   run(scene, temp / "link");

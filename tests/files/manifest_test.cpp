@@ -1,4 +1,4 @@
-// manifest.json as it may be found: whatever stands in it, it is read or there is none.
+// manifest.json with any content: it is read, or counts as missing.
 #include "files/manifest.h"
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// Files get their names all together: a folder that was left in the middle of it is finished by whatever opens it next.
+// Files get their names all together: a folder that was left in the middle of it is finished when it is opened next.
 #include "files/publication.h"
 
 #include <fcntl.h>
@@ -61,7 +61,7 @@ TEST(Publication, FromEveryMomentOfItTheNextStateIsReached) {
   run(scene_with_frames("Former", 20), temp / "former");
   run(scene_with_frames("Next", 10), temp / "next");
   const auto wanted = bytes_in(temp / "next");
-  // Each step that a publication makes, one after the other; what is left is settled after each.
+  // Each step that a publication makes, one after the other; the rest is settled after each.
   const std::vector<std::function<void(const std::string&)>> steps = {
       [](const std::string& at) { fs::rename(at + "/.collisions.csv.part", at + "/collisions.csv"); },
       [](const std::string& at) { fs::rename(at + "/.frames.part/frame_00000.png", at + "/frames/frame_00000.png"); },

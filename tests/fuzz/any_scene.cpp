@@ -100,7 +100,7 @@ void forces(Maker& m, const Units& u) {
   }
 }
 
-/// What carries it forward.
+/// Keys of `simulate`.
 void choose(Maker& m, AnyScene& made) {
   const double duration = made.scene.options.duration;
   const double step = duration / m.any({10, 100, 300, most_steps});
@@ -144,7 +144,7 @@ AnyScene make_any_scene(std::uint64_t seed, std::string_view bytes) {
   bytes.remove_prefix(std::min<std::size_t>(bytes.size(), 1));
   AnyScene made;
   if (kind < families) {
-    // Those of families have constant forces alone; the exact engine's runs of them are stress/'s.
+    // Families have only constant forces; stress/ runs them by the exact engine.
     made.scene = stress::make_scene(kind + families * seed, bytes);
     stress::RandomScene unused;
     Maker maker(seed, unused, bytes.substr(std::min<std::size_t>(bytes.size(), 64)));

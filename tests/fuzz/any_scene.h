@@ -1,6 +1,6 @@
 #pragma once
-// Random small scenes of everything at once: all volumes, surfaces, forces, engines, and odd numbers, within bounds in
-// which rounding is not the story.
+// Random small scenes of everything at once: all volumes, surfaces, forces, engines, and odd numbers, within bounds
+// where rounding does not dominate.
 #include <string>
 #include <string_view>
 

@@ -1,4 +1,4 @@
-// What is read back: meshes, flights.bin, manifests, tables.
+// Files that are read back: meshes, flights.bin, manifests, tables.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

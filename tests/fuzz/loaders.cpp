@@ -14,7 +14,7 @@ namespace carom::fuzz {
 
 namespace {
 
-constexpr std::size_t small_scene = 8000;  // bytes; of longer ones an input would have the beginning alone
+constexpr std::size_t small_scene = 8000;  // bytes; of longer ones an input would have only the beginning
 
 LoadOptions options() {
   LoadOptions options;
@@ -25,7 +25,7 @@ LoadOptions options() {
   return options;
 }
 
-/// The text of an error is whole: valid UTF-8, without bytes that a terminal acts upon, with the count that it says.
+/// The text of an error is whole: valid UTF-8, without bytes that control a terminal, with the right count.
 void hold(const SceneError& error) {
   const std::string text = error.what();
   if (text.empty() || error.count == 0) throw Finding("an error without a text");
@@ -43,7 +43,7 @@ bool all_finite(const std::vector<Vec3>& vectors) {
   return std::all_of(vectors.begin(), vectors.end(), [](const Vec3& v) { return v.allFinite(); });
 }
 
-/// What a scene promises to those who use it.
+/// The guarantees of a loaded scene.
 void hold(const Scene& scene) {
   const World& world = scene.world;
   const std::size_t n = world.body_count();
@@ -59,7 +59,7 @@ void hold(const Scene& scene) {
   if (!(scene.simulate.duration >= 0) || !std::isfinite(scene.simulate.duration)) throw Finding("no duration");
 }
 
-/// The resolved text loads, and says the same of itself.
+/// The resolved text loads, and resolves to itself.
 void hold_resolved(const Scene& scene) {
   hold(scene);
   const MemoryFile again(scene.resolved);

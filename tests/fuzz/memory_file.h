@@ -1,5 +1,5 @@
 #pragma once
-// Bytes where the program expects a file: in memory, or in a folder of its own.
+// Bytes where the program expects a file: in memory, or in its own folder.
 #include <string>
 #include <string_view>
 
@@ -20,7 +20,7 @@ class MemoryFile {
   std::string path_;
 };
 
-/// A new folder, in memory where there is such, removed at the end of the program.
+/// A new folder, in memory if possible, removed at the end of the program.
 class OwnFolder {
  public:
   OwnFolder();
@@ -30,7 +30,7 @@ class OwnFolder {
 
   int descriptor() const { return folder_.get(); }
   const std::string& path() const { return path_; }
-  /// Writes a file in it anew.
+  /// Writes a file in it, replacing a former one.
   void put(const std::string& name, std::string_view bytes) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Inputs made from others: bytes changed, taken out, doubled, joined, words put in. Of a seed, the same everywhere.
+// Mutated inputs: bytes changed, removed, doubled, joined, words inserted. Determined by the seed on every machine.
 #include <cstdint>
 #include <span>
 #include <string>

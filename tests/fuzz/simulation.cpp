@@ -17,7 +17,7 @@ namespace carom::fuzz {
 namespace {
 
 constexpr int looks = 16;
-constexpr int most_idle = 100'000;  // times that a simulator may be asked to go on and neither does nor records
+constexpr int most_idle = 100'000;  // calls in which a simulator may neither advance nor record
 constexpr double relative_rounding = 2e-14;
 constexpr double in_islands = 1e-10;
 
@@ -65,7 +65,7 @@ class Run {
 
   double time_spent() const { return static_cast<double>(std::clock() - begin_) / CLOCKS_PER_SEC; }
 
-  /// False: it does not get there.
+  /// False: it does not reach the time.
   bool go_to(double time) {
     int idle = 0;
     do {
@@ -131,7 +131,7 @@ class Run {
     return sum;
   }
 
-  /// What is lost is lost in collisions, but for rounding. (Merged bodies have the masses of several.)
+  /// Energy is lost only in collisions, except for rounding. (Merged bodies have the masses of several.)
   void books(double gain, const Tally& tally) {
     if (scene_.simulate.merge) return;
     const double relative =
@@ -170,7 +170,7 @@ class Run {
       return fail(what + "not finite");
     if (c.kind == CollisionKind::merge) return;
     if (std::abs(c.normal.norm() - 1) > 1e-14) fail(what + fmt::format("its normal has length {}", c.normal.norm()));
-    // The chapter's program strikes what separates, and its printed listings make energy.
+    // The chapter's program lets separating bodies collide, and its printed listings add energy.
     if (book_) return;
     if (c.approach_speed < 0) fail(what + fmt::format("they separate at {} m/s", -c.approach_speed));
     if (c.restitution <= 1 && c.energy_lost < 0)

@@ -1,5 +1,5 @@
 #pragma once
-// What must hold of every run of every scene that the loader accepts, whatever its engine.
+// Invariants of every run of every scene that the loader accepts, by any engine.
 #include <string>
 #include <vector>
 
@@ -12,10 +12,10 @@ struct Outcome {
   std::string engine;
   std::string stopped;  // the error that ended it, as it may
   std::uint64_t collisions = 0;
-  std::uint64_t hash = 0;  // of all that was recorded and seen, to the last bit
+  std::uint64_t hash = 0;  // of all records and states, to the last bit
 };
 
-/// Runs the scene. `patience`: s of CPU time that it may take.
+/// Runs the scene. `patience`: its limit of CPU time, s.
 Outcome simulate(const Scene& scene, double patience);
 
 }  // namespace carom::fuzz

@@ -1,4 +1,4 @@
-// The simulators: a random scene of the bytes, through the loader, and run.
+// The simulators: a random scene made of the bytes, loaded and run.
 #include "fuzz/any_scene.h"
 #include "fuzz/memory_file.h"
 #include "fuzz/simulation.h"

@@ -1,6 +1,6 @@
 #pragma once
-// What is fuzzed: functions that take any bytes at all. Each gives the bytes to a part of the program as it would find
-// them in a file, and holds what comes of it against what the part promises. A refusal in the part's own words is fine.
+// Fuzz targets: functions of arbitrary bytes. Each passes the bytes to a part of the program as the content of a file,
+// and checks the result against the guarantees of that part. A refusal by the part's own error is fine.
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace carom::fuzz {
 
-/// A promise was broken: the text says which.
+/// A broken guarantee, named by the text.
 struct Finding : std::logic_error {
   using std::logic_error::logic_error;
 };
@@ -17,7 +17,7 @@ struct Finding : std::logic_error {
 struct Target {
   const char* name;
   void (*run)(std::string_view bytes);  // throws Finding; any other exception is a finding too
-  std::vector<std::string> (*seeds)();  // inputs to begin with
+  std::vector<std::string> (*seeds)();  // initial inputs
   std::size_t longest;                  // bytes of an input
 };
 
@@ -25,7 +25,7 @@ std::span<const Target> targets();
 /// Null: there is none of this name.
 const Target* find_target(std::string_view name);
 
-/// Words that inputs are made of: keys, choices, punctuation.
+/// Words for inputs: keys, choices, punctuation.
 std::vector<std::string> words();
 
 // One function for each target, and its seeds.

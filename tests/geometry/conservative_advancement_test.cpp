@@ -1,5 +1,5 @@
-// No contact is missed and none invented, for every pair of kinds: paths are looked at densely, and each contact is
-// proved by a plane between the two volumes and a point that belongs to both.
+// No contact is missed or invented, for every pair of kinds: paths are sampled densely, and each contact is
+// verified by a plane between the two volumes and a point that belongs to both.
 #include <gtest/gtest.h>
 
 #include "geometry/conservative_advancement.h"
@@ -90,7 +90,7 @@ TEST(TimeOfImpact, NoContactIsMissedAndNoneInvented) {
         EXPECT_EQ(tally.missed, 0) << name(ka) << name(kb) << curved;
         EXPECT_EQ(tally.invented, 0) << name(ka) << name(kb) << curved;
         EXPECT_GT(tally.hits, 10);
-        // Spheres that meet spheres or walls on curved paths go by the quartic alone.
+        // Spheres that meet spheres or walls on curved paths use only the quartic.
         const bool quartic = ka == Kind::sphere && kb != Kind::cylinder && kb != Kind::box && curved;
         EXPECT_LT(tally.worst, quartic ? 1e-12 : 1e-14);
       }
@@ -145,7 +145,7 @@ TEST(TimeOfImpact, NoContactIsMissedInChainsOfBounces) {
 }
 
 TEST(ConservativeAdvancement, APathAlmostAlongAnAxisMeetsLikeAnyOther) {
-  // The small part of the position tells times that the large part is too coarse for.
+  // The small part of the position resolves times that the large part is too coarse for.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
       Random random(static_cast<unsigned>(3000 + 10 * static_cast<int>(ka) + static_cast<int>(kb)));
@@ -203,7 +203,7 @@ TEST(ConservativeAdvancement, APathThatLeavesARoundedEdgeAsItBendsIsFollowedToTh
 }
 
 TEST(ConservativeAdvancement, APathAlongACurvedSurfaceThatTurnsAwayMeetsNothingLater) {
-  // A cylinder whose side touches a box's edge, but for rounding, and that comes closer no faster than rounding: the
+  // A cylinder whose side touches a box's edge, except for rounding, and that comes closer no faster than rounding: the
   // plane through the edge lies a while ahead, and the surface has left it by then.
   World world;
   world.mass = {1, 1};

@@ -12,7 +12,7 @@ double meet(Vec3 d, Vec3 w, Vec3 a = Vec3::Zero(), double s = 1, double horizon 
 }
 
 TEST(ImpactTime, GrazingPairsAreHitOrMissedByTheSignOfTheExactMissDistance) {
-  // Impact parameter b = 1 - 2^-k hits, 1 + 2^-k misses, from 4 and from 1e4 away, as far as doubles can say it.
+  // Impact parameter b = 1 - 2^-k hits, 1 + 2^-k misses, from 4 and from 1e4 away, as far as doubles resolve it.
   for (int k = 2; k <= 52; ++k)
     for (double far : {4.0, 1e4}) {
       const double inside = 1 - std::ldexp(1.0, -k), outside = 1 + std::ldexp(1.0, -k);

@@ -1,4 +1,4 @@
-// Times at which what changes under linear drag comes down through zero.
+// Times at which quantities under linear drag descend through zero.
 #include "geometry/fading_descent.h"
 
 #include <gtest/gtest.h>

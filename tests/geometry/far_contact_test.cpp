@@ -1,6 +1,6 @@
 // Small spheres that meet on curved paths from afar, against quadruple precision: at the contact the gap is zero, and
-// before it nowhere less, to the rounding of the way. The quartic's own coefficients are only good to the way's square
-// over the radius, 1e5 times that here.
+// before it never less, to the rounding of the path length. The quartic's own coefficients are only accurate to the
+// square of that over the radius, 1e5 times as much here.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The tightest volumes: closed forms, degenerate clouds, and spheres that are known because they were built first.
+// The tightest volumes: closed forms, degenerate clouds, and spheres known by construction.
 #include "geometry/fit.h"
 
 #include <gtest/gtest.h>
@@ -96,7 +96,7 @@ TEST(TightestSphere, IsFoundWhateverItsSupportAndHowCloudedItIs) {
       points.insert(points.begin() + round % (static_cast<int>(points.size()) + 1), center + radius * v);
     const Fit fit = tightest(Shape::sphere, points);
     expect_holds(fit, points);
-    // A point itself is known no better than by the rounding of its coordinates.
+    // A point itself is rounded in its coordinates.
     const double scale = radius + 2 * center.norm();
     worst = std::max(worst, std::abs(fit.volume.half.x() - radius) / scale);
     worst_center = std::max(worst_center, (fit.center - center).norm() / scale);

@@ -1,4 +1,4 @@
-// When pairs meet: closed forms, symmetries, and what counts as a contact at all.
+// Times of impact: closed forms, symmetries, and the definition of a contact.
 #include <gtest/gtest.h>
 
 #include "geometry/round_prism.h"
@@ -206,7 +206,7 @@ TEST(TimeOfImpact, ScalingByPowersOfTwoKeepsTheBits) {
 }
 
 TEST(TimeOfImpact, BouncedPairsAreNotHitAgainByRounding) {
-  // Each pair is let meet and bounce, with what is left of the speed along the normal scaled down to almost nothing.
+  // Each pair meets and bounces, with the remaining speed along the normal scaled down to almost nothing.
   // Straight on, they never meet again; pressed together by an acceleration, they do so after the whole hop.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
@@ -236,8 +236,8 @@ TEST(TimeOfImpact, BouncedPairsAreNotHitAgainByRounding) {
 }
 
 TEST(TimeOfImpact, PairsARoundingApartThatApproachMeetAtOnce) {
-  // As bodies are that have just been struck by others while they touched: at no feature may the way left, which is
-  // shorter than the positions can tell, be gone in ever smaller steps.
+  // As bodies are that have just been struck by others while they touched: at no feature may the remaining path,
+  // which is shorter than positions resolve, shrink in ever smaller steps.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
       Random random(9);

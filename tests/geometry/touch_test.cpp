@@ -98,7 +98,7 @@ TEST(Touch, TheGapIsExactWhereItIsSmall) {
 }
 
 TEST(Touch, EveryPairAgreesWithPointsFoundByProjection) {
-  // And the same with the two exchanged: the normal turned, the gap bit for bit.
+  // The same with the two exchanged: the normal reversed, the gap equal bit for bit.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
       Random random(static_cast<unsigned>(10 * static_cast<int>(ka) + static_cast<int>(kb)));
@@ -139,7 +139,7 @@ TEST(Bending, IsTheGapsSecondDifference) {
         const Vec3 d = random.uniform(0.5, 3) * random.direction(), w = random.direction();
         if (!world.walls.empty()) world.walls[0].center = d;
         Touch t = touch(world, 0, Vec3::Zero(), 1, d);
-        // At the surface: where only there the gap is what is reckoned with.
+        // At the surface, where the gap is the one in use.
         const Vec3 on = d - t.gap * t.normal;
         const auto at = [&](double s) {
           const Vec3 x = on + s * w;

@@ -1,6 +1,6 @@
 #pragma once
-// Volumes written down a second time, for tests of the table of pairs: the nearest point of each, its support function,
-// and whether two overlap, by projecting back and forth. Nothing here comes from physics/ but the types.
+// A second implementation of volumes, for tests of the table of pairs: the nearest point of each, its support function,
+// and whether two overlap, by alternating projections. Only the types come from physics/.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -35,7 +35,7 @@ struct Thing {
   }
 };
 
-/// Distance of a at the origin and b at d, not below the true one; close to it unless they all but touch.
+/// Distance of a at the origin and b at d, not below the true one; close to it unless they nearly touch.
 inline double distance(const Thing& a, const Thing& b, const Vec3& d, double enough = 0, int steps = 400) {
   Vec3 p = a.nearest(d), q = d + b.nearest(p - d);
   double last = (p - q).norm();

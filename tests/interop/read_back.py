@@ -72,7 +72,7 @@ def check_vtk(folder, instants):
         points, data, _, _, value = read_vtp(os.path.join(folder, entry.get('file')), 'Verts')
         assert value == time
         assert data['name'] == list(bodies), 'not the bodies of trajectory.csv'
-        assert [p + v for p, v in zip(points, data['velocity'])] == list(bodies.values()), f'other motion at {time}'
+        assert [p + v for p, v in zip(points, data['velocity'])] == list(bodies.values()), f'motion differs at {time}'
         assert all(r > 0 for r in data['radius']) and all(m > 0 for m in data['mass'])
         if 'size' in data:
             for shape, size, radius in zip(data['shape'], data['size'], data['radius']):
@@ -105,7 +105,7 @@ def check_xyz(folder, instants):
             assert not cells, 'more cells than columns'
             seen[row['name'][0]] = row['pos'] + row['velo']
             assert row['radius'][0] > 0 and row['mass'][0] > 0 and all(0 <= c <= 1 for c in row['color'])
-        assert list(seen.items()) == list(bodies.items()), f'other motion at {time}'
+        assert list(seen.items()) == list(bodies.items()), f'motion differs at {time}'
         lines = lines[2 + count:]
     assert not lines, 'more frames than instants'
     print('xyz')
@@ -126,7 +126,7 @@ class Gltf:
         assert binary - 4 < self.json['buffers'][0]['byteLength'] <= binary
 
     def values(self, number):
-        """An accessor's, in tuples; its bounds must be theirs."""
+        """The values of an accessor, in tuples; its bounds must match them."""
         accessor = self.json['accessors'][number]
         view = self.json['bufferViews'][accessor['bufferView']]
         kind = {5126: 'f', 5125: 'I', 5123: 'H', 5121: 'B'}[accessor['componentType']]
@@ -176,9 +176,9 @@ def check_glb(folder, instants):
     for k, (time, bodies) in enumerate(instants):
         for name, values in moved.items():
             shown = [scale for at, scale in scales.get(name, [(0, (1, 1, 1))]) if at <= single(time)][-1]
-            assert (shown != (0, 0, 0)) == (name in bodies), f'{name} is not seen as it should be at {time}'
+            assert (shown != (0, 0, 0)) == (name in bodies), f'wrong visibility of {name} at {time}'
             if name in bodies:
-                assert values[k] == tuple(single(x) for x in bodies[name][:3]), f'{name} is elsewhere at {time}'
+                assert values[k] == tuple(single(x) for x in bodies[name][:3]), f'wrong position of {name} at {time}'
     print('gltf')
 
 

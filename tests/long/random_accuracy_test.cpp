@@ -1,4 +1,4 @@
-// A thousand random scenes under forces of all kinds and sizes: what a run says of its error holds.
+// A thousand random scenes under forces of all kinds and sizes: a run's error estimate holds.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -60,7 +60,7 @@ Scene random_scene(std::uint64_t seed) {
   return scene;
 }
 
-/// m: of all places at a few instants, from those of a run whose step errors are as small as numbers allow.
+/// m: greatest distance of all positions at a few instants from those of a run with the smallest possible step errors.
 double true_error(const Scene& scene, const EngineChoice& engine) {
   StepChoice finest = engine.steps;
   finest.error = 0x1p-52;

@@ -26,7 +26,7 @@ struct OnABall {
     a -= (n.dot(a) + v[0].squaredNorm() / x[0].norm()) * n;
     return {a};
   }
-  /// Where it is, and how fast, after t (s) in many steps of the explicit method.
+  /// Position and velocity after t (s) in many steps of the explicit method.
   std::pair<Vec3, Vec3> after(double t, Vec3 x, Vec3 v) const {
     const int steps = std::max(static_cast<int>(20 * fade * t), 200);
     const auto a = [this](const std::vector<Vec3>& p, const std::vector<Vec3>& u) { return accelerate(p, u); };

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Comparisons in LibreOffice: the workbook as it shows it, summary.csv as it reads it.
+"""Comparisons in LibreOffice: the workbook as displayed, summary.csv as imported.
 
 office_test.py CAROM: makes runs in a temporary folder. Every number of the CSV must be a number in LibreOffice, every chart's
 titles must be on paper.
@@ -33,7 +33,7 @@ def number(text):
 
 
 def convert(folder, kind, file):
-    """What LibreOffice makes of a file, in a folder of its own, with a profile of its own."""
+    """A file converted by LibreOffice, in its own folder, with its own profile."""
     out = folder / "converted"
     subprocess.run(["soffice", "--headless", f"-env:UserInstallation=file://{folder}/profile", "--convert-to", kind, "--outdir",
                     str(out), str(file)], check=True, capture_output=True, timeout=300)
@@ -69,7 +69,7 @@ def main():
                 numbers += 1
         assert numbers > 100, numbers
 
-        # The workbook: computed anew, each sheet as CSV; the summary is the table, formulas have values.
+        # The workbook: recomputed, each sheet as CSV; the summary is the table, formulas have values.
         every_sheet = "csv:Text - txt - csv (StarCalc):44,34,76,1,,0,false,true,false,false,false,-1"
         out = convert(folder, every_sheet, folder / "out/comparison.xlsx")
         sheets = {file.name: list(csv.reader(file.open(newline=""))) for file in out.glob("comparison-*.csv")}

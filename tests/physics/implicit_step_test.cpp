@@ -43,7 +43,7 @@ struct Place {
   Vec3 x, v;  // m, m/s
 };
 
-/// A motion in steps as long as their errors allow, and how far from the exact one it comes.
+/// A motion in steps as long as their errors allow, and its distance from the exact one.
 struct Motion {
   Vec3 x, v;
   int steps = 0, rejected = 0;
@@ -280,7 +280,8 @@ TEST(ImplicitStep, AcrossADamperIsWhatALongReferenceComesTo) {
   EXPECT_LT(run.steps + run.rejected, 80);
 }
 
-/// What a damper leaves: x' = w t + r' n, with r' from the radial balance r' c = w^2 / r + pull . n, to order 1 / c.
+/// The slow motion that a damper leaves: x' = w t + r' n, with r' from the radial balance r' c = w^2 / r + pull . n, to
+/// order 1 / c.
 LongState slow_motion(LongState s, long double damping, long double duration, int steps) {
   // In polar coordinates: x = (r, angle, -), v = (-, w, -), where only w obeys a law of second order.
   const auto rates = [&](const Long3& y) {  // of r, angle, w
@@ -305,7 +306,7 @@ LongState slow_motion(LongState s, long double damping, long double duration, in
 TEST(ImplicitStep, AcrossAStiffDamperIsTheSlowMotion) {
   constexpr double damping = 1e8;
   const LongState s = slow_motion({{1, 0, 0}, {0, 2, 0}}, damping, 1, 8192);
-  // On the slow motion from the start, but for what the damper takes of it in order 1 / c^2.
+  // On the slow motion from the start, except for the damper's effect in order 1 / c^2.
   const auto outward = static_cast<double>((4 + damped_and_attracted({1, 0, 0}, {0, 0, 0}, 0)[0]) / damping);
   for (const double first : {1e-9, 0.1}) {
     Motion run{Vec3(1, 0, 0), Vec3(outward, 2, 0)};

@@ -25,7 +25,7 @@ Moving after(double mu, const Moving& start, double t) {
   return m;
 }
 
-/// How far a last place of each input moves the end (m, m/s).
+/// Change of the end by one unit in the last place of each input (m, m/s).
 std::pair<double, double> last_place(double mu, const Moving& start, double t) {
   constexpr double many = 0x1p16;  // so that the orbit's own rounding does not count
   const Moving plain = after(mu, start, t);

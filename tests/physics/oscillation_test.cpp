@@ -132,7 +132,7 @@ TEST(Oscillation, GoesOnFromAnyOfItsPlaces) {
     const double t1 = std::pow(10, exponent(random)), t2 = std::pow(10, exponent(random));
     Vec3 x, v, y, w, z, u;
     Oscillation{x0, v0, a0, fade, stiffness}.at(t1, x, v);
-    // The springs have gone slack or been stretched on the way.
+    // The springs have become slack or stretched on the way.
     Oscillation{x, v, a0 - stiffness * (x - x0), fade, stiffness}.at(t2, y, w);
     Oscillation{x0, v0, a0, fade, stiffness}.at(t1 + t2, z, u);
     const double reach = v0.norm() / std::sqrt(stiffness) + 2 * a0.norm() / stiffness;

@@ -33,7 +33,7 @@ const Page& page_at(const std::string& path);
 /// A text in one line, with single spaces.
 std::string one_line(const std::string& text);
 
-/// The number behind `phrase`, which stands once on all pages that are written by hand. Else a failure and NaN.
+/// The number after `phrase`, which must occur once on all pages written by hand. Otherwise a failure and NaN.
 double said(const std::string& phrase);
 
 }  // namespace carom::testing

@@ -1,4 +1,4 @@
-// The pages as they stand: their size, the files, folders and tests that they name, and their links.
+// The pages: their size, the files, folders and tests that they name, and their links.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ TEST(Pages, NameOnlyFilesThatAreThere) {
   }
 }
 
-/// Where each source file is: "src/physics/world.h" of "world.h".
+/// Path of each source file: "src/physics/world.h" for "world.h".
 std::multimap<std::string, std::string> source_files() {
   std::multimap<std::string, std::string> found;
   for (const auto& entry : fs::recursive_directory_iterator(root / "src"))

@@ -64,7 +64,7 @@ bool shows(std::string shown, const std::string& printed) {
   return printed.starts_with(shown);
 }
 
-/// A clone's root as the pages' commands see it: scenes/ is a copy, output/ is its own.
+/// The root of a clone for the pages' commands: scenes/ is a copy, output/ is separate.
 class Clone {
  public:
   Clone() {
@@ -133,7 +133,7 @@ std::set<std::string> header_of(const fs::path& path) {
   return std::set<std::string>(std::sregex_token_iterator(line.begin(), line.end(), name), {});
 }
 
-/// Column names in the first cells of the table that begins so.
+/// Column names in the first cells of the table with this beginning.
 std::set<std::string> columns_in(const Page& page, const std::string& head) {
   std::set<std::string> found;
   bool inside = false;
@@ -147,7 +147,7 @@ std::set<std::string> columns_in(const Page& page, const std::string& head) {
   return found;
 }
 
-/// A command as it is run here: the longest pictures are smaller, and `man` need not be there.
+/// A command adapted for the test: the longest pictures are smaller, and `man` need not be installed.
 std::string shortened(std::string command) {
   if (command == "./dev run scenes/two_bowling_balls.yaml") command += " --set output.frames.size=[64,64]";
   if (command.ends_with(" --only video")) command += " --set output.video.size=[64,64]";
@@ -201,7 +201,7 @@ TEST(PageCommands, OfDevAreThoseThatDevKnows) {
   const std::set<std::string> known = all(usage, line);
   EXPECT_EQ(all(page_at("tests/README.md").section("All commands of ./dev"), row), known);
   for (const Page& page : pages()) {
-    std::string code;  // sh blocks, and what stands in backticks
+    std::string code;  // sh blocks, and text in backticks
     for (const std::string& block : page.blocks("sh")) code += block;
     const std::regex ticks("`[^`\n]+`");
     for (std::sregex_iterator i(page.text.begin(), page.text.end(), ticks), end; i != end; ++i) code += i->str();
@@ -272,7 +272,7 @@ BenchResult bench(const std::string& scene, double longest, double shortest) {
   return run_bench(load_scene(SCENES_DIR "/" + scene), options, {[] {}, [](double, const std::string&) {}});
 }
 
-// All but the times, which are of another machine, to the digits that are given.
+// All except the times, which depend on the machine, to the given digits.
 TEST(ReadmeBench, TableHasTheErrorsThatAreMeasured) {
   const BenchResult result = bench("raindrops.yaml", 0x1p-4, 0x1p-10);
   const std::regex line(
@@ -417,7 +417,7 @@ obstacles:
 simulate: {duration: 0.5}
 )");
   // It leaves at y = 2/3 of its first height, 0.384 m, with v^2 = 2 g (0.576 - 0.384), level with the tangent there.
-  // What it does from then on is a parabola: its vertex tells where it began.
+  // From then on the path is a parabola: its vertex gives the start.
   const State end = run_to(scene, 0.5);
   const double g = 10, y0 = 0.384, x0 = std::sqrt(0.36 - y0 * y0), v = std::sqrt(2 * g * (0.576 - y0));
   const double vx = v * y0 / 0.6, vy = -v * x0 / 0.6;

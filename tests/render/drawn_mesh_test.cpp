@@ -30,7 +30,7 @@ Scene mesh_scene(const std::string& file, const Vec3& position, const Vec3& cent
   return scene;
 }
 
-/// Which pixels' middles lie behind a mesh's triangles, drawn at position + scale * (p - center).
+/// The pixels whose centres lie behind a mesh's triangles, drawn at position + scale * (p - center).
 std::vector<char> covered_by(const Mesh& mesh, const Scene& scene, Size size, const Vec3& position, const Vec3& center,
                              double scale) {
   std::vector<char> covered(static_cast<std::size_t>(size.width * size.height), 0);
@@ -75,7 +75,7 @@ TEST(DrawnMesh, IsWhereItsVerticesAreToAPixel) {
   }
 }
 
-/// A file that goes with its owner.
+/// A temporary file.
 struct MeshText {
   explicit MeshText(const std::string& text) {
     if (!mkdtemp(folder.data())) ADD_FAILURE() << "no temporary folder";

@@ -15,7 +15,7 @@ double encode(double light) {
   return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
 }
 
-/// Where a point is in the picture.
+/// Position of a point in the picture.
 std::pair<int, int> pixel_of(const Scene& scene, Size size, const Vec3& p) {
   const Eye eye(camera_of(scene), size);
   const Vec3 q = eye.point(p);

@@ -1,4 +1,4 @@
-// Meshes: what is read, and that no file does more than fail.
+// Meshes: files that are read; any other file fails with an error.
 #include "render/mesh.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 const std::string data = DATA_DIR "/meshes/";
 const std::string scenes = SCENES_DIR "/meshes/";
 
-/// A folder that goes with its owner.
+/// A temporary folder.
 struct Folder {
   Folder() {
     std::string name = ::testing::TempDir() + "carom_mesh_XXXXXX";
@@ -37,7 +37,7 @@ std::string bytes_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// What read_mesh says of a file, behind its path; "" if it reads it.
+/// The error of read_mesh for a file, after its path; "" if it is read.
 std::string trouble(const std::string& path, const MeshLimits& limits = {}) {
   try {
     read_mesh(path, limits);
@@ -139,7 +139,7 @@ TEST(ReadMesh, RefusesMoreThanItsLimits) {
   MeshLimits small;
   small.file_bytes = 1000;
   EXPECT_EQ(trouble(pin, small),
-            "it has " + std::to_string(std::filesystem::file_size(pin)) + " bytes; 1000 are the most that is read");
+            "it has " + std::to_string(std::filesystem::file_size(pin)) + " bytes; at most 1000 are read");
   MeshLimits few;
   few.vertices = 100;
   EXPECT_EQ(trouble(pin, few), "it has more than 100 vertices");
@@ -149,7 +149,7 @@ TEST(ReadMesh, RefusesMoreThanItsLimits) {
 }
 
 TEST(ReadMesh, MaterialsOfOtherFoldersAreNotOpened) {
-  // A queue without a writer would be waited for: the reader must not even open it.
+  // Opening a queue without a writer would block: the reader must not open it.
   const Folder folder;
   std::filesystem::create_directory(folder.path + "in");
   ASSERT_EQ(mkfifo((folder.path + "queue").c_str(), 0600), 0);

@@ -1,4 +1,4 @@
-// What stands still as triangles, and the parts of a glTF file that assimp has no words for.
+// Fixed things as triangles, and the parts of a glTF file that assimp cannot write.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

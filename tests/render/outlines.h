@@ -1,5 +1,5 @@
 #pragma once
-// Where a solid is in a picture, by projecting its corners: what pictures are held against.
+// The outline of a solid in a picture, by projecting its corners, to compare pictures with.
 #include <algorithm>
 #include <cmath>
 #include <vector>

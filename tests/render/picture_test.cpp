@@ -1,4 +1,4 @@
-// Pictures checked for what they show: where discs are, what hides what, what is drawn at all.
+// The content of pictures: positions of discs, occlusion, and what is drawn at all.
 #include <gtest/gtest.h>
 
 #include "physics/world.h"
@@ -17,7 +17,7 @@ using test::grey;
 
 constexpr Color black{0, 0, 0}, white{1, 1, 1}, red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1};
 
-/// Centre of what is not black and its area, in pixels; a pixel counts as 1 if it is brighter than 0.
+/// Centre and area of all that is not black, in pixels; a pixel counts as 1 if it is brighter than 0.
 struct Blob {
   double x = 0, y = 0, area = 0, width = 0, height = 0;
 };
@@ -103,7 +103,8 @@ TEST(Disc, TheNearerBallHidesTheFartherWhateverTheirOrder) {
 }
 
 TEST(Disc, ASmallBallInFrontOfALargeOnesFlankIsNotHidden) {
-  // The large ball's centre is nearer to the eye than the small ball, which yet is behind it; and the other way round.
+  // The large ball's centre is nearer to the eye than the small ball, which is nevertheless behind it; and the other
+  // way round.
   Scene scene = flat_scene(Vec3(0, 0, 20), Vec3::Zero());
   add_ball(scene, Vec3(0, 0, 0), 5, blue);
   add_ball(scene, Vec3(4.95, 0, 1.6), 0.2, red);  // touches nothing, in front of the flank

@@ -1,4 +1,4 @@
-// The renderer as a machine: the same bytes, sizes that it refuses, several at a time.
+// The renderer: equal bytes, refused sizes, several renderers at a time.
 #include "render/renderer.h"
 
 #include <gtest/gtest.h>
@@ -64,9 +64,9 @@ TEST(Bytes, WhatIsAsInTheLastPictureIsNotDrawnAgain) {
   EXPECT_EQ(renderer.drawn(), before + 1);
 }
 
-/// Not a claim of its own: prints a picture's hash for the test below, which runs it in processes of its own.
+/// A helper: prints a picture's hash for the test below, which runs it in separate processes.
 TEST(Bytes, Probe) {
-  if (!std::getenv("CAROM_PRINT_HASH")) return;  // only the test below asks
+  if (!std::getenv("CAROM_PRINT_HASH")) return;  // set only by the test below
   Scene scene = test::gas(60);
   for (int i = 0; i < 9; ++i)
     test::add_body(scene, Vec3(i - 4, 0.3 * i - 1, 0),

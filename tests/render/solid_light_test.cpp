@@ -1,4 +1,4 @@
-// What boxes and cylinders do to the light.
+// Shadows and shading of boxes and cylinders.
 #include <gtest/gtest.h>
 
 #include "render/outlines.h"

@@ -1,4 +1,4 @@
-// Boxes, cylinders and obstacles in pictures: where they are, what hides what.
+// Boxes, cylinders and obstacles in pictures: positions and occlusion.
 #include <gtest/gtest.h>
 
 #include <tuple>

@@ -1,4 +1,4 @@
-// What a tolerance gives: steps that meet it, or a word about what is not met.
+// A tolerance gives steps that meet it, or a warning that it is not met.
 #include "run/accuracy.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ Vec3 end_of(const Scene& scene, const EngineChoice& engine) {
   return simulator->state().position[0];
 }
 
-/// Softened by so little that it is Kepler's to the last digit, but for a method's eyes: no closed form.
+/// Softened so little that the motion is Kepler's to the last digit, but without a closed form for the engine.
 void attract(Scene& scene, double mu, double softening) {
   scene.world.forces.push_back({Attractor{Vec3::Zero(), mu, softening}});
 }
@@ -94,7 +94,7 @@ TEST(Accuracy, OfAMethodsStepsIsTheToleranceToo) {
   }
 }
 
-// Both of two runs cross the window in one step, which neither may take for exact.
+// Both of two runs cross the window in one step, which neither may treat as exact.
 TEST(Accuracy, OfAMomentOfStrongDragIsTheToleranceToo) {
   for (const auto& [speed, quadratic, duration] : {std::tuple(5.0, 2e8, 1.0), std::tuple(1000.0, 1e6, 1000.0)})
     for (const double tolerance : {1e-3, 1e-6}) {

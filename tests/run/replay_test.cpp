@@ -1,4 +1,4 @@
-// A run again from its record of paths: the same states at any instant, bit for bit.
+// A run replayed from its record of paths: the same states at any instant, bit for bit.
 #include "run/replay.h"
 
 #include <gtest/gtest.h>
@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneAgain, ::testing::ValuesIn(scene_file
   return name;
 });
 
-// Crowds, merges, forces in windows, cylinders and boxes: what the scenes of scenes/ do not do together.
+// Crowds, merges, forces in windows, cylinders and boxes: combinations that no scene of scenes/ has.
 class RandomSceneAgain : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(RandomSceneAgain, HasTheSimulatorsStateAtAnyInstant) {

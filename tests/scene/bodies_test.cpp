@@ -26,7 +26,7 @@ LoadOptions with_reader(int* reads = nullptr) {
   return options;
 }
 
-/// A scene in a folder with the meshes that with_reader() knows.
+/// A scene in a folder with the meshes of with_reader().
 Scene load_with_meshes(const std::string& text, const LoadOptions& options = with_reader()) {
   for (const char* name : {"pin.stl", "torn.stl", "flat.stl"}) write_file("solid\n", name);
   return load_text(text, options);
@@ -285,7 +285,7 @@ TEST(MeshErrors, NameTheFileAndWhatIsWrongWithIt) {
             "     |                             ^~~~~~~~\n"
             "     = expected a file of triangles with finite vertices\n");
   EXPECT_EQ(mesh_errors(start + "bodies: {a: {mass: 1, mesh: flat.stl, fit: box, position: [0, 0, 0]}}\n"),
-            "scene.yaml:3:29: error: the mesh `flat.stl` is flat: its tightest box has no inside\n"
+            "scene.yaml:3:29: error: the mesh `flat.stl` is flat: its tightest box has no volume\n"
             "   3 | bodies: {a: {mass: 1, mesh: flat.stl, fit: box, position: [0, 0, 0]}}\n"
             "     |                             ^~~~~~~~\n"
             "     = expected a mesh with width, height and depth\n");
@@ -306,7 +306,7 @@ TEST(MeshErrors, FitAndMeshNeedOneAnother) {
             "scene.yaml:3:17: error: obstacle `a` has a `fit` but no `mesh`\n"
             "   3 | obstacles: {a: {fit: box, position: [0, 0, 0]}}\n"
             "     |                 ^~~\n"
-            "     = expected `mesh`: the path of a file, from the folder of the scene\n");
+            "     = expected `mesh`: the path of a file, relative to the folder of the scene\n");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The texts of errors, whole: what an author sees is designed, not left to chance.
+// Complete texts of errors, as an author sees them.
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 
@@ -94,15 +94,15 @@ TEST(SceneErrors, MeshThatIsNotThereIsAnErrorOfItsOwn) {
             "scene.yaml:3:56: error: there is no file `pin.stl`\n"
             "   3 |   pin: {mass: 1, radius: 1, position: [0, 0, 0], mesh: pin.stl}\n"
             "     |                                                        ^~~~~~~\n"
-            "     = paths start at the folder of the scene\n");
+            "     = paths are relative to the folder of the scene\n");
 }
 
 TEST(SceneErrors, DuplicateKeySaysWhereTheFirstStands) {
   EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1}\nseed: 1\nseed: 2\n"),
-            "scene.yaml:4:1: error: `seed` is here twice\n"
+            "scene.yaml:4:1: error: `seed` is repeated\n"
             "   4 | seed: 2\n"
             "     | ^~~~\n"
-            "     = it stands in line 3 already\n");
+            "     = it is in line 3 already\n");
 }
 
 TEST(SceneErrors, MergeKeyAliasAnchorAndTagAreRefused) {
@@ -118,7 +118,7 @@ TEST(SceneErrors, MergeKeyAliasAnchorAndTagAreRefused) {
             "scene.yaml:3:34: error: a tag\n"
             "   3 | simulate: {<<: {a: 1}, duration: !!int 1, step: *s}\n"
             "     |                                  ^~~~~\n"
-            "     = remove it: the key decides what kind of value it has\n"
+            "     = remove it: the key determines the type of its value\n"
             "scene.yaml:3:49: error: an alias\n"
             "   3 | simulate: {<<: {a: 1}, duration: !!int 1, step: *s}\n"
             "     |                                                 ^~\n"
@@ -270,7 +270,7 @@ TEST(SceneErrors, SyntaxErrorsPointAtTheCause) {
             "     |        ^\n"
             "     = expected `\"` before the next key\n");
   EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1 step: 2}\n"),
-            "scene.yaml:2:28: error: a value ends and another thing begins\n"
+            "scene.yaml:2:28: error: a value ends and something else follows\n"
             "   2 | simulate: {duration: 1 step: 2}\n"
             "     |                            ^\n"
             "     = expected ',' or the closing bracket; is a ',' missing?\n");

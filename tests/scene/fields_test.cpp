@@ -1,4 +1,4 @@
-// The table of fields is sound: whatever is made from it can rely on that.
+// Consistency of the table of fields.
 #include "scene/fields.h"
 
 #include <set>

@@ -1,4 +1,4 @@
-// Forces, and what the engines have of them.
+// Forces, and the engines that support them.
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
@@ -172,7 +172,7 @@ TEST(BookEngine, RefusesWhatTheChaptersListingsDoNotHave) {
             "   3 | obstacles: {o: {radius: 1, position: [9, 0, 0]}}\n"
             "     | ^~~~~~~~~\n"
             "     = expected `engine: exact`\n"
-            "scene.yaml:4:1: error: `engine: book` has no forces beside gravity\n"
+            "scene.yaml:4:1: error: `engine: book` has no forces other than gravity\n"
             "   4 | forces: [{uniform: [1, 0, 0]}]\n"
             "     | ^~~~~~\n"
             "     = expected `engine: exact`\n"

@@ -29,7 +29,7 @@ std::string group(const std::string& arrange, const std::string& count, double r
       .append("}\noutput: {}\n");
 }
 
-/// Greatest overlap of any two balls, as a part of their radii's sum, by looking at all pairs.
+/// Greatest overlap of any two balls, relative to the sum of their radii, over all pairs.
 double greatest_overlap(const Scene& scene) {
   double greatest = -1;
   for (Entity i = 0; i < scene.world.body_count(); ++i) {
@@ -131,7 +131,7 @@ TEST(Groups, AreTheSameOnEveryMachineAndDifferBySeedAndName) {
   std::string renamed = text;
   renamed.replace(renamed.find("gas"), 3, "air");
   EXPECT_NE(load_text(renamed).initial.velocity[0], a.initial.velocity[0]);
-  // Where the balls are does not change how fast they are.
+  // Positions of the balls do not change their velocities.
   EXPECT_EQ(load_text(group("lattice", "50", 0.05, 1, ", speed: 2")).initial.velocity, a.initial.velocity);
 }
 

@@ -1,4 +1,4 @@
-// Whatever the bytes: a Scene or a SceneError, soon, and no crash.
+// Any bytes give a Scene or a SceneError, soon, and no crash.
 #include <sys/stat.h>
 
 #include "physics/world.h"

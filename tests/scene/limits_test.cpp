@@ -1,4 +1,4 @@
-// What doubles do not carry is refused before anything is computed with it.
+// Numbers beyond the range of doubles are refused before any computation.
 #include <fmt/format.h>
 
 #include "physics/bounds.h"
@@ -20,27 +20,27 @@ TEST(Limits, ANumberBeyondThoseOfItsUnitIsRefusedWhereItStands) {
             "scene.yaml:3:15: error: `mass` is 1e154\n"
             "   3 |   red: {mass: 1e154, radius: 1e308, position: [1e200, 0, 0], velocity: [0, 1e155, 0]}\n"
             "     |               ^~~~~\n"
-            "     = a run computes with numbers from 1e-60 to 1e+60 kg\n"
+            "     = a run takes numbers from 1e-60 to 1e+60 kg\n"
             "scene.yaml:3:30: error: `radius` is 1e308\n"
             "   3 |   red: {mass: 1e154, radius: 1e308, position: [1e200, 0, 0], velocity: [0, 1e155, 0]}\n"
             "     |                              ^~~~~\n"
-            "     = a run computes with numbers from 1e-30 to 1e+30 m\n"
+            "     = a run takes numbers from 1e-30 to 1e+30 m\n"
             "scene.yaml:3:48: error: a number of `position` is 1e200\n"
             "   3 |   red: {mass: 1e154, radius: 1e308, position: [1e200, 0, 0], velocity: [0, 1e155, 0]}\n"
             "     |                                                ^~~~~\n"
-            "     = a run computes with numbers from -1e+30 to 1e+30 m\n"
+            "     = a run takes numbers from -1e+30 to 1e+30 m\n"
             "scene.yaml:3:76: error: a number of `velocity` is 1e155\n"
             "   3 |   red: {mass: 1e154, radius: 1e308, position: [1e200, 0, 0], velocity: [0, 1e155, 0]}\n"
             "     |                                                                            ^~~~~\n"
-            "     = a run computes with numbers from -1e+30 to 1e+30 m/s\n"
+            "     = a run takes numbers from -1e+30 to 1e+30 m/s\n"
             "scene.yaml:4:14: error: a number of `gravity` is -1e154\n"
             "   4 | gravity: [0, -1e154, 0]\n"
             "     |              ^~~~~~\n"
-            "     = a run computes with numbers from -1e+30 to 1e+30 m/s^2\n"
+            "     = a run takes numbers from -1e+30 to 1e+30 m/s^2\n"
             "scene.yaml:5:22: error: `duration` is 1e31\n"
             "   5 | simulate: {duration: 1e31}\n"
             "     |                      ^~~~\n"
-            "     = a run computes with numbers from 0 to 1e+30 s\n");
+            "     = a run takes numbers from 0 to 1e+30 s\n");
 }
 
 TEST(Limits, EveryNumberWithAUnitHasALimit) {
@@ -65,7 +65,7 @@ TEST(Limits, APlaceTooFarForTheSmallestSizeIsRefused) {
             "0.5 m\n"
             "   3 |   red: {mass: 1, radius: 0.5, position: [0, 6e11, 0]}\n"
             "     |                                         ^\n"
-            "     = doubles do not resolve contact there: bring it nearer, or make what is smallest larger\n");
+            "     = doubles do not resolve contact there: bring it nearer, or make the smallest thing larger\n");
   EXPECT_EQ(errors_of(ball("mass: 1, radius: 0.5, position: [0, 4e11, 0]")), "");
 }
 
@@ -82,19 +82,19 @@ TEST(Limits, ARoomAndAGroupThatWideAreRefused) {
 }
 
 TEST(Limits, AWayTooLongForTheSmallestSizeIsRefused) {
-  EXPECT_EQ(
-      errors_of(
-          ball("mass: 1, radius: 0.5, position: [0, 0, 0], velocity: [0, 1e6, 0]", "simulate: {duration: 1e6}\n")),
-      "scene.yaml:3:62: error: `red` goes 1e+12 m in the duration, more than 1e+12 times the smallest size, "
-      "0.5 m\n"
-      "   3 |   red: {mass: 1, radius: 0.5, position: [0, 0, 0], velocity: [0, 1e6, 0]}\n"
-      "     |                                                              ^\n"
-      "     = doubles do not resolve where it is then: expected a shorter duration, a lower speed, or larger things\n");
+  EXPECT_EQ(errors_of(ball("mass: 1, radius: 0.5, position: [0, 0, 0], velocity: [0, 1e6, 0]",
+                           "simulate: {duration: 1e6}\n")),
+            "scene.yaml:3:62: error: `red` travels 1e+12 m in the duration, more than 1e+12 times the smallest size, "
+            "0.5 m\n"
+            "   3 |   red: {mass: 1, radius: 0.5, position: [0, 0, 0], velocity: [0, 1e6, 0]}\n"
+            "     |                                                              ^\n"
+            "     = doubles do not resolve its position then: expected a shorter duration, a lower speed, or larger "
+            "things\n");
 }
 
 TEST(Limits, AnImpulseThatMakesItTooFastIsRefused) {
   const std::string text = errors_of(ball("mass: 1e-30, radius: 0.5, position: [0, 0, 0], impulse: [0, 10, 0]"));
-  EXPECT_NE(text.find("`red` starts with 1e+31 m/s"), std::string::npos) << text;
+  EXPECT_NE(text.find("`red` starts at 1e+31 m/s"), std::string::npos) << text;
 }
 
 TEST(Limits, ForcesWhoseSumIsTooMuchForAMassAreRefused) {
@@ -107,17 +107,17 @@ TEST(Limits, ForcesWhoseSumIsTooMuchForAMassAreRefused) {
 
 TEST(Limits, ADensityWhoseMassIsNoneIsRefused) {
   const std::string text = errors_of(ball("density: 1e100, radius: 1e-1, position: [0, 0, 0]"));
-  EXPECT_NE(text.find("a run computes with numbers from 1e-60 to 1e+60 kg"), std::string::npos) << text;
+  EXPECT_NE(text.find("a run takes numbers from 1e-60 to 1e+60 kg"), std::string::npos) << text;
 }
 
 TEST(Steps, MoreThanTheBudgetAreRefusedUnlessForced) {
   const std::string text =
       ball("mass: 1, radius: 0.5, position: [0, 0, 0]", "simulate: {duration: 1, engine: stepped, step: 1e-9}\n");
   EXPECT_EQ(errors_of(text),
-            "scene.yaml:4:48: error: the run would take 1e+09 steps of time; the limit is 100000000\n"
+            "scene.yaml:4:48: error: the run would take 1e+09 time steps; the limit is 100000000\n"
             "   4 | simulate: {duration: 1, engine: stepped, step: 1e-9}\n"
             "     |                                                ^~~~\n"
-            "     = expected a longer `step` or a shorter duration, or --force if that is meant\n");
+            "     = expected a longer `step` or a shorter duration, or --force to allow it\n");
   LoadOptions forced;
   forced.budget.enforced = false;
   EXPECT_EQ(errors_of(text, forced), "");
@@ -128,11 +128,11 @@ TEST(Steps, ThoseThatAForceAsksForAreCountedToo) {
       ball("mass: 1, radius: 0.5, position: [0, 0, 0]",
            "forces: [{spring: {anchor: [0, 9, 0], stiffness: 1e16, rest_length: 1}}]\nsimulate: {duration: 9}\n");
   EXPECT_EQ(errors_of(text),
-            "scene.yaml:4:1: error: the run would take 1.8e+11 steps of time; the limit is 100000000\n"
+            "scene.yaml:4:1: error: the run would take 1.8e+11 time steps; the limit is 100000000\n"
             "   4 | forces: [{spring: {anchor: [0, 9, 0], stiffness: 1e16, rest_length: 1}}]\n"
             "     | ^~~~~~\n"
             "     = steps follow the fastest change of a force: expected forces that change more slowly, a `step` or a "
-            "shorter duration, or --force if that is meant\n");
+            "shorter duration, or --force to allow it\n");
 }
 
 TEST(Steps, AreNoneWhereTheEngineGoesFromEventToEvent) {

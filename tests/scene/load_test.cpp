@@ -1,4 +1,4 @@
-// What a scene file means.
+// The meaning of scene files.
 #include <cmath>
 
 #include "physics/world.h"
@@ -285,13 +285,13 @@ TEST(LoadScene, BudgetIsCheckedBeforeAnythingIsMade) {
             "scene.yaml:3:24: error: the run would write 60000001 pictures; the limit is 100000\n"
             "   3 | output: {frames: {fps: 60}}\n"
             "     |                        ^~\n"
-            "     = expected a lower `fps` or a shorter duration, or --force if that is meant\n");
+            "     = expected a lower `fps` or a shorter duration, or --force to allow it\n");
   EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1e6}\nballs: {a: {mass: 1, radius: 1, position: [0, 0, "
                       "0]}}\noutput: {trajectory: {every: 1e-3}}\n"),
             "scene.yaml:4:30: error: the run would write 1000000001 rows of trajectory.csv; the limit is 200000000\n"
             "   4 | output: {trajectory: {every: 1e-3}}\n"
             "     |                              ^~~~\n"
-            "     = expected a longer `every`, a shorter duration or fewer bodies, or --force if that is meant\n");
+            "     = expected a longer `every`, a shorter duration or fewer bodies, or --force to allow it\n");
   LoadOptions force;
   force.budget.enforced = false;
   EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1e6}\noutput: {frames: {fps: 60}}\n", force), "");

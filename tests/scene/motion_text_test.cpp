@@ -1,4 +1,4 @@
-// motion_text: the same text, the same motion; what is only looked at is not in it.
+// motion_text: the same text means the same motion; outputs are not in it.
 #include "scene/motion_text.h"
 
 #include "scene/scenes_in_text.h"

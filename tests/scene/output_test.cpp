@@ -1,4 +1,4 @@
-// The table of outputs, from which --only, the manifest, the folder's files and the names that are taken are made.
+// The table of outputs, from which --only, the manifest, the folder's files and the reserved names are made.
 #include "scene/output_kinds.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ TEST(Outputs, EachIsAskedForOnceItIsAddedAndNoOtherIs) {
 }
 
 TEST(Outputs, HaveDefaultSettingsOfTheTableOfFields) {
-  // What --only adds is what `name: true` asks for.
+  // --only adds the output that `name: true` requests.
   for (const OutputKind& kind : output_kinds()) {
     const nlohmann::ordered_json settings = kind.settings(with_all({}));
     if (settings.is_boolean()) continue;

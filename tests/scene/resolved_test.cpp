@@ -1,4 +1,4 @@
-// Scene::resolved: a scene that says everything itself and means the same.
+// Scene::resolved: a complete scene with the same meaning.
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"

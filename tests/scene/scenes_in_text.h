@@ -1,5 +1,5 @@
 #pragma once
-// Scenes as text in a test -> files in a folder of that test alone -> scenes or the text of their errors.
+// Scenes as text in a test -> files in that test's own folder -> scenes or the text of their errors.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -58,7 +58,7 @@ inline std::string errors_with(std::string_view text, const std::string& set) {
   return errors_of(text, options);
 }
 
-/// A scene that only lacks what the test adds.
+/// A scene that is complete except for the test's part.
 inline const std::string start = "scene: 1\nsimulate: {duration: 1}\n";
 
 }  // namespace carom

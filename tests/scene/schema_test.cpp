@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder with a schema, in which documents are held against it.
+/// A folder with a schema, in which documents are validated against it.
 class Validator {
  public:
   explicit Validator(std::string_view root) : folder_(test_folder() + "/" + std::string(root)) {
@@ -75,7 +75,7 @@ std::string loaded(const std::string& path, const std::string& text) {
   }
 }
 
-/// What takes more than keys, types and ranges: errors of the loader that a schema cannot have.
+/// Errors of the loader that a schema cannot express: they need more than keys, types and ranges.
 struct Beyond {
   std::string error;  // a part of its text
   std::string why;
@@ -91,7 +91,7 @@ const std::vector<Beyond>& beyond_schemas() {
       {"there is no file", "what files there are"},
       {"at the start", "where things are"},
       {"not fit into the box", "how many balls a box holds"},
-      {"has no inside", "two vectors against one another"},
+      {"has no volume", "two vectors against one another"},
       {"is not above its min", "two vectors against one another"},
       {"the camera's target is where its eye is", "two vectors against one another"},
       {"the camera looks along its up direction", "vectors against one another"},
@@ -161,7 +161,7 @@ TEST(Schema, RefusesWhatTheLoaderRefusesAndNothingElse) {
   RecordProperty("variations", static_cast<int>(variations.size()));
 }
 
-/// A number of a scene as text: what the loader and an editor's reader make of it.
+/// A number of a scene as text, as read by the loader and by an editor.
 struct Written {
   std::string text;
   bool loads, fits;
@@ -213,7 +213,7 @@ TEST(Schema, AgreesWithTheLoaderOnHowNumbersAndFlagsAreWritten) {
     all.emplace_back("scene: 1\nsimulate: {duration: 1, rest_speed: " + number.text + "}\n", number);
   for (const Written& flag : flags)
     all.emplace_back("scene: 1\nsimulate: {duration: 1}\noutput: {collisions: " + flag.text + "}\n", flag);
-  // A quoted number is no choice; a name may be anything that a reader of YAML takes for text.
+  // A quoted number is no choice; a name may be anything that YAML reads as text.
   all.emplace_back("scene: 1\nsimulate: {duration: 1}\noutput: {frames: {samples: 4}}\n",
                    Written{"samples", true, true});
   all.emplace_back("scene: 1\nsimulate: {duration: 1}\noutput: {frames: {samples: '4'}}\n",

@@ -1,4 +1,4 @@
-// Sweep files: which runs they ask for.
+// Sweep files and their runs.
 #include "scene/sweep.h"
 
 #include "scene/scenes_in_text.h"
@@ -124,7 +124,7 @@ TEST(SweepErrors, AreAllShownWithPlaceAndRemedy) {
             "falls.yaml:4:18: error: `b` has 1 values, `a` has 2\n"
             "   4 | zip: {a: [1, 2], b: [3]}\n"
             "     |                  ^\n"
-            "     = expected as many of each path: they go in step\n"
+            "     = expected as many for each path: they vary in step\n"
             "falls.yaml:5:17: error: `seeds` is 0\n"
             "   5 | repeat: {seeds: 0}\n"
             "     |                 ^\n"
@@ -140,20 +140,20 @@ TEST(SweepErrors, NameWhatNoSweepCanBe) {
   has(head + "grid: {a: 3}\n", "expected a list of values, or {from, to, count}");
   has(head + "grid: {a: {from: 1, to: 2}}\n", "has no `count` and no `step`");
   has(head + "grid: {a: {from: 1, to: 2, count: 3, step: 1}}\n", "has both `count` and `step`");
-  has(head + "grid: {a: {from: 1, to: 2, count: 1}}\n", "one value has no two ends");
+  has(head + "grid: {a: {from: 1, to: 2, count: 1}}\n", "a single value cannot have two ends");
   has(head + "grid: {a: {from: 1, to: 2, step: -1}}\n", "does not lead from 1 to 2");
-  has(head + "grid: {a: [1]}\nzip: {a: [2]}\n", "`a` varies twice");
-  has(head + "grid: {a: [1]}\nruns: [{}]\n", "`runs` and `grid` stand side by side");
+  has(head + "grid: {a: [1]}\nzip: {a: [2]}\n", "`a` is varied twice");
+  has(head + "grid: {a: [1]}\nruns: [{}]\n", "`grid` stands beside `runs`");
   has(head + "grid: {a: [1, 2]}\nskip: [{a: 3}]\n", "no run has these values");
-  has(head + "grid: {a: [1, 2]}\nskip: [{a: [1, 2]}]\n", "all runs are left out");
-  has(head + "grid: {seed: [1, 2]}\nrepeat: {seeds: 2}\n", "`repeat` varies it too");
+  has(head + "grid: {a: [1, 2]}\nskip: [{a: [1, 2]}]\n", "every run is left out");
+  has(head + "grid: {seed: [1, 2]}\nrepeat: {seeds: 2}\n", "`seed` is varied twice: here and by `repeat`");
   has(head + "grid: {a: {from: 1, to: 1000, count: 1000}, b: {from: 1, to: 1001, count: 1001}}\n",
       "more than 1000000 runs");
   std::string many;
   for (int k = 0; k < 40; ++k) many += "  a" + std::to_string(k) + ": {from: 1, to: 1000000, count: 1000000}\n";
   has(head + "grid:\n" + many, "more than 1000000 runs");
   has(head + "zip:\n" + many, "1000000 values of 40 paths");
-  has("sweep: 1\nbase: " + std::string(4000, 'b') + "\ngrid: {a: [1]}\n", "cannot be looked at (File name too long):");
+  has("sweep: 1\nbase: " + std::string(4000, 'b') + "\ngrid: {a: [1]}\n", "cannot be inspected (File name too long):");
   has("sweep: 1\ngrid: {a: [1]}\n", "the sweep has no `base`");
   has("scene: 1\nsimulate: {duration: 1}\n", "this is a scene, not a sweep");
   has("[]", "this is not a sweep");

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Holds documents against a JSON Schema by python3-jsonschema: validate.py SCHEMA DOCUMENTS
+"""Validates documents against a JSON Schema by python3-jsonschema: validate.py SCHEMA DOCUMENTS
 
 DOCUMENTS has one document a line, {"json": value}, {"yaml": text} or {"yaml 1.1": text}. Prints a line for each: "right",
 or "wrong" and the first complaint. YAML is read as editors read it, by version 1.2's core schema, or as PyYAML alone
@@ -56,7 +56,7 @@ def read(document):
 
 
 def check_values(part, definitions):
-    """Defaults and examples against the schemas that they stand in."""
+    """Validates defaults and examples against their own schemas."""
     if isinstance(part, list):
         for item in part:
             check_values(item, definitions)

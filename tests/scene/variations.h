@@ -1,5 +1,5 @@
 #pragma once
-// Scenes that are right, and ways to make them wrong: every key of the table of fields taken away, added, and given
+// Valid scenes, and ways to make them wrong: every key of the table of fields taken away, added, and given
 // every kind of value.
 #include <nlohmann/json.hpp>
 #include <set>
@@ -14,10 +14,10 @@ struct Variation {
   std::string text;  // JSON, which is YAML
 };
 
-/// Right scenes that together have every key of the table. They want the file box.stl beside them.
+/// Valid scenes that together have every key of the table. They need the file box.stl beside them.
 std::vector<std::string> right_scenes();
 
-/// What becomes of a scene by one change: every key that it has or could have, by every change. `visited` gets
+/// Every scene that is one change away: every key that it has or could have, by every change. `visited` gets
 /// "kind.key" of those that it has.
 std::vector<Variation> vary(const std::string& scene, std::set<std::string>& visited);
 

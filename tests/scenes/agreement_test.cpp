@@ -47,8 +47,8 @@ Far far(const State& a, const State& b) {
   return most;
 }
 
-/// Scenes that both have, and whose outcome does not hang on the last bit: not those of many balls that strike on and
-/// on.
+/// Scenes that both engines support, and whose outcome does not depend on the last bit, unlike those of many balls that
+/// keep colliding.
 std::vector<std::string> scenes_to_compare() {
   const std::set<std::string> chaotic = {"balls_in_a_box", "gas_in_a_room", "pile_at_rest", "benchmark/gas_1000",
                                          "benchmark/frame_100"};

@@ -42,7 +42,7 @@ TEST(BilliardBreak, EveryBallMovesAndStaysOnTheTable) {
     EXPECT_LT(std::abs(x.z()), 0.635 - 0.028575 + 1e-12);
   }
   EXPECT_NEAR(kinetic_energy(run.scene.world, run.scene.initial),
-              said("billiard_break", "less than half of the first "), 1e-14);
+              said("billiard_break", "less than half of the initial kinetic energy of "), 1e-14);
   EXPECT_LT(kinetic_energy(run.scene.world, run.end), 4.165 / 2);
 }
 

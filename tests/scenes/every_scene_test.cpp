@@ -1,4 +1,4 @@
-// What holds for every file in scenes/.
+// Invariants of every file in scenes/.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ TEST_P(EveryScene, RunsToItsEndAndKeepsItsBooks) {
   for (std::size_t i = 0; i < run.end.position.size(); ++i) {
     EXPECT_TRUE(run.end.position[i].allFinite() && run.end.velocity[i].allFinite()) << run.scene.roster.name(i);
   }
-  // Energy at the end = at the start + work - what impacts took - what the method of lasting contact took.
+  // Energy at the end = at the start + work - losses in impacts - losses of the method of lasting contact.
   const World& world = run.scene.world;
   const double before = run.energy_start;
   const double after = kinetic_energy(world, run.end) + potential_energy(world, run.end);

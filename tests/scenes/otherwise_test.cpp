@@ -1,5 +1,5 @@
-// The scenes of scenes/ that the exact engine follows, seen otherwise: mirrored, in other units, and with another scene
-// a kilometre away. They move the same, to the last bit.
+// The scenes of scenes/ that the exact engine follows, transformed: mirrored, in other units, and with another scene
+// a kilometre away. The motion is the same, to the last bit.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,7 +17,7 @@ using stress::Seen;
 
 Motion motion_of(const std::string& name) {
   const Scene scene = load(name);
-  // Of long runs of many the beginning tells as much.
+  // For long runs of many bodies the beginning is enough.
   const double most = scene.world.body_count() > 150 ? 0.25 : 3;
   return {scene.world, scene.initial, std::min(scene.simulate.duration, most), scene.simulate.rest_speed.value_or(0),
           scene.simulate.merge};
@@ -102,7 +102,7 @@ Motion neighbour() {
 
 TEST_P(Otherwise, WithAnotherSceneFarAwayItHasTheSameBits) {
   const Motion motion = motion_of(GetParam());
-  if (!motion.world.pairs.empty() || motion.merge) return;  // these go by number, and by what there is
+  if (!motion.world.pairs.empty() || motion.merge) return;  // these depend on the numbers of bodies
   const Vec3 away(1024, 512, -2048);
   for (const Plane& plane : motion.world.planes)
     if ((away - plane.point).dot(plane.normal) < 50) return;  // it would be behind this plane

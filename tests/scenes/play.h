@@ -1,5 +1,5 @@
 #pragma once
-// A scene file as its reader meets it: what its opening comment says, and what happens when it is run.
+// A scene file: the claims of its opening comment, and the outcome of its run.
 #include <string>
 #include <vector>
 
@@ -19,10 +19,10 @@ Scene load(const std::string& name);
 /// The opening comment in one line, every run of blanks and # made one blank.
 std::string comment_of(const std::string& name);
 
-/// The number that stands behind `words` in the comment. Fails the test if the words do not stand there exactly once.
+/// The number after `words` in the comment. Fails the test unless the words occur there exactly once.
 double said(const std::string& name, const std::string& words);
 
-/// A run to the end, and the states at the times asked for.
+/// A run to the end, and the states at the requested times.
 struct Played {
   Scene scene;
   std::vector<Collision> collisions;  // without the ends of bounces

@@ -1,4 +1,4 @@
-// A run ends where doubles carry its bodies no farther.
+// A run ends where doubles no longer resolve its bodies.
 #include "physics/bounds.h"
 
 #include <gtest/gtest.h>
@@ -84,10 +84,10 @@ TEST(Bounds, SpeedsThatGrowWithoutEndAreTold) {
   const std::string error =
       error_of([&] { return make_exact_simulator(problem.world, problem.initial, problem.options); }, 1e9);
   EXPECT_NE(error.find("`ball.0`'s speed is 1.268e+30 m/s, more than the 1e+30 m/s"), std::string::npos) << error;
-  EXPECT_NE(error.find("restitution above 1 makes energy at every collision"), std::string::npos) << error;
+  EXPECT_NE(error.find("restitution above 1 adds energy at every collision"), std::string::npos) << error;
 }
 
-// Outputs change no verdict: one on a way out and back is the same whether it was looked at or not.
+// Outputs change no result: a body that goes out and comes back is treated the same with or without outputs.
 TEST(Bounds, LookingChangesNoVerdict) {
   for (const double speed : {31'000.0, 33'000.0, 60'000.0}) {  // to 0.98e9, 1.04e9 and 2.3e9 m
     Problem problem;
@@ -118,7 +118,7 @@ TEST(Bounds, StepsThatDoNotMoveTheClockEndTheRun) {
   const double step = default_step(problem.world, problem.initial);
   EXPECT_EQ(step, 0);
   EXPECT_EQ(error_of([&] { return make_exact_simulator(problem.world, problem.initial, steps_of(1, step)); }, 1),
-            "at t = 0 s steps of 0 s no longer move the clock: use a longer simulate.step");
+            "at t = 0 s steps of 0 s no longer advance the clock: use a longer simulate.step");
 }
 
 TEST(Whole, NoDoubleIsBeyondTheInteger) {

@@ -67,13 +67,13 @@ inline double energy(const Problem& problem, const State& state) {
   return kinetic_energy(problem.world, state) + potential_energy(problem.world, state);
 }
 
-/// J, that the books do not account for: rounding.
+/// J, not accounted for by the energy balance: rounding.
 inline double unbooked(const Problem& problem, const Outcome& run) {
   return energy(problem, run.end) - energy(problem, problem.initial) - run.tally.work + run.tally.energy_lost +
          run.tally.method_error;
 }
 
-/// J, that neither impacts nor work account for: the method's own error, and rounding.
+/// J, not accounted for by impacts and work: the method's error, and rounding.
 inline double residual(const Problem& problem, const Outcome& run) {
   return energy(problem, run.end) - energy(problem, problem.initial) - run.tally.work + run.tally.energy_lost;
 }
@@ -97,7 +97,7 @@ inline Outcome run_exact(const Problem& problem) {
   return run_to_end(*simulator, problem.options.duration);
 }
 
-/// Goes to `time` (s), as often as the buffer asks for.
+/// Advances to `time` (s), in as many calls as the buffer needs.
 inline void go_to(Simulator& simulator, double time) {
   do simulator.advance_to(time);
   while (simulator.time() < time);

@@ -154,7 +154,7 @@ TEST(StackedDrop, TheSmallBallRisesToTheReferencesHeight) {
 }
 
 // Above e = 7 - 4 sqrt 3 three equal balls in a row part after finitely many collisions (McNamara & Young, Phys. Fluids
-// A 4 (1992) 496). The reference's search finds at most so many; this one goes through other starts.
+// A 4 (1992) 496). The reference's search finds at most so many; this test has other starts.
 TEST(ThreeBalls, PartAfterAtMostAsManyCollisionsAsTheReferenceFinds) {
   const auto all = reference("chains_cradle_stack")["three_ball_collapse"];
   for (const auto& r : all["search"]) {

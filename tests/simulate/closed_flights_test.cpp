@@ -45,7 +45,7 @@ TEST(ClosedFlights, OfAHundredRevolutionsAreKeplers) {
   for (const double e : {0.0, 0.1, 0.5, 0.9, 0.99, 0.999, 0.9999}) {
     const Vec3 x(1 + e, 0, 0), v(0, std::sqrt((1 - e) / (1 + e)), 0);  // a = 1, from the far end
     const double duration = 100 * 2 * M_PI;
-    // What an error of the last digit does to the period, at the greatest speed.
+    // Effect of an error in the last digit on the period, at the greatest speed.
     const double bound = 4e-16 * 3 * duration * std::sqrt((1 + e) / (1 - e));
     EXPECT_LT(worst(orbit(1, {0, 0, 0}, x, v, 1e-5), 1, duration, false), bound) << e;
     EXPECT_LT(worst(orbit(1, {0, 0, 0}, x, v, 1e-5), 1, duration, true), 10 * bound) << e;

@@ -1,4 +1,4 @@
-// Inelastic collapse: infinitely many impacts in finite time. The cluster is handed to lasting contact; the run ends.
+// Inelastic collapse: infinitely many impacts in finite time. The cluster changes to lasting contact, and the run ends.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ double energy(const World& world, const State& state) {
   return kinetic_energy(world, state) + potential_energy(world, state);
 }
 
-/// Runs in steps of `every` s; energy is never made, and what is missing is in the books.
+/// Runs in steps of `every` s; energy never grows, and every loss is accounted for.
 Outcome run_and_watch_energy(const Problem& problem, double every, double tolerance, const std::string& what) {
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   const double start = energy(problem.world, problem.initial), scale = std::abs(start);
@@ -98,7 +98,7 @@ TEST(Collapse, OfColumnsDroppedOnTheFloorEndsAtRest) {
     problem.plane({0, 0, 0}, {0, 1, 0});
     for (int i = 0; i < n; ++i) problem.ball({0, 0.75 + 0.625 * i, 0}, {0, 0, 0}, 1, 0.25, 0.5);
     problem.options.duration = 10;
-    // 20 balls move by time stepping: within a step a path is straight and the books are those of its end.
+    // 20 balls move by time stepping: within a step a path is straight, and the energy balance holds at its end.
     // Measured: 1.2e-6.
     const double tolerance = n < 20 ? 1e-12 : 1e-5;
     const Outcome run = run_and_watch_energy(problem, 0.0625, tolerance, "column of " + std::to_string(n));
@@ -161,7 +161,7 @@ TEST(Collapse, IsNotMistakenForManyHonestCollisions) {
   }
 }
 
-// Slow impacts one upon the other: what would be the end of bouncing under load is none where nothing presses.
+// Slow impacts one upon the other: bouncing ends under load, but not without it.
 TEST(Collapse, IsNoneWhereACommonFallMakesManySlowImpacts) {
   const auto run = [](double g) {
     Problem problem;
@@ -177,7 +177,7 @@ TEST(Collapse, IsNoneWhereACommonFallMakesManySlowImpacts) {
   EXPECT_GT(at_rest.tally.collisions(), 100u);
 }
 
-// Between a plane and a ball of 1e10 times its mass nothing is left of the approach, and no overlap comes of it.
+// Between a plane and a ball of 1e10 times its mass the approach ends, without overlap.
 TEST(Collapse, AgainstAPlaneSqueezesNothingIntoIt) {
   Problem problem;
   problem.plane({0, 0, 0}, {1, 0, 0});

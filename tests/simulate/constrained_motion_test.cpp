@@ -1,4 +1,4 @@
-// Islands in lasting contact against closed forms and against solutions in coordinates of their own.
+// Islands in lasting contact against closed forms and against solutions in special coordinates.
 #include <gtest/gtest.h>
 
 #include <cmath>

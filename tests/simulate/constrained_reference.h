@@ -1,5 +1,5 @@
 #pragma once
-// Balls in lasting contact without friction, by a method of its own: Lagrange multipliers for the contacts that press,
+// Balls in lasting contact without friction, by an independent method: Lagrange multipliers for the pressing contacts,
 // dense, in 64-bit mantissas, followed by extrapolated midpoint steps of order 16 (Hairer, Norsett & Wanner, Solving
 // Ordinary Differential Equations I, 1993, II.9). A contact opens where its multiplier vanishes. Ends before one
 // closes.
@@ -168,7 +168,7 @@ class ConstrainedReference {
     return at.n.dot(w) + at.bend;
   }
 
-  /// Which of the contacts press, now: Lawson & Hanson's active set (Solving Least Squares Problems, 1974, ch. 23).
+  /// The contacts that press now: Lawson & Hanson's active set (Solving Least Squares Problems, 1974, ch. 23).
   void press() {
     std::vector<std::size_t> closed;
     for (std::size_t c = 0; c < rows_.size(); ++c)
@@ -282,7 +282,7 @@ class ConstrainedReference {
     return opened;
   }
 
-  /// Whether something has come together that does not press.
+  /// Whether an overlap has formed without a pressing contact.
   bool closes() const {
     return std::any_of(rows_.begin(), rows_.end(),
                        [&](const Row& row) { return !row.presses && look(row, x_, v_).gap < -1e-13L; });

@@ -34,7 +34,7 @@ struct Errors {
   double position = 0, velocity = 0;  // of the least radius, and of a radius a second
 };
 
-/// How far the simulator is from the reference, whichever way its bodies are named.
+/// Distance of the simulator from the reference, for either order of the bodies.
 Errors compare(const ConstrainedReference& reference, const ConstrainedReference::Motion& want, double e) {
   const std::size_t n = reference.mass.size();
   std::vector<std::size_t> order(n);

@@ -56,7 +56,7 @@ TEST(ContactGroup, GainsNoEnergyAsItSettles) {
     const auto simulator = stepped(problem, 0.01);
     double least = energy(problem, problem.initial);
     for (int k = 0; k <= 333; ++k) {
-      const double t = k * 0.03;  // the energy of the moment is known to first order
+      const double t = k * 0.03;  // the instantaneous energy is right to first order
       go_to(*simulator, t);
       const double now = energy(problem, simulator->state());
       EXPECT_LT(now, 1.0003 * least) << side << " at " << t;
@@ -67,7 +67,7 @@ TEST(ContactGroup, GainsNoEnergyAsItSettles) {
     const double first = energy(problem, problem.initial);
     const double last = energy(problem, simulator->state());
     EXPECT_NEAR((last + tally.energy_lost + tally.method_error) / first, 1, 1e-9);  // measured: 3e-10
-    EXPECT_GT(tally.method_error, 0);             // time steps take what impacts do not,
+    EXPECT_GT(tally.method_error, 0);             // time steps lose energy beside impacts,
     EXPECT_LT(tally.method_error / first, 0.01);  // to first order: measured: 0.0072
   }
 }

@@ -1,5 +1,5 @@
 // The exact simulator under forces that bend paths in no closed form: against Kepler's equation, oscillations, and the
-// books of energy.
+// energy balance.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +32,7 @@ TEST(CurvedFlights, KeepToKeplersEllipses) {
   EXPECT_NEAR(energy(problem, outcome.end), -0.75, 1e-12);
 }
 
-/// A ball that drag brakes from 0.25 s on, so shortly that it hardly moves meanwhile: where it is at the end. Linear
+/// A ball that drag brakes from 0.25 s on, so briefly that it hardly moves meanwhile: its position at the end. Linear
 /// drag c fades its velocity by exp(-c w), quadratic drag q by 1 / (1 + q v w) (unit mass).
 struct Brake {
   double linear, quadratic, window, speed, duration;  // kg/s, kg/m, s, m/s, s
@@ -44,7 +44,7 @@ struct Brake {
   }
 };
 
-// A size of the ball says nothing of how exactly its speed is to be known after that. measured: 4e-12
+// The size of the ball does not set the accuracy that its speed needs after that. measured: 4e-12
 TEST(CurvedFlights, KeepTheirSpeedsDigitsInAMomentOfStrongDrag) {
   for (const double radius : {0.01, 1.0, 1000.0})
     for (const Brake& brake : {Brake{0, 2e8, 1e-9, 5, 1}, Brake{0, 1e6, 1e-9, 1000, 1000},
@@ -64,7 +64,7 @@ TEST(CurvedFlights, KeepTheirSpeedsDigitsInAMomentOfStrongDrag) {
     }
 }
 
-// Nor of how exactly it is to be known where forces change in less. measured: 2e-7 m, 5e-9 J
+// Nor the accuracy needed where forces change over a shorter distance. measured: 2e-7 m, 5e-9 J
 TEST(CurvedFlights, PastASmallAttractorAreTheSameForLargeAndSmallBodies) {
   std::vector<Vec3> ends;
   for (const double radius : {1e-3, 0.1, 10.0, 1000.0}) {
@@ -95,7 +95,7 @@ TEST(CurvedFlights, ThroughASmallAttractorKeepTheEnergyThatTheyLeaveWith) {
     }
 }
 
-// Drag takes energy without impacts, ever more often in a second.
+// Drag takes energy without impacts, at a rising rate.
 TEST(CurvedFlights, OfElasticBallsThatDragBrakesEndOnTheFloor) {
   for (const Force& force : {Force{Drag{10, 0, Vec3::Zero()}}, Force{Drag{10, 0.1, Vec3::Zero()}},
                              Force{Spring{Vec3(0, 0.1, 0), 100, 0, 10}}}) {

@@ -1,4 +1,4 @@
-// What a scene does not need is not done: pairs and surfaces asked when they meet, events and regions, counted.
+// Unneeded work is not done: counts of pair and surface tests, events and regions.
 #include <gtest/gtest.h>
 
 #include "physics/world.h"
@@ -12,7 +12,7 @@ class Counted {
  public:
   explicit Counted(const Problem& problem)
       : problem_(problem), simulator_(make_exact_simulator(problem_.world, problem_.initial, problem_.options)) {}
-  /// What was done up to then (s).
+  /// Work done up to that time (s).
   Effort at(double time) {
     while (simulator_->time() < time) simulator_->advance_to(time);
     return simulator_->effort();
@@ -99,7 +99,7 @@ TEST(Effort, WhatLiesBeyondTheDurationIsNotScheduled) {
   EXPECT_EQ(longer.at(1.001).next, std::numeric_limits<double>::infinity());
   EXPECT_EQ(longer.collisions(), 2U);
 
-  // A gas always has something to come, and at its end nothing.
+  // A gas always has pending events, and none at its end.
   Problem gas;
   gas.room(Vec3(0, 0, 0), Vec3(12, 12, 12));
   Random random(3);

@@ -1,4 +1,4 @@
-// The exact simulator's events: their order, what is predicted, and what is asked of memory ahead of time.
+// The exact simulator's events: their order, their prediction, and prefetching.
 #include "simulate/event_queue.h"
 
 #include <gtest/gtest.h>

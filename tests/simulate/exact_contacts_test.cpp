@@ -93,7 +93,7 @@ TEST(FlightChanges, BookWhatContactTookFromAFlight) {
   ExactParts parts(ball_on_floor());
   parts.bodies.flights.accelerate(0, Vec3::Zero());  // carried
   parts.flights.book(0, Vec3(0, 0.5 - 3, 0), parts.bodies.now);
-  EXPECT_EQ(parts.bodies.log.tally().energy_lost, 0);  // an impact's it is not
+  EXPECT_EQ(parts.bodies.log.tally().energy_lost, 0);  // it is not from an impact
   EXPECT_EQ(parts.bodies.log.tally().method_error, 2 * g * 3);
 }
 
@@ -149,7 +149,7 @@ TEST(FlightChanges, HoldABodyByWhatForcesDoInTheRestOfItsStepAndReleaseIt) {
   island.end = {2, 0};
   island.shortest_step = 0.5;
   parts.flights.hold(0);
-  EXPECT_EQ(parts.bodies.flights[0].v, Vec3(0, -20, 0));  // straight, to where a step of two seconds takes it
+  EXPECT_EQ(parts.bodies.flights[0].v, Vec3(0, -20, 0));  // straight, by a step of two seconds
   EXPECT_EQ(parts.bodies.flights[0].a, Vec3::Zero());
   EXPECT_EQ(parts.bodies.velocity_without_kick(0, {1, 0}), Vec3(0, -10, 0));
   parts.flights.release(0);
@@ -366,8 +366,8 @@ TEST(TimeStepping, CarriesABodyThatFellWithoutLettingItFallOn) {
   EXPECT_TRUE(parts.bodies.flights[0].v.isZero(1e-12));
 }
 
-// The ball falls on the floor within the step. Contact takes m (v^2 - v'^2) / 2 and the weight's work on the way: part
-// of it at once, the rest as the step goes on.
+// The ball falls on the floor within the step. Contact absorbs m (v^2 - v'^2) / 2 and the weight's work on the way:
+// part of it at once, the rest during the step.
 TEST(TimeStepping, BooksWhatImpactsWithinAStepTakeAsItGoesOn) {
   const double v = 0.02, m = 2;
   for (const double part : {0.25, 0.5, 1.0}) {

@@ -65,7 +65,7 @@ inline Crossing random_crossing(Sliding kind, std::uint64_t seed, int riders = 0
   return crossing;
 }
 
-/// What is wrong with a crossing: "", if all go on straight without a collision.
+/// The error of a crossing: "" if all go on straight without a collision.
 inline std::string fault_of(const Crossing& crossing) {
   const Outcome run = run_exact(crossing.problem);
   double off = 0;

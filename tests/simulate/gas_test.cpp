@@ -1,4 +1,4 @@
-// Many balls in a room: what holds without any reference value.
+// Many balls in a room: invariants without reference values.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ bool same_bits(const Outcome& a, const Outcome& b) {
          a.tally.collisions() == b.tally.collisions();
 }
 
-/// The deepest overlap of any pair or surface of a room, by looking at all of them. Negative: none.
+/// The deepest overlap of any pair or surface of a room, over all of them. Negative: none.
 double deepest_overlap(const World& world, const State& state) {
   double deepest = -std::numeric_limits<double>::infinity();
   for (Entity i = 0; i < world.body_count(); ++i) {

@@ -1,4 +1,4 @@
-// The kernels that take many pairs at a time against the laws that they repeat, for every width that the processor has.
+// The kernels that test many pairs at a time against the laws for one pair, for every width of the processor.
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -28,7 +28,7 @@ Instant time_of(const Flights& flights, const std::vector<double>& radius, Entit
 
 class StraightTimes : public ::testing::TestWithParam<bool> {};
 
-/// Of what the kernels do not leave to the law: the same bits. They leave touching and grazing pairs, and few others.
+/// The kernels give the law's bits, except for touching and grazing pairs and a few others, which they leave to it.
 TEST_P(StraightTimes, HasTheBitsOfTheLawForEveryWidth) {
   constexpr Entity bodies = 400;
   constexpr double end = 3;

@@ -103,7 +103,7 @@ TEST(LinearFlight, ABouncingBallComesToRestAndDriftsWithTheWind) {
   problem.options.duration = 40;
   const Outcome got = run(problem);
   const double k = 0.2, s = -std::expm1(-k * 40) / k;
-  EXPECT_NEAR(got.end.position[0].x(), 40 + 3 * s, 1e-10);  // nothing that the floor does is felt along it
+  EXPECT_NEAR(got.end.position[0].x(), 40 + 3 * s, 1e-10);  // the floor has no effect along it
   EXPECT_NEAR(got.end.velocity[0].x(), 1 + 3 * std::exp(-k * 40), 1e-11);
   EXPECT_NEAR(got.end.position[0].y(), 0.5, 1e-12);
   EXPECT_EQ(got.tally.resting, 1u);

@@ -1,5 +1,5 @@
 #pragma once
-// Kepler's motion in 64-bit mantissas by his own equation: what orbits are held against.
+// Kepler's motion in 64-bit mantissas by his own equation: the reference of orbits.
 #include <array>
 #include <cmath>
 

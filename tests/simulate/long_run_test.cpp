@@ -1,4 +1,4 @@
-// What long runs lose: nothing worth naming.
+// Long runs lose nothing but rounding.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,8 +10,8 @@
 namespace carom {
 namespace {
 
-/// Where a point is that goes to and fro between low and high without loss: the straight path, folded. Long doubles
-/// keep 1e5 m to 5e-15 m.
+/// Position of a point that moves back and forth between low and high without loss: the straight path, folded. Long
+/// doubles keep 1e5 m to 5e-15 m.
 long double folded(long double low, long double high, long double x, long double v, long double t) {
   const long double width = high - low;
   long double way = std::fmod(x - low + v * t, 2 * width);
@@ -58,8 +58,8 @@ TEST(Clock, AMillionSecondsAreKeptToo) {
   EXPECT_LT(worst, 2e-10);  // m; measured: 1.0e-10, what 99.9 m is rounded to, 11,000 times
 }
 
-/// How far from their starts balls at reduced density 0.3 are (m, in diameters) that run for so many collisions a ball,
-/// turn round, and run as long again.
+/// Distance from their starts (m, in diameters) of balls at reduced density 0.3 that run for so many collisions a ball,
+/// reverse, and run as long again.
 double way_off_after_reversal(double collisions_a_ball, std::uint64_t seed) {
   Random random(seed);
   Problem problem;
@@ -92,7 +92,7 @@ TEST(Reversal, AGasReturnsToItsStartAfterEightCollisionsABall) {
     EXPECT_LT(way_off_after_reversal(8, seed), 2e-10) << seed;  // diameters; measured: 1.0e-11 to 6.3e-11
 }
 
-// A row that falls 1e9 m: were it to learn anew every few radii who is near, it would not end in an hour.
+// A row that falls 1e9 m: finding its neighbours again every few radii, it would not end in an hour.
 TEST(FreeFall, ACloseCompanyFallsFarAtOnce) {
   Problem problem;
   problem.world.gravity = Vec3(0, -9.80665, 0);

@@ -1,4 +1,4 @@
-// Who is told to be near, against all pairs; and who is next, against a search.
+// The lists of neighbours against all pairs, and the next body against a search.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -77,8 +77,8 @@ TEST(NearThoseThatStay, KnowsAllWithinReachAndFewBeyond) {
   }
 }
 
-/// Bodies wander and get new regions when they leave theirs. All the time, whoever may touch within their regions is
-/// on both lists, once, and so is every plane in reach.
+/// Bodies wander and get new regions when they leave theirs. At all times each body that may touch another within
+/// their regions is on both lists, once, and so is every plane in reach.
 TEST_P(Near, KnowsAllThatMayTouch) {
   const Wandering& how = GetParam();
   constexpr Entity bodies = 150;

@@ -1,4 +1,4 @@
-// How fast errors fall as steps get shorter: impacts inside steps leave each method its order.
+// How fast errors fall as steps get shorter: impacts inside steps keep the order of each method.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,7 +59,7 @@ void expect_orders(const Problem& problem, const Answer& answer, double first, c
     const std::vector<double> steps = {first, 2 * first, 4 * first, 8 * first};
     const double order = fitted_order(problem, methods[m], steps, answer);
     EXPECT_GT(order, orders[m] - 0.15) << names[m] << "; measured: " << measured;
-    // What Euler's method sets a velocity ahead by, impacts may turn round, and it cancels.
+    // Impacts may reverse the velocity error of Euler's method, which then cancels.
     if (m > 0) {
       EXPECT_LT(order, orders[m] + 0.15) << names[m];
     }
@@ -130,7 +130,7 @@ TEST(Order, IsTheMethodsForABallThatBouncesInAThickMedium) {
   expect_orders(problem, answer, 100, "1.01, 2.00, 4.03");
 }
 
-/// The finest run there is stands for the answer: steps 64 times shorter.
+/// The finest run is the reference: steps 64 times shorter.
 Answer finest(const Problem& problem, double steps) {
   return run(problem, Integrator::rk4, problem.options.duration / (64 * steps));
 }

@@ -35,7 +35,7 @@ TEST(PiBilliard, ALineAlongAWedgesSideDoesNotCrossIt) {
   EXPECT_EQ(heavy_against_wall(3, 1e6).collisions(), 5u);
 }
 
-// A thousandth of an angle decides whether there is one more collision, when the heavy ball is already far away.
+// A thousandth of an angle decides on one more collision, with the heavy ball already far away.
 TEST(PiBilliard, AThousandthOfAnAngleDecidesBetweenNeighbours) {
   for (int n : {5, 7, 10, 100, 1000, 10000, 100000, 1000000}) {
     for (long double side : {-1e-3L, 1e-3L}) {
@@ -75,7 +75,7 @@ TEST(StandingClock, EndsARunWithAdviceForItsRestitution) {
     return error.substr(std::min(error.size(), error.find(what)));
   };
   EXPECT_EQ(ends(squeezed(0x1p-30, 1 + 1e-9)),
-            what + "(restitution above 1 makes energy at every collision): lower it, or shorten simulate.duration");
+            what + "(restitution above 1 adds energy at every collision): lower it, or shorten simulate.duration");
   EXPECT_EQ(ends(squeezed(0, 1)),
             what + "(jammed, or masses too unequal): give them room, or shorten simulate.duration");
 }

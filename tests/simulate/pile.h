@@ -34,7 +34,7 @@ inline Problem loose_pile(int side, int layers, double duration) {
   return problem;
 }
 
-/// By body: whether it glides, level, where no other one presses on it. Without friction nothing ends that.
+/// By body: whether it slides on a level surface without other contacts. Without friction this never ends.
 inline std::vector<std::uint8_t> gliding(const World& world, Simulator& simulator) {
   const State& state = simulator.state();
   std::vector<std::uint8_t> glides(world.body_count());
@@ -45,7 +45,7 @@ inline std::vector<std::uint8_t> gliding(const World& world, Simulator& simulato
   return glides;
 }
 
-/// J, of all bodies but those.
+/// J, of all other bodies.
 inline double energy_of_pile(const World& world, Simulator& simulator) {
   const std::vector<std::uint8_t> glides = gliding(world, simulator);
   double energy = 0;
@@ -54,8 +54,8 @@ inline double energy_of_pile(const World& world, Simulator& simulator) {
   return energy;
 }
 
-/// Nothing moves at these times, to the last bit, but what glides; nothing overlaps then, nor by more than
-/// `deepest_ever` (m) before; what presses on each ball holds its weight, but for `unbalanced` of it.
+/// At these times only sliding bodies move, to the last bit; nothing overlaps then, nor by more than `deepest_ever` (m)
+/// before; the contact forces on each ball balance its weight, except for `unbalanced` of it.
 inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, std::vector<double> times,
                                 double deepest_ever = 1e-9, double unbalanced = 1e-9, double still = 0) {
   const World& world = problem.world;
@@ -68,7 +68,7 @@ inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, st
     EXPECT_LE(energy_of_pile(world, simulator), still) << t;
     EXPECT_LE(std::count(glides.begin(), glides.end(), 1), n / 100) << t;
     if (first.empty()) first = state.position;
-    // What linear drag has stopped ends where its path ends, to rounding.
+    // A body stopped by linear drag is at the end of its path, to rounding.
     for (Entity a = 0; a < n; ++a) {
       if (!glides[a]) {
         EXPECT_LE((state.position[a] - first[a]).norm(), still == 0 ? 0 : 4e-16) << t;

@@ -13,7 +13,7 @@ TEST(Pile, OfNinetyBallsComesToRest) {
 
 TEST(Pile, AWokenPileComesToRestAgain) {
   Problem problem = loose_pile(3, 4, 60);
-  // A heavy one falls on it when it lies.
+  // A heavy ball falls on the pile at rest.
   problem.ball({1.7, 1800, 1.6}, Vec3::Zero(), 1, 0.5, 0.5);
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   go_to(*simulator, 18);

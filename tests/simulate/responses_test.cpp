@@ -1,4 +1,4 @@
-// What impacts do: e = 0, e > 1, bodies that stick.
+// Impacts: e = 0, e > 1, merging bodies.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -88,7 +88,7 @@ TEST(RestitutionAboveOne, SpeedsWithoutBoundEndTheRunWithWhatToDo) {
   }
 }
 
-// Where one side takes energy and the other makes more the bounces, too fast for the clock, are no collapse.
+// If one side takes energy and the other adds more, bounces too fast for the clock are not a collapse.
 TEST(RestitutionAboveOne, OnOneSideAloneEndsTheRunToo) {
   Problem problem = between_walls(2);
   problem.world.pairs = {{0, 1, 1, 1, 0.9}, {0, 1, 2, 1, 2}};
@@ -97,7 +97,7 @@ TEST(RestitutionAboveOne, OnOneSideAloneEndsTheRunToo) {
   EXPECT_NE(error.find("makes energy"), std::string::npos) << error;
 }
 
-/// m^3, of a body that may be a joint one.
+/// m^3, of a body that may have merged.
 double volume_of(const State& state, std::size_t i) {
   return (state.volume.empty() ? Volume::sphere(state.radius[i]) : state.volume[i]).size();
 }

@@ -1,4 +1,4 @@
-// Rest: who lies still presses as statics says, stays where it is, and wakes when it is struck.
+// Rest: a body at rest presses by the laws of statics, stays in place, and wakes when it is struck.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -178,7 +178,7 @@ TEST(Rest, AColumnOfBallsBetweenWallsStands) {
 TEST(Rest, WhoLiesStillCostsNothing) {
   Problem problem = pyramid();
   problem.options.duration = 1e6;
-  const Outcome run = run_exact(problem);  // in a blink, or the test's time limit
+  const Outcome run = run_exact(problem);  // soon, or the test's time limit ends it
   EXPECT_EQ(run.end.velocity[3], Vec3(0, 0, 0));
 }
 
@@ -227,12 +227,12 @@ void expect_wakes(Problem problem, Entity target, const Vec3& from, const Vec3& 
   EXPECT_EQ(simulator->state().velocity[target], Vec3(0, 0, 0)) << what;
   EXPECT_LT((simulator->state().position[target] - x).norm(), 1e-15) << what;
   go_to(*simulator, 1.0 + 1e-9);
-  // Free to go where it is struck to: as two masses that meet in the open.
+  // Free along the impact: as two free masses.
   EXPECT_GT(simulator->state().velocity[target].norm(), 0.1 * v.norm()) << what;
   EXPECT_GE(simulator->tally().body_body, 1u) << what;
 }
 
-/// Three kinds of things that lie on one another or side by side, gliding along x at `speed` (m/s).
+/// Three kinds of bodies on one another or side by side, sliding along x at `speed` (m/s).
 Problem gliding(int kind, double speed, bool forced_far_away) {
   Problem problem;
   problem.world.gravity = Vec3(0, -g, 0);

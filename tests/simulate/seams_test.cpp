@@ -1,5 +1,5 @@
-// Floors of several pieces: tiles, walls, planes that are level but for rounding or nearly so. A body that slides over
-// them does so as on one.
+// Floors of several pieces: tiles, walls, planes that are level, exactly or nearly. A body slides over them as over
+// one piece.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Without friction a ball slides off a curved top, an edge, a rim, and flies where the push has ceased.
+// Without friction a ball slides off a curved top, an edge, a rim, and flies off where the contact force vanishes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 constexpr double g = 9.80665;
 
 /// A centre that slides over the top of a circle of radius s (m), at speed v0 (m/s) there: v^2 = v0^2 + 2 g s (1 - c)
-/// at the angle with cosine c; the push g c - v^2 / s is gone at c = (2 + v0^2 / (g s)) / 3.
+/// at the angle with cosine c; the contact acceleration g c - v^2 / s vanishes at c = (2 + v0^2 / (g s)) / 3.
 struct Leaving {
   double c;     // cosine of the angle from the vertical
   double time;  // s, from the top
@@ -34,7 +34,7 @@ Leaving leaving(double s, double v0) {
   return {c, sum * end / n / 3, s * std::sqrt(1 - c * c), s * c, std::sqrt(g * s * c)};
 }
 
-/// Ball 0 slides over the top at `start` (s) and leaves as it ought to: shortly before it is carried, shortly after it
+/// Ball 0 slides over the top at `start` (s) and leaves as expected: shortly before it is carried, shortly after it
 /// is on the parabola of free flight.
 void expect_leaves(const Problem& problem, const Leaving& want, double start, const Vec3& center,
                    const std::string& what) {

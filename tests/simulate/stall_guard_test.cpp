@@ -37,7 +37,7 @@ TEST(StallGuard, StopsLossyImpactsThatHardlyMoveTheClock) {
 
 TEST(StallGuard, NamesRestitutionAboveOne) {
   EXPECT_TRUE(creep(1.5, 2'500'000)
-                  .ends_with("(restitution above 1 makes energy at every collision): lower it, or "
+                  .ends_with("(restitution above 1 adds energy at every collision): lower it, or "
                              "shorten simulate.duration"));
 }
 

@@ -1,5 +1,5 @@
-// Flights in steps of a given length: forces against their closed forms, nothing jumped over, rest, and what may not
-// matter.
+// Flights in steps of a given length: forces against their closed forms, nothing skipped, rest, and things that must
+// not matter.
 #include "simulate/exact.h"
 
 #include <gtest/gtest.h>
@@ -248,7 +248,7 @@ TEST(Outputs, AskedForTwiceAreTheSame) {
   }
 }
 
-// Looked at within the step in which it is struck: of a body asleep there was only the step's end to be seen.
+// A sleeping body, sampled within the step in which it is struck, had only the state at the step's end.
 TEST(Looks, ABodyThatLiesStillDoesUntilItIsStruck) {
   Problem problem;
   problem.ball({-1, 0.5, 0}, {2, 0, 0}, 1, 0.5);

@@ -1,4 +1,4 @@
-// Contact to within its slack: how near such answers are to the exact ones.
+// Contact to within its slack: the distance of such answers from the exact ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,7 +68,7 @@ TEST(ContactAccuracy, EveryContactIsWithinItsSlack) {
     }
 }
 
-/// What M (motion - free) is off the forces by, relative to the greatest of both.
+/// Error of M (motion - free) against the forces, relative to the greatest of both.
 double unbalanced(const Case& given, const Case& c) {
   std::vector<Vec3> lacking;
   double most = 0, scale = 0;
@@ -95,7 +95,7 @@ TEST(ContactAccuracy, TheMotionIsWhatTheForcesMakeOfIt) {
       }
 }
 
-/// The energy of what the motion is off by, by that of contacts off by their slack.
+/// The energy of the motion's error, relative to that of contacts off by their slack.
 TEST(ContactAccuracy, EnergyIsRightToThatOfTheSlack) {
   double most = 0;
   for (const double slack : {1e-2, 1e-3, 1e-4, 1e-6})
@@ -200,7 +200,7 @@ TEST(ContactAccuracy, RowsThatArePinchedAreInfeasibleAndThenExact) {
   }
 }
 
-/// A ball between two walls, guessed to be pressed by both as by a mountain.
+/// A ball between two walls, with a far too large guess of both forces.
 TEST(ContactAccuracy, GuessesThatDoNothingAreNone) {
   Draw draw(12);
   for (int run = 0; run < 300; ++run) {
@@ -216,7 +216,7 @@ TEST(ContactAccuracy, GuessesThatDoNothingAreNone) {
   }
 }
 
-/// A ball on a pebble on the floor: the pebble's contact is as well kept as the ball's.
+/// A ball on a pebble on the floor: the pebble's contact is as accurate as the ball's.
 TEST(ContactAccuracy, EnergyOfHeavyBodiesDoesNotPayForLightOnes) {
   for (const double ratio : {1e1, 1e3, 1e6}) {
     const std::vector<double> inverse_mass{1 / ratio, 1 / ratio, 1};

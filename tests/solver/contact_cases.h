@@ -112,7 +112,7 @@ inline std::vector<ContactConstraint> contacts_of(const Balls& balls) {
   return contacts;
 }
 
-/// Soft balls, thrown in anyhow, that push each other apart: about 4 contacts a ball.
+/// Soft balls at random places that push each other apart: about 4 contacts a ball.
 inline Balls packing(int n, std::uint64_t seed) {
   Balls balls;
   Draw draw(seed);
@@ -146,8 +146,8 @@ inline Balls packing(int n, std::uint64_t seed) {
 enum class Load { gravity, push, impact };
 inline constexpr std::array loads{Load::gravity, Load::push, Load::impact};
 
-/// Masses are 1 kg over up to so many decades. A push: a fifth of the balls are pushed anyhow; an impact: all go
-/// anyhow.
+/// Masses are 1 kg over up to so many decades. A push: a fifth of the balls are pushed at random; an impact: all move
+/// at random.
 inline Case loaded(std::string name, const Balls& balls, Load load, double decades, std::uint64_t seed = 1) {
   constexpr std::array words{"gravity", "push", "impact"};
   Case c{

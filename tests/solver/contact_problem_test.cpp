@@ -67,7 +67,7 @@ TEST(ContactProblem, WhatPartsKeepsItsBits) {
   EXPECT_EQ(contacts[0].force, 0);
 }
 
-/// The k-th contact of a stack bears all that is above it.
+/// The k-th contact of a stack carries all bodies above it.
 TEST(ContactProblem, AStackBearsItsWeight) {
   for (const int n : {1, 2, 10, 100, 1000}) {
     Case c = loaded("stack", stack(n), Load::gravity, 0);
@@ -195,7 +195,7 @@ TEST(ContactProblem, OrderAndCompanyDoNotMatter) {
   for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(p.motion[i], beside.motion[i]);
 }
 
-/// One contact away and back again, by a solver that remembers: the same motion, and little work.
+/// One contact removed and restored, by a solver with memory: the same motion, and little work.
 TEST(ContactProblem, AWarmStartFindsTheSame) {
   for (const Load load : loads)
     for (const double decades : {0.0, 6.0}) {
@@ -216,7 +216,7 @@ TEST(ContactProblem, AWarmStartFindsTheSame) {
     }
 }
 
-// The one method keeps factors, the other does not: those of a problem before the last are of no use.
+// The one method keeps factors, the other does not: those of earlier problems are of no use.
 TEST(ContactProblem, AWarmStartAfterProblemsOfOtherSizesFindsTheSame) {
   for (const Load load : loads) {
     ContactSolver solver;
@@ -259,7 +259,7 @@ TEST(ContactProblem, WhatCannotBeIsSaid) {
   EXPECT_GT(certificate.change, 0.1);
 }
 
-/// The same, but it will do if they keep off by half as much.
+/// The same with contacts that need only half as much separation.
 TEST(ContactProblem, SlackMakesItPossible) {
   const std::vector<double> inverse_mass{1};
   std::vector<Vec3> u{{0.2, 0, 0}};

@@ -1,7 +1,7 @@
 #pragma once
-// The motion that contacts allow in quadruple precision, from which contacts press, by a method of its own: Cholesky's
-// factors of J M^-1 J^T. It holds where no contact pulls and none is violated in that precision, for the motion is
-// unique.
+// The motion that contacts allow in quadruple precision, from which contacts press, by an independent method:
+// Cholesky's factors of J M^-1 J^T. It holds where no contact pulls and none is violated in that precision, for the
+// motion is unique.
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -1,4 +1,4 @@
-// Rows taken in and let go: Q stays orthogonal, and Q R stays what was taken in.
+// Rows added and removed: Q stays orthogonal, and Q R stays equal to the rows.
 #include "numerics/orthogonal_factors.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(OrthogonalFactors, StayOrthogonalThroughAThousandChanges) {
     }
     ASSERT_EQ(factors.rank(), rows.size());
   }
-  // Q Q^T v = v; and of a row that was taken in nothing is left in the tail.
+  // Q Q^T v = v; and an added row leaves nothing in the tail.
   for (std::size_t k = 0; k < n; ++k) v[k] = draw(-1, 1);
   factors.to_q(v.data(), d.data());
   factors.from_q(d.data(), column.data());

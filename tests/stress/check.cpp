@@ -1,5 +1,5 @@
-// One scene, run several times: what is recorded, seen and summed up is held against what physics and the simulator's
-// promises say, by computations of its own in long double.
+// One scene, run several times: records, states and sums are checked against physics and the simulator's guarantees,
+// by independent computations in long double.
 #include "stress/check.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::string who(Entity a, Entity b) {
   return std::to_string(a) + " and " + std::to_string(b);
 }
 
-/// The scene's own coefficient of a pair, from the rules as the scene format states them.
+/// The scene's own coefficient of a pair, from the rules of the scene format.
 double coefficient(const World& world, Entity a, Entity b) {
   for (auto p = world.pairs.rbegin(); p != world.pairs.rend(); ++p)
     if ((p->a_first == a && p->b_first == b) || (p->a_first == b && p->b_first == a)) return p->value;
@@ -98,7 +98,7 @@ class Check {
         std::any_of(world_.restitution.begin(), world_.restitution.end(), [](double e) { return e > 1; });
     if (!scene_.may_stop && first_.error.find("max_collisions") != std::string::npos) {
       // So many are no fault as long as they come to an end: light balls in a row between heavy ones, with e = 0.9,
-      // have 24,845 in 0.03 s of CPU time. Without end they run out of patience.
+      // have 24,845 in 0.03 s of CPU time. Without end they exceed the time limit.
       RandomScene unlimited = scene_;
       unlimited.options.max_collisions = 0;
       return Check(unlimited, patience_, verdict_).run();
@@ -170,7 +170,7 @@ class Check {
     const double relative = 2e-14 * (1 + std::sqrt(events)) + (t.collapses > 0 ? 1e-10 : 0);
     const double tolerance = relative * (size + std::abs(t.energy_lost) + std::abs(t.work));
     const double residual = static_cast<double>(end - start) + t.energy_lost + t.method_error - t.work;
-    // What lasting contact takes beside impacts: by time steps to first order, else next to nothing.
+    // Losses of lasting contact beside impacts: first order in time steps, else almost nothing.
     const double least = t.stepped_contact > 0 ? -1e-3 : -1e-6, most = t.stepped_contact > 0 ? 5e-2 : 1e-6;
     if (!(t.method_error >= least * size && t.method_error <= most * size))
       fail("contact took " + text(t.method_error) + " J beside impacts, of " + text(size) + " J");
@@ -220,7 +220,7 @@ class Check {
     const double distance = static_cast<double>(gap(world_, c.a, s.position[c.a].cast<long double>(), c.b, xb));
     const double tick = std::nextafter(c.time, 1e300) - c.time;
     const double speed = s.velocity[c.a].norm() + (body ? s.velocity[c.b].norm() : 0) + c.approach_speed;
-    // What a collapse ends at once is at one place within a billionth of a radius.
+    // Collisions ended together by a collapse are in one place within a billionth of a radius.
     const double place = c.separation_speed == 0 && c.restitution > 0 ? 1e-9 * world_.radius[c.a] : 0;
     if (!(std::abs(distance) <= paths_->allowed(c.a, c.b) + 2 * tick * speed + place))
       fail(what + "they are " + text(distance) + " m apart");
@@ -236,7 +236,7 @@ class Check {
            std::to_string(mass_unit) + " differs: " + what);
   }
 
-  /// With the axes turned only roundings differ: the first collision is the same, if it is not grazing and not one of
+  /// With rotated axes only rounding differs: the first collision is the same, if it is not grazing and not one of
   /// several.
   void axes() {
     if (first_.records.empty()) return;

@@ -1,5 +1,5 @@
 #pragma once
-// What must hold of every run of every scene.
+// Invariants of every run of every scene.
 #include <string>
 #include <vector>
 

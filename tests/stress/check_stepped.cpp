@@ -1,6 +1,6 @@
-// The same scenes in steps of time, long ones: whatever the method and the step, a run ends, no body is nowhere or
-// inside another, outputs change nothing; and but for Euler's method, of order 1, no
-// energy comes from nowhere.
+// The same scenes in steps of time, long ones: whatever the method and the step, a run ends, no position is
+// undefined, no bodies overlap, outputs change nothing; and except by Euler's method, of
+// order 1, energy does not grow.
 #include <algorithm>
 #include <array>
 #include <cmath>

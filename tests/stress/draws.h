@@ -1,5 +1,5 @@
 #pragma once
-// The numbers that a random scene is made of: of given bytes, as long as there are any, then of a seed.
+// The numbers that a random scene is made of: from given bytes while they last, then from a seed.
 #include <string_view>
 
 #include "simulate/random.h"

@@ -1,4 +1,4 @@
-// Families of random scenes, each after one kind of trouble.
+// Families of random scenes, each for one kind of difficulty.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -50,7 +50,7 @@ void space(Maker& m) {
   m.scene.options.duration = duration;
 }
 
-/// Pairs that meet, graze or pass by a hair.
+/// Pairs that meet, graze or narrowly miss.
 void grazing(Maker& m) {
   m.gravity(0.6);
   const double e = m.restitution(), duration = m.uniform(1, 3);
@@ -118,7 +118,7 @@ void forces(Maker& m) {
   m.scene.may_stop = room && e == 1;
 }
 
-/// Bodies that stick to what they meet.
+/// Bodies that merge when they meet.
 void merging(Maker& m) {
   m.gravity(0.6);
   const bool room = m.chance(0.5);
@@ -180,7 +180,7 @@ void cradles(Maker& m) {
   m.scene.options.duration = std::min({1e6, 60 * radius / speed, pull > 0 ? std::sqrt(2e9 / pull) : 1e6});
 }
 
-/// A heap that falls into a box or a groove and comes to rest.
+/// A pile that falls into a box or a groove and comes to rest.
 void heaps(Maker& m) {
   m.scene.world.gravity = Vec3(0, -9.80665, 0);
   const bool groove = m.chance(0.4);
@@ -245,7 +245,7 @@ void hammers(Maker& m) {
   m.scene.may_stop = true;
 }
 
-/// s: until bodies that nothing holds back have come a tenth as far as doubles carry them.
+/// s: until free bodies have travelled a tenth of the limit of doubles.
 double time_in_bounds(const RandomScene& scene) {
   const World& world = scene.world;
   double speed = 0, pull = world.gravity.norm();
@@ -288,7 +288,7 @@ RandomScene make_scene(std::uint64_t seed, std::string_view bytes) {
   maker.rules();
   World& world = scene.world;
   scene.options.duration = std::min(scene.options.duration, time_in_bounds(scene));
-  // Whatever bounces for ever may do so more often than the limit.
+  // Endless bounces may exceed the limit of collisions.
   const auto lasting = [](const auto& thing) { return thing.restitution.value_or(0) >= 1; };
   scene.may_stop =
       scene.may_stop ||

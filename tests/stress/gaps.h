@@ -1,5 +1,5 @@
 #pragma once
-// How far two things are apart, computed without the program's own geometry (but for boxes and cylinders at walls): in
+// Distance of two things, computed without the program's own geometry (except boxes and cylinders at walls): in
 // long double, straight from the definitions of the volumes.
 #include "physics/world.h"
 

@@ -15,14 +15,14 @@ Vec3 unit(const Vec3& v) {
   return scaled / std::sqrt(scaled.x() * scaled.x() + scaled.y() * scaled.y() + scaled.z() * scaled.z());
 }
 
-/// What a loader's rounding makes of v, again and again, until it leaves it as it is: so a file gives the same bits.
+/// Applies the loader's rounding to v until it no longer changes: so a file gives the same bits.
 template <typename Step>
 Vec3 settled(Vec3 v, Step step) {
   for (int k = 1;; ++k) {
     const Vec3 next = step(v);
     if (next == v) return v;
     v = next;
-    if (k % 8 == 0) v.x() += 0x1p-20;  // it goes in a circle
+    if (k % 8 == 0) v.x() += 0x1p-20;  // the rounding cycles
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The hand that makes random scenes: draws numbers, puts things where there is room.
+// The maker of random scenes: draws numbers, places things where there is room.
 #include <cmath>
 #include <initializer_list>
 #include <iterator>

@@ -1,5 +1,5 @@
-// Scenes that are the same scene seen otherwise: mirrored, in other units, with their bodies in another order. No value
-// to hold against is needed, and a tolerance with a unit or a preferred direction shows at once.
+// Transformed scenes: mirrored, in other units, with their bodies in another order. No reference value is needed, and a
+// tolerance with a unit or a preferred direction shows at once.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -122,12 +122,12 @@ std::string unit_difference(const Motion& motion, Way way, const Units& units) {
 constexpr std::array ways{Way::exact, Way::euler, Way::verlet, Way::rk4};
 constexpr std::array all_units{Units{20, 0, 0}, Units{0, -12, 0}, Units{0, 0, 30}, Units{-30, 7, -24}};
 
-/// So many seeds, of each family as many.
+/// So many seeds, evenly divided among the families.
 std::uint64_t seeds(Way way) {
   return way == Way::exact ? 13 * 12 : 13 * 6;
 }
 
-/// What an engine can follow.
+/// Scenes that an engine supports.
 bool follows(Way way, int drive) {
   return way != Way::exact || drive == linear_drag;
 }
@@ -215,7 +215,7 @@ Motion reordered(const Motion& motion, const std::vector<Entity>& order) {
   return other;
 }
 
-/// m: by how much the bodies' ends differ at most.
+/// m: greatest difference of the bodies' final positions.
 double order_difference(const Motion& motion, Way way) {
   std::vector<Entity> order(motion.world.body_count());
   std::iota(order.rbegin(), order.rend(), Entity{0});  // backwards

@@ -1,6 +1,6 @@
 #pragma once
-// The bodies' paths between two looks, made anew from what was seen: a search for overlaps, densely, without the
-// program's own contact times.
+// The bodies' paths between two states, rebuilt from these: a dense search for overlaps, without the program's own
+// times of impact.
 #include <string>
 #include <vector>
 
@@ -13,10 +13,10 @@ class Paths {
   Paths(const RandomScene& scene, const std::vector<double>& times, const std::vector<State>& seen,
         const std::vector<Collision>& records, bool islands);
 
-  /// Every overlap beyond what is allowed, in words (the first of each pair).
+  /// Every overlap beyond the allowed one, as text (the first of each pair).
   std::vector<std::string> overlaps() const;
 
-  /// m: what the gap of two things may be off by, from the size of the numbers that it is made of.
+  /// m: possible error of the gap of two things, from the size of its terms.
   double rounding(Entity a, Entity b) const;
   /// m: the overlap that they may have: rounding, and in islands of bodies in lasting contact a little more.
   double allowed(Entity a, Entity b) const;
@@ -24,7 +24,7 @@ class Paths {
  private:
   struct Path {
     Vec3 x, v, a;  // at the beginning
-    bool known;    // it is a parabola: nothing is recorded of the body on the way, and the ends fit
+    bool known;    // it is a parabola: the body has no record on the way, and the ends fit
   };
   std::vector<Path> between(std::size_t k) const;
   double deepest(const World& world, Entity a, const Path& pa, Entity b, const Path& pb, double length) const;

@@ -1,6 +1,6 @@
 #pragma once
-// A random scene: made from its seed alone, the same on every machine (by another compiler, which draws a call's
-// arguments in another order, another one).
+// A random scene, determined by its seed on every machine (but not by every compiler: the order of evaluating arguments
+// differs).
 #include <cstdint>
 #include <span>
 #include <string>
@@ -18,13 +18,13 @@ struct RandomScene {
   World world;
   State initial;
   ExactOptions options;
-  // Its physics may have more collisions than max_collisions, or speeds without bound: such an error is right.
+  // Its physics may have more collisions than max_collisions, or speeds without bound: such an error is correct.
   bool may_stop = false;
 };
 
 std::span<const char* const> family_names();
 
-/// The seed modulo the number of families chooses one. `bytes`: what it is made of, as far as they reach.
+/// The seed modulo the number of families chooses one. `bytes`: the source of its numbers while they last.
 RandomScene make_scene(std::uint64_t seed, std::string_view bytes = {});
 
 /// The scene as a file that `carom run` reads, to the last bit. `simulate`: more keys (", engine: book").

@@ -1,5 +1,5 @@
 #pragma once
-// A scene seen otherwise: mirrored, in other units, with another scene far away. It must move the same, to the bit.
+// A scene transformed: mirrored, in other units, with another scene far away. It must move the same, to the bit.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -19,7 +19,7 @@ struct Motion {
   bool merge = false;
 };
 
-/// The scene as a mirror across this axis shows it.
+/// The scene mirrored across this axis.
 inline Motion mirrored(Motion m, int axis) {
   const auto flip = [&](Vec3& v) { v[axis] = -v[axis]; };
   World& world = m.world;
@@ -102,7 +102,7 @@ inline bool same(const Vec3& a, const Vec3& b) {
   return true;
 }
 
-/// Where two runs differ in a bit; empty: nowhere. `back` takes b's vectors to where a has them.
+/// The first difference of two runs in a bit; empty: none. `back` transforms b's vectors to those of a.
 template <typename Position, typename Velocity>
 inline std::string difference(const Seen& a, const Seen& b, double lost, const Position& back_x,
                               const Velocity& back_v) {

@@ -1,5 +1,5 @@
 #pragma once
-// A run and what is seen of it.
+// A run and its recorded states.
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,24 +10,24 @@ namespace carom::stress {
 
 struct Watched {
   std::vector<Collision> records;
-  std::vector<State> seen;  // at the times asked for
+  std::vector<State> seen;  // at the requested times
   State start, end;
   Tally tally;
-  std::string error;      // that the run ended with
-  bool too_slow = false;  // it was given up
+  std::string error;      // of the end of the run
+  bool too_slow = false;  // it exceeded the time limit
 };
 
-/// Runs a scene, looking at these times (s, ascending), then to the end; for at most this long (s of CPU time).
+/// Runs a scene, with states at these times (s, ascending), to the end; for at most this long (s of CPU time).
 Watched watch(const RandomScene& scene, const std::vector<double>& times, double patience);
 
-/// Times (s) at which to look at a scene whose collisions are known: some, and just before and after collisions and
-/// changes of the forces.
+/// Times (s) for states of a scene with known collisions: some, and just before and after collisions and changes of the
+/// forces.
 std::vector<double> times_to_look(const RandomScene& scene, const std::vector<Collision>& records);
 
 /// The scene with lengths, times and masses multiplied by 2^these.
 RandomScene scaled(RandomScene scene, int length, int time, int mass);
 
-/// Where two runs of the same scene differ in a bit; empty: nowhere. Those of b are in units of 2^these.
+/// The first difference of two runs of the same scene in a bit; empty: none. Those of b are in units of 2^these.
 std::string difference(const Watched& a, const Watched& b, int length, int time, int mass);
 
 /// The scene with its axes turned, x to y to z to x; with x and z exchanged where upright cylinders forbid that.

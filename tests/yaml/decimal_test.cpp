@@ -1,4 +1,4 @@
-// Evenly spread numbers as decimals.
+// Evenly spaced numbers as decimals.
 #include "yaml/decimal.h"
 
 #include <gtest/gtest.h>

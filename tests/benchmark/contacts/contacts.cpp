@@ -1,7 +1,7 @@
 // The contact solver by itself, on a grid: rows and stacks, lattices and packings, wedges and near copies, masses over
-// 0 to 12 decades, gravity, pushes and impacts. A line a case, as CSV: what the certificate says, the error of the
+// 0 to 12 decades, gravity, pushes and impacts. A line for each case, as CSV: the certificate, the error of the
 // motion against quadruple precision (where that holds, and for few contacts), CPU time cold, and warm after one
-// contact that presses was taken away and put back. The last line counts.
+// pressing contact was removed and restored. The last line has totals.
 //
 //   carom_contacts            all
 //   carom_contacts FAMILY     small, medium, hard or large

@@ -1,7 +1,7 @@
-// What a collision costs the exact simulator: balls on a face-centred cubic lattice set free in a room, e = 1, by their
-// number (from one to a million), their density and what else is in the scene. Each line is measured in a process of
-// its own, which is warmed up first; the CPU time is the median of three such processes. Beside the time stands a hash
-// of the final state: the same number is the same result, bit for bit.
+// Cost of a collision in the exact simulator: balls on a face-centred cubic lattice set free in a room, e = 1, by their
+// number (from one to a million), their density and other content of the scene. Each line is measured in a process of
+// its own, which is warmed up first; the CPU time is the median of three such processes. A hash of the final state
+// follows the time: equal hashes are equal results, bit for bit.
 //
 //   carom_gas                 the table, as CSV
 //   carom_gas K COLLISIONS    4 K^3 balls at density 0.5, so many collisions a ball after the warm-up, in this process
@@ -131,7 +131,7 @@ Result run(const Gas& gas) {
   return result;
 }
 
-/// The same in a process of its own, so that it finds memory as a new program does.
+/// The same in its own process, so that memory is in the state of a new program.
 Result run_apart(const Gas& gas) {
   int ends[2];
   if (pipe(ends) != 0) std::abort();

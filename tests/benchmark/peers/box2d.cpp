@@ -1,5 +1,5 @@
-// Box2D, which knows a plane only, for scenes whose balls stay in z = 0. Settings: bounces at any speed (fixtures'
-// restitutionThreshold 0); lines lie deeper by b2_polygonRadius, the skin that it gives them.
+// Box2D, which is two-dimensional, for scenes whose balls stay in z = 0. Settings: bounces at any speed (fixtures'
+// restitutionThreshold 0); lines lie deeper by b2_polygonRadius, the skin that Box2D adds to them.
 #include <box2d/box2d.h>
 
 #include "benchmark/peers/peer.h"

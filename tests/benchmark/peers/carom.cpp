@@ -1,4 +1,4 @@
-// carom itself: from event to event.
+// carom itself, by events.
 #include "benchmark/peers/peer.h"
 #include "scene/scene.h"
 #include "simulate/exact.h"
@@ -10,7 +10,7 @@ class CaromWorld : public PeerWorld {
  public:
   CaromWorld(const Scene& scene, double step) : scene_(scene), step_(step) {}
 
-  /// The simulator is made at the first step, so that what it predicts then counts as time of the run.
+  /// The simulator is made at the first step, so that its first predictions count as run time.
   void advance(int steps) override {
     if (!simulator_) simulator_ = made();
     steps_ += steps;

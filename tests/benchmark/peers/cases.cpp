@@ -53,7 +53,7 @@ Truth handing_on(const Scene& scene) {
   };
 }
 
-/// By the exact simulator: for as long as positions are compared it is right to rounding.
+/// By the exact simulator, which is right to rounding as long as positions are compared.
 Truth computed(const Scene& scene) {
   ExactOptions options;
   options.duration = 1e6;

@@ -1,5 +1,5 @@
 #pragma once
-// What peers are measured on: scenes, and what is known of their true motion.
+// Scenes to measure peers, with their true motion where it is known.
 #include <functional>
 #include <string>
 #include <vector>
@@ -15,10 +15,10 @@ struct Case {
   std::string name;
   Scene scene;
   double end;                                  // s
-  double look;                                 // s; a peer is looked at so often, or at every step if that is longer
+  double look;                                 // s; interval of the checks, or every step if that is longer
   double horizon;                              // s; positions are compared up to there: beyond, a gas is chaotic
   double budget;                               // s of CPU time, after which a run is ended
-  std::function<Truth(const Scene&)> truth{};  // none: nothing is known
+  std::function<Truth(const Scene&)> truth{};  // none: unknown
 };
 
 /// Those whose names begin with `name`, or all. Throws SceneError.

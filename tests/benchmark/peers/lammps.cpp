@@ -1,5 +1,5 @@
 // LAMMPS with granular spheres: pair style gran/hooke and fix wall/gran, springs whose contact lasts so many steps.
-// They want far shorter steps than engines of rigid bodies, and far less time for one. Planes lie across an axis.
+// They need far shorter steps than rigid-body engines, and far less time for each. Planes lie across an axis.
 #include <fmt/format.h>
 #include <lammps/library.h>
 

@@ -1,8 +1,8 @@
-// carom side by side with other libraries on the same scenes: errors and CPU time, each at several steps. A run is made
-// in a process of its own; peers take turns, three rounds of them, and CPU times are medians.
+// carom side by side with other libraries on the same scenes: errors and CPU time, each at several steps. Each run has
+// its own process; peers take turns in three rounds, and CPU times are medians.
 //
-//   carom_peers [CASE]    all cases or those whose names begin so: tests/README.md has the tables; build/peers.csv has all
-//   rows
+//   carom_peers [CASE]    all cases or those whose names begin so: tests/README.md has the tables; build/peers.csv has
+//   all rows
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,9 +16,9 @@ namespace carom {
 namespace {
 
 constexpr int rounds = 3;
-constexpr double long_run = 1;  // s of CPU time: is measured once
+constexpr double long_run = 1;  // s of CPU time: a longer run is measured once
 
-/// Every case on every peer at every step that it is tried with.
+/// Every case on every peer at every step.
 std::vector<Row> rows_of(const std::vector<Peer>& peers, const std::vector<Case>& cases) {
   std::vector<Row> rows;
   for (const Case& what : cases)
@@ -34,7 +34,7 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// The same peer's step before, four times as long, has used up half of the budget.
+/// Whether the peer's previous step, four times as long, used half of the budget.
 bool is_hopeless(const std::vector<Row>& rows, std::size_t i) {
   if (i == 0 || rows[i - 1].peer != rows[i].peer || rows[i - 1].what != rows[i].what) return false;
   const Result& coarser = rows[i - 1].result;

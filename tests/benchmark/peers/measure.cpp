@@ -54,7 +54,7 @@ double energy(const World& world, const State& state) {
   return kinetic_energy(world, state) + potential_energy(world, state);
 }
 
-/// kg m/s: the sum of what all balls' momenta changed by.
+/// kg m/s: the sum of the changes of all balls' momenta.
 double exchanged(const World& world, const std::vector<Vec3>& before, const std::vector<Vec3>& after) {
   double sum = 0;
   for (std::size_t i = 0; i < before.size(); ++i) sum += world.mass[i] * (after[i] - before[i]).norm();
@@ -70,7 +70,7 @@ double largest_difference(const std::vector<Vec3>& a, const std::vector<Vec3>& b
   return largest;
 }
 
-/// s of CPU time a run without looks, made and run again until it can be measured.
+/// s of CPU time of a run without checks, repeated until it can be measured.
 double cpu_of_short_run(const Peer& peer, const Case& what, double step) {
   double sum = 0;
   int runs = 0;
@@ -83,7 +83,7 @@ double cpu_of_short_run(const Peer& peer, const Case& what, double step) {
   return sum / runs;
 }
 
-/// The run whose looks fill `result`; true at the end of the case.
+/// The run whose checks fill `result`; true at the end of the case.
 bool look_on(PeerWorld& motion, const Case& what, double step, const Truth& truth, Result& result, State& state) {
   const World& world = what.scene.world;
   const double look = std::max(step, what.look);
@@ -130,7 +130,7 @@ Result run(const Peer& peer, const Case& what, double step) {
   result.kinetic = kinetic_energy(world, state);
   result.collisions = motion->collisions();
   result.hash = hash_of(state);
-  if (world.gravity.norm() > 0) result.exchange = none;  // gives momentum too
+  if (world.gravity.norm() > 0) result.exchange = none;  // changes momentum too
   if (!truth) result.position_error = none;
   result.velocity_error = result.energy_error = none;
   if (truth) {

@@ -1,5 +1,5 @@
 #pragma once
-// One run of a peer on a case, measured in a process of its own.
+// One run of a peer on a case, measured in its own process.
 #include <array>
 #include <cstdint>
 
@@ -17,7 +17,7 @@ enum class Outcome : std::uint8_t {
 
 inline constexpr std::array<double, 3> settling_times{2, 5, 10};  // s
 
-/// What does not apply is NaN.
+/// Values that do not apply are NaN.
 struct Result {
   Outcome outcome = Outcome::failed;
   double reached = 0;             // s
@@ -27,7 +27,7 @@ struct Result {
   double energy_error = 0;        // by the energy of the start, at the end
   double overlap = 0;             // by a radius, the deepest at any look
   double end_overlap = 0;         // by a radius
-  double exchange = 0;            // momentum that balls were given from look to look, by what it should be
+  double exchange = 0;            // momentum change of the balls between checks, relative to the true one
   double kinetic = 0;             // J, at the end
   std::array<double, 3> until{};  // s of CPU time, to settling_times
   std::uint64_t collisions = 0;   // 0: not counted

@@ -1,8 +1,8 @@
 // MuJoCo. It has no restitution: contacts are springs that push, given by their stiffness and damping (solref with
 // negative numbers, Modeling, section Solver parameters), here such that one lasts so many steps and gives the
-// restitution. The impedance (solimp) is as near to 1 as the solver CG still converges in a gas; Newton's wants the
-// square of the number of balls in memory, Runge and Kutta's method four times the time for errors that are much the
-// same.
+// restitution. The impedance (solimp) is as near to 1 as the solver CG still converges in a gas; Newton's needs
+// memory as the square of the number of balls; the Runge-Kutta method takes four times as long for nearly the same
+// errors.
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
@@ -54,7 +54,7 @@ std::string model_text(const Scene& scene, double step) {
 class MujocoWorld : public PeerWorld {
  public:
   MujocoWorld(const Scene& scene, double step) {
-    mju_user_error = give_up;  // its own waits for a key, and both write MUJOCO_LOG.TXT
+    mju_user_error = give_up;  // the default handler waits for a key, and both write MUJOCO_LOG.TXT
     mju_user_warning = warn;
     const std::string text = model_text(scene, step);
     auto files = std::make_unique<mjVFS>();

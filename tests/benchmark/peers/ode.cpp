@@ -1,6 +1,6 @@
 // ODE. Settings, by the sections of its manual: bounces at any speed (Contact: bounce_vel 0), hard contacts (World: CFM
-// 0, contact surface layer 0), dWorldQuickStep (Stepping Functions): dWorldStep finds no solution for a row of balls
-// that touch, and takes the third power of a pile's contacts.
+// 0, contact surface layer 0), dWorldQuickStep (Stepping Functions): dWorldStep finds no solution for a row of
+// touching balls, and its time grows as the cube of a pile's contacts.
 #include <ode/ode.h>
 
 #include "benchmark/peers/peer.h"

@@ -1,5 +1,5 @@
 #pragma once
-// A peer: a way to move balls among planes, carom's own or another library's, behind the few calls that the benchmark
+// A peer: a simulator of balls among planes, carom or another library, behind the few calls that the benchmark
 // needs. Balls of one mass, radius and restitution, planes and gravity are taken from a Scene; nothing has friction or
 // damping, turns or is put to sleep.
 #include <cstdint>
@@ -12,12 +12,12 @@
 
 namespace carom {
 
-/// A scene at work in a peer.
+/// A scene loaded in a peer.
 class PeerWorld {
  public:
   virtual ~PeerWorld() = default;
   virtual void advance(int steps) = 0;
-  /// Positions and velocities of all bodies; both arrays are there already.
+  /// Positions and velocities of all bodies; both arrays have their size already.
   virtual void read(State& state) = 0;
   /// So far; 0: not counted.
   virtual std::uint64_t collisions() const { return 0; }
@@ -26,11 +26,11 @@ class PeerWorld {
 struct Peer {
   std::string name;
   std::string version;             // empty: not installed
-  std::vector<int> steps_per_s{};  // the steps that it is tried with, 60 times powers of two; none: it needs no steps
-  int usual = 0;                   // the one of them that its users take
+  std::vector<int> steps_per_s{};  // its steps, 60 times powers of two; none: it needs no steps
+  int usual = 0;                   // the usual one of these
 
-  /// The scene at time 0, to be moved in steps of `step` (s). A null pointer: the scene is beyond the peer. The scene
-  /// must outlive what is made.
+  /// The scene at time 0, to be moved in steps of `step` (s). A null pointer: the peer does not support the scene. The
+  /// scene must outlive the result.
   std::function<std::unique_ptr<PeerWorld>(const Scene& scene, double step)> make{};
 };
 
@@ -44,7 +44,7 @@ Peer box2d();
 /// All of them, in the order of the tables.
 std::vector<Peer> all_peers();
 
-/// The restitution that all impacts of the scene have: peers combine those of two bodies each in its own way.
+/// The common restitution of all impacts of the scene: each peer combines coefficients in its own way.
 double common_restitution(const Scene& scene);
 
 }  // namespace carom

@@ -79,7 +79,7 @@ Cell number(double Result::*value) {
   return [value](const Result& result, const Result&) { return fmt::format("{:.2g}", result.*value); };
 }
 
-/// Two significant digits, but no power of ten that a reader must count out.
+/// Two significant digits, without long rows of zeros.
 std::string plain(double value) {
   return value < 9.95 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
 }
@@ -108,8 +108,8 @@ const Row* row_at(const std::vector<Row>& rows, const Peer* peer, const std::str
   return nullptr;
 }
 
-/// What a column shows of a peer at a step. Where that went over the budget: at the finest step that did not, with the
-/// step, if that is finer than the usual one.
+/// A column's value for a peer at a step. If that exceeded the budget: at the finest step within it, with the step, if
+/// that is finer than the usual one.
 std::string cell_of(const std::vector<Row>& rows, const Column& column, const Row& row) {
   const Peer& peer = *row.peer;
   const Row* shown = row_at(rows, row.peer, column.what, row.steps_per_s);

@@ -1,5 +1,5 @@
 #pragma once
-// What was measured, as a table of all rows and as the tables of tests/README.md.
+// The measurements as a table of all rows and as the tables of tests/README.md.
 #include <string>
 #include <vector>
 

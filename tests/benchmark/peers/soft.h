@@ -1,5 +1,5 @@
 #pragma once
-// Contact as a damped spring, of which some peers make impacts.
+// Contact as a damped spring, for peers without impacts.
 #include <algorithm>
 #include <cstddef>
 

@@ -1,6 +1,6 @@
-// What the constants of simulate/tolerances.h do: each is made 4 times as large and 4 times as small, and the same runs
-// are made again. As CSV: by how much of a radius, at most, a body is elsewhere in runs of 1 to 20 bodies; * where a
-// pile of 54 balls or fewer comes to rest too late, or not, or a run fails.
+// Effect of the constants of simulate/tolerances.h: each is made 4 times as large and 4 times as small, and the same
+// runs are repeated. As CSV: the greatest change of a position, in radii, in runs of 1 to 20 bodies; * if a pile of up
+// to 54 balls comes to rest too late or never, or a run fails.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -120,7 +120,7 @@ std::unique_ptr<Simulator> simulator_of(const Problem& p, bool exact, double ste
   return make_exact_simulator(p.world, p.initial, steps(p, step));
 }
 
-/// Prints where bodies are at three times (m), and whether piles rest: one thing a line.
+/// Prints positions of bodies at three times (m), and whether piles rest, one a line.
 void run_all(bool exact) {
   for (const Problem& p : problems()) {
     const std::unique_ptr<Simulator> simulator = simulator_of(p, exact, 0.01);
@@ -139,7 +139,7 @@ void run_all(bool exact) {
   }
 }
 
-/// What run_all prints in a run of its own; empty where that fails or takes longer than a minute.
+/// Output of run_all in its own process; empty if it fails or takes longer than a minute.
 std::vector<std::string> lines_of(const std::string& program, const std::string& engine, const std::string& varied) {
   const std::string command = fmt::format("CAROM_VARIED={} timeout 60 '{}' {} 2>/dev/null", varied, program, engine);
   std::vector<std::string> lines;

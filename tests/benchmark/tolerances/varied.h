@@ -1,5 +1,5 @@
 #pragma once
-// Constants of simulate/tolerances.h that are not constant: CAROM_VARIED="exact.contact_gap=4" makes one of them four
+// Variable constants of simulate/tolerances.h: CAROM_VARIED="exact.contact_gap=4" makes one of them four
 // times as large for a whole run.
 #include <cstdlib>
 #include <string>

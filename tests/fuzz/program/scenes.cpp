@@ -26,7 +26,7 @@ namespace {
 constexpr double patience = 10;  // s of CPU time
 constexpr unsigned hang = 120;   // s of the clock
 
-/// What came of a scene, in one line through a pipe.
+/// The outcome of a scene, in one line through a pipe.
 struct Line {
   char engine[12] = "";
   bool accepted = false, stopped = false, violated = false;
