@@ -51,8 +51,9 @@ class Warnings {
     if (has_fixed_steps(scene_, engine_)) return "use a shorter simulate.step, or `integrator: dop853`";
     if (engine_.engine == Engine::book) return "use `engine: exact` for true impacts, or a shorter simulate.step";
     if (summary_.stepped_contact > 0)
-      return "lasting contact was computed in time steps, to first order: compare figures that depend on it with those "
-             "of other seeds";
+      return "lasting contact of many bodies was computed in time steps, to first order: compare dependent figures "
+             "across "
+             "several seeds";
     return "shorten simulate.duration, or soften the attractor";
   }
 

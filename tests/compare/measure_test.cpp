@@ -47,9 +47,10 @@ TEST(MeasureNames, ThatMeanNothingAreToldApart) {
   EXPECT_EQ(error_of("energy_lost", scene), "no measure `energy_lost`; did you mean `energy_lost_J`?");
   EXPECT_EQ(error_of("title", scene), "`title` of summary.csv is text, not a measure");
   EXPECT_EQ(error_of("balls.rde.x_m", scene), "`balls.rde.x_m`: balls has no `rde`; did you mean `red`?");
-  EXPECT_EQ(error_of("balls.red.speed", scene),
-            "`balls.red.speed`: no quantity `speed`; it is x_m, y_m, z_m, vx_m_per_s, vy_m_per_s, vz_m_per_s, "
-            "speed_m_per_s, kinetic_J");
+  EXPECT_EQ(
+      error_of("balls.red.speed", scene),
+      "`balls.red.speed`: no quantity `speed`; the quantities are x_m, y_m, z_m, vx_m_per_s, vy_m_per_s, vz_m_per_s, "
+      "speed_m_per_s, kinetic_J");
   EXPECT_EQ(error_of("balls.red", scene), "`balls.red` has no quantity: expected one such as balls.NAME.speed_m_per_s");
   EXPECT_EQ(error_of("groups.gas.x_m", scene), "`groups.gas.x_m` has no member: expected one such as groups.gas.0.x_m");
   EXPECT_EQ(error_of("groups.gas.3.x_m", scene), "`groups.gas.3.x_m`: the members of `gas` are 0 to 2");

@@ -83,7 +83,7 @@ TEST(RestitutionAboveOne, SpeedsWithoutBoundEndTheRunWithWhatToDo) {
     Problem problem = between_walls(e);
     problem.options.duration = 2000;
     const std::string error = error_of(problem);
-    EXPECT_NE(error.find("makes energy"), std::string::npos) << e << ": " << error;
+    EXPECT_NE(error.find("adds energy"), std::string::npos) << e << ": " << error;
     EXPECT_NE(error.find("lower"), std::string::npos) << e << ": " << error;
   }
 }
@@ -94,7 +94,7 @@ TEST(RestitutionAboveOne, OnOneSideAloneEndsTheRunToo) {
   problem.world.pairs = {{0, 1, 1, 1, 0.9}, {0, 1, 2, 1, 2}};
   problem.options.duration = 2000;
   const std::string error = error_of(problem);
-  EXPECT_NE(error.find("makes energy"), std::string::npos) << error;
+  EXPECT_NE(error.find("adds energy"), std::string::npos) << error;
 }
 
 /// m^3, of a body that may have merged.
