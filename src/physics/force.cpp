@@ -1,5 +1,6 @@
 // The effect of gravity and the World's forces on a body: sums over the laws of force_law.h.
-// The laws are plain structs in a variant, so that a new law needs no change here. Sums follow the order of the scene.
+// The laws are plain structs in a variant, so that sums need no change for a new law. Sums follow the order of the
+// scene.
 #include "physics/force.h"
 
 #include <algorithm>

@@ -17,7 +17,7 @@ namespace carom {
 namespace {
 
 // Reach of the series in |beta| s^2. Beyond it a hyperbola's exponentials do not cancel.
-constexpr double reach = 6;
+constexpr double series_reach = 6;
 constexpr DoubleDouble half_pi = {0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
 
 /// The constants of a conic, from a position and a velocity.
@@ -68,7 +68,7 @@ struct Universal {
 
 Universal universal(double beta, double root, double s) {
   const double square = s * s, z = beta * square;
-  if (z < -reach) {
+  if (z < -series_reach) {
     const double shrink = exp_minus(root * std::abs(s)), grow = 1 / shrink;
     const double first = std::copysign(0.5 * (grow - shrink), s) / root;
     return {first, (0.5 * (grow + shrink) - 1) / -beta, (first - s) / -beta};
@@ -111,7 +111,7 @@ DoubleDouble start_time(double mu, const Constants& c, double side, DoubleDouble
   if (c.beta.hi < 0) s = arc_sinh(root * s) / root;
   const DoubleDouble exact = {s, 0}, one = {1, 0}, square = two_product(s, s), z = c.beta * square;
   // For a hyperbola far out, the time is distance s + bend G3, with G3 = (s - G1) / beta and distance beta + bend = mu.
-  if (z.hi < -reach) return (two_product(mu, s) - c.eta) / c.beta;
+  if (z.hi < -series_reach) return (two_product(mu, s) - c.eta) / c.beta;
   const DoubleDouble third = stumpff(z, 3), first = exact * (one - z * third), zeroth = one - z * stumpff(z, 2);
   // The error of s is G1 of a difference: sin(a - b) = sin(a) cos(b) - cos(a) sin(b), which holds for any beta.
   const double lacking = (c.eta * zeroth - c.zeta * first).hi / bend.hi;

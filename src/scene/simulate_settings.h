@@ -12,9 +12,10 @@ enum class Engine : std::uint8_t { automatic, exact, stepped, book };
 struct Simulate {
   double duration = 0;  // s
   Engine engine = Engine::automatic;
-  Integrator integrator = Integrator::rk4;  // stepped only
-  std::optional<double> step;               // s
-  /// In m. Only of the stepped engine, which chooses its step for this error.
+  /// Of engine stepped. The decoder sets dop853 where neither a step nor an integrator is given.
+  Integrator integrator = Integrator::rk4;
+  std::optional<double> step;  // s
+  /// In m. Not of engine book: steps are chosen for this error.
   std::optional<double> tolerance;
   std::optional<double> rest_speed;  // m/s
   std::optional<std::uint64_t> max_collisions;

@@ -21,7 +21,7 @@ namespace {
 using Row = ContactIsland::Row;
 using Vector = std::vector<double>;
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 // A share of the effect of a force on its own row, by which a contact yields: at first.
 constexpr double loosest = 1;
 // The same at last.
@@ -193,7 +193,7 @@ class ContactInteriorPoint::Method {
       w[c] = std::max(excess_of(y_, c), worst);
       z_[c] = island_.rows[c].bilateral ? 0 : worst;
     }
-    double least_mean = infinite, least_off = infinite;
+    double least_mean = no_limit, least_off = no_limit;
     for (int idle = 0;;) {
       double gap = 0, off = 0;
       std::size_t count = 0;
@@ -252,7 +252,7 @@ class ContactInteriorPoint::Method {
       }
     };
     const auto room = [&] {
-      double length = infinite;
+      double length = no_limit;
       for (std::size_t c = 0; c < m; ++c) {
         if (island_.rows[c].bilateral) continue;
         if (dz[c] < 0) length = std::min(length, -z_[c] / dz[c]);
@@ -295,7 +295,7 @@ class ContactInteriorPoint::Method {
   bool find_pressing(double rho, int most = std::numeric_limits<int>::max()) {
     const std::size_t m = rows();
     Vector t(m), slope(m), weight(m), former, dy;
-    for (double last = infinite; matrix_.factorisations() < most;) {
+    for (double last = no_limit; matrix_.factorisations() < most;) {
       Vector forces(m);
       double merit = 0;
       for (std::size_t c = 0; c < m; ++c) {
@@ -370,7 +370,7 @@ class ContactInteriorPoint::Method {
     for (std::size_t i = 0; i < n; ++i) answer.motion[i] = {island_.root[i / 3] * y_[i], 0};
     for (std::size_t c = 0; c < m; ++c) answer.force[c] = {island_.rows[c].scale * z_[c], 0};
     Vector weight(m), former, lacking, short_by(m);
-    double last = infinite, rho = tightest;
+    double last = no_limit, rho = tightest;
     for (int idle = 0;;) {
       for (std::size_t c = 0; c < m; ++c) {
         const Row& r = island_.rows[c];
