@@ -117,9 +117,10 @@ std::string kind_text(const Kind& kind, const Palette& palette, std::size_t widt
   return block.text() + keys_text(kind, width);
 }
 
-std::string word_text(const AbsentWord& word, const Palette& palette, std::size_t width) {
+/// `is_key`: the format has a key or a kind of this name too.
+std::string word_text(const AbsentWord& word, bool is_key, const Palette& palette, std::size_t width) {
   Block block(palette, width);
-  block.heading(parts_of(word.words).front(), "no key of the format");
+  block.heading(parts_of(word.words).front(), is_key ? "other meanings" : "no key of the format");
   block.line("instead", word.meaning);
   if (!word.see.empty()) {
     std::vector<std::string> commands;
@@ -243,19 +244,20 @@ int explain_command(const Options& options) {
     if (kind != nullptr) std::erase_if(rows, is_default_alone);
     if (rows.empty() && kind == nullptr && word == nullptr) refuse(key);
     if (word != nullptr) {
-      texts.push_back(word_text(*word, palette, width));
+      texts.push_back(word_text(*word, !rows.empty() || kind != nullptr, palette, width));
       words.push_back(word_json(*word));
+    }
+    // The kind comes first. A key that is called like its kind shows the kind's keys itself.
+    const bool shown =
+        std::any_of(rows.begin(), rows.end(), [&](const FieldPlaces& row) { return held_kind(*row.field) == kind; });
+    if (kind != nullptr && !shown) {
+      texts.push_back(kind_text(*kind, palette, width));
+      all.push_back(kind_json(*kind));
     }
     for (const FieldPlaces& row : rows) {
       texts.push_back(row_text(row, palette, width));
       fields.push_back(row_json(row));
     }
-    // The row of a key with the name of its kind shows the kind's keys already.
-    const bool shown =
-        std::any_of(rows.begin(), rows.end(), [&](const FieldPlaces& row) { return held_kind(*row.field) == kind; });
-    if (kind == nullptr || shown) continue;
-    texts.push_back(kind_text(*kind, palette, width));
-    all.push_back(kind_json(*kind));
   }
   if (options.operands.empty()) {
     texts.push_back(overview(width));

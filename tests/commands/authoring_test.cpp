@@ -237,6 +237,7 @@ TEST(Explain, AKindHasItsKeysWithUnitsAndDefaults) {
     EXPECT_EQ(out.find("needed      no"), std::string::npos) << out;  // no row of `defaults`
   }
   const std::string ball = here.carom({"explain", "ball"}).out;
+  EXPECT_TRUE(ball.starts_with("ball: A sphere that moves without turning.\n")) << ball;
   EXPECT_NE(ball.find("  stands at   balls.NAME and defaults.ball\n"), std::string::npos) << ball;
   EXPECT_NE(ball.find("    velocity        Velocity at time 0. (m/s; default [0, 0, 0])\n"), std::string::npos) << ball;
   EXPECT_NE(ball.find("    mass            Mass. (kg; mass or density needed)\n"), std::string::npos) << ball;
