@@ -34,4 +34,12 @@ T varied(const char* name, double value) {
 }
 }  // namespace stepped_tolerance
 
+// The simulators do not use these, so that they are not varied.
+namespace accuracy_tolerance {
+template <typename T>
+T varied(const char*, T value) {
+  return value;
+}
+}  // namespace accuracy_tolerance
+
 }  // namespace carom
