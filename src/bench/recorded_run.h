@@ -13,8 +13,6 @@
 
 namespace carom {
 
-struct World;
-
 /// The compared data of a collision. The end of bounces is not a collision and is left out.
 struct Impact {
   double time;            // s

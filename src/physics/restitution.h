@@ -5,8 +5,6 @@
 
 namespace carom {
 
-struct World;
-
 /// e from two coefficients. Masses (kg) matter to mass_weighted only. `book` is e1 e2 / 2, listing 8.4 as printed.
 double combine_restitution(Combine rule, double e1, double m1, double e2, double m2);
 

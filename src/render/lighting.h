@@ -12,8 +12,6 @@
 
 namespace carom {
 
-struct Scene;
-
 /// An authored colour in linear light (IEC 61966-2-1).
 std::array<float, 3> linear(const Color& srgb);
 

@@ -14,7 +14,6 @@ namespace carom {
 struct World;
 
 struct Scene;
-struct State;
 
 /// The steps of the stepped engine.
 struct StepChoice {

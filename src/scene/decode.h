@@ -18,8 +18,6 @@
 
 namespace carom {
 
-struct Scene;
-
 /// One ball, body or group, in the order of the file.
 struct BodyEntry {
   const Key* key;

@@ -7,6 +7,7 @@
 
 #include "physics/world.h"
 #include "scene/decode.h"
+#include "scene/member.h"
 #include "scene/scene.h"
 #include "yaml/values.h"
 
@@ -160,17 +161,8 @@ void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Dia
   if (const std::optional<Vec3> gravity = whole.vector("gravity")) scene.world.gravity = *gravity;
 
   const View laws = scene_part(root, "restitution");
-  constexpr std::pair<std::string_view, Combine> rules[] = {{"average", Combine::average},
-                                                            {"minimum", Combine::minimum},
-                                                            {"maximum", Combine::maximum},
-                                                            {"product", Combine::product},
-                                                            {"geometric_mean", Combine::geometric_mean},
-                                                            {"mass_weighted", Combine::mass_weighted},
-                                                            {"book", Combine::book}};
-  const std::string rule = laws.text("combine").value_or("average");
-  for (const auto& [name, combine] : rules) {
-    if (name == rule) scene.world.combine = combine;
-  }
+  if (const std::optional<std::size_t> rule = choice_of(laws, *find_field(laws.kind(), "combine")))
+    scene.world.combine = static_cast<Combine>(*rule);
   if (!inventory.fits) return;
   const auto each = [](const Node* list, const auto& decode) {
     if (list == nullptr || !list->is(Node::Kind::sequence)) return;

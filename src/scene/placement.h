@@ -9,8 +9,6 @@
 
 namespace carom {
 
-struct World;
-
 enum class Arrange : std::uint8_t { random, lattice, hexagonal };
 
 struct Placing {

@@ -18,9 +18,6 @@
 namespace carom {
 
 class CollapseDetector;
-struct ExactBodies;
-class FlatContacts;
-struct Island;
 
 class EventPredictor;
 class ExactGroup;
