@@ -11,6 +11,7 @@
 #include "files/run_folder.h"
 #include "scene/load.h"
 #include "study/run_difference.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 
@@ -100,7 +101,7 @@ Json collision_json(const std::optional<CollisionFacts>& collision) {
 /// Null for an empty text: the scene lacks the value.
 Json value_json(const std::string& text) {
   if (text.empty()) return nullptr;
-  const Json number = Json::parse(text, nullptr, false);
+  const Json number = json_of_text(text);
   return number.is_number() ? number : Json(text);
 }
 

@@ -6,6 +6,7 @@
 #include "commands/interrupt.h"
 #include "commands/text.h"
 #include "scene/scene.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 
@@ -95,7 +96,7 @@ std::string packed(const SceneOutcome& outcome) {
 }
 
 SceneOutcome unpacked(const std::string& text) {
-  Json parts = Json::parse(text);
+  Json parts = json_of_text(text);
   return {parts[0], std::move(parts[1]), parts[2], parts[3]};
 }
 

@@ -10,6 +10,7 @@
 #include "files/folder_names.h"
 #include "files/manifest.h"
 #include "files/stored_file.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 namespace {
@@ -24,7 +25,7 @@ bool is_comparison_file(const std::string& name) {
 }
 
 bool is_comparison(const Manifest& manifest) {
-  const Json outputs = Json::parse(manifest.outputs, nullptr, false);
+  const Json outputs = json_of_text(manifest.outputs);
   return outputs.is_object() && outputs.contains(request_key);
 }
 

@@ -14,6 +14,7 @@
 #include "files/stored_file.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 namespace {
@@ -80,9 +81,9 @@ std::string whole_text(const Json& of_scene, const std::string& outputs, const J
   json["tool"] = tool;
   json["version"] = CAROM_VERSION;
   json.update(of_scene);
-  json["outputs"] = Json::parse(outputs);
+  json["outputs"] = json_of_text(outputs);
   json.update(meshes);
-  json.update(Json::parse(facts));
+  json.update(json_of_text(facts));
   Json list = Json::array();
   for (const FileRecord& file : files)
     list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
@@ -103,7 +104,7 @@ std::string manifest_text(const Scene& scene, const std::string& outputs, const 
                        {"title", scene.title},
                        {"sha256", sha256(scene.resolved)}};
   Json meshes = Json::object();
-  if (!scene.meshes.empty()) meshes["meshes"] = Json::parse(meshes_text(scene));
+  if (!scene.meshes.empty()) meshes["meshes"] = json_of_text(meshes_text(scene));
   return whole_text(of_scene, outputs, meshes, facts, files);
 }
 
@@ -130,7 +131,7 @@ std::string manifest_text(const Scene& scene, const Summary& summary, const RunF
 std::optional<Manifest> read_manifest(int folder, const std::string& name) {
   const auto text = read_text(folder, name, largest_manifest);
   if (!text || is_too_deep(*text)) return std::nullopt;
-  const Json json = Json::parse(*text, nullptr, false);
+  const Json json = json_of_text(*text);
   if (!json.is_object() || text_member(json, "tool") != tool) return std::nullopt;
   const auto outputs = json.find("outputs"), files = json.find("files");
   if (outputs == json.end() || files == json.end() || !files->is_array()) return std::nullopt;
@@ -176,7 +177,7 @@ std::vector<std::string> run_files(const Scene& scene, const Output& output) {
 }
 
 std::string valid_utf8(const std::string& text) {
-  return Json::parse(to_text(text, -1)).get<std::string>();
+  return json_of_text(to_text(text, -1)).get<std::string>();
 }
 
 }  // namespace carom

@@ -18,6 +18,7 @@
 #include "run/replay.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 
@@ -34,7 +35,7 @@ namespace {
 /// The names of outputs in its manifest.
 std::vector<std::string> output_names_of(const Manifest& manifest) {
   std::vector<std::string> names;
-  const auto json = nlohmann::json::parse(manifest.outputs, nullptr, false);
+  const auto json = json_of_text(manifest.outputs);
   if (json.is_object())
     for (const auto& [name, settings] : json.items()) names.push_back(name);
   return names;

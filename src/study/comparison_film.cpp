@@ -13,6 +13,7 @@
 #include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/run_folder.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 namespace {
@@ -23,17 +24,17 @@ FilmTile tile_of(const ListedRun& run) {
   FilmTile tile{run.folder, {}, 0, {run.id}};
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
   const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : std::nullopt;
-  const nlohmann::json outputs = manifest ? nlohmann::json::parse(manifest->outputs, nullptr, false) : nlohmann::json();
+  const nlohmann::ordered_json outputs = manifest ? json_of_text(manifest->outputs) : nlohmann::ordered_json();
   if (!outputs.is_object() || !outputs.contains("video"))
     throw ExportError(
         fmt::format("{} has no film: run its scene again with the output `video` (--only video)", run.folder));
-  const nlohmann::json& video = outputs["video"];
+  const nlohmann::ordered_json& video = outputs["video"];
   const auto damaged = [&] {
     return ExportError(fmt::format("{}/{} is damaged: carom run --force runs it again", run.folder, manifest_name));
   };
   if (!video.is_object()) throw damaged();
-  const nlohmann::json file = video.value("file", nlohmann::json("animation.mp4")),
-                       from = video.value("from", nlohmann::json(0.0));
+  const nlohmann::ordered_json file = video.value("file", nlohmann::ordered_json("animation.mp4")),
+                               from = video.value("from", nlohmann::ordered_json(0.0));
   if (!file.is_string() || !is_plain_name(file.get<std::string>()) || !from.is_number()) throw damaged();
   tile.file = file.get<std::string>();
   tile.from = from.get<double>();

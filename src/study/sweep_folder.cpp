@@ -43,7 +43,7 @@ constexpr const char* sweep_key = "sweep";
 /// None: it is absent, or not a sweep's.
 std::optional<Manifest> read_sweep_manifest(int folder) {
   auto manifest = read_manifest(folder, manifest_name);
-  return manifest && Json::parse(manifest->outputs).contains(sweep_key) ? std::move(manifest) : std::nullopt;
+  return manifest && json_of_text(manifest->outputs).contains(sweep_key) ? std::move(manifest) : std::nullopt;
 }
 
 bool is_whole(int folder, const std::string& path, const Sweep& sweep, const Manifest& manifest) {

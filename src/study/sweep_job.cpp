@@ -27,6 +27,7 @@
 #include "scene/motion_text.h"
 #include "scene/scene.h"
 #include "study/sweep_folder.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 
@@ -287,7 +288,7 @@ std::size_t SweepJob::left() const {
 
 /// The result of a unit as JSON: the reason for each failed run.
 std::string SweepJob::work(const Unit& unit) {
-  nlohmann::json failures = nlohmann::json::object();
+  nlohmann::ordered_json failures = nlohmann::ordered_json::object();
   const auto fail = [&](std::size_t number, const std::string& why) { failures[std::to_string(number)] = why; };
   const auto copy_to_all = [&](std::size_t from, const std::vector<std::size_t>& runs) {
     for (const std::size_t number : runs) {
@@ -302,7 +303,7 @@ std::string SweepJob::work(const Unit& unit) {
   };
   if (unit.like != none) {
     copy_to_all(unit.like, unit.scenarios.front());
-    return failures.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return failures.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   }
   std::vector<Scene> scenes;
   scenes.reserve(unit.scenarios.size());
@@ -332,7 +333,7 @@ std::string SweepJob::work(const Unit& unit) {
       for (const std::size_t number : runs) fail(number, error.what());
     }
   }
-  return failures.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return failures.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void SweepJob::run(const std::function<void(const SweepProgress&)>& tell,
@@ -356,7 +357,7 @@ void SweepJob::run(const std::function<void(const SweepProgress&)>& tell,
   tasks.work = [&](std::size_t task) { return work(all[task]); };
   tasks.done = [&](const TaskOutcome& outcome) {
     const bool whole = outcome.kind == TaskOutcome::Kind::done;
-    const nlohmann::json failures = whole ? nlohmann::json::parse(outcome.text) : nlohmann::json::object();
+    const nlohmann::ordered_json failures = whole ? json_of_text(outcome.text) : nlohmann::ordered_json::object();
     for (const auto& scenario : all[outcome.task].scenarios) {
       for (const std::size_t number : scenario) {
         ++progress.done;

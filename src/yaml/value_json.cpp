@@ -11,6 +11,10 @@ namespace carom {
 
 using Json = nlohmann::ordered_json;
 
+Json json_of_text(std::string_view text) {
+  return Json::parse(text, nullptr, false);
+}
+
 Json number_json(double value) {
   constexpr double whole_below = 9007199254740992.0;
   if (std::floor(value) == value && std::fabs(value) < whole_below) return static_cast<std::int64_t>(value);

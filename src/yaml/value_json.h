@@ -19,6 +19,10 @@ nlohmann::ordered_json json_of_yaml(std::string_view yaml);
 /// Such a line as a cell of a table: text without the quotes that YAML requires, any other value unchanged.
 std::string cell_text(std::string_view yaml);
 
+/// A JSON text as a value. Discarded (is_discarded()): it is no JSON text.
+/// A function of its own, since each source that calls the library's parser would compile it.
+nlohmann::ordered_json json_of_text(std::string_view text);
+
 /// A number as JSON. A whole one has no fraction: 2, not 2.0.
 nlohmann::ordered_json number_json(double value);
 

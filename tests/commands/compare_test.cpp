@@ -12,8 +12,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string tables = "output: {trajectory: {every: 0.1}, collisions: true, energy: {every: 0.1}}\n";
-
 /// Runs a, b and c that differ in the red ball's restitution.
 void make_runs(const Workplace& here, const std::string& more = tables) {
   here.write("balls.yaml", two_balls(more));

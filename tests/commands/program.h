@@ -40,8 +40,9 @@ class Workplace {
   std::string folder_;
 };
 
+inline const std::string tables = "output: {trajectory: {every: 0.1}, collisions: true, energy: {every: 0.1}}\n";
+
 /// Two balls that meet at 0.4472... s, small enough for any test. `more`: further top-level lines.
-std::string two_balls(
-    const std::string& more = "output: {trajectory: {every: 0.1}, collisions: true, energy: {every: 0.1}}\n");
+std::string two_balls(const std::string& more = tables);
 
 }  // namespace carom::testing

@@ -16,7 +16,7 @@ using Files = std::map<std::string, std::string>;
 using Words = std::vector<std::string>;
 
 const std::string frames = "output: {collisions: true, frames: {fps: 4, size: [64, 36], samples: 1}}\n";
-const std::string camera = "camera: {eye: [0, 0.5, -3], target: [0, 0, 0]}\n";
+const std::string near_camera = "camera: {eye: [0, 0.5, -3], target: [0, 0, 0]}\n";
 
 Files without_manifest(Files files) {
   files.erase("manifest.json");
@@ -72,8 +72,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Rendered,
 
 TEST(Render, InPlaceReplacesWhatShowsLooksAndKeepsTheTables) {
   const Workplace here;
-  here.write("balls.yaml", two_balls(camera + "output: {collisions: true, energy: {every: 0.5}, vtk: true, gltf: true, "
-                                              "frames: {fps: 4, size: [64, 36], samples: 1}}\n"));
+  here.write("balls.yaml",
+             two_balls(near_camera + "output: {collisions: true, energy: {every: 0.5}, vtk: true, gltf: true, "
+                                     "frames: {fps: 4, size: [64, 36], samples: 1}}\n"));
   here.carom({"run", "balls.yaml", "-o", "run"});
   const Words set = {"--set", "camera.eye.y=2",   "--set", "output.frames.fps=3",
                      "--set", "title=From above", "--set", "balls.red.color=gold"};
@@ -103,7 +104,7 @@ TEST(Render, InPlaceReplacesWhatShowsLooksAndKeepsTheTables) {
 
 TEST(Render, DrawsWhatTheRunDidNotAskFor) {
   const Workplace here;
-  here.write("balls.yaml", two_balls("output: {energy: {every: 0.5}, flights: true}\n" + camera));
+  here.write("balls.yaml", two_balls("output: {energy: {every: 0.5}, flights: true}\n" + near_camera));
   here.carom({"run", "balls.yaml", "-o", "run"});
   const Finished none = here.carom({"render", "run"});
   EXPECT_EQ(none.code, 2);
@@ -116,7 +117,7 @@ TEST(Render, DrawsWhatTheRunDidNotAskFor) {
 
 TEST(Render, RefusesAnotherMotionAndSaysHowToSimulateIt) {
   const Workplace here;
-  here.write("balls.yaml", two_balls(camera + frames));
+  here.write("balls.yaml", two_balls(near_camera + frames));
   here.carom({"run", "balls.yaml", "-o", "run"});
   const Files before = here.files("run");
   const Finished render =
@@ -131,7 +132,7 @@ TEST(Render, RefusesAnotherMotionAndSaysHowToSimulateIt) {
 
 TEST(Render, RefusesOtherTables) {
   const Workplace here;
-  here.write("balls.yaml", two_balls(camera + "output: {energy: {every: 0.5}, frames: {size: [64, 36]}}\n"));
+  here.write("balls.yaml", two_balls(near_camera + "output: {energy: {every: 0.5}, frames: {size: [64, 36]}}\n"));
   here.carom({"run", "balls.yaml", "-o", "run"});
   EXPECT_EQ(here.carom({"render", "run", "--only", "energy"}).code, 2);
   const Finished render = here.carom({"render", "run", "--set", "output.energy.every=0.1"});
@@ -143,7 +144,7 @@ TEST(Render, RefusesOtherTables) {
 
 TEST(Render, RefusesWhatIsNoWholeRun) {
   const Workplace here;
-  here.write("balls.yaml", two_balls(camera + frames));
+  here.write("balls.yaml", two_balls(near_camera + frames));
   here.carom({"run", "balls.yaml", "-o", "run"});
   const auto refusal = [&](const std::string& folder) {
     const Finished render = here.carom({"render", folder, "--set", "camera.eye.y=2"});
@@ -177,7 +178,7 @@ TEST(Render, RefusesWhatIsNoWholeRun) {
 TEST(Render, SimulatesAgainWhereNoFlightsAreStored) {
   const Workplace here;
   for (const std::string engine : {"exact", "stepped", "book"}) {
-    here.write("balls.yaml", two_balls(camera + frames));
+    here.write("balls.yaml", two_balls(near_camera + frames));
     ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", engine, "--set", "simulate.engine=" + engine, "--set",
                           "output.flights=false"})
                   .code,
@@ -211,7 +212,7 @@ TEST(Render, RefusesFlightsOfWhatIsNoParabola) {
 
 TEST(Render, OfSeveralRunsPutsEachIntoAFolderOfItsOwn) {
   const Workplace here;
-  here.write("balls.yaml", two_balls(camera + frames));
+  here.write("balls.yaml", two_balls(near_camera + frames));
   here.carom({"run", "balls.yaml", "-o", "a/one"});
   here.carom({"run", "balls.yaml", "-o", "a/two", "--set", "balls.red.mass=3"});
   EXPECT_EQ(here.carom({"render", "a/one/", "a/two", "--only", "sheet", "-o", "b"}).code, 0);
@@ -223,7 +224,7 @@ TEST(Render, OfSeveralRunsPutsEachIntoAFolderOfItsOwn) {
 
 TEST(Render, ThatIsInterruptedLeavesTheRunWhole) {
   const Workplace here;
-  here.write("balls.yaml", two_balls(camera + frames));
+  here.write("balls.yaml", two_balls(near_camera + frames));
   here.carom({"run", "balls.yaml", "-o", "run"});
   const Files before = here.files("run");
   for (const int signal : {SIGTERM, SIGKILL}) {

@@ -11,7 +11,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::string tables = "output: {trajectory: {every: 0.1}, collisions: true, energy: {every: 0.1}}\n";
 const std::string small_pictures = "output: {frames: {fps: 4, size: [64, 36], samples: 1}}\n";
 
 TEST(Run, WritesTheTablesThatTheSceneAsksForAndTellsWhere) {

@@ -43,11 +43,12 @@ TEST(Text, WaitsReadInTheUnitsOneWouldSay) {
 }
 
 TEST(Text, LongListsSayHowManyMore) {
-  EXPECT_EQ(listed({}), "");
-  EXPECT_EQ(listed({"a"}), "a");
-  EXPECT_EQ(listed({"a", "b"}), "a and b");
-  EXPECT_EQ(listed({"a", "b", "c"}), "a, b and c");
-  EXPECT_EQ(listed({"a", "b", "c", "d"}, 2), "a, b and 2 more");
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(listed(Names{}), "");
+  EXPECT_EQ(listed(Names{"a"}), "a");
+  EXPECT_EQ(listed(Names{"a", "b"}), "a and b");
+  EXPECT_EQ(listed(Names{"a", "b", "c"}), "a, b and c");
+  EXPECT_EQ(listed(Names{"a", "b", "c", "d"}, 2), "a, b and 2 more");
 }
 
 TEST(Text, LinesBreakAtSpacesBeforeTheWidth) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <string>
 #include <vector>
@@ -112,6 +113,15 @@ inline void run(const Scene& scene, const std::string& folder, const std::vector
   Summary summary = some_summary(scene);
   summary.frames = exports.frames();
   exports.finish(summary, {});
+}
+
+inline std::string error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const ExportError& error) {
+    return error.what();
+  }
+  return "no error";
 }
 
 }  // namespace carom::testing_export

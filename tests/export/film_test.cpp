@@ -34,15 +34,6 @@ Scene scene_with_film(const std::string& file = "animation.mp4") {
   return scene;
 }
 
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const ExportError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 /// ffprobe's facts of a film's picture stream.
 std::string probe(const std::string& film, const std::string& entries) {
   const Descriptor folder(open("/", O_RDONLY | O_DIRECTORY | O_CLOEXEC));

@@ -59,15 +59,6 @@ TEST(Plot, OfNothingAndOfOnePointIsDrawn) {
   EXPECT_FALSE(draw_plot(plot, find_gnuplot()).png.empty());
 }
 
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const ExportError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(Plot, WithoutGnuplotNamesTheRemedy) {
   const std::string path = std::getenv("PATH");
   setenv("PATH", "/nowhere", 1);

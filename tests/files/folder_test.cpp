@@ -38,15 +38,6 @@ Scene scene_with_frames() {
   return scene;
 }
 
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const ExportError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(Exports, OnlyWhatWasAskedForIsWritten) {
   TempFolder temp;
   Scene scene = small_scene();

@@ -22,15 +22,6 @@ namespace {
 using namespace testing_export;
 using Names = std::vector<std::string>;
 
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const ExportError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 Scene scene_with_frames(const std::string& title, int fps) {
   Scene scene = small_scene();
   scene.resolved = "scene: 1\ntitle: " + title + "\n";

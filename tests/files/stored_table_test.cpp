@@ -11,22 +11,22 @@
 namespace carom {
 namespace {
 
-Descriptor file_of(const std::string& text) {
+Descriptor table_file(const std::string& text) {
   Descriptor file(memfd_create("table", 0));
-  EXPECT_EQ(write(file.get(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
+  EXPECT_EQ(::write(file.get(), text.data(), text.size()), static_cast<ssize_t>(text.size()));
   lseek(file.get(), 0, SEEK_SET);
   return file;
 }
 
 std::vector<std::vector<std::string>> all_rows(const std::string& text) {
-  StoredTable table(file_of(text));
+  StoredTable table(table_file(text));
   std::vector<std::vector<std::string>> rows = {table.columns()};
   while (const auto* cells = table.next()) rows.emplace_back(cells->begin(), cells->end());
   return rows;
 }
 
 std::vector<std::string> from_end(const std::string& text, std::size_t most) {
-  const Descriptor file = file_of(text);
+  const Descriptor file = table_file(text);
   std::vector<std::string> lines;
   lines_from_end(file.get(), [&](std::string_view line) {
     lines.emplace_back(line);

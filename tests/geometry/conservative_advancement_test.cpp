@@ -60,7 +60,7 @@ void check(const World& world, const Path& path, double horizon, Tally& tally, b
 }
 
 /// A path from outside, aimed so that the two come close.
-Path random_path(const World& world, Random& random, bool curved, double& horizon) {
+Path random_path(const World& world, Sampler& random, bool curved, double& horizon) {
   const Thing a = of(world, 0), b = of(world, 1);
   const double size = a.half.norm() + b.half.norm();
   Path path;
@@ -77,7 +77,7 @@ TEST(TimeOfImpact, NoContactIsMissedAndNoneInvented) {
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds)
       for (bool curved : {false, true}) {
-        Random random(static_cast<unsigned>(100 * static_cast<int>(ka) + 10 * static_cast<int>(kb) + curved));
+        Sampler random(static_cast<unsigned>(100 * static_cast<int>(ka) + 10 * static_cast<int>(kb) + curved));
         Tally tally;
         for (int k = 0; k < 150; ++k) {
           const World world = pair_world(ka, kb, k % 2 == 0, random, 1e-3 * (k % 3 == 0 ? 1 : 100));
@@ -101,7 +101,7 @@ TEST(TimeOfImpact, NoContactIsMissedInChainsOfBounces) {
   // and rims.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
-      Random random(static_cast<unsigned>(1000 + 10 * static_cast<int>(ka) + static_cast<int>(kb)));
+      Sampler random(static_cast<unsigned>(1000 + 10 * static_cast<int>(ka) + static_cast<int>(kb)));
       Tally tally;
       for (int k = 0; k < 100; ++k) {
         World world = pair_world(ka, kb, k % 2 == 0, random, k % 3 == 0 ? 1e-3 : 0.1);
@@ -148,7 +148,7 @@ TEST(ConservativeAdvancement, APathAlmostAlongAnAxisMeetsLikeAnyOther) {
   // The small part of the position resolves times that the large part is too coarse for.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
-      Random random(static_cast<unsigned>(3000 + 10 * static_cast<int>(ka) + static_cast<int>(kb)));
+      Sampler random(static_cast<unsigned>(3000 + 10 * static_cast<int>(ka) + static_cast<int>(kb)));
       Tally tally;
       for (int k = 0; k < 150; ++k) {
         const World world = pair_world(ka, kb, k % 2 == 0, random, 0.1);
@@ -210,7 +210,7 @@ TEST(ConservativeAdvancement, APathAlongACurvedSurfaceThatTurnsAwayMeetsNothingL
   world.restitution = {1, 1};
   world.volume = {Volume::cylinder(0.136, 0.2), Volume::box({0.2, 0.2, 0.2})};
   for (const Volume& v : world.volume) world.radius.push_back(v.reach());
-  Random random(11);
+  Sampler random(11);
   int met = 0;
   for (int k = 0; k < 4000; ++k) {
     const double angle = random.uniform(0.2, 1.3), gap = random.log_uniform(1e-18, 1e-15);

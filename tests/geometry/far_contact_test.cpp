@@ -12,7 +12,7 @@
 namespace carom {
 namespace {
 
-using by_hand::Random;
+using by_hand::Sampler;
 __extension__ typedef __float128 Quad;
 
 Quad root(Quad x) {
@@ -26,7 +26,7 @@ struct Throw {
   RelativeMotion m;
   double s, size;  // m; of the numbers that the gap is made of
 
-  Throw(Random& random, bool just_separated) {
+  Throw(Sampler& random, bool just_separated) {
     const double far = random.log_uniform(1, 256);
     s = random.log_uniform(1e-3, 1);
     m.just_separated = just_separated;
@@ -69,7 +69,7 @@ struct Throw {
 };
 
 TEST(FarContact, SmallSpheresMeetToTheRoundingOfTheWay) {
-  Random random(7);
+  Sampler random(7);
   int hits = 0, misses = 0;
   double worst = 0, deepest = 0;  // in units of the way's rounding
   for (int k = 0; k < 6000; ++k) {
@@ -90,7 +90,7 @@ TEST(FarContact, SmallSpheresMeetToTheRoundingOfTheWay) {
 }
 
 TEST(FarContact, ASmallBallMeetsAWallsEdgesAndCornersToTheRoundingOfTheWay) {
-  Random random(8);
+  Sampler random(8);
   const Wall wall{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 1, 1, {}};
   int edges = 0, corners = 0;
   double worst = 0;

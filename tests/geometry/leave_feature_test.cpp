@@ -10,25 +10,13 @@ namespace {
 
 using namespace by_hand;
 
-World two(const Volume& a, const Volume& b) {
-  World world;
-  world.mass = {1};
-  world.restitution = {1};
-  world.radius = {a.reach()};
-  world.volume = {a};
-  world.obstacles = {{Vec3::Zero(), b, std::nullopt}};
-  return world;
-}
-
 std::uint8_t feature(int x, int y, int z) {
   return PrismFeature{x, y, z}.code();
 }
 
-const Volume ball = Volume::sphere(0.5), can = Volume::cylinder(0.5, 2), brick = Volume::box({1, 2, 3});
-
 FeatureTime leave(const Volume& a, const Volume& b, std::uint8_t from, const Vec3& d, const Vec3& w,
                   const Vec3& acceleration = Vec3::Zero()) {
-  return leave_feature(two(a, b), 0, 1, from, {d, w, acceleration, w.norm(), false}, 100);
+  return leave_feature(body_and_obstacle(a, b), 0, 1, from, {d, w, acceleration, w.norm(), false}, 100);
 }
 
 TEST(LeaveFeature, ABallLeavesABoxesFaceOverTheEdgeBelowItsCentre) {
@@ -77,7 +65,7 @@ TEST(LeaveFeature, RoundEdgesEndAtTheirFacesAndCorners) {
 }
 
 TEST(LeaveFeature, WallsAreLeftOverTheirRimToo) {
-  World world = two(ball, ball);
+  World world = body_and_obstacle(ball, ball);
   world.obstacles.clear();
   world.walls = {make_wall(Vec3::UnitY(), Vec3::UnitZ(), 2, 1)};  // right is -x
   const RelativeMotion m{{0, -0.5, 0}, {-1, 0, 0}, Vec3::Zero(), 1, false};
@@ -99,7 +87,7 @@ TEST(LeaveFeature, BeyondTheRimThePairIsApart) {
   // Slid along the face that it has met, every pair touches until it leaves, and not after that.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
-      Random random(11);
+      Sampler random(11);
       int left = 0;
       for (int k = 0; k < 300; ++k) {
         World world = pair_world(ka, kb, false, random, 0.1);

@@ -11,7 +11,7 @@
 namespace carom {
 namespace {
 
-using by_hand::Random;
+using by_hand::Sampler;
 __extension__ typedef __float128 Quad;
 using Coefficients = std::vector<Quad>;  // ascending
 
@@ -65,7 +65,7 @@ struct Scenario {
 };
 
 /// A ball thrown so that it comes near the fixed one after about `flight` seconds.
-Scenario thrown(Random& random, double g, double flight, double spread) {
+Scenario thrown(Sampler& random, double g, double flight, double spread) {
   const double s = 1;
   RelativeMotion m;
   m.d = random.uniform(1.5, 5) * random.direction();
@@ -76,7 +76,7 @@ Scenario thrown(Random& random, double g, double flight, double spread) {
   return {m, s};
 }
 
-Scenario scenario(const std::string& family, Random& random) {
+Scenario scenario(const std::string& family, Sampler& random) {
   constexpr double g = 9.80665;
   if (family == "generic") return thrown(random, g, random.uniform(0.2, 2), 2);
   if (family == "fast") return thrown(random, g, random.log_uniform(1e-4, 1e-2), 1.6);
@@ -120,7 +120,7 @@ TEST(Quartic, ABallAndAFixedBallAreAsExactAsTheReferenceTablesCascade) {
   world.radius = {0.5};
   world.obstacles = {{Vec3::Zero(), Volume::sphere(0.5), std::nullopt}};
   for (const Row& row : rows) {
-    Random random(7);
+    Sampler random(7);
     int hits = 0, missed = 0, invented = 0;
     std::vector<double> errors;
     for (int k = 0; k < 400; ++k) {

@@ -10,25 +10,15 @@ namespace {
 
 using namespace by_hand;
 
-World two(const Volume& a, const Volume& b) {
-  World world;
-  world.mass = {1, 1};
-  world.restitution = {1, 1};
-  world.radius = {a.reach(), b.reach()};
-  world.volume = {a, b};
-  return world;
-}
-
 RelativeMotion motion(const Vec3& d, const Vec3& w, const Vec3& a = Vec3::Zero()) {
   return {d, w, a, w.cwiseAbs().sum(), false};
 }
 
 double meet(const Volume& a, const Volume& b, const Vec3& d, const Vec3& w, const Vec3& acceleration = Vec3::Zero(),
             double horizon = 100) {
-  return time_of_impact(two(a, b), 0, 1, motion(d, w, acceleration), no_feature, horizon).time;
+  return time_of_impact(two_bodies(a, b), 0, 1, motion(d, w, acceleration), no_feature, horizon).time;
 }
 
-const Volume ball = Volume::sphere(0.5), can = Volume::cylinder(0.5, 2), brick = Volume::box({1, 2, 3});
 const Vec3 right = Vec3::UnitX(), up = Vec3::UnitY(), far_z = Vec3::UnitZ(), none = Vec3::Zero();
 
 TEST(TimeOfImpact, HeadOnIsTheGapOverTheSpeed) {
@@ -61,7 +51,7 @@ TEST(TimeOfImpact, EdgesCornersAndRimsAreRoundForABall) {
 
 TEST(TimeOfImpact, APlaneIsMetByTheVolumesForemostPoint) {
   for (const Volume& v : {ball, can, brick}) {
-    World world = two(v, ball);
+    World world = two_bodies(v, ball);
     const Vec3 n(0.6, 0.8, 0);
     world.planes = {{none, n, std::nullopt}};
     const double reach = v.support(n);
@@ -72,7 +62,7 @@ TEST(TimeOfImpact, APlaneIsMetByTheVolumesForemostPoint) {
 }
 
 TEST(TimeOfImpact, TheFaceThatIsEnteredLastGivesTheNormal) {
-  const World world = two(brick, brick);
+  const World world = two_bodies(brick, brick);
   // x is entered at t = 1, y at 2, z always.
   const FeatureTime m = time_of_impact(world, 0, 1, motion({2, 4, 0.5}, {-1, -1, 0}), no_feature, 10);
   EXPECT_EQ(m.time, 2);
@@ -94,7 +84,7 @@ TEST(TimeOfImpact, TouchingAndApproachingIsNowAndSeparatingIsNever) {
         EXPECT_EQ(meet(a, b, d, 1e-3 * right), never);
         EXPECT_EQ(meet(a, b, d, none), never);
       }
-      const World world = two(a, b);
+      const World world = two_bodies(a, b);
       const RelativeMotion noise{reach * right, -0x1p-52 * right, none, 2, false};
       EXPECT_EQ(time_of_impact(world, 0, 1, noise, no_feature, 10).time, never)
           << "an approach within rounding is none";
@@ -114,14 +104,14 @@ TEST(TimeOfImpact, AFaceBeyondTheRoundEdgeIsNotMetBeforeTheWayToIt) {
   const Volume lid = Volume::cylinder(0.14984609735707394, 0.10311819694931741);
   for (double nearing : {0.0, 0x1p-54, 0x1p-50}) {
     const Vec3 d(-0.121, -0.1, -(box.half.z() + lid.half.x())), w(2, 2, nearing), a(10, 0, 0);
-    EXPECT_GT(touch(two(box, lid), 0, none, 1, d).gap, 0.008);
+    EXPECT_GT(touch(two_bodies(box, lid), 0, none, 1, d).gap, 0.008);
     const double t = meet(box, lid, d, w, a, 0.2);
     EXPECT_GT(t, 0.02) << nearing;
   }
 }
 
 TEST(TimeOfImpact, ABallThatFallsOffABoxesFaceStrikesItsEdgeOnlyWhereItIsSlow) {
-  const World world = two(brick, ball);
+  const World world = two_bodies(brick, ball);
   const auto after = [&](double speed, std::uint8_t left) {
     return time_of_impact(world, 0, 1, motion({0.5, 1.5, 0}, speed * right, -10 * up), left, 10).time;
   };
@@ -136,7 +126,7 @@ TEST(TimeOfImpact, ABallThatFallsOffABoxesFaceStrikesItsEdgeOnlyWhereItIsSlow) {
 TEST(TimeOfImpact, ExchangingTheTwoChangesNothing) {
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : {Kind::sphere, Kind::cylinder, Kind::box}) {
-      Random random(3);
+      Sampler random(3);
       for (int k = 0; k < 100; ++k) {
         const World world = pair_world(ka, kb, true, random);
         const Vec3 d = random.uniform(2, 5) * random.direction(), a = k % 2 * random.vector(5);
@@ -157,7 +147,7 @@ TEST(TimeOfImpact, ExchangingTheTwoChangesNothing) {
 TEST(TimeOfImpact, AxesMayBePermutedAsFarAsTheShapesAllow) {
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : {Kind::sphere, Kind::cylinder, Kind::box}) {
-      Random random(4);
+      Sampler random(4);
       for (int k = 0; k < 100; ++k) {
         World world = pair_world(ka, kb, true, random);
         const Vec3 d = random.uniform(2, 5) * random.direction(), a = k % 2 * random.vector(5);
@@ -182,7 +172,7 @@ TEST(TimeOfImpact, AxesMayBePermutedAsFarAsTheShapesAllow) {
 TEST(TimeOfImpact, ScalingByPowersOfTwoKeepsTheBits) {
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
-      Random random(5);
+      Sampler random(5);
       for (int k = 0; k < 100; ++k) {
         const World world = pair_world(ka, kb, false, random);
         const Vec3 d = random.uniform(2, 5) * random.direction(), a = k % 2 * random.vector(5);
@@ -210,7 +200,7 @@ TEST(TimeOfImpact, BouncedPairsAreNotHitAgainByRounding) {
   // Straight on, they never meet again; pressed together by an acceleration, they do so after the whole hop.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
-      Random random(6);
+      Sampler random(6);
       int bounced = 0;
       for (int k = 0; k < 200; ++k) {
         World world = pair_world(ka, kb, false, random);
@@ -240,7 +230,7 @@ TEST(TimeOfImpact, PairsARoundingApartThatApproachMeetAtOnce) {
   // which is shorter than positions resolve, shrink in ever smaller steps.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
-      Random random(9);
+      Sampler random(9);
       int touched = 0;
       for (int k = 0; k < 400; ++k) {
         World world = pair_world(ka, kb, false, random);
@@ -265,7 +255,7 @@ TEST(TimeOfImpact, PairsARoundingApartThatApproachMeetAtOnce) {
 TEST(TimeOfImpact, GrazingARoundingIsAHitOrAMissByItsDepth) {
   // Past a fixed edge, corner, rim or side at a depth of 2^-k of the ball's radius, against long double.
   for (Kind kb : {Kind::cylinder, Kind::box}) {
-    Random random(8);
+    Sampler random(8);
     double worst[3] = {};
     int hits = 0;
     for (int n = 0; n < 600; ++n) {

@@ -10,19 +10,8 @@ namespace {
 
 using namespace by_hand;
 
-/// Body 0 and obstacle 1.
-World two(const Volume& a, const Volume& b) {
-  World world;
-  world.mass = {1};
-  world.restitution = {1};
-  world.radius = {a.reach()};
-  world.volume = {a};
-  world.obstacles = {{Vec3::Zero(), b, std::nullopt}};
-  return world;
-}
-
 Touch look(const Volume& a, const Volume& b, const Vec3& d) {
-  return touch(two(a, b), 0, Vec3::Zero(), 1, d);
+  return touch(body_and_obstacle(a, b), 0, Vec3::Zero(), 1, d);
 }
 
 void expect_touch(const Touch& t, double gap, const Vec3& normal, const Vec3& point) {
@@ -30,8 +19,6 @@ void expect_touch(const Touch& t, double gap, const Vec3& normal, const Vec3& po
   EXPECT_LT((t.normal - normal).norm(), 4e-16) << t.normal.transpose();
   EXPECT_LT((t.point - point).norm(), 1e-15) << t.point.transpose();
 }
-
-const Volume ball = Volume::sphere(0.5), can = Volume::cylinder(0.5, 2), brick = Volume::box({1, 2, 3});
 
 TEST(Touch, ABallAndAFaceAreAsFarApartAsTheyAreAlongTheFacesNormal) {
   expect_touch(look(ball, brick, {0.25, 2.0, 1}), 0.5, Vec3::UnitY(), {0, 0.5, 0});
@@ -77,7 +64,7 @@ TEST(Touch, BoxesThatTouchAtAnEdgeOnlyHaveOneFacesNormal) {
 }
 
 TEST(Touch, APlaneIsMetWithTheVolumesReachAlongItsNormal) {
-  World world = two(can, ball);
+  World world = body_and_obstacle(can, ball);
   world.obstacles.clear();
   world.planes = {{Vec3::Zero(), Vec3(0.6, 0.8, 0), std::nullopt}};
   const Touch t = touch(world, 0, Vec3(0.6, 0.8, 0) * 3, 1, Vec3::Zero());
@@ -88,11 +75,11 @@ TEST(Touch, APlaneIsMetWithTheVolumesReachAlongItsNormal) {
 
 TEST(Touch, TheGapIsExactWhereItIsSmall) {
   // A million away from the origin, positions are multiples of 2^-33; their difference counts in full.
-  const World world = two(brick, brick);
+  const World world = body_and_obstacle(brick, brick);
   const Vec3 xa(1e6, 3, 0);
   EXPECT_EQ(touch(world, 0, xa, 1, xa + Vec3(1 + 0x1p-33, 0, 0)).gap, 0x1p-33);
   EXPECT_EQ(touch(world, 0, Vec3(0.1, 0, 0), 1, Vec3(1e6, 0, 0)).gap, 1e6 - 1.1);
-  const World balls = two(ball, ball);
+  const World balls = body_and_obstacle(ball, ball);
   const double gap = touch(balls, 0, Vec3(-0.3, 0, 0), 1, Vec3(0.7, 0, 0)).gap;
   EXPECT_EQ(gap, static_cast<double>(static_cast<long double>(0.7) + static_cast<long double>(0.3) - 1));
 }
@@ -101,7 +88,7 @@ TEST(Touch, EveryPairAgreesWithPointsFoundByProjection) {
   // The same with the two exchanged: the normal reversed, the gap equal bit for bit.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
-      Random random(static_cast<unsigned>(10 * static_cast<int>(ka) + static_cast<int>(kb)));
+      Sampler random(static_cast<unsigned>(10 * static_cast<int>(ka) + static_cast<int>(kb)));
       for (int k = 0; k < 200; ++k) {
         World world = pair_world(ka, kb, true, random);
         const Thing a = of(world, 0), b = of(world, 1);
@@ -132,7 +119,7 @@ TEST(Touch, EveryPairAgreesWithPointsFoundByProjection) {
 TEST(Bending, IsTheGapsSecondDifference) {
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
-      Random random(static_cast<unsigned>(31 * static_cast<int>(ka) + static_cast<int>(kb)));
+      Sampler random(static_cast<unsigned>(31 * static_cast<int>(ka) + static_cast<int>(kb)));
       int seen = 0;
       for (int k = 0; k < 400; ++k) {
         World world = pair_world(ka, kb, false, random, 0.2);

@@ -63,9 +63,9 @@ inline Thing of(const World& world, Entity e) {
   return {v.shape, v.half};
 }
 
-class Random {
+class Sampler {
  public:
-  explicit Random(unsigned seed) : engine_(seed) {}
+  explicit Sampler(unsigned seed) : engine_(seed) {}
   double uniform(double a, double b) { return a + (b - a) * 0x1p-53 * static_cast<double>(engine_() >> 11); }
   double log_uniform(double a, double b) { return a * std::pow(b / a, uniform(0, 1)); }
   Vec3 vector(double size) {
@@ -106,7 +106,7 @@ inline Wall make_wall(const Vec3& normal, const Vec3& up, double half_width, dou
 }
 
 /// A world of two: body 0 of kind a, and b, a body where `movable`, else an obstacle or a wall (entity 1).
-inline World pair_world(Kind a, Kind b, bool movable, Random& random, double least = 1e-2) {
+inline World pair_world(Kind a, Kind b, bool movable, Sampler& random, double least = 1e-2) {
   World world;
   world.gravity = Vec3::Zero();
   const auto size = [&] { return random.log_uniform(least, 1); };
@@ -152,6 +152,28 @@ inline World pair_world(Kind a, Kind b, bool movable, Random& random, double lea
       world.walls.push_back(make_wall(-Vec3::UnitX(), Vec3::UnitY(), w, h));
       break;
   }
+  return world;
+}
+
+inline const Volume ball = Volume::sphere(0.5), can = Volume::cylinder(0.5, 2), brick = Volume::box({1, 2, 3});
+
+inline World two_bodies(const Volume& a, const Volume& b) {
+  World world;
+  world.mass = {1, 1};
+  world.restitution = {1, 1};
+  world.radius = {a.reach(), b.reach()};
+  world.volume = {a, b};
+  return world;
+}
+
+/// Body 0 and obstacle 1.
+inline World body_and_obstacle(const Volume& a, const Volume& b) {
+  World world;
+  world.mass = {1};
+  world.restitution = {1};
+  world.radius = {a.reach()};
+  world.volume = {a};
+  world.obstacles = {{Vec3::Zero(), b, std::nullopt}};
   return world;
 }
 

@@ -11,7 +11,7 @@
 namespace carom {
 namespace {
 
-constexpr double rounding = 0x1p-53;
+constexpr double unit_roundoff = 0x1p-53;
 const Vec3 x0(1, -2, 3), v0(4, 0.5, -1), a0(-2, 3, 0.25);
 
 TEST(Oscillation, ResponseIsTheReferences) {
@@ -73,7 +73,7 @@ TEST(Oscillation, ResponseIsTheReferences) {
   };
   for (const Row& r : rows) {
     const Response of = response(r.fade, r.stiffness, r.t);
-    const double allowed = 8 * rounding;  // 4.0, 1.9 and 6.9 at worst in 3e5 random cases
+    const double allowed = 8 * unit_roundoff;  // 4.0, 1.9 and 6.9 at worst in 3e5 random cases
     EXPECT_NEAR(of.displaced, r.displaced, allowed * r.most_displaced) << r.fade << ' ' << r.stiffness << ' ' << r.t;
     EXPECT_NEAR(of.kept, r.kept, allowed) << r.fade << ' ' << r.stiffness << ' ' << r.t;
     EXPECT_NEAR(of.bent, r.bent, allowed * r.most_bent) << r.fade << ' ' << r.stiffness << ' ' << r.t;
@@ -95,7 +95,7 @@ TEST(Oscillation, KeepsItsAmplitudeForABillionRadians) {
     Vec3 x, v;
     Oscillation{x0, v0, Vec3::Zero(), 0, stiffness}.at(t, x, v);
     const double before = v0.squaredNorm(), after = v.squaredNorm() + stiffness * (x - x0).squaredNorm();
-    EXPECT_NEAR(after, before, 4 * rounding * before) << t;  // 1.9 at worst
+    EXPECT_NEAR(after, before, 4 * unit_roundoff * before) << t;  // 1.9 at worst
   }
 }
 
@@ -106,8 +106,9 @@ TEST(Oscillation, GoesOverIntoFadingFlight) {
       Vec3 x, v;
       Oscillation{x0, v0, a0, fade, 1e-30}.at(t, x, v);
       const double size = (v0.norm() + a0.norm() * t) * t;
-      EXPECT_LE((x - path.position(t)).norm(), x0.norm() * 4 * rounding + 4 * rounding * size) << fade << ' ' << t;
-      EXPECT_LE((v - path.velocity(t)).norm(), 4 * rounding * (v0.norm() + a0.norm() * t)) << fade << ' ' << t;
+      EXPECT_LE((x - path.position(t)).norm(), x0.norm() * 4 * unit_roundoff + 4 * unit_roundoff * size)
+          << fade << ' ' << t;
+      EXPECT_LE((v - path.velocity(t)).norm(), 4 * unit_roundoff * (v0.norm() + a0.norm() * t)) << fade << ' ' << t;
     }
   }
 }
@@ -117,9 +118,9 @@ TEST(Oscillation, IsContinuousThroughCriticalDamping) {
     const Response critical = response(2, 1, t);
     for (double near : {1 - 0x1p-53, 1 + 0x1p-52}) {
       const Response r = response(2, near, t);
-      EXPECT_NEAR(r.displaced, critical.displaced, 4 * rounding * t);  // 2.0 at worst
-      EXPECT_NEAR(r.kept, critical.kept, 4 * rounding);
-      EXPECT_NEAR(r.bent, critical.bent, 4 * rounding * critical.bent);
+      EXPECT_NEAR(r.displaced, critical.displaced, 4 * unit_roundoff * t);  // 2.0 at worst
+      EXPECT_NEAR(r.kept, critical.kept, 4 * unit_roundoff);
+      EXPECT_NEAR(r.bent, critical.bent, 4 * unit_roundoff * critical.bent);
     }
   }
 }
@@ -137,8 +138,8 @@ TEST(Oscillation, GoesOnFromAnyOfItsPlaces) {
     Oscillation{x0, v0, a0, fade, stiffness}.at(t1 + t2, z, u);
     const double reach = v0.norm() / std::sqrt(stiffness) + 2 * a0.norm() / stiffness;
     const double turned = std::sqrt(stiffness) * (t1 + t2) + 8;
-    EXPECT_LE((y - z).norm(), rounding * (x0.norm() + turned * reach));  // 0.56 at worst
-    EXPECT_LE((w - u).norm(), rounding * turned * std::sqrt(stiffness) * reach);
+    EXPECT_LE((y - z).norm(), unit_roundoff * (x0.norm() + turned * reach));  // 0.56 at worst
+    EXPECT_LE((w - u).norm(), unit_roundoff * turned * std::sqrt(stiffness) * reach);
   }
 }
 

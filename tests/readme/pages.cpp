@@ -19,8 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Page read_page(const std::string& path) {
-  std::ifstream in(SOURCE_DIR "/" + path, std::ios::binary);
-  return {path, {std::istreambuf_iterator<char>(in), {}}};
+  return {path, read_file(fs::path(SOURCE_DIR) / path)};
 }
 
 std::vector<Page> read_pages() {
@@ -135,6 +134,11 @@ const Page& page_at(const std::string& path) {
   for (const Page& one : pages())
     if (one.path == path) return one;
   throw std::runtime_error("there is no page " + path);
+}
+
+std::string read_file(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::string one_line(const std::string& text) {

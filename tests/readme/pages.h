@@ -1,5 +1,6 @@
 #pragma once
 // The project's pages as data: README.md and the README.md of the folders, and scenes/format.md.
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,9 @@ const std::vector<Page>& pages();
 
 /// The page of this path; there must be one.
 const Page& page_at(const std::string& path);
+
+/// The bytes of a file.
+std::string read_file(const std::filesystem::path& path);
 
 /// A text in one line, with single spaces.
 std::string one_line(const std::string& text);

@@ -19,11 +19,6 @@ namespace fs = std::filesystem;
 
 const fs::path root = SOURCE_DIR;
 
-std::string read_file(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 std::vector<std::string> matches(const std::string& text, const std::regex& what, int group = 0) {
   return {std::sregex_token_iterator(text.begin(), text.end(), what, group), {}};
 }

@@ -31,11 +31,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string read_file(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 bool is_of_the_program(const std::string& command) {
   return command.find("build/release/carom ") != std::string::npos || command.starts_with("./dev run ");
 }

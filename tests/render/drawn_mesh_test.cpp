@@ -18,8 +18,8 @@ using test::grey;
 using test::Point;
 using test::projected;
 using test::side;
+using test::white;
 
-constexpr Color white{1, 1, 1};
 const std::string meshes = SCENES_DIR "/meshes/";
 
 /// One body, drawn as a mesh.

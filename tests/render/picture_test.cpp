@@ -12,10 +12,13 @@ namespace {
 using test::add_ball;
 using test::add_plane;
 using test::add_wall;
+using test::black;
+using test::blue;
 using test::flat_scene;
+using test::green;
 using test::grey;
-
-constexpr Color black{0, 0, 0}, white{1, 1, 1}, red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1};
+using test::red;
+using test::white;
 
 /// Centre and area of all that is not black, in pixels; a pixel counts as 1 if it is brighter than 0.
 struct Blob {

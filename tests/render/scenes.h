@@ -9,6 +9,8 @@
 
 namespace carom::test {
 
+inline constexpr Color black{0, 0, 0}, white{1, 1, 1}, red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1};
+
 inline Entity add_ball(Scene& scene, const Vec3& position, double radius, const Color& color) {
   const Entity e = scene.world.body_count();
   scene.world.mass.push_back(1);

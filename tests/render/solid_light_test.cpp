@@ -11,9 +11,11 @@ using test::add_ball;
 using test::add_body;
 using test::add_obstacle;
 using test::add_plane;
+using test::blue;
+using test::green;
 using test::grey_at;
-
-constexpr Color white{1, 1, 1}, red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1};
+using test::red;
+using test::white;
 
 TEST(SolidLight, EachFaceOfABoxHasItsShare) {
   Scene scene = test::flat_scene(Vec3(3, 3, 3), Vec3::Zero());

@@ -13,15 +13,17 @@ namespace {
 using test::add_ball;
 using test::add_body;
 using test::add_obstacle;
+using test::blue;
 using test::flat_scene;
+using test::green;
 using test::grey;
 using test::grey_at;
 using test::outline_of_solid;
 using test::outside;
 using test::Point;
 using test::projected;
-
-constexpr Color white{1, 1, 1}, red{1, 0, 0}, green{0, 1, 0}, blue{0, 0, 1};
+using test::red;
+using test::white;
 
 /// Pixels that show something outside of an outline, or nothing inside of it. (Half a pixel's diagonal is 0.71.)
 int wrong_pixels(const Image& image, const std::vector<Point>& hull) {

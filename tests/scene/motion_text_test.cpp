@@ -25,7 +25,7 @@ forces:
 camera: {eye: [0, 3, -9], target: [0, 0, 0]}
 )";
 
-std::string with(const std::string& set) {
+std::string text_with(const std::string& set) {
   LoadOptions options;
   if (!set.empty()) options.set = {set};
   return motion_text(load_text(both, options));
@@ -35,17 +35,17 @@ TEST(MotionText, LeavesOutWhatIsOnlyLookedAtOrWritten) {
   for (const char* set : {"title=Other", "camera.eye.x=1", "camera.fov=20", "background=black", "balls.red.color=blue",
                           "planes.floor.visible=false", "output.frames.fps=7", "output.collisions=true", "seed=5",
                           "walls.side.color=white", "obstacles.post.visible=false"})
-    EXPECT_EQ(with(set), with("")) << set;
+    EXPECT_EQ(text_with(set), text_with("")) << set;
 }
 
 TEST(MotionText, IsAsNumbersAreNotAsTheyAreWritten) {
-  EXPECT_EQ(with("balls.red.mass=1.00"), with(""));
-  EXPECT_EQ(with("balls.red.position=[0.0, 1e0, 0]"), with(""));
-  EXPECT_EQ(with("simulate.engine=stepped"), with(""));  // what auto takes under a spring with a rest length
+  EXPECT_EQ(text_with("balls.red.mass=1.00"), text_with(""));
+  EXPECT_EQ(text_with("balls.red.position=[0.0, 1e0, 0]"), text_with(""));
+  EXPECT_EQ(text_with("simulate.engine=stepped"), text_with(""));  // what auto takes under a spring with a rest length
 }
 
 TEST(MotionText, TellsWhateverMovesABodyOtherwise) {
-  std::vector<std::string> texts = {with("")};
+  std::vector<std::string> texts = {text_with("")};
   for (const char* set : {"simulate.duration=3",
                           "simulate.step=0.01",
                           "simulate.tolerance=0.01",
@@ -71,7 +71,7 @@ TEST(MotionText, TellsWhateverMovesABodyOtherwise) {
                           "obstacles.post.position.x=9",
                           "obstacles.post.radius=0.3",
                           "obstacles.post.restitution=0.1"})
-    texts.push_back(with(set));
+    texts.push_back(text_with(set));
   for (const auto& [from, to] : {std::pair("until: 1", "until: 1.5"), std::pair("[0, 0, 1]", "[0, 0, 2]"),
                                  std::pair("on: [red]", "on: [crate]"), std::pair("stiffness: 3", "stiffness: 4")}) {
     std::string other = both;

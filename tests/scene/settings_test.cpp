@@ -15,7 +15,7 @@ simulate: {duration: 1}
 camera: {eye: [0, 3, -5], target: [0, 0, 0]}
 )";
 
-Scene with(const std::vector<std::string>& set) {
+Scene with_settings(const std::vector<std::string>& set) {
   LoadOptions options;
   options.set = set;
   return load_text(two, options);
@@ -23,8 +23,8 @@ Scene with(const std::vector<std::string>& set) {
 
 TEST(Settings, ReachValuesPartsOfVectorsAndDefaults) {
   const Scene scene =
-      with({"balls.red.position.z=-0.5", "restitution.default=0.5", "defaults.ball.mass=3", "simulate.duration=4",
-            "camera.fov=30", "output.frames.fps=12", "gravity.y=0", "title=Two words"});
+      with_settings({"balls.red.position.z=-0.5", "restitution.default=0.5", "defaults.ball.mass=3",
+                     "simulate.duration=4", "camera.fov=30", "output.frames.fps=12", "gravity.y=0", "title=Two words"});
   EXPECT_EQ(scene.initial.position[0], Vec3(0, 0, -0.5));
   EXPECT_EQ(scene.world.restitution[1], 0.5);
   EXPECT_EQ(scene.world.mass[0], 3);
@@ -36,17 +36,17 @@ TEST(Settings, ReachValuesPartsOfVectorsAndDefaults) {
 }
 
 TEST(Settings, PartOfAMissingVectorStartsFromItsDefault) {
-  const Scene scene = with({"balls.red.velocity.x=7"});
+  const Scene scene = with_settings({"balls.red.velocity.x=7"});
   EXPECT_EQ(scene.initial.velocity[0], Vec3(7, 2, 0));
   EXPECT_EQ(scene.initial.velocity[1], Vec3(1, 1, 1));
 }
 
 TEST(Settings, LaterOnesOverruleEarlierOnes) {
-  EXPECT_EQ(with({"simulate.duration=2", "simulate.duration=3"}).simulate.duration, 3);
+  EXPECT_EQ(with_settings({"simulate.duration=2", "simulate.duration=3"}).simulate.duration, 3);
 }
 
 TEST(Settings, DensityReplacesMass) {
-  EXPECT_LT(with({"balls.red.mass=2", "balls.red.density=1"}).world.mass[0], 0.01);
+  EXPECT_LT(with_settings({"balls.red.mass=2", "balls.red.density=1"}).world.mass[0], 0.01);
 }
 
 TEST(Settings, AVolumeReplacesTheOneThereWas) {
@@ -67,7 +67,7 @@ TEST(Settings, AVolumeReplacesTheOneThereWas) {
 }
 
 TEST(Settings, ColoursNeedNoQuotes) {
-  EXPECT_EQ(with({"balls.red.color=#ff0000"}).roster.bodies[0].color.r, 1);
+  EXPECT_EQ(with_settings({"balls.red.color=#ff0000"}).roster.bodies[0].color.r, 1);
 }
 
 TEST(Settings, SeedOptionOverrulesTheFile) {

@@ -12,14 +12,12 @@
 namespace carom::testing {
 namespace {
 
-constexpr double g = 9.80665;
-
 TEST(BouncingBall, RestsWhenTheSumOfItsFlightsEnds) {
   const std::string file = "bouncing_ball";
-  const double t1 = std::sqrt(2 / g), e = 0.8, rest = t1 * (1 + e) / (1 - e);
+  const double t1 = std::sqrt(2 / g_n), e = 0.8, rest = t1 * (1 + e) / (1 - e);
   const Played run = play(file, {rest + 1e-9, 4.5});
   EXPECT_NEAR(run.collisions[0].time, t1, 1e-15);
-  EXPECT_NEAR(run.collisions[0].approach_speed, std::sqrt(2 * g), 2e-15);
+  EXPECT_NEAR(run.collisions[0].approach_speed, std::sqrt(2 * g_n), 2e-15);
   ASSERT_EQ(run.rests.size(), 1u);
   EXPECT_NEAR(run.rests[0].time, rest, 4e-13);  // 1e-13 relative
   for (const State& state : run.states) {
@@ -36,7 +34,7 @@ TEST(BouncingBall, RestsWhenTheSumOfItsFlightsEnds) {
   }
 
   EXPECT_NEAR(said(file, "t1 = sqrt(2 h / g) = "), t1, 5e-16);
-  EXPECT_NEAR(said(file, "at sqrt(2 g h) = "), std::sqrt(2 * g), 1e-15);
+  EXPECT_NEAR(said(file, "at sqrt(2 g h) = "), std::sqrt(2 * g_n), 1e-15);
   EXPECT_NEAR(said(file, "from t1 (1+e)/(1-e) = "), rest, 1e-15);
   EXPECT_NEAR(said(file, "h e^(2 n): "), e * e, 1e-15);
   EXPECT_NEAR(said(file, "0.64 m, "), std::pow(e, 4), 1e-15);
@@ -46,7 +44,7 @@ TEST(BouncingBall, RestsWhenTheSumOfItsFlightsEnds) {
 
 TEST(RestitutionRow, EveryBallRisesToESquaredOfTheHeight) {
   const std::string file = "restitution_row";
-  const double t1 = std::sqrt(2 / g);
+  const double t1 = std::sqrt(2 / g_n);
   const double es[] = {1, 0.95, 0.9, 0.8, 0.65, 0.5, 0.2};
   const double heights[] = {1, 0.9025, 0.81, 0.64, 0.4225, 0.25, 0.04};
   std::vector<double> tops;
@@ -74,16 +72,16 @@ TEST(RestitutionRow, EveryBallRisesToESquaredOfTheHeight) {
 
 TEST(BasketballAndTennisBall, TheTennisBallIsShotUp) {
   const std::string file = "basketball_and_tennis_ball";
-  const double M = 0.62, m = 0.058, h = 0.4, t = std::sqrt(2 * h / g), v = std::sqrt(2 * g * h);
+  const double M = 0.62, m = 0.058, h = 0.4, t = std::sqrt(2 * h / g_n), v = std::sqrt(2 * g_n * h);
   const double up = v * (3 * M - m) / (M + m);
-  const Played run = play(file, {0.5, t + up / g});
+  const Played run = play(file, {0.5, t + up / g_n});
   EXPECT_NEAR(run.collisions[0].time, t, 4e-16);
   EXPECT_EQ(run.collisions[0].kind, CollisionKind::body_fixed);
   EXPECT_EQ(run.collisions[1].kind, CollisionKind::body_body);
   EXPECT_NEAR(run.collisions[1].time, t, 4e-16);
   EXPECT_NEAR(run.collisions[0].approach_speed, v, 2e-15);
-  EXPECT_NEAR(run.states[0].velocity[1].y() + g * (0.5 - t), up, 1e-14);
-  EXPECT_NEAR(run.states[0].velocity[0].y() + g * (0.5 - t), v * (M - 3 * m) / (M + m), 1e-14);
+  EXPECT_NEAR(run.states[0].velocity[1].y() + g_n * (0.5 - t), up, 1e-14);
+  EXPECT_NEAR(run.states[0].velocity[0].y() + g_n * (0.5 - t), v * (M - 3 * m) / (M + m), 1e-14);
   EXPECT_NEAR(run.states[1].position[1].y() - 0.273, h * std::pow((3 * M - m) / (M + m), 2), 1e-14);
   EXPECT_NEAR(said(file, "sqrt(2 h / g) = "), t, 5e-16);
   EXPECT_NEAR(said(file, "sqrt(2 g h) = "), v, 5e-15);
@@ -94,7 +92,7 @@ TEST(BasketballAndTennisBall, TheTennisBallIsShotUp) {
 
 TEST(TiltedGroove, TheBallSlidesOnWithGSinTilt) {
   const std::string file = "tilted_groove";
-  const double tilt = 10 * M_PI / 180, a = g * std::sin(tilt);
+  const double tilt = 10 * M_PI / 180, a = g_n * std::sin(tilt);
   const Vec3 along(std::cos(tilt), -std::sin(tilt), 0), up(std::sin(tilt), std::cos(tilt), 0);
   const Played run = play(file, {0.5, 1, 2});  // bouncing, bouncing, sliding
   const double from = along.dot(run.scene.initial.position[0]);
@@ -120,7 +118,7 @@ TEST(BallsInABox, ComeToRestOnTheFloor) {
   EXPECT_GE(run.tally.resting, 70u);  // of 72
   double floor = 0;                   // J, of gravity with every ball on the floor
   for (Entity i = 0; i < run.scene.world.body_count(); ++i)
-    floor += run.scene.world.mass[i] * g * run.scene.world.radius[i];
+    floor += run.scene.world.mass[i] * g_n * run.scene.world.radius[i];
   EXPECT_NEAR(said(file, ") g = "), floor, 1e-8);
   EXPECT_NEAR(potential_energy(run.scene.world, run.end), floor, 0.01 * floor);
   EXPECT_LT(kinetic_energy(run.scene.world, run.end), 0.01 * floor);

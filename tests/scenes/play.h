@@ -10,6 +10,9 @@
 
 namespace carom::testing {
 
+/// Standard gravity, m/s^2.
+inline constexpr double g_n = 9.80665;
+
 /// Names of all scene files below scenes/, without .yaml: "bouncing_ball", "benchmark/gas_1000".
 std::vector<std::string> scene_names();
 

@@ -10,8 +10,6 @@
 namespace carom::testing {
 namespace {
 
-constexpr double g = 9.80665;
-
 double force(const std::vector<ContactForce>& contacts, Entity a, Entity b) {
   for (const ContactForce& c : contacts) {
     if (c.a == a && c.b == b) return c.force;
@@ -32,11 +30,11 @@ TEST(RollingOff, LeavesAtTwoThirdsOfTheHeight) {
   const Played run = play(file, {leave});
   EXPECT_NEAR(run.states[0].position[0].x(), said(file, "leaves at x = "), 1e-9);
   EXPECT_NEAR(run.states[0].position[0].y(), 0.384, 1e-9);
-  EXPECT_NEAR(run.states[0].velocity[0].norm(), std::sqrt(0.384 * g), 1e-9);
+  EXPECT_NEAR(run.states[0].velocity[0].norm(), std::sqrt(0.384 * g_n), 1e-9);
   ASSERT_FALSE(run.collisions.empty());
   EXPECT_NEAR(run.collisions.back().time, land, 1e-9);
   EXPECT_NEAR(run.collisions.back().position.x(), said(file, "its centre at x = "), 1e-9);
-  EXPECT_NEAR(force(contacts_at(run.scene, 0), 0, run.number("globe")), 0.96 * g, 1e-12);
+  EXPECT_NEAR(force(contacts_at(run.scene, 0), 0, run.number("globe")), 0.96 * g_n, 1e-12);
   EXPECT_TRUE(contacts_at(run.scene, (leave + land) / 2).empty());
 }
 
@@ -46,12 +44,12 @@ TEST(Crates, FallOnceTheLowestIsPast) {
   ASSERT_EQ(strikes.size(), 1u);
   EXPECT_NEAR(strikes[0].time, 0.3875, 1e-15);
   EXPECT_NEAR(run.velocity("low").x(), 8.0 / 3, 1e-14);
-  EXPECT_NEAR(run.of("middle").back().time, 0.575 + std::sqrt(1 / g), 1e-13);
+  EXPECT_NEAR(run.of("middle").back().time, 0.575 + std::sqrt(1 / g_n), 1e-13);
   EXPECT_NEAR(run.position("high").y(), 0.75, 1e-13);
   const auto contacts = contacts_at(run.scene, 0.1);
-  EXPECT_NEAR(force(contacts, run.number("middle"), run.number("high")), 10 * g, 1e-10);
-  EXPECT_NEAR(force(contacts, run.number("low"), run.number("middle")), 20 * g, 1e-10);
-  EXPECT_NEAR(force(contacts, run.number("low"), run.number("floor")), 30 * g, 1e-10);
+  EXPECT_NEAR(force(contacts, run.number("middle"), run.number("high")), 10 * g_n, 1e-10);
+  EXPECT_NEAR(force(contacts, run.number("low"), run.number("middle")), 20 * g_n, 1e-10);
+  EXPECT_NEAR(force(contacts, run.number("low"), run.number("floor")), 30 * g_n, 1e-10);
 }
 
 TEST(Gust, PushesForItsSecond) {
@@ -77,9 +75,9 @@ TEST(Pyramid, PressesAsStaticsSays) {
   const Played run = play("pyramid");
   const auto contacts = contacts_at(run.scene, 0.5);
   EXPECT_EQ(contacts.size(), 6u);
-  EXPECT_NEAR(force(contacts, run.number("left"), run.number("top")), g / 1.2, 1e-12);
-  EXPECT_NEAR(force(contacts, run.number("left"), run.number("left_wall")), 2 * g / 3, 1e-12);
-  EXPECT_NEAR(force(contacts, run.number("right"), run.number("floor")), 1.5 * g, 1e-12);
+  EXPECT_NEAR(force(contacts, run.number("left"), run.number("top")), g_n / 1.2, 1e-12);
+  EXPECT_NEAR(force(contacts, run.number("left"), run.number("left_wall")), 2 * g_n / 3, 1e-12);
+  EXPECT_NEAR(force(contacts, run.number("right"), run.number("floor")), 1.5 * g_n, 1e-12);
   EXPECT_EQ(run.velocity("top").norm(), 0);
 }
 
@@ -88,7 +86,7 @@ TEST(PileAtRest, WeighsWhatItWeighs) {
   EXPECT_EQ(run.tally.resting, 40u);
   double floor = 0;
   for (const ContactForce& c : contacts_at(run.scene, 10)) floor += c.b == run.number("room.y_min") ? c.force : 0;
-  EXPECT_NEAR(floor, 40 * g, 1e-9 * 40 * g);
+  EXPECT_NEAR(floor, 40 * g_n, 1e-9 * 40 * g_n);
 }
 
 TEST(TenPins, BallAndPinsAreStruckInOrder) {

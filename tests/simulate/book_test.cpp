@@ -6,6 +6,7 @@
 
 #include "physics/world.h"
 #include "simulate/build.h"
+#include "simulate/references.h"
 
 namespace carom {
 namespace {

@@ -1,7 +1,5 @@
 #pragma once
 // Short ways to build a world and to run it whole.
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -9,8 +7,12 @@
 #include "physics/world.h"
 #include "simulate/book.h"
 #include "simulate/exact.h"
+#include "simulate/simulation_error.h"
 
 namespace carom {
+
+/// Standard gravity, m/s^2.
+inline constexpr double g_n = 9.80665;
 
 struct Problem {
   World world;
@@ -97,6 +99,16 @@ inline Outcome run_exact(const Problem& problem) {
   return run_to_end(*simulator, problem.options.duration);
 }
 
+/// The message of a run that fails. Empty: it does not.
+inline std::string error_of(const Problem& problem) {
+  try {
+    run_exact(problem);
+  } catch (const SimulationError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 /// Advances to `time` (s), in as many calls as the buffer needs.
 inline void go_to(Simulator& simulator, double time) {
   do simulator.advance_to(time);
@@ -108,23 +120,6 @@ inline double force_between(Simulator& simulator, Entity a, Entity b) {
   for (const ContactForce& c : simulator.contacts())
     if (c.a == a && c.b == b) return c.force;
   return 0;
-}
-
-inline nlohmann::json reference(const std::string& name) {
-  std::ifstream file(std::string(DATA_DIR) + "/references/" + name + ".json");
-  return nlohmann::json::parse(file);
-}
-
-inline Vec3 vec3(const nlohmann::json& j) {
-  return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()};
-}
-
-/// "3073/1024" or 1.5.
-inline double number(const nlohmann::json& j) {
-  if (j.is_number()) return j.get<double>();
-  const std::string s = j.get<std::string>();
-  const auto slash = s.find('/');
-  return slash == std::string::npos ? std::stod(s) : std::stod(s.substr(0, slash)) / std::stod(s.substr(slash + 1));
 }
 
 }  // namespace carom

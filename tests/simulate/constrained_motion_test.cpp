@@ -12,12 +12,10 @@
 namespace carom {
 namespace {
 
-constexpr double g = 9.80665;
-
 /// n balls (1 kg, radius 0.5 m) side by side on a floor; a force (N) acts on the first. reversed: named from the end.
 Problem pushed_row(int n, double force, bool reversed, double duration) {
   Problem problem;
-  problem.world.gravity = Vec3(0, -g, 0);
+  problem.world.gravity = Vec3(0, -g_n, 0);
   problem.options.duration = duration;
   for (int k = 0; k < n; ++k) problem.ball({reversed ? n - 1.0 - k : k, 0.5, 0}, {0, 0, 0}, 1, 0.5, 0.5);
   problem.plane({0, 0, 0}, {0, 1, 0});
@@ -44,7 +42,7 @@ TEST(ConstrainedMotion, ARowOfAnyNumberIsPushedAsOneBody) {
 TEST(ConstrainedMotion, AStackOfAnyNumberStandsAndEachBallCarriesThoseAboveIt) {
   for (const int n : {2, 8, 9, 40, 200}) {
     Problem problem;
-    problem.world.gravity = Vec3(0, -g, 0);
+    problem.world.gravity = Vec3(0, -g_n, 0);
     problem.options.duration = 10;
     for (int k = 0; k < n; ++k) problem.ball({0, 0.5 + k, 0}, {0, 0, 0}, 1, 0.5, 0.5);
     problem.plane({0, 0, 0}, {0, 1, 0});
@@ -56,20 +54,20 @@ TEST(ConstrainedMotion, AStackOfAnyNumberStandsAndEachBallCarriesThoseAboveIt) {
       ASSERT_EQ(contacts.size(), static_cast<std::size_t>(n));
       for (const ContactForce& c : contacts) {
         const int above = c.b == static_cast<Entity>(n) ? n : n - 1 - static_cast<int>(c.a);
-        EXPECT_NEAR(c.force, above * g, 1e-13 * n * g) << n << ": " << c.a << " on " << c.b;
+        EXPECT_NEAR(c.force, above * g_n, 1e-13 * n * g_n) << n << ": " << c.a << " on " << c.b;
       }
     }
   }
 }
 
 /// A ball of M kg falls between n balls of m kg that it pushes apart over a floor; all of radius r, from rest. The line
-/// of centres makes the angle q with the vertical: I(q) q'' + I'(q)/2 q'^2 = 2 M g r sin q. The angle at `time`.
+/// of centres makes the angle q with the vertical: I(q) q'' + I'(q)/2 q'^2 = 2 M g_n r sin q. The angle at `time`.
 double angle_of_roof(double q, double top, double base, int n, double r, double time) {
   const auto curve = [&](double at, double rate) {
     const double s = std::sin(at), c = std::cos(at), length = 2 * r;
     const double inertia = length * length * (top * s * s + n * base * c * c);
     const double slope = 2 * length * length * s * c * (top - n * base);
-    return (top * g * length * s - 0.5 * slope * rate * rate) / inertia;
+    return (top * g_n * length * s - 0.5 * slope * rate * rate) / inertia;
   };
   const int steps = 20000;
   const double h = time / steps;
@@ -87,7 +85,7 @@ double angle_of_roof(double q, double top, double base, int n, double r, double 
 /// `copies` of them, 5 m apart.
 Problem roofs(int bases, int copies, double angle, double top, double r) {
   Problem problem;
-  problem.world.gravity = Vec3(0, -g, 0);
+  problem.world.gravity = Vec3(0, -g_n, 0);
   problem.options.duration = 0.2;
   for (int c = 0; c < copies; ++c) {
     const double z = 5.0 * c;
@@ -148,7 +146,7 @@ TEST(ConstrainedMotion, InOtherUnitsAPyramidHasTheSameBits) {
 /// n boxes of edge b (m) in a row on a slope that falls by `angle` (rad) towards x, all at rest on its plane.
 Problem boxes_on_a_slope(int n, double b, double angle, double mass) {
   Problem problem;
-  problem.world.gravity = Vec3(0, -g, 0);
+  problem.world.gravity = Vec3(0, -g_n, 0);
   const Vec3 down(std::cos(angle), -std::sin(angle), 0), up(std::sin(angle), std::cos(angle), 0);
   problem.plane({0, 0, 0}, up);
   const double support = 0.5 * b * (std::sin(angle) + std::cos(angle));  // m, from the plane to a box's middle
@@ -169,7 +167,7 @@ TEST(ConstrainedMotion, BoxesInARowSlideDownASlopeAsOneAlsoWhenTheUppermostIsPus
         if (push > 0) problem.world.forces.push_back({UniformForce{push * down}, 0, never, {0}});
         problem.options.duration = 1;
         const Outcome run = run_exact(problem);
-        const double way = 0.5 * (g * std::sin(angle) + push / (2 * n));  // m
+        const double way = 0.5 * (g_n * std::sin(angle) + push / (2 * n));  // m
         for (Entity i = 0; i < problem.world.body_count(); ++i)
           EXPECT_LT((run.end.position[i] - problem.initial.position[i] - way * down).norm(), 1e-12 * (1 + n))
               << n << ' ' << angle << ' ' << push << ": " << i;
@@ -178,7 +176,7 @@ TEST(ConstrainedMotion, BoxesInARowSlideDownASlopeAsOneAlsoWhenTheUppermostIsPus
       }
 }
 
-// The upper one only sinks: M and m, a = (M + m) g sin q / (M + m sin^2 q) along the slope.
+// The upper one only sinks: M and m, a = (M + m) g_n sin q / (M + m sin^2 q) along the slope.
 TEST(ConstrainedMotion, ABoxOnABoxOnASlopeSinksWhileTheLowerOneSlidesAway) {
   for (const double angle : {0.1, 0.5, 1.0})
     for (const double upper : {0.01, 1.0, 100.0})
@@ -190,7 +188,7 @@ TEST(ConstrainedMotion, ABoxOnABoxOnASlopeSinksWhileTheLowerOneSlidesAway) {
           problem.body(Volume::cylinder(0.25, 0.5), start, {0, 0, 0}, upper, 0);
         else
           problem.body(Volume::box({0.5, 0.5, 0.5}), start, {0, 0, 0}, upper, 0);
-        const double sine = std::sin(angle), a = (3 + upper) * g * sine / (3 + upper * sine * sine);
+        const double sine = std::sin(angle), a = (3 + upper) * g_n * sine / (3 + upper * sine * sine);
         const double time = 0.25, way = 0.5 * a * time * time;
         ASSERT_LT(way * std::cos(angle), 1.2);  // m: still under it
         problem.options.duration = time;

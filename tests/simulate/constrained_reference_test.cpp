@@ -14,8 +14,6 @@
 namespace carom {
 namespace {
 
-constexpr double g = 9.80665;
-
 /// The same for the simulator, with its balls in this order, each under a force of its own.
 Problem same(const ConstrainedReference& reference, const std::vector<std::size_t>& order, double duration, double e) {
   Problem problem;
@@ -97,7 +95,7 @@ ConstrainedReference random_island(std::size_t n, std::uint64_t seed) {
     island.start.push_back(x);
     island.radius.push_back(r);
     island.mass.push_back(std::pow(2.0, random(-3, 3)));
-    island.force.emplace_back(random(-2, 2), -g + random(-2, 2), random(-2, 2));
+    island.force.emplace_back(random(-2, 2), -g_n + random(-2, 2), random(-2, 2));
   }
   return island;
 }
@@ -133,7 +131,7 @@ ConstrainedReference train(std::size_t n, double push) {
     train.start.emplace_back(out * std::sin(angle), out * std::cos(angle) - globe, 0);
     train.radius.push_back(r);
     train.mass.push_back(1 + 0.25 * static_cast<double>(k % 3));
-    train.force.emplace_back(0, -g, 0);
+    train.force.emplace_back(0, -g_n, 0);
   }
   train.force.back().x() += push * static_cast<double>(n) / train.mass.back();
   return train;

@@ -13,11 +13,12 @@
 namespace carom {
 namespace {
 
-constexpr double g = 10;  // m/s^2
+/// Gravity, m/s^2.
+constexpr double pull = 10;
 
 Problem ball_on_floor(double e = 0.5) {
   Problem p;
-  p.world.gravity = Vec3(0, -g, 0);
+  p.world.gravity = Vec3(0, -pull, 0);
   p.plane(Vec3::Zero(), Vec3(0, 1, 0));
   p.ball(Vec3(0, 0.5, 0), Vec3::Zero(), 2, 0.5, e);
   return p;
@@ -76,8 +77,8 @@ TEST(FlatContacts, ReportTheWeight) {
   std::vector<ContactForce> forces;
   parts.flat.report(0, forces);
   ASSERT_EQ(forces.size(), 1u);
-  EXPECT_NEAR(forces[0].force, 2 * g, 1e-12);
-  EXPECT_EQ(parts.flat.acceleration_without(0, 1), Vec3(0, -g, 0));
+  EXPECT_NEAR(forces[0].force, 2 * pull, 1e-12);
+  EXPECT_EQ(parts.flat.acceleration_without(0, 1), Vec3(0, -pull, 0));
 }
 
 TEST(FlatContacts, TakeWhatTheLastBounceLeft) {
@@ -94,7 +95,7 @@ TEST(FlightChanges, BookWhatContactTookFromAFlight) {
   parts.bodies.flights.accelerate(0, Vec3::Zero());  // carried
   parts.flights.book(0, Vec3(0, 0.5 - 3, 0), parts.bodies.now);
   EXPECT_EQ(parts.bodies.log.tally().energy_lost, 0);  // it is not from an impact
-  EXPECT_EQ(parts.bodies.log.tally().method_error, 2 * g * 3);
+  EXPECT_EQ(parts.bodies.log.tally().method_error, 2 * pull * 3);
 }
 
 TEST(FlightChanges, NeverMakeAnOldEventFresh) {
@@ -204,7 +205,7 @@ TEST(TimeStepping, PutsToRestWhatForcesHold) {
   parts.stepping.advance(0);
   EXPECT_EQ(parts.bodies.body[0].state, ContactState::asleep);
   ASSERT_EQ(parts.group.pressing[0].size(), 1u);
-  EXPECT_NEAR(parts.group.pressing[0][0].force, 2 * g, 1e-9);
+  EXPECT_NEAR(parts.group.pressing[0][0].force, 2 * pull, 1e-9);
   EXPECT_FALSE(parts.bodies.islands.any());
 }
 
@@ -223,7 +224,7 @@ TEST(TimeStepping, KeepsAMemberOutOfTheFloorUntilTheStepEnds) {
 
 TEST(ConstrainedMotion, KeepsToACurvedSurface) {
   Problem p;
-  p.world.gravity = Vec3(0, -g, 0);
+  p.world.gravity = Vec3(0, -pull, 0);
   p.obstacle(Vec3::Zero(), Volume::sphere(1));
   p.ball(Vec3(0, 1.5, 0), Vec3(0.5, 0, 0));
   ExactParts parts(p);
@@ -237,12 +238,12 @@ TEST(ConstrainedMotion, KeepsToACurvedSurface) {
   std::vector<ContactForce> forces;
   parts.constrained.report(island, 0, forces);
   ASSERT_EQ(forces.size(), 1u);
-  EXPECT_NEAR(forces[0].force, g - 0.25 / 1.5, 1e-12);  // m (g - v^2 / r)
+  EXPECT_NEAR(forces[0].force, pull - 0.25 / 1.5, 1e-12);  // m (pull - v^2 / r)
 }
 
 TEST(ConstrainedMotion, LeavesAnIslandWhoseContactsChangeTooOftenToTimeStepping) {
   Problem p;
-  p.world.gravity = Vec3(0, -g, 0);
+  p.world.gravity = Vec3(0, -pull, 0);
   p.obstacle(Vec3::Zero(), Volume::sphere(1));
   p.ball(Vec3(0, 1.5, 0), Vec3(0.5, 0, 0));
   ExactParts parts(p);
@@ -348,18 +349,18 @@ TEST(ExactSimulator, TallyDoesNotDependOnWhetherStatesAreAskedFor) {
 
 TEST(ExactSimulator, TallyAtTheEndHasTheLastFlights) {
   Problem p;
-  p.world.gravity = Vec3(0, -g, 0);
+  p.world.gravity = Vec3(0, -pull, 0);
   p.ball(Vec3::Zero(), Vec3::Zero());
   p.options.duration = 2;
   const auto simulator = make_exact_simulator(p.world, p.initial, p.options);
   simulator->advance_to(2);
-  EXPECT_EQ(simulator->tally().max_speed, 2 * g);
+  EXPECT_EQ(simulator->tally().max_speed, 2 * pull);
 }
 
 TEST(TimeStepping, CarriesABodyThatFellWithoutLettingItFallOn) {
   ExactParts parts(ball_on_floor());
   parts.group.join(0);
-  EXPECT_EQ(parts.bodies.flights[0].a, Vec3(0, -g, 0));
+  EXPECT_EQ(parts.bodies.flights[0].a, Vec3(0, -pull, 0));
   parts.stepping.advance(0);
   EXPECT_TRUE(parts.bodies.is_stepped(0) || parts.bodies.body[0].state == ContactState::asleep);
   EXPECT_TRUE(parts.bodies.flights[0].a.isZero(0));
@@ -381,7 +382,7 @@ TEST(TimeStepping, BooksWhatImpactsWithinAStepTakeAsItGoesOn) {
     const double h = parts.bodies.islands.of(0).step_length, end = -parts.bodies.flights[0].v.y();
     const double at_once = parts.bodies.log.tally().energy_lost;
     parts.flights.book_last(part * h);
-    const double all = m * (0.5 * (v * v - end * end) + g * end * h);
+    const double all = m * (0.5 * (v * v - end * end) + pull * end * h);
     EXPECT_GT(all - at_once, 0.1 * all);
     EXPECT_NEAR(parts.bodies.log.tally().energy_lost, at_once + part * (all - at_once), 1e-12);
   }
@@ -390,7 +391,7 @@ TEST(TimeStepping, BooksWhatImpactsWithinAStepTakeAsItGoesOn) {
 TEST(TimeStepping, SlidesABodyOverTilesAsOverOneFloor) {
   for (const double speed : {0.1, 1.0, 10.0}) {
     Problem p;
-    p.world.gravity = Vec3(0, -g, 0);
+    p.world.gravity = Vec3(0, -pull, 0);
     for (int k = -4; k < 4; ++k) p.obstacle(Vec3(k + 0.5, -0.25, 0), Volume::box({1, 0.5, 4}));
     p.ball(Vec3(-0.01, 0.5, 0), Vec3(speed, 0, 0), 2, 0.5, 0.5);
     ExactParts parts(p);

@@ -11,11 +11,6 @@
 namespace carom {
 namespace {
 
-Vec3 in_cube(Random& random, double half) {
-  const double x = random(-half, half), y = random(-half, half), z = random(-half, half);
-  return {x, y, z};
-}
-
 /// When i and j meet, by the law for a single pair.
 Instant time_of(const Flights& flights, const std::vector<double>& radius, Entity i, Entity j, double end) {
   const Flight p = flights[i], q = flights[j];

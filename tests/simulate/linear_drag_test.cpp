@@ -10,6 +10,7 @@
 #include "simulate/exact.h"
 #include "simulate/pile.h"
 #include "simulate/random.h"
+#include "simulate/references.h"
 
 namespace carom {
 namespace {

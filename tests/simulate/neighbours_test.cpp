@@ -12,11 +12,6 @@
 namespace carom {
 namespace {
 
-Vec3 in_cube(Random& random, double half) {
-  const double x = random(-half, half), y = random(-half, half), z = random(-half, half);
-  return {x, y, z};
-}
-
 struct Wandering {
   std::string name;
   double radii;  // the largest over the smallest

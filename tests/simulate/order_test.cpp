@@ -8,6 +8,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/exact.h"
+#include "simulate/references.h"
 
 namespace carom {
 namespace {

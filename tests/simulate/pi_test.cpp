@@ -47,15 +47,6 @@ TEST(PiBilliard, AThousandthOfAnAngleDecidesBetweenNeighbours) {
   }
 }
 
-std::string error_of(const Problem& problem) {
-  try {
-    run_exact(problem);
-  } catch (const SimulationError& error) {
-    return error.what();
-  }
-  return "none";
-}
-
 /// A ball of diameter 1 between two planes.
 Problem squeezed(double room, double e) {
   Problem problem;

@@ -2,6 +2,8 @@
 // The tests' own random numbers: the same on every machine.
 #include <cstdint>
 
+#include "numerics/vec3.h"
+
 namespace carom {
 
 class Random {
@@ -17,5 +19,11 @@ class Random {
  private:
   std::uint64_t state_;
 };
+
+/// A point of the cube of edge 2 * half around 0.
+inline Vec3 in_cube(Random& random, double half) {
+  const double x = random(-half, half), y = random(-half, half), z = random(-half, half);
+  return {x, y, z};
+}
 
 }  // namespace carom

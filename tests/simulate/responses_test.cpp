@@ -68,15 +68,6 @@ TEST(RestitutionAboveOne, EveryImpactMakesEnergy) {
   EXPECT_NEAR(-run.tally.energy_lost, v * v - 1, 1e-14 * v * v);
 }
 
-std::string error_of(const Problem& problem) {
-  try {
-    run_exact(problem);
-  } catch (const SimulationError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 // Each crossing is shorter than the one before: infinitely many come before t = 0.5 + 1/(e - 1).
 TEST(RestitutionAboveOne, SpeedsWithoutBoundEndTheRunWithWhatToDo) {
   for (double e : {2.0, 1.5, 1.1, 1.01, 1.001}) {

@@ -12,8 +12,6 @@
 namespace carom {
 namespace {
 
-constexpr double g = 9.80665;
-
 struct Press {
   Entity a, b;
   double force;  // N
@@ -55,7 +53,7 @@ void expect_rest_and_landing(Problem problem, const std::vector<Press>& forces, 
 
 TEST(Rest, ABallInAGrooveDividesItsWeight) {
   Problem problem;
-  problem.world.gravity = Vec3(0, -g, 0);
+  problem.world.gravity = Vec3(0, -g_n, 0);
   const double p = M_PI / 5, q = M_PI / 7;
   const Vec3 n1(std::sin(p), std::cos(p), 0), n2(-std::sin(q), std::cos(q), 0);
   problem.plane({0, 0, 0}, n1);
@@ -63,7 +61,7 @@ TEST(Rest, ABallInAGrooveDividesItsWeight) {
   // The centre is at r from both planes: in the groove's bisector.
   const double r = 0.3, along = r / std::cos((p + q) / 2);
   problem.ball(along * Vec3(std::sin((p - q) / 2), std::cos((p - q) / 2), 0), {0, 0, 0}, 2, r, 0);
-  const double weight = 2 * g;
+  const double weight = 2 * g_n;
   expect_rest_and_landing(
       problem, {{0, 1, weight * std::sin(q) / std::sin(p + q)}, {0, 2, weight * std::sin(p) / std::sin(p + q)}},
       "groove");
@@ -79,18 +77,18 @@ TEST(Rest, ABallInACornerPressesOnAllThreeSides) {
 
 TEST(Rest, ABallInThePocketOfThreeFixedBallsPressesOnEach) {
   Problem problem;
-  problem.world.gravity = Vec3(0, -g, 0);
+  problem.world.gravity = Vec3(0, -g_n, 0);
   // Fixed centres at 0.6 m around the axis, radii that sum to 1 m: 0.8 m below the ball.
   for (int k = 0; k < 3; ++k)
     problem.obstacle({0.6 * std::cos(2 * M_PI * k / 3), 0, 0.6 * std::sin(2 * M_PI * k / 3)}, Volume::sphere(0.5));
   problem.ball({0, 0.8, 0}, {0, 0, 0}, 3, 0.5, 0);
-  const double f = 3 * g / 3 / 0.8;
+  const double f = 3 * g_n / 3 / 0.8;
   expect_rest_and_landing(problem, {{0, 1, f}, {0, 2, f}, {0, 3, f}}, "pocket");
 }
 
 Problem pyramid() {
   Problem problem;
-  problem.world.gravity = Vec3(0, -g, 0);
+  problem.world.gravity = Vec3(0, -g_n, 0);
   problem.plane({0, 0, 0}, {0, 1, 0});
   // Three balls on the floor, 0.6 m from the axis, each in a corner of two planes; the fourth 0.8 m above their
   // centres.
@@ -107,7 +105,7 @@ Problem pyramid() {
 }
 
 TEST(Rest, APyramidOfFourPressesOnFloorAndWalls) {
-  const double f = 3 * g / 3 / 0.8, wall = f * 0.6 / std::sqrt(2.0), floor = g + g;
+  const double f = 3 * g_n / 3 / 0.8, wall = f * 0.6 / std::sqrt(2.0), floor = g_n + g_n;
   std::vector<Press> forces;
   for (Entity k = 0; k < 3; ++k) {
     forces.push_back({k, 3, f});
@@ -121,8 +119,8 @@ TEST(Rest, APyramidOfFourPressesOnFloorAndWalls) {
 TEST(Rest, ASmallBodyBouncesOnALargeOneInContactAsByItself) {
   for (const double r : {2e-5, 1e-3}) {
     Problem problem;
-    problem.world.gravity = Vec3(0, -g, 0);
-    problem.options.duration = 0.9 * std::sqrt(2 * 30 * r / g) * 2;
+    problem.world.gravity = Vec3(0, -g_n, 0);
+    problem.options.duration = 0.9 * std::sqrt(2 * 30 * r / g_n) * 2;
     problem.plane({0, 0, 0}, {0, 1, 0});
     problem.body(Volume::box({2, 1, 2}), {0, 0.5, 0}, {0, 0, 0}, 1000, 0);
     problem.ball({0.5, 1 + r, 0}, {0, 0, 0}, 1e-3, r, 0);
@@ -131,46 +129,46 @@ TEST(Rest, ASmallBodyBouncesOnALargeOneInContactAsByItself) {
     const Outcome run = run_exact(problem);
     ASSERT_FALSE(run.collisions.empty()) << r;
     const Collision& first = run.collisions.front();
-    EXPECT_NEAR(first.approach_speed, std::sqrt(2 * g * 30 * r), 1e-9) << r;
+    EXPECT_NEAR(first.approach_speed, std::sqrt(2 * g_n * 30 * r), 1e-9) << r;
     EXPECT_NEAR(first.separation_speed, 0.5 * first.approach_speed, 1e-9) << r;
   }
 }
 
 TEST(Rest, ABoxOnABoxOnTheFloor) {
   Problem problem;
-  problem.world.gravity = Vec3(0, -g, 0);
+  problem.world.gravity = Vec3(0, -g_n, 0);
   problem.plane({0, 0, 0}, {0, 1, 0});
   problem.body(Volume::box({1, 0.5, 1}), {0, 0.25, 0}, {0, 0, 0}, 4, 0);
   problem.body(Volume::box({0.5, 0.25, 0.75}), {0.125, 0.625, 0}, {0, 0, 0}, 2, 0);
-  expect_rest_and_landing(problem, {{0, 1, 2 * g}, {0, 2, 6 * g}}, "boxes");
+  expect_rest_and_landing(problem, {{0, 1, 2 * g_n}, {0, 2, 6 * g_n}}, "boxes");
 }
 
 TEST(Rest, ACylinderOnABoxThatIsFixed) {
   Problem problem;
-  problem.world.gravity = Vec3(0, -g, 0);
+  problem.world.gravity = Vec3(0, -g_n, 0);
   problem.obstacle({0, 0, 0}, Volume::box({2, 1, 2}));
   problem.body(Volume::cylinder(0.25, 0.5), {0.5, 0.75, 0.25}, {0, 0, 0}, 2, 0);
-  expect_rest_and_landing(problem, {{0, 1, 2 * g}}, "cylinder on box");
+  expect_rest_and_landing(problem, {{0, 1, 2 * g_n}}, "cylinder on box");
 }
 
 TEST(Rest, ABallOnACylinderOnABoxOnAWall) {
   Problem problem;
-  problem.world.gravity = Vec3(0, -g, 0);
+  problem.world.gravity = Vec3(0, -g_n, 0);
   problem.wall({0, 0, 0}, {0, 1, 0}, 4, 4, {0, 0, 1});
   problem.body(Volume::box({1, 0.5, 1}), {0, 0.25, 0}, {0, 0, 0}, 4, 0);
   problem.body(Volume::cylinder(0.25, 0.5), {0.125, 0.75, 0}, {0, 0, 0}, 2, 0);
   problem.ball({0.125, 1.125, 0.0625}, {0, 0, 0}, 1, 0.125, 0);
-  expect_rest_and_landing(problem, {{0, 1, 3 * g}, {0, 3, 7 * g}, {1, 2, g}}, "ball, cylinder, box, wall");
+  expect_rest_and_landing(problem, {{0, 1, 3 * g_n}, {0, 3, 7 * g_n}, {1, 2, g_n}}, "ball, cylinder, box, wall");
 }
 
 TEST(Rest, AColumnOfBallsBetweenWallsStands) {
   Problem problem;
-  problem.world.gravity = Vec3(0, -g, 0);
+  problem.world.gravity = Vec3(0, -g_n, 0);
   problem.room({-0.25, 0, -0.25}, {0.25, 100, 0.25});
   for (int i = 0; i < 10; ++i) problem.ball({0, 0.25 + 0.5 * i, 0}, {0, 0, 0}, 1, 0.25, 0);
   std::vector<Press> forces;
-  for (Entity i = 0; i < 9; ++i) forces.push_back({i, i + 1, g * (9 - i)});
-  forces.push_back({0, 12, 10 * g});
+  for (Entity i = 0; i < 9; ++i) forces.push_back({i, i + 1, g_n * (9 - i)});
+  forces.push_back({0, 12, 10 * g_n});
   problem.options.duration = 20;
   expect_rest(problem, forces, {0, 0.1, 20}, "column", 1e-14);
 }
@@ -186,14 +184,14 @@ TEST(Rest, AColumnThrowsBackWhoFallsOnIt) {
   // As many balls as time stepping moves, and fewer: at e = 1 the one that falls from 0.5 m comes up again.
   for (int n : {2, 16, 17, 18, 24, 40}) {
     Problem problem;
-    problem.world.gravity = Vec3(0, -g, 0);
+    problem.world.gravity = Vec3(0, -g_n, 0);
     problem.plane({0, 0, 0}, {0, 1, 0});
     for (int i = 0; i < n; ++i) problem.ball({0, 0.125 + 0.25 * i, 0}, Vec3::Zero(), 1, 0.125, 1);
     problem.ball({0, 0.125 + 0.25 * n + 0.5, 0}, Vec3::Zero(), 1, 0.125, 1);
-    const double fall = std::sqrt(2 * 0.5 / g);
+    const double fall = std::sqrt(2 * 0.5 / g_n);
     problem.options.duration = 1.5 * fall;
     const Outcome run = run_exact(problem);
-    EXPECT_NEAR(run.end.velocity.back().y(), 0.5 * g * fall, 1e-6) << n;
+    EXPECT_NEAR(run.end.velocity.back().y(), 0.5 * g_n * fall, 1e-6) << n;
     EXPECT_NEAR(run.tally.energy_lost, 0, 1e-5) << n;  // 2e-6 of 4.9 J
   }
 }
@@ -235,7 +233,7 @@ void expect_wakes(Problem problem, Entity target, const Vec3& from, const Vec3& 
 /// Three kinds of bodies on one another or side by side, sliding along x at `speed` (m/s).
 Problem gliding(int kind, double speed, bool forced_far_away) {
   Problem problem;
-  problem.world.gravity = Vec3(0, -g, 0);
+  problem.world.gravity = Vec3(0, -g_n, 0);
   problem.plane({0, 0, 0}, {0, 1, 0});
   const Vec3 v(speed, 0, 0);
   const double e = 0.5;
@@ -274,14 +272,14 @@ TEST(Rest, WhatGlidesHoweverSlowlyGlidesOn) {
 
 TEST(Rest, WhoIsStruckWakes) {
   Problem groove;
-  groove.world.gravity = Vec3(0, -g, 0);
+  groove.world.gravity = Vec3(0, -g_n, 0);
   groove.plane({0, 0, 0}, {1, 1, 0});
   groove.plane({0, 0, 0}, {-1, 1, 0});
   groove.ball({0, 0.25 * std::sqrt(2.0), 0}, {0, 0, 0}, 1, 0.25, 0);
   expect_wakes(groove, 0, {0, 0.25 * std::sqrt(2.0), -0.375}, {0, 0, 2}, "groove");
   expect_wakes(pyramid(), 3, {0, 1.3, -0.625}, {0, 0, 2}, "pyramid");
   Problem boxes;
-  boxes.world.gravity = Vec3(0, -g, 0);
+  boxes.world.gravity = Vec3(0, -g_n, 0);
   boxes.plane({0, 0, 0}, {0, 1, 0});
   boxes.body(Volume::box({1, 0.5, 1}), {0, 0.25, 0}, {0, 0, 0}, 4, 0);
   boxes.body(Volume::box({0.5, 0.25, 0.75}), {0.125, 0.625, 0}, {0, 0, 0}, 2, 0);

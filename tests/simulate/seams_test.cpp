@@ -12,7 +12,6 @@
 namespace carom {
 namespace {
 
-constexpr double g = 9.80665;
 TEST(Seams, OfTilesAndWallsDoNothingToABodyNorToOneThatCarriesOthers) {
   for (const Sliding kind : {Sliding::ball, Sliding::box, Sliding::cylinder})
     for (const int riders : {0, 1, 2})
@@ -31,7 +30,7 @@ TEST(Seams, OfPlanesThatAreNearlyLevelDoNothing) {
       const double angle = 3e-8 * std::pow(2.0, -static_cast<double>(seed % 25));
       const double meet = seed % 2 == 0 ? 0.7 * speed : 0;  // ahead, or where the body is
       Problem problem;
-      problem.world.gravity = Vec3(0, -g, 0);
+      problem.world.gravity = Vec3(0, -g_n, 0);
       problem.options.duration = 1.5;
       problem.plane({0, top, 0}, {0, 1, 0});
       problem.plane({meet, top, 0}, {-angle, 1, 0});
@@ -41,7 +40,7 @@ TEST(Seams, OfPlanesThatAreNearlyLevelDoNothing) {
       if (kind == Sliding::cylinder) problem.body(Volume::cylinder(r, 2 * r), start, velocity, 1, e);
       const Outcome run = run_exact(problem);
       EXPECT_LT((run.end.position[0] - start - 1.5 * velocity).norm(),
-                angle * (1.5 * speed + 1.2 * g * 1.5 * 1.5) + 1e-12)
+                angle * (1.5 * speed + 1.2 * g_n * 1.5 * 1.5) + 1e-12)
           << seed;
       EXPECT_TRUE(run.collisions.empty()) << seed;
     }

@@ -10,6 +10,7 @@
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/pile.h"
+#include "simulate/references.h"
 
 namespace carom {
 namespace {

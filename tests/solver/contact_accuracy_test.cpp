@@ -14,8 +14,6 @@ namespace {
 
 using namespace contact_cases;
 
-constexpr std::uint32_t fixed = ContactConstraint::fixed;
-
 /// Rows, stacks, lattices and packings of every load, with contacts' slack of this share of the greatest free motion
 /// and forces guessed at random.
 std::vector<Case> cases(double slack) {

@@ -13,6 +13,8 @@
 
 namespace carom::contact_cases {
 
+inline constexpr std::uint32_t fixed = ContactConstraint::fixed;
+
 /// The cases' own random numbers: the same on every machine.
 class Draw {
  public:

@@ -17,8 +17,6 @@ namespace {
 using namespace contact_cases;
 using Verdict = Certificate::Verdict;
 
-constexpr std::uint32_t fixed = ContactConstraint::fixed;
-
 /// Solves a case: its motion and forces become the answer's.
 Certificate solve_case(Case& c) {
   return solve({c.inverse_mass, c.motion, c.contacts});

@@ -1,0 +1,19 @@
+#pragma once
+// The reference numbers of tests/data/references/. Apart from build.h, since most tests need no JSON.
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "numerics/vec3.h"
+
+namespace carom {
+
+/// The file `name`.json.
+nlohmann::json reference(const std::string& name);
+
+/// [x, y, z].
+Vec3 vec3(const nlohmann::json& j);
+
+/// "3073/1024" or 1.5.
+double number(const nlohmann::json& j);
+
+}  // namespace carom
