@@ -165,7 +165,7 @@ int diff_command(const Options& options) {
       json.update(difference_json(difference));
       write_out(document("diff", json));
     } else if (!options.quiet) {
-      Block block(Palette(wants_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+      Block block(Palette(uses_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
       describe(block, difference);
       write_out(block.text());
     }

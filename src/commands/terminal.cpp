@@ -37,7 +37,7 @@ std::size_t terminal_width(int descriptor) {
   return is_terminal(descriptor) ? 80 : 100;
 }
 
-bool wants_color(ColorChoice choice, int descriptor) {
+bool uses_color(ColorChoice choice, int descriptor) {
   if (choice != ColorChoice::automatic) return choice == ColorChoice::always;
   const char* term = std::getenv("TERM");
   const bool dumb = term != nullptr && std::strcmp(term, "dumb") == 0;

@@ -22,7 +22,7 @@ const OutputKind* output_of(std::string_view name) {
 
 bool is_picture(std::string_view name) {
   const OutputKind* kind = output_of(name);
-  return kind != nullptr ? kind->looks : name.ends_with(".mp4");
+  return kind != nullptr ? kind->draws : name.ends_with(".mp4");
 }
 
 FileSpot SeriesFolders::spot(std::string_view name) {

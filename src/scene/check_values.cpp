@@ -8,7 +8,7 @@
 namespace carom {
 namespace {
 
-WantedNumber wanted_number(const Field& field) {
+ExpectedNumber expected_number(const Field& field) {
   return {field.key, field.unit, "expected " + expected(field)};
 }
 
@@ -45,7 +45,7 @@ bool ValueChecker::number(Node& value, const Field& field, const std::string& na
   }
   const std::optional<double> parsed = value.quoted ? std::nullopt : parse_number(value.text);
   if (!parsed) {
-    Complaint complaint = explain_number(value, wanted_number(field));
+    Complaint complaint = explain_number(value, expected_number(field));
     refuse(value, std::move(complaint.message), std::move(complaint.remedy));
     return false;
   }
@@ -105,7 +105,7 @@ void ValueChecker::choice(Node& value, const Field& field, const std::string& na
   for (const std::string_view one : all) {
     if (value.text != one) continue;
     if (!value.quoted || !parse_number(value.text)) return;
-    Complaint complaint = explain_number(value, wanted_number(field));
+    Complaint complaint = explain_number(value, expected_number(field));
     refuse(value, std::move(complaint.message), std::move(complaint.remedy));
     return;
   }

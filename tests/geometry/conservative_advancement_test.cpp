@@ -168,7 +168,7 @@ TEST(ConservativeAdvancement, APathAlmostAlongAnAxisMeetsLikeAnyOther) {
     }
 }
 
-TEST(ConservativeAdvancement, AGapSmallerThanThePositionsCanTellIsMet) {
+TEST(ConservativeAdvancement, AGapSmallerThanThePositionsResolveIsMet) {
   // A ball on its way to a cylinder's rim, 1.5e-16 m from it: its position does not change before the gap is closed.
   World world;
   world.mass = {1, 1};

@@ -34,6 +34,6 @@ const Page& page_at(const std::string& path);
 std::string one_line(const std::string& text);
 
 /// The number after `phrase`, which must occur once on all pages written by hand. Otherwise a failure and NaN.
-double said(const std::string& phrase);
+double stated(const std::string& phrase);
 
 }  // namespace carom::testing

@@ -52,7 +52,7 @@ TEST(Book, TheTextsIntentionsGiveTheChaptersVelocities) {
               1e-14);
 }
 
-TEST(Book, AskingForStatesChangesNothing) {
+TEST(Book, ReadingStatesChangesNothing) {
   const Phase p = meeting(false, 0.5, true);
   const auto often = make_book_simulator(p.problem.world, p.problem.initial, p.options);
   for (int k = 0; k <= 100; ++k) {

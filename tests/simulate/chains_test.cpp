@@ -70,7 +70,7 @@ TEST(ThreeBalls, AreResolvedOnePairAtATimeFromTheLowestNumbers) {
   }
 }
 
-TEST(StackedDrop, TheSmallBallIsThrownUpAsTheClosedFormSays) {
+TEST(StackedDrop, TheSmallBallRisesByTheClosedForm) {
   const auto all = reference("chains_cradle_stack")["stacked_drop"];
   for (const auto& r : all["cases"]) {
     Problem problem;
@@ -103,8 +103,8 @@ TEST(MassChain, SpeedGrowsAsTheGeometricFormula) {
     const Outcome run = run_exact(problem);
     EXPECT_EQ(run.collisions.size(), r["n_collisions"].get<std::size_t>());
     for (int i = 0; i < n; ++i) {
-      const double want = r["v_final"][static_cast<std::size_t>(i)];
-      EXPECT_NEAR(run.end.velocity[static_cast<std::size_t>(i)].x(), want, 5e-15 * std::abs(want) + 1e-16)
+      const double expected = r["v_final"][static_cast<std::size_t>(i)];
+      EXPECT_NEAR(run.end.velocity[static_cast<std::size_t>(i)].x(), expected, 5e-15 * std::abs(expected) + 1e-16)
           << r["q"] << i;
     }
   }
@@ -131,9 +131,9 @@ TEST(StackedDrop, LightOnHeavyNearsTheLadderOfInfiniteMasses) {
     for (int i = 0; i < n; ++i) problem.ball({0, 1.0 + i * (1 + 0x1p-30), 0}, {0, -1, 0}, std::pow(1e-7, i), 0.5, 1);
     problem.options.duration = 0.75;
     const Outcome run = run_exact(problem);
-    const double want = r["speed_ratio"], got = run.end.velocity[static_cast<std::size_t>(n - 1)].y();
-    EXPECT_NEAR(got, want, 1e-6 * want * n) << n;
-    EXPECT_NEAR(got * got, r["height_ratio"].get<double>(), 2e-6 * want * want * n) << n;
+    const double expected = r["speed_ratio"], got = run.end.velocity[static_cast<std::size_t>(n - 1)].y();
+    EXPECT_NEAR(got, expected, 1e-6 * expected * n) << n;
+    EXPECT_NEAR(got * got, r["height_ratio"].get<double>(), 2e-6 * expected * expected * n) << n;
   }
 }
 

@@ -153,7 +153,7 @@ TEST(Collapse, OfALightBallBetweenHeavyOnesComesInFreeFallAsAtRest) {
   }
 }
 
-TEST(Collapse, IsNotMistakenForManyHonestCollisions) {
+TEST(Collapse, ManySeparateCollisionsAreNone) {
   for (double second_e : {1.0, 0.9999}) {
     const Outcome run = run_exact(squeezed(1e-8, 1, second_e, 0));
     EXPECT_EQ(run.tally.collapses, 0u);
@@ -190,7 +190,7 @@ TEST(Collapse, AgainstAPlaneSqueezesNothingIntoIt) {
   EXPECT_LT(run.end.velocity[1].norm(), 1e-15);
 }
 
-TEST(Collapse, FarFromTheOriginIsToldThoughPositionsAreCoarserThanItsGaps) {
+TEST(Collapse, FarFromTheOriginIsFoundThoughPositionsAreCoarserThanItsGaps) {
   for (double far : {0x1p12, 0x1p24, 0x1p30}) {
     Problem problem = squeezed(1e-7, 0.3, 0.4, 0);
     for (Vec3& x : problem.initial.position) x += Vec3(1, -0.7, 0.3) * far;
@@ -229,7 +229,7 @@ Problem falling_on_a_fixed_ball(double h, double e) {
   return problem;
 }
 
-TEST(Collapse, ABallThatGivesNothingBackIsRecordedWhereItStrikes) {
+TEST(Collapse, ABallOfNoRestitutionIsRecordedWhereItStrikes) {
   const Outcome run = run_exact(falling_on_a_fixed_ball(0.2, 0));
   ASSERT_EQ(run.collisions.size(), 1u);
   EXPECT_NEAR(run.collisions[0].approach_speed, std::sqrt(2 * g * 0.2), 1e-13);
@@ -238,7 +238,7 @@ TEST(Collapse, ABallThatGivesNothingBackIsRecordedWhereItStrikes) {
   EXPECT_NEAR(run.tally.energy_lost, 2 * g * 0.2, 1e-13);
 }
 
-TEST(Collapse, ImpactsThatContactTakesUpAreTold) {
+TEST(Collapse, ImpactsThatContactReplacesAreReported) {
   const double e = 0.5, h = 0.2;
   const Outcome run = run_exact(falling_on_a_fixed_ball(h, e));
   EXPECT_EQ(run.tally.taken_up.impacts, 1u);

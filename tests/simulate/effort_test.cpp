@@ -26,7 +26,7 @@ class Counted {
 
 const Vec3 falling(0, -10, 0);
 
-TEST(Effort, OneBallAsksForNoPair) {
+TEST(Effort, OneBallTestsNoPair) {
   Problem p;
   p.world.gravity = falling;
   p.room(Vec3(-2, -2, -2), Vec3(2, 2, 2));
@@ -53,7 +53,7 @@ Problem columns(double pitch, double restitution) {
   return p;
 }
 
-TEST(Effort, BallsThatOnlyMeetPlanesAskForNoPair) {
+TEST(Effort, BallsThatOnlyMeetPlanesTestNoPair) {
   Counted counted(columns(8, 1));
   const Effort effort = counted.at(20);
   EXPECT_GT(counted.collisions(), 15'000U);
@@ -64,7 +64,7 @@ TEST(Effort, BallsThatOnlyMeetPlanesAskForNoPair) {
 }
 
 // 1,000 balls that fly away from one another for ever.
-TEST(Effort, DivergingBallsAreAskedOnceAndThenAsTheirDistancesDouble) {
+TEST(Effort, DivergingBallsAreTestedOnceAndThenAsTheirDistancesDouble) {
   Problem p;
   for (int i = 0; i < 1000; ++i) {
     const Vec3 x = 1.2 * Vec3(i % 10 - 4.5, i / 10 % 10 - 4.5, i / 100 - 4.5);

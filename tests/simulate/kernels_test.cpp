@@ -52,17 +52,17 @@ TEST_P(StraightTimes, HasTheBitsOfTheLawForEveryWidth) {
     for (const bool alike : {false, true})
       for (Entity i = 0; i < 40; ++i)
         for (const std::size_t count : {1u, 2u, 5u, 8u, 17u, 399u}) {
-          std::vector<Entity> asked(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count));
-          std::erase(asked, i);
+          std::vector<Entity> others_of(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count));
+          std::erase(others_of, i);
           const std::vector<double>& r = alike ? same : radius;
-          std::vector<Meet> found(asked.size());
+          std::vector<Meet> found(others_of.size());
           bool latest = true;
-          for (const Entity j : asked) latest = latest && flights[j].start <= flights[i].start;
-          for (const bool told : {false, latest}) {
-            const std::size_t impacts =
-                kernel({flights.cores(), alike ? nullptr : r.data(), r[i], i, asked, a, told, end}, found.data());
+          for (const Entity j : others_of) latest = latest && flights[j].start <= flights[i].start;
+          for (const bool latest_only : {false, latest}) {
+            const std::size_t impacts = kernel(
+                {flights.cores(), alike ? nullptr : r.data(), r[i], i, others_of, a, latest_only, end}, found.data());
             std::size_t next = 0;
-            for (const Entity j : asked) {
+            for (const Entity j : others_of) {
               const Instant law = time_of(flights, r, i, j, end);
               if (next < impacts && found[next].with == j) {
                 const Instant time = found[next++].time;

@@ -111,7 +111,7 @@ TEST(LinearFlight, ABouncingBallComesToRestAndDriftsWithTheWind) {
   EXPECT_NEAR(residual(problem, got), 0, 1e-9);
 }
 
-TEST(LinearFlight, WindowsOfTimeBeginAndEndWhereTheySay) {
+TEST(LinearFlight, WindowsOfTimeBeginAndEndAtTheirTimes) {
   Problem problem;
   problem.ball({0, 0, 0}, {2, 0, 0}, 2);
   problem.world.forces = {{Drag{3, 0, Vec3::Zero()}, 0.123, 0.7891}};
@@ -162,7 +162,7 @@ TEST(LinearDrag, AHeavyBodyPushesALightOneThatDragHoldsBack) {
     EXPECT_LT(got.tally.max_overlap, 1e-12);
     EXPECT_EQ(got.tally.stepped_contact, 0);
     EXPECT_NEAR(unbooked(problem, got), 0, 1e-10);
-    EXPECT_NEAR(residual(problem, got), 0, 2e-6);  // measured: 1.2e-6 of 5 J: work is told along parabolas
+    EXPECT_NEAR(residual(problem, got), 0, 2e-6);  // measured: 1.2e-6 of 5 J: work is summed along parabolas
   }
 }
 
@@ -205,7 +205,7 @@ struct OffAGlobe {
   }
 };
 
-TEST(LinearDrag, ABallSlidesOffAGlobeAsItsOneAngleSays) {
+TEST(LinearDrag, ABallSlidesOffAGlobeByTheEquationOfItsOneAngle) {
   for (const double linear : {0.3, 4.0, 200.0}) {
     Problem problem;
     problem.world.gravity = {0, -OffAGlobe::g, 0};

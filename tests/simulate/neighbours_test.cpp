@@ -28,7 +28,7 @@ struct Wandering {
 class Near : public ::testing::TestWithParam<Wandering> {};
 
 /// Along a space diagonal most of the cells of a grid made for all of that space are empty, and the others are full.
-TEST(NearOnADiagonal, KnowsAllThatMayTouch) {
+TEST(NearOnADiagonal, HasAllThatMayTouch) {
   constexpr Entity bodies = 3000;
   World world;
   std::vector<Vec3> x;
@@ -49,7 +49,7 @@ TEST(NearOnADiagonal, KnowsAllThatMayTouch) {
     }
 }
 
-TEST(NearThoseThatStay, KnowsAllWithinReachAndFewBeyond) {
+TEST(NearThoseThatStay, HasAllWithinReachAndFewBeyond) {
   Random random;
   for (const double reach : {1e-9, 1e-3, 0.03, 0.5}) {
     constexpr Entity bodies = 400;
@@ -79,7 +79,7 @@ TEST(NearThoseThatStay, KnowsAllWithinReachAndFewBeyond) {
 
 /// Bodies wander and get new regions when they leave theirs. At all times each body that may touch another within
 /// their regions is on both lists, once, and so is every plane in reach.
-TEST_P(Near, KnowsAllThatMayTouch) {
+TEST_P(Near, HasAllThatMayTouch) {
   const Wandering& how = GetParam();
   constexpr Entity bodies = 150;
   Random random;

@@ -131,7 +131,7 @@ TEST(Work, OfForcesThatSetInAndCeaseAndOfTheWindIsBooked) {
   EXPECT_NEAR(residual(problem, got), 0, 1e-9);
 }
 
-TEST(Paths, NobodyIsJumpedOverHoweverLongTheStep) {
+TEST(Paths, NoBodyIsJumpedOverHoweverLongTheStep) {
   Problem problem;
   problem.ball({-30, 0.01, 0}, {100, 0, 0}, 1, 0.05);
   problem.ball({0, 0, 0}, {0, 0, 0}, 1, 0.05);
@@ -226,7 +226,7 @@ TEST(Outputs, ChangeNothing) {
 }
 
 // To the last bit, where forces work, clusters slide and a contact group settles.
-TEST(Outputs, AskedForTwiceAreTheSame) {
+TEST(Outputs, RequestedTwiceAreTheSame) {
   Problem problem = loose_pile(3, 3, 2);
   problem.ball({-3, 0.5, 0}, {1, 0, 0}, 1, 0.5, 0.5);
   problem.world.forces = {{Drag{0.1, 0.01, Vec3::Zero()}, 0.1}};
@@ -241,8 +241,8 @@ TEST(Outputs, AskedForTwiceAreTheSame) {
     const auto again = simulator->contacts();
     EXPECT_EQ(first.position, second.position) << time;
     EXPECT_EQ(first.velocity, second.velocity) << time;
-    ASSERT_EQ(asked.size(), again.size()) << time;
-    for (std::size_t k = 0; k < asked.size(); ++k) EXPECT_EQ(asked[k].force, again[k].force) << time;
+    ASSERT_EQ(requested.size(), again.size()) << time;
+    for (std::size_t k = 0; k < requested.size(); ++k) EXPECT_EQ(requested[k].force, again[k].force) << time;
     EXPECT_EQ(before.energy_lost, simulator->tally().energy_lost) << time;
     EXPECT_EQ(before.work, simulator->tally().work) << time;
   }

@@ -19,7 +19,7 @@ using Verdict = Certificate::Verdict;
 
 constexpr std::uint32_t fixed = ContactConstraint::fixed;
 
-/// Solves a case: its motion and forces become the answer's.
+/// Solves a case: its motion and forces become the solution's.
 Certificate solve_case(Case& c) {
   return solve({c.inverse_mass, c.motion, c.contacts});
 }
@@ -30,7 +30,7 @@ double difference(const std::vector<Vec3>& u, const std::vector<Vec3>& v) {
   return most;
 }
 
-/// The answer, certified, and against quadruple precision where that holds. Gives whether it does.
+/// The solution, certified, and against quadruple precision where that holds. Gives whether it does.
 bool expect_exact(const Case& given) {
   Case c = given;
   const Certificate certificate = solve_case(c);
@@ -149,7 +149,7 @@ TEST(ContactProblem, BothMethodsFindTheSameMotion) {
           r.normal = contact.normal;
         }
         island.scale();
-        ContactAnswer one, other;
+        ContactSolution one, other;
         DualActiveSet method;
         EXPECT_TRUE(method.solve(island, one).judgement.within_slack);
         EXPECT_TRUE(ContactInteriorPoint(island).solve(other).within_slack);
@@ -174,7 +174,7 @@ TEST(ContactProblem, OtherUnitsGiveTheSameBits) {
 }
 
 /// Contacts and bodies in another order; and another island beside them changes no bit.
-TEST(ContactProblem, OrderAndCompanyDoNotMatter) {
+TEST(ContactProblem, OrderAndOtherIslandsDoNotMatter) {
   const Case given = loaded("", packing(30, 2), Load::push, 3);
   Case p = given, reversed = given, beside = given;
   std::reverse(reversed.contacts.begin(), reversed.contacts.end());
@@ -250,7 +250,7 @@ TEST(ContactProblem, BilateralContactsMayBeRedundant) {
 }
 
 /// Two walls that close in on a ball.
-TEST(ContactProblem, WhatCannotBeIsSaid) {
+TEST(ContactProblem, InfeasibleContactsAreReported) {
   const std::vector<double> inverse_mass{1};
   std::vector<Vec3> u{{0.2, 0, 0}};
   std::vector<ContactConstraint> contacts{{0, fixed, {1, 0, 0}, 1}, {0, fixed, {-1, 0, 0}, 1}};

@@ -35,7 +35,7 @@ struct Reference {
   }
 };
 
-/// `contacts`: with the forces of an answer; those above 0 press.
+/// `contacts`: with the forces of a solution; those above 0 press.
 inline Reference reference(const std::vector<double>& inverse_mass, const std::vector<Vec3>& free,
                            const std::vector<ContactConstraint>& contacts) {
   constexpr std::uint32_t fixed = ContactConstraint::fixed;

@@ -18,18 +18,18 @@ namespace {
 constexpr double deepest = 1e-9;    // of the smaller radius, and
 constexpr double most_gain = 1e-6;  // of the energy; measured: below 1e-7 in 1,371 scenes
 
-struct Seen {
+struct Observed {
   std::vector<State> states;
   Tally tally;
 };
 
-Seen run(const RandomScene& scene, const ExactOptions& options, int looks) {
+Observed run(const RandomScene& scene, const ExactOptions& options, int instants) {
   const auto simulator = make_exact_simulator(scene.world, scene.initial, options);
-  Seen seen;
+  Observed seen;
   simulator->advance_to(0);
   seen.states.push_back(simulator->state());
-  for (int k = 1; k <= looks; ++k) {
-    const double t = k == looks ? options.duration : options.duration * k / looks;
+  for (int k = 1; k <= instants; ++k) {
+    const double t = k == instants ? options.duration : options.duration * k / instants;
     do simulator->advance_to(t);
     while (simulator->time() < t);
     seen.states.push_back(simulator->state());
@@ -82,7 +82,7 @@ Verdict check_stepped(const RandomScene& scene) {
   const auto fail = [&](const std::string& why) {
     if (verdict.violations.size() < 12) verdict.violations.push_back(what + why);
   };
-  Seen once, often;
+  Observed once, often;
   try {
     once = run(scene, options, 1);
     often = run(scene, options, 23);

@@ -33,7 +33,7 @@ INSTANTIATE_TEST_SUITE_P(Families, RandomScenes, ::testing::Range(0, groups), []
 
 TEST(RareCoincidences, HoldEveryInvariant) {
   // Gaps and impacts that fall together within rounding, boxes that come apart at an edge as one of them is struck,
-  // collapses next to collapses, elastic hops lower than positions can tell, light bodies between heavy ones, steps
+  // collapses next to collapses, elastic hops below the resolution of positions, light bodies between heavy ones, steps
   // that end before the gaps which they close have closed.
   for (std::uint64_t seed :
        {6612, 6652, 7835, 11193, 24774, 64307, 73809, 91581, 91871, 212398, 233112, 235841, 5002318, 5005659}) {
