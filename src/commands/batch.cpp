@@ -1,3 +1,5 @@
+// Scenes run in turn, or in up to --jobs processes (study/workers.h). Finished ones are kept until those before them
+// are printed, so that the output has the order of the scenes.
 #include "commands/batch.h"
 
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// The scenes are measured in turn, in one process. Parallel runs would disturb one another's times.
 #include "commands/bench.h"
 
 #include <fmt/format.h>

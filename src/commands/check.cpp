@@ -1,3 +1,5 @@
+// Combines the plan, the forecast of the outputs and a short trial simulation (foresight.h). A whole run would take as
+// long as `run`.
 #include "commands/check.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Checks folders, measures and charts before the first file is written. The comparison itself is that of a sweep
+// (compare/).
 #include "commands/compare.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Describes the differences found by study/run_difference.h. Numbers have all their digits, since two runs may differ
+// in the last one only.
 #include "commands/diff.h"
 
 #include <fmt/format.h>

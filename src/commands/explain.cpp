@@ -1,3 +1,5 @@
+// A word may be a kind, a key at several places and an absent word. All its meanings are printed, because the program
+// cannot choose between them.
 #include "commands/explain.h"
 
 #include <fmt/format.h>

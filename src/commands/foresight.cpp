@@ -1,3 +1,5 @@
+// Simulates by the most exact engine within a budget of wall time, and extrapolates the time of the whole run. The
+// number of collisions has no formula.
 #include "commands/foresight.h"
 
 #include <fmt/format.h>

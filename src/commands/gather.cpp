@@ -1,3 +1,5 @@
+// Finds each run in the sweep's folder or in one of the other folders, and copies it if necessary. The comparison is
+// then that of an undivided sweep.
 #include "commands/gather.h"
 
 #include <fcntl.h>

@@ -1,3 +1,5 @@
+// The handler stores the signal, and nothing else: few functions may be called in a handler. SA_RESETHAND lets a second
+// signal end the program.
 #include "commands/interrupt.h"
 
 #include <csignal>

@@ -1,3 +1,5 @@
+// Loads and checks every scene before the first one runs. An error in the last scene would otherwise appear after all
+// other runs.
 #include "commands/plan.h"
 
 #include <fmt/format.h>

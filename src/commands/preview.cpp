@@ -1,3 +1,4 @@
+// Tests the initial bodies against the camera's frustum. No picture is drawn, so check needs no OpenGL.
 #include "commands/preview.h"
 
 #include <algorithm>

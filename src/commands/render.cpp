@@ -1,3 +1,5 @@
+// Plans a run whose motion comes from the flights of a former run. It is then run as by `carom run`, so drawing has no
+// loop of its own.
 #include "commands/render.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Text has rounded figures, and JSON all digits. The list of files is the manifest's, so that foreign files in the
+// folder do not appear.
 #include "commands/report.h"
 
 #include <fcntl.h>

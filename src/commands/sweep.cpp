@@ -1,3 +1,4 @@
+// Plans all runs, then simulates what is missing, then compares. A part of a sweep leaves the comparison to `gather`.
 #include "commands/sweep.h"
 
 #include <fmt/format.h>

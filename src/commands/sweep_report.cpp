@@ -1,3 +1,4 @@
+// Prints the outcome of a sweep, or its plan, from the job. Both are text for a terminal or one JSON document.
 #include "commands/sweep_report.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Turns options into a Sweep as if its file had them, so that `sweep`, `gather` and `submit` agree on the runs.
 #include "commands/sweep_setup.h"
 
 #include <fmt/format.h>

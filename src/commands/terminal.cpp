@@ -1,3 +1,4 @@
+// Escapes control characters in every text that is written. Names and messages may come from hostile files.
 #include "commands/terminal.h"
 
 #include <fcntl.h>

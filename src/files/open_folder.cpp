@@ -128,8 +128,7 @@ OpenFolder::OpenFolder(const std::string& path, Durability durability) : durabil
 }
 
 void OpenFolder::lock() {
-  // A run that fails removes the folder that it made. Another run may have opened it just before, and then opens it
-  // again.
+  // A run that fails removes the folder that it made. A run that had just opened that folder makes it again.
   for (int attempt = 0; attempt < 10; ++attempt) {
     made_ = mkdir(place_.path.c_str(), 0777) == 0;
     if (!made_ && errno != EEXIST) fail("make", place_, "");

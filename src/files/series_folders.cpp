@@ -1,3 +1,5 @@
+// Searches the table of outputs for a name, so that a new series needs no code here. Opened folders are kept, because a
+// series may have many files.
 #include "files/series_folders.h"
 
 #include "files/open_folder.h"
