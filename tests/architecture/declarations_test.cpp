@@ -34,7 +34,7 @@ std::size_t lines_of(const std::string& text) {
   return found.functions.size() == 1 ? found.functions.front().lines : 0;
 }
 
-/// Of a class whose members are these.
+/// The number of data members of a class with this body.
 std::size_t members_of(const std::string& members) {
   const Declarations found = declarations_of("class C {\n" + members + "\n};");
   return found.matched && !found.types.empty() ? found.types.back().data_members : 99;

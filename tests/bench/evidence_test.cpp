@@ -46,7 +46,8 @@ class EvidenceTest : public ::testing::Test {
   Evidence of_exact(double off) {
     return {world_, instants, 1, error(rounding), 1e-16, {exact, run_off(off), error(rounding)}};
   }
-  /// A method of this order, with this error (m) in steps of 1/16 s, in steps halved so often; `bias`: it converges to.
+  /// A method of this order: its error is `coarse` (m) in steps of 1/16 s, which are halved `halvings` times. `bias`:
+  /// m, the error that it converges to.
   static void add_series(Evidence& evidence, Integrator integrator, int order, double coarse, int halvings,
                          double bias = 0) {
     for (int k = 0; k <= halvings; ++k)
@@ -117,7 +118,7 @@ TEST_F(EvidenceTest, ARunWithTheVeryBitsOfTheReferenceIsNoEvidence) {
   EXPECT_TRUE(evidence.verdict().witnesses.empty());
 }
 
-// 1,000,000 steps of a place near 1 m: 1e-10 m, of which 2e-11 are.
+// Rounding of a position near 1 m in 1,000,000 steps adds up to 1e-10 m. Differences of 2e-11 m are below that.
 TEST_F(EvidenceTest, RoundingInEachOfManyStepsIsNoContradiction) {
   Evidence evidence = of_exact(0);
   for (const double off : {3e-11, 2.5e-11, 2e-11})

@@ -36,8 +36,7 @@ void run_scene_of_ours(const Workplace& here, const std::string& scene, const st
   ASSERT_EQ(run.code, 0) << run.err;
 }
 
-// With rest, merging, rolling, edges of walls, meshes, forces in windows of time, islands that are integrated and
-// islands in time steps.
+// Scenes with rest, merging, rolling, edges of walls, meshes, timed forces, constrained islands and time stepping.
 class Rendered : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Rendered, WithAnotherRateIsWhatARunWithThatRateWrites) {

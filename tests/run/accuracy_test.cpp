@@ -62,7 +62,7 @@ TEST(Accuracy, OfOrbitsIsTheRequestedTolerance) {
       const LongKepler kepler(1, scene.initial.position[0], scene.initial.velocity[0]);
       const double off = (end_of(scene, engine) - kepler.at(scene.simulate.duration)).norm();
       EXPECT_TRUE(off < tolerance || !engine.shortfall.empty()) << e << ": " << off << ", " << engine.why;
-      // Ten passages at 45 m/s take 1e-9 m out of rounding's reach.
+      // Ten passages at 45 m/s: rounding alone exceeds 1e-9 m.
       EXPECT_TRUE(engine.shortfall.empty() || (e > 0.99 && tolerance < 1e-8)) << e << ": " << engine.shortfall;
     }
 }

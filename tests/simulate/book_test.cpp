@@ -1,5 +1,5 @@
-// The chapter's own loop and its errors, against data/references/book_slips.json: v = 5 m/s, m = 10 kg, r = 0.11 m, e =
-// 0.9, dt = 1/60 s; head on along x, or at right angles along x and y.
+// The chapter's own loop and its errors, against data/references/book_slips.json. The balls meet head on along x, or at
+// right angles along x and y. v = 5 m/s, m = 10 kg, r = 0.11 m, e = 0.9, dt = 1/60 s.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -52,8 +52,8 @@ TEST(Cradle, TouchingBallsPassTheBlowOnOnePairAtATime) {
   EXPECT_EQ(run.end.velocity[4], Vec3(1, 0, 0));
 }
 
-// Three touching balls struck at one instant from both sides: the outcome is the sequence's that begins with the pair
-// of the lowest numbers.
+// Three touching balls are struck at one instant from both sides. The outcome is that of the sequence which begins with
+// the pair of the lowest numbers.
 TEST(ThreeBalls, AreResolvedOnePairAtATimeFromTheLowestNumbers) {
   const auto all = reference("chains_cradle_stack")["simultaneous_three_ball"];
   for (const auto& r : all["cases"]) {
@@ -120,8 +120,8 @@ TEST(GaussGun, APairAboveOneAddsEnergyOnce) {
   EXPECT_EQ(-run.tally.energy_lost / 0.5, number(r["KE_gain"]) - 1);
 }
 
-// Balls on one another, each without weight against the one below it: the k-th goes up at 2^k - 1 times the speed at
-// which all came down. Here each weighs a ten-millionth of the one below.
+// Balls on one another, each far lighter than the one below it: the k-th rises at 2^k - 1 times the common speed of the
+// fall. Here each weighs a ten-millionth of the one below.
 TEST(StackedDrop, LightOnHeavyNearsTheLadderOfInfiniteMasses) {
   const auto all = reference("chains_cradle_stack")["stacked_drop"]["infinite_mass_ladder"];
   for (const auto& r : all) {

@@ -143,7 +143,8 @@ TEST(Collapse, OfALightBallBetweenHeavyOnesComesInFreeFallAsAtRest) {
       const Outcome run = run_exact(squeezed(1e-6, first_e, 0.5, g));
       EXPECT_EQ(run.tally.collapses, 1u) << g << ", " << first_e;
       EXPECT_LT(run.tally.collisions(), 400u) << g << ", " << first_e;
-      // All of the heavy balls' push goes through the light one: what rounds their places turns it a little.
+      // All impulses of the heavy balls pass through the light one. The rounding of positions turns the normal a
+      // little.
       for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_LT(std::abs(run.end.velocity[i].x()), 1e-15) << g << ", " << first_e;      // m/s; measured: 2.3e-16
         EXPECT_NEAR(run.end.velocity[i].y(), -10 * g, 1e-8 * g) << g << ", " << first_e;  // measured: 1.3e-9 g
@@ -161,7 +162,7 @@ TEST(Collapse, ManySeparateCollisionsAreNone) {
   }
 }
 
-// Slow impacts one upon the other: bouncing ends under load, but not without it.
+// Slow impacts in quick succession end bouncing under load, but not without it.
 TEST(Collapse, IsNoneWhereACommonFallMakesManySlowImpacts) {
   const auto run = [](double g) {
     Problem problem;
@@ -201,8 +202,8 @@ TEST(Collapse, FarFromTheOriginIsFoundThoughPositionsAreCoarserThanItsGaps) {
   }
 }
 
-// A heavy ball strikes, elastically, one that a light one jammed at a plane holds up: it would strike 36,000 times
-// before half of its speed is gone, all at one instant.
+// A light ball jammed at a plane holds up a second ball, which a heavy one strikes elastically. It would strike 36,000
+// times at one instant before half of its speed is gone.
 TEST(Collapse, ComesWhereABallIsHammeredAgainstJammedOnes) {
   Problem problem;
   problem.plane({-3, 0, 0}, {1, 0, 0});
@@ -242,7 +243,8 @@ TEST(Collapse, ImpactsThatContactReplacesAreReported) {
   const double e = 0.5, h = 0.2;
   const Outcome run = run_exact(falling_on_a_fixed_ball(h, e));
   EXPECT_EQ(run.tally.taken_up.impacts, 1u);
-  // The first that is slow: all before it are recorded, each by e slower than the one before.
+  // The first slow impact ends the bounces. All impacts before it are recorded, each slower than the last by the factor
+  // e.
   const double last = run.collisions.back().approach_speed;
   EXPECT_NEAR(run.tally.taken_up.fastest, e * last, 1e-13);
   EXPECT_NEAR(run.tally.taken_up.energy, 0.5 * 2 * e * last * e * last, 1e-13);

@@ -1,8 +1,8 @@
 #pragma once
-// Balls in lasting contact without friction, by an independent method: Lagrange multipliers for the pressing contacts,
-// dense, in 64-bit mantissas, followed by extrapolated midpoint steps of order 16 (Hairer, Norsett & Wanner, Solving
-// Ordinary Differential Equations I, 1993, II.9). A contact opens where its multiplier vanishes. Ends before one
-// closes.
+// Balls in lasting contact without friction, by an independent method. Lagrange multipliers of the pressing contacts,
+// dense, in 64-bit mantissas, give the accelerations. Extrapolated midpoint steps of order 16 follow them (Hairer,
+// Norsett & Wanner, Solving Ordinary Differential Equations I, 1993, II.9). A contact opens where its multiplier
+// vanishes. The motion ends before one closes.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -101,7 +101,7 @@ class ConstrainedReference {
     }
   }
 
-  /// The multipliers (N) of these rows that leave their gaps' rates as they are, by Cholesky's factors.
+  /// The multipliers (N) with which the rates of these rows' gaps stay unchanged, by Cholesky's factors.
   std::vector<Real> multipliers(const std::vector<std::size_t>& set, const std::vector<Vec>& x,
                                 const std::vector<Vec>& v) const {
     const std::size_t n = set.size();
@@ -241,7 +241,7 @@ class ConstrainedReference {
     v_ = vs.back();
   }
 
-  /// Of the greatest multiplier, the least one: below 0 a contact pulls.
+  /// The least multiplier, relative to the greatest one. Below 0 a contact pulls.
   Real pull() const {
     const std::vector<Real> y = multipliers(pressing(), x_, v_);
     Real least = 0, greatest = 0;

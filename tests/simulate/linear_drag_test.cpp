@@ -1,5 +1,5 @@
-// Flights under linear drag, in closed form from impact to impact: against the references, roots that are found here by
-// bisection, and the method of Runge and Kutta.
+// Flights under linear drag, in closed form from impact to impact. They are compared with the references, with roots
+// found here by bisection, and with the method of Runge and Kutta.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -281,7 +281,7 @@ TEST(LinearDrag, MergedBodiesHaveTheDragOfTheirParts) {
   EXPECT_NEAR(got.end.position[1].x(), 1 + 0.75 - speed * std::expm1(-k * (2 - met)) / k, 1e-13);
 }
 
-// Their faces lie in one plane: the path runs in the face of the Minkowski sum, and enters it nowhere.
+// Their faces lie in one plane. The relative path runs in a face of the Minkowski sum and does not enter it.
 TEST(LinearDrag, BodiesThatPassWithTheirFacesFlushDoNotMeet) {
   Problem problem;
   problem.body(Volume::box({0.4, 0.4, 0.4}), {-2, 0, 0}, {3, 0, 0});
@@ -295,7 +295,7 @@ TEST(LinearDrag, BodiesThatPassWithTheirFacesFlushDoNotMeet) {
   EXPECT_NEAR(got.end.position[0].x(), -2 - 6 * std::expm1(-0.6), 1e-14);
 }
 
-// Where a ball leaves a wall that nothing presses it to, drag on what rounding has left of its speed is no pressure.
+// A ball leaves a wall, and no force presses it to the wall. Drag on the rounding of its speed is no pressure.
 TEST(LinearDrag, LetsAPileSettle) {
   Problem problem = loose_pile(3, 10, 10);
   problem.world.forces = {{Drag{0.2, 0, Vec3::Zero()}}};

@@ -58,8 +58,8 @@ TEST(Clock, AMillionSecondsAreKeptToo) {
   EXPECT_LT(worst, 2e-10);  // m; measured: 1.0e-10, what 99.9 m is rounded to, 11,000 times
 }
 
-/// Distance from their starts (m, in diameters) of balls at reduced density 0.3 that run for so many collisions a ball,
-/// reverse, and run as long again.
+/// The distance of balls from their starts (m, in diameters), at reduced density 0.3. They run for so many collisions a
+/// ball, reverse, and run as long again.
 double way_off_after_reversal(double collisions_a_ball, std::uint64_t seed) {
   Random random(seed);
   Problem problem;
@@ -92,7 +92,7 @@ TEST(Reversal, AGasReturnsToItsStartAfterEightCollisionsABall) {
     EXPECT_LT(way_off_after_reversal(8, seed), 2e-10) << seed;  // diameters; measured: 1.0e-11 to 6.3e-11
 }
 
-// A row that falls 1e9 m: finding its neighbours again every few radii, it would not end in an hour.
+// A row that falls 1e9 m. With a new search of neighbours every few radii it would not end in an hour.
 TEST(FreeFall, ACloseGroupFallsFarAtOnce) {
   Problem problem;
   problem.world.gravity = Vec3(0, -9.80665, 0);

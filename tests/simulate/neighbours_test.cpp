@@ -27,7 +27,7 @@ struct Wandering {
 
 class Near : public ::testing::TestWithParam<Wandering> {};
 
-/// Along a space diagonal most of the cells of a grid made for all of that space are empty, and the others are full.
+/// Bodies along a space diagonal: in a grid of that whole space most cells would be empty, and the others full.
 TEST(NearOnADiagonal, HasAllThatMayTouch) {
   constexpr Entity bodies = 3000;
   World world;

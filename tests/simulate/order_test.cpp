@@ -30,8 +30,12 @@ KnownEnd run(const Problem& problem, Integrator method, double step) {
   return {outcome.end.position[0], outcome.end.velocity[0]};
 }
 
-/// |dx| and |dv| together, in units of 1 m and 1 m/s; the geometric mean over twelve numbers of steps, so that impacts
-/// fall on all parts of a step.
+///
+/// dx
+///  and
+/// dv
+///  together, in units of 1 m and 1 m/s. It is the geometric mean over twelve numbers of steps, so that impacts fall on
+/// all parts of a step.
 double error(const Problem& problem, Integrator method, double steps, const KnownEnd& known_end) {
   double sum = 0;
   constexpr int numbers = 12;

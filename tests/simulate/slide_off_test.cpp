@@ -34,8 +34,8 @@ Leaving leaving(double s, double v0) {
   return {c, sum * end / n / 3, s * std::sqrt(1 - c * c), s * c, std::sqrt(g * s * c)};
 }
 
-/// Ball 0 slides over the top at `start` (s) and leaves as expected: shortly before it is carried, shortly after it
-/// is on the parabola of free flight.
+/// Ball 0 slides over the top at `start` (s) and leaves as expected. Shortly before, the top carries it; shortly after,
+/// it is on the parabola of free flight.
 void expect_leaves(const Problem& problem, const Leaving& expected, double start, const Vec3& center,
                    const std::string& what) {
   constexpr double late = 1e-8;  // s; measured: contacts() is right to within 5e-10

@@ -236,7 +236,7 @@ TEST(Outputs, RequestedTwiceAreTheSame) {
     const Tally before = simulator->tally();
     const State first = simulator->state();
     const auto forces = simulator->contacts();
-    const std::vector<ContactForce> asked(forces.begin(), forces.end());
+    const std::vector<ContactForce> requested(forces.begin(), forces.end());
     const State& second = simulator->state();
     const auto again = simulator->contacts();
     EXPECT_EQ(first.position, second.position) << time;
@@ -248,8 +248,8 @@ TEST(Outputs, RequestedTwiceAreTheSame) {
   }
 }
 
-// A sleeping body, sampled within the step in which it is struck, had only the state at the step's end.
-TEST(Looks, ABodyThatLiesStillDoesUntilItIsStruck) {
+// A sleeping body is struck within a step. Until then samples have it at rest, and not in the state of the step's end.
+TEST(Sampling, ASleepingBodyStaysUntilItIsStruck) {
   Problem problem;
   problem.ball({-1, 0.5, 0}, {2, 0, 0}, 1, 0.5);
   problem.ball({1, 0.5, 0}, {0, 0, 0}, 1, 0.5);

@@ -16,8 +16,8 @@ using namespace contact_cases;
 
 constexpr std::uint32_t fixed = ContactConstraint::fixed;
 
-/// Rows, stacks, lattices and packings of every load, with contacts' slack of this share of the greatest free motion
-/// and forces guessed at random.
+/// Rows, stacks, lattices and packings of every load. The contacts' slack is this share of the greatest free motion,
+/// and forces are guessed at random.
 std::vector<Case> cases(double slack) {
   std::vector<Case> all;
   for (const Load load : loads)
@@ -145,7 +145,7 @@ TEST(ContactAccuracy, OtherUnitsGiveTheSameBits) {
     }
 }
 
-/// Far away the same again: neither changes the other's bits.
+/// Two cases side by side without contact: neither changes the other's bits.
 TEST(ContactAccuracy, OtherIslandsDoNotMatter) {
   for (const ContactAccuracy accuracy : {ContactAccuracy::contacts, ContactAccuracy::energy}) {
     std::vector<Case> all = cases(1e-3);

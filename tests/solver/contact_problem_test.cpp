@@ -133,7 +133,7 @@ TEST(ContactProblem, ABallIsSqueezedOutOfAWedge) {
   }
 }
 
-/// Each is the other's fallback: they find the same motion.
+/// Either method replaces the other where that fails. Both find the same motion.
 TEST(ContactProblem, BothMethodsFindTheSameMotion) {
   for (const Load load : loads)
     for (const double decades : {0.0, 3.0, 6.0})
@@ -195,7 +195,7 @@ TEST(ContactProblem, OrderAndOtherIslandsDoNotMatter) {
   for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(p.motion[i], beside.motion[i]);
 }
 
-/// One contact removed and restored, by a solver with memory: the same motion, and little work.
+/// One contact is removed and restored, by a solver that keeps its factors: the motion is the same.
 TEST(ContactProblem, AWarmStartFindsTheSame) {
   for (const Load load : loads)
     for (const double decades : {0.0, 6.0}) {
@@ -216,7 +216,7 @@ TEST(ContactProblem, AWarmStartFindsTheSame) {
     }
 }
 
-// The one method keeps factors, the other does not: those of earlier problems are of no use.
+// One method keeps factors, the other does not. Factors of earlier problems must not be used.
 TEST(ContactProblem, AWarmStartAfterProblemsOfOtherSizesFindsTheSame) {
   for (const Load load : loads) {
     ContactSolver solver;
@@ -241,7 +241,7 @@ TEST(ContactProblem, BilateralContactsPullToo) {
   EXPECT_NEAR(contacts[0].force, -2, 1e-15);
 }
 
-/// With every contact held both ways the motion is the orthogonal projection: among many, redundant or not.
+/// With every contact bilateral, the motion is the orthogonal projection, also where contacts are redundant.
 TEST(ContactProblem, BilateralContactsMayBeRedundant) {
   Case c = loaded("", lattice(2), Load::impact, 3);
   for (ContactConstraint& contact : c.contacts) contact.bilateral = true;

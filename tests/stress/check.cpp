@@ -97,8 +97,8 @@ class Check {
     const bool lively =
         std::any_of(world_.restitution.begin(), world_.restitution.end(), [](double e) { return e > 1; });
     if (!scene_.may_stop && first_.error.find("max_collisions") != std::string::npos) {
-      // So many are no fault as long as they come to an end: light balls in a row between heavy ones, with e = 0.9,
-      // have 24,845 in 0.03 s of CPU time. Without end they exceed the time limit.
+      // Many collisions are no fault if they come to an end. Light balls in a row between heavy ones, with e = 0.9,
+      // have 24,845 in 0.03 s of CPU time. Endless ones exceed the time limit.
       RandomScene unlimited = scene_;
       unlimited.options.max_collisions = 0;
       return Check(unlimited, patience_, verdict_).run();

@@ -1,6 +1,5 @@
-// The same scenes in steps of time, long ones: whatever the method and the step, a run ends, no position is
-// undefined, no bodies overlap, outputs change nothing; and except by Euler's method, of
-// order 1, energy does not grow.
+// The same scenes in long steps of time, by every method. A run ends, no position is undefined, no bodies overlap, and
+// outputs change nothing. Energy does not grow, except by Euler's method, of order 1.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,7 +37,7 @@ Observed run(const RandomScene& scene, const ExactOptions& options, int instants
   return seen;
 }
 
-/// J: energy; and added up without signs, which is what its rounding goes by.
+/// The energy (J). `size`: the sum without signs, to which its rounding is proportional.
 long double energy(const World& world, const State& s, long double& size) {
   long double sum = 0;
   size = 0;

@@ -122,7 +122,7 @@ std::string unit_difference(const Motion& motion, Way way, const Units& units) {
 constexpr std::array ways{Way::exact, Way::euler, Way::verlet, Way::rk4};
 constexpr std::array all_units{Units{20, 0, 0}, Units{0, -12, 0}, Units{0, 0, 30}, Units{-30, 7, -24}};
 
-/// So many seeds, evenly divided among the families.
+/// The number of seeds, evenly divided among the families.
 std::uint64_t seeds(Way way) {
   return way == Way::exact ? 13 * 12 : 13 * 6;
 }
@@ -171,7 +171,7 @@ std::string name_of(const ::testing::TestParamInfo<Way>& way) {
 }
 INSTANTIATE_TEST_SUITE_P(Ways, Metamorphic, ::testing::ValuesIn(ways), name_of);
 
-// Of scenes without planes, which reach everywhere, and without forces and pairs that go by number.
+// Scenes without planes, which reach everywhere, and without forces and pairs that name bodies by number.
 TEST(FarAway, AnotherSceneChangesNoBit) {
   int tried = 0;
   for (std::uint64_t seed = 0; seed < 13 * 12; ++seed) {

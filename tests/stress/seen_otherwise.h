@@ -94,7 +94,7 @@ struct Observed {
   std::string error;
 };
 
-/// -0 is 0, and so is what has fallen so low, impact by impact, that doubles lose its digits: 1e-290 and less.
+/// -0 equals 0. So does a number below 1e-290, to which speeds fall impact by impact and where doubles lose digits.
 inline bool same(const Vec3& a, const Vec3& b) {
   constexpr double none = 1e-290;
   for (int k = 0; k < 3; ++k)
