@@ -84,9 +84,9 @@ class Bench {
     for (double step = longest; step >= shortest * (1 - 1e-9); step *= 0.5) steps_.push_back(step);
   }
 
-  RecordedRun record(const SimulationMethod& method, const std::function<void()>& look) const {
+  RecordedRun record(const SimulationMethod& method, const std::function<void()>& stop_check) const {
     return record_run(world_, scene_.initial, settings_of(scene_.simulate, method), method.steps, reference_.instants,
-                      look);
+                      stop_check);
   }
 
   void fill(BenchRow& row, const RecordedRun& run) {
@@ -115,7 +115,7 @@ class Bench {
     row.method = method;
     try {
       const bool recorded = method == reference_.method;
-      const RecordedRun other = recorded ? RecordedRun{} : record(method, look_within(left_, watch_.look));
+      const RecordedRun other = recorded ? RecordedRun{} : record(method, stop_check_within(left_, watch_.stop_check));
       const RecordedRun& run = recorded ? reference_.run : other;
       fill(row, run);
       if (method.engine == Engine::exact && !recorded && reference_.horizon > 0)
@@ -145,11 +145,11 @@ class Bench {
       }
       method.steps.length = step;
       const double rows = static_cast<double>(result_.rows.size()) / static_cast<double>(4 * steps_.size() + 1);
-      watch_.tell(0.5 * std::max(rows, std::min(1.0, spent() / options_.budget)), full_name_of(method));
+      watch_.report_progress(0.5 * std::max(rows, std::min(1.0, spent() / options_.budget)), full_name_of(method));
       BenchRow row;
       row.method = method;
       try {
-        RecordedRun run = record(method, look_within(0.5 * share, watch_.look));
+        RecordedRun run = record(method, stop_check_within(0.5 * share, watch_.stop_check));
         fill(row, run);
         row.cpu_s = bare = time_once(row);
         records = std::max(0.0, run.cpu_s - bare);
@@ -181,7 +181,7 @@ class Bench {
       Verdict verdict = evidence_->verdict(options_.reference.has_value());
       reference_.error = verdict.error;
       result_.witnesses = std::move(verdict.witnesses);
-      if (verdict.trusted > 0) take_reference(evidence_->findings()[verdict.trusted]);
+      if (verdict.reference > 0) take_reference(evidence_->findings()[verdict.reference]);
     }
     result_.reference = reference_.method;
     result_.reference_error = reference_.error;
@@ -194,7 +194,7 @@ class Bench {
     reference_.method = finding.method;
     reference_.run = finding.run;
     for (BenchRow& row : result_.rows)
-      if (row.failure.empty()) row.errors = reference_.off(world_, record(row.method, watch_.look));
+      if (row.failure.empty()) row.errors = reference_.off(world_, record(row.method, watch_.stop_check));
   }
 
   /// Runs without records. The result must equal the row's. Returns the CPU time (s).
@@ -202,7 +202,7 @@ class Bench {
     const double start = cpu_time();
     const SimulationMethod& method = row.method;
     const Simulate settings = settings_of(scene_.simulate, method);
-    if (bare_run(world_, scene_.initial, settings, method.steps, watch_.look) != row.hash)
+    if (bare_run(world_, scene_.initial, settings, method.steps, watch_.stop_check) != row.hash)
       throw std::runtime_error(fmt::format("the result differs from run to run of {}", full_name_of(method)));
     return cpu_time() - start;
   }
@@ -216,8 +216,8 @@ class Bench {
       rows.push_back(&row);
       tasks.push_back({[this, &row] { time_once(row); }, row.repeats});
     }
-    const auto tell = [&](double done) { watch_.tell(0.5 + 0.5 * done, "timed runs"); };
-    const std::vector<double> medians = time_in_turns(tasks, tell);
+    const auto report_progress = [&](double done) { watch_.report_progress(0.5 + 0.5 * done, "timed runs"); };
+    const std::vector<double> medians = time_in_turns(tasks, report_progress);
     for (std::size_t k = 0; k < rows.size(); ++k) rows[k]->cpu_s = medians[k];
     for (BenchRow& row : result_.rows) row.repeats = std::max(row.repeats, 1);
   }

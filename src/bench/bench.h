@@ -54,8 +54,8 @@ struct BenchResult {
 
 struct BenchWatch {
   /// Called often. May throw.
-  std::function<void()> look;
-  std::function<void(double done, const std::string& what)> tell;  // done: 0 to 1
+  std::function<void()> stop_check;
+  std::function<void(double done, const std::string& what)> report_progress;  // done: 0 to 1
 };
 
 /// Throws SimulationError if there is no reference, and std::runtime_error if a repeated run has a different result.

@@ -81,7 +81,7 @@ void write_table(OutputFile& file, const BenchResult& result) {
   }
 }
 
-std::size_t look_of(const SimulationMethod& method) {
+std::size_t style_of(const SimulationMethod& method) {
   return method.engine == Engine::exact  ? 0
          : method.engine == Engine::book ? 5
                                          : 1 + static_cast<std::size_t>(method.integrator);
@@ -150,7 +150,7 @@ Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
       continue;
     }
     const std::string name = name_of(row.method);
-    if (plot.series.empty() || plot.series.back().name != name) plot.series.push_back({name, look_of(row.method), {}});
+    if (plot.series.empty() || plot.series.back().name != name) plot.series.push_back({name, style_of(row.method), {}});
     plot.series.back().points.push_back(point_of(row, result));
   }
   if (exact.size() == 3) exact = {"stepped"};

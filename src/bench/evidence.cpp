@@ -23,12 +23,12 @@ constexpr double rounding_room = 16;
 constexpr double converging = 0.6;
 
 /// In units of a position's last digit: 2^-7 of the extent. A run with a larger error is no evidence.
-constexpr double told = 0x1p46;
+constexpr double largest_error = 0x1p46;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Whether steps are as short as forces require, or there are none.
-bool looks_between(const SimulationMethod& method) {
+bool resolves_forces(const SimulationMethod& method) {
   return method.engine == Engine::exact || method.is_stepped_by(Integrator::dop853);
 }
 
@@ -60,7 +60,7 @@ void Evidence::add_halved(const SimulationMethod& method, RecordedRun run) {
     // Two successive runs may have the same error by accident, but three hardly do.
     finding.error.position = change_ < infinite ? std::max(change, 0.5 * change_) : change;
     const bool converges = falls || change <= rounding_room * rounding_.position;
-    if (converges && finding.error.position <= told * last_digit_) keep(finding);
+    if (converges && finding.error.position <= largest_error * last_digit_) keep(finding);
   }
   last_ = std::move(finding);
   change_ = change;
@@ -89,24 +89,24 @@ Verdict Evidence::verdict(bool settled) const {
     for (std::size_t j = i + 1; j < n; ++j) {
       apart[i * n + j] = apart[j * n + i] = between(findings_[i].run, findings_[j].run);
       // Two methods of fixed steps may agree because neither resolves what happens between its steps.
-      if (looks_between(findings_[i].method) || looks_between(findings_[j].method))
+      if (resolves_forces(findings_[i].method) || resolves_forces(findings_[j].method))
         if (agree(findings_[i], findings_[j], apart[i * n + j].position)) confirmed[i] = confirmed[j] = true;
     }
-  // The first finding is trusted unless others confirm a different one, or confirm one with far smaller error.
+  // The first finding is the reference unless others confirm a different one, or confirm one with far smaller error.
   for (std::size_t i = 1; i < n && !settled; ++i) {
-    const double mine = findings_[i].error.position, held = findings_[verdict.trusted].error.position;
-    if (confirmed[i] && (!confirmed[verdict.trusted] || rounding_room * mine < held)) verdict.trusted = i;
+    const double mine = findings_[i].error.position, held = findings_[verdict.reference].error.position;
+    if (confirmed[i] && (!confirmed[verdict.reference] || rounding_room * mine < held)) verdict.reference = i;
   }
-  const Finding& trusted = findings_[verdict.trusted];
-  verdict.error = trusted.error;
+  const Finding& reference = findings_[verdict.reference];
+  verdict.error = reference.error;
   Differences least{infinite, infinite, infinite, 0, 0};
   for (std::size_t i = 0; i < n; ++i) {
-    if (i == verdict.trusted) continue;
-    const Differences& d = apart[verdict.trusted * n + i];
-    verdict.witnesses.push_back({findings_[i].method, d.position, agree(trusted, findings_[i], d.position)});
+    if (i == verdict.reference) continue;
+    const Differences& d = apart[verdict.reference * n + i];
+    verdict.witnesses.push_back({findings_[i].method, d.position, agree(reference, findings_[i], d.position)});
     if (d.position < least.position) least = d;
   }
-  if (n > 1 && !confirmed[verdict.trusted]) verdict.error = larger(verdict.error, least);
+  if (n > 1 && !confirmed[verdict.reference]) verdict.error = larger(verdict.error, least);
   return verdict;
 }
 

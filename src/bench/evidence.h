@@ -31,7 +31,7 @@ struct Witness {
 
 /// The conclusion from all findings.
 struct Verdict {
-  std::size_t trusted = 0;         // index of a finding
+  std::size_t reference = 0;       // index of a finding
   Differences error;               // of its run
   std::vector<Witness> witnesses;  // all others
 };

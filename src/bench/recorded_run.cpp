@@ -12,14 +12,14 @@
 namespace carom {
 
 RecordedRun record_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
-                       const std::vector<double>& instants, const std::function<void()>& look) {
+                       const std::vector<double>& instants, const std::function<void()>& stop_check) {
   const double start = cpu_time();
   RecordedRun run;
   run.duration = simulate.duration;
   const auto simulator = make_simulator(world, initial, simulate, {.collisions = true}, steps);
   const auto go_to = [&](double time) {
     while (simulator->time() < time) {
-      look();
+      stop_check();
       simulator->advance_to(time);
       for (const Collision& c : simulator->collisions()) {
         if (c.kind == CollisionKind::rest) continue;
@@ -42,10 +42,10 @@ RecordedRun record_run(const World& world, const State& initial, const Simulate&
 }
 
 std::uint64_t bare_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
-                       const std::function<void()>& look) {
+                       const std::function<void()>& stop_check) {
   const auto simulator = make_simulator(world, initial, simulate, {}, steps);
   while (simulator->time() < simulate.duration) {
-    look();
+    stop_check();
     simulator->advance_to(simulate.duration);
   }
   return hash_of(simulator->state(), simulator->tally());

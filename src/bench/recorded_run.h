@@ -35,12 +35,12 @@ struct RecordedRun {
 };
 
 /// Runs from `initial` to simulate.duration, and samples at `instants` (s, ascending).
-/// `look` is called from time to time, and may throw. Throws SimulationError.
+/// `stop_check` is called from time to time, and may throw. Throws SimulationError.
 RecordedRun record_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
-                       const std::vector<double>& instants, const std::function<void()>& look);
+                       const std::vector<double>& instants, const std::function<void()>& stop_check);
 
 /// The same run without samples and records, for timing. Returns the result's hash.
 std::uint64_t bare_run(const World& world, const State& initial, const Simulate& simulate, const StepChoice& steps,
-                       const std::function<void()>& look);
+                       const std::function<void()>& stop_check);
 
 }  // namespace carom

@@ -40,7 +40,7 @@ class Making {
       : scene_(scene), world_(scene.world), options_(options), watch_(watch) {}
 
   Reference go() {
-    watch_.tell(0, "the reference");
+    watch_.report_progress(0, "the reference");
     SimulationMethod& method = reference_.method;
     const bool exact_runs = unsupported(world_, settings_of(scene_.simulate, method)).empty();
     method.engine = options_.reference.value_or(exact_runs ? Engine::exact : Engine::stepped);
@@ -64,7 +64,7 @@ class Making {
 
   RecordedRun record(const World& world, const State& initial, const SimulationMethod& method) const {
     return record_run(world, initial, settings_of(scene_.simulate, method), method.steps, reference_.instants,
-                      look_within(0.5 * options_.budget, watch_.look));
+                      stop_check_within(0.5 * options_.budget, watch_.stop_check));
   }
 
   void run() {
@@ -83,7 +83,7 @@ class Making {
     }
     reference_.error = reference_.rounded;
     if (!(reference_.horizon > 0) || varying_force(world_) == nullptr) return;
-    watch_.tell(0, "dop853");
+    watch_.report_progress(0, "dop853");
     const SimulationMethod fine = dop853(world_, exact_tolerance::step_error / accuracy_tolerance::finer);
     if (reference_.method.engine == Engine::stepped) {
       reference_.error = larger(reference_.error, reference_.off(world_, record(world_, scene_.initial, fine)));
@@ -146,7 +146,7 @@ class Making {
     std::vector<Statistics> members = {reference_.statistics(world_, reference_.run)};
     for (int k = 1; k <= ensemble_runs; ++k) {
       if (k > 3 && spent() + reference_.run.cpu_s > 0.5 * options_.budget) break;
-      watch_.tell(0, "the reference, shifted");
+      watch_.report_progress(0, "the reference, shifted");
       const RecordedRun run = shifted_run(k, reference_.method);
       members.push_back(reference_.statistics(world_, run));
       take_rounding(run);
@@ -164,9 +164,9 @@ class Making {
 
 }  // namespace
 
-std::function<void()> look_within(double share, const std::function<void()>& look) {
-  return [end = cpu_time() + share, &look] {
-    look();
+std::function<void()> stop_check_within(double share, const std::function<void()>& stop_check) {
+  return [end = cpu_time() + share, &stop_check] {
+    stop_check();
     if (cpu_time() > end) throw Overrun{};
   };
 }

@@ -26,8 +26,8 @@ struct Scene;
 /// Thrown when a run exceeds its CPU time.
 struct Overrun {};
 
-/// Calls `look`, and throws Overrun once `share` (s) of CPU time has passed since this call.
-std::function<void()> look_within(double share, const std::function<void()>& look);
+/// Calls `stop_check`, and throws Overrun once `share` (s) of CPU time has passed since this call.
+std::function<void()> stop_check_within(double share, const std::function<void()>& stop_check);
 
 struct Reference {
   SimulationMethod method;  // exact, or stepped with dop853

@@ -27,7 +27,8 @@ double cpu_time() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-std::vector<double> time_in_turns(const std::vector<TimedTask>& tasks, const std::function<void(double)>& tell) {
+std::vector<double> time_in_turns(const std::vector<TimedTask>& tasks,
+                                  const std::function<void(double)>& report_progress) {
   std::vector<int> runs;  // executions in a turn
   std::vector<std::vector<double>> times(tasks.size());
   int rounds = 0;
@@ -44,7 +45,7 @@ std::vector<double> time_in_turns(const std::vector<TimedTask>& tasks, const std
     rounds = std::max(rounds, task.repeats);
   }
   for (int round = 0; round < rounds; ++round) {
-    tell(static_cast<double>(round) / rounds);
+    report_progress(static_cast<double>(round) / rounds);
     for (std::size_t k = 0; k < tasks.size(); ++k)
       if (round < tasks[k].repeats) times[k].push_back(turn(tasks[k], runs[k]));
   }

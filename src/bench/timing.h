@@ -16,7 +16,8 @@ struct TimedTask {
 /// The CPU time (s) of one execution of each task: the median of its repeats.
 /// Tasks take turns, so that a machine that is slow for a while is slow for all.
 /// A task too short for the clock is executed several times in a turn.
-/// `tell` is called before each round of turns, with the share done, 0 to 1.
-std::vector<double> time_in_turns(const std::vector<TimedTask>& tasks, const std::function<void(double)>& tell);
+/// `report_progress` is called before each round of turns, with the share done, 0 to 1.
+std::vector<double> time_in_turns(const std::vector<TimedTask>& tasks,
+                                  const std::function<void(double)>& report_progress);
 
 }  // namespace carom

@@ -1,3 +1,5 @@
+// Simulates the scene again with changed data and finer steps (run/accuracy.h), and describes the differences. A single
+// run does not show its own error.
 #include "commands/accuracy_report.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,5 @@
+// Scenes run in turn, or in up to --jobs processes (study/workers.h). Finished ones are kept until those before them
+// are printed, so that the output has the order of the scenes.
 #include "commands/batch.h"
 
 #include <unistd.h>
@@ -39,14 +41,14 @@ class Together {
         scenes_(scenes),
         to_do_(to_do),
         outcomes_(scenes.size()),
-        progress_(progress_choice(options), wants_color(options.color, STDERR_FILENO), std::string(command), 1, 0) {}
+        progress_(progress_choice(options), uses_color(options.color, STDERR_FILENO), std::string(command), 1, 0) {}
 
   int go(std::size_t jobs) {
     Tasks tasks;
     tasks.next = [this] { return next(); };
     tasks.work = [this](std::size_t i) { return packed(batch_.run(scenes_[i], ProgressChoice::none)); };
     tasks.done = [this](const TaskOutcome& outcome) { take(outcome); };
-    tasks.look = stop_if_interrupted;
+    tasks.stop_check = stop_if_interrupted;
     share_processors(jobs);
     int code = 0;
     try {

@@ -1,3 +1,4 @@
+// The scenes are measured in turn, in one process. Parallel runs would disturb one another's times.
 #include "commands/bench.h"
 
 #include <fmt/format.h>
@@ -79,7 +80,7 @@ class BenchSession {
   void bench(const PlannedScene& planned, Json& entry) {
     const Scene& scene = *planned.scene;
     BenchFolder folder(planned.folder, gnuplot_);
-    Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO), printable(planned.name),
+    Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO), printable(planned.name),
                       scene.simulate.duration, 0);
     const BenchWatch watch{stop_if_interrupted,
                            [&](double done, const std::string& what) { progress.update(done, what); }};
@@ -91,7 +92,7 @@ class BenchSession {
     entry.update(bench_json(result));
     entry["files"] = files_in(planned.folder);
     if (options_.json || options_.quiet) return;
-    Block block(Palette(wants_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+    Block block(Palette(uses_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
     block.heading(planned.name, scene.title);
     describe(block, planned, result);
     write_out(block.text());

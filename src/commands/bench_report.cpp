@@ -1,3 +1,4 @@
+// The terminal gets rounded figures, and JSON all digits. Figures of a failed or incomparable row stay empty.
 #include "commands/bench_report.h"
 
 #include <fmt/format.h>

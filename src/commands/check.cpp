@@ -1,3 +1,5 @@
+// Combines the plan, the forecast of the outputs and a short trial simulation (foresight.h). A whole run would take as
+// long as `run`.
 #include "commands/check.h"
 
 #include <fmt/format.h>
@@ -284,7 +286,7 @@ const CommandText& check_text() {
 
 int check_command(const Options& options) {
   const std::vector<PlannedScene> scenes = plan_scenes(options);
-  const Palette palette(wants_color(options.color, STDOUT_FILENO));
+  const Palette palette(uses_color(options.color, STDOUT_FILENO));
   Json entries = Json::array();
   for (const PlannedScene& planned : scenes) {
     if (planned.errors > 0) {

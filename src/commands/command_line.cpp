@@ -1,3 +1,5 @@
+// Declares the options of the table to CLI11 and replaces its texts. Its own texts name types of options and no
+// remedies.
 #include "commands/command_line.h"
 
 #include <fmt/format.h>

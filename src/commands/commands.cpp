@@ -1,3 +1,4 @@
+// One row for each command. Dispatch, help, manual page and completion read this table.
 #include "commands/commands.h"
 
 #include "commands/bench.h"

@@ -1,3 +1,5 @@
+// Checks folders, measures and charts before the first file is written. The comparison itself is that of a sweep
+// (compare/).
 #include "commands/compare.h"
 
 #include <fmt/format.h>
@@ -122,7 +124,7 @@ class CompareSession {
   void write(const ComparisonPlan& plan, const RunSet& differences, std::vector<FilmTile> tiles,
              const std::string& request) {
     const std::size_t count = differences.runs().size();
-    Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO), "compare", 1, 0);
+    Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO), "compare", 1, 0);
     const ComparisonWatch watch{stop_if_interrupted, [&](std::size_t read) { progress.update(read, count, "runs"); },
                                 [&](std::size_t runs) { doubtful_ = runs; }};
     ComparisonFolder folder(folder_);
@@ -160,7 +162,7 @@ class CompareSession {
     document_["files"] = files_in(folder_);
     if (!options_.json && !options_.quiet) {
       constexpr std::size_t most = 12;
-      Block block(Palette(wants_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+      Block block(Palette(uses_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
       block.heading(plan.title.empty() ? title_of(options_.operands) : plan.title, "");
       block.line("runs",
                  failed == 0 ? grouped(runs.size()) : fmt::format("{}, {} failed", grouped(runs.size()), failed));

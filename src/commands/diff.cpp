@@ -1,3 +1,5 @@
+// Describes the differences found by study/run_difference.h. Numbers have all their digits, since two runs may differ
+// in the last one only.
 #include "commands/diff.h"
 
 #include <fmt/format.h>
@@ -166,7 +168,7 @@ int diff_command(const Options& options) {
       json.update(difference_json(difference));
       write_out(document("diff", json));
     } else if (!options.quiet) {
-      Block block(Palette(wants_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+      Block block(Palette(uses_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
       describe(block, difference);
       write_out(block.text());
     }

@@ -1,3 +1,5 @@
+// A word may be a kind, a key at several places and an absent word. All its meanings are printed, because the program
+// cannot choose between them.
 #include "commands/explain.h"
 
 #include <fmt/format.h>
@@ -194,7 +196,7 @@ bool is_default_alone(const FieldPlaces& row) {
 }
 
 /// Several operands may be one term: `carom explain slow motion`.
-std::vector<std::string> asked_words(const std::vector<std::string>& operands) {
+std::vector<std::string> words_of(const std::vector<std::string>& operands) {
   const std::string term = fmt::format("{}", fmt::join(operands, " "));
   return operands.size() > 1 && find_absent_word(term) != nullptr ? std::vector<std::string>{term} : operands;
 }
@@ -232,11 +234,11 @@ int explain_command(const Options& options) {
     write_out(format_page());
     return 0;
   }
-  const Palette palette(wants_color(options.color, STDOUT_FILENO));
+  const Palette palette(uses_color(options.color, STDOUT_FILENO));
   const std::size_t width = terminal_width(STDOUT_FILENO);
   std::vector<std::string> texts;
   Json fields = Json::array(), all = Json::array(), words = Json::array();
-  for (const std::string& key : asked_words(options.operands)) {
+  for (const std::string& key : words_of(options.operands)) {
     const AbsentWord* word = find_absent_word(key);
     const Kind* kind = find_kind(key);
     std::vector<FieldPlaces> rows = find_places(key);

@@ -1,3 +1,5 @@
+// Simulates by the most exact engine within a budget of wall time, and extrapolates the time of the whole run. The
+// number of collisions has no formula.
 #include "commands/foresight.h"
 
 #include <fmt/format.h>
@@ -58,8 +60,8 @@ class Trial {
       const auto start = Clock::now();
       oracle_ = make_oracle(scene_);
       made_s_ = since(start);
-      look_if_due();
-      while (oracle_->time() < scene_.simulate.duration && wants_more()) advance();
+      check_view_if_due();
+      while (oracle_->time() < scene_.simulate.duration && needs_more()) advance();
     } catch (const SimulationError& error) {
       (result_.first ? result_.failure : result_.trouble) =
           error.named([&](Entity body) { return fmt::format("`{}`", scene_.roster.name(body)); }).what();
@@ -76,7 +78,7 @@ class Trial {
   }
 
  private:
-  bool wants_more() {
+  bool needs_more() {
     if (since(start_) < budget_) return true;
     if (next_ <= last_) result_.cut = true;
     // Crossings are not worth more time.
@@ -98,20 +100,20 @@ class Trial {
       for (const Collision& collision : oracle_->collisions()) {
         if (!result_.first && collision.kind != CollisionKind::rest) result_.first = collision;
       }
-      if (!wants_more()) return;
+      if (!needs_more()) return;
     }
-    look_if_due();
+    check_view_if_due();
   }
 
-  void look_if_due() {
+  void check_view_if_due() {
     if (next_ > last_ || oracle_->time() < ticks_.at(next_)) return;
     const State& state = oracle_->state();
-    const bool begins = seen_.empty();
-    seen_.resize(state.position.size());
-    for (Entity body = 0; body < seen_.size(); ++body) {
-      const bool sees = sees_sphere(camera_, view_, state.position[body], scene_.world.radius[body]);
-      if (!begins && sees != seen_[body]) result_.crossings.push_back({body, ticks_.at(next_), sees});
-      seen_[body] = sees;
+    const bool begins = in_view_.empty();
+    in_view_.resize(state.position.size());
+    for (Entity body = 0; body < in_view_.size(); ++body) {
+      const bool in_view = is_sphere_in_view(camera_, view_, state.position[body], scene_.world.radius[body]);
+      if (!begins && in_view != in_view_[body]) result_.crossings.push_back({body, ticks_.at(next_), in_view});
+      in_view_[body] = in_view;
     }
     result_.watched_until = ticks_.at(next_++);
   }
@@ -123,7 +125,7 @@ class Trial {
   CameraFrame view_;
   Ticks ticks_ = Ticks::even(0, 0);
   std::int64_t next_ = 0, last_ = -1;  // ticks left to check
-  std::vector<bool> seen_;             // by body, at the previous tick; empty: there was none
+  std::vector<bool> in_view_;          // by body, at the previous tick; empty: there was none
   std::unique_ptr<Simulator> oracle_;
   double made_s_ = 0, advance_s_ = 0;  // wall times
   Foresight result_;

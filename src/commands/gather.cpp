@@ -1,3 +1,5 @@
+// Finds each run in the sweep's folder or in one of the other folders, and copies it if necessary. The comparison is
+// then that of an undivided sweep.
 #include "commands/gather.h"
 
 #include <fcntl.h>
@@ -78,7 +80,7 @@ class GatherSession {
 
   int gather(const Sweep& sweep, const std::string& base) {
     SweepFolder folder(folder_, SweepFolder::Use::alone, sweep, base, stop_if_interrupted);
-    Progress progress(progress_choice(options_), wants_color(options_.color, STDERR_FILENO),
+    Progress progress(progress_choice(options_), uses_color(options_.color, STDERR_FILENO),
                       printable(name_of_folder(folder_)), 1, 0);
     std::vector<std::vector<bool>> whole;  // by folder, run
     for (const std::string& place : options_.operands) whole.push_back(whole_runs(sweep, place, base));
@@ -100,7 +102,7 @@ class GatherSession {
       return 1;
     }
     ComparisonWatch watch;
-    watch.look = stop_if_interrupted;
+    watch.stop_check = stop_if_interrupted;
     watch.done = [&](std::size_t done) {
       progress.update(sweep.size() + done, 2 * sweep.size(), "runs checked or compared");
     };
@@ -162,7 +164,7 @@ class GatherSession {
       write_out(document("gather", json));
     }
     if (options_.json || options_.quiet || status != "done") return;
-    Block block(Palette(wants_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+    Block block(Palette(uses_color(options_.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
     block.heading(name_of_folder(folder_), sweep.title);
     block.line("runs", failed.empty()
                            ? fmt::format("{}", counted(sweep.size(), "run", "runs"))

@@ -1,3 +1,5 @@
+// The handler stores the signal, and nothing else: few functions may be called in a handler. SA_RESETHAND lets a second
+// signal end the program.
 #include "commands/interrupt.h"
 
 #include <csignal>
@@ -12,7 +14,7 @@ namespace {
 
 volatile std::sig_atomic_t received = 0;
 
-void remember(int signal) {
+void record_signal(int signal) {
   received = signal;
 }
 
@@ -21,7 +23,7 @@ void remember(int signal) {
 void catch_signals() {
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   struct sigaction action {};
-  action.sa_handler = remember;
+  action.sa_handler = record_signal;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
   sigemptyset(&action.sa_mask);
   for (const int signal : {SIGINT, SIGTERM}) {
@@ -30,8 +32,8 @@ void catch_signals() {
     if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
     sigaction(signal, &action, nullptr);
   }
-  look_while_waiting(stop_if_interrupted);
-  look_while_reading(stop_if_interrupted);
+  check_while_waiting(stop_if_interrupted);
+  check_while_reading(stop_if_interrupted);
 }
 
 void stop_if_interrupted() {

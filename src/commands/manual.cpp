@@ -1,3 +1,4 @@
+// Writes roff and a bash script from the tables of commands and options. Texts written by hand could lack an option.
 #include "commands/manual.h"
 
 #include <fmt/format.h>

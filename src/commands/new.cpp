@@ -1,3 +1,4 @@
+// Writes the scene, and the JSON Schema of this version beside it. An editor then completes keys without a network.
 #include "commands/new.h"
 
 #include <fcntl.h>

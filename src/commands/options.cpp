@@ -1,3 +1,4 @@
+// A row has an option's names, its help and the function that stores its value. A new option is one row.
 #include "commands/options.h"
 
 #include <fmt/format.h>

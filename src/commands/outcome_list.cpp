@@ -1,3 +1,5 @@
+// Text is printed at once, so that a long command shows its results. JSON is printed at the end, since it is one
+// document.
 #include "commands/outcome_list.h"
 
 #include <fmt/format.h>

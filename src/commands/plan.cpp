@@ -1,3 +1,5 @@
+// Loads and checks every scene before the first one runs. An error in the last scene would otherwise appear after all
+// other runs.
 #include "commands/plan.h"
 
 #include <fmt/format.h>
@@ -53,8 +55,8 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
   const auto start = std::chrono::steady_clock::now();
   planned.scene = std::make_unique<Scene>(
       load_scene(planned.file, load_options(options, options.only || purpose == Purpose::bench)));
-  const Output asked = planned.scene->output;
-  if (options.only) planned.scene->output = restricted(asked, *options.only);
+  const Output requested = planned.scene->output;
+  if (options.only) planned.scene->output = restricted(requested, *options.only);
   check_flights(*planned.scene);
   planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   planned.engine = choose_engine(*planned.scene);
@@ -70,10 +72,10 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
   }
   planned.content = inspect_folder(planned.folder, *planned.scene);
   const bool differs = planned.content == FolderContent::incomplete || planned.content == FolderContent::more;
-  if (options.only && differs && holds_all(asked, *options.only)) {
+  if (options.only && differs && holds_all(requested, *options.only)) {
     // A whole run of this scene has the named outputs and more.
     Scene whole = *planned.scene;
-    whole.output = asked;
+    whole.output = requested;
     if (inspect_folder(planned.folder, whole) == FolderContent::this_run) planned.content = FolderContent::this_run;
   }
 }
@@ -87,7 +89,7 @@ LoadOptions load_options(const Options& options, bool lifted) {
   load.budget.enforced = !options.force;
   if (lifted) load.budget = load.budget.without_outputs();
   load.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
-  load.color = !options.json && wants_color(options.color, STDERR_FILENO);
+  load.color = !options.json && uses_color(options.color, STDERR_FILENO);
   return load;
 }
 

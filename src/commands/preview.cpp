@@ -1,3 +1,4 @@
+// Tests the initial bodies against the camera's frustum. No picture is drawn, so check needs no OpenGL.
 #include "commands/preview.h"
 
 #include <algorithm>
@@ -29,7 +30,7 @@ CameraPreview preview_camera(const Scene& scene) {
   preview.fov_x = view.fov_x;
   preview.fov_y = view.fov_y;
   for (Entity body = 0; body < scene.world.body_count(); ++body) {
-    if (!sees_sphere(camera, view, scene.initial.position[body], scene.world.radius[body])) {
+    if (!is_sphere_in_view(camera, view, scene.initial.position[body], scene.world.radius[body])) {
       preview.out_of_view.push_back(body);
     }
   }

@@ -1,3 +1,4 @@
+// Exceptions that leave a command become a line on stderr and an exit code here, the same for all commands.
 #include "commands/program.h"
 
 #include <fmt/format.h>

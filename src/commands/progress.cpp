@@ -1,3 +1,5 @@
+// A bar redraws one line ten times a second. A log cannot be redrawn: it gets a line for each tenth of the work, or
+// after 5 s.
 #include "commands/progress.h"
 
 #include <fmt/format.h>

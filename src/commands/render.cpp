@@ -1,3 +1,5 @@
+// Plans a run whose motion comes from the flights of a former run. It is then run as by `carom run`, so drawing has no
+// loop of its own.
 #include "commands/render.h"
 
 #include <fmt/format.h>
@@ -24,10 +26,10 @@ namespace fs = std::filesystem;
 namespace {
 
 /// The outputs that are drawn, or those that are not; flights are neither.
-std::vector<std::string> names_of(const Output& output, bool looks) {
+std::vector<std::string> names_of(const Output& output, bool draws) {
   std::vector<std::string> names;
   for (const OutputKind& kind : output_kinds())
-    if (kind.asked(output) && kind.looks == looks && kind.name != "flights") names.emplace_back(kind.name);
+    if (kind.asked(output) && kind.draws == draws && kind.name != "flights") names.emplace_back(kind.name);
   return names;
 }
 
@@ -96,14 +98,14 @@ class Planner {
 
   void choose_outputs(PlannedScene& planned, const FormerRun& former) const {
     Output& output = planned.scene->output;
-    const Output asked = output;
-    output = restricted(asked, options_.only.value_or(names_of(asked, true)));
+    const Output requested = output;
+    output = restricted(requested, options_.only.value_or(names_of(requested, true)));
     if (names_of(output, true).empty())
       throw ExportError("its scene has no pictures\n  add them with --only frames, video or sheet");
-    output.flights = asked.flights;
+    output.flights = requested.flights;
     if (planned.folder != planned.file) return;
     const std::vector<std::string> tables = names_of(former.scene.output, false);
-    Output kept = restricted(asked, tables);
+    Output kept = restricted(requested, tables);
     if (outputs_text(kept) != outputs_text(restricted(former.scene.output, tables)))
       throw ExportError(fmt::format("--set changes one of {}, which render leaves as they are\n  carom run writes them",
                                     fmt::join(tables, ", ")));

@@ -1,3 +1,5 @@
+// Text has rounded figures, and JSON all digits. The list of files is the manifest's, so that foreign files in the
+// folder do not appear.
 #include "commands/report.h"
 
 #include <fcntl.h>
@@ -236,7 +238,7 @@ std::string document(std::string_view command, Json scenes) {
 }
 
 void complain(const Options& options, std::string_view text) {
-  const Palette palette(wants_color(options.color, STDERR_FILENO));
+  const Palette palette(uses_color(options.color, STDERR_FILENO));
   write_err(fmt::format("{}carom:{} {}\n", palette.red, palette.reset, text));
 }
 

@@ -63,7 +63,7 @@ int run_planned(const Options& options, std::string_view command, std::vector<Pl
   refuse_other_content(scenes, options);
   if (const std::string errors = error_count(scenes); !errors.empty()) return refuse(options, command, scenes, errors);
   const auto start = std::chrono::steady_clock::now();
-  const Style style{Palette(wants_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO)};
+  const Style style{Palette(uses_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO)};
   OutcomeList list(options);
   Batch batch;
   batch.is_up_to_date = [&](const PlannedScene& planned) {
@@ -71,7 +71,7 @@ int run_planned(const Options& options, std::string_view command, std::vector<Pl
   };
   batch.up_to_date = [&](const PlannedScene& planned) { return run_up_to_date(planned, style); };
   batch.run = [&](const PlannedScene& planned, ProgressChoice choice) {
-    Progress progress(choice, wants_color(options.color, STDERR_FILENO), label(scenes, planned),
+    Progress progress(choice, uses_color(options.color, STDERR_FILENO), label(scenes, planned),
                       planned.scene->simulate.duration, planned.forecast.frames);
     return run_one(planned, options, style, progress);
   };

@@ -1,3 +1,4 @@
+// A failure becomes an outcome instead of an exception, so that the next scenes still run.
 #include "commands/run_one.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Makes text and JSON together. An outcome is packed into one text, which another process sends through a pipe.
 #include "commands/scene_outcome.h"
 
 #include <fmt/format.h>

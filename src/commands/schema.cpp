@@ -1,3 +1,4 @@
+// The schema is made from the table of fields at each call. A stored file could belong to another version.
 #include "commands/schema.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The scene is a text in the program, so that `carom new` needs no installed files.
 #include "commands/new.h"
 #include "scene/scene.h"
 

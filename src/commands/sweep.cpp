@@ -1,3 +1,4 @@
+// Plans all runs, then simulates what is missing, then compares. A part of a sweep leaves the comparison to `gather`.
 #include "commands/sweep.h"
 
 #include <fmt/format.h>
@@ -66,7 +67,7 @@ class SweepSession {
       return 0;
     }
     show_progress("scenarios", job.sweep().size());
-    job.plan([&](const SweepProgress& p) { tell(p); });
+    job.plan([&](const SweepProgress& p) { show_progress(p); });
     progress_.reset();
     if (const auto other = options_.force ? std::nullopt : job.other_content())
       return refuse(
@@ -96,15 +97,15 @@ class SweepSession {
     outcome.to_do = job.left();
     share_processors(options_.jobs.value_or(processors()));
     show_progress("runs", outcome.to_do);
-    job.run([&](const SweepProgress& p) { tell(p); },
+    job.run([&](const SweepProgress& p) { show_progress(p); },
             [&](std::size_t number, const std::string& why) { outcome.failures.emplace_back(number, why); });
     if (!is_part) {
       std::vector<RunStatus> statuses;
       for (const PlannedRun& one : job.runs()) statuses.push_back(one.status);
       show_progress("runs compared", statuses.size());
       ComparisonWatch watch;
-      watch.look = stop_if_interrupted;
-      watch.done = [&](std::size_t done) { tell({done, 0, job.runs().size()}); };
+      watch.stop_check = stop_if_interrupted;
+      watch.done = [&](std::size_t done) { show_progress({done, 0, job.runs().size()}); };
       watch.doubtful = [&](std::size_t runs) { outcome.doubtful = runs; };
       folder.finish(job.sweep(), statuses, watch);
     } else {
@@ -122,11 +123,11 @@ class SweepSession {
 
   void show_progress(std::string what, std::size_t count) {
     what_ = std::move(what);
-    progress_.emplace(progress_choice(options_), wants_color(options_.color, STDERR_FILENO),
+    progress_.emplace(progress_choice(options_), uses_color(options_.color, STDERR_FILENO),
                       printable(fs::path(options_.operands.front()).stem().string()), static_cast<double>(count), 0);
   }
 
-  void tell(const SweepProgress& p) {
+  void show_progress(const SweepProgress& p) {
     if (!progress_) return;
     progress_->update(p.done, p.of, what_, p.failed > 0 ? fmt::format(", {} failed", grouped(p.failed)) : "");
   }

@@ -1,3 +1,4 @@
+// Prints the outcome of a sweep, or its plan, from the job. Both are text for a terminal or one JSON document.
 #include "commands/sweep_report.h"
 
 #include <fmt/format.h>
@@ -58,7 +59,7 @@ void show_outcome(const Options& options, const SweepOutcome& outcome, const Swe
     return;
   }
   if (options.quiet) return;
-  Block block(Palette(wants_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+  Block block(Palette(uses_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
   block.heading(name_of(options), job.sweep().title);
   if (outcome.status == "up to date") {
     block.line("up to date", fmt::format("{}, {}", counted(outcome.runs, "run", "runs"), printable(job.folder())));
@@ -113,7 +114,7 @@ void show_plan(const Options& options, const SweepJob& job) {
     for (const auto& value : run.values) rows.back().push_back(value ? printable(cell_text(*value)) : "-");
     left += job.runs()[number].status == RunStatus::done ? 0 : 1;
   }
-  Block block(Palette(wants_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
+  Block block(Palette(uses_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO));
   block.heading(name_of(options), sweep.title);
   block.table(rows);
   block.line("to do", fmt::format("{} of {}", grouped(left), counted(all.size(), "run", "runs")));

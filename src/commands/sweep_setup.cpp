@@ -1,3 +1,4 @@
+// Turns options into a Sweep as if its file had them, so that `sweep`, `gather` and `submit` agree on the runs.
 #include "commands/sweep_setup.h"
 
 #include <fmt/format.h>
@@ -58,7 +59,7 @@ std::optional<std::size_t> slurm(const char* name) {
 
 Sweep read_sweep(const Options& options) {
   const std::string& file = options.operands.front();
-  const bool color = !options.json && wants_color(options.color, STDERR_FILENO);
+  const bool color = !options.json && uses_color(options.color, STDERR_FILENO);
   if (!options.grid.empty() && is_sweep_file(file))
     throw UsageError(fmt::format("--grid varies a scene; {} is a sweep: add to its `grid`", printable(file)));
   Sweep sweep = options.grid.empty() ? load_sweep(file, color) : grid_sweep(file, options.grid, color);
@@ -83,7 +84,7 @@ std::string sweep_folder_of(const Options& options) {
 SweepSettings sweep_settings(const Options& options) {
   SweepSettings settings;
   settings.load.budget.enforced = !options.force;
-  settings.load.color = !options.json && wants_color(options.color, STDERR_FILENO);
+  settings.load.color = !options.json && uses_color(options.color, STDERR_FILENO);
   // Every scenario has the base's meshes, so each mesh is read once.
   auto known = std::make_shared<std::map<std::string, std::vector<Vec3>>>();
   settings.load.mesh_points = [known](const std::string& path) {
@@ -93,13 +94,13 @@ SweepSettings sweep_settings(const Options& options) {
   settings.jobs = options.jobs.value_or(processors());
   settings.shard = shard_of(options);
   settings.force = options.force;
-  settings.restrict = [](const Output& asked, const Sweep& sweep) {
-    if (sweep.only.empty()) return asked;
+  settings.restrict = [](const Output& requested, const Sweep& sweep) {
+    if (sweep.only.empty()) return requested;
     std::vector<std::string> only;
     for (const SweepValue& name : sweep.only) only.push_back(name.text);
-    return restricted(asked, only);
+    return restricted(requested, only);
   };
-  settings.look = stop_if_interrupted;
+  settings.stop_check = stop_if_interrupted;
   return settings;
 }
 

@@ -1,3 +1,4 @@
+// Escapes control characters in every text that is written. Names and messages may come from hostile files.
 #include "commands/terminal.h"
 
 #include <fcntl.h>
@@ -37,7 +38,7 @@ std::size_t terminal_width(int descriptor) {
   return is_terminal(descriptor) ? 80 : 100;
 }
 
-bool wants_color(ColorChoice choice, int descriptor) {
+bool uses_color(ColorChoice choice, int descriptor) {
   if (choice != ColorChoice::automatic) return choice == ColorChoice::always;
   const char* term = std::getenv("TERM");
   const bool dumb = term != nullptr && std::strcmp(term, "dumb") == 0;

@@ -13,9 +13,9 @@ bool is_terminal(int descriptor);
 std::size_t terminal_width(int descriptor);
 /// Colour is for terminals. A NO_COLOR that is set and not empty, or TERM=dumb, forbids it, unless `choice` is
 /// `always`.
-bool wants_color(ColorChoice choice, int descriptor);
+bool uses_color(ColorChoice choice, int descriptor);
 
-/// Escape sequences, all empty where colour is not wanted.
+/// Escape sequences, all empty without colour.
 struct Palette {
   explicit Palette(bool color);
   std::string_view bold, dim, red, green, yellow, reset;

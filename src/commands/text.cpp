@@ -1,3 +1,4 @@
+// Rounds and groups digits for reading. Lines break by columns of the terminal and not by bytes.
 #include "commands/text.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// In text, things with equal volumes share one entry, and a group has one entry. JSON has an entry for each name.
 #include "commands/volumes.h"
 
 #include <fmt/format.h>

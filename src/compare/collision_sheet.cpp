@@ -1,3 +1,5 @@
+// Reads collisions.csv of each run row by row, so that no file is held in memory. A limit on rows keeps the workbook
+// small.
 #include "compare/collision_sheet.h"
 
 #include <algorithm>

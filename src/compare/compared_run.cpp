@@ -101,7 +101,7 @@ bool has_file(const RunRecord& run, const char* name) {
   return stored_size(run.folder.get(), name).has_value();
 }
 
-bool tells(const std::string& path, const std::vector<Measure>& measures) {
+bool has_measures(const std::string& path, const std::vector<Measure>& measures) {
   if (std::all_of(measures.begin(), measures.end(), [](const Measure& m) { return m.column != nullptr; })) return true;
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
   if (!folder) return false;

@@ -25,7 +25,7 @@ struct RunRecord {
 RunRecord read_run(ComparedRun run, const std::vector<Measure>& measures);
 
 /// Whether all measures can be determined from the complete run in this folder.
-bool tells(const std::string& folder, const std::vector<Measure>& measures);
+bool has_measures(const std::string& folder, const std::vector<Measure>& measures);
 
 /// A table of the run. Throws ExportError if it is absent.
 StoredTable open_table(const RunRecord& run, const char* name);

@@ -157,7 +157,7 @@ bool do_two_vary(const ComparisonPlan& plan, std::size_t count, const std::funct
   if (plan.parameters.size() < 2) return false;
   Outcomes outcomes(plan, 0, count);
   for (std::size_t i = 0; i < count; ++i) {
-    watch.look();
+    watch.stop_check();
     outcomes.add(i, run(i), false, {});
   }
   outcomes.finish();
@@ -212,7 +212,7 @@ std::vector<std::unique_ptr<OutputFile>> write_comparison(const FilePlace& place
   check_charts(plan);
   Comparison comparison(place, plan, count, do_two_vary(plan, count, run, watch));
   for (std::size_t i = 0; i < count; ++i) {
-    watch.look();
+    watch.stop_check();
     comparison.add(i, run(i));
     watch.done(i + 1);
   }

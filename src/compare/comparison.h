@@ -53,7 +53,7 @@ void check_charts(const ComparisonPlan& plan);
 
 struct ComparisonWatch {
   /// Called for each run. May throw.
-  std::function<void()> look = [] {};
+  std::function<void()> stop_check = [] {};
   /// The number of runs read so far.
   std::function<void(std::size_t)> done = [](std::size_t) {};
   /// The number of doubtful runs, at the end.

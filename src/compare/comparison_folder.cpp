@@ -44,7 +44,7 @@ std::string request_text(const ComparisonPlan& plan, const std::string& runs, bo
 }
 
 FolderContent inspect_comparison_folder(const std::string& path, const std::string& request) {
-  const FoundFolder found = look_into(path);
+  const FoundFolder found = find_folder(path);
   const Descriptor& folder = found.folder;
   if (found.names.empty()) return found.content;
   if (!found.has(manifest_name)) {

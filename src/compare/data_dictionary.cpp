@@ -1,3 +1,5 @@
+// The meanings of summary columns come from their own table (run/summary_columns.h), so that the two agree. Only the
+// columns of collisions and series are described here.
 #include "compare/data_dictionary.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Varied values stand on the left, a row for each run. Common values stand on the right, once, instead of in every row.
 #include "compare/parameter_sheet.h"
 
 #include <fmt/format.h>

@@ -19,8 +19,8 @@ namespace {
 /// The maximum length of a table's column names.
 constexpr std::size_t longest_name = 255;
 
-CellStyle head_of(CellStyle look) {
-  return look == CellStyle::swept ? CellStyle::swept_header : CellStyle::header;
+CellStyle head_of(CellStyle style) {
+  return style == CellStyle::swept ? CellStyle::swept_header : CellStyle::header;
 }
 
 }  // namespace
@@ -32,8 +32,8 @@ std::vector<SummarySheet::Column> SummarySheet::make_columns(const ComparisonPla
     const SummaryColumn& summary = summary_columns()[k];
     Column column{std::string(summary.name), CellStyle::plain, summary.number == nullptr, k, {}, {}};
     for (const char* name : {"energy_residual_J", "momentum_drift_kg_m_per_s", "max_overlap_m"})
-      if (column.name == name) column.look = CellStyle::rounding;
-    if (!column.is_text && unit_of(summary.name).empty()) column.look = CellStyle::whole;
+      if (column.name == name) column.style = CellStyle::rounding;
+    if (!column.is_text && unit_of(summary.name).empty()) column.style = CellStyle::whole;
     columns.push_back(std::move(column));
   }
   for (std::size_t k = 0; k < plan.parameters.size(); ++k)
@@ -66,7 +66,7 @@ void SummarySheet::write_heads() {
     std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
     if (const int before = taken[lower]++; before > 0) head += fmt::format(" ({})", before + 1);
     heads_.push_back(head);
-    sheet_.text(0, k, head, head_of(columns_[k].look));
+    sheet_.text(0, k, head, head_of(columns_[k].style));
   }
   row.end();
 }
@@ -78,7 +78,7 @@ void SummarySheet::add(std::size_t number, const RunRecord& run) {
     const Column& column = columns_[k];
     if (column.measure) {
       row.number(run.measures[*column.measure]);
-      if (room) sheet_.number(number + 1, k, run.measures[*column.measure], column.look);
+      if (room) sheet_.number(number + 1, k, run.measures[*column.measure], column.style);
       continue;
     }
     std::string text = column.parameter ? run.run.values[*column.parameter] : run.summary[*column.summary];
@@ -87,7 +87,7 @@ void SummarySheet::add(std::size_t number, const RunRecord& run) {
     Cell cell{text};
     if (!column.is_text) cell = cell_of(text);
     cell.is_number() ? row.number(cell.number) : row.text(text);
-    if (room) sheet_.cell(number + 1, k, cell, column.look);
+    if (room) sheet_.cell(number + 1, k, cell, column.style);
   }
   row.end();
 }
@@ -114,13 +114,13 @@ void SummarySheet::mark_rows(lxw_row_t last_row, lxw_col_t last_column) {
       std::find_if(columns_.begin(), columns_.end(), [](const Column& c) { return c.name == "status"; });
   char column[LXW_MAX_COL_NAME_LENGTH];
   lxw_col_to_name(column, static_cast<lxw_col_t>(status - columns_.begin()), 1);
-  for (const auto& [text, look] :
+  for (const auto& [text, style] :
        {std::pair("doubtful", CellStyle::doubtful), std::pair("failed", CellStyle::failed)}) {
     std::string formula = fmt::format("={}2=\"{}\"", column, text);
     lxw_conditional_format rule{};
     rule.type = LXW_CONDITIONAL_TYPE_FORMULA;
     rule.value_string = formula.data();
-    rule.format = sheet_.format(look);
+    rule.format = sheet_.format(style);
     worksheet_conditional_format_range(sheet_.get(), 1, 0, last_row, last_column, &rule);
   }
 }
@@ -130,7 +130,7 @@ void SummarySheet::make_table(lxw_row_t last_row, lxw_col_t last_column) {
   std::vector<lxw_table_column*> pointers;
   for (std::size_t k = 0; k < columns_.size(); ++k) {
     columns[k].header = const_cast<char*>(heads_[k].c_str());
-    columns[k].header_format = sheet_.format(head_of(columns_[k].look));
+    columns[k].header_format = sheet_.format(head_of(columns_[k].style));
     pointers.push_back(&columns[k]);
   }
   pointers.push_back(nullptr);

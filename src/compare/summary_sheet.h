@@ -42,7 +42,7 @@ class SummarySheet {
   /// A column and the source of its cells: one of `summary`, `parameter`, `measure`.
   struct Column {
     std::string name;
-    CellStyle look = CellStyle::plain;
+    CellStyle style = CellStyle::plain;
     bool is_text = false;
     std::optional<std::size_t> summary, parameter, measure;
   };

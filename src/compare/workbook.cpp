@@ -45,9 +45,9 @@ Made* made(Made* thing) {
   return thing;
 }
 
-lxw_format* make_format(lxw_workbook* book, CellStyle look) {
+lxw_format* make_format(lxw_workbook* book, CellStyle style) {
   lxw_format* format = made(workbook_add_format(book));
-  switch (look) {
+  switch (style) {
     case CellStyle::whole:
       format_set_num_format(format, "#,##0");
       break;
@@ -60,7 +60,7 @@ lxw_format* make_format(lxw_workbook* book, CellStyle look) {
     case CellStyle::header:
     case CellStyle::swept_header:
       format_set_bold(format);
-      format_set_bg_color(format, look == CellStyle::header ? header_tint : swept_header_tint);
+      format_set_bg_color(format, style == CellStyle::header ? header_tint : swept_header_tint);
       format_set_bottom(format, LXW_BORDER_THIN);
       format_set_text_wrap(format);
       format_set_align(format, LXW_ALIGN_VERTICAL_CENTER);
@@ -112,50 +112,51 @@ std::string without_guard(std::string_view text) {
   return std::string(text.substr(guarded ? 1 : 0));
 }
 
-void Worksheet::widen(std::size_t column, std::size_t characters, CellStyle look) {
-  if (look == CellStyle::title || look == CellStyle::note) return;
+void Worksheet::widen(std::size_t column, std::size_t characters, CellStyle style) {
+  if (style == CellStyle::title || style == CellStyle::note) return;
   if (widths_.size() <= column) widths_.resize(column + 1);
   widths_[column] = std::max(widths_[column], characters);
 }
 
-void Worksheet::text(std::size_t row, std::size_t column, std::string_view text, CellStyle look) {
-  if (text.empty() && look == CellStyle::plain) return;
+void Worksheet::text(std::size_t row, std::size_t column, std::string_view text, CellStyle style) {
+  if (text.empty() && style == CellStyle::plain) return;
   const std::string shown = shortened(text, longest_text);
-  widen(column, length_of(shown), look);
+  widen(column, length_of(shown), style);
   must(worksheet_write_string(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), shown.c_str(),
-                              look == CellStyle::plain ? nullptr : format(look)));
+                              style == CellStyle::plain ? nullptr : format(style)));
 }
 
-void Worksheet::number(std::size_t row, std::size_t column, double value, CellStyle look) {
-  lxw_format* const how = look == CellStyle::plain ? nullptr : format(look);
+void Worksheet::number(std::size_t row, std::size_t column, double value, CellStyle style) {
+  lxw_format* const how = style == CellStyle::plain ? nullptr : format(style);
   if (!std::isfinite(value)) {
     if (how != nullptr)
       must(worksheet_write_blank(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), how));
     return;
   }
   // The number of digits that a spreadsheet shows by default.
-  widen(column, 11, look);
+  widen(column, 11, style);
   must(worksheet_write_number(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column),
                               value == 0 ? 0.0 : value, how));
 }
 
-void Worksheet::cell(std::size_t row, std::size_t column, const Cell& cell, CellStyle look) {
+void Worksheet::cell(std::size_t row, std::size_t column, const Cell& cell, CellStyle style) {
   if (cell.is_number())
-    number(row, column, cell.number, look);
+    number(row, column, cell.number, style);
   else
-    text(row, column, without_guard(cell.text), look);
+    text(row, column, without_guard(cell.text), style);
 }
 
-void Worksheet::formula(std::size_t row, std::size_t column, const std::string& formula, double value, CellStyle look) {
-  widen(column, 11, look);
+void Worksheet::formula(std::size_t row, std::size_t column, const std::string& formula, double value,
+                        CellStyle style) {
+  widen(column, 11, style);
   must(worksheet_write_formula_num(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), formula.c_str(),
-                                   look == CellStyle::plain ? nullptr : format(look), value));
+                                   style == CellStyle::plain ? nullptr : format(style), value));
 }
 
 void Worksheet::fit(std::size_t column, double least, double most, double more) {
-  const double wanted = column < widths_.size() ? static_cast<double>(widths_[column]) + 1 + more : least;
+  const double needed = column < widths_.size() ? static_cast<double>(widths_[column]) + 1 + more : least;
   const auto number = static_cast<lxw_col_t>(column);
-  worksheet_set_column(sheet_, number, number, std::clamp(wanted, least, most), nullptr);
+  worksheet_set_column(sheet_, number, number, std::clamp(needed, least, most), nullptr);
 }
 
 void Worksheet::fit_all(double least, double most, double more) {
@@ -195,8 +196,8 @@ Workbook::Workbook(const FilePlace& place, std::string name, const std::string& 
   // 2000-01-01 and not the clock, so that the same runs give the same bytes.
   properties.created = 946'684'800;
   workbook_set_properties(book_, &properties);
-  for (int look = 0; look < static_cast<int>(CellStyle::count_); ++look)
-    formats_.push_back(make_format(book_, static_cast<CellStyle>(look)));
+  for (int style = 0; style < static_cast<int>(CellStyle::count_); ++style)
+    formats_.push_back(make_format(book_, static_cast<CellStyle>(style)));
 }
 
 Workbook::~Workbook() {

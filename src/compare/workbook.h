@@ -52,12 +52,12 @@ class Worksheet {
 
   /// Rows count from 0. On a streamed sheet they must come in order. Text is never a formula.
   /// Text longer than a cell is cut. A number that is not finite gives an empty cell.
-  void text(std::size_t row, std::size_t column, std::string_view text, CellStyle look = CellStyle::plain);
-  void number(std::size_t row, std::size_t column, double value, CellStyle look = CellStyle::plain);
-  void cell(std::size_t row, std::size_t column, const Cell& cell, CellStyle look = CellStyle::plain);
+  void text(std::size_t row, std::size_t column, std::string_view text, CellStyle style = CellStyle::plain);
+  void number(std::size_t row, std::size_t column, double value, CellStyle style = CellStyle::plain);
+  void cell(std::size_t row, std::size_t column, const Cell& cell, CellStyle style = CellStyle::plain);
   /// `value`: the present result of the formula.
   void formula(std::size_t row, std::size_t column, const std::string& formula, double value,
-               CellStyle look = CellStyle::plain);
+               CellStyle style = CellStyle::plain);
 
   /// Sets a column's width to what its cells need, from `least` to `most` characters. Titles and notes do not count.
   void fit(std::size_t column, double least = 9, double most = 60, double more = 0);
@@ -69,10 +69,10 @@ class Worksheet {
   void print_table();
 
   lxw_worksheet* get() const { return sheet_; }
-  lxw_format* format(CellStyle look) const { return formats_[static_cast<std::size_t>(look)]; }
+  lxw_format* format(CellStyle style) const { return formats_[static_cast<std::size_t>(style)]; }
 
  private:
-  void widen(std::size_t column, std::size_t characters, CellStyle look);
+  void widen(std::size_t column, std::size_t characters, CellStyle style);
 
   lxw_worksheet* sheet_;
   const std::vector<lxw_format*>& formats_;

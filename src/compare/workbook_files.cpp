@@ -26,7 +26,7 @@ using File = WorkbookFiles::File;
 WorkbookFiles* current = nullptr;
 
 ssize_t failed() {
-  current->remember(errno);
+  current->record_error(errno);
   return -1;
 }
 
@@ -38,8 +38,8 @@ ssize_t read_file(void* cookie, char* to, std::size_t size) {
   do n = pread(file.descriptor.get(), to, size, static_cast<off_t>(file.at));
   while (n < 0 && errno == EINTR);
   if (n < 0) return failed();
-  const std::uint64_t wanted = std::min<std::uint64_t>(size, file.size - std::min(file.at, file.size));
-  if (n == 0 && wanted > 0) {
+  const std::uint64_t expected = std::min<std::uint64_t>(size, file.size - std::min(file.at, file.size));
+  if (n == 0 && expected > 0) {
     // The file has become shorter.
     errno = EIO;
     return failed();
@@ -157,11 +157,11 @@ void WorkbookFiles::check() const {
 void WorkbookFiles::check_archive(int archive) const {
   bool whole = true;
   std::vector<Entry> found = entries_of(fmt::format("/proc/self/fd/{}", archive), whole);
-  std::vector<Entry> wanted;
-  for (std::size_t i = rows_; i < files_.size(); ++i) wanted.push_back({files_[i]->size, files_[i]->crc});
+  std::vector<Entry> listed;
+  for (std::size_t i = rows_; i < files_.size(); ++i) listed.push_back({files_[i]->size, files_[i]->crc});
   std::sort(found.begin(), found.end());
-  std::sort(wanted.begin(), wanted.end());
-  if (!whole || !ends_whole(archive) || found != wanted)
+  std::sort(listed.begin(), listed.end());
+  if (!whole || !ends_whole(archive) || found != listed)
     fail("write", place_, name_, "the workbook differs from what was written");
 }
 
@@ -173,14 +173,14 @@ FILE* WorkbookFiles::make() {
     if (file->stream == nullptr) throw std::bad_alloc();
     return files_.emplace_back(std::move(file))->stream;
   } catch (const ExportError&) {
-    remember(errno != 0 ? errno : EIO);
+    record_error(errno != 0 ? errno : EIO);
   } catch (const std::bad_alloc&) {
-    remember(ENOMEM);
+    record_error(ENOMEM);
   }
   return nullptr;
 }
 
-void WorkbookFiles::remember(int error) {
+void WorkbookFiles::record_error(int error) {
   if (error_ == 0) error_ = error;
 }
 

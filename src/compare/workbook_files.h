@@ -41,7 +41,7 @@ class WorkbookFiles {
   /// A new file, or null on failure. check() then reports the failure.
   FILE* make();
   /// Records an error by its errno.
-  void remember(int error);
+  void record_error(int error);
 
  private:
   FilePlace place_;

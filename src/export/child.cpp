@@ -51,9 +51,9 @@ std::string text_of(int file) {
   return text;
 }
 
-constexpr auto glance = std::chrono::milliseconds(50);  // between two calls of look()
+constexpr auto glance = std::chrono::milliseconds(50);  // between two calls of stop_check()
 
-std::function<void()>& look() {
+std::function<void()>& stop_check() {
   static std::function<void()> function = [] {};
   return function;
 }
@@ -63,8 +63,8 @@ constexpr int ignored[] = {SIGPIPE, SIGXFSZ};
 
 }  // namespace
 
-void look_while_waiting(std::function<void()> function) {
-  look() = std::move(function);
+void check_while_waiting(std::function<void()> function) {
+  stop_check() = std::move(function);
 }
 
 std::optional<std::string> find_program(const std::string& name) {
@@ -146,10 +146,10 @@ Child::Sent Child::send(const void* bytes, std::size_t size, std::chrono::millis
       size -= static_cast<std::size_t>(n);
       limit = Clock::now() + patience;
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
-      pollfd wanted{input_.get(), POLLOUT, 0};
-      const int ready = poll(&wanted, 1, static_cast<int>(glance.count()));
+      pollfd request{input_.get(), POLLOUT, 0};
+      const int ready = poll(&request, 1, static_cast<int>(glance.count()));
       if (ready < 0 && errno != EINTR) std::this_thread::sleep_for(glance);
-      look()();
+      stop_check()();
       if (ready > 0) continue;
       if (has_ended()) return Sent::closed;
       if (Clock::now() >= limit) return Sent::stuck;
@@ -182,7 +182,7 @@ std::optional<int> Child::wait(std::chrono::milliseconds patience) {
   const auto limit = Clock::now() + patience;
   std::chrono::microseconds pause(200);
   while (!has_ended() && Clock::now() < limit) {
-    look()();
+    stop_check()();
     std::this_thread::sleep_for(pause);
     pause = std::min(pause * 2, std::chrono::microseconds(20'000));
   }

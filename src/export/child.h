@@ -16,7 +16,7 @@ namespace carom {
 /// Sets a function that is called 20 times a second while waiting for any child process.
 /// It may throw, and the function that waits passes the exception on.
 /// It is set once, at the program's start. By default nothing is called.
-void look_while_waiting(std::function<void()> look);
+void check_while_waiting(std::function<void()> stop_check);
 
 /// The absolute path of a program on PATH, or none. Throws ExportError if the search fails.
 std::optional<std::string> find_program(const std::string& name);
@@ -32,7 +32,7 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   enum class Sent { all, closed, stuck };
-  /// Sends bytes to the program's standard input. Throws what the function of look_while_waiting throws.
+  /// Sends bytes to the program's standard input. Throws what the function of check_while_waiting throws.
   /// - all: all bytes were taken.
   /// - closed: the program closed its input, in most cases because it ended.
   /// - stuck: it took nothing for `patience`.
@@ -40,7 +40,7 @@ class Child {
   void end_input();
 
   /// Waits for the program's end and returns its exit code, or 128 + the number of the signal that ended it.
-  /// None: still running. Throws what the function of look_while_waiting throws.
+  /// None: still running. Throws what the function of check_while_waiting throws.
   std::optional<int> wait(std::chrono::milliseconds patience);
   void kill();
 

@@ -122,16 +122,16 @@ Timeline& Exports::timeline() {
   return impl_->timeline;
 }
 
-bool Exports::wants_state() const {
+bool Exports::needs_state() const {
   const auto& streams = impl_->plan.streams;
   const auto due = [&](const auto& stream) { return impl_->due(stream.timeline_stream); };
   return std::any_of(impl_->writers.begin(), impl_->writers.end(), due) ||
          std::any_of(streams.begin(), streams.end(), due);
 }
 
-bool Exports::wants_contacts() const {
+bool Exports::needs_contacts() const {
   return std::any_of(impl_->writers.begin(), impl_->writers.end(), [&](const Impl::OpenWriter& open) {
-    return impl_->due(open.timeline_stream) && open.writer->wants_contacts();
+    return impl_->due(open.timeline_stream) && open.writer->needs_contacts();
   });
 }
 

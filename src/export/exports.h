@@ -42,12 +42,12 @@ class Exports {
 
   Timeline& timeline();
   /// Whether any output is due at the timeline's present instant.
-  bool wants_state() const;
+  bool needs_state() const;
   /// The same for outputs of contact forces.
-  bool wants_contacts() const;
+  bool needs_contacts() const;
   void record(std::span<const Collision> collisions);
   void record_paths(std::span<const PathPiece> pieces);
-  /// Writes the rows that are due. `contacts`: sorted by a, then b; read only if wants_contacts().
+  /// Writes the rows that are due. `contacts`: sorted by a, then b; read only if needs_contacts().
   void sample(const State& state, std::span<const ContactForce> contacts = {});
   const std::vector<PictureStream>& pictures() const;
   /// Takes the picture that is due for pictures()[stream]. `again`: it equals the stream's previous one.

@@ -150,9 +150,9 @@ void FilmFile::complete(std::uint64_t frames) {
 
 FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const std::string& name) {
   std::string error;
-  const std::string said = probed(tools, place.folder, name, false, "width,height,r_frame_rate,nb_frames", error);
+  const std::string output = probed(tools, place.folder, name, false, "width,height,r_frame_rate,nb_frames", error);
   if (!error.empty()) fail("read the film", place, name, error);
-  std::string_view text = said;
+  std::string_view text = output;
   FilmFacts facts;
   facts.width = static_cast<int>(take_number(text));
   facts.height = static_cast<int>(take_number(text));

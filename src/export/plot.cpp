@@ -30,14 +30,14 @@ struct PlotStyle {
   const char* color;
   int mark;
 };
-constexpr std::array<PlotStyle, plot_looks> looks = {{{"#D55E00", 13},
-                                                      {"#E69F00", 7},
-                                                      {"#009E73", 5},
-                                                      {"#0072B2", 9},
-                                                      {"#CC79A7", 11},
-                                                      {"#56B4E9", 15},
-                                                      {"#000000", 6},
-                                                      {"#8C8C00", 4}}};
+constexpr std::array<PlotStyle, plot_styles> styles = {{{"#D55E00", 13},
+                                                        {"#E69F00", 7},
+                                                        {"#009E73", 5},
+                                                        {"#0072B2", 9},
+                                                        {"#CC79A7", 11},
+                                                        {"#56B4E9", 15},
+                                                        {"#000000", 6},
+                                                        {"#8C8C00", 4}}};
 
 /// Text in single quotes, which gnuplot takes literally.
 std::string quoted_text(const std::string& text) {
@@ -116,7 +116,7 @@ std::string script(const Plot& plot, const std::string& terminal) {
   for (std::size_t s = 0; s < plot.series.size(); ++s) {
     const PlotSeries& series = plot.series[s];
     if (series.points.empty()) continue;
-    const PlotStyle look = looks.at(series.look);
+    const PlotStyle style = styles.at(series.style);
     std::string labels, bars;
     data += fmt::format("$series{} << END\n", s);
     for (const PlotPoint& point : series.points) {
@@ -133,17 +133,17 @@ std::string script(const Plot& plot, const std::string& terminal) {
       data += fmt::format("$bars{} << END\n{}END\n", s, bars);
       layers.push_back(fmt::format(
           "$bars{} using 1:2:3:4 with yerrorbars linetype 1 linecolor '{}' linewidth 1.2 pointtype 0 notitle", s,
-          look.color));
+          style.color));
     }
     layers.push_back(
         fmt::format("$series{} using 1:2 with linespoints linetype 1 linecolor '{}' linewidth 2 pointtype {} "
                     "pointsize 1.3 title {}",
-                    s, look.color, look.mark, quoted_text(series.name)));
+                    s, style.color, style.mark, quoted_text(series.name)));
     if (labels.empty()) continue;
     data += fmt::format("$labels{} << END\n{}END\n", s, labels);
     layers.push_back(fmt::format(
         "$labels{} using 1:2:3 with labels left offset 0.9,0.5 font ',10' textcolor '{}' noenhanced notitle", s,
-        look.color));
+        style.color));
   }
   if (layers.empty()) layers.push_back("NaN notitle");
   return text + data + fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));

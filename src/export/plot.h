@@ -17,12 +17,12 @@ struct PlotPoint {
 };
 
 /// The number of colours, each with a mark.
-inline constexpr std::size_t plot_looks = 8;
+inline constexpr std::size_t plot_styles = 8;
 
 struct PlotSeries {
   std::string name;  // in the legend
-  /// Index of its colour and mark, below plot_looks.
-  std::size_t look;
+  /// Index of its colour and mark, below plot_styles.
+  std::size_t style;
   /// Joined by a line, in this order.
   std::vector<PlotPoint> points;
 };

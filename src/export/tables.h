@@ -73,7 +73,7 @@ class CollisionTable : public Writer {
 class ContactTable : public Writer {
  public:
   ContactTable(const FilePlace& place, const Scene& scene);
-  bool wants_contacts() const override { return true; }
+  bool needs_contacts() const override { return true; }
   void add(double time, const State& state, std::span<const ContactForce> contacts) override;
   std::vector<OutputFile*> files() override { return {&file_}; }
 

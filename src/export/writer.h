@@ -28,7 +28,7 @@ class Writer {
   /// Takes pieces of paths, in order.
   virtual void record_paths(std::span<const PathPiece>) {}
   /// Whether add() reads the contact forces.
-  virtual bool wants_contacts() const { return false; }
+  virtual bool needs_contacts() const { return false; }
   /// Takes the state at an instant (s) at which this output is due. `contacts`: by a, then b.
   virtual void add(double, const State&, std::span<const ContactForce>) {}
   /// Ends the run.

@@ -1,3 +1,5 @@
+// A failed run keeps one text file. Without a manifest no reader takes the folder for a complete run, and the run is
+// repeated.
 #include "files/failed_run.h"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// nettle computes the hash. Files are added in parts, so that a large file is never held in memory.
 #include "files/hash.h"
 
 #include <array>

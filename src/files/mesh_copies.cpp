@@ -1,3 +1,5 @@
+// The copies have the bytes of the original files. The program exports no mesh of its own, because a conversion would
+// change it.
 #include "files/mesh_copies.h"
 
 #include <fcntl.h>

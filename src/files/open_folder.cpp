@@ -128,7 +128,7 @@ OpenFolder::OpenFolder(const std::string& path, Durability durability) : durabil
 }
 
 void OpenFolder::lock() {
-  // A run that fails removes the folder that it made. Another run may have opened it just before, and then tries again.
+  // A run that fails removes the folder that it made. A run that had just opened that folder makes it again.
   for (int attempt = 0; attempt < 10; ++attempt) {
     made_ = mkdir(place_.path.c_str(), 0777) == 0;
     if (!made_ && errno != EEXIST) fail("make", place_, "");
@@ -149,7 +149,7 @@ void OpenFolder::lock() {
 OpenFolder::~OpenFolder() {
   if (renews_) {
     first_files_.clear();
-    // Nothing was decided, so the remaining temporary folders are removed.
+    // Nothing was committed, so the remaining temporary folders are removed.
     for (const std::string& series : series_folder_names()) try_to_remove(place_.folder, part_name(series));
     return;
   }
@@ -237,10 +237,10 @@ void OpenFolder::publish(std::vector<PartFile*> files, OutputFile& manifest) {
     carom::publish(place_, durability_, files, manifest);
   } catch (...) {
     // Otherwise all new files are removed.
-    if (manifest.is_handed_over()) decide();
+    if (manifest.is_handed_over()) commit();
     throw;
   }
-  decide();
+  commit();
 }
 
 }  // namespace carom

@@ -75,7 +75,7 @@ class OpenFolder {
  private:
   void lock();
   /// Makes the folder's content permanent, temporary files included.
-  void decide() {
+  void commit() {
     keep();
     renews_ = false;
   }

@@ -1,6 +1,6 @@
 // Publishes in four steps: sync the bytes, rename the manifest to `next_manifest`, rename the files,
 // rename the manifest.
-// The first rename decides. It is a single atomic rename, so a run is published completely or not at all.
+// The first rename commits. It is a single atomic rename, so a run is published completely or not at all.
 // The function finish_publication can be repeated at any point, which makes recovery the same code as the normal path.
 #include "files/publication.h"
 

@@ -17,14 +17,14 @@ inline constexpr const char* next_manifest = ".manifest.json.next.part";
 /// Publishes `files` and the manifest, which must be complete. Bytes are synced before names.
 /// The files are renamed before the manifest.
 /// Files of the folder's former manifest that the new one does not name are removed, and all other temporary files.
-/// Throws ExportError. The next command finishes what was decided by then.
+/// Throws ExportError. The next command completes a committed publication.
 void publish(const FilePlace& place, Durability durability, const std::vector<PartFile*>& files, OutputFile& manifest);
 
 /// Finishes an interrupted publish(). The caller must hold the folder's lock. Throws ExportError.
 void finish_publication(const FilePlace& place, Durability durability);
 
 /// The same before a folder is read. An absent folder stays as it is.
-/// So does one without a decided publication, or one that another run is writing. Throws ExportError.
+/// So does one without a committed publication, or one that another run is writing. Throws ExportError.
 void settle_folder(const std::string& path);
 
 /// Removes temporary files, the reason of a failed run, and folders of series without files. Throws ExportError.

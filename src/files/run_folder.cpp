@@ -119,17 +119,17 @@ bool FoundFolder::has(const std::string& name) const {
   return std::binary_search(names.begin(), names.end(), name);
 }
 
-FoundFolder look_into(const std::string& path) {
+FoundFolder find_folder(const std::string& path) {
   FoundFolder found{open_folder(AT_FDCWD, path.empty() ? "." : path, true), {}, FolderContent::nothing};
   if (!found.folder) {
     if (errno == ENOTDIR) found.content = FolderContent::other_run;
     return found;
   }
   found.names = folder_names(found.folder.get());
-  const auto says_nothing = [](const std::string& name) { return is_part_name(name) || name == failure_file; };
+  const auto is_leftover = [](const std::string& name) { return is_part_name(name) || name == failure_file; };
   if (!found.names.empty())
-    found.content = std::all_of(found.names.begin(), found.names.end(), says_nothing) ? FolderContent::incomplete
-                                                                                      : FolderContent::other_run;
+    found.content = std::all_of(found.names.begin(), found.names.end(), is_leftover) ? FolderContent::incomplete
+                                                                                     : FolderContent::other_run;
   return found;
 }
 
@@ -139,7 +139,7 @@ FolderContent inspect_folder(const std::string& path, const Scene& scene) {
 
 FolderContent inspect_folder(const std::string& path, const Scene& scene, const std::string& outputs,
                              const std::vector<std::string>& files) {
-  const FoundFolder found = look_into(path);
+  const FoundFolder found = find_folder(path);
   const Descriptor& folder = found.folder;
   const std::string hash = sha256(scene.resolved);
   if (found.has(manifest_name)) {

@@ -58,7 +58,7 @@ struct FoundFolder {
   bool has(const std::string& name) const;
 };
 /// Throws ExportError if the folder exists and cannot be opened.
-FoundFolder look_into(const std::string& folder);
+FoundFolder find_folder(const std::string& folder);
 
 /// The content of `folder`, from its manifest.json. Changes nothing.
 FolderContent inspect_folder(const std::string& folder, const Scene& scene);

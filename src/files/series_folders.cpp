@@ -1,3 +1,5 @@
+// Searches the table of outputs for a name, so that a new series needs no code here. Opened folders are kept, because a
+// series may have many files.
 #include "files/series_folders.h"
 
 #include "files/open_folder.h"
@@ -22,7 +24,7 @@ const OutputKind* output_of(std::string_view name) {
 
 bool is_picture(std::string_view name) {
   const OutputKind* kind = output_of(name);
-  return kind != nullptr ? kind->looks : name.ends_with(".mp4");
+  return kind != nullptr ? kind->draws : name.ends_with(".mp4");
 }
 
 FileSpot SeriesFolders::spot(std::string_view name) {

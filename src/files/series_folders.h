@@ -16,7 +16,7 @@ const OutputKind* series_of(std::string_view name);
 /// The output that writes a file of this name. Null: none, or a name that the scene gives (a film's).
 const OutputKind* output_of(std::string_view name);
 
-/// Whether a file of this name shows how things look: one of frames/, a film, or what another program draws.
+/// Whether a file of this name depends on appearance: one of frames/, a film, or what another program draws.
 bool is_picture(std::string_view name);
 
 /// The location of a file of a run.

@@ -114,8 +114,8 @@ const std::vector<std::string_view>* StoredTable::next() {
   return &cells_;
 }
 
-void lines_from_end(int file, const std::function<bool(std::string_view line)>& look) {
-  // The text from `at` on, without the lines already passed to `look`.
+void lines_from_end(int file, const std::function<bool(std::string_view line)>& take) {
+  // The text from `at` on, without the lines already passed to `take`.
   std::string text;
   std::uint64_t at = size_of(file);
   while (at > 0) {
@@ -128,7 +128,7 @@ void lines_from_end(int file, const std::function<bool(std::string_view line)>& 
       while (text.ends_with('\n')) text.pop_back();
       const std::size_t before = text.rfind('\n');
       if (before == std::string::npos) break;
-      if (!look(std::string_view(text).substr(before + 1))) return;
+      if (!take(std::string_view(text).substr(before + 1))) return;
       text.resize(before);
     }
   }

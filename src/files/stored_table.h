@@ -35,9 +35,9 @@ class StoredTable {
   bool ended_ = false;
 };
 
-/// Calls `look` for the lines of a file, from the last one to the second one, until it returns false.
+/// Calls `take` for the lines of a file, from the last one to the second one, until it returns false.
 /// Works for tables without quotes, such as the trajectory. Only the end of a file of gigabytes is read.
-void lines_from_end(int file, const std::function<bool(std::string_view line)>& look);
+void lines_from_end(int file, const std::function<bool(std::string_view line)>& take);
 
 /// Splits a line into cells. `unquoted` holds the text of quoted cells and must outlive the cells.
 void split_cells(std::string_view line, std::vector<std::string_view>& cells, std::string& unquoted);

@@ -47,7 +47,7 @@ class ConservativeAdvancement {
     }
     // A path that leaves a curved surface with nearly its curvature takes thousands of steps to come clear of it.
     while (t <= horizon_) {
-      s = look(t);
+      s = separation_at(t);
       const Vec3 v = way_.velocity(t);
       const double speed = s.normal.dot(v);
       double on;
@@ -68,7 +68,7 @@ class ConservativeAdvancement {
         double out = s.normal.dot(v);
         if (std::abs(out) <= noise(s.feature)) out = 0;
         // A curved surface may have turned away by the time the path arrives at the plane.
-        if (out < 0 && p != there && !closed(look(t + on), there)) {
+        if (out < 0 && p != there && !closed(separation_at(t + on), there)) {
           t += on;
           continue;
         }
@@ -94,7 +94,7 @@ class ConservativeAdvancement {
   }
   Vec3 displacement(double t) const { return way_.displacement(t); }
 
-  Separation look(double t) const {
+  Separation separation_at(double t) const {
     const Vec3 p = m_.d + displacement(t);
     const Separation s = set_.nearest(p);
     if (left_ == no_feature) return s;
@@ -180,7 +180,7 @@ class ConservativeAdvancement {
       if constexpr (!Way::parabola) reach = m_.d.cwiseAbs().sum() + displacement(time).cwiseAbs().sum();
       return 64 * rounding * (reach + set_.size());
     };
-    if (closed < never && std::abs(look(closed).gap) <= tolerance(closed) &&
+    if (closed < never && std::abs(separation_at(closed).gap) <= tolerance(closed) &&
         (is_left || std::abs(set_.at(m_.d + displacement(closed), feature).gap) <= tolerance(closed)))
       return {closed, feature};
     // Newton's method on the feature's gap. Where the path only just touches the feature's rim, the method may find
@@ -198,7 +198,7 @@ class ConservativeAdvancement {
       last = std::abs(step);
       t += step;
     }
-    if (t != found && std::abs(look(t).gap) > tolerance(t)) t = found;
+    if (t != found && std::abs(separation_at(t).gap) > tolerance(t)) t = found;
     if (t > horizon_) return {never, no_feature};
     return {t, feature};
   }

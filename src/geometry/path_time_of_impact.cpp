@@ -25,7 +25,7 @@ FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3&
   const double far = from_a.cwiseAbs().sum() + xb.cwiseAbs().sum() + world.radius[a];
   const double closed = 0x1p-49 * far, noise = 0x1p-48 * speeds;
   double t = 0;
-  for (int look = 0; look < 500 && t <= horizon; ++look) {
+  for (int step_count = 0; step_count < 500 && t <= horizon; ++step_count) {
     // b does not move.
     const Vec3 xa = from_a - way.displacement(t);
     const bool leaving = t == 0 && left != no_feature;

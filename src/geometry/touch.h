@@ -29,7 +29,7 @@ struct Touch {
 
 /// Where the gap is small it is as exact as the positions (compensated sums). Sharp volumes may overlap, or touch up to
 /// rounding at edges or corners only. The normal is then that of the face over which they are farthest apart (x before
-/// y before z). `feature`: the feature to look at; no_feature: the nearest.
+/// y before z). `feature`: the feature to use; no_feature: the nearest.
 Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature = no_feature);
 
 /// Second derivative of the gap (m/s^2) under the constant relative velocity w = v_b - v_a (m/s).
@@ -60,7 +60,7 @@ FeatureTime time_of_impact(const World& world, Entity a, Entity b, const Relativ
 FeatureTime time_of_impact_by_kind(const World& world, Entity a, Entity b, const RelativeMotion& motion,
                                    std::uint8_t left, double horizon);
 
-// Pairs of balls, the common case, need no look at volumes.
+// Pairs of balls, the common case, need no test of volumes.
 inline FeatureTime time_of_impact(const World& world, Entity a, Entity b, const RelativeMotion& motion,
                                   std::uint8_t left, double horizon) {
   if (world.volume.empty() && world.is_body(b) && motion.just_separated == (left != no_feature))

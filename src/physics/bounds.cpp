@@ -1,3 +1,5 @@
+// The smallest size is the full height or edge of a volume, not half of it. The bound on places is a multiple of it and
+// holds in every unit of length.
 #include "physics/bounds.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Compensated sums have the rounding of a single number. Plain sums over many bodies would hide the energy error that
+// they are to show.
 #include "physics/energy.h"
 
 #include "numerics/compensated.h"

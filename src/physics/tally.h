@@ -24,7 +24,7 @@ struct Tally {
   std::uint64_t collapses = 0;
   double first_collision = std::numeric_limits<double>::quiet_NaN();  // s, NaN: none
   double last_collision = std::numeric_limits<double>::quiet_NaN();   // s, NaN: none
-  // Contact problems with an answer that may be off by more than rounding.
+  // Contact problems with a solution that may be off by more than rounding.
   std::uint64_t doubtful = 0;
   // J, by impacts: those recorded, and those that contact absorbed.
   double energy_lost = 0;

@@ -1,5 +1,5 @@
-// The scene's camera, or a default one, and the test whether it sees a sphere. The default camera looks at the box of
-// all bodies and of the fixed things near them, as near as all its corners allow. The test uses the distance to the
+// The scene's camera, or a default one, and the test whether a sphere is in view. The default camera looks at the box
+// of all bodies and of the fixed things near them, as near as all its corners allow. The test uses the distance to the
 // frustum. Tests of single planes would accept spheres beyond its edges.
 #include "render/camera.h"
 
@@ -134,7 +134,7 @@ CameraFrame view_of(const Camera& camera, Size size) {
   return view;
 }
 
-bool sees_sphere(const Camera& camera, const CameraFrame& view, const Vec3& center, double radius) {
+bool is_sphere_in_view(const Camera& camera, const CameraFrame& view, const Vec3& center, double radius) {
   // The frustum is symmetric, so that its upper right quarter represents all.
   const Vec3 offset = center - camera.eye;
   const double x = std::abs(view.right.dot(offset)), y = std::abs(view.up.dot(offset)), z = view.forward.dot(offset);
@@ -162,7 +162,7 @@ Camera camera_of(const Scene& scene) {
   Camera camera;
   const Box box = box_of(scene);
   camera.target = (box.min + box.max) / 2;
-  // From the front, with a slight look downwards.
+  // From the front, slightly downwards.
   const Vec3 back = Vec3(0, std::sin(18 * degree), std::cos(18 * degree));
   camera.eye = camera.target + back;
   const CameraFrame view = view_of(camera, picture_size(scene.output));

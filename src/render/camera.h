@@ -19,6 +19,6 @@ struct CameraFrame {
 CameraFrame view_of(const Camera& camera, Size size);
 
 /// Whether any part of a sphere is inside the picture (the view frustum, near and far included).
-bool sees_sphere(const Camera& camera, const CameraFrame& view, const Vec3& center, double radius);
+bool is_sphere_in_view(const Camera& camera, const CameraFrame& view, const Vec3& center, double radius);
 
 }  // namespace carom

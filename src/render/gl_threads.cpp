@@ -25,7 +25,7 @@ constexpr const char* variable = "LP_NUM_THREADS";
 constexpr unsigned most_threads = 16;
 constexpr auto patience = std::chrono::seconds(2);
 
-unsigned wanted_threads() {
+unsigned thread_count() {
   const char* const text = std::getenv(variable);
   const std::string_view words = text ? text : "";
   unsigned count = 0;
@@ -70,7 +70,7 @@ unsigned chosen = 0;
 }  // namespace
 
 void choose_threads() {
-  chosen = wanted_threads();
+  chosen = thread_count();
   // llvmpipe starts as many again for other work, and one for its cache.
   if (!can_have(2 * chosen + 1)) chosen = 0;
   setenv(variable, std::to_string(chosen).c_str(), 1);

@@ -34,7 +34,7 @@ using Clock = std::chrono::steady_clock;
 // ms between two checks.
 constexpr std::int64_t glance = 50;
 
-std::function<void()>& look() {
+std::function<void()>& stop_check() {
   static std::function<void()> function = [] {};
   return function;
 }
@@ -178,9 +178,9 @@ class MeshReader {
         late_ = true;
         return false;
       }
-      pollfd wanted{pipe_, POLLIN, 0};
-      if (poll(&wanted, 1, static_cast<int>(std::min<std::int64_t>(left, glance))) <= 0) {
-        look()();
+      pollfd request{pipe_, POLLIN, 0};
+      if (poll(&request, 1, static_cast<int>(std::min<std::int64_t>(left, glance))) <= 0) {
+        stop_check()();
         continue;
       }
       const ssize_t n = read(pipe_, to, size);
@@ -223,8 +223,8 @@ class MeshReader {
 
 }  // namespace
 
-void look_while_reading(std::function<void()> function) {
-  look() = std::move(function);
+void check_while_reading(std::function<void()> function) {
+  stop_check() = std::move(function);
 }
 
 Mesh read_mesh(const std::string& path, const MeshLimits& limits) {

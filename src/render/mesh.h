@@ -33,7 +33,7 @@ Mesh read_mesh(const std::string& path, const MeshLimits& limits = {});
 
 /// Sets the function that is called 20 times a second during the wait for a mesh. An exception from it passes to the
 /// caller of read_mesh. Set it once, at the start of the program.
-void look_while_reading(std::function<void()> look);
+void check_while_reading(std::function<void()> stop_check);
 
 /// The vertices alone, for the fit of a volume.
 std::vector<Vec3> read_mesh_points(const std::string& path, const MeshLimits& limits = {});

@@ -1,6 +1,6 @@
 #pragma once
 // The message through the pipe from the process that reads a mesh file, and its conversion to a Mesh. The file may have
-// corrupted that process, so nothing in the message is trusted.
+// corrupted that process, so every part of the message is checked.
 #include <cstddef>
 #include <cstdint>
 #include <functional>

@@ -62,7 +62,7 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, std:
   const bool ball = volume.shape == Shape::sphere && !mesh;
   const Vec3 eye = (eye_.camera.eye - position).cwiseAbs();
   const bool around = ball ? distance2 <= radius * radius : (eye.array() <= volume.half.array()).all();
-  if (around || !sees_sphere(eye_.camera, eye_.view, position, thing.radius)) {
+  if (around || !is_sphere_in_view(eye_.camera, eye_.view, position, thing.radius)) {
     keep(thing);
     return;
   }

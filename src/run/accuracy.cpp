@@ -38,10 +38,11 @@ std::vector<double> instants_of(const Scene& scene, double end) {
 /// Runs of one scene, sampled at the same instants.
 class Runs {
  public:
-  Runs(const Scene& scene, const std::function<void()>& look) : Runs(scene, look, scene.simulate.duration) {}
+  Runs(const Scene& scene, const std::function<void()>& stop_check)
+      : Runs(scene, stop_check, scene.simulate.duration) {}
   /// Runs until `end` (s).
-  Runs(const Scene& scene, const std::function<void()>& look, double end)
-      : scene_(scene), look_(look), instants_(instants_of(scene, end)) {}
+  Runs(const Scene& scene, const std::function<void()>& stop_check, double end)
+      : scene_(scene), stop_check_(stop_check), instants_(instants_of(scene, end)) {}
 
   /// `tally`: receives the run's sums, unless null.
   Track track(const Simulate& way, const StepChoice& steps, double disturbance = 0, Tally* tally = nullptr) const {
@@ -69,7 +70,7 @@ class Runs {
     Track track;
     for (const double time : instants_) {
       while (simulator->time() < time) {
-        look_();
+        stop_check_();
         simulator->advance_to(time);
       }
       track.push_back(simulator->state().position);
@@ -79,7 +80,7 @@ class Runs {
   }
 
   const Scene& scene_;
-  const std::function<void()>& look_;
+  const std::function<void()>& stop_check_;
   std::vector<double> instants_;  // s
 };
 
@@ -102,8 +103,8 @@ StepChoice finer_steps(const Scene& scene, const Simulate& way, StepChoice steps
 
 class Settling {
  public:
-  Settling(const Scene& scene, const Simulate& way, double tolerance, const std::function<void()>& look)
-      : scene_(scene), way_(way), tolerance_(tolerance), runs_(scene, look) {}
+  Settling(const Scene& scene, const Simulate& way, double tolerance, const std::function<void()>& stop_check)
+      : scene_(scene), way_(way), tolerance_(tolerance), runs_(scene, stop_check) {}
 
   Accuracy go() {
     if (way_.duration == 0) return accuracy_;
@@ -239,8 +240,9 @@ double irregular(double k) {
 
 }  // namespace
 
-Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double tolerance, const std::function<void()>& look) {
-  return Settling(scene, way, tolerance, look).go();
+Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double tolerance,
+                         const std::function<void()>& stop_check) {
+  return Settling(scene, way, tolerance, stop_check).go();
 }
 
 Perturbed perturbed(const World& world, const State& initial, double share) {
@@ -253,13 +255,13 @@ Perturbed perturbed(const World& world, const State& initial, double share) {
   return other;
 }
 
-Assessment assess(const Scene& scene, const EngineChoice& engine, const std::function<void()>& look) {
+Assessment assess(const Scene& scene, const EngineChoice& engine, const std::function<void()>& stop_check) {
   Assessment assessment;
   Simulate way = scene.simulate;
   way.engine = engine.engine;
   const double least = *std::min_element(scene.world.radius.begin(), scene.world.radius.end());
-  assessment.tolerance = way.tolerance.value_or(told_radius * least);
-  const Runs runs(scene, look);
+  assessment.tolerance = way.tolerance.value_or(default_tolerance * least);
+  const Runs runs(scene, stop_check);
   Tally tally;
   const Track track = runs.track(way, engine.steps, 0, &tally);
   assessment.stepped_contact = tally.stepped_contact;
@@ -274,18 +276,19 @@ Assessment assess(const Scene& scene, const EngineChoice& engine, const std::fun
   }
   if (const std::size_t good = within(off, assessment.tolerance); good < off.size())
     assessment.right_until = good > 0 ? runs.instants()[good - 1] : 0;
-  assessment.growth = growth_of(scene, way, engine.steps, look);
+  assessment.growth = growth_of(scene, way, engine.steps, stop_check);
   return assessment;
 }
 
-Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& steps, const std::function<void()>& look) {
+Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& steps,
+                 const std::function<void()>& stop_check) {
   Growth growth;
   if (way.duration == 0 || scene.world.body_count() == 0) return growth;
   const double large = saturated * *std::max_element(scene.world.radius.begin(), scene.world.radius.end());
   // Measure only while the perturbation is small, because it cannot grow beyond the size of bodies.
   // That phase may end long before the run does. The runs are then repeated up to the end of that phase.
   for (double end = way.duration;;) {
-    const Runs runs(scene, look, end);
+    const Runs runs(scene, stop_check, end);
     const std::vector<double> apart =
         Runs::differences(runs.track(way, steps), runs.track(way, steps, carried_disturbance));
     const std::size_t small = within(apart, large);

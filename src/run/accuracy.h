@@ -33,13 +33,15 @@ struct Accuracy {
 /// - integrators of fixed steps: steps are halved until a run agrees with that of dop853.
 /// - exact engine: only the effect of rounding is measured.
 /// Finer runs start with a perturbation of the size of rounding (perturbed()), so that no two runs agree by accident.
-/// `look` is called between slices of the runs, and may throw. Throws SimulationError.
-Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double tolerance, const std::function<void()>& look);
+/// `stop_check` is called between slices of the runs, and may throw. Throws SimulationError.
+Accuracy settle_accuracy(const Scene& scene, const Simulate& way, double tolerance,
+                         const std::function<void()>& stop_check);
 
 /// Carries a perturbation of 1e-12 along (Benettin, Galgani, Giorgilli & Strelcyn, Meccanica 15 (1980) 9).
 /// The motion is chaotic if the perturbation grows faster than the third power of time all along.
 /// Growth is measured until the perturbation is as large as the bodies.
-Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& steps, const std::function<void()>& look);
+Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& steps,
+                 const std::function<void()>& stop_check);
 
 /// The expected error of a run, split by its causes.
 struct Assessment {
@@ -57,7 +59,7 @@ struct Assessment {
 };
 
 /// Assesses runs of this scene by `engine`, which must have its steps settled. Throws as settle_accuracy() does.
-Assessment assess(const Scene& scene, const EngineChoice& engine, const std::function<void()>& look);
+Assessment assess(const Scene& scene, const EngineChoice& engine, const std::function<void()>& stop_check);
 
 /// A scene's World and state with velocities, masses and gravity changed by up to `share` of themselves,
 /// each differently.

@@ -135,11 +135,11 @@ std::string shortfall_of(const Scene& scene, const Simulate& way, const Accuracy
 
 }  // namespace
 
-void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<void()>& look) {
+void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<void()>& stop_check) {
   if (!scene.simulate.tolerance || engine.engine == Engine::book) return;
   Simulate way = scene.simulate;
   way.engine = engine.engine;
-  const Accuracy accuracy = settle_accuracy(scene, way, *way.tolerance, look);
+  const Accuracy accuracy = settle_accuracy(scene, way, *way.tolerance, stop_check);
   engine.steps = accuracy.steps;
   if (engine.engine == Engine::stepped)
     engine.why =
@@ -150,7 +150,7 @@ void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<
   if (accuracy.reached && known)
     engine.why =
         joined(engine.why, fmt::format("positions agree within {:.2g} m with a finer run", accuracy.difference));
-  if (!known) engine.growth = growth_of(scene, way, engine.steps, look);
+  if (!known) engine.growth = growth_of(scene, way, engine.steps, stop_check);
   engine.right_until = accuracy.right_until;
   engine.shortfall = shortfall_of(scene, way, accuracy, engine.growth);
 }

@@ -59,8 +59,8 @@ Simulate with_engine(Simulate simulate, Engine engine, Integrator integrator = I
 
 /// For a scene with a tolerance, finds the steps that meet it, by repeated runs (accuracy.h).
 /// If none do, determines by how much the tolerance is missed.
-/// `look` is called from time to time, and may throw. Throws SimulationError.
-void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<void()>& look);
+/// `stop_check` is called from time to time, and may throw. Throws SimulationError.
+void settle_steps(const Scene& scene, EngineChoice& engine, const std::function<void()>& stop_check);
 
 /// Throws SimulationError if the scene's output has flights and its engine records no paths.
 /// The loader refuses that too, but the command line may choose other outputs.

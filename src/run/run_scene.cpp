@@ -36,7 +36,7 @@ class Run {
       });
     }
     const Stopwatch stopwatch(simulate_s_);
-    if (!settings.simulator) settle_steps(scene(), engine_, watch_.look);
+    if (!settings.simulator) settle_steps(scene(), engine_, watch_.stop_check);
     const bool collisions =
         std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.collisions; });
     const bool paths =
@@ -52,7 +52,7 @@ class Run {
       carry_to(*time);
       for (std::size_t i = 0; i < stages_.size(); ++i) {
         if (stages_[i] && stages_[i]->more && stages_[i]->time() <= *time)
-          guarded(i, [&] { stages_[i]->sample(*simulator_, {watch_.look, [this] { tell(); }}); });
+          guarded(i, [&] { stages_[i]->sample(*simulator_, {watch_.stop_check, [this] { report_progress(); }}); });
       }
     }
   }
@@ -74,7 +74,7 @@ class Run {
       work();
     } catch (const std::exception&) {
       // ffmpeg also receives a Ctrl-C and ends first. What looks like a write error is then the interrupt.
-      watch_.look();
+      watch_.stop_check();
       if (shows_.size() == 1) throw;
       results_[i].failure = std::current_exception();
       stages_[i].reset();
@@ -92,7 +92,7 @@ class Run {
   // Sampling changes nothing in the simulator, so the slices do not change the motion by a bit.
   void carry_to(double time) {
     const double slice = scene().simulate.duration / 1000;
-    watch_.look();
+    watch_.stop_check();
     while (simulator_->time() < time) {
       const double before = simulator_->time();
       const std::uint64_t collisions_before = simulator_->tally().collisions();
@@ -107,8 +107,8 @@ class Run {
       if (collisions.empty() && paths.empty() && !(simulator_->time() > before) &&
           simulator_->tally().collisions() == collisions_before)
         throw SimulationError("the simulator makes no progress");
-      watch_.look();
-      tell();
+      watch_.stop_check();
+      report_progress();
     }
   }
 
@@ -124,11 +124,11 @@ class Run {
     }
   }
 
-  void tell() const {
+  void report_progress() const {
     std::uint64_t pictures = 0;
     for (const auto& stage : stages_)
       if (stage) pictures += stage->exports.frames();
-    watch_.tell(simulator_->time(), simulator_->tally().collisions(), pictures);
+    watch_.report_progress(simulator_->time(), simulator_->tally().collisions(), pictures);
   }
 
   void finish(std::size_t i) {

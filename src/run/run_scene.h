@@ -17,9 +17,9 @@ struct Scene;
 
 struct RunWatch {
   /// Called often. May throw.
-  std::function<void()> look;
+  std::function<void()> stop_check;
   /// Reports progress: simulated time (s), collisions, pictures of all shows.
-  std::function<void(double time, std::uint64_t collisions, std::uint64_t pictures)> tell;
+  std::function<void(double time, std::uint64_t collisions, std::uint64_t pictures)> report_progress;
 };
 
 struct RunSettings {
@@ -43,7 +43,7 @@ struct RunResult {
 };
 
 /// Simulates once, and draws and writes each show.
-/// Throws SimulationError, what `watch.look` throws, and, for a single show, its failure.
+/// Throws SimulationError, what `watch.stop_check` throws, and, for a single show, its failure.
 /// Then only complete files stay.
 std::vector<RunResult> run_shows(std::span<const Show> shows, const EngineChoice& engine, const RunSettings& settings,
                                  const RunWatch& watch);

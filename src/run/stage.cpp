@@ -17,11 +17,11 @@ Stage::Stage(const Show& show, Durability durability)
 }
 
 void Stage::sample(Simulator& simulator, const StageWatch& watch) {
-  if (exports.wants_state()) {
+  if (exports.needs_state()) {
     const State& state = simulator.state();
     {
       const Stopwatch stopwatch(facts.export_s);
-      exports.sample(state, exports.wants_contacts() ? simulator.contacts() : std::span<const ContactForce>{});
+      exports.sample(state, exports.needs_contacts() ? simulator.contacts() : std::span<const ContactForce>{});
     }
     draw_what_is_due(state, watch);
   }
@@ -32,7 +32,7 @@ void Stage::draw_what_is_due(const State& state, const StageWatch& watch) {
   const std::vector<PictureStream>& streams = exports.pictures();
   for (std::size_t i = 0; i < streams.size(); ++i) {
     if (!exports.timeline().due(streams[i].timeline_stream)) continue;
-    watch.look();
+    watch.stop_check();
     const Image* image = nullptr;
     bool again = false;
     {
@@ -47,7 +47,7 @@ void Stage::draw_what_is_due(const State& state, const StageWatch& watch) {
       const Stopwatch stopwatch(facts.export_s);
       exports.picture(i, *image, again);
     }
-    watch.tell();
+    watch.report_progress();
   }
 }
 

@@ -27,7 +27,7 @@ struct Show {
 
 /// Functions called between pictures. Both may throw.
 struct StageWatch {
-  std::function<void()> look, tell;
+  std::function<void()> stop_check, report_progress;
 };
 
 class Stage {

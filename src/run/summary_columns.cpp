@@ -1,3 +1,5 @@
+// One row for each column, with the member of Summary that it shows. The file, comparisons and measures read this table
+// instead of lists of their own.
 #include "run/summary_columns.h"
 
 #include <algorithm>

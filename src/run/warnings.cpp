@@ -22,7 +22,7 @@ constexpr double energy_rounding = 0x1p-40;
 constexpr double longest_phase = 1;
 constexpr double place_rounding = 0x1p-53;  // of coordinates
 /// Of the smallest size. The resolution that positions must have.
-constexpr double told_place = 1e-6;
+constexpr double place_resolution = 1e-6;
 
 /// Whether free flights are integrated with fixed steps.
 bool has_fixed_steps(const Scene& scene, const EngineChoice& engine) {
@@ -36,10 +36,10 @@ class Warnings {
 
   std::vector<Warning> all() {
     if (!engine_.shortfall.empty()) add("tolerance", engine_.shortfall);
-    look_at_energy();
-    look_at_steps();
-    look_at_contact();
-    look_at_digits();
+    check_energy();
+    check_steps();
+    check_contact();
+    check_digits();
     return std::move(all_);
   }
 
@@ -57,7 +57,7 @@ class Warnings {
     return "shorten simulate.duration, or soften the attractor";
   }
 
-  void look_at_energy() {
+  void check_energy() {
     const EnergyTotals& energy = summary_.energy;
     const double residual = energy.residual;
     const double least = energy_rounding * std::max(std::abs(energy.start), std::abs(energy.end));
@@ -67,7 +67,7 @@ class Warnings {
                               std::abs(residual) / energy.turnover, remedy()));
   }
 
-  void look_at_steps() {
+  void check_steps() {
     if (!(tally_.greatest_phase > longest_phase)) return;
     add("step",
         fmt::format(
@@ -76,24 +76,24 @@ class Warnings {
             tally_.greatest_phase, *engine_.steps.length * 0.1 / tally_.greatest_phase));
   }
 
-  void look_at_contact() {
+  void check_contact() {
     if (tally_.doubtful == 0) return;
     add("contact", fmt::format("{} contact problem{} not solved to rounding: make masses less unequal", tally_.doubtful,
                                tally_.doubtful == 1 ? " was" : "s were"));
   }
 
   /// Warns of positions far from the origin, and of clock times too coarse for the speeds.
-  void look_at_digits() {
+  void check_digits() {
     const double size = smallest_size(scene_.world);
     double farthest = 0;
     for (const Vec3& x : end_.position) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
-    if (place_rounding * farthest > told_place * size)
+    if (place_rounding * farthest > place_resolution * size)
       add("place",
           fmt::format("bodies are {:.3g} m from the origin, where doubles resolve positions to {:.2g} m: shorten "
                       "simulate.duration, or move the scene nearer to the origin",
                       farthest, place_rounding * farthest));
     const double path = tally_.max_speed * summary_.duration;
-    if (place_rounding * path > told_place * size)
+    if (place_rounding * path > place_resolution * size)
       add("speed", fmt::format("at {:.3g} m/s the clock resolves positions to {:.2g} m: shorten simulate.duration",
                                tally_.max_speed, place_rounding * path));
   }

@@ -1,3 +1,5 @@
+// A table of terms with a text and keys of the format. Similar spelling would not find these keys, since the words
+// differ.
 #include "scene/absent_words.h"
 
 #include <algorithm>

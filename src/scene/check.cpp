@@ -193,7 +193,7 @@ class Checker : ValueChecker {
   void check_value(Node& value, const Field& field, const Key& key, bool partial) {
     if (value.bad) return;
     const std::string name = in_backticks(field.key);
-    const std::string wanted = "expected " + expected(field);
+    const std::string required = "expected " + expected(field);
     switch (field.type) {
       case Type::number:
         number(value, field, name, limited_range(field));
@@ -202,18 +202,18 @@ class Checker : ValueChecker {
         whole(value, field, name);
         return;
       case Type::flag:
-        return flag(value, name, wanted);
+        return flag(value, name, required);
       case Type::file:
         return file(value, field);
       case Type::text:
-        return text(value, name, wanted);
+        return text(value, name, required);
       case Type::choice:
         return choice(value, field, name);
       case Type::vector:
         numbers(value, field, name, 3);
         return;
       case Type::direction:
-        return direction(value, field, name, wanted);
+        return direction(value, field, name, required);
       case Type::extent:
       case Type::pixels:
         numbers(value, field, name, 2);
@@ -222,23 +222,23 @@ class Checker : ValueChecker {
         return color(value, name);
       case Type::two_names:
       case Type::names:
-        return names(value, field, name, wanted);
+        return names(value, field, name, required);
       case Type::part_or_flag:
         if (is_flag(value)) return;
-        if (!value.is(Node::Kind::map)) return wrong_type(value, name, wanted);
+        if (!value.is(Node::Kind::map)) return wrong_type(value, name, required);
         return part(value, field, key, partial);
       case Type::part:
         return part(value, field, key, partial);
       case Type::named:
         return named(value, field, name);
       case Type::list:
-        return list(value, field, name, wanted);
+        return list(value, field, name, required);
       case Type::settings:
-        return settings(value, name, wanted);
+        return settings(value, name, required);
       case Type::axes:
-        return axes(value, name, wanted);
+        return axes(value, name, required);
       case Type::cases:
-        return cases(value, name, wanted);
+        return cases(value, name, required);
     }
   }
 
@@ -246,30 +246,30 @@ class Checker : ValueChecker {
     return value.is(Node::Kind::scalar) && !value.quoted && (value.text == "true" || value.text == "false");
   }
 
-  void flag(Node& value, const std::string& name, const std::string& wanted) {
-    if (!is_flag(value)) wrong_type(value, name, wanted);
+  void flag(Node& value, const std::string& name, const std::string& required) {
+    if (!is_flag(value)) wrong_type(value, name, required);
   }
 
-  void text(Node& value, const std::string& name, const std::string& wanted) {
+  void text(Node& value, const std::string& name, const std::string& required) {
     if (!value.is(Node::Kind::scalar)) {
-      wrong_type(value, name, wanted);
+      wrong_type(value, name, required);
     } else if (value.text.find('\n') != std::string::npos) {
       refuse(value, name + " has more than one line", "expected one line");
     }
   }
 
-  void direction(Node& value, const Field& field, const std::string& name, const std::string& wanted) {
+  void direction(Node& value, const Field& field, const std::string& name, const std::string& required) {
     if (!numbers(value, field, name, 3)) return;
     bool zero = true;
     for (const Node& item : value.items) zero = zero && parse_number(item.text).value_or(1) == 0;
-    if (zero) refuse(value, name + " has no length", wanted);
+    if (zero) refuse(value, name + " has no length", required);
   }
 
-  void names(Node& value, const Field& field, const std::string& name, const std::string& wanted) {
+  void names(Node& value, const Field& field, const std::string& name, const std::string& required) {
     if (!value.is(Node::Kind::sequence)) {
-      wrong_type(value, name, wanted);
+      wrong_type(value, name, required);
     } else if (field.type == Type::names ? value.items.empty() : value.items.size() != 2) {
-      refuse(value, fmt::format("{} has {} entries", name, value.items.size()), wanted);
+      refuse(value, fmt::format("{} has {} entries", name, value.items.size()), required);
     } else {
       for (Node& item : value.items) {
         if (!item.is(Node::Kind::scalar))
@@ -280,9 +280,9 @@ class Checker : ValueChecker {
     }
   }
 
-  void list(Node& value, const Field& field, const std::string& name, const std::string& wanted) {
+  void list(Node& value, const Field& field, const std::string& name, const std::string& required) {
     if (!value.is(Node::Kind::sequence)) {
-      wrong_type(value, name, wanted);
+      wrong_type(value, name, required);
       return;
     }
     if (field.needs_entries && value.items.empty())
@@ -290,13 +290,13 @@ class Checker : ValueChecker {
     for (Node& item : value.items) map(item, kind_named(field.of), "this entry of " + name, item.place, false);
   }
 
-  void cases(Node& value, const std::string& name, const std::string& wanted) {
+  void cases(Node& value, const std::string& name, const std::string& required) {
     if (!value.is(Node::Kind::sequence)) {
-      wrong_type(value, name, wanted);
+      wrong_type(value, name, required);
     } else if (value.items.empty()) {
-      refuse(value, name + " has no entries", wanted);
+      refuse(value, name + " has no entries", required);
     }
-    for (Node& item : value.items) settings(item, "this entry of " + name, wanted);
+    for (Node& item : value.items) settings(item, "this entry of " + name, required);
   }
 
   void part(Node& value, const Field& field, const Key& key, bool partial) {
@@ -305,24 +305,24 @@ class Checker : ValueChecker {
     map(value, kind, in_backticks(key.text), key.place, kind.name == "defaults" || (partial && !kind.defaults.empty()));
   }
 
-  bool has_entries(Node& value, const std::string& name, const std::string& wanted) {
+  bool has_entries(Node& value, const std::string& name, const std::string& required) {
     if (!value.is(Node::Kind::map))
-      wrong_type(value, name, wanted);
+      wrong_type(value, name, required);
     else if (value.items.empty())
-      refuse(value, name + " has no entries", wanted);
+      refuse(value, name + " has no entries", required);
     return !value.bad;
   }
 
-  void settings(Node& value, const std::string& name, const std::string& wanted) {
-    if (!has_entries(value, name, wanted)) return;
+  void settings(Node& value, const std::string& name, const std::string& required) {
+    if (!has_entries(value, name, required)) return;
     for (std::size_t i = 0; i < value.keys.size(); ++i) {
       if (value.items[i].is(Node::Kind::null))
         wrong_type(value.items[i], in_backticks(value.keys[i].text), "expected a value");
     }
   }
 
-  void axes(Node& value, const std::string& name, const std::string& wanted) {
-    if (!has_entries(value, name, wanted)) return;
+  void axes(Node& value, const std::string& name, const std::string& required) {
+    if (!has_entries(value, name, required)) return;
     for (std::size_t i = 0; i < value.keys.size(); ++i) {
       const std::string path = in_backticks(value.keys[i].text);
       Node& values = value.items[i];

@@ -1,3 +1,4 @@
+// A bad value gets one error, at its own place, and the checks go on. Exceptions would end at the first error.
 #include "scene/check_values.h"
 
 #include <fmt/format.h>
@@ -8,7 +9,7 @@
 namespace carom {
 namespace {
 
-WantedNumber wanted_number(const Field& field) {
+ExpectedNumber expected_number(const Field& field) {
   return {field.key, field.unit, "expected " + expected(field)};
 }
 
@@ -19,20 +20,20 @@ void ValueChecker::refuse(Node& node, std::string message, std::string remedy) {
   diagnostics_.add(node.place, std::move(message), std::move(remedy));
 }
 
-void ValueChecker::wrong_type(Node& node, const std::string& name, const std::string& wanted) {
+void ValueChecker::wrong_type(Node& node, const std::string& name, const std::string& required) {
   if (node.bad) return;
   switch (node.kind) {
     case Node::Kind::null:
-      refuse(node, name + " has no value", wanted);
+      refuse(node, name + " has no value", required);
       break;
     case Node::Kind::scalar:
-      refuse(node, fmt::format("{} is {}", name, in_backticks(node.text)), wanted);
+      refuse(node, fmt::format("{} is {}", name, in_backticks(node.text)), required);
       break;
     case Node::Kind::sequence:
-      refuse(node, name + " is a list", wanted);
+      refuse(node, name + " is a list", required);
       break;
     case Node::Kind::map:
-      refuse(node, name + " is a map of keys", wanted);
+      refuse(node, name + " is a map of keys", required);
       break;
   }
 }
@@ -45,7 +46,7 @@ bool ValueChecker::number(Node& value, const Field& field, const std::string& na
   }
   const std::optional<double> parsed = value.quoted ? std::nullopt : parse_number(value.text);
   if (!parsed) {
-    Complaint complaint = explain_number(value, wanted_number(field));
+    Complaint complaint = explain_number(value, expected_number(field));
     refuse(value, std::move(complaint.message), std::move(complaint.remedy));
     return false;
   }
@@ -96,37 +97,37 @@ bool ValueChecker::numbers(Node& value, const Field& field, const std::string& n
 }
 
 void ValueChecker::choice(Node& value, const Field& field, const std::string& name) {
-  const std::string wanted = "expected " + expected(field);
+  const std::string required = "expected " + expected(field);
   if (!value.is(Node::Kind::scalar)) {
-    wrong_type(value, name, wanted);
+    wrong_type(value, name, required);
     return;
   }
   const std::vector<std::string_view> all = choices(field);
   for (const std::string_view one : all) {
     if (value.text != one) continue;
     if (!value.quoted || !parse_number(value.text)) return;
-    Complaint complaint = explain_number(value, wanted_number(field));
+    Complaint complaint = explain_number(value, expected_number(field));
     refuse(value, std::move(complaint.message), std::move(complaint.remedy));
     return;
   }
   const std::string near = nearest(value.text, all);
   refuse(value, fmt::format("{} is {}", name, in_backticks(value.text)),
-         near.empty() ? wanted : fmt::format("did you mean {}?\n{}", in_backticks(near), wanted));
+         near.empty() ? required : fmt::format("did you mean {}?\n{}", in_backticks(near), required));
 }
 
 void ValueChecker::color(Node& value, const std::string& name) {
   static constexpr Field component{.key = "color", .range = {0, 1}};
-  const std::string wanted = "expected a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
+  const std::string required = "expected a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
   if (value.is(Node::Kind::sequence)) {
     numbers(value, component, name, 3);
   } else if (!value.is(Node::Kind::scalar)) {
     // An unquoted # begins a comment, so the value is lost.
     wrong_type(value, name,
-               value.is(Node::Kind::null) ? wanted + "\na colour that begins with # needs quotes" : wanted);
+               value.is(Node::Kind::null) ? required + "\na colour that begins with # needs quotes" : required);
   } else if (!parse_color(value.text)) {
     const std::string near = nearest(value.text, color_names());
     refuse(value, fmt::format("{} is not a colour", in_backticks(value.text)),
-           near.empty() ? wanted : fmt::format("did you mean {}?", in_backticks(near)));
+           near.empty() ? required : fmt::format("did you mean {}?", in_backticks(near)));
   }
 }
 

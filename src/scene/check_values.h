@@ -16,7 +16,7 @@ class ValueChecker {
 
  protected:
   void refuse(Node& node, std::string message, std::string remedy);
-  void wrong_type(Node& node, const std::string& name, const std::string& wanted);
+  void wrong_type(Node& node, const std::string& name, const std::string& required);
 
   /// `limits`: the limits of a run's arithmetic (fields.h), beyond the field's own range.
   bool number(Node& value, const Field& field, const std::string& name, const Range& limits);

@@ -1,3 +1,4 @@
+// The names of CSS, searched by bisection. Default colours come from a palette, because random ones may be alike.
 #include "scene/colors.h"
 
 #include <algorithm>

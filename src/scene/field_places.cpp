@@ -62,27 +62,27 @@ std::vector<std::string_view> steps_of(std::string_view path) {
 
 using Steps = std::span<const std::string_view>;
 
-/// Whether `said` is the path `steps`. Names and numbers may be omitted.
-bool is_path(Steps said, Steps steps) {
-  if (steps.empty()) return said.empty();
+/// Whether `given` is the path `steps`. Names and numbers may be omitted.
+bool is_path(Steps given, Steps steps) {
+  if (steps.empty()) return given.empty();
   const bool any = steps.front() == any_name || steps.front() == any_entry;
-  if (any && is_path(said, steps.subspan(1))) return true;
-  if (said.empty()) return false;
-  const bool fits = said.front() == steps.front() || (steps.front() == any_name && is_name(said.front())) ||
-                    (steps.front() == any_entry && parse_index(said.front()));
-  return fits && is_path(said.subspan(1), steps.subspan(1));
+  if (any && is_path(given, steps.subspan(1))) return true;
+  if (given.empty()) return false;
+  const bool fits = given.front() == steps.front() || (steps.front() == any_name && is_name(given.front())) ||
+                    (steps.front() == any_entry && parse_index(given.front()));
+  return fits && is_path(given.subspan(1), steps.subspan(1));
 }
 
-/// Whether `said` is the end of the path.
-bool is_end(Steps said, Steps steps) {
+/// Whether `given` is the end of the path.
+bool is_end(Steps given, Steps steps) {
   for (std::size_t i = 1; i < steps.size(); ++i) {
-    if (steps[i] != any_name && steps[i] != any_entry && is_path(said, steps.subspan(i))) return true;
+    if (steps[i] != any_name && steps[i] != any_entry && is_path(given, steps.subspan(i))) return true;
   }
   return false;
 }
 
-bool is_of_kind(Steps said, const Spot& spot) {
-  return said.size() == 2 && said[0] == spot.kind->name && said[1] == spot.field->key;
+bool is_of_kind(Steps given, const Spot& spot) {
+  return given.size() == 2 && given[0] == spot.kind->name && given[1] == spot.field->key;
 }
 
 /// Whether two rows are equal.
@@ -121,14 +121,14 @@ std::vector<FieldPlaces> select(const Fits& fits) {
   return found;
 }
 
-std::vector<FieldPlaces> find_steps(Steps said) {
+std::vector<FieldPlaces> find_steps(Steps given) {
   // A single word matches at every place.
-  const bool bare = said.size() == 1;
+  const bool bare = given.size() == 1;
   std::vector<FieldPlaces> found;
-  if (!bare) found = select([&](const Spot& spot) { return is_path(said, spot.steps); });
+  if (!bare) found = select([&](const Spot& spot) { return is_path(given, spot.steps); });
   if (found.empty())
     found = select([&](const Spot& spot) {
-      return (bare && is_path(said, spot.steps)) || is_end(said, spot.steps) || is_of_kind(said, spot);
+      return (bare && is_path(given, spot.steps)) || is_end(given, spot.steps) || is_of_kind(given, spot);
     });
   return found;
 }
@@ -142,12 +142,12 @@ bool is_component(std::string_view step, Type type) {
 }  // namespace
 
 std::vector<FieldPlaces> find_places(std::string_view key) {
-  const std::vector<std::string_view> said = steps_of(key);
-  std::vector<FieldPlaces> found = find_steps(said);
-  if (!found.empty() || said.size() < 2) return found;
+  const std::vector<std::string_view> given = steps_of(key);
+  std::vector<FieldPlaces> found = find_steps(given);
+  if (!found.empty() || given.size() < 2) return found;
   // A component such as in balls.red.position.x.
-  found = find_steps(Steps(said).first(said.size() - 1));
-  std::erase_if(found, [&](const FieldPlaces& row) { return !is_component(said.back(), row.field->type); });
+  found = find_steps(Steps(given).first(given.size() - 1));
+  std::erase_if(found, [&](const FieldPlaces& row) { return !is_component(given.back(), row.field->type); });
   return found;
 }
 
@@ -191,13 +191,13 @@ const Kind* find_kind(std::string_view name) {
 }
 
 std::string suggest_place(std::string_view key) {
-  const std::vector<std::string_view> said = steps_of(key);
+  const std::vector<std::string_view> given = steps_of(key);
   // The longest valid start of the path determines the kind that lacks the next step.
-  for (std::size_t count = said.size() - 1; count > 0; --count) {
-    const std::vector<FieldPlaces> found = find_steps(Steps(said).first(count));
+  for (std::size_t count = given.size() - 1; count > 0; --count) {
+    const std::vector<FieldPlaces> found = find_steps(Steps(given).first(count));
     const Kind* held = found.empty() ? nullptr : held_kind(*found.front().field);
     if (held == nullptr) continue;
-    return fmt::format("in {}: {}", in_backticks(held->name), suggest_key(said[count], *held));
+    return fmt::format("in {}: {}", in_backticks(held->name), suggest_key(given[count], *held));
   }
   std::vector<std::string_view> known;
   for (const Spot& spot : all_spots()) known.push_back(spot.field->key);
@@ -206,7 +206,7 @@ std::string suggest_place(std::string_view key) {
   }
   for (const AbsentWord& word : absent_words())
     for (const std::string_view name : parts_of(word.words)) known.push_back(name);
-  const std::string near = nearest(said.front(), known);
+  const std::string near = nearest(given.front(), known);
   return near.empty() ? "" : fmt::format("did you mean {}?", in_backticks(near));
 }
 

@@ -1,3 +1,4 @@
+// Writes a section for each kind from the table of fields. A page written by hand could differ from the loader.
 #include "scene/format_page.h"
 
 #include <fmt/format.h>

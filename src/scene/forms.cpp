@@ -51,12 +51,12 @@ std::optional<Form> Forms::of(const View& thing) {
   const Node* mesh = thing.given("mesh");
   if (mesh != nullptr && mesh->bad) return std::nullopt;
   if (thing.given("fit") != nullptr) return mesh == nullptr ? std::nullopt : fitted(thing, *mesh);
-  const std::optional<Volume> volume = said_volume(thing);
+  const std::optional<Volume> volume = given_volume(thing);
   if (!volume || mesh == nullptr) return volume ? std::optional(Form{*volume, std::nullopt}) : std::nullopt;
   return drawn(*volume, *mesh);
 }
 
-std::optional<Volume> Forms::said_volume(const View& thing) const {
+std::optional<Volume> Forms::given_volume(const View& thing) const {
   if (const std::optional<double> radius = thing.number("radius")) return Volume::sphere(*radius);
   if (const std::optional<Vec3> edges = thing.vector("box")) return Volume::box(*edges);
   const Node* node = thing.given("cylinder");

@@ -35,7 +35,7 @@ class Forms {
   std::vector<MeshFile> files(const std::string& film) const;
 
  private:
-  std::optional<Volume> said_volume(const View& thing) const;
+  std::optional<Volume> given_volume(const View& thing) const;
   std::optional<Form> fitted(const View& thing, const Node& mesh);
   std::optional<Form> drawn(const Volume& volume, const Node& mesh);
   const std::vector<Vec3>* points(const Node& mesh);

@@ -101,20 +101,20 @@ constexpr double (*every_in())(const Output&) {
 /// An output with settings.
 template <auto member>
 constexpr OutputMember part = {[](const Output& output) { return (output.*member).has_value(); },
-                               [](Output& to, const Output& asked) {
-                                 to.*member = asked.*member;
+                               [](Output& to, const Output& requested) {
+                                 to.*member = requested.*member;
                                  if (!(to.*member)) (to.*member).emplace();
                                },
                                every_in<member>(), fills_if_given<Output, member>};
 
-/// Pictures. If `asked` lacks this output, it takes the settings of the other picture output, `like`.
+/// Pictures. If `requested` lacks this output, it takes the settings of the other picture output, `like`.
 template <auto member, auto like>
 constexpr OutputMember pictures = {[](const Output& output) { return (output.*member).has_value(); },
-                                   [](Output& to, const Output& asked) {
-                                     to.*member = asked.*member;
+                                   [](Output& to, const Output& requested) {
+                                     to.*member = requested.*member;
                                      if (to.*member) return;
                                      PictureOutput& settings = (to.*member).emplace();
-                                     if (asked.*like) settings = *(asked.*like);
+                                     if (requested.*like) settings = *(requested.*like);
                                    },
                                    nullptr, fills_if_given<Output, member>};
 
@@ -159,7 +159,7 @@ constexpr OutputKind all_kinds[] = {
      .keys_doc = "One PNG a picture.",
      .member = pictures<&Output::frames, &Output::video>,
      .series = frame_files,
-     .looks = true},
+     .draws = true},
     {.name = "video",
      .doc = "A film, H.264.",
      .example = "true",
@@ -168,7 +168,7 @@ constexpr OutputKind all_kinds[] = {
      .beneath = "frames",
      .member = pictures<&Output::video, &Output::frames>,
      .named = [](const Output& o) { return o.video->file; },
-     .looks = true},
+     .draws = true},
     {.name = "sheet",
      .doc = "sheet.png: pictures from start to end side by side.",
      .example = "{columns: 4, rows: 3}",
@@ -176,7 +176,7 @@ constexpr OutputKind all_kinds[] = {
      .keys_doc = "A contact sheet.",
      .member = part<&Output::sheet>,
      .files = "sheet.png",
-     .looks = true},
+     .draws = true},
     {.name = "vtk",
      .doc = "For ParaView: trajectory.pvd, vtk/bodies_00000.vtp and so on, surfaces.vtp.",
      .example = "{every: 0.1}",
@@ -187,7 +187,7 @@ constexpr OutputKind all_kinds[] = {
      .series = vtk_files,
      .rows = "points of vtk/",
      .spacing = "every",
-     .looks = true},
+     .draws = true},
     {.name = "xyz",
      .doc = "For OVITO: trajectory.xyz, extended XYZ.",
      .example = "{every: 0.1}",
@@ -197,7 +197,7 @@ constexpr OutputKind all_kinds[] = {
      .files = "trajectory.xyz",
      .rows = "rows of trajectory.xyz",
      .spacing = "every",
-     .looks = true},
+     .draws = true},
     {.name = "gltf",
      .doc = "For Blender: animation.glb, the scene and its motion.",
      .example = "{fps: 24}",
@@ -208,7 +208,7 @@ constexpr OutputKind all_kinds[] = {
      .rows = "keyframes of animation.glb",
      .spacing = "fps",
      .in_memory = true,
-     .looks = true},
+     .draws = true},
     {.name = "flights",
      .doc =
          "flights.bin: the paths of the bodies, from which carom render draws other pictures. Only for paths that are "
@@ -245,23 +245,23 @@ std::span<const OutputKind> output_kinds() {
   return all_kinds;
 }
 
-Output restricted(const Output& asked, const std::vector<std::string>& only) {
+Output restricted(const Output& requested, const std::vector<std::string>& only) {
   Output output;
   for (const OutputKind& kind : all_kinds)
-    if (std::find(only.begin(), only.end(), kind.name) != only.end()) kind.member.add(output, asked);
+    if (std::find(only.begin(), only.end(), kind.name) != only.end()) kind.member.add(output, requested);
   return output;
 }
 
-bool holds_all(const Output& asked, const std::vector<std::string>& only) {
+bool holds_all(const Output& requested, const std::vector<std::string>& only) {
   return std::all_of(only.begin(), only.end(), [&](const std::string& name) {
     return std::any_of(std::begin(all_kinds), std::end(all_kinds),
-                       [&](const OutputKind& kind) { return kind.name == name && kind.asked(asked); });
+                       [&](const OutputKind& kind) { return kind.name == name && kind.asked(requested); });
   });
 }
 
-Output with_all(const Output& asked) {
+Output with_all(const Output& requested) {
   Output output;
-  for (const OutputKind& kind : all_kinds) kind.member.add(output, asked);
+  for (const OutputKind& kind : all_kinds) kind.member.add(output, requested);
   return output;
 }
 

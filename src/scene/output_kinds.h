@@ -30,8 +30,8 @@ inline constexpr FileSeries vtk_files{"vtk", "bodies_", ".vtp", "instant", "inst
 /// The member of Output that holds a scene's request for one output.
 struct OutputMember {
   bool (*asked)(const Output& output);
-  /// Adds the output to `to`: with the settings of `asked`, or with default ones if `asked` lacks it.
-  void (*add)(Output& to, const Output& asked);
+  /// Adds the output to `to`: with the settings of `requested`, or with default ones if `requested` lacks it.
+  void (*add)(Output& to, const Output& requested);
   /// The interval in s between the states written. Null: the output is not sampled.
   double (*every)(const Output& output);
   Member key = {};
@@ -59,8 +59,8 @@ struct OutputKind {
   /// All rows are held in memory until the run's end.
   bool in_memory = false;
 
-  /// It depends on how things look and not only on how they move. carom render makes it anew.
-  bool looks = false;
+  /// It depends on appearance and not only on the motion. carom render makes it anew.
+  bool draws = false;
 
   bool asked(const Output& output) const { return member.asked(output); }
   bool is_sampled() const { return member.every != nullptr; }
@@ -75,13 +75,13 @@ std::span<const OutputKind> output_kinds();
 /// The outputs named in `only`, with the scene's settings. An output that the scene lacks gets default settings.
 /// Frames and video take each other's settings.
 /// The scene's resolved text stays unchanged, so that runs with different outputs are recognised as runs of one scene.
-Output restricted(const Output& asked, const std::vector<std::string>& only);
+Output restricted(const Output& requested, const std::vector<std::string>& only);
 
 /// Whether every output named in `only` is among those requested.
-bool holds_all(const Output& asked, const std::vector<std::string>& only);
+bool holds_all(const Output& requested, const std::vector<std::string>& only);
 
 /// All outputs: requested ones with their settings, the others with default ones.
-Output with_all(const Output& asked);
+Output with_all(const Output& requested);
 
 /// The files of these outputs, without series.
 std::vector<std::string> output_files(const Output& output);

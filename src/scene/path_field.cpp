@@ -1,3 +1,5 @@
+// Follows the words of the path through the kinds of the table. A word for a name or an index is skipped, since no
+// scene is at hand.
 #include "scene/path_field.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Names of a group's members are composed on request. Stored names would cost memory for every body of a group.
 #include <algorithm>
 
 #include "scene/scene.h"

@@ -232,9 +232,9 @@ void add_beneath_rules(const Field& field, Json& rules) {
     unsuited.update(at(own.key, {{"not", value_schema(own)}}));
     when.update(at(kind->beneath, unsuited));
     const Json absent = {{"const", false}};
-    Json said = required({own.key});
-    said["type"] = "object";
-    rules.push_back({{"if", when}, {"then", at(field.key, {{"anyOf", Json::array({absent, said})}})}});
+    Json given = required({own.key});
+    given["type"] = "object";
+    rules.push_back({{"if", when}, {"then", at(field.key, {{"anyOf", Json::array({absent, given})}})}});
   }
 }
 

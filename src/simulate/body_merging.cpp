@@ -25,7 +25,7 @@ void BodyMerging::merge(Entity a, Entity b, const Touch& there) {
   join(whole, part);
   predictor_.renew_region(whole);
   move_out(whole);
-  for (const Entity e : bodies_.known_to(whole)) {
+  for (const Entity e : bodies_.neighbours_of(whole)) {
     if (!world.is_body(e)) continue;
     const Entity first = std::min(whole, e), second = std::max(whole, e);
     const Touch next = touch(world, first, bodies_.position(first), second, bodies_.position(second));
@@ -79,7 +79,7 @@ void BodyMerging::move_out(Entity whole) {
   Flight f = bodies_.flights[whole];
   for (int pass = 0; pass < 8; ++pass) {
     bool free = true;
-    for (const Entity e : bodies_.known_to(whole)) {
+    for (const Entity e : bodies_.neighbours_of(whole)) {
       if (world.is_body(e)) continue;
       const Touch there = touch(world, whole, f.x, e, world.fixed_position(e));
       if (!(there.gap < 0)) continue;

@@ -54,7 +54,7 @@ Vec3 ConstrainedMotion::rate(const std::vector<Vec3>& v, Entity e) const {
   return bodies_.world.is_body(e) ? v[group_.index[e]] : Vec3(Vec3::Zero());
 }
 
-void ConstrainedMotion::forget_index(const std::vector<Entity>& members) const {
+void ConstrainedMotion::clear_index(const std::vector<Entity>& members) const {
   for (const Entity i : members) group_.index.write(i) = ContactConstraint::fixed;
 }
 
@@ -126,7 +126,7 @@ bool ConstrainedMotion::advance(Entity i) {
   Step step = begin_step(members);
   find_contacts(step);
   const std::vector<std::uint32_t> part = parts_of(step);
-  forget_index(members);
+  clear_index(members);
   for (const Entity first : bodies_.islands.split(i, part)) {
     Step of_part = begin_step(bodies_.islands.of(first).members);
     of_part.undisturbed = undisturbed;
@@ -146,7 +146,7 @@ void ConstrainedMotion::take_in_touching(Entity i) {
     todo.pop_back();
     if (bodies_.load_on(k) > 0) continue;
     const Vec3 x = bodies_.position(k), v = bodies_.velocity(k);
-    for (const Entity e : bodies_.known_to(k)) {
+    for (const Entity e : bodies_.neighbours_of(k)) {
       if (!world.is_body(e) || bodies_.body[e].state != ContactState::free) continue;
       const Vec3 xe = bodies_.position(e), ve = bodies_.velocity(e);
       const Touch there = touch(world, k, x, e, xe);
@@ -183,7 +183,7 @@ void ConstrainedMotion::advance_whole(Step& step) {
   find_resting(step);
   choose_motion(step, system);
   note_contacts(step);
-  forget_index(step.members);
+  clear_index(step.members);
   begin_flights(step);
 }
 
@@ -226,7 +226,7 @@ void ConstrainedMotion::find_contacts(Step& step) const {
   for (std::size_t k = 0; k < step.members.size(); ++k) {
     const Entity i = step.members[k];
     const std::size_t first = step.contacts.pairs.size();
-    for (const Entity e : bodies_.known_to(i)) {
+    for (const Entity e : bodies_.neighbours_of(i)) {
       const bool body = world.is_body(e);
       if (body && (e < i || group_.index[e] == ContactConstraint::fixed)) continue;
       // A thing that it has just struck touches it at that feature, and at no other.
@@ -612,7 +612,7 @@ void ConstrainedMotion::report(const Island& island, double time, std::vector<Co
   solve({inverse_mass, a, pairs});
   for (std::size_t c = 0; c < pairs.size(); ++c)
     if (pairs[c].force > 0) forces.push_back({names[c].first, names[c].second, pairs[c].force});
-  forget_index(island.members);
+  clear_index(island.members);
 }
 
 }  // namespace carom

@@ -105,7 +105,7 @@ class ConstrainedMotion {
   bool begin_flight(const Step& step, std::size_t k, Entity i);
   void begin_piece(Entity i);
   void bend(Entity i, double length);
-  void forget_index(const std::vector<Entity>& members) const;
+  void clear_index(const std::vector<Entity>& members) const;
 
   Vec3 at(const std::vector<Vec3>& x, Entity e) const;  // m, of a member or a fixed thing
   // The same of a velocity or an acceleration: fixed things have none.

@@ -291,14 +291,14 @@ double ConstrainedSystem::first_change(const DenseMotion& motion) {
     first = find_opening(motion, 0.5 * h, h, end);
   }
   const auto rim = [&](const std::vector<Vec3>& at) { return over_rim(motion, at); };
-  const auto back = [&](const std::vector<Vec3>& at) { return look_at_opened(motion, at) == Opened::back; };
+  const auto back = [&](const std::vector<Vec3>& at) { return classify_opened(motion, at) == Opened::back; };
   std::vector<Vec3> x, v;
   for (int k = 1; k <= samples; ++k) {
     const double from = h * (k - 1) / samples, to = k == samples ? h : h * k / samples;
     if (from >= first) break;
     motion.at(to, x, v);
     if (rim(x)) first = std::min(first, first_time(motion, from, to, rim));
-    const Opened opened = look_at_opened(motion, x);
+    const Opened opened = classify_opened(motion, x);
     if (opened == Opened::away) first = std::min(first, to);
     if (opened == Opened::back) first = std::min(first, first_time(motion, from, to, back));
   }
@@ -355,8 +355,8 @@ bool ConstrainedSystem::over_rim(const DenseMotion& motion, const std::vector<Ve
 }
 
 /// The state of the opened contacts: the first that returns counts, then those far enough away to meet again.
-ConstrainedSystem::Opened ConstrainedSystem::look_at_opened(const DenseMotion& motion,
-                                                            const std::vector<Vec3>& x) const {
+ConstrainedSystem::Opened ConstrainedSystem::classify_opened(const DenseMotion& motion,
+                                                             const std::vector<Vec3>& x) const {
   Opened all = Opened::near;
   for (std::size_t c = 0; c < opened_.size(); ++c) {
     const auto& [i, e, feature] = opened_[c];

@@ -81,7 +81,7 @@ class ConstrainedSystem {
   double first_change(const DenseMotion& motion);
   bool over_rim(const DenseMotion& motion, const std::vector<Vec3>& x) const;
   enum class Opened { near, away, back };
-  Opened look_at_opened(const DenseMotion& motion, const std::vector<Vec3>& x) const;
+  Opened classify_opened(const DenseMotion& motion, const std::vector<Vec3>& x) const;
 
   const World& world_;
   const double time_;  // s

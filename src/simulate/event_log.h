@@ -73,7 +73,7 @@ class EventLog {
     deviate(-energy);
   }
   void count_collapse() { ++tally_.collapses; }
-  /// Counts an answer without a certificate.
+  /// Counts a solution without a certificate.
   void note(const Certificate& certificate) {
     if (certificate.verdict == Certificate::Verdict::doubtful) ++tally_.doubtful;
   }

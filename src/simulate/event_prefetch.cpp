@@ -51,7 +51,7 @@ Entity EventPrefetch::partner_of(Entity i) const {
 void EventPrefetch::prefetch_body(Entity i) const {
   prefetch(&bodies_.body[i]);
   prefetch(bodies_.flights.cores() + i);
-  bodies_.neighbours.prefetch_known(i);
+  bodies_.neighbours.prefetch_header(i);
   bodies_.neighbours.prefetch_region(i);
   queue_.prefetch(i);
   prefetch(&bodies_.world.radius[i]);
@@ -82,7 +82,7 @@ void EventPrefetch::look_ahead() {
     if (queue_.leaves_first(i)) {
       for (const Entity k : bodies_.neighbours.bodies(i)) {
         bodies_.neighbours.prefetch_region(k);
-        bodies_.neighbours.prefetch_known(k);
+        bodies_.neighbours.prefetch_header(k);
       }
     } else {
       prefetch_flights(i);

@@ -96,11 +96,11 @@ Instant ExactBodies::flight_end(Entity i) const {
   return end;
 }
 
-std::vector<Entity> ExactBodies::known_to(Entity i) const {
+std::vector<Entity> ExactBodies::neighbours_of(Entity i) const {
   const std::span<const Entity> near = neighbours.near(i);
-  std::vector<Entity> known(near.begin(), near.end());
-  std::sort(known.begin(), known.end());
-  return known;
+  std::vector<Entity> all(near.begin(), near.end());
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
 Touch ExactBodies::touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) const {

@@ -106,7 +106,7 @@ struct ExactBodies {
   PairState in_frame_of(Entity a, Entity b) const;
 
   /// Bodies and fixed things near body i, ascending. Sums in this order do not depend on the order of the lists.
-  std::vector<Entity> known_to(Entity i) const;
+  std::vector<Entity> neighbours_of(Entity i) const;
   /// The contact of a and b at xa, xb (m), which have just met at this feature.
   Touch touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, std::uint8_t feature) const;
 

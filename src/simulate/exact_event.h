@@ -16,8 +16,8 @@ struct ExactEvent {
     release,  // a body slides off a wall's face
     // A step of the contact group: no impact, but new forces.
     step,
-    body_fixed,  //
-    body_body,   //
+    body_fixed,
+    body_body,
     none
   };
 

@@ -67,7 +67,7 @@ void ExactGroup::wake(Entity i) {
     join(k);
     unite(i, k);
     const Vec3 x = bodies_.flights[k].x;
-    for (const Entity e : bodies_.known_to(k)) {
+    for (const Entity e : bodies_.neighbours_of(k)) {
       if (!bodies_.world.is_body(e) || bodies_.body[e].state != ContactState::asleep) continue;
       const double gap = touch(bodies_.world, k, x, e, bodies_.flights[e].x).gap;
       if (gap > exact_tolerance::waking_gap * bodies_.world.radius[k]) continue;
@@ -88,7 +88,7 @@ void ExactGroup::join_initial(Entity first) {
   while (!todo.empty()) {
     const Entity i = todo.back();
     todo.pop_back();
-    for (const Entity e : bodies_.known_to(i)) {
+    for (const Entity e : bodies_.neighbours_of(i)) {
       const Flight f = bodies_.flights[i];
       const bool body = world.is_body(e);
       const bool i_in = bodies_.in_lasting_contact(i), e_in = bodies_.in_lasting_contact(e);
@@ -145,7 +145,7 @@ bool ExactGroup::opens(Entity i) const {
   };
   for (const PressingContact& p : pressing[i])
     if (parts_from(p.partner)) return true;
-  for (const Entity e : bodies_.known_to(i)) {
+  for (const Entity e : bodies_.neighbours_of(i)) {
     if (!bodies_.world.is_body(e) || e > i) continue;
     for (const PressingContact& p : pressing[e])
       if (p.partner == i && parts_from(e)) return true;

@@ -39,7 +39,7 @@ bool ExactImpacts::too_slow_to_wake(Entity striker, Entity struck, double speed)
   };
   for (const PressingContact& p : parts_.group.pressing[struck])
     if (p.force > 0) hold(p.partner);
-  for (const Entity e : bodies_.known_to(struck))
+  for (const Entity e : bodies_.neighbours_of(struck))
     if (world.is_body(e) && bodies_.body[e].state == ContactState::asleep)
       for (const PressingContact& p : parts_.group.pressing[e])
         if (p.partner == struck && p.force > 0) hold(e);

@@ -50,7 +50,7 @@ class ExactImpacts {
     bool flat;
     bool began_now;   // the flight began at this instant
     Vec3 x, v;        // m, m/s
-    Touch there;      //
+    Touch there;      // the contact of the two
     double e;         // restitution
     double approach;  // m/s
     double unkicked;  // m/s, without the effect of later forces

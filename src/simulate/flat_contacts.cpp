@@ -67,7 +67,7 @@ FlightOrigin FlatContacts::hand_over(Entity i, Entity surface) {
   const Vec3 there = x + ahead / speed * v;
   FlatContact next{no_entity, 0, normal, false, bodies_.now, 0};
   double longest = -1;
-  for (const Entity e : bodies_.known_to(i)) {
+  for (const Entity e : bodies_.neighbours_of(i)) {
     if (world.is_body(e) || e == surface || carry(i, e)) continue;
     const Vec3& point = world.fixed_position(e);
     const Touch level = touch(world, i, there, e, point);
@@ -115,7 +115,7 @@ void FlatContacts::find_initial(Entity i) {
   const World& world = bodies_.world;
   if (bodies_.neighbours.surfaces(i).empty()) return;
   Flight f = bodies_.flights[i];
-  for (const Entity e : bodies_.known_to(i)) {
+  for (const Entity e : bodies_.neighbours_of(i)) {
     if (world.is_body(e) || contacts_[i].count == most) continue;
     const Vec3& point = world.fixed_position(e);
     const Touch there = touch(world, i, f.x, e, point);

@@ -22,7 +22,7 @@ struct FlatContact {
   Vec3 normal;           // unit, from the surface to the body
   // Bounces have not ended. They end at the time below.
   bool settling;
-  Instant rest_time;      //
+  Instant rest_time;      // s
   double residual_speed;  // m/s, left by the last bounce
 };
 

@@ -53,7 +53,7 @@ struct Flight {
   double span_of_fade(double t) const {
     using namespace exact_tolerance;
     const bool straight = is_straight() || fade * t >= faded;
-    return curve != nullptr || straight ? std::numeric_limits<double>::infinity() : told_fade / fade;
+    return curve != nullptr || straight ? std::numeric_limits<double>::infinity() : series_fade / fade;
   }
 
  private:

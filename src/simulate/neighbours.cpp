@@ -31,7 +31,7 @@ constexpr double farthest = 0x1p+60;
 }  // namespace
 
 Neighbours::Neighbours(const World& world)
-    : world_(world), region_(world.body_count()), known_(world.body_count()), surfaces_(world) {}
+    : world_(world), region_(world.body_count()), lists_(world.body_count()), surfaces_(world) {}
 
 void Neighbours::start(const std::vector<Vec3>& x) {
   const Entity n = world_.body_count();
@@ -52,12 +52,12 @@ void Neighbours::start(const std::vector<Vec3>& x) {
   for (Entity i = 0; i < n; ++i) {
     const int level = level_for(i, x[i], first_room * world_.radius[i]);
     region_[i] = around(x[i], level);
-    known_[i].level = static_cast<std::int16_t>(level);
+    lists_[i].level = static_cast<std::int16_t>(level);
     const auto known = std::find_if(expected.begin(), expected.end(), [&](const auto& e) { return e.first == level; });
     known == expected.end() ? (void)expected.emplace_back(level, 1) : (void)++known->second;
   }
   for (const auto& [level, regions] : expected) grid_.expect(level, regions);
-  for (Entity i = 0; i < n; ++i) grid_.put(i, region_, known_[i].level);
+  for (Entity i = 0; i < n; ++i) grid_.put(i, region_, lists_[i].level);
   for (Entity i = 0; i < n; ++i) {
     find(i, region_[i]);
     write(i);
@@ -94,13 +94,13 @@ void Neighbours::find(Entity i, const Region& region) {
 void Neighbours::tidy() {
   if (!pool_.wasteful()) return;
   ListPool tidied;
-  for (Known& list : known_) tidied.copy(pool_, list);
+  for (NeighbourList& list : lists_) tidied.copy(pool_, list);
   pool_ = std::move(tidied);
 }
 
 /// Writes the bodies that were found, and the surfaces near body i, to its list.
 void Neighbours::write(Entity i) {
-  Known& list = known_[i];
+  NeighbourList& list = lists_[i];
   surfaces_.find(center(i), unit_ * static_cast<double>(region_[i].half), found_surfaces_);
   pool_.reserve(list, found_count_ + found_surfaces_.size());
   std::uint32_t* const to = pool_.data(list);
@@ -111,7 +111,7 @@ void Neighbours::write(Entity i) {
 
 /// Adds i to body j's list.
 void Neighbours::add(Entity j, Entity i) {
-  Known& list = known_[j];
+  NeighbourList& list = lists_[j];
   pool_.push_back(list, i);
   if (const std::uint32_t surfaces = list.surfaces; surfaces > 0) {
     std::uint32_t* const of = pool_.data(list);
@@ -121,7 +121,7 @@ void Neighbours::add(Entity j, Entity i) {
 
 /// Removes i from body j's list.
 void Neighbours::drop(Entity j, Entity i) {
-  Known& list = known_[j];
+  NeighbourList& list = lists_[j];
   std::uint32_t* const of = pool_.data(list);
   const std::uint32_t last = --list.count - list.surfaces;
   *pool_.find(list, i) = of[last];
@@ -135,15 +135,15 @@ void Neighbours::settle(Entity i, const Region& region, int level) {
   const std::span<const Entity> known = bodies(i);
   gone_.resize(std::max(gone_.size(), known.size() + select_slack));
   const std::size_t gone = select_touching(region, region_.data(), known.data(), known.size(), false, gone_.data());
-  for (std::size_t k = 0; k < gone; ++k) prefetch(pool_.data(known_[gone_[k]]));
+  for (std::size_t k = 0; k < gone; ++k) prefetch(pool_.data(lists_[gone_[k]]));
   for (std::size_t k = 0; k < gone; ++k) drop(gone_[k], i);
   came_.resize(std::max(came_.size(), found_count_ + select_slack));
   came_count_ = select_touching(old, region_.data(), found_.data(), found_count_, false, came_.data());
-  for (std::size_t k = 0; k < came_count_; ++k) prefetch(pool_.data(known_[came_[k]]) + known_[came_[k]].count);
+  for (std::size_t k = 0; k < came_count_; ++k) prefetch(pool_.data(lists_[came_[k]]) + lists_[came_[k]].count);
   for (std::size_t k = 0; k < came_count_; ++k) add(came_[k], i);
   region_[i] = region;
-  grid_.move(i, old, known_[i].level, region_, level);
-  known_[i].level = static_cast<std::int16_t>(level);
+  grid_.move(i, old, lists_[i].level, region_, level);
+  lists_[i].level = static_cast<std::int16_t>(level);
   write(i);
 }
 
@@ -167,10 +167,10 @@ void Neighbours::settle_down(Entity i, const Vec3& x, const Vec3& ahead, int lev
 
 std::span<const Entity> Neighbours::renew(Entity i, const Vec3& x, const Vec3& ahead) {
   constexpr std::uint32_t several = 4;
-  const bool often = known_[i].left == several;
-  if (!often) known_[i].left = (known_[i].left + 1) & 0xFF;
+  const bool often = lists_[i].left == several;
+  if (!often) lists_[i].left = (lists_[i].left + 1) & 0xFF;
   const std::size_t known = bodies(i).size();
-  int level = known_[i].level;
+  int level = lists_[i].level;
   if (known < few_neighbours || (often && known < many_on_the_way)) level += wider;
   if (known > (often ? 2 * many_neighbours : many_neighbours)) level -= wider;
   settle_down(i, x, ahead, level);
@@ -178,13 +178,13 @@ std::span<const Entity> Neighbours::renew(Entity i, const Vec3& x, const Vec3& a
 }
 
 void Neighbours::shrink(Entity i, const Vec3& x) {
-  settle_down(i, x, Vec3::Zero(), known_[i].level - wider);
+  settle_down(i, x, Vec3::Zero(), lists_[i].level - wider);
 }
 
 void Neighbours::hold(Entity i, const Vec3& x, double reach) {
   const int level = level_for(i, x, 2 * reach);
   const double left = room(i) - (x - center(i)).norm();
-  if (left >= reach && known_[i].level <= level + wider) return;
+  if (left >= reach && lists_[i].level <= level + wider) return;
   const Region region = around(x, level);
   find(i, region);
   settle(i, region, level);
@@ -192,9 +192,9 @@ void Neighbours::hold(Entity i, const Vec3& x, double reach) {
 
 void Neighbours::remove(Entity i) {
   for (const Entity j : bodies(i)) drop(j, i);
-  known_[i].count = 0;
-  known_[i].surfaces = 0;
-  grid_.remove(i, region_[i], known_[i].level);
+  lists_[i].count = 0;
+  lists_[i].surfaces = 0;
+  grid_.remove(i, region_[i], lists_[i].level);
 }
 
 }  // namespace carom

@@ -27,10 +27,10 @@ class Neighbours {
   void start(const std::vector<Vec3>& x);
 
   /// Bodies that body i may meet within its region, and surfaces.
-  std::span<const Entity> bodies(Entity i) const { return near(i).first(known_[i].count - known_[i].surfaces); }
-  std::span<const Entity> surfaces(Entity i) const { return near(i).last(known_[i].surfaces); }
+  std::span<const Entity> bodies(Entity i) const { return near(i).first(lists_[i].count - lists_[i].surfaces); }
+  std::span<const Entity> surfaces(Entity i) const { return near(i).last(lists_[i].surfaces); }
   /// Bodies and surfaces.
-  std::span<const Entity> near(Entity i) const { return {pool_.data(known_[i]), known_[i].count}; }
+  std::span<const Entity> near(Entity i) const { return {pool_.data(lists_[i]), lists_[i].count}; }
 
   /// The centre of body i's region (m), and how far the body's centre may go from there (m).
   Vec3 center(Entity i) const {
@@ -40,10 +40,10 @@ class Neighbours {
   double room(Entity i) const { return unit_ * sure(region_[i].half) - world_.radius[i]; }
 
   /// Prefetches the data of body i's neighbours.
-  void prefetch_known(Entity i) const { prefetch(&known_[i]); }
+  void prefetch_header(Entity i) const { prefetch(&lists_[i]); }
   void prefetch_list(Entity i) const {
-    const std::uint32_t* const list = pool_.data(known_[i]);
-    for (std::uint32_t k = 0; k < known_[i].count; k += 16) prefetch(list + k);
+    const std::uint32_t* const list = pool_.data(lists_[i]);
+    for (std::uint32_t k = 0; k < lists_[i].count; k += 16) prefetch(list + k);
   }
   void prefetch_region(Entity i) const { prefetch(&region_[i]); }
 
@@ -53,7 +53,7 @@ class Neighbours {
   /// Returns the bodies that are new in the list, valid until regions change.
   std::span<const Entity> renew(Entity i, const Vec3& x, const Vec3& ahead);
   /// Registers that body i has a new path.
-  void turned(Entity i) { known_[i].left = 0; }
+  void turned(Entity i) { lists_[i].left = 0; }
 
   /// Makes a narrower region, about x.
   void shrink(Entity i, const Vec3& x);
@@ -71,12 +71,12 @@ class Neighbours {
 
  private:
   /// The neighbours of a body: bodies, then surfaces.
-  struct Known : ListPool::List {
+  struct NeighbourList : ListPool::List {
     std::int16_t level = 0;           // of its region's half width
     std::uint32_t surfaces : 24 = 0;  // at the list's end
     std::uint32_t left : 8 = 0;       // regions on its path, up to many
   };
-  static_assert(sizeof(Known) == 16);
+  static_assert(sizeof(NeighbourList) == 16);
 
   Region around(const Vec3& x, int level) const;
   double rounding_at(Entity i, const Vec3& x) const;
@@ -93,7 +93,7 @@ class Neighbours {
   double unit_ = 1;             // m; regions are in units of it, from origin_
   LargeVector<Region> region_;
   ListPool pool_;
-  LargeVector<Known> known_;
+  LargeVector<NeighbourList> lists_;
   RegionGrid grid_;
   SurfacesNear surfaces_;
   // Scratch. The first three are longer than their contents.

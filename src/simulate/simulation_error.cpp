@@ -1,3 +1,5 @@
+// The simulators have numbers of bodies, not names. The message is therefore stored in parts, and the name replaces the
+// number later.
 #include "simulate/simulation_error.h"
 
 #include <fmt/format.h>

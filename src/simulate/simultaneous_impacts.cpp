@@ -65,7 +65,7 @@ void SimultaneousImpacts::take_in(Struck& set, Entity i) const {
   set.after.push_back(bodies_.velocity(i));
   const Vec3 x = bodies_.position(i);
   const std::size_t first = set.near.pairs.size();
-  for (const Entity e : bodies_.known_to(i)) {
+  for (const Entity e : bodies_.neighbours_of(i)) {
     const bool body = world.is_body(e);
     // The pair belongs to the body that was added first.
     if (body && (index[e] != ContactConstraint::fixed || !bodies_.in_group(e) || !bodies_.islands.same(e, i))) continue;

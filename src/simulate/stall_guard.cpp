@@ -20,7 +20,7 @@ void StallGuard::count(Happened what, double now) {
   if (!full && watch.events % many_ != 0) return;
   // At a billionth of the duration in a million events a run would never end. The same holds for progress by the
   // clock's rounding.
-  if (now - watch.seen <= exact_tolerance::clock_rounding * now ||
+  if (now - watch.checked <= exact_tolerance::clock_rounding * now ||
       (full && now - watch.since < exact_tolerance::least_progress * duration_)) {
     const char* advice =
         " (jammed, or inelastic collapse): give them room, raise their restitution, or simulate.rest_speed";
@@ -30,7 +30,7 @@ void StallGuard::count(Happened what, double now) {
     throw SimulationError(
         fmt::format("at t = {} s bodies collide so often that the clock stands still{}", now, advice));
   }
-  watch.seen = now;
+  watch.checked = now;
   if (!full) return;
   watch.events = 0;
   watch.since = now;

@@ -23,8 +23,8 @@ class StallGuard {
   /// The progress of the clock over many events.
   struct Watch {
     std::uint64_t events = 0;
-    double since = 0;  // s, the clock when it was last found to advance
-    double seen = -1;  // s, the clock at the last check
+    double since = 0;     // s, the clock when it was last found to advance
+    double checked = -1;  // s, the clock at the last check
   };
 
   const std::uint64_t many_;  // events

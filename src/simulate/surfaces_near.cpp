@@ -50,7 +50,7 @@ bool SurfacesNear::is_near(Entity e, const Vec3& center, double reach) const {
 
 void SurfacesNear::find(const Vec3& center, double reach, std::vector<Entity>& found) {
   found.clear();
-  const std::vector<Entity>* asked = &all_;
+  const std::vector<Entity>* candidates = &all_;
   // Cells are two to four times as wide as the reach, so that one serves many searches.
   int size;
   std::frexp(2 * reach, &size);
@@ -69,9 +69,9 @@ void SurfacesNear::find(const Vec3& center, double reach, std::vector<Entity>& f
         if (is_near(e, middle, (0.5 + 0.8661) * width)) in_reach.push_back(e);
       known = cells_.emplace(cell, std::move(in_reach)).first;
     }
-    asked = &known->second;
+    candidates = &known->second;
   }
-  for (const Entity e : *asked)
+  for (const Entity e : *candidates)
     if (is_near(e, center, reach)) found.push_back(e);
 }
 

@@ -141,7 +141,7 @@ void TimeStepping::find_pairs(Step& step) const {
   for (std::size_t k = 0; k < step.members.size(); ++k) {
     const Entity i = step.members[k];
     const std::size_t first = step.contacts.pairs.size();
-    for (const Entity e : bodies_.known_to(i)) {
+    for (const Entity e : bodies_.neighbours_of(i)) {
       // A sleeping body acts as a fixed one. If pressed on, it wakes.
       const bool asleep = world.is_body(e) && bodies_.body[e].state == ContactState::asleep;
       const bool body = world.is_body(e) && !asleep;

@@ -39,7 +39,7 @@ inline constexpr double plane_rounding = 0x1p-49;
 // Share of accelerations: a difference on curves that is rounding.
 inline constexpr double curve_rounding = 0x1p-43;
 // Share of the decay time of drag: for so long, eight terms give the path to rounding.
-inline constexpr double told_fade = 0x1p-4;
+inline constexpr double series_fade = 0x1p-4;
 // Multiple of the decay time: nothing is left of the acceleration after it.
 inline constexpr double faded = 64;
 // Share of a radius or a coordinate: allowed error of polynomials beside a closed form.
@@ -209,7 +209,7 @@ inline constexpr double most_steps = 3e7;
 // Steps of a run from which on the cost of the tolerance is predicted. The search ends if it exceeds most_steps.
 inline constexpr double few_steps = 1e5;
 // Share of the smallest radius: the tolerance where a scene has none.
-inline constexpr double told_radius = 0.01;
+inline constexpr double default_tolerance = 0.01;
 // Share of speeds and masses: a disturbance that is carried along. Its growth shows chaos.
 inline constexpr double carried_disturbance = 1e-12;
 // Share of the largest radius: a larger disturbance does not count as small.

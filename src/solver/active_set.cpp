@@ -1,8 +1,8 @@
 // The dual active set method of Goldfarb & Idnani, Math. Programming 27 (1983) 1, on orthogonal factors that are
 // updated row by row. It starts from a guess of the active rows. Each round appends the most violated row, and drops
-// rows with a negative force. The answer is then refined with residuals in double-double, so that the factors' rounding
-// does not limit it. Where a set of rows returns, the method ends with what it has. A looser or stricter limit for
-// dependent rows is tried then.
+// rows with a negative force. The solution is then refined with residuals in double-double, so that the factors'
+// rounding does not limit it. Where a set of rows returns, the method ends with what it has. A looser or stricter limit
+// for dependent rows is tried then.
 #include "solver/active_set.h"
 
 #include <algorithm>
@@ -157,7 +157,7 @@ bool DualActiveSet::take_in(const ContactIsland& island, std::uint32_t c, double
   }
 }
 
-/// Appends rows until none is violated by more than rounding. The answer's energy grows with every row.
+/// Appends rows until none is violated by more than rounding. The solution's energy grows with every row.
 /// If it does not for as many steps as there are rows, only rounding is left.
 void DualActiveSet::take_in_violated(const ContactIsland& island) {
   double energy = 0;
@@ -199,17 +199,17 @@ void DualActiveSet::take_in_violated(const ContactIsland& island) {
 }
 
 /// Newton's method on the active rows (iterative refinement): the factors are rounded, the residuals are not.
-void DualActiveSet::refine(const ContactIsland& island, ContactAnswer& answer) {
+void DualActiveSet::refine(const ContactIsland& island, ContactSolution& solution) {
   const std::size_t n = island.unknowns(), k = active_.size();
-  answer.motion.resize(n);
-  answer.force.assign(island.rows.size(), DoubleDouble{0, 0});
+  solution.motion.resize(n);
+  solution.force.assign(island.rows.size(), DoubleDouble{0, 0});
   if (k == 0) {
-    for (std::size_t i = 0; i < n; ++i) answer.motion[i] = {island.free[i / 3][static_cast<int>(i % 3)], 0};
+    for (std::size_t i = 0; i < n; ++i) solution.motion[i] = {island.free[i / 3][static_cast<int>(i % 3)], 0};
     y_ = free_;
     return;
   }
-  for (std::size_t i = 0; i < n; ++i) answer.motion[i] = {island.root[i / 3] * y_[i], 0};
-  for (std::size_t j = 0; j < k; ++j) answer.force[active_[j]] = {island.rows[active_[j]].scale * force_[j], 0};
+  for (std::size_t i = 0; i < n; ++i) solution.motion[i] = {island.root[i / 3] * y_[i], 0};
+  for (std::size_t j = 0; j < k; ++j) solution.force[active_[j]] = {island.rows[active_[j]].scale * force_[j], 0};
   double all = 0;
   for (const double y : y_) all = std::max(all, std::abs(y));
   // The rows' errors and the imbalance of forces. Each is reduced as long as it at least halves.
@@ -229,7 +229,7 @@ void DualActiveSet::refine(const ContactIsland& island, ContactAnswer& answer) {
     if (off > 0) {
       for (std::size_t j = 0; j < k; ++j) {
         const ContactIsland::Row& r = island.rows[active_[j]];
-        g[j] = -r.scale * excess(r, answer.motion);
+        g[j] = -r.scale * excess(r, solution.motion);
       }
       factors_.solve_transposed(g.data());
       const double now = greatest(g);
@@ -237,8 +237,8 @@ void DualActiveSet::refine(const ContactIsland& island, ContactAnswer& answer) {
       off = now < 0.5 * off && left * now > enough ? now : 0;
     }
     if (unbalanced > 0) {
-      find_imbalance(island, answer);
-      std::vector<double>& lacking = answer.lacking;
+      find_imbalance(island, solution);
+      std::vector<double>& lacking = solution.lacking;
       for (std::size_t i = 0; i < n; ++i) lacking[i] /= island.root[i / 3];
       const double now = greatest(lacking);
       if (now < 0.5 * unbalanced) factors_.to_q(lacking.data(), p.data());
@@ -249,18 +249,18 @@ void DualActiveSet::refine(const ContactIsland& island, ContactAnswer& answer) {
     for (std::size_t j = 0; j < k; ++j) g[j] -= p[j];
     factors_.solve(g.data());
     for (std::size_t i = 0; i < n; ++i)
-      answer.motion[i] = answer.motion[i] + DoubleDouble{island.root[i / 3] * dy[i], 0};
+      solution.motion[i] = solution.motion[i] + DoubleDouble{island.root[i / 3] * dy[i], 0};
     for (std::size_t j = 0; j < k; ++j) {
-      DoubleDouble& x = answer.force[active_[j]];
+      DoubleDouble& x = solution.force[active_[j]];
       x = x + DoubleDouble{island.rows[active_[j]].scale * g[j], 0};
     }
   }
-  for (std::size_t i = 0; i < n; ++i) y_[i] = answer.motion[i].hi / island.root[i / 3];
-  for (std::size_t j = 0; j < k; ++j) force_[j] = answer.force[active_[j]].hi / island.rows[active_[j]].scale;
+  for (std::size_t i = 0; i < n; ++i) y_[i] = solution.motion[i].hi / island.root[i / 3];
+  for (std::size_t j = 0; j < k; ++j) force_[j] = solution.force[active_[j]].hi / island.rows[active_[j]].scale;
 }
 
 /// The inactive row that is violated most, by more than the rounding of the data.
-std::uint32_t DualActiveSet::worst_after_refining(const ContactIsland& island, const ContactAnswer& answer,
+std::uint32_t DualActiveSet::worst_after_refining(const ContactIsland& island, const ContactSolution& solution,
                                                   double& shortfall) const {
   std::uint32_t worst = none;
   shortfall = 0;
@@ -269,7 +269,7 @@ std::uint32_t DualActiveSet::worst_after_refining(const ContactIsland& island, c
     const ContactIsland::Row& r = island.rows[c];
     // Surely satisfied.
     if (r.dot(y_.data()) - r.scale * r.target > 0x1p-40 * island.noise_scale(r)) continue;
-    const double w = r.scale * excess(r, answer.motion);
+    const double w = r.scale * excess(r, solution.motion);
     if (w >= -shortfall || w >= -refined_change * island.noise_scale(r)) continue;
     shortfall = -w;
     worst = c;
@@ -290,14 +290,14 @@ std::uint64_t DualActiveSet::signature() const {
 }
 
 /// Appends, removes and refines until nothing is left to do, or a set of rows returns.
-void DualActiveSet::run(const ContactIsland& island, ContactAnswer& answer) {
+void DualActiveSet::run(const ContactIsland& island, ContactSolution& solution) {
   std::vector<std::uint64_t> seen;
   infeasible_ = false;
   std::fill(aside_.begin(), aside_.end(), 0);
   settle(island);
   take_in_violated(island);
   for (;;) {
-    refine(island, answer);
+    refine(island, solution);
     double shortfall = 0;
     if (drop_one_that_pulls(pulling)) {
       const std::uint64_t now = signature();
@@ -307,7 +307,7 @@ void DualActiveSet::run(const ContactIsland& island, ContactAnswer& answer) {
       take_in_violated(island);
       continue;
     }
-    const std::uint32_t worst = worst_after_refining(island, answer, shortfall);
+    const std::uint32_t worst = worst_after_refining(island, solution, shortfall);
     if (worst == none) return;
     if (!take_in(island, worst, shortfall)) {
       infeasible_ = true;
@@ -330,7 +330,7 @@ void DualActiveSet::prepare(const ContactIsland& island) {
   aside_.assign(island.rows.size(), 0);
 }
 
-DualActiveSet::Result DualActiveSet::solve(const ContactIsland& island, ContactAnswer& answer) {
+DualActiveSet::Result DualActiveSet::solve(const ContactIsland& island, ContactSolution& solution) {
   prepare(island);
   std::vector<std::uint32_t> rows;
   for (std::uint32_t c = 0; c < island.rows.size(); ++c)
@@ -340,11 +340,11 @@ DualActiveSet::Result DualActiveSet::solve(const ContactIsland& island, ContactA
     return fp != fq ? fp > fq : p < q;
   });
   rebuild(island, rows);
-  return finish(island, answer);
+  return finish(island, solution);
 }
 
 DualActiveSet::Result DualActiveSet::solve_again(const ContactIsland& island, std::span<const std::uint32_t> now,
-                                                 ContactAnswer& answer) {
+                                                 ContactSolution& solution) {
   prepare(island);
   for (std::size_t k = active_.size(); k-- > 0;) {
     active_[k] = now[active_[k]];
@@ -361,20 +361,20 @@ DualActiveSet::Result DualActiveSet::solve_again(const ContactIsland& island, st
   }
   for (std::uint32_t c = 0; c < island.rows.size(); ++c)
     if (island.rows[c].bilateral && place_[c] == none) append(island, c);
-  return finish(island, answer);
+  return finish(island, solution);
 }
 
 /// Solves from the active rows. If need be it repeats that with other limits for dependent rows.
-DualActiveSet::Result DualActiveSet::finish(const ContactIsland& island, ContactAnswer& answer) {
+DualActiveSet::Result DualActiveSet::finish(const ContactIsland& island, ContactSolution& solution) {
   Result best;
   best.judgement = {infinite, false};
-  ContactAnswer& attempt = attempt_;
+  ContactSolution& attempt = attempt_;
   for (const double looser : {1.0, 32.0, 1.0 / 16, 1024.0}) {
     if (looser != 1) {
       dependent_ = looser * dependent;
       std::vector<std::uint32_t> rows(active_);
       std::sort(rows.begin(), rows.end(), [&](std::uint32_t p, std::uint32_t q) {
-        const double fp = answer.force[p].hi / island.rows[p].scale, fq = answer.force[q].hi / island.rows[q].scale;
+        const double fp = solution.force[p].hi / island.rows[p].scale, fq = solution.force[q].hi / island.rows[q].scale;
         return fp != fq ? fp > fq : p < q;
       });
       rebuild(island, rows);
@@ -386,7 +386,7 @@ DualActiveSet::Result DualActiveSet::finish(const ContactIsland& island, Contact
     const Result result{judge(island, attempt), infeasible_};
     if (looser == 1 || result.judgement.change < best.judgement.change) {
       best = result;
-      std::swap(answer, attempt);
+      std::swap(solution, attempt);
     }
     if (best.judgement.within_slack) break;
   }

@@ -1,8 +1,8 @@
 #pragma once
 // Contact by a dual active set (Goldfarb & Idnani, Math. Programming 27 (1983) 1). Violated rows are appended one by
-// one, rows that would have to pull are removed, and the answer's energy only grows. The factors are orthogonal, in
+// one, rows that would have to pull are removed, and the solution's energy only grows. The factors are orthogonal, in
 // coordinates in which the solution is the nearest motion, so that bodies of any masses keep their digits. Residuals in
-// twice as many digits then refine the answer (contact_island.h). The factors are kept for the next island.
+// twice as many digits then refine the solution (contact_island.h). The factors are kept for the next island.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,7 +14,7 @@ namespace carom {
 
 class DualActiveSet {
  public:
-  /// The quality of an island's answer.
+  /// The quality of an island's solution.
   struct Result {
     Judgement judgement;
     // Some row is violated by every motion that satisfies the rows appended before it.
@@ -22,35 +22,36 @@ class DualActiveSet {
   };
 
   /// Starts from the rows with a guess, the greatest forces first.
-  Result solve(const ContactIsland& island, ContactAnswer& answer);
+  Result solve(const ContactIsland& island, ContactSolution& solution);
 
   /// Starts from the rows that pressed in the last island. Its row c is row now[c] of this island, or gone(). The
   /// masses must be the same.
-  Result solve_again(const ContactIsland& island, std::span<const std::uint32_t> now, ContactAnswer& answer);
+  Result solve_again(const ContactIsland& island, std::span<const std::uint32_t> now, ContactSolution& solution);
   static constexpr std::uint32_t gone() { return none; }
 
   /// Whether it holds the factors of a last island.
   bool has_factors() const { return factors_.columns() > 0; }
   /// Discards the factors, when their island is not the last one.
-  void forget() { factors_.reset(0); }
+  void clear() { factors_.reset(0); }
 
  private:
   static constexpr std::uint32_t none = ~std::uint32_t{0};
 
   void prepare(const ContactIsland& island);
-  Result finish(const ContactIsland& island, ContactAnswer& answer);
+  Result finish(const ContactIsland& island, ContactSolution& solution);
   void rebuild(const ContactIsland& island, const std::vector<std::uint32_t>& rows);
   bool append(const ContactIsland& island, std::uint32_t c);
   void drop(std::size_t place);
   void balance(const ContactIsland& island);
   void settle(const ContactIsland& island);
   bool drop_one_that_pulls(double tolerance);
-  void run(const ContactIsland& island, ContactAnswer& answer);
+  void run(const ContactIsland& island, ContactSolution& solution);
   void take_in_violated(const ContactIsland& island);
   bool take_in(const ContactIsland& island, std::uint32_t c, double shortfall);
   double blocking(std::size_t& first) const;
-  void refine(const ContactIsland& island, ContactAnswer& answer);
-  std::uint32_t worst_after_refining(const ContactIsland& island, const ContactAnswer& answer, double& shortfall) const;
+  void refine(const ContactIsland& island, ContactSolution& solution);
+  std::uint32_t worst_after_refining(const ContactIsland& island, const ContactSolution& solution,
+                                     double& shortfall) const;
   void transform(const ContactIsland& island, std::uint32_t c);
   std::uint64_t signature() const;
 
@@ -62,7 +63,7 @@ class DualActiveSet {
   std::vector<double> y_, free_;                  // 3 for each body
   std::vector<std::uint8_t> aside_;               // by row: number of times that no motion satisfied it
   std::vector<double> row_, step_, work_, load_;  // scratch: a row in the factors' coordinates, and others
-  ContactAnswer attempt_;                         // scratch
+  ContactSolution attempt_;                       // scratch
   double dependent_ = 0;                          // a row with a smaller tail depends on the others
   bool infeasible_ = false;
 };

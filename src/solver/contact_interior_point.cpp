@@ -146,7 +146,7 @@ class ContactInteriorPoint::Method {
 
   const ContactMatrix& matrix() const { return matrix_; }
 
-  Judgement solve(ContactAnswer& answer) {
+  Judgement solve(ContactSolution& solution) {
     // From forces of a moment ago, the proximal Newton method alone converges in a few factorisations.
     bool guessed = false;
     for (std::size_t c = 0; c < rows(); ++c) {
@@ -157,8 +157,8 @@ class ContactInteriorPoint::Method {
     if (guessed) {
       y_ = image(z_);
       if (find_pressing(tightest, guess_worth)) {
-        refine(answer);
-        if (const Judgement judgement = judge(island_, answer); judgement.within_slack) return judgement;
+        refine(solution);
+        if (const Judgement judgement = judge(island_, solution); judgement.within_slack) return judgement;
       }
       std::fill(z_.begin(), z_.end(), 0.0);
       y_ = free_;
@@ -166,8 +166,8 @@ class ContactInteriorPoint::Method {
     if (!approach()) std::fill(z_.begin(), z_.end(), 0.0);
     for (double rho = loosest; rho > 0.5 * tightest; rho *= 1e-2)
       if (!find_pressing(rho)) break;
-    refine(answer);
-    return judge(island_, answer);
+    refine(solution);
+    return judge(island_, solution);
   }
 
  private:
@@ -362,25 +362,25 @@ class ContactInteriorPoint::Method {
   /// The same proximal steps with residuals in twice as many digits. Each leaves the share rho / (rho + lambda) of the
   /// error. lambda is the least eigenvalue among the rows that press. The factors' rounding leaves about eps / rho.
   /// Where the first limits progress, contacts are made to yield less.
-  void refine(ContactAnswer& answer) {
+  void refine(ContactSolution& solution) {
     constexpr double stiffest = 1e-13;
     const std::size_t n = y_.size(), m = rows();
-    answer.motion.resize(n);
-    answer.force.resize(m);
-    for (std::size_t i = 0; i < n; ++i) answer.motion[i] = {island_.root[i / 3] * y_[i], 0};
-    for (std::size_t c = 0; c < m; ++c) answer.force[c] = {island_.rows[c].scale * z_[c], 0};
+    solution.motion.resize(n);
+    solution.force.resize(m);
+    for (std::size_t i = 0; i < n; ++i) solution.motion[i] = {island_.root[i / 3] * y_[i], 0};
+    for (std::size_t c = 0; c < m; ++c) solution.force[c] = {island_.rows[c].scale * z_[c], 0};
     Vector weight(m), former, lacking, short_by(m);
     double last = no_limit, rho = tightest;
     for (int idle = 0;;) {
       for (std::size_t c = 0; c < m; ++c) {
         const Row& r = island_.rows[c];
-        short_by[c] = -r.scale * excess(r, answer.motion);
-        const bool presses = r.bilateral || answer.force[c].hi / r.scale + short_by[c] / rho > 0;
+        short_by[c] = -r.scale * excess(r, solution.motion);
+        const bool presses = r.bilateral || solution.force[c].hi / r.scale + short_by[c] / rho > 0;
         weight[c] = presses ? 1 / rho : 0;
-        if (!presses) answer.force[c] = {0, 0};
+        if (!presses) solution.force[c] = {0, 0};
       }
-      find_imbalance(island_, answer);
-      lacking = answer.lacking;
+      find_imbalance(island_, solution);
+      lacking = solution.lacking;
       for (std::size_t i = 0; i < n; ++i) lacking[i] /= island_.root[i / 3];
       for (std::size_t c = 0; c < m; ++c)
         if (weight[c] != 0) island_.rows[c].add_to(lacking.data(), short_by[c] / rho);
@@ -399,13 +399,13 @@ class ContactInteriorPoint::Method {
       if (idle > (same ? 2 : 8)) return;
       last = std::min(last, size);
       for (std::size_t i = 0; i < n; ++i)
-        answer.motion[i] = answer.motion[i] + DoubleDouble{island_.root[i / 3] * lacking[i], 0};
+        solution.motion[i] = solution.motion[i] + DoubleDouble{island_.root[i / 3] * lacking[i], 0};
       for (std::size_t c = 0; c < m; ++c) {
         if (weight[c] == 0) continue;
         const Row& r = island_.rows[c];
         const double dz = (short_by[c] - r.dot(lacking.data())) * used;
-        answer.force[c] = answer.force[c] + DoubleDouble{r.scale * dz, 0};
-        if (!r.bilateral && answer.force[c].hi < 0) answer.force[c] = {0, 0};
+        solution.force[c] = solution.force[c] + DoubleDouble{r.scale * dz, 0};
+        if (!r.bilateral && solution.force[c].hi < 0) solution.force[c] = {0, 0};
       }
       if (size <= 0x1p-92 * greatest(y_)) return;
     }
@@ -421,8 +421,8 @@ ContactInteriorPoint::~ContactInteriorPoint() = default;
 double ContactInteriorPoint::operations() const {
   return method_->matrix().operations();
 }
-Judgement ContactInteriorPoint::solve(ContactAnswer& answer) {
-  return method_->solve(answer);
+Judgement ContactInteriorPoint::solve(ContactSolution& solution) {
+  return method_->solve(solution);
 }
 
 }  // namespace carom

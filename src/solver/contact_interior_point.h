@@ -1,6 +1,6 @@
 #pragma once
 // Contact among many bodies by a primal-dual interior point (Mehrotra, SIAM J. Optim. 2 (1992) 575).
-// A proximal Newton method then finds which rows press. Residuals in twice as many digits refine the answer.
+// A proximal Newton method then finds which rows press. Residuals in twice as many digits refine the solution.
 // Every system is (1 + J^T D J) dy = r on the bodies. It is sparse and never singular, however many contacts depend on
 // each other.
 #include <memory>
@@ -17,7 +17,7 @@ class ContactInteriorPoint {
   /// An estimate of the multiplications and additions of one factorisation.
   double operations() const;
 
-  Judgement solve(ContactAnswer& answer);
+  Judgement solve(ContactSolution& solution);
 
  private:
   class Method;

@@ -1,4 +1,4 @@
-// Scaling of a contact island, residuals in double-double, and the certificate of an answer.
+// Scaling of a contact island, residuals in double-double, and the certificate of a solution.
 // Residuals are evaluated on the given data, not on scaled rows. The certificate thus holds for the problem that was
 // given.
 #include "solver/contact_island.h"
@@ -103,11 +103,11 @@ double excess(const ContactIsland::Row& r, const std::vector<DoubleDouble>& moti
   return sum.value();
 }
 
-void find_imbalance(const ContactIsland& island, ContactAnswer& answer) {
-  std::vector<DoubleDouble>& push = answer.push;
+void find_imbalance(const ContactIsland& island, ContactSolution& solution) {
+  std::vector<DoubleDouble>& push = solution.push;
   push.assign(island.unknowns(), DoubleDouble{0, 0});
   for (std::size_t c = 0; c < island.rows.size(); ++c) {
-    const DoubleDouble& x = answer.force[c];
+    const DoubleDouble& x = solution.force[c];
     if (x.hi == 0) continue;
     const ContactIsland::Row& r = island.rows[c];
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -117,32 +117,32 @@ void find_imbalance(const ContactIsland& island, ContactAnswer& answer) {
       if (r.moves_b()) add_product(push[3 * r.b + k], n, x);
     }
   }
-  answer.lacking.resize(island.unknowns());
+  solution.lacking.resize(island.unknowns());
   for (std::size_t i = 0; i < push.size(); ++i) {
     DoubleDouble sum{island.free[i / 3][static_cast<int>(i % 3)], 0};
-    add_product(sum, -1, answer.motion[i]);
+    add_product(sum, -1, solution.motion[i]);
     add_product(sum, island.inverse_mass[i / 3], push[i]);
-    answer.lacking[i] = sum.value();
+    solution.lacking[i] = sum.value();
   }
 }
 
-Judgement judge(const ContactIsland& island, ContactAnswer& answer) {
+Judgement judge(const ContactIsland& island, ContactSolution& solution) {
   Judgement judgement;
   const auto differ = [&](double change) { judgement.change = std::max(judgement.change, change); };
   for (std::size_t c = 0; c < island.rows.size(); ++c) {
     const ContactIsland::Row& r = island.rows[c];
-    const double w = excess(r, answer.motion);
-    const double off = answer.force[c].hi != 0 || r.bilateral ? std::abs(w) : std::max(-w, 0.0);
+    const double w = excess(r, solution.motion);
+    const double off = solution.force[c].hi != 0 || r.bilateral ? std::abs(w) : std::max(-w, 0.0);
     const double change = off == 0 ? 0 : r.scale * off / island.noise_scale(r);
     if (!(change <= accepted_change) && !(off <= r.slack)) judgement.within_slack = false;
     if (std::isnan(change)) judgement.change = std::numeric_limits<double>::infinity();
     differ(change);
   }
-  find_imbalance(island, answer);
-  const std::vector<double>& lacking = answer.lacking;
+  find_imbalance(island, solution);
+  const std::vector<double>& lacking = solution.lacking;
   for (std::size_t i = 0; i < lacking.size(); ++i) {
     if (lacking[i] == 0) continue;
-    const DoubleDouble* const u = &answer.motion[i - i % 3];
+    const DoubleDouble* const u = &solution.motion[i - i % 3];
     const double speed = std::max({island.speed, std::abs(u[0].hi), std::abs(u[1].hi), std::abs(u[2].hi)});
     const double change = std::abs(lacking[i]) / speed;
     if (!(change <= accepted_change)) judgement.within_slack = false;

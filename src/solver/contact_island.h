@@ -1,6 +1,6 @@
 #pragma once
 // An island of contacts that share bodies, in units of its own. The methods behind contact_problem.h work on it.
-// The certificate that judges their answers is here too.
+// The certificate that judges their solutions is here too.
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -71,7 +71,7 @@ struct ContactIsland {
 };
 
 /// Answers have twice as many digits, so that refinement can remove the rounding of the factors.
-struct ContactAnswer {
+struct ContactSolution {
   std::vector<DoubleDouble> motion;  // 3 for each body, in the island's unit
   std::vector<DoubleDouble> force;   // by row, in the island's unit
   std::vector<DoubleDouble> push;    // scratch: M (motion - free)
@@ -81,10 +81,10 @@ struct ContactAnswer {
 /// normal . (u_b - u_a) - target.
 double excess(const ContactIsland::Row& row, const std::vector<DoubleDouble>& motion);
 
-/// Stores free + M^-1 N force - motion, by coordinate, in answer.lacking. It is 0 for an exact answer.
-void find_imbalance(const ContactIsland& island, ContactAnswer& answer);
+/// Stores free + M^-1 N force - motion, by coordinate, in solution.lacking. It is 0 for an exact solution.
+void find_imbalance(const ContactIsland& island, ContactSolution& solution);
 
-/// The certificate of an answer. It is the exact solution of data that differ by `change`, relative to each row's own
+/// The certificate of a solution. It is the exact solution of data that differ by `change`, relative to each row's own
 /// scale. Rows that press are off their target by that, and others fall short of it. The same holds for the difference
 /// between motion and forces, relative to the greatest given motion or the body's own. `within_slack`: no row is
 /// farther off than its slack (than rounding, where the slack is 0).
@@ -92,7 +92,7 @@ struct Judgement {
   double change = 0;
   bool within_slack = true;
 };
-Judgement judge(const ContactIsland& island, ContactAnswer& answer);
+Judgement judge(const ContactIsland& island, ContactSolution& solution);
 
 /// The accepted change: 90 roundings, as many as the methods allow in their decisions.
 inline constexpr double accepted_change = 90 * 0x1p-53;

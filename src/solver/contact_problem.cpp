@@ -48,7 +48,7 @@ struct ContactIslands {
 };
 
 /// The last solution of an island.
-struct Known {
+struct CachedIsland {
   DualActiveSet method;
   std::vector<double> inverse_mass;
   std::vector<ContactIsland::Row> rows;  // with their forces
@@ -58,7 +58,7 @@ struct Known {
 };
 
 /// Whether the last factors or forces are a start: the masses are the same, and few rows differ.
-bool Known::resembles(const ContactIsland& island) {
+bool CachedIsland::resembles(const ContactIsland& island) {
   // One row in so many may differ.
   constexpr std::size_t few = 16;
   if (island.inverse_mass != inverse_mass || rows.empty()) return false;
@@ -122,7 +122,7 @@ bool nothing_presses(const ContactProblem& problem, std::span<const std::uint32_
   });
 }
 
-/// The cost of an exact answer, in ns on one core. Only its ratio to other costs matters.
+/// The cost of an exact solution, in ns on one core. Only its ratio to other costs matters.
 /// Orthogonal factors take three operations in unknowns for every row. Sparse ones take some thirty factorisations and
 /// a set-up that finds their pattern.
 class ExactCost {
@@ -159,19 +159,19 @@ class ExactCost {
 }  // namespace
 
 struct ContactSolver::Workspace {
-  std::map<std::uint32_t, Known> known;  // by the lowest body of an island
-  Known unknown;                         // where nothing is remembered
+  std::map<std::uint32_t, CachedIsland> cached;  // by the lowest body of an island
+  CachedIsland uncached;                         // where nothing is kept
   ContactIslands islands;
   ContactIsland island;
   ContactProjectedGradients gradients;
-  ContactAnswer answer, attempt;
+  ContactSolution solution, attempt;
   std::vector<std::uint32_t> place;   // by body: its number in the island
   std::vector<std::uint32_t> bodies;  // by number in the island
-  bool remembers = true;
+  bool caches = true;
 
   void take_island(const ContactProblem& problem, std::span<const std::uint32_t> contacts);
   void give_back(const ContactProblem& problem, std::span<const std::uint32_t> contacts) const;
-  Certificate solve_exactly(ExactCost& cost, Known& last);
+  Certificate solve_exactly(ExactCost& cost, CachedIsland& last);
   Certificate solve_to_slack(ContactAccuracy accuracy);
   Certificate solve_island(const ContactProblem& problem, std::span<const std::uint32_t> contacts);
   Certificate solve(const ContactProblem& problem);
@@ -215,24 +215,24 @@ void ContactSolver::Workspace::give_back(const ContactProblem& problem, std::spa
   const PowerOfTwo unit(island.motion_exponent), unit_of_force(island.motion_exponent - island.mass_exponent);
   for (std::size_t k = 0; k < bodies.size(); ++k)
     for (int axis = 0; axis < 3; ++axis) {
-      const double u = answer.motion[3 * k + static_cast<std::size_t>(axis)].value();
+      const double u = solution.motion[3 * k + static_cast<std::size_t>(axis)].value();
       const bool stopped = std::abs(u) <= nothing && u != island.free[k][axis];
       problem.motion[bodies[k]][axis] = stopped ? 0 : unit * u;
     }
   for (std::size_t k = 0; k < contacts.size(); ++k)
-    problem.contacts[contacts[k]].force = unit_of_force * answer.force[k].value();
+    problem.contacts[contacts[k]].force = unit_of_force * solution.force[k].value();
 }
 
 /// This function and solve_to_slack choose a method: the cheaper one, or orthogonal factors where masses are too
 /// unequal for sparse ones. If one method fails, the other follows, and then orthogonal factors from nothing.
-Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, Known& last) {
+Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, CachedIsland& last) {
   // Solutions for which factors are reused: factors may cost so many times more.
   constexpr double worth_while = 8;
   Certificate best{Certificate::Verdict::doubtful, std::numeric_limits<double>::infinity()};
-  // Keeps the better answer. Returns whether it is accepted.
+  // Keeps the better solution. Returns whether it is accepted.
   const auto take = [&](const Judgement& judgement, bool infeasible) {
-    if (answer.motion.empty() || judgement.within_slack || judgement.change < best.change) {
-      std::swap(answer, attempt);
+    if (solution.motion.empty() || judgement.within_slack || judgement.change < best.change) {
+      std::swap(solution, attempt);
       best.change = judgement.change;
     }
     if (infeasible) best.verdict = Certificate::Verdict::infeasible;
@@ -243,8 +243,8 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, Known& last
     const DualActiveSet::Result result = last.method.solve(island, attempt);
     return take(result.judgement, result.infeasible);
   };
-  answer.motion.clear();
-  const bool alike = remembers && last.resembles(island);
+  solution.motion.clear();
+  const bool alike = caches && last.resembles(island);
   if (alike && last.method.has_factors()) {
     const DualActiveSet::Result result = last.method.solve_again(island, last.now, attempt);
     if (take(result.judgement, result.infeasible)) return best;
@@ -257,27 +257,27 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, Known& last
   const double times = alike ? worth_while : 1;
   const bool dense = unequal || cost.dense() <= times * cost.least_sparse() || cost.dense() <= times * cost.sparse();
   if (dense && by_active_set()) return best;
-  last.method.forget();
+  last.method.clear();
   if (take(cost.method().solve(attempt), false)) return best;
   for (std::size_t c = 0; c < island.rows.size(); ++c)
-    island.rows[c].force = island.rows[c].bilateral ? 0 : std::max(answer.force[c].hi, 0.0);
+    island.rows[c].force = island.rows[c].bilateral ? 0 : std::max(solution.force[c].hi, 0.0);
   if (by_active_set()) return best;
   for (ContactIsland::Row& r : island.rows) r.force = 0;
   by_active_set();
   return best;
 }
 
-/// Projected gradients run until they have cost as much as an exact answer, which is then computed. Both together cost
-/// at most about twice the cheaper one.
+/// Projected gradients run until they have cost as much as an exact solution, which is then computed. Both together
+/// cost at most about twice the cheaper one.
 Certificate ContactSolver::Workspace::solve_to_slack(ContactAccuracy accuracy) {
   ExactCost cost(island);
   gradients.start(island);
   bool done = gradients.run(accuracy, std::min(cost.dense(), cost.least_sparse()));
   if (!done && cost.least_sparse() < cost.dense())
     done = gradients.run(accuracy, std::min(cost.dense(), cost.sparse()));
-  if (done) return {Certificate::Verdict::solved, gradients.finish(answer)};
+  if (done) return {Certificate::Verdict::solved, gradients.finish(solution)};
   gradients.guess(island);
-  return solve_exactly(cost, unknown);
+  return solve_exactly(cost, uncached);
 }
 
 Certificate ContactSolver::Workspace::solve_island(const ContactProblem& problem,
@@ -297,13 +297,13 @@ Certificate ContactSolver::Workspace::solve_island(const ContactProblem& problem
   if (problem.accuracy != ContactAccuracy::rounding && island.unilateral) {
     certificate = solve_to_slack(problem.accuracy);
   } else {
-    Known& last = remembers ? known[bodies.front()] : unknown;
+    CachedIsland& last = caches ? cached[bodies.front()] : uncached;
     ExactCost cost(island);
     certificate = solve_exactly(cost, last);
-    if (remembers) {
+    if (caches) {
       last.inverse_mass = island.inverse_mass;
       last.rows = island.rows;
-      for (std::size_t c = 0; c < last.rows.size(); ++c) last.rows[c].force = answer.force[c].hi;
+      for (std::size_t c = 0; c < last.rows.size(); ++c) last.rows[c].force = solution.force[c].hi;
     }
   }
   give_back(problem, contacts);
@@ -333,7 +333,7 @@ Certificate ContactSolver::solve(const ContactProblem& problem) {
 Certificate solve(const ContactProblem& problem) {
   // The workspace keeps nothing of a problem except its memory.
   thread_local ContactSolver::Workspace room;
-  room.remembers = false;
+  room.caches = false;
   return room.solve(problem);
 }
 

@@ -39,7 +39,7 @@ inline double approach(std::span<const Vec3> motion, const ContactConstraint& c)
   return c.normal.dot(motion[c.a] - b);
 }
 
-/// The required accuracy of an answer. A contact that is off by its slack s has the kinetic energy of the correcting
+/// The required accuracy of a solution. A contact that is off by its slack s has the kinetic energy of the correcting
 /// motion: s^2 / (2/m_a + 2/m_b).
 enum class ContactAccuracy : std::uint8_t {
   rounding,  // exact to rounding, for every slack
@@ -56,7 +56,7 @@ struct ContactProblem {
   ContactAccuracy accuracy = ContactAccuracy::rounding;
 };
 
-/// The quality of an answer. It is the exact one, rounded, of data that differ from the given ones by `change`.
+/// The quality of a solution. It is the exact one, rounded, of data that differ from the given ones by `change`.
 /// The change is relative to each row's own scale: a target's, or a free motion's, with the problem's greatest one.
 struct Certificate {
   enum class Verdict : std::uint8_t {
@@ -68,7 +68,7 @@ struct Certificate {
   Verdict verdict = Verdict::solved;
   double change = 0;
   bool solved() const { return verdict == Verdict::solved; }
-  /// Combines the quality of two answers.
+  /// Combines the quality of two solutions.
   void merge(const Certificate& other) {
     verdict = std::max(verdict, other.verdict);
     change = std::max(change, other.change);

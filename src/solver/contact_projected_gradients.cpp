@@ -431,19 +431,19 @@ void ContactProjectedGradients::guess(ContactIsland& island) const {
     island.rows[c].force = island.rows[c].scale * forces_[place(c).four].x[place(c).lane];
 }
 
-double ContactProjectedGradients::finish(ContactAnswer& answer) const {
+double ContactProjectedGradients::finish(ContactSolution& solution) const {
   const ContactIsland& island = *island_;
-  answer.motion.resize(island.unknowns());
-  answer.force.resize(island.rows.size());
+  solution.motion.resize(island.unknowns());
+  solution.force.resize(island.rows.size());
   for (std::size_t k = 0; k < island.free.size(); ++k)
     for (std::size_t axis = 0; axis < 3; ++axis)
-      answer.motion[3 * k + axis] = two_sum(island.free[k][static_cast<int>(axis)], moved_[k].u[axis]);
+      solution.motion[3 * k + axis] = two_sum(island.free[k][static_cast<int>(axis)], moved_[k].u[axis]);
   double change = 0;
   for (std::size_t c = 0; c < island.rows.size(); ++c) {
     const ContactIsland::Row& r = island.rows[c];
     const auto [four, lane] = place(c);
     const double x = forces_[four].x[lane], g = forces_[four].g[lane];
-    answer.force[c] = {r.scale * x, 0};
+    solution.force[c] = {r.scale * x, 0};
     const double off = x > 0 ? std::abs(g) : std::max(-g, 0.0);
     if (off > 0) change = std::max(change, off / island.noise_scale(r));
   }

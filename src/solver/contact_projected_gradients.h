@@ -16,13 +16,13 @@ class ContactProjectedGradients {
   /// Starts from the rows' guesses, all times one factor. No row may be bilateral. The island must outlive this object.
   void start(const ContactIsland& island);
 
-  /// Continues until the answer has the required accuracy, or has cost about `most_cost` ns since start(). Returns
+  /// Continues until the solution has the required accuracy, or has cost about `most_cost` ns since start(). Returns
   /// whether it has the accuracy.
   bool run(ContactAccuracy accuracy, double most_cost);
 
-  /// Stores the answer, once it is accurate enough. Bodies move as the forces imply, to rounding.
+  /// Stores the solution, once it is accurate enough. Bodies move as the forces imply, to rounding.
   /// Returns the change of the targets for which it is the exact solution, as in Judgement.
-  double finish(ContactAnswer& answer) const;
+  double finish(ContactSolution& solution) const;
 
   /// Gives the island's rows the present forces as a guess.
   void guess(ContactIsland& island) const;

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t longest_hashed = 256 << 20;  // bytes
 /// Maximum number of bad folders in the message.
-constexpr std::size_t most_told = 10;
+constexpr std::size_t most_listed = 10;
 
 /// The names in a path, from its end: "r0001", "runs", "sweep".
 std::vector<std::string> names_of(const std::string& path) {
@@ -43,7 +43,7 @@ std::vector<std::string> names_of(const std::string& path) {
 }
 
 /// The fault of a run's folder. Empty: it is a complete or a failed run.
-std::string look_at(ListedRun& run) {
+std::string fault_of(ListedRun& run) {
   settle_folder(run.folder);
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
   if (!folder) return "there is no such folder";
@@ -150,7 +150,7 @@ std::vector<SceneValue> values_of(const ListedRun& run) {
 
 }  // namespace
 
-std::vector<ListedRun> list_runs(const std::vector<std::string>& folders, const std::function<void()>& look) {
+std::vector<ListedRun> list_runs(const std::vector<std::string>& folders, const std::function<void()>& stop_check) {
   std::vector<ListedRun> runs;
   for (const std::string& folder : folders) {
     const std::vector<std::string> below = runs_of_sweep(folder);
@@ -159,12 +159,12 @@ std::vector<ListedRun> list_runs(const std::vector<std::string>& folders, const 
   }
   std::vector<std::string> wrong;
   for (ListedRun& run : runs) {
-    look();
-    if (const std::string why = look_at(run); !why.empty()) wrong.push_back(fmt::format("{}: {}", run.folder, why));
+    stop_check();
+    if (const std::string why = fault_of(run); !why.empty()) wrong.push_back(fmt::format("{}: {}", run.folder, why));
   }
-  if (wrong.size() > most_told) {
-    const std::size_t more = wrong.size() - most_told;
-    wrong.resize(most_told);
+  if (wrong.size() > most_listed) {
+    const std::size_t more = wrong.size() - most_listed;
+    wrong.resize(most_listed);
     wrong.push_back(fmt::format("and {} more", more));
   }
   if (!wrong.empty()) throw ExportError(fmt::format("{}", fmt::join(wrong, "\n  ")));
@@ -172,10 +172,10 @@ std::vector<ListedRun> list_runs(const std::vector<std::string>& folders, const 
   return runs;
 }
 
-std::string digest_of(const std::vector<ListedRun>& runs, const std::function<void()>& look) {
+std::string digest_of(const std::vector<ListedRun>& runs, const std::function<void()>& stop_check) {
   Sha256 hash;
   for (const ListedRun& run : runs) {
-    look();
+    stop_check();
     const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
     const auto text =
         folder ? read_text(folder.get(), run.done ? manifest_name : failure_file, largest_manifest) : std::nullopt;
@@ -184,16 +184,16 @@ std::string digest_of(const std::vector<ListedRun>& runs, const std::function<vo
   return hash.hex();
 }
 
-RunSet::RunSet(std::vector<ListedRun> runs, const std::function<void()>& look) : runs_(std::move(runs)) {
+RunSet::RunSet(std::vector<ListedRun> runs, const std::function<void()>& stop_check) : runs_(std::move(runs)) {
   // Of all scenes, each path once, in the order of the first scene with it.
   std::vector<SceneValue> all;
   std::map<std::string, std::size_t> known;  // its paths
   // By path: the number of scenes with it.
-  std::vector<std::size_t> seen;
+  std::vector<std::size_t> counts;
   std::set<std::size_t> varying;
   std::size_t scenes = 0;
   for (const ListedRun& run : runs_) {
-    look();
+    stop_check();
     const std::vector<SceneValue> values = values_of(run);
     if (values.empty()) continue;
     ++scenes;
@@ -202,14 +202,14 @@ RunSet::RunSet(std::vector<ListedRun> runs, const std::function<void()>& look) :
       const auto [found, fresh] = known.emplace(value.path, all.size());
       if (fresh) {
         all.push_back(value);
-        seen.push_back(0);
+        counts.push_back(0);
       }
-      ++seen[found->second];
+      ++counts[found->second];
       if (all[found->second].text != value.text) varying.insert(found->second);
     }
   }
   for (std::size_t k = 0; k < all.size(); ++k) {
-    if (seen[k] == scenes && !varying.contains(k)) continue;
+    if (counts[k] == scenes && !varying.contains(k)) continue;
     numbers_.emplace(all[k].path, parameters_.size());
     parameters_.push_back({all[k].path, all[k].unit});
   }

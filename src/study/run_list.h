@@ -21,20 +21,20 @@ struct ListedRun {
 /// The runs of folders. Each is the folder of a run, or of a sweep, which stands for its runs/*.
 /// Ids are the names of folders, with more of the path where two are equal.
 /// Throws ExportError with a text that lists every folder that is neither.
-/// `look`: called often, may throw. The same holds below.
+/// `stop_check`: called often, may throw. The same holds below.
 std::vector<ListedRun> list_runs(
-    const std::vector<std::string>& folders, const std::function<void()>& look = [] {});
+    const std::vector<std::string>& folders, const std::function<void()>& stop_check = [] {});
 
 /// SHA-256 of what identifies these runs: ids and manifests.
 std::string digest_of(
-    const std::vector<ListedRun>& runs, const std::function<void()>& look = [] {});
+    const std::vector<ListedRun>& runs, const std::function<void()>& stop_check = [] {});
 
 /// Runs and their varied values.
 class RunSet {
  public:
   /// The values in which their scenes differ, found with one scene in memory. Title and outputs are not parameters.
   explicit RunSet(
-      std::vector<ListedRun> runs, const std::function<void()>& look = [] {});
+      std::vector<ListedRun> runs, const std::function<void()>& stop_check = [] {});
   /// The values that the sweep of these runs varied, according to its file.
   RunSet(std::vector<ListedRun> runs, Sweep sweep);
 

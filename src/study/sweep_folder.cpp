@@ -80,7 +80,7 @@ bool has_begun(const FoundFolder& found, const Sweep& sweep) {
 }  // namespace
 
 SweepContent inspect_sweep_folder(const std::string& path, const Sweep& sweep, const std::string& base_text) {
-  const FoundFolder found = look_into(path);
+  const FoundFolder found = find_folder(path);
   if (found.content == FolderContent::nothing || found.content == FolderContent::incomplete)
     return SweepContent::nothing;
   if (found.folder && has_begun(found, sweep)) return SweepContent::incomplete;
@@ -99,7 +99,7 @@ std::vector<std::string> stored_failures(const std::string& path) {
 }
 
 SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, const std::string& base_text,
-                         const std::function<void()>& look) {
+                         const std::function<void()>& stop_check) {
   std::error_code error;
   fs::create_directories(path, error);
   if (error) fail("make", {-1, path}, "", error.message());
@@ -118,12 +118,12 @@ SweepFolder::SweepFolder(const std::string& path, Use use, const Sweep& sweep, c
   // Several parts may begin at once. One of them writes, and the others find the files complete.
   const auto start = std::chrono::steady_clock::now();
   while (true) {
-    if (!lock(LockKind::shared, look)) fail("write", place_, "", busy);
+    if (!lock(LockKind::shared, stop_check)) fail("write", place_, "", busy);
     if (has(stored_sweep, sweep.resolved(stored_base)) && has(stored_base, base_text)) break;
     if (lock_folder(place_, LockKind::alone)) begin(sweep, base_text);
     if (std::chrono::steady_clock::now() - start > lock_patience) fail("write", place_, "", busy);
     flock(folder_.get(), LOCK_UN);
-    look();
+    stop_check();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   begin(sweep, base_text);
@@ -136,11 +136,11 @@ void SweepFolder::begin(const Sweep& sweep, const std::string& base_text) {
 }
 
 /// False: the lock was held elsewhere all the time.
-bool SweepFolder::lock(LockKind kind, const std::function<void()>& look) const {
+bool SweepFolder::lock(LockKind kind, const std::function<void()>& stop_check) const {
   const auto start = std::chrono::steady_clock::now();
   while (!lock_folder(place_, kind)) {
     if (std::chrono::steady_clock::now() - start > lock_patience) return false;
-    look();
+    stop_check();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   return true;

@@ -52,15 +52,15 @@ class SweepFolder {
   };
   /// Makes the folder if needed and locks it. Writes sweep.yaml and base.yaml unless they exist.
   /// Runs of another sweep are removed. Waits up to 30 s for other processes that do the same.
-  /// `look` is called meanwhile and may throw. Throws ExportError, as all functions of this class do.
+  /// `stop_check` is called meanwhile and may throw. Throws ExportError, as all functions of this class do.
   SweepFolder(const std::string& path, Use use, const Sweep& sweep, const std::string& base_text,
-              const std::function<void()>& look);
+              const std::function<void()>& stop_check);
 
   /// Reads every run's folder and writes the comparison and the manifest. `statuses`: by run.
   void finish(const Sweep& sweep, const std::vector<RunStatus>& statuses, const ComparisonWatch& watch);
 
  private:
-  bool lock(LockKind kind, const std::function<void()>& look) const;
+  bool lock(LockKind kind, const std::function<void()>& stop_check) const;
   void begin(const Sweep& sweep, const std::string& base_text);
   bool has(const char* name, const std::string& text) const;
   void remove_runs() const;

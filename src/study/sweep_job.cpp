@@ -33,7 +33,7 @@ namespace carom {
 
 namespace {
 
-constexpr std::size_t looked_at_a_time = 64;
+constexpr std::size_t examined_at_a_time = 64;
 /// Of one simulation. Each may have a film in progress.
 constexpr std::size_t most_shows = 8;
 /// Batches with errors. Planning stops after this number.
@@ -112,11 +112,11 @@ Scene SweepJob::scene(std::size_t number) {
 // ---- Planning: digests of each scenario, and the content of its folder.
 
 /// The planned runs as bytes, or, if some are wrong, the id and the errors of each wrong one.
-std::string SweepJob::look_at(std::size_t first, std::size_t last) {
+std::string SweepJob::examine(std::size_t first, std::size_t last) {
   std::string out(1, right);
   std::string errors;
   for (std::size_t number = first; number < last; ++number) {
-    settings_.look();
+    settings_.stop_check();
     PlannedRun run;
     try {
       const Scene its = scene(number);
@@ -126,7 +126,7 @@ std::string SweepJob::look_at(std::size_t first, std::size_t last) {
       const std::string folder = run_folder(number);
       settle_folder(folder);
       run.content = inspect_folder(folder, its);
-      if (run.content == FolderContent::this_run && !settings_.force && tells(folder, measures_))
+      if (run.content == FolderContent::this_run && !settings_.force && has_measures(folder, measures_))
         run.status = RunStatus::done;
       out.append(reinterpret_cast<const char*>(&run), sizeof run);
     } catch (const SceneError& error) {
@@ -136,7 +136,7 @@ std::string SweepJob::look_at(std::size_t first, std::size_t last) {
   return errors.empty() ? out : errors;
 }
 
-void SweepJob::plan(const std::function<void(const SweepProgress&)>& tell) {
+void SweepJob::plan(const std::function<void(const SweepProgress&)>& report_progress) {
   std::size_t next = 0;
   SweepProgress progress{0, 0, runs_.size()};
   measures_ = measures_of(comparison_plan(sweep_));
@@ -146,11 +146,11 @@ void SweepJob::plan(const std::function<void(const SweepProgress&)>& tell) {
   tasks.next = [&]() -> std::optional<std::size_t> {
     if (next >= runs_.size() || wrong.size() >= most_wrong) return std::nullopt;
     const std::size_t task = next;
-    next += looked_at_a_time;
+    next += examined_at_a_time;
     return task;
   };
-  const auto end_of = [&](std::size_t first) { return std::min(first + looked_at_a_time, runs_.size()); };
-  tasks.work = [&](std::size_t first) { return look_at(first, end_of(first)); };
+  const auto end_of = [&](std::size_t first) { return std::min(first + examined_at_a_time, runs_.size()); };
+  tasks.work = [&](std::size_t first) { return examine(first, end_of(first)); };
   tasks.done = [&](const TaskOutcome& outcome) {
     if (outcome.kind != TaskOutcome::Kind::done) {
       wrong[outcome.task] = fmt::format("{}: error: {}, between here and {}\n", sweep_.id(outcome.task), outcome.text,
@@ -163,10 +163,10 @@ void SweepJob::plan(const std::function<void(const SweepProgress&)>& tell) {
     }
     std::memcpy(static_cast<void*>(&runs_[outcome.task]), outcome.text.data() + 1, outcome.text.size() - 1);
     progress.done += end_of(outcome.task) - outcome.task;
-    tell(progress);
+    report_progress(progress);
   };
-  tasks.look = settings_.look;
-  work_off(tasks, std::min(settings_.jobs, (runs_.size() + looked_at_a_time - 1) / looked_at_a_time));
+  tasks.stop_check = settings_.stop_check;
+  work_off(tasks, std::min(settings_.jobs, (runs_.size() + examined_at_a_time - 1) / examined_at_a_time));
   if (wrong.empty()) return;
   std::string all;
   for (const auto& [first, errors] : wrong) all += errors;
@@ -186,14 +186,14 @@ std::optional<std::size_t> SweepJob::other_content() const {
 
 std::vector<std::string> SweepJob::idle_paths() const {
   constexpr std::size_t most = 20'000;  // runs that are examined
-  constexpr std::array<std::string_view, 5> looks = {"camera", "lights", "background", "output", "title"};
+  constexpr std::array<std::string_view, 5> picture_keys = {"camera", "lights", "background", "output", "title"};
   std::vector<std::string> idle;
   for (std::size_t p = 0; p < sweep_.paths.size(); ++p) {
     const std::string& path = sweep_.paths[p];
     const std::string_view head = std::string_view(path).substr(0, path.find('.'));
     const std::string_view tail = std::string_view(path).substr(path.rfind('.') + 1);
-    if (std::find(looks.begin(), looks.end(), head) != looks.end() || tail == "color" || tail == "visible" ||
-        tail == "mesh")
+    if (std::find(picture_keys.begin(), picture_keys.end(), head) != picture_keys.end() || tail == "color" ||
+        tail == "visible" || tail == "mesh")
       continue;
     std::map<std::string, std::size_t> first;  // by the other values
     std::size_t pairs = 0, alike = 0;
@@ -296,7 +296,7 @@ std::string SweepJob::work(const Unit& unit) {
       try {
         copy_run(run_folder(from), run_folder(number));
       } catch (const std::exception& error) {
-        settings_.look();
+        settings_.stop_check();
         fail(number, error.what());
       }
     }
@@ -312,7 +312,7 @@ std::string SweepJob::work(const Unit& unit) {
     scenes.push_back(scene(scenario.front()));
     shows.push_back({&scenes.back(), run_folder(scenario.front()), 0});
   }
-  const RunWatch watch{settings_.look, [](double, std::uint64_t, std::uint64_t) {}};
+  const RunWatch watch{settings_.stop_check, [](double, std::uint64_t, std::uint64_t) {}};
   const auto measure = [&](const Scene& its, const State& end, const Summary& summary) {
     std::vector<Measured> out;
     for (const Measure& one : measures_)
@@ -336,7 +336,7 @@ std::string SweepJob::work(const Unit& unit) {
   return failures.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
-void SweepJob::run(const std::function<void(const SweepProgress&)>& tell,
+void SweepJob::run(const std::function<void(const SweepProgress&)>& report_progress,
                    const std::function<void(std::size_t, const std::string&)>& failed) {
   const std::vector<Unit> all = units();
   SweepProgress progress{0, 0, runs_in(all)};
@@ -370,13 +370,13 @@ void SweepJob::run(const std::function<void(const SweepProgress&)>& tell,
           runs_[number].status = RunStatus::done;
       }
     }
-    tell(progress);
+    report_progress(progress);
     const auto now = std::chrono::steady_clock::now();
     if (std::chrono::duration<double>(now - synced).count() < sync_every) return;
     sync_file_system(folder_);
     synced = std::chrono::steady_clock::now();
   };
-  tasks.look = settings_.look;
+  tasks.stop_check = settings_.stop_check;
   work_off(tasks, std::min(settings_.jobs, std::max<std::size_t>(all.size(), 1)));
 }
 

@@ -24,7 +24,7 @@ struct SweepSettings {
   bool force = false;                                           // also run what is done
   std::function<Output(const Output&, const Sweep&)> restrict;  // selects the outputs to write
   /// Called often, in every process. May throw.
-  std::function<void()> look;
+  std::function<void()> stop_check;
 };
 
 /// Whether a scenario may have a mesh, which is a file that can change independently of the sweep.
@@ -62,7 +62,7 @@ class SweepJob {
   /// Loads every scenario and inspects its folder, several at a time.
   /// A finished run from which the sweep's measures cannot be determined counts as missing.
   /// Throws SceneError with all errors, each once. Of a large number, only the first ones are given.
-  void plan(const std::function<void(const SweepProgress&)>& tell);
+  void plan(const std::function<void(const SweepProgress&)>& report_progress);
 
   /// The first run of this shard that would overwrite other content: another scene's run, or more outputs.
   /// Call it after plan().
@@ -80,7 +80,7 @@ class SweepJob {
   /// Does the remaining runs. Scenarios that move alike share one simulation, and equal ones are run once and copied.
   /// A failed run leaves `error.txt` in its folder, and `failed` is called with it.
   /// The last results are not yet synced to disk.
-  void run(const std::function<void(const SweepProgress&)>& tell,
+  void run(const std::function<void(const SweepProgress&)>& report_progress,
            const std::function<void(std::size_t number, const std::string& why)>& failed);
 
  private:
@@ -91,7 +91,7 @@ class SweepJob {
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  std::string look_at(std::size_t first, std::size_t last);
+  std::string examine(std::size_t first, std::size_t last);
   /// Runs that move alike.
   struct Motion {
     std::vector<std::size_t> runs;

@@ -26,7 +26,7 @@ namespace carom {
 
 namespace {
 
-constexpr int look_every = 50;  // ms
+constexpr int check_interval = 50;  // ms
 /// A process that does not end when requested is killed after this time.
 constexpr auto end_patience = std::chrono::seconds(1);
 
@@ -60,11 +60,11 @@ bool receive_all(int socket, void* bytes, std::size_t size) {
   return true;
 }
 
-/// Waits up to look_every for data. If the system cannot wait, every socket is reported as ready.
+/// Waits up to check_interval for data. If the system cannot wait, every socket is reported as ready.
 bool wait_for_any(std::vector<pollfd>& sockets) {
-  const int ready = poll(sockets.data(), sockets.size(), look_every);
+  const int ready = poll(sockets.data(), sockets.size(), check_interval);
   if (ready >= 0 || errno == EINTR) return ready > 0;
-  std::this_thread::sleep_for(std::chrono::milliseconds(look_every));
+  std::this_thread::sleep_for(std::chrono::milliseconds(check_interval));
   for (pollfd& socket : sockets) socket.revents = POLLIN;
   return true;
 }
@@ -116,7 +116,7 @@ class Pool {
         if (worker.busy) sockets.push_back({worker.socket, POLLIN, 0});
       if (sockets.empty()) break;
       const bool ready = wait_for_any(sockets);
-      tasks_.look();
+      tasks_.stop_check();
       for (const pollfd& socket : sockets) {
         Worker& worker =
             *std::find_if(workers_.begin(), workers_.end(), [&](const Worker& w) { return w.socket == socket.fd; });
@@ -184,7 +184,7 @@ class Pool {
       if (n == 0 || (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)) return false;
       std::vector<pollfd> wanted = {{worker.socket, POLLIN, 0}};
       const bool ready = wait_for_any(wanted);
-      tasks_.look();
+      tasks_.stop_check();
       if (!ready && has_ended(worker)) return false;
     }
     return true;
@@ -265,7 +265,7 @@ class Pool {
   void lose(Worker& worker, int status) {
     worker.busy = false;
     // An interrupt also ends workers.
-    tasks_.look();
+    tasks_.stop_check();
     TaskOutcome outcome;
     outcome.task = worker.task;
     outcome.kind = TaskOutcome::Kind::lost;

@@ -23,7 +23,7 @@ struct Tasks {
   /// Executed in this process, in the order in which tasks end.
   std::function<void(const TaskOutcome&)> done;
   /// Executed in this process, often. If it throws, all workers are ended.
-  std::function<void()> look;
+  std::function<void()> stop_check;
 };
 
 /// The number of processors that this process may use, at least 1.

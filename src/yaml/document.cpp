@@ -107,7 +107,7 @@ class DocumentBuilder : public YAML::EventHandler {
     Node node;
     // A map's key that waits for its value.
     std::optional<Key> pending;
-    std::unordered_map<std::string, std::size_t> seen;  // keys, once there are many
+    std::unordered_map<std::string, std::size_t> index;  // keys, once there are many
   };
 
   Place at(const YAML::Mark& mark, std::size_t length = 1) const {
@@ -217,7 +217,7 @@ class DocumentBuilder : public YAML::EventHandler {
         return;
       }
       parent.node.keys.push_back(std::move(name));
-      remember(parent);
+      index_last_key(parent);
     }
     parent.node.items.push_back(std::move(node));
   }
@@ -226,15 +226,15 @@ class DocumentBuilder : public YAML::EventHandler {
 
   static const Key* first_with(const Open& open, const std::string& name) {
     if (open.node.keys.size() < many) return open.node.find_key(name);
-    const auto it = open.seen.find(name);
-    return it == open.seen.end() ? nullptr : &open.node.keys[it->second];
+    const auto it = open.index.find(name);
+    return it == open.index.end() ? nullptr : &open.node.keys[it->second];
   }
 
-  static void remember(Open& open) {
+  static void index_last_key(Open& open) {
     const std::vector<Key>& keys = open.node.keys;
     if (keys.size() < many) return;
     for (std::size_t i = keys.size() == many ? 0 : keys.size() - 1; i < keys.size(); ++i)
-      open.seen.emplace(keys[i].text, i);
+      open.index.emplace(keys[i].text, i);
   }
 
   std::string_view text_;

@@ -46,7 +46,7 @@ void normalise(std::string& text) {
 }
 
 /// False: the file looks like UTF-16 or UTF-32, which yaml-cpp would decode silently.
-bool looks_like_utf8(std::string_view text) {
+bool has_utf8_form(std::string_view text) {
   return !text.starts_with("\xFF\xFE") && !text.starts_with("\xFE\xFF") &&
          !(text.size() >= 2 && (text[0] == 0) != (text[1] == 0)) &&
          !text.starts_with(std::string_view("\0\0\xFE\xFF", 4));
@@ -135,7 +135,7 @@ bool read_source(const std::string& path, Source& source, Diagnostics& diagnosti
     text.append(buffer, static_cast<std::size_t>(got));
     if (text.size() > max_source_bytes) return too_big();
   }
-  if (!looks_like_utf8(text)) {
+  if (!has_utf8_form(text)) {
     refuse_file(diagnostics, path, "this is not UTF-8 text (it looks like UTF-16 or UTF-32, or is no text at all)",
                 "save it as UTF-8");
     return false;

@@ -1,5 +1,5 @@
 // Finds the cause of a parse failure: unpaired brackets and quotes, a missing ':', wrong indentation.
-// It reads the text itself, because yaml-cpp reports the place where it noticed the failure, often many lines later.
+// It reads the text itself, because yaml-cpp reports the place where it detected the failure, often many lines later.
 // The checks run from the most to the least specific. Without a match the parser's own message is shown.
 #include "yaml/syntax.h"
 
@@ -104,19 +104,19 @@ constexpr SyntaxCause causes_in_lines[] = {
 /// A failure of the parser. Each function adds an error if it finds the cause, and returns whether it did.
 class ParseFailure {
  public:
-  ParseFailure(const Source& source, std::uint32_t index, std::size_t begin, std::size_t noticed,
+  ParseFailure(const Source& source, std::uint32_t index, std::size_t begin, std::size_t detected,
                const std::string& complaint, Diagnostics& diagnostics)
       : text_(source.text),
         index_(index),
         begin_(begin),
-        noticed_(noticed),
+        detected_(detected),
         complaint_(complaint),
         diagnostics_(diagnostics) {}
 
   void explain() {
     const bool known = explain_by(causes_in_values) || explain_character() || explain_unpaired() ||
                        explain_by(causes_in_brackets) || explain_map_value() || explain_by(causes_in_lines);
-    if (!known) add(noticed_, fmt::format("this is not YAML: {}", complaint_), "expected `key: value`");
+    if (!known) add(detected_, fmt::format("this is not YAML: {}", complaint_), "expected `key: value`");
   }
 
  private:
@@ -124,26 +124,26 @@ class ParseFailure {
     const Place place{index_, static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(length)};
     diagnostics_.add(place, std::move(message), std::move(remedy));
   }
-  bool says(std::string_view part) const { return complaint_.find(part) != std::string::npos; }
+  bool complaint_has(std::string_view part) const { return complaint_.find(part) != std::string::npos; }
 
   bool explain_by(std::span<const SyntaxCause> causes) {
     for (const SyntaxCause& cause : causes) {
-      if (!says(cause.complaint)) continue;
-      add(noticed_, std::string(cause.message), std::string(cause.remedy));
+      if (!complaint_has(cause.complaint)) continue;
+      add(detected_, std::string(cause.message), std::string(cause.remedy));
       return true;
     }
     return false;
   }
 
   bool explain_character() {
-    if (says("unknown token")) {
-      const char c = noticed_ < text_.size() ? text_[noticed_] : ' ';
-      add(noticed_, fmt::format("plain text cannot begin with {}", in_backticks(std::string(1, c))),
+    if (complaint_has("unknown token")) {
+      const char c = detected_ < text_.size() ? text_[detected_] : ' ';
+      add(detected_, fmt::format("plain text cannot begin with {}", in_backticks(std::string(1, c))),
           "put the text in quotes");
       return true;
     }
-    if (says("unknown escape")) {
-      add(noticed_ > 0 ? noticed_ - 1 : 0, "an unknown escape in a text in double quotes",
+    if (complaint_has("unknown escape")) {
+      add(detected_ > 0 ? detected_ - 1 : 0, "an unknown escape in a text in double quotes",
           "in single quotes a backslash is just a backslash", 2);
       return true;
     }
@@ -171,10 +171,11 @@ class ParseFailure {
 
   /// Two ": " in a line, or a line above without a ':' that the parser joined to this one.
   bool explain_map_value() {
-    if (!says("illegal map value")) return false;
-    const std::size_t start = line_start(text_, noticed_);
-    if (text_.substr(start, noticed_ - start).find(": ") != std::string_view::npos) {
-      add(noticed_, "a second ':' in this line", "expected one `key: value` a line; text that holds ': ' needs quotes");
+    if (!complaint_has("illegal map value")) return false;
+    const std::size_t start = line_start(text_, detected_);
+    if (text_.substr(start, detected_ - start).find(": ") != std::string_view::npos) {
+      add(detected_, "a second ':' in this line",
+          "expected one `key: value` a line; text that holds ': ' needs quotes");
       return true;
     }
     std::size_t above = start;
@@ -186,8 +187,8 @@ class ParseFailure {
       if (!has_colon(line)) {
         add(above + word, "this line has no ':'", "expected `key: value`", line.find_last_not_of(' ') + 1 - word);
       } else {
-        const std::string_view here = line_at(text_, noticed_);
-        const std::size_t first = std::min(here.find_first_not_of(' '), noticed_ - start);
+        const std::string_view here = line_at(text_, detected_);
+        const std::size_t first = std::min(here.find_first_not_of(' '), detected_ - start);
         add(start + first, "this line is indented further than the line above, which has its value already",
             "expected the same indentation");
       }
@@ -198,16 +199,16 @@ class ParseFailure {
 
   const std::string_view text_;
   const std::uint32_t index_;
-  const std::size_t begin_, noticed_;
+  const std::size_t begin_, detected_;
   const std::string& complaint_;
   Diagnostics& diagnostics_;
 };
 
 }  // namespace
 
-void explain_syntax(const Source& source, std::uint32_t index, std::size_t begin, std::size_t noticed,
+void explain_syntax(const Source& source, std::uint32_t index, std::size_t begin, std::size_t detected,
                     const std::string& complaint, Diagnostics& diagnostics) {
-  ParseFailure(source, index, begin, noticed, complaint, diagnostics).explain();
+  ParseFailure(source, index, begin, detected, complaint, diagnostics).explain();
 }
 
 }  // namespace carom

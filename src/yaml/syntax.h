@@ -9,10 +9,10 @@ namespace carom {
 
 class Diagnostics;
 
-/// Adds one error for a parse failure that the parser noticed at byte `noticed` of `source`. `complaint`: its message.
-/// The parser notices late: an open bracket at the end of the file, a missing ':' at the next one.
-/// This function looks for the cause.
-void explain_syntax(const Source& source, std::uint32_t index, std::size_t begin, std::size_t noticed,
+/// Adds one error for a parse failure that the parser detected at byte `detected` of `source`. `complaint`: its
+/// message. The parser detects it late: an open bracket at the end of the file, a missing ':' at the next one. This
+/// function finds the cause.
+void explain_syntax(const Source& source, std::uint32_t index, std::size_t begin, std::size_t detected,
                     const std::string& complaint, Diagnostics& diagnostics);
 
 }  // namespace carom

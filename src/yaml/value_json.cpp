@@ -1,3 +1,5 @@
+// A scalar becomes a number, a flag or text by the rules of the scene loader. A general YAML reader would take other
+// words for flags.
 #include "yaml/value_json.h"
 
 #include <cmath>

@@ -89,7 +89,7 @@ std::optional<std::uint64_t> parse_whole(std::string_view text) {
   return static_cast<std::uint64_t>(*value);
 }
 
-Complaint explain_number(const Node& node, const WantedNumber& number) {
+Complaint explain_number(const Node& node, const ExpectedNumber& number) {
   const std::string& text = node.text;
   const std::string& wanted = number.expected;
   const std::string shown = in_backticks(text);

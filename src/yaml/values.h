@@ -23,11 +23,11 @@ struct Complaint {
   std::string message, remedy;
 };
 /// The number that the format expects: its key and unit, and "expected a number above 0 in kg".
-struct WantedNumber {
+struct ExpectedNumber {
   std::string_view key, unit;
   std::string expected;
 };
-Complaint explain_number(const Node& node, const WantedNumber& number);
+Complaint explain_number(const Node& node, const ExpectedNumber& number);
 
 /// The shortest decimal that parses to the same double.
 std::string shortest(double value);

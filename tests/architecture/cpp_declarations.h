@@ -16,7 +16,7 @@ struct TypeDefinition {
   bool is_specialization = false;
   std::string meaning;  // of an alias: its tokens, "Json=nlohmann::json;"
   std::size_t line = 0;
-  // Those that each object has, and static ones that may change. Those of unnamed structs within count, those of bases
+  // Members of each object, and static ones that may change. Members of unnamed structs within count. Members of bases
   // and of named types within do not.
   std::size_t data_members = 0;
 };

@@ -22,7 +22,7 @@ class Lexer {
 
   std::vector<Token> tokens() {
     while (at_ < text_.size()) {
-      if (!skip_what_says_nothing()) {
+      if (!skip_blanks_and_comments()) {
         take_token();
       }
     }
@@ -46,7 +46,7 @@ class Lexer {
     go_to(found == std::string::npos ? found : found + what.size());
   }
 
-  bool skip_what_says_nothing() {
+  bool skip_blanks_and_comments() {
     if (ahead("//")) {
       go_to(text_.find('\n', at_));
     } else if (ahead("/*")) {

@@ -34,7 +34,7 @@ std::size_t lines_of(const std::string& text) {
   return found.functions.size() == 1 ? found.functions.front().lines : 0;
 }
 
-/// Of a class whose members are these.
+/// The number of data members of a class with this body.
 std::size_t members_of(const std::string& members) {
   const Declarations found = declarations_of("class C {\n" + members + "\n};");
   return found.matched && !found.types.empty() ? found.types.back().data_members : 99;
@@ -59,7 +59,7 @@ TEST(Tokens, KeepNumbersWhole) {
   EXPECT_EQ(words_of("x.e-1"), "x . e - 1");
 }
 
-TEST(Tokens, KnowTheirLines) {
+TEST(Tokens, HaveTheirLines) {
   const std::vector<Token> tokens = tokens_of("a\n/*\n*/ b R\"(\n\n)\" c\n#x \\\n\nd");
   ASSERT_EQ(tokens.size(), 5u);
   EXPECT_EQ(tokens[1].line, 3u);
@@ -143,7 +143,7 @@ TEST(Declarations, TypesAreThoseDefined) {
             "a std::hash nested specialization\na X::Impl nested\na W template\n");
 }
 
-TEST(Declarations, WhatDoesNotCloseIsSaid) {
+TEST(Declarations, UnclosedBracketsAreReported) {
   for (const char* text : {"void f() {", "class C { int a;", "void f( {}", "int a[3 = {1};", "}", "namespace a {",
                            "template <typename T void f() {}"}) {
     EXPECT_FALSE(declarations_of(text).matched) << text;

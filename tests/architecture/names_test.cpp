@@ -1,5 +1,5 @@
-// One name, one type in the whole program: two types of one name in one namespace break the one definition rule without
-// a word from the linker, and in two namespaces they mislead readers.
+// One name, one type in the whole program. Two types of one name in one namespace break the one definition rule, and
+// the linker reports nothing. In two namespaces they mislead readers.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -13,8 +13,8 @@ namespace carom::testing {
 namespace {
 
 /// Names shared by two types: classes, enums and aliases at namespace scope, in unnamed namespaces too. Equal aliases
-/// are one type. Nested types and specializations have their names from others. An .inc file, which is compiled
-/// several times, has none of its own.
+/// are one type. Nested types and specializations do not count, and neither do .inc files, which are compiled several
+/// times.
 std::vector<std::string> shared_names(const std::vector<SourceFile>& files) {
   struct Use {
     std::string meaning;  // of an alias

@@ -146,7 +146,7 @@ TEST(Bench, TheSameGasIsRegularForAWhileAndSoIsABilliardBreak) {
   EXPECT_FALSE(bench(scene_of("billiard_break"), 0x1p-4, 0x1p-4).chaotic);
 }
 
-TEST(Bench, WhatAnEngineDoesNotHaveIsSaid) {
+TEST(Bench, ReportsWhatAnEngineDoesNotHave) {
   const BenchResult spring = bench(scene_of("bumper", {with_rest_length}), 0.01, 0.01),
                     clay = bench(scene_of("clay"), 0.01, 0.01);
   EXPECT_EQ(

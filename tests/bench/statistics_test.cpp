@@ -31,7 +31,7 @@ TEST(Statistics, DeviationIsInStandardDeviationsOfOneMoreRun) {
   EXPECT_NEAR(ensemble.deviation(run_with(8, 1)).value, 2 / std::sqrt(4.0 / 3), 1e-12);
 }
 
-TEST(Statistics, WhatIsTheSameInAllRunsTellsNothing) {
+TEST(Statistics, WhatIsTheSameInAllRunsHasNoDeviation) {
   const Ensemble ensemble({run_with(10, 1), run_with(10, 1), run_with(10, 1)});
   EXPECT_EQ(ensemble.deviation(run_with(10 + 1e-12, 1)).value, 0);
 }

@@ -33,13 +33,13 @@ TEST(New, WritesASceneThatRunsAsItIsAndTheSchemaBesideIt) {
   EXPECT_TRUE(here.has("output/first/frames/frame_00000.png"));
 }
 
-TEST(New, SceneDoesWhatItsCommentSays) {
+TEST(New, SceneDoesWhatItsCommentDescribes) {
   const Workplace here;
   here.carom({"new", "first"});
   const Json run = Json::parse(here.carom({"run", "first.yaml", "--only", "collisions", "--json"}).out)["scenes"][0];
   const std::string scene(starting_scene()), phrase = "sqrt(2 * 1 / 9.80665) = ";
-  const double said = std::stod(scene.substr(scene.find(phrase) + phrase.size()));
-  EXPECT_NEAR(run["summary"]["first_collision_s"].get<double>(), said, 5e-5);
+  const double stated = std::stod(scene.substr(scene.find(phrase) + phrase.size()));
+  EXPECT_NEAR(run["summary"]["first_collision_s"].get<double>(), stated, 5e-5);
   const std::string table = here.read("output/first/collisions.csv");
   EXPECT_NE(table.find(",body-fixed,red,floor,"), std::string::npos) << table;
   EXPECT_NE(table.find(",body-body,red,blue,"), std::string::npos) << table;
@@ -137,11 +137,11 @@ TEST(New, RefusesWhatIsNoName) {
   EXPECT_EQ(here.files().size(), 1u);
 }
 
-TEST(Explain, TellsAllOfAKeyByItsPath) {
+TEST(Explain, PrintsAllOfAKeyByItsPath) {
   const Workplace here;
-  const Finished told = here.carom({"explain", "balls.red.mass"});
-  EXPECT_EQ(told.code, 0);
-  EXPECT_EQ(told.out,
+  const Finished checked = here.carom({"explain", "balls.red.mass"});
+  EXPECT_EQ(checked.code, 0);
+  EXPECT_EQ(checked.out,
             "mass: Mass (kg)\n"
             "  meaning     Mass.\n"
             "  value       a number above 0 in kg\n"
@@ -149,11 +149,11 @@ TEST(Explain, TellsAllOfAKeyByItsPath) {
             "  needed      one of mass and density, here or in `defaults`\n"
             "  excludes    density\n"
             "  stands at   balls.NAME.mass\n");
-  EXPECT_EQ(here.carom({"explain", "balls.mass"}).out, told.out);
-  EXPECT_EQ(here.carom({"explain", "balls.NAME.mass"}).out, told.out);
+  EXPECT_EQ(here.carom({"explain", "balls.mass"}).out, checked.out);
+  EXPECT_EQ(here.carom({"explain", "balls.NAME.mass"}).out, checked.out);
 }
 
-TEST(Explain, TellsEveryPlaceOfABareKey) {
+TEST(Explain, PrintsEveryPlaceOfABareKey) {
   const Workplace here;
   const Json fields = Json::parse(here.carom({"explain", "restitution", "--json"}).out)["fields"];
   std::set<std::string> paths;
@@ -201,7 +201,7 @@ TEST(Explain, GivesAProgramUnitRangeDefaultAndExample) {
   EXPECT_EQ(engine["choices"], Json({"auto", "exact", "stepped", "book"}));
 }
 
-TEST(Explain, SaysWhatThereIsInsteadOfWhatIsAbsent) {
+TEST(Explain, NamesWhatReplacesAnAbsentWord) {
   const Workplace here;
   EXPECT_EQ(here.carom({"explain", "hinge"}).out,
             "hinge: no key of the format\n"
@@ -258,7 +258,7 @@ TEST(Explain, PrintsThePageOfAllKeys) {
   EXPECT_EQ(here.carom({"explain", "--page", "balls"}).code, 2);
 }
 
-TEST(SchemaCommand, KnowsTheKindsOfFiles) {
+TEST(SchemaCommand, HasTheKindsOfFiles) {
   const Workplace here;
   const Json scene = Json::parse(here.carom({"schema"}).out);
   EXPECT_EQ(scene["$schema"], "http://json-schema.org/draft-07/schema#");

@@ -128,7 +128,7 @@ TEST(BenchCommand, InterruptedLeavesNothing) {
   EXPECT_FALSE(here.has("output/balls.bench"));
 }
 
-TEST(BenchCommand, ThatFailsSaysWhyAndLeavesNothing) {
+TEST(BenchCommand, ThatFailsReportsTheReasonAndLeavesNothing) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
   const Finished run = here.carom(with(quick, {"--set", "simulate.duration=0"}));

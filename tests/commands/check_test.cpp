@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 
 const std::string camera = "camera: {eye: [0, 3, -5], target: [0, 0, 0], fov: 45}\n";
 
-TEST(Check, TellsWhatARunWouldDo) {
+TEST(Check, ReportsWhatARunWouldDo) {
   const Workplace here;
   here.write("balls.yaml", two_balls("camera: {eye: [0, 3, -5], target: [0, 0, 0], fov: 45}\n"
                                      "output: {trajectory: {every: 0.1}, frames: {fps: 4, size: [720, 720]}}\n"));
@@ -35,7 +35,7 @@ TEST(Check, TellsWhatARunWouldDo) {
   EXPECT_FALSE(here.has("output"));
 }
 
-TEST(Check, SaysOnWhichSidePlusXIs) {
+TEST(Check, ReportsTheSideOfPlusX) {
   const Workplace here;
   here.write("balls.yaml", two_balls(camera));
   const auto plus_x = [&](const std::string& eye) {
@@ -66,7 +66,7 @@ const std::string passing_ball =
     "simulate: {duration: 3}\n"
     "camera: {eye: [0, 0, 10], target: [0, 0, 0], fov: 90}\n";
 
-TEST(Check, TellsWhenABodyEntersThePictureAndLeavesIt) {
+TEST(Check, ReportsWhenABodyEntersThePictureAndLeavesIt) {
   const Workplace here;
   here.write("passing.yaml", passing_ball + "output: {frames: {fps: 100, size: [64, 64]}}\n");
   const Json scene = Json::parse(here.carom({"check", "passing.yaml", "--json"}).out).at("scenes").at(0);
@@ -80,7 +80,7 @@ TEST(Check, TellsWhenABodyEntersThePictureAndLeavesIt) {
   EXPECT_NE(out.find("  in and out  passing enters at 0.19 s; passing leaves at 2.22 s\n"), std::string::npos) << out;
 }
 
-TEST(Check, LooksAtThePicturesThatAreTaken) {
+TEST(Check, ChecksTheInstantsOfThePictures) {
   const Workplace here;
   here.write("passing.yaml", passing_ball + "output: {frames: {fps: 10, size: [64, 64], from: 1}}\n");
   const auto crossings = [&](const std::string& until) {
@@ -91,7 +91,7 @@ TEST(Check, LooksAtThePicturesThatAreTaken) {
   EXPECT_EQ(crossings("3"), Json({{{"time_s", 2.3}, {"body", "passing"}, {"enters", false}}}));
 }
 
-TEST(Check, TellsBytesAndSecondsToCome) {
+TEST(Check, ReportsBytesAndSecondsToCome) {
   const Workplace here;
   here.write("passing.yaml", passing_ball + "output: {frames: {fps: 10, size: [640, 360]}}\n");
   const auto seconds = [&](const std::string& set) {
@@ -121,7 +121,7 @@ TEST(Check, EndsItsTrialSoon) {
   EXPECT_GT(scene.at("seconds"), 100);
 }
 
-TEST(Check, TellsWhatStopsARunLater) {
+TEST(Check, ReportsWhatWouldStopARun) {
   const Workplace here;
   here.write("bouncing.yaml",
              "scene: 1\nballs: {red: {mass: 1, radius: 0.1, position: [0, 1, 0], restitution: 0.9}}\n"
@@ -161,7 +161,7 @@ TEST(Check, NamesAtMostTenBodiesOutOfView) {
       << out;
 }
 
-TEST(Check, NoCollisionIsToldAsSuch) {
+TEST(Check, ReportsThatThereIsNoCollision) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
   const Finished check = here.carom({"check", "balls.yaml", "--set", "simulate.duration=0.4"});
@@ -202,7 +202,7 @@ TEST(Check, BookSceneGetsTheExactPrediction) {
       << check.out;
 }
 
-TEST(Check, TellsTheStateOfTheFolder) {
+TEST(Check, ReportsTheStateOfTheFolder) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
   const auto folder = [&](const std::vector<std::string>& more) {
@@ -258,7 +258,7 @@ TEST(Check, ScenesBeyondTheBudgetAreRefusedUnlessForced) {
   EXPECT_NE(forced.out.find("1,000,001 pictures"), std::string::npos) << forced.out;
 }
 
-TEST(Check, TellsOfVolumesObstaclesAndForces) {
+TEST(Check, ReportsVolumesObstaclesAndForces) {
   const Workplace here;
   here.write("things.yaml",
              "scene: 1\n"

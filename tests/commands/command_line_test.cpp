@@ -34,13 +34,13 @@ TEST(CommandLine, CommandThatIsNearNothingGetsTheList) {
   EXPECT_TRUE(list.ends_with(" and explain\n  carom --help shows how it is used\n")) << list;
 }
 
-TEST(CommandLine, SceneWithoutCommandIsToldTheCommand) {
+TEST(CommandLine, SceneWithoutCommandGetsTheCommandAsRemedy) {
   EXPECT_EQ(complaint({"balls.yaml"}),
             "carom: name a command first: carom run balls.yaml\n"
             "  carom --help shows how it is used\n");
 }
 
-TEST(CommandLine, OptionBeforeTheCommandIsToldItsPlace) {
+TEST(CommandLine, OptionBeforeTheCommandIsRefusedWithItsPlace) {
   EXPECT_EQ(complaint({"--quiet", "run", "a.yaml"}),
             "carom: options come after the command: carom run SCENE --quiet\n"
             "  carom --help shows how it is used\n");

@@ -130,7 +130,7 @@ TEST(CompareCommand, TakesRunsThatDifferInTheSeedAsRepeats) {
   EXPECT_FALSE(here.has("output/comparison/repeats.csv")) << "of the former comparison";
 }
 
-TEST(CompareCommand, SaysWhatIsWrongWithFoldersAndWords) {
+TEST(CompareCommand, ReportsErrorsOfFoldersAndWords) {
   const Workplace here;
   make_runs(here);
   here.write("no/run.txt", "");
@@ -161,7 +161,7 @@ TEST(CompareCommand, SaysWhatIsWrongWithFoldersAndWords) {
   EXPECT_EQ(error({"runs/b"}), "carom: runs/b: collisions.csv has changed since the run: run its scene again\n");
 }
 
-TEST(CompareCommand, JsonTellsTheSame) {
+TEST(CompareCommand, JsonHasTheSameContent) {
   const Workplace here;
   make_runs(here);
   const Json done = Json::parse(here.carom({"compare", "runs/a", "runs/b", "--json"}).out);
@@ -208,7 +208,7 @@ TEST(CompareCommand, FilmOfTooManyRunsIsRefused) {
   EXPECT_NE(run.err.find("a film shows at most 16 runs side by side, not 17"), std::string::npos) << run.err;
 }
 
-TEST(DiffCommand, TellsWhereRunsPartAndHowFarApartTheyEnd) {
+TEST(DiffCommand, ReportsWhereRunsPartAndHowFarApartTheyEnd) {
   const Workplace here;
   make_runs(here);
   ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "runs/aside", "--set", "balls.red.position.x=-1.5"}).code, 0);
@@ -242,7 +242,7 @@ TEST(DiffCommand, TellsWhereRunsPartAndHowFarApartTheyEnd) {
   EXPECT_NE(same.out.find("\n  equal       scenes, collisions and final positions\n"), std::string::npos);
 }
 
-TEST(DiffCommand, SaysWhatIsMissing) {
+TEST(DiffCommand, ReportsWhatIsMissing) {
   const Workplace here;
   make_runs(here, "output: {energy: {every: 0.1}}\n");
   const Finished run = here.carom({"diff", "runs/a", "runs/b"});

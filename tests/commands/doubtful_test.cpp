@@ -18,7 +18,7 @@ std::string damped(const std::string& step) {
   return ball + spring + "simulate: {duration: 2, engine: stepped, integrator: rk4, step: " + step + "}\n";
 }
 
-TEST(Doubtful, RunsSaySoInTheReportTheManifestJsonAndSummary) {
+TEST(Doubtful, RunsAreMarkedInTheReportTheManifestJsonAndSummary) {
   const Workplace here;
   here.write("damped.yaml", damped("0.012"));
   const Finished run = here.carom({"run", "damped.yaml"});
@@ -74,7 +74,7 @@ TEST(Doubtful, StepsThatMakeEnergyWithoutEndEndTheRun) {
   EXPECT_FALSE(here.has("output/burst/summary.csv"));
 }
 
-TEST(Doubtful, AToleranceThatIsNotMetIsSaid) {
+TEST(Doubtful, AToleranceThatIsNotMetIsReported) {
   const Workplace here;
   std::string scene =
       "scene: 1\ngravity: [0, 0, 0]\nroom: {min: [-1, -1, -1], max: [1, 1, 1], restitution: 1}\nballs:\n";
@@ -90,7 +90,7 @@ TEST(Doubtful, AToleranceThatIsNotMetIsSaid) {
   EXPECT_NE(run.out.find("chaotic, a disturbance grows"), std::string::npos) << run.out;
 }
 
-TEST(Accuracy, IsToldByCheckByWhatItConsistsOf) {
+TEST(Accuracy, CheckReportsTheErrorAndItsParts) {
   const Workplace here;
   here.write("damped.yaml", damped("0.0005"));
   const Finished check = here.carom({"check", "damped.yaml", "--accuracy"});

@@ -122,7 +122,7 @@ TEST(Film, AFolderInItsPlaceIsNamedBeforeAnythingIsSimulated) {
   EXPECT_EQ(here.carom({"run", "balls.yaml", "-o", "out"}).code, 0);
 }
 
-TEST(Folders, ThatCannotBeLookedAtAreNotMissing) {
+TEST(Folders, ThatCannotBeReadAreNotMissing) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
   fs::create_symlink("loop", here.path("loop"));

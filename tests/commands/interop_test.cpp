@@ -110,7 +110,7 @@ TEST(Interop, TooManyFilesAndKeysAreRefused) {
   EXPECT_NE(keys.err.find("expected a lower `fps`, a shorter duration or fewer bodies"), std::string::npos) << keys.err;
 }
 
-TEST(Interop, BytesAreForeseen) {
+TEST(Interop, BytesArePredicted) {
   const Workplace here;
   for (const char* output : {"vtk", "xyz", "gltf"}) {
     const auto check = nlohmann::json::parse(here.carom({"check", solids, "--only", output, "--json"}).out);

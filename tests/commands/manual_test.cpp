@@ -42,7 +42,7 @@ TEST(ManualPage, IsSetByGroffWithoutAWarning) {
   EXPECT_EQ(set.out.find('\\'), std::string::npos);
 }
 
-TEST(SettablePaths, ArePathsThatExplainKnows) {
+TEST(SettablePaths, ArePathsOfExplain) {
   ASSERT_GT(settable_paths().size(), 30u);
   for (const std::string& path : settable_paths()) EXPECT_FALSE(find_places(path).empty()) << path;
   for (const std::string& path : plain_paths()) EXPECT_FALSE(find_places(path).empty()) << path;

@@ -36,8 +36,7 @@ void run_scene_of_ours(const Workplace& here, const std::string& scene, const st
   ASSERT_EQ(run.code, 0) << run.err;
 }
 
-// With rest, merging, rolling, edges of walls, meshes, forces in windows of time, islands that are integrated and
-// islands in time steps.
+// Scenes with rest, merging, rolling, edges of walls, meshes, timed forces, constrained islands and time stepping.
 class Rendered : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Rendered, WithAnotherRateIsWhatARunWithThatRateWrites) {
@@ -70,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Rendered,
                                            "pyramid", "two_bowling_balls_e11", "gas_in_a_room"),
                          [](const auto& scene) { return std::string(scene.param); });
 
-TEST(Render, InPlaceReplacesWhatShowsLooksAndKeepsTheTables) {
+TEST(Render, InPlaceReplacesThePicturesAndKeepsTheTables) {
   const Workplace here;
   here.write("balls.yaml",
              two_balls(near_camera + "output: {collisions: true, energy: {every: 0.5}, vtk: true, gltf: true, "
@@ -102,7 +101,7 @@ TEST(Render, InPlaceReplacesWhatShowsLooksAndKeepsTheTables) {
   EXPECT_EQ(facts("run"), facts("fresh"));
 }
 
-TEST(Render, DrawsWhatTheRunDidNotAskFor) {
+TEST(Render, DrawsWhatTheRunDidNotRequest) {
   const Workplace here;
   here.write("balls.yaml", two_balls("output: {energy: {every: 0.5}, flights: true}\n" + near_camera));
   here.carom({"run", "balls.yaml", "-o", "run"});
@@ -115,7 +114,7 @@ TEST(Render, DrawsWhatTheRunDidNotAskFor) {
   EXPECT_TRUE(here.has("run/sheet.png") && here.has("run/energy.csv") && here.has("run/flights.bin"));
 }
 
-TEST(Render, RefusesAnotherMotionAndSaysHowToSimulateIt) {
+TEST(Render, RefusesAnotherMotionAndNamesTheCommandThatSimulatesIt) {
   const Workplace here;
   here.write("balls.yaml", two_balls(near_camera + frames));
   here.carom({"run", "balls.yaml", "-o", "run"});
@@ -249,7 +248,7 @@ TEST(Flights, AreReadByAnotherProgramToTheLastBit) {
     ASSERT_EQ(run.code, 0) << run.err;
     std::istringstream table(here.read(scene + "/trajectory.csv"));
     std::map<std::string, std::size_t> number;  // of each body, all of which are there at time 0
-    std::vector<double> said;                   // six numbers a body
+    std::vector<double> message;                // six numbers a body
     std::string line, time;
     std::getline(table, line);
     while (std::getline(table, line)) {
@@ -261,13 +260,13 @@ TEST(Flights, AreReadByAnotherProgramToTheLastBit) {
         std::istringstream out(
             here.shell("/usr/bin/python3 " SOURCE_DIR "/tests/export/read_flights.py " + scene + "/flights.bin " + time)
                 .out);
-        said.clear();
-        for (std::string word; out >> word;) said.push_back(std::stod(word));
+        message.clear();
+        for (std::string word; out >> word;) message.push_back(std::stod(word));
       }
       const std::size_t body = number.emplace(cells[1], number.size()).first->second;
-      ASSERT_LE(6 * body + 6, said.size()) << scene << ", " << line;
+      ASSERT_LE(6 * body + 6, message.size()) << scene << ", " << line;
       for (std::size_t k = 0; k < 6; ++k)
-        EXPECT_EQ(said[6 * body + k], std::stod(cells[2 + k])) << scene << ", " << line;
+        EXPECT_EQ(message[6 * body + k], std::stod(cells[2 + k])) << scene << ", " << line;
     }
   }
 }

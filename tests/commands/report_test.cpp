@@ -29,7 +29,7 @@ std::string lines_of(const RunResult& result) {
   return block.text().substr(from, to - from);
 }
 
-TEST(Report, TellsOfMergesAndOfClustersTakenIntoContact) {
+TEST(Report, ReportsMergesAndClustersTakenIntoContact) {
   EXPECT_EQ(lines_of(result_with(0, 0)),
             "  collisions  2 (2 body-body, 0 body-fixed), first at 0.5 s, last at 1 s\n"
             "  rest        3 of 5 bodies in resting contact at the end\n");
@@ -39,7 +39,7 @@ TEST(Report, TellsOfMergesAndOfClustersTakenIntoContact) {
             "              turned into contact\n");
 }
 
-TEST(Report, SaysWhyARunIsDoubtful) {
+TEST(Report, ReportsWhyARunIsDoubtful) {
   RunResult result = result_with(0, 0);
   Block block(Palette(false), 100);
   describe(block, result.summary.warnings);
@@ -49,7 +49,7 @@ TEST(Report, SaysWhyARunIsDoubtful) {
   EXPECT_EQ(warnings_json({{"step", "too long"}}).dump(), R"([{"code":"step","text":"too long"}])");
 }
 
-TEST(Report, SaysWhichImpactsContactHasTakenUp) {
+TEST(Report, ReportsTheImpactsThatContactHasReplaced) {
   RunResult result = result_with(0, 0);
   EXPECT_EQ(lines_of(result).find("absorbed"), std::string::npos);
   result.summary.contact.taken_up = {3, 0.25, 0.5};

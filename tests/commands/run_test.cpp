@@ -13,7 +13,7 @@ using Json = nlohmann::json;
 
 const std::string small_pictures = "output: {frames: {fps: 4, size: [64, 36], samples: 1}}\n";
 
-TEST(Run, WritesTheTablesThatTheSceneAsksForAndTellsWhere) {
+TEST(Run, WritesTheRequestedTablesAndPrintsTheirFolder) {
   const Workplace here;
   here.write("balls.yaml", two_balls());
   const Finished run = here.carom({"run", "balls.yaml"});
@@ -206,7 +206,7 @@ TEST(Run, JobsChangeNoResult) {
       "carom run: --jobs takes a whole number from 1 to 4096, not `0`\n  carom run --help shows how it is used\n");
 }
 
-TEST(Run, ScenesAtOnceAreToldInTheirOrderAndHaveTheSameBytes) {
+TEST(Run, ScenesAtOnceAreReportedInTheirOrderAndHaveTheSameBytes) {
   const Workplace here;
   std::string busy = two_balls("room: {min: [-1.2, -1, -1], max: [1.2, 1, 1]}\n");
   busy.replace(busy.find("duration: 1}"), 12, "duration: 9, max_collisions: 1}");
@@ -382,7 +382,7 @@ TEST(Run, ImpulsesBelongToTheStartAndAreNoDrift) {
   EXPECT_EQ(summary.at("momentum_drift_kg_m_per_s"), 0);
 }
 
-TEST(Run, QuietSaysNothing) {
+TEST(Run, QuietPrintsNothing) {
   const Workplace here;
   here.write("a.yaml", two_balls());
   here.write("b.yaml", two_balls());

@@ -250,7 +250,7 @@ TEST(Sweep, RunThatWasReplacedIsNotUpToDateAndNotGathered) {
   EXPECT_EQ(here.carom({"gather", "output/offsets", "-q"}).code, 0);
 }
 
-TEST(Sweep, ForceRunsAgainAndANewMeasureRunsWhatCannotTellIt) {
+TEST(Sweep, ForceRunsAgainAndANewMeasureRunsWhatLacksIt) {
   const Workplace here;
   prepare(here, masses("1, 2"));
   ASSERT_EQ(here.carom({"sweep", "offsets.yaml", "-q"}).code, 0);
@@ -549,7 +549,7 @@ TEST(Submit, ScriptRunsItsPartsAndGathers) {
   EXPECT_EQ(lines_of(here.read("a b/summary.csv")).size(), 7u) << submitted.err;
 }
 
-TEST(SweepScenes, BowlingLosesWhatTheClosedFormSays) {
+TEST(SweepScenes, BowlingLosesTheClosedFormsEnergy) {
   const Workplace here;
   const Finished sweep =
       here.carom({"sweep", SCENES_DIR "/sweeps/bowling.yaml", "--only", "energy", "-o", "out", "-q"});
@@ -562,7 +562,7 @@ TEST(SweepScenes, BowlingLosesWhatTheClosedFormSays) {
   }
 }
 
-TEST(SweepScenes, WhatLiesOnTheBasketballIsShotUpAsTheClosedFormSays) {
+TEST(SweepScenes, WhatLiesOnTheBasketballIsShotUpByTheClosedForm) {
   const Workplace here;
   EXPECT_EQ(here.carom({"sweep", SCENES_DIR "/sweeps/ball_on_ball.yaml", "-o", "out", "-q"}).code, 0);
   const auto rows = rows_of(here.read("out/summary.csv"));
@@ -573,7 +573,7 @@ TEST(SweepScenes, WhatLiesOnTheBasketballIsShotUpAsTheClosedFormSays) {
   }
 }
 
-TEST(SweepScenes, GasPressureTellsChanceFromSize) {
+TEST(SweepScenes, GasPressureSeparatesChanceFromSize) {
   const Workplace here;
   EXPECT_EQ(here.carom({"sweep", SCENES_DIR "/sweeps/gas_pressure.yaml", "-o", "out", "-q"}).code, 0);
   const auto rows = rows_of(here.read("out/repeats.csv"));

@@ -59,7 +59,7 @@ TEST(Terminal, BarIsClearedBeforeTheResult) {
   EXPECT_EQ(run.out.find("a [", result), std::string::npos);
 }
 
-TEST(Terminal, BarOfASweepTellsCountRateAndTimeLeft) {
+TEST(Terminal, BarOfASweepShowsCountRateAndTimeLeft) {
   const Workplace here;
   here.write("a.yaml", two_balls());
   const Finished sweep = here.shell(
@@ -82,7 +82,7 @@ TEST(Terminal, LostOutputIsAnError) {
   EXPECT_EQ(here.shell("$CAROM check a.yaml -q >&-").code, 0);
 }
 
-TEST(Terminal, ReaderThatGoesAwayIsAnErrorAndNoSignal) {
+TEST(Terminal, ClosedPipeIsAnErrorAndNoSignal) {
   const Workplace here;
   here.write("a.yaml", two_balls());
   const Finished piped = here.shell("{ $CAROM check a.yaml; echo $? >&2; } | true");

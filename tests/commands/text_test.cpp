@@ -31,7 +31,7 @@ TEST(Text, BytesGoUpInPowersOfAThousand) {
   EXPECT_EQ(bytes_text(std::numeric_limits<std::uint64_t>::max()), "18 EB");
 }
 
-TEST(Text, WaitsReadInTheUnitsOneWouldSay) {
+TEST(Text, WaitsHaveReadableUnits) {
   EXPECT_EQ(wait_text(0.0024), "2.4 ms");
   EXPECT_EQ(wait_text(0.24), "240 ms");
   EXPECT_EQ(wait_text(1.5), "1.50 s");
@@ -42,7 +42,7 @@ TEST(Text, WaitsReadInTheUnitsOneWouldSay) {
   EXPECT_EQ(wait_text(-1), "-");
 }
 
-TEST(Text, LongListsSayHowManyMore) {
+TEST(Text, LongListsHaveTheNumberLeftOut) {
   using Names = std::vector<std::string>;
   EXPECT_EQ(listed(Names{}), "");
   EXPECT_EQ(listed(Names{"a"}), "a");

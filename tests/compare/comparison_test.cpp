@@ -194,7 +194,7 @@ TEST_F(ComparisonOfSix, WhatDiffersBehindACommaIsNotCommon) {
   EXPECT_NE(common.find("balls.red.mass\n"), std::string::npos) << common;
 }
 
-TEST_F(ComparisonOfSix, AboutTellsOfEveryColumn) {
+TEST_F(ComparisonOfSix, AboutDescribesEveryColumn) {
   std::string all;
   for (const Json& row : sheet("About")["rows"])
     if (row[1].is_string() && row[3].is_string()) all += row[1].get<std::string>() + "\n";
@@ -227,7 +227,7 @@ TEST_F(ComparisonOfSix, TextIsNoFormula) {
   EXPECT_NE(place->read("text/summary.csv").find("\n'=id,'=1+1,"), std::string::npos);
 }
 
-TEST_F(ComparisonOfSix, WhatCannotBeReadIsSaidWithItsRemedy) {
+TEST_F(ComparisonOfSix, WhatCannotBeReadIsReportedWithItsRemedy) {
   const auto error = [&](const ComparedRun& run) {
     try {
       place->compare(plan, {run}, "none");
@@ -247,7 +247,7 @@ TEST_F(ComparisonOfSix, WhatCannotBeReadIsSaidWithItsRemedy) {
       std::string::npos);
 }
 
-TEST_F(ComparisonOfSix, AWideTrajectoryTellsTheSame) {
+TEST_F(ComparisonOfSix, AWideTrajectoryGivesTheSame) {
   place->run(two_balls, "wide", {"output.trajectory.layout=wide"});
   place->compare(plan, {{"a", runs[0].folder, {"1", "1"}}, {"b", *place / "wide", {"1", "1"}}}, "wide_out");
   const auto rows = rows_of(place->read("wide_out/summary.csv"));

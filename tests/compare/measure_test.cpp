@@ -41,7 +41,7 @@ TEST(MeasureNames, AreColumnsOrBodies) {
     EXPECT_EQ(error_of(name, scene), "") << name;
 }
 
-TEST(MeasureNames, ThatMeanNothingAreToldApart) {
+TEST(MeasureNames, ThatMeanNothingHaveAnErrorEach) {
   const Place place;
   const Scene scene = scene_of(place, mixed);
   EXPECT_EQ(error_of("energy_lost", scene), "no measure `energy_lost`; did you mean `energy_lost_J`?");

@@ -78,7 +78,7 @@ TEST_F(WorkbookFilesTest, APartThatIsNotToTheByteWhatWasWrittenIsFound) {
   EXPECT_EQ(checked(cut), other);
 }
 
-TEST_F(WorkbookFilesTest, AWriteThatFailsIsRemembered) {
+TEST_F(WorkbookFilesTest, AFailedWriteIsReportedAtTheEnd) {
   EXPECT_EQ(error_of([&] { files_.check(); }), "no error");
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);

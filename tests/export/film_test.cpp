@@ -246,7 +246,7 @@ TEST_F(ScriptedFfmpeg, TheRealOneMakesAFilm) {
   EXPECT_EQ(film("exec " + real(), 5), "no error");
 }
 
-TEST_F(ScriptedFfmpeg, OneThatEndsTooEarlyIsQuotedAndKillsNobody) {
+TEST_F(ScriptedFfmpeg, OneThatEndsTooEarlyIsQuotedAndEndsNoOtherProcess) {
   ASSERT_NE(signal(SIGPIPE, SIG_DFL), SIG_ERR);  // sending must not raise it
   EXPECT_EQ(film("echo 'Unknown encoder libx264' >&2; exit 1", 50),
             "cannot make the film out/animation.mp4: ffmpeg ended too early: Unknown encoder libx264");
@@ -257,17 +257,17 @@ TEST_F(ScriptedFfmpeg, OneThatFailsAtTheEndIsQuoted) {
             "cannot make the film out/animation.mp4: ffmpeg failed with code 7: No space left;again");
 }
 
-TEST_F(ScriptedFfmpeg, AKilledOneIsTold) {
+TEST_F(ScriptedFfmpeg, AKilledOneIsReported) {
   EXPECT_EQ(film("cat >/dev/null; kill -9 $$", 3),
             "cannot make the film out/animation.mp4: ffmpeg failed with code 137: no message");
 }
 
-TEST_F(ScriptedFfmpeg, HalfAFilmIsNoticed) {
+TEST_F(ScriptedFfmpeg, HalfAFilmIsReported) {
   EXPECT_EQ(film("head -c " + std::to_string(3 * 320 * 180 * 3) + " | " + real() + "; cat >/dev/null", 5),
             "cannot make the film out/animation.mp4: ffmpeg wrote 3 of 5 frames");
 }
 
-TEST_F(ScriptedFfmpeg, NoFilmAtAllIsNoticed) {
+TEST_F(ScriptedFfmpeg, NoFilmAtAllIsReported) {
   const std::string error = film("cat >/dev/null", 3);
   EXPECT_TRUE(error.starts_with("cannot make the film out/animation.mp4: ffprobe cannot read it: ")) << error;
 }
@@ -282,7 +282,7 @@ TEST_F(ScriptedFfmpeg, OneThatDoesNotEndIsStopped) {
             "cannot make the film out/animation.mp4: ffmpeg did not end within 1 s and was stopped");
 }
 
-TEST_F(ScriptedFfmpeg, OneThatTalksAndTalksBlocksNothing) {
+TEST_F(ScriptedFfmpeg, OneThatPrintsWithoutEndBlocksNothing) {
   EXPECT_EQ(film("head -c 3000000 /dev/zero | tr '\\0' x >&2; head -c 3000000 /dev/zero; exec " + real(), 3),
             "no error");
 }

@@ -180,7 +180,7 @@ TEST(Flights, ThatGrowTooLargeAreLeftOut) {
   EXPECT_TRUE(names_in(folder.path()).empty());
 }
 
-TEST(Flights, ThatWereLeftOutAreNotMissed) {
+TEST(Flights, ThatWereLeftOutDoNotMakeARunIncomplete) {
   const TempFolder folder;
   Scene scene = small_scene();
   scene.output.flights = true;

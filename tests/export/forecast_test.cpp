@@ -41,7 +41,7 @@ TEST(Forecast, BytesAreOfTheRightSize) {
   EXPECT_NEAR(static_cast<double>(forecast(scene).bytes) / bytes, 1, 0.2);
 }
 
-TEST(Forecast, SenselessWishesDoNotOverflow) {
+TEST(Forecast, SenselessRequestsDoNotOverflow) {
   Scene scene = small_scene();
   scene.simulate.duration = 1e300;
   scene.output.trajectory = TrajectoryOutput{1e-300, false};

@@ -123,7 +123,7 @@ TEST(Frames, APictureThatIsTheLastOneAgainIsNotEncodedAgain) {
   Exports exports(scene, temp / "run");
   int number = 0;
   while (exports.timeline().advance()) {
-    if (!exports.wants_state()) continue;
+    if (!exports.needs_state()) continue;
     // Another picture comes with the second one: it is not read, so it need not be encoded.
     exports.picture(0, picture({32, 18}, number), number == 1);
     ++number;

@@ -87,7 +87,7 @@ TEST(Tables, AWideTrajectoryHasARowAnInstant) {
             "0.2,0,1,0,1,0,0,1,1,0,0,0,0\n");
 }
 
-TEST(Tables, CollisionsNameWhoMetWhom) {
+TEST(Tables, CollisionsNameBothBodies) {
   TempFolder temp;
   Scene scene = small_scene();
   scene.output.collisions = true;

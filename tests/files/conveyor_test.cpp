@@ -41,7 +41,7 @@ TEST(Conveyor, UsesWhatIsSentInOrder) {
   EXPECT_EQ(items.size(), Conveyor<int>::items);
 }
 
-TEST(Conveyor, ASlowUserMakesTheSenderWait) {
+TEST(Conveyor, ASlowReaderHoldsUpTheWriter) {
   std::atomic<int> used = 0;
   Conveyor<int> conveyor(
       [&](int&) {

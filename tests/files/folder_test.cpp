@@ -38,7 +38,7 @@ Scene scene_with_frames() {
   return scene;
 }
 
-TEST(Exports, OnlyWhatWasAskedForIsWritten) {
+TEST(Exports, OnlyWhatWasRequestedIsWritten) {
   TempFolder temp;
   Scene scene = small_scene();
   run(scene, temp / "none");
@@ -57,20 +57,20 @@ TEST(Exports, TheResolvedSceneIsKeptToTheByte) {
   EXPECT_EQ(read(temp / "run/scene.yaml"), "scene: 1\ntitle: Small\n");
 }
 
-TEST(Exports, StateIsWantedOnlyWhenSomethingIsDue) {
+TEST(Exports, StateIsNeededOnlyWhenAnOutputIsDue) {
   TempFolder temp;
   Scene scene = small_scene();
   Exports nothing(scene, temp / "nothing");
   ASSERT_TRUE(nothing.timeline().advance());
-  EXPECT_FALSE(nothing.wants_state());
+  EXPECT_FALSE(nothing.needs_state());
   scene.output.frames = FramesOutput{10, {16, 16}, 1, 0.05, 0.15};
   Exports frame(scene, temp / "frame");
   ASSERT_TRUE(frame.timeline().advance());
   EXPECT_EQ(frame.timeline().time(), 0.1);
-  EXPECT_TRUE(frame.wants_state());
+  EXPECT_TRUE(frame.needs_state());
   ASSERT_TRUE(frame.timeline().advance());
   EXPECT_EQ(frame.timeline().time(), 0.2);
-  EXPECT_FALSE(frame.wants_state());
+  EXPECT_FALSE(frame.needs_state());
 }
 
 TEST(Exports, FoldersAreMadeWithTheirParents) {
@@ -160,7 +160,7 @@ TEST(Manifest, HashesAreSha256) {
   EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
-TEST(Manifest, OnlyNamesThatARunWritesAreBelieved) {
+TEST(Manifest, OnlyNamesThatARunWritesAreAccepted) {
   for (const char* name : {"trajectory.csv", "my film.mp4", "frames/frame_00000.png", "frames/frame_123456.png"})
     EXPECT_TRUE(is_run_file(name)) << name;
   for (const char* name :
@@ -177,7 +177,7 @@ TEST(Folder, WhatIsNotThereOrEmptyIsNothing) {
   EXPECT_EQ(inspect_folder(temp / "run", small_scene()), FolderContent::nothing);
 }
 
-TEST(Folder, AWholeRunIsKnownAgain) {
+TEST(Folder, ACompleteRunIsRecognised) {
   TempFolder temp;
   const Scene scene = scene_with_tables();
   run(scene, temp / "run");
@@ -404,7 +404,7 @@ int in_child(const std::function<void()>& action) {
   return status;
 }
 
-TEST(OutputFile, AFullDiskIsTold) {
+TEST(OutputFile, AFullDiskIsReported) {
   TempFolder temp;
   const Scene scene = scene_with_tables();
   // The system refuses to let a file grow: the same path through the code as a disk without room.

@@ -21,7 +21,7 @@ std::string with(const std::string& members) {
   return R"({"tool": "carom", "version": "0.1.0", "outputs": {}, "files": [], )" + members + "}";
 }
 
-TEST(Manifest, TellsTheNumberOfCollisions) {
+TEST(Manifest, HasTheNumberOfCollisions) {
   EXPECT_EQ(read_back(with(R"("counts": {"collisions": 7})"))->collisions, 7u);
 }
 

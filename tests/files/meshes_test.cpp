@@ -61,7 +61,7 @@ TEST(Meshes, DoNotStayOfARunThatDidNotFinish) {
   EXPECT_FALSE(fs::exists(temp / "run"));
 }
 
-TEST(Meshes, ThatAreGoneAreSaidBeforeAnythingIsTouched) {
+TEST(Meshes, ThatAreGoneAreReportedBeforeAnythingIsTouched) {
   TempFolder temp;
   const Scene scene = scene_with_mesh(temp);
   fs::remove(temp / "pin.stl");

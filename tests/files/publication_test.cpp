@@ -38,8 +38,8 @@ std::map<std::string, std::string> bytes_in(const std::string& folder) {
   return bytes;
 }
 
-/// The folder `to` as it is when a publication was decided: all of the former run, and the next one's parts.
-void decide(const std::string& former, const std::string& next, const std::string& to) {
+/// The folder `to` as it is when a publication was committed: all of the former run, and the next one's parts.
+void commit(const std::string& former, const std::string& next, const std::string& to) {
   fs::copy(former, to, fs::copy_options::recursive);
   for (const std::string name : {"collisions.csv", "scene.yaml", "summary.csv"})
     fs::copy(next + "/" + name, to + "/" + part_name(name));
@@ -67,7 +67,7 @@ TEST(Publication, FromEveryMomentOfItTheNextStateIsReached) {
   };
   for (std::size_t made = 0; made <= steps.size(); ++made) {
     const std::string at = temp / std::to_string(made);
-    decide(temp / "former", temp / "next", at);
+    commit(temp / "former", temp / "next", at);
     for (std::size_t k = 0; k < made; ++k) steps[k](at);
     settle_folder(at);
     EXPECT_EQ(bytes_in(at), wanted) << made;
@@ -75,11 +75,11 @@ TEST(Publication, FromEveryMomentOfItTheNextStateIsReached) {
   }
 }
 
-TEST(Publication, BeforeItIsDecidedNothingIsChanged) {
+TEST(Publication, BeforeTheCommitNothingIsChanged) {
   TempFolder temp;
   run(scene_with_frames("Former", 20), temp / "former");
   run(scene_with_frames("Next", 10), temp / "next");
-  decide(temp / "former", temp / "next", temp / "run");
+  commit(temp / "former", temp / "next", temp / "run");
   fs::rename(temp / "run/" + std::string(next_manifest), temp / "run/.manifest.json.part");
   const auto before = bytes_in(temp / "run");
   settle_folder(temp / "run");
@@ -91,7 +91,7 @@ TEST(Publication, AFolderThatIsBeingWrittenIsLeftAsItIs) {
   TempFolder temp;
   run(scene_with_frames("Former", 20), temp / "former");
   run(scene_with_frames("Next", 10), temp / "next");
-  decide(temp / "former", temp / "next", temp / "run");
+  commit(temp / "former", temp / "next", temp / "run");
   const auto before = bytes_in(temp / "run");
   const Descriptor other = open_folder(AT_FDCWD, temp / "run", true);
   ASSERT_TRUE(lock_folder({other.get(), "run"}, LockKind::alone));
@@ -103,7 +103,7 @@ TEST(Publication, WhatStandsInTheWayIsNamedAndOnceItIsGoneTheNextCommandGoesOn) 
   TempFolder temp;
   run(scene_with_frames("Former", 20), temp / "former");
   run(scene_with_frames("Next", 10), temp / "next");
-  decide(temp / "former", temp / "next", temp / "run");
+  commit(temp / "former", temp / "next", temp / "run");
   fs::remove(temp / "run/summary.csv");
   fs::create_directories(temp / "run/summary.csv/x");
   const std::string message =

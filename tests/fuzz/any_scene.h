@@ -8,7 +8,7 @@
 
 namespace carom::fuzz {
 
-// A scene has units of its own, of which its lengths, times and masses are between a thousandth and some thousands.
+// A scene has its own units. In them its lengths, times and masses are between a thousandth and some thousands.
 inline constexpr double smallest_length = 1e-3, largest_length = 1e3;  // m
 inline constexpr double shortest_time = 1e-3, longest_time = 2;        // s
 inline constexpr double lightest = 1e-9, heaviest = 1e9;               // kg
@@ -24,8 +24,8 @@ struct AnyScene {
   std::string yaml() const { return stress::as_yaml(scene, simulate); }
 };
 
-/// Of one of the families of random scenes, or of everything at once; made of the bytes, as far as they reach, then of
-/// the seed.
+/// A scene of one of the families of random scenes, or one of everything at once. It is made of the bytes while they
+/// last, then of the seed.
 AnyScene make_any_scene(std::uint64_t seed, std::string_view bytes = {});
 
 }  // namespace carom::fuzz

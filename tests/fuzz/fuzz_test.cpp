@@ -20,13 +20,13 @@ class AnyBytes : public ::testing::TestWithParam<const char*> {
   }
 };
 
-TEST_P(AnyBytes, OfSeedsKeepPromises) {
+TEST_P(AnyBytes, OfSeedsKeepGuarantees) {
   const std::vector<std::string> seeds = target().seeds();
   EXPECT_FALSE(seeds.empty());
   for (const std::string& seed : seeds) run(seed);
 }
 
-TEST_P(AnyBytes, KeepPromises) {
+TEST_P(AnyBytes, KeepGuarantees) {
   const std::vector<std::string> seeds = target().seeds(), all_words = words();
   Mutator mutator(1, seeds, all_words);
   // A mesh's reader is a process, a simulation takes milliseconds.

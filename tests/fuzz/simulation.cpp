@@ -16,7 +16,7 @@ namespace carom::fuzz {
 
 namespace {
 
-constexpr int looks = 16;
+constexpr int instants = 16;
 constexpr int most_idle = 100'000;  // calls in which a simulator may neither advance nor record
 constexpr double relative_rounding = 2e-14;
 constexpr double in_islands = 1e-10;
@@ -34,9 +34,11 @@ class Run {
     try {
       simulator_ = make_simulator(scene_, {.collisions = true}, engine.steps);
       const long double before = energy();
-      if (!go_to(0) || !see()) return;
-      for (int k = 1; k <= looks; ++k) {
-        if (!go_to(k == looks ? scene_.simulate.duration : scene_.simulate.duration * k / looks) || !see()) return;
+      if (!go_to(0) || !check_state()) return;
+      for (int k = 1; k <= instants; ++k) {
+        if (!go_to(k == instants ? scene_.simulate.duration : scene_.simulate.duration * k / instants) ||
+            !check_state())
+          return;
       }
       const Tally& tally = simulator_->tally();
       outcome_.collisions = tally.collisions();
@@ -91,7 +93,7 @@ class Run {
     return true;
   }
 
-  bool see() {
+  bool check_state() {
     const State& state = simulator_->state();
     for (Entity i = 0; i < world_.body_count(); ++i) {
       if (!state.position[i].allFinite() || !state.velocity[i].allFinite()) {

@@ -1,5 +1,5 @@
-// No contact is missed or invented, for every pair of kinds: paths are sampled densely, and each contact is
-// verified by a plane between the two volumes and a point that belongs to both.
+// No contact is missed or invented, for every pair of kinds. Paths are sampled densely. A plane between the two volumes
+// and a point that belongs to both verify each contact.
 #include <gtest/gtest.h>
 
 #include "geometry/conservative_advancement.h"
@@ -168,7 +168,7 @@ TEST(ConservativeAdvancement, APathAlmostAlongAnAxisMeetsLikeAnyOther) {
     }
 }
 
-TEST(ConservativeAdvancement, AGapSmallerThanThePositionsCanTellIsMet) {
+TEST(ConservativeAdvancement, AGapSmallerThanThePositionsResolveIsMet) {
   // A ball on its way to a cylinder's rim, 1.5e-16 m from it: its position does not change before the gap is closed.
   World world;
   world.mass = {1, 1};
@@ -182,8 +182,8 @@ TEST(ConservativeAdvancement, AGapSmallerThanThePositionsCanTellIsMet) {
 }
 
 TEST(ConservativeAdvancement, APathThatLeavesARoundedEdgeAsItBendsIsFollowedToTheFaceBeyond) {
-  // A ball that touches a box's edge leaves it with the edge's own curvature, so that the gap grows with the third
-  // power of time, dips below the box and comes back to its bottom.
+  // A ball that touches a box's edge leaves it with the edge's own curvature. The gap grows with the third power of
+  // time, and the ball dips below the box and comes back to its bottom.
   for (const double pull : {0.5, 1.0, 3.0})
     for (const double push : {0.0, 1e-12, 1e-9}) {
       const double r = 0.15, half = 0.1, out = r * std::sqrt(0.5), speed = 1;
@@ -203,8 +203,8 @@ TEST(ConservativeAdvancement, APathThatLeavesARoundedEdgeAsItBendsIsFollowedToTh
 }
 
 TEST(ConservativeAdvancement, APathAlongACurvedSurfaceThatTurnsAwayMeetsNothingLater) {
-  // A cylinder whose side touches a box's edge, except for rounding, and that comes closer no faster than rounding: the
-  // plane through the edge lies a while ahead, and the surface has left it by then.
+  // A cylinder's side touches a box's edge, except for rounding, and approaches it no faster than rounding. The plane
+  // through the edge lies a while ahead, and the surface has left it by then.
   World world;
   world.mass = {1, 1};
   world.restitution = {1, 1};

@@ -41,7 +41,7 @@ TEST(ImpactTime, AnApproachWithinTheRoundingOfItsVelocitiesIsNone) {
   EXPECT_EQ(sphere_contact_time({{1, 0, 0}, {-1e-16, 0, 0}, Vec3::Zero(), 2e-16, false}, 1, 1e9), 0);
 }
 
-TEST(ImpactTime, UnequalAccelerationsMeetWhereTheParabolaSays) {
+TEST(ImpactTime, UnequalAccelerationsMeetAtTheParabolasRoot) {
   // Down by 5 t^2 from 6 to 1: t = 1. Upwards first: 6 + 10 t - 5 t^2 = 1 at t = 1 + sqrt 2.
   EXPECT_NEAR(meet({0, 6, 0}, {0, 0, 0}, {0, -10, 0}), 1, 2e-16);
   EXPECT_NEAR(meet({0, 6, 0}, {0, 10, 0}, {0, -10, 0}), 1 + std::sqrt(2.0), 1e-15);

@@ -1,6 +1,6 @@
-// Small spheres that meet on curved paths from afar, against quadruple precision: at the contact the gap is zero, and
-// before it never less, to the rounding of the path length. The quartic's own coefficients are only accurate to the
-// square of that over the radius, 1e5 times as much here.
+// Small spheres that meet on curved paths from afar, against quadruple precision. At the contact the gap is zero, and
+// it is never less before, to the rounding of the path length. The quartic's own coefficients have an error of the
+// square of that length over the radius, here 1e5 times as much.
 #include <gtest/gtest.h>
 
 #include <algorithm>

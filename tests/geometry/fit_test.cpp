@@ -187,7 +187,7 @@ TEST(Tightest, HoldsEveryPointOfAnyCloud) {
   }
 }
 
-TEST(Tightest, SaysWhatIsWrongWithItsPoints) {
+TEST(Tightest, ReportsErrorsOfItsPoints) {
   EXPECT_EQ(error_of(Shape::sphere, {}), "there are no points to fit a volume around");
   EXPECT_EQ(error_of(Shape::box, {{0, 0, 0}, {1, std::nan(""), 1}}), "a point is not finite");
   EXPECT_EQ(error_of(Shape::sphere, {{-1e308, 0, 0}, {1e308, 1, 1}}), "the points are too far apart");

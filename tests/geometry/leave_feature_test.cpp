@@ -84,7 +84,7 @@ TEST(LeaveFeature, WallsAreLeftOverTheirRimToo) {
 }
 
 TEST(LeaveFeature, BeyondTheRimThePairIsApart) {
-  // Slid along the face that it has met, every pair touches until it leaves, and not after that.
+  // Every pair slides along the face that it has met. It touches until it leaves the face, and not after that.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
       Sampler random(11);
@@ -115,7 +115,7 @@ TEST(LeaveFeature, BeyondTheRimThePairIsApart) {
         for (int i = 0; i < 10; ++i) EXPECT_LT(gap_at(rim.time * 0.1 * i), 1e-13 * size) << name(ka) << " " << name(kb);
         EXPECT_LT(gap_at(rim.time * (1 - 1e-9)), 1e-13 * size) << name(ka) << " " << name(kb);
         EXPECT_GT(gap_at(rim.time + 1e-4 * size), 1e-13 * size) << name(ka) << " " << name(kb) << int(m.feature);
-        // With the feature beyond as the one left, and pulled back, the rim is not met again at once.
+        // The feature beyond counts as just left, and the pair is pulled back: it does not meet the rim again at once.
         const Vec3 edge = place(x + rim.time * (slide + 0.5 * rim.time * pull)), v = slide + rim.time * pull;
         const FeatureTime next = time_of_impact(world, 0, 1, {edge, v, -1e-3 * n, v.norm(), false}, rim.feature, 10);
         // Over a round rim it flies off where its speed bends the gap open faster than the pull closes it.

@@ -99,7 +99,7 @@ TEST(TimeOfImpact, SlidingAlongAFaceIsNoCollision) {
 }
 
 TEST(TimeOfImpact, AFaceBeyondTheRoundEdgeIsNotMetBeforeTheWayToIt) {
-  // Along the front of a box, a rounding too near to it and nearing by a rounding of the speeds, from beside it.
+  // From beside a box along its front: too near by a rounding, and approaching by a rounding of the speeds.
   const Volume box = Volume::box({0.1384421871664729, 0.24287791388904598, 0.12745924292686853});
   const Volume lid = Volume::cylinder(0.14984609735707394, 0.10311819694931741);
   for (double nearing : {0.0, 0x1p-54, 0x1p-50}) {
@@ -226,8 +226,8 @@ TEST(TimeOfImpact, BouncedPairsAreNotHitAgainByRounding) {
 }
 
 TEST(TimeOfImpact, PairsARoundingApartThatApproachMeetAtOnce) {
-  // As bodies are that have just been struck by others while they touched: at no feature may the remaining path,
-  // which is shorter than positions resolve, shrink in ever smaller steps.
+  // Bodies that touch and have just been struck by others are in this state. The remaining path is shorter than
+  // positions resolve, and must not shrink in ever smaller steps at any feature.
   for (Kind ka : {Kind::sphere, Kind::cylinder, Kind::box})
     for (Kind kb : all_kinds) {
       Sampler random(9);

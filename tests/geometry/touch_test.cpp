@@ -10,7 +10,7 @@ namespace {
 
 using namespace by_hand;
 
-Touch look(const Volume& a, const Volume& b, const Vec3& d) {
+Touch touch_of(const Volume& a, const Volume& b, const Vec3& d) {
   return touch(body_and_obstacle(a, b), 0, Vec3::Zero(), 1, d);
 }
 
@@ -21,46 +21,46 @@ void expect_touch(const Touch& t, double gap, const Vec3& normal, const Vec3& po
 }
 
 TEST(Touch, ABallAndAFaceAreAsFarApartAsTheyAreAlongTheFacesNormal) {
-  expect_touch(look(ball, brick, {0.25, 2.0, 1}), 0.5, Vec3::UnitY(), {0, 0.5, 0});
-  expect_touch(look(brick, ball, {0.25, -2.0, 1}), 0.5, -Vec3::UnitY(), {0.25, -1, 1});
-  expect_touch(look(ball, can, {0.25, 2, 0}), 0.5, Vec3::UnitY(), {0, 0.5, 0});
-  expect_touch(look(ball, can, {0, 0.5, -1.25}), 0.25, -Vec3::UnitZ(), {0, 0, -0.5});
+  expect_touch(touch_of(ball, brick, {0.25, 2.0, 1}), 0.5, Vec3::UnitY(), {0, 0.5, 0});
+  expect_touch(touch_of(brick, ball, {0.25, -2.0, 1}), 0.5, -Vec3::UnitY(), {0.25, -1, 1});
+  expect_touch(touch_of(ball, can, {0.25, 2, 0}), 0.5, Vec3::UnitY(), {0, 0.5, 0});
+  expect_touch(touch_of(ball, can, {0, 0.5, -1.25}), 0.25, -Vec3::UnitZ(), {0, 0, -0.5});
 }
 
 TEST(Touch, AnEdgeACornerAndARimHaveTheNormalOfTheirNearestPoint) {
-  expect_touch(look(brick, ball, {0.5 + 3, 1 + 4, 0}), 4.5, {0.6, 0.8, 0}, {0.5, 1, 0});
-  expect_touch(look(brick, ball, {0.5 + 2, 1 + 3, -1.5 - 6}), 6.5, Vec3(2, 3, -6) / 7, {0.5, 1, -1.5});
+  expect_touch(touch_of(brick, ball, {0.5 + 3, 1 + 4, 0}), 4.5, {0.6, 0.8, 0}, {0.5, 1, 0});
+  expect_touch(touch_of(brick, ball, {0.5 + 2, 1 + 3, -1.5 - 6}), 6.5, Vec3(2, 3, -6) / 7, {0.5, 1, -1.5});
   const double s = std::sqrt(0.5);
-  expect_touch(look(can, ball, {(0.5 + 3) * s, 1 + 4, (0.5 + 3) * s}), 4.5, {0.6 * s, 0.8, 0.6 * s},
+  expect_touch(touch_of(can, ball, {(0.5 + 3) * s, 1 + 4, (0.5 + 3) * s}), 4.5, {0.6 * s, 0.8, 0.6 * s},
                {0.5 * s, 1, 0.5 * s});
 }
 
 TEST(Touch, SharpVolumesApartAreAsFarAsTheirNearestPoints) {
-  expect_touch(look(brick, brick, {1 + 3, 2 + 4, 0}), 5, {0.6, 0.8, 0}, {0.5, 1, 0});
-  expect_touch(look(can, can, {0, 2 + 4, 1 + 3}), 5, {0, 0.8, 0.6}, {0, 1, 0.5});
-  expect_touch(look(can, brick, {1 + 5, 0, 1}), 5, Vec3::UnitX(), {0.5, 0, 0});
-  expect_touch(look(can, brick, {0.5 + 3, 0, 1.5 + 4}), 4.5, {0.6, 0, 0.8}, {0.3, 0, 0.4});
+  expect_touch(touch_of(brick, brick, {1 + 3, 2 + 4, 0}), 5, {0.6, 0.8, 0}, {0.5, 1, 0});
+  expect_touch(touch_of(can, can, {0, 2 + 4, 1 + 3}), 5, {0, 0.8, 0.6}, {0, 1, 0.5});
+  expect_touch(touch_of(can, brick, {1 + 5, 0, 1}), 5, Vec3::UnitX(), {0.5, 0, 0});
+  expect_touch(touch_of(can, brick, {0.5 + 3, 0, 1.5 + 4}), 4.5, {0.6, 0, 0.8}, {0.3, 0, 0.4});
 }
 
 TEST(Touch, AnAreaIsTouchedInItsMiddle) {
-  expect_touch(look(brick, brick, {0.5, 2, 1}), 0, Vec3::UnitY(), {0.25, 1, 0.5});
-  expect_touch(look(can, can, {0.5, -2, 0}), 0, -Vec3::UnitY(), {0.25, -1, 0});
-  expect_touch(look(can, brick, {0.75, 2, 0}), 0, Vec3::UnitY(), {0.375, 1, 0});
-  expect_touch(look(can, can, {0, 1, 1}), 0, Vec3::UnitZ(), {0, 0.5, 0.5});
+  expect_touch(touch_of(brick, brick, {0.5, 2, 1}), 0, Vec3::UnitY(), {0.25, 1, 0.5});
+  expect_touch(touch_of(can, can, {0.5, -2, 0}), 0, -Vec3::UnitY(), {0.25, -1, 0});
+  expect_touch(touch_of(can, brick, {0.75, 2, 0}), 0, Vec3::UnitY(), {0.375, 1, 0});
+  expect_touch(touch_of(can, can, {0, 1, 1}), 0, Vec3::UnitZ(), {0, 0.5, 0.5});
 }
 
 TEST(Touch, OverlapIsTheLeastWayOut) {
-  expect_touch(look(brick, brick, {0.875, 1, 1}), -0.125, Vec3::UnitX(), {0.4375, 0.5, 0.5});
-  EXPECT_NEAR(look(can, can, {0.3, 0.4, 0.4}).gap, -0.5, 1e-16);
-  EXPECT_EQ(look(brick, brick, Vec3::Zero()).normal, Vec3::UnitX()) << "the least width's";
-  EXPECT_EQ(look(ball, ball, Vec3::Zero()).normal.norm(), 1) << "one centre: some normal";
-  EXPECT_EQ(look(ball, can, Vec3::Zero()).gap, -1) << "inside a rim too";
+  expect_touch(touch_of(brick, brick, {0.875, 1, 1}), -0.125, Vec3::UnitX(), {0.4375, 0.5, 0.5});
+  EXPECT_NEAR(touch_of(can, can, {0.3, 0.4, 0.4}).gap, -0.5, 1e-16);
+  EXPECT_EQ(touch_of(brick, brick, Vec3::Zero()).normal, Vec3::UnitX()) << "the least width's";
+  EXPECT_EQ(touch_of(ball, ball, Vec3::Zero()).normal.norm(), 1) << "one centre: some normal";
+  EXPECT_EQ(touch_of(ball, can, Vec3::Zero()).gap, -1) << "inside a rim too";
 }
 
 TEST(Touch, BoxesThatTouchAtAnEdgeOnlyHaveOneFacesNormal) {
-  EXPECT_EQ(look(brick, brick, {1, 2, 0}).normal, Vec3::UnitX()) << "a tie: x before y";
-  EXPECT_EQ(look(brick, brick, {0, 2, -3}).normal, Vec3::UnitY()) << "a tie: y before z";
-  EXPECT_EQ(look(brick, brick, {1, 2 + 0x1p-51, 0}).normal, Vec3::UnitY()) << "farther apart in y";
+  EXPECT_EQ(touch_of(brick, brick, {1, 2, 0}).normal, Vec3::UnitX()) << "a tie: x before y";
+  EXPECT_EQ(touch_of(brick, brick, {0, 2, -3}).normal, Vec3::UnitY()) << "a tie: y before z";
+  EXPECT_EQ(touch_of(brick, brick, {1, 2 + 0x1p-51, 0}).normal, Vec3::UnitY()) << "farther apart in y";
 }
 
 TEST(Touch, APlaneIsMetWithTheVolumesReachAlongItsNormal) {

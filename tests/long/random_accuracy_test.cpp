@@ -75,7 +75,7 @@ double true_error(const Scene& scene, const EngineChoice& engine) {
   return most;
 }
 
-TEST(RandomAccuracy, OfAThousandScenesIsWhatTheirRunsSay) {
+TEST(RandomAccuracy, OfAThousandScenesIsAsReported) {
   int met = 0, unmet = 0, refused = 0;
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
     const Scene scene = random_scene(seed);

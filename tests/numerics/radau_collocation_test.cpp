@@ -73,7 +73,7 @@ TEST(RadauCollocation, OnASurfaceIsWhatTheExplicitMethodComesTo) {
   }
 }
 
-TEST(RadauCollocation, SaysThatAStepIsTooLong) {
+TEST(RadauCollocation, ReportsAStepThatIsTooLong) {
   const OnABall ball{1000};
   RadauCollocation motion({Vec3(0, 1, 0)}, {Vec3(-1, 0, 0)});  // against the wind: drag is not over
   EXPECT_GT(motion.step(0.1, ball.forces(), OnABall::hold, 1e-10, 1e-10), 1);

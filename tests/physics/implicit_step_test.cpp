@@ -337,20 +337,20 @@ TEST(ImplicitStep, TakesFewStepsOffTheSlowMotion) {
   EXPECT_LT(damped.steps + damped.rejected, 100);
 }
 
-TEST(ImplicitStep, SaysThatAStepIsTooLong) {
+TEST(ImplicitStep, ReportsAStepThatIsTooLong) {
   Forces forces;
   forces.drag.linear = 1e6;
   ImplicitStep method;
   const Vec3 x = Vec3::Zero();
   EXPECT_GT(forces.step(method, 0.1, x, {1, 0, 0}, 1, 1e-3), 100);      // the velocity is gone at once
-  EXPECT_GT(forces.step(method, 0.1, x, {1, 0, 0}, 1e-6, 1e9), 100);    // and less of the way is gone than told
+  EXPECT_GT(forces.step(method, 0.1, x, {1, 0, 0}, 1e-6, 1e9), 100);    // and less of the way is gone than estimated
   EXPECT_GT(forces.step(method, 0.1, x, {1e-9, 0, 0}, 1, 1e-12), 100);  // a small one too,
   forces.pull = {0, 1e7, 0};                                            // also beside a great pull
   EXPECT_GT(forces.step(method, 0.1, x, {1e-9, 10, 0}, 1, 1e-12), 100);
   EXPECT_LT(forces.step(method, 0.1, x, {1e-13, 10, 0}, 1, 1e-12), 1);
 }
 
-TEST(ImplicitStep, SaysThatNoStagesAreFound) {
+TEST(ImplicitStep, ReportsThatNoStagesAreFound) {
   Forces forces;
   forces.attractor = {Vec3::Zero(), 1, 0};
   ImplicitStep method;
@@ -407,7 +407,7 @@ TEST(ImplicitStep, ErrorIsWhatIsMissedWithinTheStep) {
   ImplicitStep method;
   for (double h = 0.05; h < 0.5; h *= 1.5) {
     const Vec3 x0(0.7, 0.1, 0), v0(0, 1.4, 0);
-    const double told = forces.step(method, h, x0, v0, 1e200, 1e-12) * 1e-12;
+    const double estimated = forces.step(method, h, x0, v0, 1e200, 1e-12) * 1e-12;
     const PolynomialPath path = method.path();
     LongState s{{0.7, 0.1, 0}, {0, 1.4, 0}};
     double missed = 0;
@@ -417,9 +417,9 @@ TEST(ImplicitStep, ErrorIsWhatIsMissedWithinTheStep) {
       for (int axis = 0; axis < 2; ++axis)
         missed = std::max(missed, std::abs(static_cast<double>(s.v[static_cast<std::size_t>(axis)] - v[axis])));
     }
-    if (missed < 1e-13) continue;        // the stages are no better
-    EXPECT_LT(missed, 1.2 * told) << h;  // measured: 0.92 to 0.99
-    EXPECT_GT(missed, 0.7 * told) << h;
+    if (missed < 1e-13) continue;             // the stages are no better
+    EXPECT_LT(missed, 1.2 * estimated) << h;  // measured: 0.92 to 0.99
+    EXPECT_GT(missed, 0.7 * estimated) << h;
   }
 }
 

@@ -293,7 +293,7 @@ TEST(KeplerOrbit, IsClosestAtItsPericentre) {
   }
 }
 
-TEST(KeplerOrbit, FallsFromRestInTheKnownTime) {
+TEST(KeplerOrbit, FallsFromRestInTheTimeOfTheClosedForm) {
   const KeplerOrbit orbit(2, Vec3(0, 0, 3), Vec3::Zero());
   const double fall = pi * std::sqrt(27.0 / 16);  // pi sqrt(r^3 / (8 mu))
   EXPECT_NEAR(orbit.closest_time(), fall, 4 * rounding * fall);

@@ -79,7 +79,7 @@ TEST(Compensated, DifferenceOfProductsKeepsWhatCancels) {
   EXPECT_EQ(squared_gap(Vec3(1 + 0x1p-52, 0, 0), 1), 0x1p-51 + 0x1p-104);
 }
 
-TEST(Compensated, ASumForgetsNothing) {
+TEST(Compensated, ASumLosesNothing) {
   Sum sum;
   for (double x : {1.0, 1e100, 1.0, -1e100}) sum.add(x);
   EXPECT_EQ(sum.value(), 2);

@@ -145,7 +145,7 @@ std::string one_line(const std::string& text) {
   return std::regex_replace(text, std::regex("\\s+"), " ");
 }
 
-double said(const std::string& phrase) {
+double stated(const std::string& phrase) {
   std::vector<std::string> found;  // what follows the phrase
   for (const Page& one : pages()) {
     if (one.generated()) continue;

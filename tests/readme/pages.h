@@ -38,6 +38,6 @@ std::string read_file(const std::filesystem::path& path);
 std::string one_line(const std::string& text);
 
 /// The number after `phrase`, which must occur once on all pages written by hand. Otherwise a failure and NaN.
-double said(const std::string& phrase);
+double stated(const std::string& phrase);
 
 }  // namespace carom::testing

@@ -187,7 +187,7 @@ TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
             columns_in(page_at("src/bench/README.md"), "| column of `bench.csv` | content |"));
 }
 
-TEST(PageCommands, OfDevAreThoseThatDevKnows) {
+TEST(PageCommands, OfDevAreThoseOfDev) {
   const std::string script = read_file(SOURCE_DIR "/dev"), usage = script.substr(0, script.find("\nEND\n"));
   const std::regex row("\\| `\\./dev (\\w+)"), line("\n  (\\w+)  *(\\[|[A-Z]|  )"), named("\\./dev ([a-z]+)");
   const auto all = [](const std::string& text, const std::regex& what) {
@@ -231,13 +231,13 @@ TEST(ReadmeFirstScene, NumbersAreTheRuns) {
   const double start = kinetic_energy(scene.world, simulator->state());
   simulator->advance_to(scene.simulate.duration);
   ASSERT_EQ(simulator->collisions().size(), 1u);
-  EXPECT_EQ(simulator->collisions()[0].time, said("(3 - 0.11 √2) / 2 = "));
-  EXPECT_EQ(scene.world.mass[0], said("Each ball of "));
-  EXPECT_EQ(scene.world.impulse[1].norm(), said("receives an impulse of "));
-  EXPECT_EQ(scene.world.impulse[1].norm() / scene.world.mass[1], said("at time 0 and leaves at "));
-  EXPECT_NEAR(2 * scene.world.radius[0], said("when their centres are "), 1e-16);
-  EXPECT_NEAR(start, said("The impulses supply "), 1e-13);
-  EXPECT_NEAR(simulator->tally().energy_lost, said("(1 - e²)/2 of that, "), 1e-13);
+  EXPECT_EQ(simulator->collisions()[0].time, stated("(3 - 0.11 √2) / 2 = "));
+  EXPECT_EQ(scene.world.mass[0], stated("Each ball of "));
+  EXPECT_EQ(scene.world.impulse[1].norm(), stated("receives an impulse of "));
+  EXPECT_EQ(scene.world.impulse[1].norm() / scene.world.mass[1], stated("at time 0 and leaves at "));
+  EXPECT_NEAR(2 * scene.world.radius[0], stated("when their centres are "), 1e-16);
+  EXPECT_NEAR(start, stated("The impulses supply "), 1e-13);
+  EXPECT_NEAR(simulator->tally().energy_lost, stated("(1 - e²)/2 of that, "), 1e-13);
 }
 
 TEST(ReadmePicture, IsWhatTheProgramDraws) {
@@ -283,9 +283,9 @@ TEST(ReadmeBench, TableHasTheErrorsThatAreMeasured) {
     });
     ASSERT_NE(row, result.rows.end()) << name << " 1/" << per_second;
     const Differences& errors = *row->errors;
-    for (const auto& [said, measured] :
+    for (const auto& [stated, measured] :
          {std::pair((*i)[3], errors.position), std::pair((*i)[4], errors.velocity), std::pair((*i)[5], errors.energy)})
-      EXPECT_NEAR(std::stod(said), measured, 0.05 * measured) << name << " 1/" << per_second;
+      EXPECT_NEAR(std::stod(stated), measured, 0.05 * measured) << name << " 1/" << per_second;
   }
   EXPECT_EQ(lines, 7);
 }
@@ -293,12 +293,12 @@ TEST(ReadmeBench, TableHasTheErrorsThatAreMeasured) {
 TEST(ReadmeBench, DeviationsAreMeasured) {
   const BenchResult result = bench("gas_in_a_room.yaml", 0x1p-4, 0x1p-4);
   ASSERT_TRUE(result.chaotic);
-  EXPECT_NEAR(result.rows[1].deviation.value, said("and steps of 1/16 s it is "), 0.05);
-  EXPECT_NEAR(result.rows.back().deviation.value, said("by the stepped engine and "), 5);
+  EXPECT_NEAR(result.rows[1].deviation.value, stated("and steps of 1/16 s it is "), 0.05);
+  EXPECT_NEAR(result.rows.back().deviation.value, stated("by the stepped engine and "), 5);
   EXPECT_NEAR(result.rows.back().statistics.collision_rate / result.mean.collision_rate, 0.25, 0.02);
 }
 
-TEST(ReadmeScenes, TellOfEveryKey) {
+TEST(ReadmeScenes, DescribeEveryKey) {
   const std::string& table = page_at("scenes/README.md").text;
   for (const Kind& kind : kinds()) {
     for (const Field& field : kind.fields) {
@@ -321,7 +321,8 @@ TEST(ReadmeScenes, RulesOfRestitutionGiveTheTablesNumbers) {
                                                 {"| `geometric_mean` | ", Combine::geometric_mean},
                                                 {"here 1 kg and 3 kg | ", Combine::mass_weighted},
                                                 {"| `book`, e1 e2 / 2 | ", Combine::book}};
-  for (const auto& [row, rule] : rules) EXPECT_NEAR(combine_restitution(rule, 0.9, 1, 0.5, 3), said(row), 1e-15) << row;
+  for (const auto& [row, rule] : rules)
+    EXPECT_NEAR(combine_restitution(rule, 0.9, 1, 0.5, 3), stated(row), 1e-15) << row;
 }
 
 TEST(ReadmeFiles, HaveTheHeadersItShows) {
@@ -376,7 +377,7 @@ TEST(ReadmeExitCodes, AreWhatTheProgramGives) {
   EXPECT_EQ(clone.run("./dev run --nonsense"), 2);
 }
 
-TEST(ReadmeRules, ThreeTouchingBallsPartAsItSays) {
+TEST(ReadmeRules, ThreeTouchingBallsPartAtTheStatedVelocities) {
   const Scene scene = scene_of(R"(
 scene: 1
 gravity: [0, 0, 0]
@@ -388,14 +389,14 @@ balls:
 simulate: {duration: 0.001}
 )");
   const State end = run_to(scene, scene.simulate.duration);
-  EXPECT_EQ(end.velocity[0].x(), said("with 1, 0 and -1 m/s leave with "));
-  EXPECT_EQ(end.velocity[1].x(), said("leave with -0.359375, "));
-  EXPECT_EQ(end.velocity[2].x(), said("-0.359375, 0.046875 and "));
+  EXPECT_EQ(end.velocity[0].x(), stated("with 1, 0 and -1 m/s leave with "));
+  EXPECT_EQ(end.velocity[1].x(), stated("leave with -0.359375, "));
+  EXPECT_EQ(end.velocity[2].x(), stated("-0.359375, 0.046875 and "));
 }
 
-TEST(ReadmeRules, TheBouncingBallRestsWhenItSays) {
+TEST(ReadmeRules, TheBouncingBallRestsAtTheStatedTime) {
   const Scene scene = load_scene(SCENES_DIR "/bouncing_ball.yaml");
-  const double rest = said("`scenes/bouncing_ball.yaml` rests from ");
+  const double rest = stated("`scenes/bouncing_ball.yaml` rests from ");
   const double still = scene.initial.position[0].y() - 1;
   EXPECT_GT(run_to(scene, rest - 0.01).position[0].y() - still, 1e-6);
   EXPECT_NEAR(run_to(scene, rest).position[0].y(), still, 1e-15);
@@ -418,24 +419,24 @@ simulate: {duration: 0.5}
   const double vx = v * y0 / 0.6, vy = -v * x0 / 0.6;
   EXPECT_NEAR(end.velocity[0].x(), vx, 1e-8);
   const double t = (end.position[0].x() - x0) / vx;
-  EXPECT_NEAR(end.position[0].y(), y0 + vy * t - g * t * t / 2, said("leaves it at the right place, within "));
+  EXPECT_NEAR(end.position[0].y(), y0 + vy * t - g * t * t / 2, stated("leaves it at the right place, within "));
 }
 
 TEST(ReadmeAccuracy, IsMeasured) {
   const Scene scene = load_scene(SCENES_DIR "/gas_in_a_room.yaml");
   const auto simulator = make_simulator(scene);
   while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
-  EXPECT_EQ(scene.world.body_count(), said("`scenes/gas_in_a_room.yaml`, "));
-  EXPECT_EQ(simulator->tally().collisions(), said("200 balls and "));
-  EXPECT_EQ(scene.simulate.duration, said("2771 collisions in "));
+  EXPECT_EQ(scene.world.body_count(), stated("`scenes/gas_in_a_room.yaml`, "));
+  EXPECT_EQ(simulator->tally().collisions(), stated("200 balls and "));
+  EXPECT_EQ(scene.simulate.duration, stated("2771 collisions in "));
   const double energy = kinetic_energy(scene.world, scene.initial);
   EXPECT_LT(std::abs(kinetic_energy(scene.world, simulator->state()) / energy - 1),
-            said("the energy changes by less than "));
-  EXPECT_LT(simulator->tally().max_overlap / 0.1, said("overlap by more than "));
+            stated("the energy changes by less than "));
+  EXPECT_LT(simulator->tally().max_overlap / 0.1, stated("overlap by more than "));
   const Scene pi = load_scene(SCENES_DIR "/pi_to_six_digits.yaml");
   const auto counter = make_simulator(pi);
   while (counter->time() < pi.simulate.duration) counter->advance_to(pi.simulate.duration);
-  EXPECT_EQ(counter->tally().collisions(), said("`scenes/pi_to_six_digits.yaml`: "));
+  EXPECT_EQ(counter->tally().collisions(), stated("`scenes/pi_to_six_digits.yaml`: "));
 }
 
 TEST(ReadmeBook, ScenesGiveTheNumbersItNames) {
@@ -447,11 +448,11 @@ TEST(ReadmeBook, ScenesGiveTheNumbersItNames) {
   };
   const auto text = last("book_bowling_balls.yaml"), exact = last("two_bowling_balls.yaml"),
              printed = last("book_as_printed.yaml");
-  EXPECT_NEAR(text.first.first_collision * 60, said("collides in frame "), 1e-12);
-  EXPECT_NEAR(text.first.first_collision - exact.first.first_collision, said("in frame 86, "), 5e-7);
-  EXPECT_NEAR(100 * text.first.max_overlap / 0.22, said("late, overlapping by "), 0.05);
-  EXPECT_NEAR(printed.second, said("`scenes/book_as_printed.yaml` makes "), 1e-9);
-  EXPECT_EQ(1 / BookOptions().step, said("x += v dt, "));
+  EXPECT_NEAR(text.first.first_collision * 60, stated("collides in frame "), 1e-12);
+  EXPECT_NEAR(text.first.first_collision - exact.first.first_collision, stated("in frame 86, "), 5e-7);
+  EXPECT_NEAR(100 * text.first.max_overlap / 0.22, stated("late, overlapping by "), 0.05);
+  EXPECT_NEAR(printed.second, stated("`scenes/book_as_printed.yaml` makes "), 1e-9);
+  EXPECT_EQ(1 / BookOptions().step, stated("x += v dt, "));
 }
 
 TEST(ReadmeBook, TheSlipsTableIsTheReferences) {
@@ -472,20 +473,20 @@ TEST(ReadmeBook, TheSlipsTableIsTheReferences) {
   row("| slip 1", velocity["slip1"], energy["slip1"]);
   row("| slip 3", velocity["slip3B"], energy["slip3B"]);
   row("| slips 1 and 3", velocity["slip1_3B"], energy["slip1_3B"]);
-  EXPECT_EQ(table["e_listing"].get<double>(), said("slip 1: e = e1 e2 / 2 = "));
+  EXPECT_EQ(table["e_listing"].get<double>(), stated("slip 1: e = e1 e2 / 2 = "));
 }
 
 TEST(ReadmeBook, TheRadiusSlipsDistancesAndTheRepeatedHandlingAreTheReferences) {
   const nlohmann::json all = slips();
   const auto& radius = all["slip2_radius"];
-  EXPECT_EQ(radius[1]["r0"].get<double>(), said("Radii of "));
-  EXPECT_EQ(radius[1]["r1"].get<double>(), said("Radii of 0.11 and "));
-  EXPECT_EQ(radius[1]["contact_distance_true"].get<double>(), said("m touch at "));
-  EXPECT_EQ(radius[1]["contact_distance_listing"].get<double>(), said("but are seen at "));
-  EXPECT_EQ(radius[2]["contact_distance_listing"].get<double>(), said("exchanged at "));
+  EXPECT_EQ(radius[1]["r0"].get<double>(), stated("Radii of "));
+  EXPECT_EQ(radius[1]["r1"].get<double>(), stated("Radii of 0.11 and "));
+  EXPECT_EQ(radius[1]["contact_distance_true"].get<double>(), stated("m touch at "));
+  EXPECT_EQ(radius[1]["contact_distance_listing"].get<double>(), stated("but are seen at "));
+  EXPECT_EQ(radius[2]["contact_distance_listing"].get<double>(), stated("exchanged at "));
   for (const auto& run : all["simulated"]) {
     if (run["scene"] != "head" || run["variant"] != "slips 1+3B+4") continue;
-    EXPECT_NEAR(100 * run["fraction_multiple_calls"].get<double>(), said("Head on, at 5 m/s, "), 1e-12);
+    EXPECT_NEAR(100 * run["fraction_multiple_calls"].get<double>(), stated("Head on, at 5 m/s, "), 1e-12);
   }
 }
 

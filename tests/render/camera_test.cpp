@@ -56,25 +56,25 @@ TEST(ViewOf, BothAnglesFollowFromOneAndTheAspect) {
   EXPECT_NEAR(horizontal.fov_y, 53.13010235415598, 1e-12);  // 2 atan 1/2
 }
 
-TEST(SeesSphere, DecidesAtEveryFaceByTheDistance) {
+TEST(SphereInView, DecidesAtEveryFaceByTheDistance) {
   Camera camera = camera_at(Vec3::Zero(), Vec3(0, 0, -1));
   camera.fov = 90;
   camera.near = 1;
   camera.far = 10;
   const CameraFrame view = view_of(camera, {100, 100});
-  EXPECT_TRUE(sees_sphere(camera, view, Vec3(0, 0, -5), 0.1));
-  EXPECT_TRUE(sees_sphere(camera, view, Vec3(6, 0, -5), 0.708));  // 1 / sqrt 2 from the right face
-  EXPECT_FALSE(sees_sphere(camera, view, Vec3(6, 0, -5), 0.707));
-  EXPECT_TRUE(sees_sphere(camera, view, Vec3(0, -6, -5), 0.708));
-  EXPECT_FALSE(sees_sphere(camera, view, Vec3(0, -6, -5), 0.707));
-  EXPECT_TRUE(sees_sphere(camera, view, Vec3(0, 0, -0.5), 0.5));  // near
-  EXPECT_FALSE(sees_sphere(camera, view, Vec3(0, 0, -0.5), 0.49));
-  EXPECT_TRUE(sees_sphere(camera, view, Vec3(0, 0, -11), 1));  // far
-  EXPECT_FALSE(sees_sphere(camera, view, Vec3(0, 0, -11), 0.99));
-  EXPECT_FALSE(sees_sphere(camera, view, Vec3(0, 0, 5), 1));  // behind
+  EXPECT_TRUE(is_sphere_in_view(camera, view, Vec3(0, 0, -5), 0.1));
+  EXPECT_TRUE(is_sphere_in_view(camera, view, Vec3(6, 0, -5), 0.708));  // 1 / sqrt 2 from the right face
+  EXPECT_FALSE(is_sphere_in_view(camera, view, Vec3(6, 0, -5), 0.707));
+  EXPECT_TRUE(is_sphere_in_view(camera, view, Vec3(0, -6, -5), 0.708));
+  EXPECT_FALSE(is_sphere_in_view(camera, view, Vec3(0, -6, -5), 0.707));
+  EXPECT_TRUE(is_sphere_in_view(camera, view, Vec3(0, 0, -0.5), 0.5));  // near
+  EXPECT_FALSE(is_sphere_in_view(camera, view, Vec3(0, 0, -0.5), 0.49));
+  EXPECT_TRUE(is_sphere_in_view(camera, view, Vec3(0, 0, -11), 1));  // far
+  EXPECT_FALSE(is_sphere_in_view(camera, view, Vec3(0, 0, -11), 0.99));
+  EXPECT_FALSE(is_sphere_in_view(camera, view, Vec3(0, 0, 5), 1));  // behind
 }
 
-TEST(SeesSphere, BeyondACornerItIsTheCornerThatCounts) {
+TEST(SphereInView, BeyondACornerItIsTheCornerThatCounts) {
   Camera camera = camera_at(Vec3::Zero(), Vec3(0, 0, -1));
   camera.fov = 90;
   camera.near = 1;
@@ -82,8 +82,8 @@ TEST(SeesSphere, BeyondACornerItIsTheCornerThatCounts) {
   const CameraFrame view = view_of(camera, {100, 100});
   // (11, 0, -10) lies 1/sqrt 2 beyond the right face's plane, but 1 from the far edge at (10, 0, -10)... of its line
   // the nearest point is (10.5, 0, -10.5), out of reach.
-  EXPECT_FALSE(sees_sphere(camera, view, Vec3(11, 0, -10), 0.99));
-  EXPECT_TRUE(sees_sphere(camera, view, Vec3(11, 0, -10), 1.01));
+  EXPECT_FALSE(is_sphere_in_view(camera, view, Vec3(11, 0, -10), 0.99));
+  EXPECT_TRUE(is_sphere_in_view(camera, view, Vec3(11, 0, -10), 1.01));
 }
 
 TEST(CameraOf, TheScenesOwnCameraIsTaken) {
@@ -112,7 +112,7 @@ TEST(CameraOf, TheFloorUnderAFallingBallIsInThePicture) {
   test::add_ball(scene, Vec3(0, 5, 0), 0.1, {});
   test::add_plane(scene, Vec3::Zero(), Vec3(0, 1, 0), {});
   const Camera camera = camera_of(scene);
-  EXPECT_TRUE(sees_sphere(camera, view_of(camera, {1280, 720}), Vec3(0, 0, 0), 1e-6));
+  EXPECT_TRUE(is_sphere_in_view(camera, view_of(camera, {1280, 720}), Vec3(0, 0, 0), 1e-6));
 }
 
 TEST(CameraOf, EmptyAndPointlikeScenesGiveAUsableCamera) {

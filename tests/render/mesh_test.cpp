@@ -95,7 +95,7 @@ TEST(ReadMesh, TheSameFileGivesTheSameMesh) {
   EXPECT_EQ(read_mesh_points(scenes + "duck.obj"), a.vertices);
 }
 
-TEST(ReadMesh, ThePinHasItsKnownSize) {
+TEST(ReadMesh, ThePinHasItsPublishedSize) {
   double low = 1, high = -1, radius = 0;
   for (const Vec3& p : read_mesh_points(scenes + "pin.obj")) {
     low = std::min(low, p.y()), high = std::max(high, p.y());
@@ -106,7 +106,7 @@ TEST(ReadMesh, ThePinHasItsKnownSize) {
   EXPECT_NEAR(radius, 4.766 / 2 * 0.0254, 2e-5);  // four digits in the file
 }
 
-TEST(ReadMesh, SaysWhatIsWrong) {
+TEST(ReadMesh, ReportsErrorsOfFiles) {
   const Folder folder;
   EXPECT_EQ(trouble(folder.path + "none.obj"), "No such file or directory");
   EXPECT_EQ(trouble(folder.write("a.ply", "ply")), "meshes are read from files that end in .obj, .stl, .gltf, .glb");
@@ -168,7 +168,7 @@ TEST(ReadMesh, WhatTakesTooLongIsEnded) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(3));
 }
 
-TEST(ReadMesh, TooLittleMemoryIsSaid) {
+TEST(ReadMesh, TooLittleMemoryIsReported) {
   const Folder folder;
   std::string text;
   for (int i = 0; i < 150'000; ++i) text += "v " + std::to_string(i) + " 0 0\n";

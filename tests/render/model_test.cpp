@@ -79,7 +79,7 @@ TEST(StillThings, APlaneReachesBeyondTheMotionAndNotForEver) {
   EXPECT_EQ(floor.low.y(), -1);
 }
 
-TEST(StillThings, TrianglesLookToTheFreeSide) {
+TEST(StillThings, TrianglesFaceTheFreeSide) {
   for (const StillThing& thing : still_things(room(), {})) {
     const Mesh& mesh = thing.mesh;
     for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {

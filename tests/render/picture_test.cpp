@@ -64,12 +64,12 @@ TEST(Disc, IsWhereTheProjectionPutsIt) {
     Scene scene = flat_scene(Vec3(0, 0, 5), Vec3::Zero(), fov);
     add_ball(scene, center, 0.7, white);
     Renderer renderer(scene, size, 1);
-    const Blob seen = blob_of(renderer.draw(scene.initial)), want = expected_blob(scene, size, center, 0.7);
-    EXPECT_NEAR(seen.x, want.x, 0.15);  // measured: below 0.06
-    EXPECT_NEAR(seen.y, want.y, 0.15);
-    EXPECT_NEAR(seen.area / want.area, 1, 0.01);  // measured: below 0.005
-    EXPECT_NEAR(seen.width, want.width, 1.0);
-    EXPECT_NEAR(seen.height, want.height, 1.0);
+    const Blob seen = blob_of(renderer.draw(scene.initial)), expected = expected_blob(scene, size, center, 0.7);
+    EXPECT_NEAR(seen.x, expected.x, 0.15);  // measured: below 0.06
+    EXPECT_NEAR(seen.y, expected.y, 0.15);
+    EXPECT_NEAR(seen.area / expected.area, 1, 0.01);  // measured: below 0.005
+    EXPECT_NEAR(seen.width, expected.width, 1.0);
+    EXPECT_NEAR(seen.height, expected.height, 1.0);
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes made in code, and ways to look at pictures.
+// Scenes made in code, and ways to measure pictures.
 #include <cmath>
 #include <string>
 #include <vector>

@@ -151,11 +151,11 @@ TEST(Obstacle, IsInThePictureOfASceneWithoutCamera) {
   add_ball(scene, Vec3(0, 3, 0), 0.2, red);
   add_obstacle(scene, Vec3(0.3, 2.5, 0), Volume::cylinder(0.3, 0.2), green);
   const Camera camera = camera_of(scene);
-  EXPECT_TRUE(sees_sphere(camera, view_of(camera, {1280, 720}), Vec3(0.6, 2.4, 0), 1e-6));
+  EXPECT_TRUE(is_sphere_in_view(camera, view_of(camera, {1280, 720}), Vec3(0.6, 2.4, 0), 1e-6));
   Scene alone;
   add_obstacle(alone, Vec3(7, 0, 0), Volume::box(Vec3(1, 1, 1)), green);
   const Camera other = camera_of(alone);
-  EXPECT_TRUE(sees_sphere(other, view_of(other, {1280, 720}), Vec3(7.5, 0.5, 0.5), 1e-6));
+  EXPECT_TRUE(is_sphere_in_view(other, view_of(other, {1280, 720}), Vec3(7.5, 0.5, 0.5), 1e-6));
 }
 
 TEST(Obstacle, AFloorOfAnySizeLeavesTheCameraWithTheBodies) {

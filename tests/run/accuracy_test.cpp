@@ -14,7 +14,7 @@
 namespace carom {
 namespace {
 
-constexpr auto no_look = [] {};
+constexpr auto no_stop_check = [] {};
 
 Scene scene_of(Simulate simulate) {
   Scene scene;
@@ -51,30 +51,30 @@ void attract(Scene& scene, double mu, double softening) {
   scene.world.forces.push_back({Attractor{Vec3::Zero(), mu, softening}});
 }
 
-TEST(Accuracy, OfOrbitsIsTheToleranceAskedFor) {
+TEST(Accuracy, OfOrbitsIsTheRequestedTolerance) {
   for (const double e : {0.0, 0.5, 0.9, 0.99, 0.999})
     for (const double tolerance : {1e-3, 1e-6, 1e-9}) {
       Scene scene = scene_of(stepped(20 * M_PI + 1, tolerance));
       add_ball(scene, {1 + e, 0, 0}, {0, std::sqrt((1 - e) / (1 + e)), 0}, 1e-3);
       attract(scene, 1, 1e-12 * (1 - e));
       EngineChoice engine = choose_engine(scene);
-      settle_steps(scene, engine, no_look);
+      settle_steps(scene, engine, no_stop_check);
       const LongKepler kepler(1, scene.initial.position[0], scene.initial.velocity[0]);
       const double off = (end_of(scene, engine) - kepler.at(scene.simulate.duration)).norm();
       EXPECT_TRUE(off < tolerance || !engine.shortfall.empty()) << e << ": " << off << ", " << engine.why;
-      // Ten passages at 45 m/s take 1e-9 m out of rounding's reach.
+      // Ten passages at 45 m/s: rounding alone exceeds 1e-9 m.
       EXPECT_TRUE(engine.shortfall.empty() || (e > 0.99 && tolerance < 1e-8)) << e << ": " << engine.shortfall;
     }
 }
 
-TEST(Accuracy, OfFlybysIsTheToleranceAskedForByAnyIntegrator) {
+TEST(Accuracy, OfFlybysIsTheRequestedToleranceByAnyIntegrator) {
   for (const double b : {1e-1, 1e-3, 1e-5})
     for (const Integrator integrator : {Integrator::dop853, Integrator::rk4}) {
       Scene scene = scene_of(stepped(0.2, 1e-3, integrator));
       add_ball(scene, {-1, b, 0}, {10, 0, 0}, 0.01);
       attract(scene, 1e-4, 0);
       EngineChoice engine = choose_engine(scene);
-      settle_steps(scene, engine, no_look);
+      settle_steps(scene, engine, no_stop_check);
       const LongKepler kepler(1e-4, scene.initial.position[0], scene.initial.velocity[0]);
       const double off = (end_of(scene, engine) - kepler.at(0.2)).norm();
       EXPECT_TRUE(off < 1e-3 || !engine.shortfall.empty()) << b << ": " << off << ", " << engine.why;
@@ -88,7 +88,7 @@ TEST(Accuracy, OfAMethodsStepsIsTheToleranceToo) {
     add_ball(scene, {1, 0, 0}, {0, 0, 0}, 0.1);
     scene.world.forces = {{Spring{Vec3::Zero(), 4, 0, 0}}};
     EngineChoice engine = choose_engine(scene);
-    settle_steps(scene, engine, no_look);
+    settle_steps(scene, engine, no_stop_check);
     EXPECT_EQ(engine.shortfall, "");
     EXPECT_NEAR(end_of(scene, engine).x(), std::cos(20), tolerance);
   }
@@ -105,7 +105,7 @@ TEST(Accuracy, OfAMomentOfStrongDragIsTheToleranceToo) {
       drag.until = 0.25 + 1e-9;
       scene.world.forces = {drag};
       EngineChoice engine = choose_engine(scene);
-      settle_steps(scene, engine, no_look);
+      settle_steps(scene, engine, no_stop_check);
       const double w = drag.until - drag.from, f = quadratic * speed * w;
       const double end = speed * 0.25 + std::log1p(f) / quadratic + speed / (1 + f) * (duration - drag.until);
       EXPECT_TRUE(engine.shortfall.empty()) << engine.shortfall;
@@ -126,10 +126,10 @@ Scene crowd(double duration, double tolerance) {
   return scene;
 }
 
-TEST(Accuracy, OfChaosEndsAndIsSaid) {
+TEST(Accuracy, OfChaosEndsAndIsReported) {
   const Scene scene = crowd(60, 1e-6);
   EngineChoice engine = choose_engine(scene);
-  settle_steps(scene, engine, no_look);
+  settle_steps(scene, engine, no_stop_check);
   EXPECT_TRUE(engine.growth.chaotic);
   EXPECT_GT(engine.growth.lyapunov_time, 0.1);
   EXPECT_LT(engine.growth.lyapunov_time, 5);
@@ -139,10 +139,10 @@ TEST(Accuracy, OfChaosEndsAndIsSaid) {
 }
 
 // Its disturbance is large long before the first eighth of the run is over.
-TEST(Accuracy, SeesChaosThatIsOverEarlyInARun) {
-  const double lyapunov_time = growth_of(crowd(60, 1e-6), crowd(60, 1e-6).simulate, {}, no_look).lyapunov_time;
+TEST(Accuracy, FindsChaosThatIsOverEarlyInARun) {
+  const double lyapunov_time = growth_of(crowd(60, 1e-6), crowd(60, 1e-6).simulate, {}, no_stop_check).lyapunov_time;
   const Scene scene = crowd(1000, 1e-6);
-  const Growth growth = growth_of(scene, scene.simulate, {}, no_look);
+  const Growth growth = growth_of(scene, scene.simulate, {}, no_stop_check);
   EXPECT_TRUE(growth.chaotic);
   EXPECT_LT(growth.large_at, 60);
   EXPECT_NEAR(growth.lyapunov_time / lyapunov_time, 1, 0.5);
@@ -153,7 +153,7 @@ TEST(Accuracy, DoesNotCallOrbitsChaotic) {
     Scene scene = scene_of(stepped(200 * M_PI, 1e-6));
     add_ball(scene, {1 + e, 0, 0}, {0, std::sqrt((1 - e) / (1 + e)), 0}, 1e-3);
     attract(scene, 1, 1e-9 * (1 - e));
-    EXPECT_FALSE(growth_of(scene, scene.simulate, {}, no_look).chaotic) << e;
+    EXPECT_FALSE(growth_of(scene, scene.simulate, {}, no_stop_check).chaotic) << e;
   }
 }
 
@@ -162,7 +162,7 @@ TEST(Accuracy, OfStiffForcesIsFoundToo) {
   add_ball(scene, {1, 0, 0}, {0, 0, 0}, 0.1);
   scene.world.forces = {{Drag{0, 1e4, {0, 3, 0}}}};  // longer steps throw the ball to infinity
   EngineChoice engine = choose_engine(scene);
-  settle_steps(scene, engine, no_look);
+  settle_steps(scene, engine, no_stop_check);
   EXPECT_EQ(engine.shortfall, "");
 }
 

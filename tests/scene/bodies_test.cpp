@@ -187,7 +187,7 @@ TEST(Overlaps, TouchingVolumesAreRight) {
       "");
 }
 
-TEST(Overlaps, BehindAPlaneIsSaidOfAnyVolume) {
+TEST(Overlaps, BehindAPlaneIsReportedForAnyVolume) {
   EXPECT_NE(errors_of(start + "bodies: {a: {mass: 1, box: [9, 1, 9], position: [0, -0.6, 0]}}\n"
                               "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n")
                 .find("`a` is behind `floor` at the start"),

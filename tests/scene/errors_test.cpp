@@ -1,4 +1,4 @@
-// Complete texts of errors, as an author sees them.
+// Complete texts of errors, as printed.
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 
@@ -14,7 +14,7 @@ TEST(SceneErrors, MisspeltKeyNamesTheNearOne) {
       "     = did you mean `radius`?\n");
 }
 
-TEST(SceneErrors, KeyOfAnotherPlaceSaysWhereItBelongs) {
+TEST(SceneErrors, KeyOfAnotherPlaceNamesWhereItBelongs) {
   EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1, fov: 3}\n"),
             "scene.yaml:2:25: error: unknown key `fov` in `simulate`\n"
             "   2 | simulate: {duration: 1, fov: 3}\n"
@@ -24,7 +24,7 @@ TEST(SceneErrors, KeyOfAnotherPlaceSaysWhereItBelongs) {
             "tolerance\n");
 }
 
-TEST(SceneErrors, WrongTypeSaysWhatIsExpected) {
+TEST(SceneErrors, WrongTypeNamesTheExpectedOne) {
   EXPECT_EQ(errors_of("scene: 1\nballs:\n  red: {mass: [1], radius: big, position: 7}\nsimulate: {duration: 1}\n"),
             "scene.yaml:3:15: error: `mass` is a list\n"
             "   3 |   red: {mass: [1], radius: big, position: 7}\n"
@@ -57,7 +57,7 @@ TEST(SceneErrors, MissingValueStandsUnderTheThingThatLacksIt) {
             "     = expected a number of at least 0 in s\n");
 }
 
-TEST(SceneErrors, MissingColonIsNoticed) {
+TEST(SceneErrors, MissingColonIsReported) {
   EXPECT_EQ(
       errors_of("scene: 1\nballs:\n  red: {mass: 10, radius 0.1, position: [0, 0, 0]}\nsimulate: {duration: 1}\n"),
       "scene.yaml:3:19: error: `radius 0.1` is a key without a value\n"
@@ -97,7 +97,7 @@ TEST(SceneErrors, MeshThatIsNotThereIsAnErrorOfItsOwn) {
             "     = paths are relative to the folder of the scene\n");
 }
 
-TEST(SceneErrors, DuplicateKeySaysWhereTheFirstStands) {
+TEST(SceneErrors, DuplicateKeyHasTheLineOfTheFirst) {
   EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1}\nseed: 1\nseed: 2\n"),
             "scene.yaml:4:1: error: `seed` is repeated\n"
             "   4 | seed: 2\n"
@@ -240,7 +240,7 @@ TEST(SceneErrors, ManyOverlapsAreCountedNotListed) {
   }
 }
 
-TEST(SceneErrors, ColourOnlyWhereAskedFor) {
+TEST(SceneErrors, ColourOnlyWhereRequested) {
   LoadOptions options;
   options.color = true;
   EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: x}\n").find('\x1b'), std::string::npos);

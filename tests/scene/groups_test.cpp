@@ -74,9 +74,9 @@ TEST(Groups, ExactlyFullBoxesAreFilled) {
   EXPECT_EQ(load_text(group("random", "1", 0.5, 1)).initial.position[0], Vec3(0.5, 0.5, 0.5));
 }
 
-TEST(Groups, ErrorsSayHowManyWouldFit) {
-  // Close-packed in a box of 10 diameters: 12 layers (9 = 11.02 sqrt(2/3)) of 11 rows (9 = 10.39 sqrt(3)/2) of 10 and 9
-  // balls in turn: 6 (6 * 10 + 5 * 9) + 6 (5 * 10 + 6 * 9).
+TEST(Groups, ErrorsHaveTheNumberThatWouldFit) {
+  // Close-packed in a box of 10 diameters: 12 layers, since 9 = 11.02 sqrt(2/3), of 11 rows, since 9 = 10.39 sqrt(3)/2.
+  // The rows have 10 and 9 balls in turn: 6 (6 * 10 + 5 * 9) + 6 (5 * 10 + 6 * 9).
   for (const char* arrange : {"random", "hexagonal"}) {
     const std::string error = errors_of(group(arrange, "2000", 0.05, 1));
     const std::size_t at = error.find("     = ") + 7;

@@ -149,7 +149,7 @@ TEST(HostileFiles, NoneLoadsAndNoneCrashes) {
   }
 }
 
-TEST(HostileFiles, WhatIsNoFileIsSaid) {
+TEST(HostileFiles, WhatIsNoFileIsReported) {
   const auto error = [](const std::string& path) -> std::string {
     try {
       load_scene(path);

@@ -123,7 +123,7 @@ TEST(Steps, MoreThanTheBudgetAreRefusedUnlessForced) {
   EXPECT_EQ(errors_of(text, forced), "");
 }
 
-TEST(Steps, ThoseThatAForceAsksForAreCountedToo) {
+TEST(Steps, ThoseThatAForceNeedsAreCountedToo) {
   const std::string text =
       ball("mass: 1, radius: 0.5, position: [0, 0, 0]",
            "forces: [{spring: {anchor: [0, 9, 0], stiffness: 1e16, rest_length: 1}}]\nsimulate: {duration: 9}\n");

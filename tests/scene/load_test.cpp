@@ -71,7 +71,7 @@ TEST(LoadScene, WithOutputThereIsOnlyWhatItNames) {
   EXPECT_FALSE(scene.output.trajectory || scene.output.collisions || scene.output.pictures());
 }
 
-TEST(LoadScene, VideoTakesFromFramesWhatItDoesNotSay) {
+TEST(LoadScene, VideoTakesMissingKeysFromFrames) {
   const Scene scene =
       load_text(start + "output: {frames: {fps: 24, size: [320, 200], samples: 8, until: 0.5}, video: {fps: 12}}\n");
   EXPECT_EQ(scene.output.video->fps, 12);
@@ -313,7 +313,7 @@ TEST(LoadScene, PicturesHaveLimits) {
   }
 }
 
-TEST(LoadScene, CameraMustSeeSomething) {
+TEST(LoadScene, CamerasThatShowNothingAreRefused) {
   EXPECT_NE(errors_of(start + "camera: {eye: [0, 0, 0], target: [0, 0, 0]}\n")
                 .find("the camera's target is where its eye is"),
             std::string::npos);

@@ -31,7 +31,7 @@ std::string text_with(const std::string& set) {
   return motion_text(load_text(both, options));
 }
 
-TEST(MotionText, LeavesOutWhatIsOnlyLookedAtOrWritten) {
+TEST(MotionText, LeavesOutPicturesAndOtherOutputs) {
   for (const char* set : {"title=Other", "camera.eye.x=1", "camera.fov=20", "background=black", "balls.red.color=blue",
                           "planes.floor.visible=false", "output.frames.fps=7", "output.collisions=true", "seed=5",
                           "walls.side.color=white", "obstacles.post.visible=false"})
@@ -44,7 +44,7 @@ TEST(MotionText, IsAsNumbersAreNotAsTheyAreWritten) {
   EXPECT_EQ(text_with("simulate.engine=stepped"), text_with(""));  // what auto takes under a spring with a rest length
 }
 
-TEST(MotionText, TellsWhateverMovesABodyOtherwise) {
+TEST(MotionText, ChangesWithWhateverChangesTheMotion) {
   std::vector<std::string> texts = {text_with("")};
   for (const char* set : {"simulate.duration=3",
                           "simulate.step=0.01",

@@ -18,7 +18,7 @@ TEST(Outputs, AreTheKeysOfOutputInTheTableOfFields) {
   EXPECT_EQ(names, keys);
 }
 
-TEST(Outputs, EachIsAskedForOnceItIsAddedAndNoOtherIs) {
+TEST(Outputs, EachIsRequestedOnceItIsAddedAndNoOtherIs) {
   for (const OutputKind& added : output_kinds()) {
     const Output output = restricted({}, {std::string(added.name)});
     for (const OutputKind& kind : output_kinds()) {
@@ -47,11 +47,11 @@ TEST(Outputs, HaveDefaultSettingsOfTheTableOfFields) {
   }
 }
 
-TEST(Outputs, KeepTheirSettingsAndTakeThoseOfTheirKin) {
-  Output asked;
-  asked.energy = EnergyOutput{0.5};
-  asked.frames = FramesOutput{12, {64, 32}, 2, 1, 3.0};
-  const Output output = restricted(asked, {"energy", "video"});
+TEST(Outputs, KeepTheirSettingsAndTakeThoseOfTheirLike) {
+  Output requested;
+  requested.energy = EnergyOutput{0.5};
+  requested.frames = FramesOutput{12, {64, 32}, 2, 1, 3.0};
+  const Output output = restricted(requested, {"energy", "video"});
   EXPECT_EQ(output.energy->every, 0.5);
   EXPECT_FALSE(output.frames);
   EXPECT_EQ(output.video->fps, 12);
@@ -67,7 +67,7 @@ TEST(Outputs, NoTwoHaveAFileOfTheSameName) {
   for (const std::string& name : names) EXPECT_EQ(is_reserved(name), name != VideoOutput{}.file) << name;
 }
 
-TEST(Outputs, ASeriesKnowsItsOwnNames) {
+TEST(Outputs, ASeriesRecognisesItsOwnNames) {
   EXPECT_EQ(frame_files.name(7), "frame_00007.png");
   EXPECT_EQ(frame_files.name(1234567), "frame_1234567.png");
   for (const char* name : {"frame_00007.png", "frame_1234567.png"}) EXPECT_TRUE(frame_files.has(name));

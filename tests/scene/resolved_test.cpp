@@ -130,7 +130,7 @@ void expect_stable(const std::string& text, const LoadOptions& options = {}) {
   EXPECT_EQ(scene.resolved, again.resolved);
 }
 
-TEST(ResolvedScene, SaysEverythingItself) {
+TEST(ResolvedScene, HasEveryDefaultWrittenOut) {
   EXPECT_EQ(
       load_text("scene: 1\n"
                 "defaults: {ball: {mass: 10, radius: 0.11}}\n"

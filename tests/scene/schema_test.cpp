@@ -284,7 +284,7 @@ TEST(FormatPage, StandsBesideTheScenesAsTheTableHasIt) {
   EXPECT_TRUE(text_of(SCENES_DIR "/format.md") == format_page()) << "carom explain --page > scenes/format.md";
 }
 
-TEST(Schema, SaysOfEveryFieldWhatItIs) {
+TEST(Schema, DescribesEveryField) {
   for (const auto family : families()) {
     const auto whole = nlohmann::json::parse(json_schema(family.front().name));
     for (const Kind& kind : family) {

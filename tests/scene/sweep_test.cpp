@@ -86,7 +86,7 @@ TEST(SweepFile, CommonSettingsComeBeforeARunsOwn) {
   EXPECT_EQ(run.settings[2].text, "a=2");
 }
 
-TEST(SweepFile, ResolvedTextSaysTheSameAndIsItsOwn) {
+TEST(SweepFile, ResolvedTextMeansTheSameAndResolvesToItself) {
   const std::string text = head +
                            "title: 'He said \"go\"'\nset: {x: '#ff0000'}\n"
                            "runs:\n  - grid: {a: {from: 0, to: 1, count: 3}, b: [[0, 1, 0], exact]}\n"
@@ -159,7 +159,7 @@ TEST(SweepErrors, NameWhatNoSweepCanBe) {
   has("[]", "this is not a sweep");
 }
 
-TEST(SweepErrors, AreToldToWhoeverRunsASweepAsAScene) {
+TEST(SweepErrors, ASweepGivenAsASceneIsNamed) {
   EXPECT_NE(errors_of(head + "grid: {a: [1]}\n").find("this is a sweep, not a scene"), std::string::npos);
 }
 

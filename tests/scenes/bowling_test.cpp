@@ -24,7 +24,7 @@ struct Variant {
 
 class BowlingBalls : public ::testing::TestWithParam<Variant> {};
 
-TEST_P(BowlingBalls, MeetAndPartAsTheClosedFormSays) {
+TEST_P(BowlingBalls, MeetAndPartByTheClosedForm) {
   const auto [file, e] = GetParam();
   const Played run = play(file);
   ASSERT_EQ(run.collisions.size(), 1u);
@@ -37,11 +37,11 @@ TEST_P(BowlingBalls, MeetAndPartAsTheClosedFormSays) {
   EXPECT_LT((momentum(run.scene.world, run.end) - Vec3(-20, 0, 20)).norm(), 2e-14);
 }
 
-TEST_P(BowlingBalls, TheCommentSaysTheSame) {
+TEST_P(BowlingBalls, TheCommentHasTheSameNumbers) {
   const auto [file, e] = GetParam();
   const std::string comment = comment_of(file);
   const auto has = [&](const std::string& words) { EXPECT_NE(comment.find(words), std::string::npos) << words; };
-  EXPECT_NEAR(said(file, "(s - r sqrt(2)) / v = "), meeting, 5e-16);
+  EXPECT_NEAR(stated(file, "(s - r sqrt(2)) / v = "), meeting, 5e-16);
   const auto number = [](double x) {
     std::string text = nlohmann::json(std::round(x * 1e9) / 1e9 + 0.0).dump();
     return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
@@ -50,7 +50,7 @@ TEST_P(BowlingBalls, TheCommentSaysTheSame) {
   has("= " + vector(-v * (1 - e) / 2, v * (1 + e) / 2));
   has("= " + vector(-v * (1 + e) / 2, v * (1 - e) / 2));
   if (e != 1) {
-    EXPECT_NEAR(said(file, "m v^2 (1-e^2)/2 = "), m * v * v * (1 - e * e) / 2, 1e-14);
+    EXPECT_NEAR(stated(file, "m v^2 (1-e^2)/2 = "), m * v * v * (1 - e * e) / 2, 1e-14);
   } else {
     has("energy lost: none of 40 J");
   }
@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(ByRestitution, BowlingBalls,
                          [](const auto& parameter) { return std::string(parameter.param.file); });
 
 TEST(TwoBowlingBalls, CommentHasTheApproachSpeedToTwelveDigits) {
-  EXPECT_NEAR(said("two_bowling_balls", "they approach at v sqrt(2) = "), v * std::sqrt(2), 1e-15);
+  EXPECT_NEAR(stated("two_bowling_balls", "they approach at v sqrt(2) = "), v * std::sqrt(2), 1e-15);
 }
 
 TEST(TwoBowlingBalls, ComeFromBeyondTheLeftEdgeAndFromBelowThePicture) {
@@ -103,11 +103,11 @@ TEST(BookBowlingBalls, CollideInFrame86AndPartExactly) {
   EXPECT_LT(2 * u * u, 4 * r * r);
   const double time = run.collisions[0].time;
   EXPECT_EQ(time, 86 / 60.0);
-  EXPECT_NEAR(said("book_bowling_balls", "t = 86/60 = "), time, 5e-16);
-  EXPECT_NEAR(said("book_bowling_balls", "333 s, "), time - meeting, 5e-16);
-  EXPECT_NEAR(said("book_bowling_balls", "late, at u = "), u, 5e-16);
-  EXPECT_NEAR(said("book_bowling_balls", "2 r - u sqrt(2) = "), run.tally.max_overlap, 2e-14);  // measured: 7e-15
-  EXPECT_NEAR(said("book_bowling_balls", "587 m, "), 100 * run.tally.max_overlap / (2 * r), 0.05);
+  EXPECT_NEAR(stated("book_bowling_balls", "t = 86/60 = "), time, 5e-16);
+  EXPECT_NEAR(stated("book_bowling_balls", "333 s, "), time - meeting, 5e-16);
+  EXPECT_NEAR(stated("book_bowling_balls", "late, at u = "), u, 5e-16);
+  EXPECT_NEAR(stated("book_bowling_balls", "2 r - u sqrt(2) = "), run.tally.max_overlap, 2e-14);  // measured: 7e-15
+  EXPECT_NEAR(stated("book_bowling_balls", "587 m, "), 100 * run.tally.max_overlap / (2 * r), 0.05);
   EXPECT_LT((run.velocity("red") - Vec3(-0.1, 0, 1.9)).norm(), 1e-13);  // measured: 5e-14, of 86 sums of v dt
   EXPECT_LT((run.velocity("blue") - Vec3(-1.9, 0, 0.1)).norm(), 1e-13);
 }
@@ -117,7 +117,7 @@ TEST(BookAsPrinted, MakesEnergyAsTheListingsDo) {
   ASSERT_EQ(run.collisions.size(), 1u);
   const double e = 0.9 * 0.9 / 2;
   EXPECT_EQ(run.collisions[0].time, 86 / 60.0);
-  EXPECT_NEAR(run.collisions[0].restitution, said("book_as_printed", "e = e1 e2 / 2 = "), 1e-15);
+  EXPECT_NEAR(run.collisions[0].restitution, stated("book_as_printed", "e = e1 e2 / 2 = "), 1e-15);
   const Vec3 red = 2 * v * Vec3(-(1 - e) / 2, 0, (1 + e) / 2), blue = 2 * v * Vec3(-(1 + e) / 2, 0, (1 - e) / 2);
   EXPECT_LT((run.velocity("red") - red).norm(), 1e-13);
   EXPECT_LT((run.velocity("blue") - blue).norm(), 1e-13);
@@ -126,9 +126,9 @@ TEST(BookAsPrinted, MakesEnergyAsTheListingsDo) {
   EXPECT_NEAR(red.x(), -1.19, 1e-15);
   EXPECT_NEAR(red.z(), 2.81, 1e-15);
   const double energy = kinetic_energy(run.scene.world, run.end);
-  EXPECT_NEAR(energy, said("book_as_printed", "2 m v^2 (1+e^2) = "), 1e-11);
-  EXPECT_NEAR(energy / 40, said("book_as_printed", "93.122 J, "), 1e-12);
-  EXPECT_NEAR(play("two_bowling_balls").tally.energy_lost / 40, 1 - said("book_as_printed", "exact collision keeps "),
+  EXPECT_NEAR(energy, stated("book_as_printed", "2 m v^2 (1+e^2) = "), 1e-11);
+  EXPECT_NEAR(energy / 40, stated("book_as_printed", "93.122 J, "), 1e-12);
+  EXPECT_NEAR(play("two_bowling_balls").tally.energy_lost / 40, 1 - stated("book_as_printed", "exact collision keeps "),
               1e-15);
   // The same numbers, from print.
   const auto slips = nlohmann::json::parse(std::ifstream(DATA_DIR "/references/book_slips.json"));

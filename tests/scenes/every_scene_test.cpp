@@ -16,7 +16,7 @@ namespace {
 
 class EveryScene : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(EveryScene, SaysWhatToExpect) {
+TEST_P(EveryScene, OpensWithWhatToExpect) {
   EXPECT_NE(comment_of(GetParam()).find("Expect"), std::string::npos);
 }
 

@@ -33,13 +33,13 @@ TEST(BouncingBall, RestsWhenTheSumOfItsFlightsEnds) {
     EXPECT_NEAR(at_tops.states[n].position[0].y() - 0.12, std::pow(e, 2 * n + 2), 1e-15);
   }
 
-  EXPECT_NEAR(said(file, "t1 = sqrt(2 h / g) = "), t1, 5e-16);
-  EXPECT_NEAR(said(file, "at sqrt(2 g h) = "), std::sqrt(2 * g_n), 1e-15);
-  EXPECT_NEAR(said(file, "from t1 (1+e)/(1-e) = "), rest, 1e-15);
-  EXPECT_NEAR(said(file, "h e^(2 n): "), e * e, 1e-15);
-  EXPECT_NEAR(said(file, "0.64 m, "), std::pow(e, 4), 1e-15);
-  EXPECT_NEAR(said(file, "0.4096 m, "), std::pow(e, 6), 1e-15);
-  EXPECT_NEAR(said(file, "-1.5 + 0.6 * 5 = "), 1.5, 1e-15);
+  EXPECT_NEAR(stated(file, "t1 = sqrt(2 h / g) = "), t1, 5e-16);
+  EXPECT_NEAR(stated(file, "at sqrt(2 g h) = "), std::sqrt(2 * g_n), 1e-15);
+  EXPECT_NEAR(stated(file, "from t1 (1+e)/(1-e) = "), rest, 1e-15);
+  EXPECT_NEAR(stated(file, "h e^(2 n): "), e * e, 1e-15);
+  EXPECT_NEAR(stated(file, "0.64 m, "), std::pow(e, 4), 1e-15);
+  EXPECT_NEAR(stated(file, "0.4096 m, "), std::pow(e, 6), 1e-15);
+  EXPECT_NEAR(stated(file, "-1.5 + 0.6 * 5 = "), 1.5, 1e-15);
 }
 
 TEST(RestitutionRow, EveryBallRisesToESquaredOfTheHeight) {
@@ -59,14 +59,14 @@ TEST(RestitutionRow, EveryBallRisesToESquaredOfTheHeight) {
   }
   EXPECT_NE(comment_of(file).find("e 1 0.95 0.9 0.8 0.65 0.5 0.2 e^2 h 1 0.9025 0.81 0.64 0.4225 0.25 0.04 m"),
             std::string::npos);
-  EXPECT_NEAR(said(file, "sqrt(2 h / g) = "), t1, 5e-16);
+  EXPECT_NEAR(stated(file, "sqrt(2 h / g) = "), t1, 5e-16);
   ASSERT_EQ(run.rests.size(), 3u);
   const char* const words[] = {"1.354802267255363 s, ", "2.128974991401285 s, ",
                                "(1+e)/(1-e) on: "};  // in order of time
   for (int k = 0; k < 3; ++k) {
     const double e = es[6 - k], rest = t1 * (1 + e) / (1 - e);
     EXPECT_NEAR(run.rests[k].time, rest, 1e-13);
-    EXPECT_NEAR(said(file, words[k]), rest, 1e-15);
+    EXPECT_NEAR(stated(file, words[k]), rest, 1e-15);
   }
 }
 
@@ -83,11 +83,11 @@ TEST(BasketballAndTennisBall, TheTennisBallIsShotUp) {
   EXPECT_NEAR(run.states[0].velocity[1].y() + g_n * (0.5 - t), up, 1e-14);
   EXPECT_NEAR(run.states[0].velocity[0].y() + g_n * (0.5 - t), v * (M - 3 * m) / (M + m), 1e-14);
   EXPECT_NEAR(run.states[1].position[1].y() - 0.273, h * std::pow((3 * M - m) / (M + m), 2), 1e-14);
-  EXPECT_NEAR(said(file, "sqrt(2 h / g) = "), t, 5e-16);
-  EXPECT_NEAR(said(file, "sqrt(2 g h) = "), v, 5e-15);
-  EXPECT_NEAR(said(file, "v (3 M - m)/(M + m) = "), up, 5e-14);
-  EXPECT_NEAR(said(file, "v (M - 3 m)/(M + m) = "), v * (M - 3 * m) / (M + m), 5e-15);
-  EXPECT_NEAR(said(file, "h ((3 M - m)/(M + m))^2 = "), h * std::pow((3 * M - m) / (M + m), 2), 5e-15);
+  EXPECT_NEAR(stated(file, "sqrt(2 h / g) = "), t, 5e-16);
+  EXPECT_NEAR(stated(file, "sqrt(2 g h) = "), v, 5e-15);
+  EXPECT_NEAR(stated(file, "v (3 M - m)/(M + m) = "), up, 5e-14);
+  EXPECT_NEAR(stated(file, "v (M - 3 m)/(M + m) = "), v * (M - 3 * m) / (M + m), 5e-15);
+  EXPECT_NEAR(stated(file, "h ((3 M - m)/(M + m))^2 = "), h * std::pow((3 * M - m) / (M + m), 2), 5e-15);
 }
 
 TEST(TiltedGroove, TheBallSlidesOnWithGSinTilt) {
@@ -106,10 +106,10 @@ TEST(TiltedGroove, TheBallSlidesOnWithGSinTilt) {
   EXPECT_NEAR(up.dot(run.end.velocity[0]), 0, 1e-14);
   EXPECT_NEAR(run.end.velocity[0].z(), 0, 1e-14);
   EXPECT_EQ(run.tally.resting, 1u);
-  EXPECT_NEAR(said(file, "g sin 10 = "), a, 1e-15);
-  EXPECT_NEAR(said(file, "1.702906901517403 m/s^2, "), a * 9 / 2, 5e-15);
-  EXPECT_NEAR(said(file, "where it moves at "), a * 3, 5e-15);
-  EXPECT_NEAR(said(file, "r sqrt(2) = "), 0.1 * std::sqrt(2), 5e-16);
+  EXPECT_NEAR(stated(file, "g sin 10 = "), a, 1e-15);
+  EXPECT_NEAR(stated(file, "1.702906901517403 m/s^2, "), a * 9 / 2, 5e-15);
+  EXPECT_NEAR(stated(file, "where it moves at "), a * 3, 5e-15);
+  EXPECT_NEAR(stated(file, "r sqrt(2) = "), 0.1 * std::sqrt(2), 5e-16);
 }
 
 TEST(BallsInABox, ComeToRestOnTheFloor) {
@@ -119,7 +119,7 @@ TEST(BallsInABox, ComeToRestOnTheFloor) {
   double floor = 0;                   // J, of gravity with every ball on the floor
   for (Entity i = 0; i < run.scene.world.body_count(); ++i)
     floor += run.scene.world.mass[i] * g_n * run.scene.world.radius[i];
-  EXPECT_NEAR(said(file, ") g = "), floor, 1e-8);
+  EXPECT_NEAR(stated(file, ") g = "), floor, 1e-8);
   EXPECT_NEAR(potential_energy(run.scene.world, run.end), floor, 0.01 * floor);
   EXPECT_LT(kinetic_energy(run.scene.world, run.end), 0.01 * floor);
   EXPECT_EQ(run.scene.simulate.rest_speed, 0.05);

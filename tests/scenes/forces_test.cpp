@@ -10,27 +10,27 @@
 namespace carom::testing {
 namespace {
 
-TEST(Raindrops, StrikeWhenTheClosedFormSays) {
+TEST(Raindrops, StrikeAtTheClosedFormsTimes) {
   const std::string file = "raindrops";
   const Played run = play(file);
   EXPECT_EQ(choose_engine(run.scene).engine, Engine::exact);
   const Collision heavy = run.of("heavy").front(), light = run.of("light").front(), steady = run.of("steady").front();
-  EXPECT_NEAR(heavy.time, said(file, "heavy ball strikes at t = "), 1e-14);
+  EXPECT_NEAR(heavy.time, stated(file, "heavy ball strikes at t = "), 1e-14);
   EXPECT_NEAR(heavy.approach_speed, 9.572362817880828, 1e-13);
-  EXPECT_NEAR(light.time, said(file, "light ball strikes at t = "), 1e-14);
+  EXPECT_NEAR(light.time, stated(file, "light ball strikes at t = "), 1e-14);
   EXPECT_NEAR(light.approach_speed, 4.656527261031764, 1e-13);
-  EXPECT_NEAR(steady.time, said(file, "it strikes at t = "), 5e-14);
-  EXPECT_NEAR(steady.approach_speed, said(file, "of V = "), 1e-13);
+  EXPECT_NEAR(steady.time, stated(file, "it strikes at t = "), 5e-14);
+  EXPECT_NEAR(steady.approach_speed, stated(file, "of V = "), 1e-13);
 }
 
 TEST(Comet, ComesBack) {
   const std::string file = "comet";
-  const Played run = play(file, {said(file, "half a period, pi 2.5^(3/2) = ")});
+  const Played run = play(file, {stated(file, "half a period, pi 2.5^(3/2) = ")});
   const State& far = run.states[0];
-  EXPECT_NEAR(far.position[0].x(), said(file, "it is at aphelion, x = "), 1e-9);
-  EXPECT_NEAR(far.velocity[0].norm(), said(file, "at a quarter of the speed: "), 1e-9);
-  EXPECT_NEAR(run.scene.simulate.duration, said(file, "at t = "), 1e-14);
-  EXPECT_LT((run.position("comet") - Vec3(1, 0, 0)).norm(), said(file, "y = 0, within "));
+  EXPECT_NEAR(far.position[0].x(), stated(file, "it is at aphelion, x = "), 1e-9);
+  EXPECT_NEAR(far.velocity[0].norm(), stated(file, "at a quarter of the speed: "), 1e-9);
+  EXPECT_NEAR(run.scene.simulate.duration, stated(file, "at t = "), 1e-14);
+  EXPECT_LT((run.position("comet") - Vec3(1, 0, 0)).norm(), stated(file, "y = 0, within "));
   EXPECT_LT((run.velocity("comet") - run.scene.initial.velocity[0]).norm(), 1e-9);
 }
 
@@ -38,7 +38,7 @@ TEST(Bumper, BouncesOnEveryHalfSwing) {
   const std::string file = "bumper";
   const Played run = play(file);
   ASSERT_EQ(run.collisions.size(), 16u);
-  const double first = said(file, "t = pi/10 = "), swing = said(file, "every pi/5 = ");
+  const double first = stated(file, "t = pi/10 = "), swing = stated(file, "every pi/5 = ");
   for (std::size_t n = 0; n < run.collisions.size(); ++n) {
     const double k = static_cast<double>(n);
     EXPECT_NEAR(run.collisions[n].time, first + k * swing, 1e-10);  // measured: 4e-11

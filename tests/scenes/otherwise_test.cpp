@@ -13,7 +13,7 @@ namespace carom::testing {
 namespace {
 
 using stress::Motion;
-using stress::Seen;
+using stress::Observed;
 
 Motion motion_of(const std::string& name) {
   const Scene scene = load(name);
@@ -23,13 +23,13 @@ Motion motion_of(const std::string& name) {
           scene.simulate.merge};
 }
 
-Seen run(const Motion& motion) {
+Observed run(const Motion& motion) {
   ExactOptions options;
   options.duration = motion.duration;
   options.rest_speed = motion.rest_speed;
   options.merge = motion.merge;
   options.record_collisions = false;
-  Seen seen;
+  Observed seen;
   try {
     const auto simulator = make_exact_simulator(motion.world, motion.initial, options);
     do simulator->advance_to(motion.duration);
@@ -57,7 +57,7 @@ class Otherwise : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Otherwise, MirroredItMovesMirrored) {
   const Motion motion = motion_of(GetParam());
-  const Seen seen = run(motion);
+  const Observed seen = run(motion);
   for (int axis = 0; axis < 3; ++axis) {
     const auto flip = [&](Vec3 v) {
       v[axis] = -v[axis];
@@ -69,7 +69,7 @@ TEST_P(Otherwise, MirroredItMovesMirrored) {
 
 TEST_P(Otherwise, InOtherUnitsItHasTheSameBits) {
   const Motion motion = motion_of(GetParam());
-  const Seen seen = run(motion);
+  const Observed seen = run(motion);
   for (const stress::Units& units : {stress::Units{20, 0, 0}, {0, -12, 0}, {0, 0, 30}, {-30, 7, -24}}) {
     const double l = std::ldexp(1, -units.length), t = std::ldexp(1, -units.time), m = std::ldexp(1, -units.mass);
     EXPECT_EQ(stress::difference(
@@ -114,7 +114,7 @@ TEST_P(Otherwise, WithAnotherSceneFarAwayItHasTheSameBits) {
     other.world.gravity = motion.world.gravity;
     other.world.combine = motion.world.combine;
     const Motion both = stress::together(motion, other, first);
-    const Seen alone = run(motion), seen = run(both);
+    const Observed alone = run(motion), seen = run(both);
     ASSERT_EQ(alone.error, "");
     ASSERT_EQ(seen.error, "");
     const std::size_t from = first ? 0 : other.initial.position.size();

@@ -43,7 +43,7 @@ std::string comment_of(const std::string& name) {
   return comment;
 }
 
-double said(const std::string& name, const std::string& words) {
+double stated(const std::string& name, const std::string& words) {
   const std::string comment = comment_of(name);
   const std::size_t at = comment.find(words);
   if (at == std::string::npos || comment.find(words, at + 1) != std::string::npos) {

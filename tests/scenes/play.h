@@ -23,7 +23,7 @@ Scene load(const std::string& name);
 std::string comment_of(const std::string& name);
 
 /// The number after `words` in the comment. Fails the test unless the words occur there exactly once.
-double said(const std::string& name, const std::string& words);
+double stated(const std::string& name, const std::string& words);
 
 /// A run to the end, and the states at the requested times.
 struct Played {

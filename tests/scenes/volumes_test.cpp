@@ -26,14 +26,14 @@ std::vector<ContactForce> contacts_at(const Scene& scene, double time) {
 
 TEST(RollingOff, LeavesAtTwoThirdsOfTheHeight) {
   const std::string file = "rolling_off";
-  const double leave = said(file, "it leaves at t = "), land = said(file, "strikes the floor at t = ");
+  const double leave = stated(file, "it leaves at t = "), land = stated(file, "strikes the floor at t = ");
   const Played run = play(file, {leave});
-  EXPECT_NEAR(run.states[0].position[0].x(), said(file, "leaves at x = "), 1e-9);
+  EXPECT_NEAR(run.states[0].position[0].x(), stated(file, "leaves at x = "), 1e-9);
   EXPECT_NEAR(run.states[0].position[0].y(), 0.384, 1e-9);
   EXPECT_NEAR(run.states[0].velocity[0].norm(), std::sqrt(0.384 * g_n), 1e-9);
   ASSERT_FALSE(run.collisions.empty());
   EXPECT_NEAR(run.collisions.back().time, land, 1e-9);
-  EXPECT_NEAR(run.collisions.back().position.x(), said(file, "its centre at x = "), 1e-9);
+  EXPECT_NEAR(run.collisions.back().position.x(), stated(file, "its centre at x = "), 1e-9);
   EXPECT_NEAR(force(contacts_at(run.scene, 0), 0, run.number("globe")), 0.96 * g_n, 1e-12);
   EXPECT_TRUE(contacts_at(run.scene, (leave + land) / 2).empty());
 }
@@ -65,13 +65,13 @@ TEST(Clay, SticksWithMassMomentumCentreAndVolume) {
   const Played run = play(file);
   ASSERT_EQ(run.collisions.size(), 2u);
   EXPECT_NEAR(run.collisions[0].time, 7.0 / 30, 1e-15);
-  EXPECT_NEAR(run.collisions[1].time, said(file, "it meets large at t = "), 1e-14);
+  EXPECT_NEAR(run.collisions[1].time, stated(file, "it meets large at t = "), 1e-14);
   EXPECT_EQ(run.tally.merges, 2u);
   EXPECT_NEAR(run.tally.energy_lost, 4.5 - 0.125, 1e-14);
   EXPECT_NEAR(run.end.velocity[0].x(), 3.0 / 36, 1e-15);
 }
 
-TEST(Pyramid, PressesAsStaticsSays) {
+TEST(Pyramid, HasTheForcesOfStatics) {
   const Played run = play("pyramid");
   const auto contacts = contacts_at(run.scene, 0.5);
   EXPECT_EQ(contacts.size(), 6u);
@@ -81,7 +81,7 @@ TEST(Pyramid, PressesAsStaticsSays) {
   EXPECT_EQ(run.velocity("top").norm(), 0);
 }
 
-TEST(PileAtRest, WeighsWhatItWeighs) {
+TEST(PileAtRest, PressesWithItsWeight) {
   const Played run = play("pile_at_rest");
   EXPECT_EQ(run.tally.resting, 40u);
   double floor = 0;
@@ -94,8 +94,8 @@ TEST(TenPins, BallAndPinsAreStruckInOrder) {
   const Played run = play(file);
   const auto first = run.of("pin_1");
   ASSERT_GE(first.size(), 2u);
-  EXPECT_NEAR(first[0].time, said(file, "m / 6 m/s = "), 1e-14);
-  EXPECT_NEAR(first[1].time, said(file, "meets pin_5 at "), 1e-14);
+  EXPECT_NEAR(first[0].time, stated(file, "m / 6 m/s = "), 1e-14);
+  EXPECT_NEAR(first[1].time, stated(file, "meets pin_5 at "), 1e-14);
 }
 
 }  // namespace

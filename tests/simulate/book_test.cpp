@@ -1,5 +1,5 @@
-// The chapter's own loop and its errors, against data/references/book_slips.json: v = 5 m/s, m = 10 kg, r = 0.11 m, e =
-// 0.9, dt = 1/60 s; head on along x, or at right angles along x and y.
+// The chapter's own loop and its errors, against data/references/book_slips.json. The balls meet head on along x, or at
+// right angles along x and y. v = 5 m/s, m = 10 kg, r = 0.11 m, e = 0.9, dt = 1/60 s.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,7 +53,7 @@ TEST(Book, TheTextsIntentionsGiveTheChaptersVelocities) {
               1e-14);
 }
 
-TEST(Book, AskingForStatesChangesNothing) {
+TEST(Book, ReadingStatesChangesNothing) {
   const Phase p = meeting(false, 0.5, true);
   const auto often = make_book_simulator(p.problem.world, p.problem.initial, p.options);
   for (int k = 0; k <= 100; ++k) {

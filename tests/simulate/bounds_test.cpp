@@ -76,7 +76,7 @@ TEST(Bounds, ABodyThatFallsOutOfThemEndsTheRunByNameInEveryEngine) {
   fails([&] { return make_book_simulator(problem.world, problem.initial, {10, false, 0, false}); });
 }
 
-TEST(Bounds, SpeedsThatGrowWithoutEndAreTold) {
+TEST(Bounds, SpeedsThatGrowWithoutEndAreReported) {
   Problem problem;
   problem.ball({0, 0, 0}, {1, 0, 0}, 1, 0.5, 2);
   problem.room({-1, -1, -1}, {1, 1, 1});
@@ -89,7 +89,7 @@ TEST(Bounds, SpeedsThatGrowWithoutEndAreTold) {
 }
 
 // Outputs change no result: a body that goes out and comes back is treated the same with or without outputs.
-TEST(Bounds, LookingChangesNoVerdict) {
+TEST(Bounds, ReadingStatesChangesNoVerdict) {
   for (const double speed : {31'000.0, 33'000.0, 60'000.0}) {  // to 0.98e9, 1.04e9 and 2.3e9 m
     Problem problem;
     problem.world.gravity = {0, -1, 0};

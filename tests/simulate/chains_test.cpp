@@ -53,8 +53,8 @@ TEST(Cradle, TouchingBallsPassTheBlowOnOnePairAtATime) {
   EXPECT_EQ(run.end.velocity[4], Vec3(1, 0, 0));
 }
 
-// Three touching balls struck at one instant from both sides: the outcome is the sequence's that begins with the pair
-// of the lowest numbers.
+// Three touching balls are struck at one instant from both sides. The outcome is that of the sequence which begins with
+// the pair of the lowest numbers.
 TEST(ThreeBalls, AreResolvedOnePairAtATimeFromTheLowestNumbers) {
   const auto all = reference("chains_cradle_stack")["simultaneous_three_ball"];
   for (const auto& r : all["cases"]) {
@@ -71,7 +71,7 @@ TEST(ThreeBalls, AreResolvedOnePairAtATimeFromTheLowestNumbers) {
   }
 }
 
-TEST(StackedDrop, TheSmallBallIsThrownUpAsTheClosedFormSays) {
+TEST(StackedDrop, TheSmallBallRisesByTheClosedForm) {
   const auto all = reference("chains_cradle_stack")["stacked_drop"];
   for (const auto& r : all["cases"]) {
     Problem problem;
@@ -104,8 +104,8 @@ TEST(MassChain, SpeedGrowsAsTheGeometricFormula) {
     const Outcome run = run_exact(problem);
     EXPECT_EQ(run.collisions.size(), r["n_collisions"].get<std::size_t>());
     for (int i = 0; i < n; ++i) {
-      const double want = r["v_final"][static_cast<std::size_t>(i)];
-      EXPECT_NEAR(run.end.velocity[static_cast<std::size_t>(i)].x(), want, 5e-15 * std::abs(want) + 1e-16)
+      const double expected = r["v_final"][static_cast<std::size_t>(i)];
+      EXPECT_NEAR(run.end.velocity[static_cast<std::size_t>(i)].x(), expected, 5e-15 * std::abs(expected) + 1e-16)
           << r["q"] << i;
     }
   }
@@ -121,8 +121,8 @@ TEST(GaussGun, APairAboveOneAddsEnergyOnce) {
   EXPECT_EQ(-run.tally.energy_lost / 0.5, number(r["KE_gain"]) - 1);
 }
 
-// Balls on one another, each without weight against the one below it: the k-th goes up at 2^k - 1 times the speed at
-// which all came down. Here each weighs a ten-millionth of the one below.
+// Balls on one another, each far lighter than the one below it: the k-th rises at 2^k - 1 times the common speed of the
+// fall. Here each weighs a ten-millionth of the one below.
 TEST(StackedDrop, LightOnHeavyNearsTheLadderOfInfiniteMasses) {
   const auto all = reference("chains_cradle_stack")["stacked_drop"]["infinite_mass_ladder"];
   for (const auto& r : all) {
@@ -132,9 +132,9 @@ TEST(StackedDrop, LightOnHeavyNearsTheLadderOfInfiniteMasses) {
     for (int i = 0; i < n; ++i) problem.ball({0, 1.0 + i * (1 + 0x1p-30), 0}, {0, -1, 0}, std::pow(1e-7, i), 0.5, 1);
     problem.options.duration = 0.75;
     const Outcome run = run_exact(problem);
-    const double want = r["speed_ratio"], got = run.end.velocity[static_cast<std::size_t>(n - 1)].y();
-    EXPECT_NEAR(got, want, 1e-6 * want * n) << n;
-    EXPECT_NEAR(got * got, r["height_ratio"].get<double>(), 2e-6 * want * want * n) << n;
+    const double expected = r["speed_ratio"], got = run.end.velocity[static_cast<std::size_t>(n - 1)].y();
+    EXPECT_NEAR(got, expected, 1e-6 * expected * n) << n;
+    EXPECT_NEAR(got * got, r["height_ratio"].get<double>(), 2e-6 * expected * expected * n) << n;
   }
 }
 

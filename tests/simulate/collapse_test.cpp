@@ -144,7 +144,8 @@ TEST(Collapse, OfALightBallBetweenHeavyOnesComesInFreeFallAsAtRest) {
       const Outcome run = run_exact(squeezed(1e-6, first_e, 0.5, g));
       EXPECT_EQ(run.tally.collapses, 1u) << g << ", " << first_e;
       EXPECT_LT(run.tally.collisions(), 400u) << g << ", " << first_e;
-      // All of the heavy balls' push goes through the light one: what rounds their places turns it a little.
+      // All impulses of the heavy balls pass through the light one. The rounding of positions turns the normal a
+      // little.
       for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_LT(std::abs(run.end.velocity[i].x()), 1e-15) << g << ", " << first_e;      // m/s; measured: 2.3e-16
         EXPECT_NEAR(run.end.velocity[i].y(), -10 * g, 1e-8 * g) << g << ", " << first_e;  // measured: 1.3e-9 g
@@ -154,7 +155,7 @@ TEST(Collapse, OfALightBallBetweenHeavyOnesComesInFreeFallAsAtRest) {
   }
 }
 
-TEST(Collapse, IsNotMistakenForManyHonestCollisions) {
+TEST(Collapse, ManySeparateCollisionsAreNone) {
   for (double second_e : {1.0, 0.9999}) {
     const Outcome run = run_exact(squeezed(1e-8, 1, second_e, 0));
     EXPECT_EQ(run.tally.collapses, 0u);
@@ -162,7 +163,7 @@ TEST(Collapse, IsNotMistakenForManyHonestCollisions) {
   }
 }
 
-// Slow impacts one upon the other: bouncing ends under load, but not without it.
+// Slow impacts in quick succession end bouncing under load, but not without it.
 TEST(Collapse, IsNoneWhereACommonFallMakesManySlowImpacts) {
   const auto run = [](double g) {
     Problem problem;
@@ -191,7 +192,7 @@ TEST(Collapse, AgainstAPlaneSqueezesNothingIntoIt) {
   EXPECT_LT(run.end.velocity[1].norm(), 1e-15);
 }
 
-TEST(Collapse, FarFromTheOriginIsToldThoughPositionsAreCoarserThanItsGaps) {
+TEST(Collapse, FarFromTheOriginIsFoundThoughPositionsAreCoarserThanItsGaps) {
   for (double far : {0x1p12, 0x1p24, 0x1p30}) {
     Problem problem = squeezed(1e-7, 0.3, 0.4, 0);
     for (Vec3& x : problem.initial.position) x += Vec3(1, -0.7, 0.3) * far;
@@ -202,8 +203,8 @@ TEST(Collapse, FarFromTheOriginIsToldThoughPositionsAreCoarserThanItsGaps) {
   }
 }
 
-// A heavy ball strikes, elastically, one that a light one jammed at a plane holds up: it would strike 36,000 times
-// before half of its speed is gone, all at one instant.
+// A light ball jammed at a plane holds up a second ball, which a heavy one strikes elastically. It would strike 36,000
+// times at one instant before half of its speed is gone.
 TEST(Collapse, ComesWhereABallIsHammeredAgainstJammedOnes) {
   Problem problem;
   problem.plane({-3, 0, 0}, {1, 0, 0});
@@ -228,7 +229,7 @@ Problem falling_on_a_fixed_ball(double h, double e) {
   return problem;
 }
 
-TEST(Collapse, ABallThatGivesNothingBackIsRecordedWhereItStrikes) {
+TEST(Collapse, ABallOfNoRestitutionIsRecordedWhereItStrikes) {
   const Outcome run = run_exact(falling_on_a_fixed_ball(0.2, 0));
   ASSERT_EQ(run.collisions.size(), 1u);
   EXPECT_NEAR(run.collisions[0].approach_speed, std::sqrt(2 * g_n * 0.2), 1e-13);
@@ -237,11 +238,12 @@ TEST(Collapse, ABallThatGivesNothingBackIsRecordedWhereItStrikes) {
   EXPECT_NEAR(run.tally.energy_lost, 2 * g_n * 0.2, 1e-13);
 }
 
-TEST(Collapse, ImpactsThatContactTakesUpAreTold) {
+TEST(Collapse, ImpactsThatContactReplacesAreReported) {
   const double e = 0.5, h = 0.2;
   const Outcome run = run_exact(falling_on_a_fixed_ball(h, e));
   EXPECT_EQ(run.tally.taken_up.impacts, 1u);
-  // The first that is slow: all before it are recorded, each by e slower than the one before.
+  // The first slow impact ends the bounces. All impacts before it are recorded, each slower than the last by the factor
+  // e.
   const double last = run.collisions.back().approach_speed;
   EXPECT_NEAR(run.tally.taken_up.fastest, e * last, 1e-13);
   EXPECT_NEAR(run.tally.taken_up.energy, 0.5 * 2 * e * last * e * last, 1e-13);

@@ -99,7 +99,7 @@ Problem roofs(int bases, int copies, double angle, double top, double r) {
   return problem;
 }
 
-TEST(ConstrainedMotion, RoofsAndPyramidsComeDownAsTheirOneCoordinateSays) {
+TEST(ConstrainedMotion, RoofsAndPyramidsComeDownByTheEquationOfTheirOneCoordinate) {
   for (const int bases : {2, 3, 4})
     for (const int copies : {1, 5})
       for (const double top : {0.5, 2.0}) {

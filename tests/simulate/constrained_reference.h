@@ -1,8 +1,8 @@
 #pragma once
-// Balls in lasting contact without friction, by an independent method: Lagrange multipliers for the pressing contacts,
-// dense, in 64-bit mantissas, followed by extrapolated midpoint steps of order 16 (Hairer, Norsett & Wanner, Solving
-// Ordinary Differential Equations I, 1993, II.9). A contact opens where its multiplier vanishes. Ends before one
-// closes.
+// Balls in lasting contact without friction, by an independent method. Lagrange multipliers of the pressing contacts,
+// dense, in 64-bit mantissas, give the accelerations. Extrapolated midpoint steps of order 16 follow them (Hairer,
+// Norsett & Wanner, Solving Ordinary Differential Equations I, 1993, II.9). A contact opens where its multiplier
+// vanishes. The motion ends before one closes.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -79,7 +79,7 @@ class ConstrainedReference {
     Real gap, bend;  // m; m/s^2, of the gap
   };
 
-  Bend look(const Row& row, const std::vector<Vec>& x, const std::vector<Vec>& v) const {
+  Bend bend_of(const Row& row, const std::vector<Vec>& x, const std::vector<Vec>& v) const {
     if (row.b == floor) return {Vec(0, -1, 0), x[row.a].y() - radius[row.a], 0};
     const bool body = row.b >= 0;
     const auto b = static_cast<std::size_t>(body ? row.b : -2 - row.b);
@@ -101,12 +101,12 @@ class ConstrainedReference {
     }
   }
 
-  /// The multipliers (N) of these rows that leave their gaps' rates as they are, by Cholesky's factors.
+  /// The multipliers (N) with which the rates of these rows' gaps stay unchanged, by Cholesky's factors.
   std::vector<Real> multipliers(const std::vector<std::size_t>& set, const std::vector<Vec>& x,
                                 const std::vector<Vec>& v) const {
     const std::size_t n = set.size();
     std::vector<Bend> at;
-    for (const std::size_t c : set) at.push_back(look(rows_[c], x, v));
+    for (const std::size_t c : set) at.push_back(bend_of(rows_[c], x, v));
     std::vector<std::vector<Real>> m(n, std::vector<Real>(n));
     std::vector<Real> y(n);
     for (std::size_t c = 0; c < n; ++c) {
@@ -154,7 +154,7 @@ class ConstrainedReference {
     const std::vector<Real> y = multipliers(set, x, v);
     for (std::size_t c = 0; c < set.size(); ++c) {
       const Row& row = rows_[set[c]];
-      const Vec n = look(row, x, v).n;
+      const Vec n = bend_of(row, x, v).n;
       a[row.a] -= y[c] / mass[row.a] * n;
       if (row.b >= 0) a[static_cast<std::size_t>(row.b)] += y[c] / mass[static_cast<std::size_t>(row.b)] * n;
     }
@@ -163,7 +163,7 @@ class ConstrainedReference {
 
   /// m/s^2: of a row's gap.
   Real parting(const Row& row, const std::vector<Vec>& a) const {
-    const Bend at = look(row, x_, v_);
+    const Bend at = bend_of(row, x_, v_);
     const Vec w = row.b >= 0 ? Vec(a[static_cast<std::size_t>(row.b)] - a[row.a]) : Vec(-a[row.a]);
     return at.n.dot(w) + at.bend;
   }
@@ -172,7 +172,7 @@ class ConstrainedReference {
   void press() {
     std::vector<std::size_t> closed;
     for (std::size_t c = 0; c < rows_.size(); ++c)
-      if (std::abs(look(rows_[c], x_, v_).gap) < 1e-12L) closed.push_back(c);
+      if (std::abs(bend_of(rows_[c], x_, v_).gap) < 1e-12L) closed.push_back(c);
     std::vector<Real> y(rows_.size(), 0);
     for (;;) {
       const std::vector<Vec> a = accelerate(x_, v_);
@@ -241,7 +241,7 @@ class ConstrainedReference {
     v_ = vs.back();
   }
 
-  /// Of the greatest multiplier, the least one: below 0 a contact pulls.
+  /// The least multiplier, relative to the greatest one. Below 0 a contact pulls.
   Real pull() const {
     const std::vector<Real> y = multipliers(pressing(), x_, v_);
     Real least = 0, greatest = 0;
@@ -285,7 +285,7 @@ class ConstrainedReference {
   /// Whether an overlap has formed without a pressing contact.
   bool closes() const {
     return std::any_of(rows_.begin(), rows_.end(),
-                       [&](const Row& row) { return !row.presses && look(row, x_, v_).gap < -1e-13L; });
+                       [&](const Row& row) { return !row.presses && bend_of(row, x_, v_).gap < -1e-13L; });
   }
 
   std::vector<Vec> x_, v_;

@@ -33,17 +33,17 @@ struct Errors {
 };
 
 /// Distance of the simulator from the reference, for either order of the bodies.
-Errors compare(const ConstrainedReference& reference, const ConstrainedReference::Motion& want, double e) {
+Errors compare(const ConstrainedReference& reference, const ConstrainedReference::Motion& expected, double e) {
   const std::size_t n = reference.mass.size();
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0);
   const double least = *std::min_element(reference.radius.begin(), reference.radius.end());
   Errors errors;
   for (int turn = 0; turn < 2; ++turn) {
-    const Outcome run = run_exact(same(reference, order, want.time, e));
+    const Outcome run = run_exact(same(reference, order, expected.time, e));
     for (std::size_t k = 0; k < n; ++k) {
-      errors.position = std::max(errors.position, (run.end.position[k] - want.x[order[k]]).norm() / least);
-      errors.velocity = std::max(errors.velocity, (run.end.velocity[k] - want.v[order[k]]).norm() / least);
+      errors.position = std::max(errors.position, (run.end.position[k] - expected.x[order[k]]).norm() / least);
+      errors.velocity = std::max(errors.velocity, (run.end.velocity[k] - expected.v[order[k]]).norm() / least);
     }
     EXPECT_TRUE(run.collisions.empty());
     EXPECT_EQ(run.tally.stepped_contact, 0);
@@ -100,19 +100,19 @@ ConstrainedReference random_island(std::size_t n, std::uint64_t seed) {
   return island;
 }
 
-TEST(ConstrainedReference, RandomIslandsOfUpTo60BallsMoveAsItSays) {
+TEST(ConstrainedReference, RandomIslandsOfUpTo60BallsFollowIt) {
   Errors worst;
   std::size_t openings = 0, islands = 0;
   for (const std::size_t n : {2, 3, 5, 8, 12, 16, 17, 24, 40, 60}) {
     for (std::uint64_t seed = 1; seed <= (n <= 17 ? 10u : 2u); ++seed) {
       ConstrainedReference island = random_island(n, 1000 * n + seed);
-      const ConstrainedReference::Motion want = island.follow(0.15, 1.0 / 128);
-      if (want.time == 0) continue;
+      const ConstrainedReference::Motion expected = island.follow(0.15, 1.0 / 128);
+      if (expected.time == 0) continue;
       ++islands;
-      openings += want.openings;
-      const Errors errors = compare(island, want, seed % 2 == 0 ? 0 : 0.5);
-      EXPECT_LT(errors.position, 1e-10) << n << " balls, seed " << seed << ", " << want.time << " s";
-      EXPECT_LT(errors.velocity, 1e-9) << n << " balls, seed " << seed << ", " << want.time << " s";
+      openings += expected.openings;
+      const Errors errors = compare(island, expected, seed % 2 == 0 ? 0 : 0.5);
+      EXPECT_LT(errors.position, 1e-10) << n << " balls, seed " << seed << ", " << expected.time << " s";
+      EXPECT_LT(errors.velocity, 1e-9) << n << " balls, seed " << seed << ", " << expected.time << " s";
       worst = {std::max(worst.position, errors.position), std::max(worst.velocity, errors.velocity)};
     }
   }
@@ -142,11 +142,11 @@ TEST(ConstrainedReference, TrainsArePushedOverAHumpAndComeApartOnTheFarSide) {
   for (const std::size_t n : {2, 3, 5, 9, 17}) {
     for (const double push : {4.0, 10.0}) {
       ConstrainedReference cars = train(n, push);
-      const ConstrainedReference::Motion want = cars.follow(1.2, 1.0 / 64);
-      const bool over = push == 10 && n <= 9;        // longer ones, or those pushed less, come no farther or slide back
-      EXPECT_GT(want.x[0].x(), over ? 1 : -1) << n;  // m, from the top
-      const Errors errors = compare(cars, want, 0.5);
-      EXPECT_LT(errors.position, 1e-10) << n << ' ' << push << ' ' << want.time;
+      const ConstrainedReference::Motion expected = cars.follow(1.2, 1.0 / 64);
+      const bool over = push == 10 && n <= 9;  // longer ones, or those pushed less, come no farther or slide back
+      EXPECT_GT(expected.x[0].x(), over ? 1 : -1) << n;  // m, from the top
+      const Errors errors = compare(cars, expected, 0.5);
+      EXPECT_LT(errors.position, 1e-10) << n << ' ' << push << ' ' << expected.time;
       EXPECT_LT(errors.velocity, 1e-9) << n << ' ' << push;
       worst = {std::max(worst.position, errors.position), std::max(worst.velocity, errors.velocity)};
     }

@@ -44,7 +44,7 @@ struct Brake {
   }
 };
 
-// The size of the ball does not set the accuracy that its speed needs after that. measured: 4e-12
+// The accuracy of the speed in a moment of strong drag does not depend on the size of the ball. measured: 4e-12
 TEST(CurvedFlights, KeepTheirSpeedsDigitsInAMomentOfStrongDrag) {
   for (const double radius : {0.01, 1.0, 1000.0})
     for (const Brake& brake : {Brake{0, 2e8, 1e-9, 5, 1}, Brake{0, 1e6, 1e-9, 1000, 1000},
@@ -64,7 +64,7 @@ TEST(CurvedFlights, KeepTheirSpeedsDigitsInAMomentOfStrongDrag) {
     }
 }
 
-// Nor the accuracy needed where forces change over a shorter distance. measured: 2e-7 m, 5e-9 J
+// Nor does the accuracy where forces change over a shorter distance than the ball. measured: 2e-7 m, 5e-9 J
 TEST(CurvedFlights, PastASmallAttractorAreTheSameForLargeAndSmallBodies) {
   std::vector<Vec3> ends;
   for (const double radius : {1e-3, 0.1, 10.0, 1000.0}) {
@@ -80,8 +80,8 @@ TEST(CurvedFlights, PastASmallAttractorAreTheSameForLargeAndSmallBodies) {
   }
 }
 
-// At 1 / sqrt(2 softening) times the speed of the start's energy, which is all that is left of it on the other side, an
-// error counts by so much more. measured: 3e-7 of the energy
+// The ball passes the attractor at 1 / sqrt(2 softening) times the speed of its start's energy. Only that energy is
+// left on the other side, so an error of the passage counts by so much more. measured: 3e-7 of the energy
 TEST(CurvedFlights, ThroughASmallAttractorKeepTheEnergyThatTheyLeaveWith) {
   for (const double softening : {1e-3, 1e-5, 1e-7, 1e-8})
     for (const double radius : {0.01, 1.0}) {
@@ -137,7 +137,7 @@ TEST(CurvedFlights, ThroughTheAnchorOfASpringWithARestLengthAreOscillationsPutTo
       }
 }
 
-// Past it, off the line, the push turns in a while; and two anchors on one line turn it twice.
+// A path that misses the anchor: the push turns within a short time. Two anchors on one line turn it twice.
 TEST(CurvedFlights, NearTheAnchorOfASpringWithARestLengthKeepTheirEnergy) {
   for (const double miss : {1e-2, 1e-4, 1e-6, 1e-9, 1e-12}) {
     Problem problem;

@@ -26,7 +26,7 @@ class Counted {
 
 const Vec3 falling(0, -10, 0);
 
-TEST(Effort, OneBallAsksForNoPair) {
+TEST(Effort, OneBallTestsNoPair) {
   Problem p;
   p.world.gravity = falling;
   p.room(Vec3(-2, -2, -2), Vec3(2, 2, 2));
@@ -36,7 +36,7 @@ TEST(Effort, OneBallAsksForNoPair) {
   const Effort effort = counted.at(100);
   EXPECT_GT(counted.collisions(), 200U);
   EXPECT_EQ(effort.pair_tests, 0U);
-  // Each impact is one event. Few regions are left, though the ball is always on its way.
+  // Each impact is one event. The ball leaves few regions, though it moves all the time.
   EXPECT_LE(effort.regions, 10U);
   EXPECT_EQ(effort.events - effort.regions, counted.collisions());
 }
@@ -53,18 +53,18 @@ Problem columns(double pitch, double restitution) {
   return p;
 }
 
-TEST(Effort, BallsThatOnlyMeetPlanesAskForNoPair) {
+TEST(Effort, BallsThatOnlyMeetPlanesTestNoPair) {
   Counted counted(columns(8, 1));
   const Effort effort = counted.at(20);
   EXPECT_GT(counted.collisions(), 15'000U);
   EXPECT_EQ(effort.pair_tests, 0U);
-  // Each falls and rises within one region, once that is as wide as the way.
+  // Each ball falls and rises within one region, once that is as wide as the path.
   EXPECT_LE(effort.regions, 4U * 900);
   EXPECT_LE(effort.surface_tests, counted.collisions() + 5U * 900);
 }
 
-// 1,000 balls that fly away from one another for ever.
-TEST(Effort, DivergingBallsAreAskedOnceAndThenAsTheirDistancesDouble) {
+// 1,000 balls that diverge without end.
+TEST(Effort, DivergingBallsAreTestedOnceAndThenAsTheirDistancesDouble) {
   Problem p;
   for (int i = 0; i < 1000; ++i) {
     const Vec3 x = 1.2 * Vec3(i % 10 - 4.5, i / 10 % 10 - 4.5, i / 100 - 4.5);
@@ -75,7 +75,7 @@ TEST(Effort, DivergingBallsAreAskedOnceAndThenAsTheirDistancesDouble) {
   // The 18 nearest of each, each pair once.
   EXPECT_LE(counted.at(0).pair_tests, 9U * 1000);
   EXPECT_EQ(counted.at(0).events, 0U);
-  // Twenty times as far apart as before, and a million: as many times the doublings.
+  // The distances grow 20-fold, then 50,000-fold. Each doubling makes a few regions of each ball.
   const Effort sooner = counted.at(20), later = counted.at(1e6 - 1);
   EXPECT_LE(sooner.regions, 4U * 5 * 1000);
   EXPECT_LE(later.regions - sooner.regions, 4U * 16 * 1000);
@@ -132,7 +132,7 @@ TEST(Effort, IsolatedBodiesCostNothing) {
   p.ball(Vec3(0, 0, 0), Vec3(1, 2, 3));
   p.ball(Vec3(0, 5, 0), Vec3(-1, 2, 3));
   p.ball(Vec3(0, 10, 0), Vec3::Zero());
-  // A region twice as wide each other time that it is left: 2^30 diameters are 60 regions.
+  // A region doubles every second time that it is left: 2^30 diameters are 60 regions.
   const Effort effort = Counted(p).at(1e9);
   EXPECT_LE(effort.events, 2U * 60);
   EXPECT_EQ(effort.pair_tests, 0U);

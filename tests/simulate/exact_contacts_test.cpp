@@ -318,30 +318,30 @@ TEST(PathLog, RecordsAPathOnceAnInstant) {
   EXPECT_TRUE(parts.paths.pieces().empty());
 }
 
-TEST(PathLog, RecordsNothingUnlessAsked) {
+TEST(PathLog, RecordsNothingUnlessRequested) {
   ExactParts parts(three_in_a_row(1));
   parts.paths.note_change(0);
   parts.paths.record_changes();
   EXPECT_TRUE(parts.paths.pieces().empty());
 }
 
-TEST(ExactSimulator, TallyDoesNotDependOnWhetherStatesAreAskedFor) {
+TEST(ExactSimulator, TallyDoesNotDependOnWhetherStatesAreRead) {
   Problem p = ball_on_floor(0.6);
   p.initial.position[0] = Vec3(0, 3, 0);
   p.initial.velocity[0] = Vec3(1, 0, 0.1);
   p.ball(Vec3(0.3, 5, 0.1), Vec3(0, -7, 0), 1, 0.4, 0.3);
   p.options.duration = 4;
   const auto silent = make_exact_simulator(p.world, p.initial, p.options);
-  const auto asked = make_exact_simulator(p.world, p.initial, p.options);
+  const auto requested = make_exact_simulator(p.world, p.initial, p.options);
   for (int k = 1; k <= 40; ++k) {
-    while (asked->time() < 0.1 * k) asked->advance_to(0.1 * k);
-    asked->state();
-    asked->contacts();
+    while (requested->time() < 0.1 * k) requested->advance_to(0.1 * k);
+    requested->state();
+    requested->contacts();
   }
   while (silent->time() < 4) silent->advance_to(4);
-  EXPECT_EQ(silent->tally().energy_lost, asked->tally().energy_lost);
-  EXPECT_EQ(silent->tally().max_speed, asked->tally().max_speed);
-  EXPECT_EQ(silent->tally().work, asked->tally().work);
+  EXPECT_EQ(silent->tally().energy_lost, requested->tally().energy_lost);
+  EXPECT_EQ(silent->tally().max_speed, requested->tally().max_speed);
+  EXPECT_EQ(silent->tally().work, requested->tally().work);
   const Tally before = silent->tally();
   silent->state();
   EXPECT_EQ(silent->tally().energy_lost, before.energy_lost);

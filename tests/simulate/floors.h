@@ -18,8 +18,9 @@ struct Crossing {
   Vec3 velocity;            // m/s, of all of them
 };
 
-/// A floor of tiles (boxes of random heights) and level walls side by side in two directions, on some of which a plane
-/// lies; their edges adjoin but for rounding. On it a body, and `riders` boxes or cylinders under it, all as fast.
+/// A floor of tiles (boxes of random heights) and level walls side by side in two directions. On some floors a plane
+/// lies too. Their edges adjoin except for rounding. A body slides on it, on `riders` boxes or cylinders with the same
+/// velocity.
 inline Crossing random_crossing(Sliding kind, std::uint64_t seed, int riders = 0) {
   Random random(seed);
   constexpr int side = 5;

@@ -36,9 +36,9 @@ TEST(TimedForces, ThePathIsMadeOfParabolas) {
   y.go(-9.80665, 1.1), y.go(-9.80665 + 0.5, 1.8), y.go(-9.80665, 2.1);
   z.go(0, 2.3), z.go(-0.7, 2.7);
   other.go(-9.80665, 1.1), other.go(-9.80665 + 1.0 / 3, 1.8), other.go(-9.80665, 2.1);
-  const Vec3 want_x(x.x, y.x, z.x), want_v(x.v, y.v, z.v);
-  EXPECT_LT((run.end.position[0] - want_x).norm(), 1e-15 * want_x.norm());  // measured: 1.3e-16
-  EXPECT_LT((run.end.velocity[0] - want_v).norm(), 1e-15 * want_v.norm());  // measured: 1.6e-16
+  const Vec3 expected_x(x.x, y.x, z.x), expected_v(x.v, y.v, z.v);
+  EXPECT_LT((run.end.position[0] - expected_x).norm(), 1e-15 * expected_x.norm());  // measured: 1.3e-16
+  EXPECT_LT((run.end.velocity[0] - expected_v).norm(), 1e-15 * expected_v.norm());  // measured: 1.6e-16
   EXPECT_NEAR(run.end.position[1].y(), other.x, 1e-14 * std::abs(other.x));
   const double gain = kinetic_energy(problem.world, run.end) + potential_energy(problem.world, run.end) -
                       kinetic_energy(problem.world, problem.initial);

@@ -88,7 +88,7 @@ TEST(Gas, EnergyBooksBalanceForEveryRestitution) {
   }
 }
 
-TEST(Gas, LookingMoreOftenMovesNothing) {
+TEST(Gas, MoreStatesReadMoveNothing) {
   Problem problem = gas(5, 0.3, 0.9, true);
   problem.world.gravity = Vec3(0, -1, 0);
   const Outcome once = run_exact(problem);

@@ -23,7 +23,7 @@ Instant time_of(const Flights& flights, const std::vector<double>& radius, Entit
 
 class StraightTimes : public ::testing::TestWithParam<bool> {};
 
-/// The kernels give the law's bits, except for touching and grazing pairs and a few others, which they leave to it.
+/// The kernels give the law's bits. Touching and grazing pairs and a few others are left to the law.
 TEST_P(StraightTimes, HasTheBitsOfTheLawForEveryWidth) {
   constexpr Entity bodies = 400;
   constexpr double end = 3;
@@ -47,17 +47,17 @@ TEST_P(StraightTimes, HasTheBitsOfTheLawForEveryWidth) {
     for (const bool alike : {false, true})
       for (Entity i = 0; i < 40; ++i)
         for (const std::size_t count : {1u, 2u, 5u, 8u, 17u, 399u}) {
-          std::vector<Entity> asked(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count));
-          std::erase(asked, i);
+          std::vector<Entity> partners(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count));
+          std::erase(partners, i);
           const std::vector<double>& r = alike ? same : radius;
-          std::vector<Meet> found(asked.size());
+          std::vector<Meet> found(partners.size());
           bool latest = true;
-          for (const Entity j : asked) latest = latest && flights[j].start <= flights[i].start;
-          for (const bool told : {false, latest}) {
-            const std::size_t impacts =
-                kernel({flights.cores(), alike ? nullptr : r.data(), r[i], i, asked, a, told, end}, found.data());
+          for (const Entity j : partners) latest = latest && flights[j].start <= flights[i].start;
+          for (const bool latest_only : {false, latest}) {
+            const std::size_t impacts = kernel(
+                {flights.cores(), alike ? nullptr : r.data(), r[i], i, partners, a, latest_only, end}, found.data());
             std::size_t next = 0;
-            for (const Entity j : asked) {
+            for (const Entity j : partners) {
               const Instant law = time_of(flights, r, i, j, end);
               if (next < impacts && found[next].with == j) {
                 const Instant time = found[next++].time;

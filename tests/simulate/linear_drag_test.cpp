@@ -1,5 +1,5 @@
-// Flights under linear drag, in closed form from impact to impact: against the references, roots that are found here by
-// bisection, and the method of Runge and Kutta.
+// Flights under linear drag, in closed form from impact to impact. They are compared with the references, with roots
+// found here by bisection, and with the method of Runge and Kutta.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -112,7 +112,7 @@ TEST(LinearFlight, ABouncingBallComesToRestAndDriftsWithTheWind) {
   EXPECT_NEAR(residual(problem, got), 0, 1e-9);
 }
 
-TEST(LinearFlight, WindowsOfTimeBeginAndEndWhereTheySay) {
+TEST(LinearFlight, WindowsOfTimeBeginAndEndAtTheirTimes) {
   Problem problem;
   problem.ball({0, 0, 0}, {2, 0, 0}, 2);
   problem.world.forces = {{Drag{3, 0, Vec3::Zero()}, 0.123, 0.7891}};
@@ -163,7 +163,7 @@ TEST(LinearDrag, AHeavyBodyPushesALightOneThatDragHoldsBack) {
     EXPECT_LT(got.tally.max_overlap, 1e-12);
     EXPECT_EQ(got.tally.stepped_contact, 0);
     EXPECT_NEAR(unbooked(problem, got), 0, 1e-10);
-    EXPECT_NEAR(residual(problem, got), 0, 2e-6);  // measured: 1.2e-6 of 5 J: work is told along parabolas
+    EXPECT_NEAR(residual(problem, got), 0, 2e-6);  // measured: 1.2e-6 of 5 J: work is summed along parabolas
   }
 }
 
@@ -206,7 +206,7 @@ struct OffAGlobe {
   }
 };
 
-TEST(LinearDrag, ABallSlidesOffAGlobeAsItsOneAngleSays) {
+TEST(LinearDrag, ABallSlidesOffAGlobeByTheEquationOfItsOneAngle) {
   for (const double linear : {0.3, 4.0, 200.0}) {
     Problem problem;
     problem.world.gravity = {0, -OffAGlobe::g, 0};
@@ -282,7 +282,7 @@ TEST(LinearDrag, MergedBodiesHaveTheDragOfTheirParts) {
   EXPECT_NEAR(got.end.position[1].x(), 1 + 0.75 - speed * std::expm1(-k * (2 - met)) / k, 1e-13);
 }
 
-// Their faces lie in one plane: the path runs in the face of the Minkowski sum, and enters it nowhere.
+// Their faces lie in one plane. The relative path runs in a face of the Minkowski sum and does not enter it.
 TEST(LinearDrag, BodiesThatPassWithTheirFacesFlushDoNotMeet) {
   Problem problem;
   problem.body(Volume::box({0.4, 0.4, 0.4}), {-2, 0, 0}, {3, 0, 0});
@@ -296,7 +296,7 @@ TEST(LinearDrag, BodiesThatPassWithTheirFacesFlushDoNotMeet) {
   EXPECT_NEAR(got.end.position[0].x(), -2 - 6 * std::expm1(-0.6), 1e-14);
 }
 
-// Where a ball leaves a wall that nothing presses it to, drag on what rounding has left of its speed is no pressure.
+// A ball leaves a wall, and no force presses it to the wall. Drag on the rounding of its speed is no pressure.
 TEST(LinearDrag, LetsAPileSettle) {
   Problem problem = loose_pile(3, 10, 10);
   problem.world.forces = {{Drag{0.2, 0, Vec3::Zero()}}};

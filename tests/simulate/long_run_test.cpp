@@ -34,8 +34,8 @@ TEST(Clock, ABallInABoxIsOnItsPathAfterADay) {
   for (double t = 1; t <= 1e5; t *= 10) {
     go_to(*simulator, t);
     for (int k = 0; k < 3; ++k) {
-      const long double want = folded(r, static_cast<long double>(max[k]) - r, x[k], v[k], t);
-      worst = std::max(worst, static_cast<double>(std::abs(simulator->state().position[0][k] - want)));
+      const long double expected = folded(r, static_cast<long double>(max[k]) - r, x[k], v[k], t);
+      worst = std::max(worst, static_cast<double>(std::abs(simulator->state().position[0][k] - expected)));
     }
     EXPECT_LT(worst, 1e-13 * t) << t;
   }
@@ -52,14 +52,14 @@ TEST(Clock, AMillionSecondsAreKeptToo) {
   const Outcome run = run_exact(problem);
   double worst = 0;
   for (int k = 0; k < 3; ++k) {
-    const long double want = folded(0.1, 100 - static_cast<long double>(0.1), x[k], v[k], 1e6L);
-    worst = std::max(worst, static_cast<double>(std::abs(run.end.position[0][k] - want)));
+    const long double expected = folded(0.1, 100 - static_cast<long double>(0.1), x[k], v[k], 1e6L);
+    worst = std::max(worst, static_cast<double>(std::abs(run.end.position[0][k] - expected)));
   }
   EXPECT_LT(worst, 2e-10);  // m; measured: 1.0e-10, what 99.9 m is rounded to, 11,000 times
 }
 
-/// Distance from their starts (m, in diameters) of balls at reduced density 0.3 that run for so many collisions a ball,
-/// reverse, and run as long again.
+/// The distance of balls from their starts (m, in diameters), at reduced density 0.3. They run for so many collisions a
+/// ball, reverse, and run as long again.
 double way_off_after_reversal(double collisions_a_ball, std::uint64_t seed) {
   Random random(seed);
   Problem problem;
@@ -92,8 +92,8 @@ TEST(Reversal, AGasReturnsToItsStartAfterEightCollisionsABall) {
     EXPECT_LT(way_off_after_reversal(8, seed), 2e-10) << seed;  // diameters; measured: 1.0e-11 to 6.3e-11
 }
 
-// A row that falls 1e9 m: finding its neighbours again every few radii, it would not end in an hour.
-TEST(FreeFall, ACloseCompanyFallsFarAtOnce) {
+// A row that falls 1e9 m. With a new search of neighbours every few radii it would not end in an hour.
+TEST(FreeFall, ACloseGroupFallsFarAtOnce) {
   Problem problem;
   problem.world.gravity = Vec3(0, -9.80665, 0);
   for (int i = 0; i < 12; ++i) problem.ball({0.25 * i, 0, 0}, {0, 0, 0}, 1, 0.125, 0.9);

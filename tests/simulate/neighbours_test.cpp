@@ -22,8 +22,8 @@ struct Wandering {
 
 class Near : public ::testing::TestWithParam<Wandering> {};
 
-/// Along a space diagonal most of the cells of a grid made for all of that space are empty, and the others are full.
-TEST(NearOnADiagonal, KnowsAllThatMayTouch) {
+/// Bodies along a space diagonal: in a grid of that whole space most cells would be empty, and the others full.
+TEST(NearOnADiagonal, HasAllThatMayTouch) {
   constexpr Entity bodies = 3000;
   World world;
   std::vector<Vec3> x;
@@ -44,7 +44,7 @@ TEST(NearOnADiagonal, KnowsAllThatMayTouch) {
     }
 }
 
-TEST(NearThoseThatStay, KnowsAllWithinReachAndFewBeyond) {
+TEST(NearThoseThatStay, HasAllWithinReachAndFewBeyond) {
   Random random;
   for (const double reach : {1e-9, 1e-3, 0.03, 0.5}) {
     constexpr Entity bodies = 400;
@@ -74,7 +74,7 @@ TEST(NearThoseThatStay, KnowsAllWithinReachAndFewBeyond) {
 
 /// Bodies wander and get new regions when they leave theirs. At all times each body that may touch another within
 /// their regions is on both lists, once, and so is every plane in reach.
-TEST_P(Near, KnowsAllThatMayTouch) {
+TEST_P(Near, HasAllThatMayTouch) {
   const Wandering& how = GetParam();
   constexpr Entity bodies = 150;
   Random random;

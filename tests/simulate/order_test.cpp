@@ -17,11 +17,11 @@ constexpr Integrator methods[] = {Integrator::euler, Integrator::verlet, Integra
 constexpr double orders[] = {1, 2, 4};
 constexpr const char* names[] = {"euler", "verlet", "rk4"};
 
-struct Answer {
+struct KnownEnd {
   Vec3 x, v;
 };
 
-Answer run(const Problem& problem, Integrator method, double step) {
+KnownEnd run(const Problem& problem, Integrator method, double step) {
   ExactOptions options;
   options.duration = problem.options.duration;
   options.step = step;
@@ -31,34 +31,39 @@ Answer run(const Problem& problem, Integrator method, double step) {
   return {outcome.end.position[0], outcome.end.velocity[0]};
 }
 
-/// |dx| and |dv| together, in units of 1 m and 1 m/s; the geometric mean over twelve numbers of steps, so that impacts
-/// fall on all parts of a step.
-double error(const Problem& problem, Integrator method, double steps, const Answer& answer) {
+///
+/// dx
+///  and
+/// dv
+///  together, in units of 1 m and 1 m/s. It is the geometric mean over twelve numbers of steps, so that impacts fall on
+/// all parts of a step.
+double error(const Problem& problem, Integrator method, double steps, const KnownEnd& known_end) {
   double sum = 0;
   constexpr int numbers = 12;
   for (int k = 0; k < numbers; ++k) {
     const double n = std::round((1 + 0.017 * k) * steps);
-    const Answer got = run(problem, method, problem.options.duration / n);
-    sum += std::log((got.x - answer.x).norm() + (got.v - answer.v).norm());
+    const KnownEnd got = run(problem, method, problem.options.duration / n);
+    sum += std::log((got.x - known_end.x).norm() + (got.v - known_end.v).norm());
   }
   return std::exp(sum / numbers);
 }
 
 /// The slope of log error over log step, fitted through all.
-double fitted_order(const Problem& problem, Integrator method, const std::vector<double>& steps, const Answer& answer) {
+double fitted_order(const Problem& problem, Integrator method, const std::vector<double>& steps,
+                    const KnownEnd& known_end) {
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (const double n : steps) {
-    const double x = -std::log(n), y = std::log(error(problem, method, n, answer));
+    const double x = -std::log(n), y = std::log(error(problem, method, n, known_end));
     sx += x, sy += y, sxx += x * x, sxy += x * y;
   }
   const auto count = static_cast<double>(steps.size());
   return (count * sxy - sx * sy) / (count * sxx - sx * sx);
 }
 
-void expect_orders(const Problem& problem, const Answer& answer, double first, const char* measured) {
+void expect_orders(const Problem& problem, const KnownEnd& known_end, double first, const char* measured) {
   for (int m = 0; m < 3; ++m) {
     const std::vector<double> steps = {first, 2 * first, 4 * first, 8 * first};
-    const double order = fitted_order(problem, methods[m], steps, answer);
+    const double order = fitted_order(problem, methods[m], steps, known_end);
     EXPECT_GT(order, orders[m] - 0.15) << names[m] << "; measured: " << measured;
     // Impacts may reverse the velocity error of Euler's method, which then cancels.
     if (m > 0) {
@@ -69,7 +74,7 @@ void expect_orders(const Problem& problem, const Answer& answer, double first, c
 }
 
 /// An oscillator that strikes a wall: x'' = -w^2 x for x >= wall, speed times e at each impact.
-Answer impact_oscillator(double w, double wall, double e, double x, double time) {
+KnownEnd impact_oscillator(double w, double wall, double e, double x, double time) {
   double amplitude = x, phase = 0, t = 0;  // x = amplitude cos(w (t - t0) + phase)
   for (;;) {
     const double down = std::acos(wall / amplitude);  // the phase at the wall
@@ -95,7 +100,7 @@ TEST(Order, IsTheMethodsForAnOscillatorThatStrikesAWall) {
 }
 
 /// Linear drag: v = vt + (v0 - vt) exp(-k t), on a floor at 0, from rest at height h.
-Answer drag_bounce(double k, double g, double e, double h, const std::vector<double>& impacts, double time) {
+KnownEnd drag_bounce(double k, double g, double e, double h, const std::vector<double>& impacts, double time) {
   double y = h, v = 0, t = 0;
   const double vt = -g / k;
   const auto fly = [&](double length) {
@@ -126,13 +131,13 @@ TEST(Order, IsTheMethodsForABallThatBouncesInAThickMedium) {
   problem.options.duration = 2.2;  // between the third and the fourth impact
   std::vector<double> impacts;
   for (int n = 0; n < 3; ++n) impacts.push_back(bounce["impacts"][n]["t"]);
-  Answer answer = drag_bounce(k, g, e, h, impacts, 2.2);
-  answer.x.y() += 0.25;
-  expect_orders(problem, answer, 100, "1.01, 2.00, 4.03");
+  KnownEnd known_end = drag_bounce(k, g, e, h, impacts, 2.2);
+  known_end.x.y() += 0.25;
+  expect_orders(problem, known_end, 100, "1.01, 2.00, 4.03");
 }
 
 /// The finest run is the reference: steps 64 times shorter.
-Answer finest(const Problem& problem, double steps) {
+KnownEnd finest(const Problem& problem, double steps) {
   return run(problem, Integrator::rk4, problem.options.duration / (64 * steps));
 }
 

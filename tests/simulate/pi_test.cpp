@@ -1,6 +1,6 @@
-// Galperin's billiard: a heavy ball drives a light one against a wall. Unfolded, it is a straight line through wedges
-// of the angle theta = atan sqrt(m/M), so the collisions are the wedges' sides that it crosses: ceil(pi / theta) - 1.
-// (Galperin, Regul. Chaotic Dyn. 8 (2003) 375.)
+// Galperin's billiard: a heavy ball drives a light one against a wall. Unfolded, the path is a straight line through
+// wedges of the angle theta = atan sqrt(m/M). The collisions are the sides of wedges that it crosses: ceil(pi / theta)
+// - 1. (Galperin, Regul. Chaotic Dyn. 8 (2003) 375.)
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -54,8 +54,8 @@ inline double energy_of_pile(const World& world, Simulator& simulator) {
   return energy;
 }
 
-/// At these times only sliding bodies move, to the last bit; nothing overlaps then, nor by more than `deepest_ever` (m)
-/// before; the contact forces on each ball balance its weight, except for `unbalanced` of it.
+/// At these times only sliding bodies move, to the last bit, and nothing overlaps. Before, no overlap exceeds
+/// `deepest_ever` (m). The contact forces on each ball balance its weight, except for the share `unbalanced`.
 inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, std::vector<double> times,
                                 double deepest_ever = 1e-9, double unbalanced = 1e-9, double still = 0) {
   const World& world = problem.world;

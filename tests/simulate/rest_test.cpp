@@ -173,14 +173,14 @@ TEST(Rest, AColumnOfBallsBetweenWallsStands) {
   expect_rest(problem, forces, {0, 0.1, 20}, "column", 1e-14);
 }
 
-TEST(Rest, WhoLiesStillCostsNothing) {
+TEST(Rest, ABodyThatLiesStillCostsNothing) {
   Problem problem = pyramid();
   problem.options.duration = 1e6;
   const Outcome run = run_exact(problem);  // soon, or the test's time limit ends it
   EXPECT_EQ(run.end.velocity[3], Vec3(0, 0, 0));
 }
 
-TEST(Rest, AColumnThrowsBackWhoFallsOnIt) {
+TEST(Rest, AColumnThrowsBackABallThatFallsOnIt) {
   // As many balls as time stepping moves, and fewer: at e = 1 the one that falls from 0.5 m comes up again.
   for (int n : {2, 16, 17, 18, 24, 40}) {
     Problem problem;
@@ -196,7 +196,7 @@ TEST(Rest, AColumnThrowsBackWhoFallsOnIt) {
   }
 }
 
-TEST(Rest, AnElasticHopTooLowToTellIsNone) {
+TEST(Rest, AnElasticHopBelowRoundingIsNone) {
   for (const bool by_a_ball : {false, true}) {
     Problem problem;
     problem.world.gravity = Vec3(0, -100, 0);
@@ -270,7 +270,7 @@ TEST(Rest, WhatGlidesHoweverSlowlyGlidesOn) {
       }
 }
 
-TEST(Rest, WhoIsStruckWakes) {
+TEST(Rest, AStruckBodyWakes) {
   Problem groove;
   groove.world.gravity = Vec3(0, -g_n, 0);
   groove.plane({0, 0, 0}, {1, 1, 0});

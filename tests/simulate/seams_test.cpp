@@ -20,7 +20,7 @@ TEST(Seams, OfTilesAndWallsDoNothingToABodyNorToOneThatCarriesOthers) {
             << seed << ", body " << static_cast<int>(kind) << ", " << riders;
 }
 
-// Where two planes meet at an angle the body goes on along the second: up by the angle times the way.
+// Where two planes meet at an angle, the body continues along the second: it rises by the angle times the distance.
 TEST(Seams, OfPlanesThatAreNearlyLevelDoNothing) {
   for (const Sliding kind : {Sliding::ball, Sliding::box, Sliding::cylinder})
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
@@ -46,8 +46,8 @@ TEST(Seams, OfPlanesThatAreNearlyLevelDoNothing) {
     }
 }
 
-/// Boxes and upright cylinders, with half extents a and b, in decimals as a scene has them: one passes the other with
-/// their faces in one plane, but for rounding.
+/// Boxes and upright cylinders with half extents a and b, in decimals as in a scene. One passes the other with their
+/// faces in one plane, except for rounding.
 Problem passing(std::uint64_t seed) {
   Random random(seed);
   const auto decimal = [&](double low, double high) { return std::round(random(low, high) * 20) / 20; };

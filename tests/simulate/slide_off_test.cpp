@@ -33,19 +33,19 @@ Leaving leaving(double s, double v0) {
   return {c, sum * end / n / 3, s * std::sqrt(1 - c * c), s * c, std::sqrt(g_n * s * c)};
 }
 
-/// Ball 0 slides over the top at `start` (s) and leaves as expected: shortly before it is carried, shortly after it
-/// is on the parabola of free flight.
-void expect_leaves(const Problem& problem, const Leaving& want, double start, const Vec3& center,
+/// Ball 0 slides over the top at `start` (s) and leaves as expected. Shortly before, the top carries it; shortly after,
+/// it is on the parabola of free flight.
+void expect_leaves(const Problem& problem, const Leaving& expected, double start, const Vec3& center,
                    const std::string& what) {
   constexpr double late = 1e-8;  // s; measured: contacts() is right to within 5e-10
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
-  go_to(*simulator, start + want.time - late);
+  go_to(*simulator, start + expected.time - late);
   EXPECT_EQ(simulator->contacts().size(), 1u) << what;
-  go_to(*simulator, start + want.time + late);
+  go_to(*simulator, start + expected.time + late);
   EXPECT_EQ(simulator->contacts().size(), 0u) << what;
-  const double sine = std::sqrt(1 - want.c * want.c), t = late;
-  const Vec3 v(want.speed * want.c, -want.speed * sine, 0), down(0, -g_n, 0);
-  const Vec3 x = center + Vec3(want.x, want.y, 0) + t * v + 0.5 * t * t * down;
+  const double sine = std::sqrt(1 - expected.c * expected.c), t = late;
+  const Vec3 v(expected.speed * expected.c, -expected.speed * sine, 0), down(0, -g_n, 0);
+  const Vec3 x = center + Vec3(expected.x, expected.y, 0) + t * v + 0.5 * t * t * down;
   const State& state = simulator->state();
   EXPECT_LT((state.position[0] - x).norm(), 2e-10) << what;              // m; measured: 1.1e-10
   EXPECT_LT((state.velocity[0] - (v + t * down)).norm(), 1e-8) << what;  // m/s; measured: 6.3e-9

@@ -132,7 +132,7 @@ TEST(Work, OfForcesThatSetInAndCeaseAndOfTheWindIsBooked) {
   EXPECT_NEAR(residual(problem, got), 0, 1e-9);
 }
 
-TEST(Paths, NobodyIsJumpedOverHoweverLongTheStep) {
+TEST(Paths, NoBodyIsJumpedOverHoweverLongTheStep) {
   Problem problem;
   problem.ball({-30, 0.01, 0}, {100, 0, 0}, 1, 0.05);
   problem.ball({0, 0, 0}, {0, 0, 0}, 1, 0.05);
@@ -227,7 +227,7 @@ TEST(Outputs, ChangeNothing) {
 }
 
 // To the last bit, where forces work, clusters slide and a contact group settles.
-TEST(Outputs, AskedForTwiceAreTheSame) {
+TEST(Outputs, RequestedTwiceAreTheSame) {
   Problem problem = loose_pile(3, 3, 2);
   problem.ball({-3, 0.5, 0}, {1, 0, 0}, 1, 0.5, 0.5);
   problem.world.forces = {{Drag{0.1, 0.01, Vec3::Zero()}, 0.1}};
@@ -237,20 +237,20 @@ TEST(Outputs, AskedForTwiceAreTheSame) {
     const Tally before = simulator->tally();
     const State first = simulator->state();
     const auto forces = simulator->contacts();
-    const std::vector<ContactForce> asked(forces.begin(), forces.end());
+    const std::vector<ContactForce> requested(forces.begin(), forces.end());
     const State& second = simulator->state();
     const auto again = simulator->contacts();
     EXPECT_EQ(first.position, second.position) << time;
     EXPECT_EQ(first.velocity, second.velocity) << time;
-    ASSERT_EQ(asked.size(), again.size()) << time;
-    for (std::size_t k = 0; k < asked.size(); ++k) EXPECT_EQ(asked[k].force, again[k].force) << time;
+    ASSERT_EQ(requested.size(), again.size()) << time;
+    for (std::size_t k = 0; k < requested.size(); ++k) EXPECT_EQ(requested[k].force, again[k].force) << time;
     EXPECT_EQ(before.energy_lost, simulator->tally().energy_lost) << time;
     EXPECT_EQ(before.work, simulator->tally().work) << time;
   }
 }
 
-// A sleeping body, sampled within the step in which it is struck, had only the state at the step's end.
-TEST(Looks, ABodyThatLiesStillDoesUntilItIsStruck) {
+// A sleeping body is struck within a step. Until then samples have it at rest, and not in the state of the step's end.
+TEST(Sampling, ASleepingBodyStaysUntilItIsStruck) {
   Problem problem;
   problem.ball({-1, 0.5, 0}, {2, 0, 0}, 1, 0.5);
   problem.ball({1, 0.5, 0}, {0, 0, 0}, 1, 0.5);

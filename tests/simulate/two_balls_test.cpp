@@ -10,9 +10,9 @@ namespace {
 
 constexpr double tight = 5e-15;  // relative, four units in the last place
 
-void expect_close(const Vec3& got, const Vec3& want, double tolerance, const std::string& what) {
-  EXPECT_LE((got - want).norm(), tolerance * want.norm())
-      << what << ": " << got.transpose() << " for " << want.transpose();
+void expect_close(const Vec3& got, const Vec3& expected, double tolerance, const std::string& what) {
+  EXPECT_LE((got - expected).norm(), tolerance * expected.norm())
+      << what << ": " << got.transpose() << " for " << expected.transpose();
 }
 
 void expect_case(const nlohmann::json& reference_case, const nlohmann::json& p, const Vec3& gravity) {

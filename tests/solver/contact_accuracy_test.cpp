@@ -1,4 +1,4 @@
-// Contact to within its slack: the distance of such answers from the exact ones.
+// Contact to within its slack: the distance of such solutions from the exact ones.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace {
 
 using namespace contact_cases;
 
-/// Rows, stacks, lattices and packings of every load, with contacts' slack of this share of the greatest free motion
-/// and forces guessed at random.
+/// Rows, stacks, lattices and packings of every load. The contacts' slack is this share of the greatest free motion,
+/// and forces are guessed at random.
 std::vector<Case> cases(double slack) {
   std::vector<Case> all;
   for (const Load load : loads)
@@ -143,8 +143,8 @@ TEST(ContactAccuracy, OtherUnitsGiveTheSameBits) {
     }
 }
 
-/// Far away the same again: neither changes the other's bits.
-TEST(ContactAccuracy, CompanyDoesNotMatter) {
+/// Two cases side by side without contact: neither changes the other's bits.
+TEST(ContactAccuracy, OtherIslandsDoNotMatter) {
   for (const ContactAccuracy accuracy : {ContactAccuracy::contacts, ContactAccuracy::energy}) {
     std::vector<Case> all = cases(1e-3);
     for (std::size_t k = 0; k + 1 < all.size(); ++k) {
@@ -165,7 +165,7 @@ TEST(ContactAccuracy, CompanyDoesNotMatter) {
   }
 }
 
-TEST(ContactAccuracy, WhatIsToPartAndCannotIsSaid) {
+TEST(ContactAccuracy, ContactsThatCannotPartAreInfeasible) {
   const std::vector<double> inverse_mass{1};
   std::vector<Vec3> u{{0, 0, 0}};
   std::vector<ContactConstraint> contacts{{0, fixed, {1, 0, 0}, 0.1, 1e-3}, {0, fixed, {-1, 0, 0}, 0.1, 1e-3}};
@@ -266,7 +266,7 @@ TEST(ContactProjectedGradients, GoOnFromWhereTheirCostHasStoppedThem) {
   for (ContactConstraint& p : c.contacts) p.slack = 1e-9;
   const ContactIsland island = island_of(c);
   ContactProjectedGradients at_once, by_parts;
-  ContactAnswer one, other;
+  ContactSolution one, other;
   at_once.start(island);
   by_parts.start(island);
   double cost = 0;  // ns

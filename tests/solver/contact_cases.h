@@ -170,8 +170,8 @@ inline Case loaded(std::string name, const Balls& balls, Load load, double decad
   return c;
 }
 
-/// A ball between two walls that open upwards by this angle (rad) on either side, and one upon it; pressed down, or
-/// (squeezed) walls that close in and throw it out.
+/// A ball between two walls that open upwards by this angle (rad) on either side, and a ball on it. It is pressed down;
+/// or (squeezed) the walls close in and throw it out.
 inline Case wedge(double angle, bool squeezed) {
   const double c = std::cos(angle), s = std::sin(angle);
   Case it{

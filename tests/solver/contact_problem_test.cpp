@@ -17,7 +17,7 @@ namespace {
 using namespace contact_cases;
 using Verdict = Certificate::Verdict;
 
-/// Solves a case: its motion and forces become the answer's.
+/// Solves a case: its motion and forces become the solution's.
 Certificate solve_case(Case& c) {
   return solve({c.inverse_mass, c.motion, c.contacts});
 }
@@ -28,7 +28,7 @@ double difference(const std::vector<Vec3>& u, const std::vector<Vec3>& v) {
   return most;
 }
 
-/// The answer, certified, and against quadruple precision where that holds. Gives whether it does.
+/// The solution, certified, and against quadruple precision where that holds. Gives whether it does.
 bool expect_exact(const Case& given) {
   Case c = given;
   const Certificate certificate = solve_case(c);
@@ -131,7 +131,7 @@ TEST(ContactProblem, ABallIsSqueezedOutOfAWedge) {
   }
 }
 
-/// Each is the other's fallback: they find the same motion.
+/// Either method replaces the other where that fails. Both find the same motion.
 TEST(ContactProblem, BothMethodsFindTheSameMotion) {
   for (const Load load : loads)
     for (const double decades : {0.0, 3.0, 6.0})
@@ -147,7 +147,7 @@ TEST(ContactProblem, BothMethodsFindTheSameMotion) {
           r.normal = contact.normal;
         }
         island.scale();
-        ContactAnswer one, other;
+        ContactSolution one, other;
         DualActiveSet method;
         EXPECT_TRUE(method.solve(island, one).judgement.within_slack);
         EXPECT_TRUE(ContactInteriorPoint(island).solve(other).within_slack);
@@ -172,7 +172,7 @@ TEST(ContactProblem, OtherUnitsGiveTheSameBits) {
 }
 
 /// Contacts and bodies in another order; and another island beside them changes no bit.
-TEST(ContactProblem, OrderAndCompanyDoNotMatter) {
+TEST(ContactProblem, OrderAndOtherIslandsDoNotMatter) {
   const Case given = loaded("", packing(30, 2), Load::push, 3);
   Case p = given, reversed = given, beside = given;
   std::reverse(reversed.contacts.begin(), reversed.contacts.end());
@@ -193,7 +193,7 @@ TEST(ContactProblem, OrderAndCompanyDoNotMatter) {
   for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(p.motion[i], beside.motion[i]);
 }
 
-/// One contact removed and restored, by a solver with memory: the same motion, and little work.
+/// One contact is removed and restored, by a solver that keeps its factors: the motion is the same.
 TEST(ContactProblem, AWarmStartFindsTheSame) {
   for (const Load load : loads)
     for (const double decades : {0.0, 6.0}) {
@@ -214,7 +214,7 @@ TEST(ContactProblem, AWarmStartFindsTheSame) {
     }
 }
 
-// The one method keeps factors, the other does not: those of earlier problems are of no use.
+// One method keeps factors, the other does not. Factors of earlier problems must not be used.
 TEST(ContactProblem, AWarmStartAfterProblemsOfOtherSizesFindsTheSame) {
   for (const Load load : loads) {
     ContactSolver solver;
@@ -239,7 +239,7 @@ TEST(ContactProblem, BilateralContactsPullToo) {
   EXPECT_NEAR(contacts[0].force, -2, 1e-15);
 }
 
-/// With every contact held both ways the motion is the orthogonal projection: among many, redundant or not.
+/// With every contact bilateral, the motion is the orthogonal projection, also where contacts are redundant.
 TEST(ContactProblem, BilateralContactsMayBeRedundant) {
   Case c = loaded("", lattice(2), Load::impact, 3);
   for (ContactConstraint& contact : c.contacts) contact.bilateral = true;
@@ -248,7 +248,7 @@ TEST(ContactProblem, BilateralContactsMayBeRedundant) {
 }
 
 /// Two walls that close in on a ball.
-TEST(ContactProblem, WhatCannotBeIsSaid) {
+TEST(ContactProblem, InfeasibleContactsAreReported) {
   const std::vector<double> inverse_mass{1};
   std::vector<Vec3> u{{0.2, 0, 0}};
   std::vector<ContactConstraint> contacts{{0, fixed, {1, 0, 0}, 1}, {0, fixed, {-1, 0, 0}, 1}};

@@ -1,6 +1,6 @@
 #pragma once
-// The motion that contacts allow in quadruple precision, from which contacts press, by an independent method:
-// Cholesky's factors of J M^-1 J^T. It holds where no contact pulls and none is violated in that precision, for the
+// The motion that contacts allow, in quadruple precision, for given pressing contacts. An independent method finds it:
+// Cholesky's factors of J M^-1 J^T. It holds if no contact pulls and none is violated in that precision, since the
 // motion is unique.
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,8 @@ struct Reference {
   std::vector<Quad> motion;  // 3 a body
   bool holds = false;
 
-  /// Of a motion: the greatest difference, relative to how fast a body is, was, or a thousandth of the fastest.
+  /// The greatest difference of a motion. It is relative to the body's speed before or after, or to a thousandth of the
+  /// greatest speed.
   double error(const std::vector<Vec3>& free, const std::vector<Vec3>& u) const {
     double speed = 0, most = 0;
     for (const Vec3& v : free) speed = std::max(speed, v.norm());
@@ -35,7 +36,7 @@ struct Reference {
   }
 };
 
-/// `contacts`: with the forces of an answer; those above 0 press.
+/// `contacts`: with the forces of a solution; those above 0 press.
 inline Reference reference(const std::vector<double>& inverse_mass, const std::vector<Vec3>& free,
                            const std::vector<ContactConstraint>& contacts) {
   constexpr std::uint32_t fixed = ContactConstraint::fixed;

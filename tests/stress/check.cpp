@@ -22,7 +22,7 @@ std::string text(double x) {
   return digits;
 }
 
-std::string who(Entity a, Entity b) {
+std::string names_of(Entity a, Entity b) {
   return std::to_string(a) + " and " + std::to_string(b);
 }
 
@@ -72,7 +72,7 @@ class Check {
                   " records so far");
     verdict_.collisions = first_.tally.collisions();
     if (!first_.error.empty()) return stop();
-    times_ = times_to_look(scene_, first_.records);
+    times_ = sample_times(scene_, first_.records);
     seen_ = watch(scene_, times_, 10 * patience_);
     same("with more outputs", seen_);
     if (!seen_.error.empty() || seen_.seen.size() != times_.size()) return;
@@ -97,8 +97,8 @@ class Check {
     const bool lively =
         std::any_of(world_.restitution.begin(), world_.restitution.end(), [](double e) { return e > 1; });
     if (!scene_.may_stop && first_.error.find("max_collisions") != std::string::npos) {
-      // So many are no fault as long as they come to an end: light balls in a row between heavy ones, with e = 0.9,
-      // have 24,845 in 0.03 s of CPU time. Without end they exceed the time limit.
+      // Many collisions are no fault if they come to an end. Light balls in a row between heavy ones, with e = 0.9,
+      // have 24,845 in 0.03 s of CPU time. Endless ones exceed the time limit.
       RandomScene unlimited = scene_;
       unlimited.options.max_collisions = 0;
       return Check(unlimited, patience_, verdict_).run();
@@ -198,7 +198,7 @@ class Check {
 
   void record(const Collision& c) {
     if (c.kind == CollisionKind::rest) return;
-    const std::string what = "record of " + who(c.a, c.b) + " at t = " + text(c.time) + ": ";
+    const std::string what = "record of " + names_of(c.a, c.b) + " at t = " + text(c.time) + ": ";
     if (c.approach_speed < 0) fail(what + "they separate at " + text(-c.approach_speed) + " m/s");
     if (std::abs(c.normal.norm() - 1) > 1e-14) fail(what + "its normal has length 1 + " + text(c.normal.norm() - 1));
     if (scene_.options.merge && c.kind == CollisionKind::merge) return;
@@ -250,10 +250,10 @@ class Check {
     const Watched run = watch(other, {}, patience_);
     const double slack = 10 * paths_->rounding(c.a, c.b) / c.approach_speed + 1e-12 * c.time;
     if (run.records.empty())
-      fail("with its axes turned nothing meets, else " + who(c.a, c.b) + " at t = " + text(c.time));
+      fail("with its axes turned nothing meets, else " + names_of(c.a, c.b) + " at t = " + text(c.time));
     else if (run.records[0].a != c.a || run.records[0].b != c.b || std::abs(run.records[0].time - c.time) > slack)
-      fail("with its axes turned " + who(run.records[0].a, run.records[0].b) +
-           " meet at t = " + text(run.records[0].time) + ", else " + who(c.a, c.b) + " at t = " + text(c.time));
+      fail("with its axes turned " + names_of(run.records[0].a, run.records[0].b) +
+           " meet at t = " + text(run.records[0].time) + ", else " + names_of(c.a, c.b) + " at t = " + text(c.time));
   }
 
   const RandomScene& scene_;

@@ -1,6 +1,5 @@
-// The same scenes in steps of time, long ones: whatever the method and the step, a run ends, no position is
-// undefined, no bodies overlap, outputs change nothing; and except by Euler's method, of
-// order 1, energy does not grow.
+// The same scenes in long steps of time, by every method. A run ends, no position is undefined, no bodies overlap, and
+// outputs change nothing. Energy does not grow, except by Euler's method, of order 1.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,18 +17,18 @@ namespace {
 constexpr double deepest = 1e-9;    // of the smaller radius, and
 constexpr double most_gain = 1e-6;  // of the energy; measured: below 1e-7 in 1,371 scenes
 
-struct Seen {
+struct Observed {
   std::vector<State> states;
   Tally tally;
 };
 
-Seen run(const RandomScene& scene, const ExactOptions& options, int looks) {
+Observed run(const RandomScene& scene, const ExactOptions& options, int instants) {
   const auto simulator = make_exact_simulator(scene.world, scene.initial, options);
-  Seen seen;
+  Observed seen;
   simulator->advance_to(0);
   seen.states.push_back(simulator->state());
-  for (int k = 1; k <= looks; ++k) {
-    const double t = k == looks ? options.duration : options.duration * k / looks;
+  for (int k = 1; k <= instants; ++k) {
+    const double t = k == instants ? options.duration : options.duration * k / instants;
     do simulator->advance_to(t);
     while (simulator->time() < t);
     seen.states.push_back(simulator->state());
@@ -38,7 +37,7 @@ Seen run(const RandomScene& scene, const ExactOptions& options, int looks) {
   return seen;
 }
 
-/// J: energy; and added up without signs, which is what its rounding goes by.
+/// The energy (J). `size`: the sum without signs, to which its rounding is proportional.
 long double energy(const World& world, const State& s, long double& size) {
   long double sum = 0;
   size = 0;
@@ -82,7 +81,7 @@ Verdict check_stepped(const RandomScene& scene) {
   const auto fail = [&](const std::string& why) {
     if (verdict.violations.size() < 12) verdict.violations.push_back(what + why);
   };
-  Seen once, often;
+  Observed once, often;
   try {
     once = run(scene, options, 1);
     often = run(scene, options, 23);

@@ -7,8 +7,8 @@ namespace carom::stress {
 
 using Long3 = Eigen::Matrix<long double, 3, 1>;
 
-/// m; negative: overlap. Outside it is the distance; inside, the least way out along the axes that the volumes have. b:
-/// a body, or a fixed thing (then xb does not matter).
+/// The gap in m; negative: overlap. Outside it is the distance; inside, the shortest displacement that separates, along
+/// the volumes' axes. b: a body, or a fixed thing (then xb has no effect).
 long double gap(const World& world, Entity a, const Long3& xa, Entity b, const Long3& xb);
 
 }  // namespace carom::stress

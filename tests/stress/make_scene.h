@@ -25,7 +25,7 @@ class Maker {
   Vec3 within(const Vec3& low, const Vec3& high);
   Vec3 somewhere(double half) { return within(Vec3::Constant(-half), Vec3::Constant(half)); }
 
-  // Things. Those of fixed things come before bodies that look for room.
+  // Things. Those of fixed things come before bodies that need room.
   void plane(const Vec3& point, const Vec3& normal);
   void wall(const Vec3& center, const Vec3& normal, const Vec3& up, double width, double height);
   void room(double half);

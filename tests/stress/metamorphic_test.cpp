@@ -71,8 +71,8 @@ Motion driven(Drive drive, std::uint64_t seed) {
   return motion;
 }
 
-Seen run(const Motion& motion, Way way) {
-  Seen seen;
+Observed run(const Motion& motion, Way way) {
+  Observed seen;
   try {
     std::unique_ptr<Simulator> simulator;
     if (way == Way::exact) {
@@ -122,7 +122,7 @@ std::string unit_difference(const Motion& motion, Way way, const Units& units) {
 constexpr std::array ways{Way::exact, Way::euler, Way::verlet, Way::rk4};
 constexpr std::array all_units{Units{20, 0, 0}, Units{0, -12, 0}, Units{0, 0, 30}, Units{-30, 7, -24}};
 
-/// So many seeds, evenly divided among the families.
+/// The number of seeds, evenly divided among the families.
 std::uint64_t seeds(Way way) {
   return way == Way::exact ? 13 * 12 : 13 * 6;
 }
@@ -171,7 +171,7 @@ std::string name_of(const ::testing::TestParamInfo<Way>& way) {
 }
 INSTANTIATE_TEST_SUITE_P(Ways, Metamorphic, ::testing::ValuesIn(ways), name_of);
 
-// Of scenes without planes, which reach everywhere, and without forces and pairs that go by number.
+// Scenes without planes, which reach everywhere, and without forces and pairs that name bodies by number.
 TEST(FarAway, AnotherSceneChangesNoBit) {
   int tried = 0;
   for (std::uint64_t seed = 0; seed < 13 * 12; ++seed) {
@@ -187,7 +187,7 @@ TEST(FarAway, AnotherSceneChangesNoBit) {
     other.world.combine = motion.world.combine;
     const bool first = seed % 2 == 0;
     const Motion both = together(motion, other, first);
-    const Seen alone = run(motion, Way::exact), seen = run(both, Way::exact);
+    const Observed alone = run(motion, Way::exact), seen = run(both, Way::exact);
     if (!alone.error.empty() || !seen.error.empty()) continue;
     ++tried;
     const std::size_t from = first ? 0 : other.initial.position.size();
@@ -219,7 +219,7 @@ Motion reordered(const Motion& motion, const std::vector<Entity>& order) {
 double order_difference(const Motion& motion, Way way) {
   std::vector<Entity> order(motion.world.body_count());
   std::iota(order.rbegin(), order.rend(), Entity{0});  // backwards
-  const Seen a = run(motion, way), b = run(reordered(motion, order), way);
+  const Observed a = run(motion, way), b = run(reordered(motion, order), way);
   if (a.error != b.error || a.collisions != b.collisions) return std::numeric_limits<double>::infinity();
   double most = 0;
   for (std::size_t k = 0; k < order.size(); ++k)

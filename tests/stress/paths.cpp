@@ -13,8 +13,8 @@ namespace carom::stress {
 namespace {
 
 constexpr double relative_rounding = 2e-14;
-constexpr double in_islands = 1e-10;  // of the smaller one's radius
-constexpr int most_looks = 100;       // at a pair's gap between two outputs
+constexpr double in_islands = 1e-10;   // of the smaller one's radius
+constexpr int most_evaluations = 100;  // at a pair's gap between two outputs
 
 double extent_of(const Vec3& x) {
   return x.cwiseAbs().sum();
@@ -53,7 +53,7 @@ double Paths::allowed(Entity a, Entity b) const {
   return rounding(a, b) + (islands_ ? in_islands * smaller : 0);
 }
 
-/// The paths from look k to the next.
+/// The paths from sample k to the next.
 std::vector<Paths::Path> Paths::between(std::size_t k) const {
   const World& world = scene_.world;
   const State &now = seen_[k], &then = seen_[k + 1];
@@ -101,7 +101,8 @@ double Paths::deepest(const World& world, Entity a, const Path& pa, Entity b, co
   least = std::min(least, end);
   spans.push_back(span(0, length, least, end));
   spans.back().at_from = at(0);
-  for (int looks = 0; looks < most_looks && !spans.empty() && spans.front().least < -tolerance; ++looks) {
+  for (int evaluations = 0; evaluations < most_evaluations && !spans.empty() && spans.front().least < -tolerance;
+       ++evaluations) {
     std::pop_heap(spans.begin(), spans.end());
     const Span s = spans.back();
     spans.pop_back();

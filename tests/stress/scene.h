@@ -30,7 +30,7 @@ RandomScene make_scene(std::uint64_t seed, std::string_view bytes = {});
 /// The scene as a file that `carom run` reads, to the last bit. `simulate`: more keys (", engine: book").
 std::string as_yaml(const RandomScene& scene, const std::string& simulate = {});
 
-/// Of the forces of random scenes, which are uniform.
+/// Forces of random scenes are uniform.
 inline bool per_mass(const Force& f) {
   return std::holds_alternative<UniformAcceleration>(f.law);
 }

@@ -87,14 +87,14 @@ inline Motion scaled(Motion m, const Units& units) {
   return m;
 }
 
-struct Seen {
+struct Observed {
   State end;
   std::uint64_t collisions = 0;
   double energy_lost = 0;  // J
   std::string error;
 };
 
-/// -0 is 0, and so is what has fallen so low, impact by impact, that doubles lose its digits: 1e-290 and less.
+/// -0 equals 0. So does a number below 1e-290, to which speeds fall impact by impact and where doubles lose digits.
 inline bool same(const Vec3& a, const Vec3& b) {
   constexpr double none = 1e-290;
   for (int k = 0; k < 3; ++k)
@@ -104,7 +104,7 @@ inline bool same(const Vec3& a, const Vec3& b) {
 
 /// The first difference of two runs in a bit; empty: none. `back` transforms b's vectors to those of a.
 template <typename Position, typename Velocity>
-inline std::string difference(const Seen& a, const Seen& b, double lost, const Position& back_x,
+inline std::string difference(const Observed& a, const Observed& b, double lost, const Position& back_x,
                               const Velocity& back_v) {
   if (a.error.empty() != b.error.empty()) return "one ends with an error: " + a.error + b.error;
   if (!a.error.empty()) return {};

@@ -32,9 +32,11 @@ INSTANTIATE_TEST_SUITE_P(Families, RandomScenes, ::testing::Range(0, groups), []
 });
 
 TEST(RareCoincidences, HoldEveryInvariant) {
-  // Gaps and impacts that fall together within rounding, boxes that come apart at an edge as one of them is struck,
-  // collapses next to collapses, elastic hops lower than positions can tell, light bodies between heavy ones, steps
-  // that end before the gaps which they close have closed.
+  // Seeds of rare coincidences:
+  // - gaps and impacts that are simultaneous within rounding
+  // - boxes that come apart at an edge as one of them is struck
+  // - collapses next to collapses, and elastic hops below the resolution of positions
+  // - light bodies between heavy ones, and steps that end before the gaps which they close have closed
   for (std::uint64_t seed :
        {6612, 6652, 7835, 11193, 24774, 64307, 73809, 91581, 91871, 212398, 233112, 235841, 5002318, 5005659}) {
     const RandomScene scene = make_scene(seed);
@@ -44,9 +46,10 @@ TEST(RareCoincidences, HoldEveryInvariant) {
 }
 
 TEST(RareCoincidences, HoldInStepsToo) {
-  // Clusters that dissolve before they have gone anywhere, islands whose bodies are struck from two sides at once, go
-  // far in a step, or stop short of one another, speeds without bound, light bodies between heavy ones, one that is
-  // struck off what carried it.
+  // Seeds of rare coincidences in steps:
+  // - clusters that dissolve before they move
+  // - islands whose bodies are struck from two sides at once, go far in a step, or stop short of one another
+  // - speeds without bound, light bodies between heavy ones, and a body struck off its support
   for (std::uint64_t seed : {4004, 4212, 5031, 5976, 10201, 20081, 30169, 31444, 104513, 104764, 1100769}) {
     const RandomScene scene = make_scene(seed);
     for (const std::string& violation : check_stepped(scene).violations)

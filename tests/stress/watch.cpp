@@ -12,7 +12,7 @@ namespace carom::stress {
 
 namespace {
 
-constexpr std::size_t most_collisions_looked_at = 60;
+constexpr std::size_t most_collisions_sampled = 60;
 constexpr int looks = 24;
 
 bool same(double a, double b) {
@@ -59,7 +59,7 @@ Watched watch(const RandomScene& scene, const std::vector<double>& times, double
   return run;
 }
 
-std::vector<double> times_to_look(const RandomScene& scene, const std::vector<Collision>& records) {
+std::vector<double> sample_times(const RandomScene& scene, const std::vector<Collision>& records) {
   const double duration = scene.options.duration;
   std::vector<double> times;
   for (int k = 1; k <= looks; ++k) times.push_back(duration * k / looks);
@@ -68,9 +68,9 @@ std::vector<double> times_to_look(const RandomScene& scene, const std::vector<Co
     times.push_back(t);
     times.push_back(std::nextafter(t, duration));
   };
-  const std::size_t stride = records.size() / most_collisions_looked_at + 1;
+  const std::size_t stride = records.size() / most_collisions_sampled + 1;
   for (std::size_t k = 0; k < records.size(); ++k)
-    if (k < most_collisions_looked_at / 2 || k % stride == 0) about(records[k].time);
+    if (k < most_collisions_sampled / 2 || k % stride == 0) about(records[k].time);
   for (const Force& f : scene.world.forces)
     for (const double t : {f.from, f.until})
       if (t > 0 && t < duration) about(t);
@@ -142,9 +142,9 @@ std::string difference(const Watched& a, const Watched& b, int length, int time,
 RandomScene turned(RandomScene scene) {
   World& world = scene.world;
   bool cylinders = false;
-  const auto look = [&](const Volume& v) { cylinders = cylinders || v.shape == Shape::cylinder; };
-  for (const Volume& v : world.volume) look(v);
-  for (const Obstacle& o : world.obstacles) look(o.volume);
+  const auto note_shape = [&](const Volume& v) { cylinders = cylinders || v.shape == Shape::cylinder; };
+  for (const Volume& v : world.volume) note_shape(v);
+  for (const Obstacle& o : world.obstacles) note_shape(o.volume);
   const auto turn = [&](Vec3& v) { v = cylinders ? Vec3(v.z(), v.y(), v.x()) : Vec3(v.z(), v.x(), v.y()); };
   for (Volume& v : world.volume) turn(v.half);
   for (Vec3& p : world.impulse) turn(p);

@@ -22,7 +22,7 @@ Watched watch(const RandomScene& scene, const std::vector<double>& times, double
 
 /// Times (s) for states of a scene with known collisions: some, and just before and after collisions and changes of the
 /// forces.
-std::vector<double> times_to_look(const RandomScene& scene, const std::vector<Collision>& records);
+std::vector<double> sample_times(const RandomScene& scene, const std::vector<Collision>& records);
 
 /// The scene with lengths, times and masses multiplied by 2^these.
 RandomScene scaled(RandomScene scene, int length, int time, int mass);

@@ -14,7 +14,7 @@ namespace {
 struct Work {
   std::size_t count;
   std::function<std::string(std::size_t)> work;
-  std::function<void()> look = [] {};
+  std::function<void()> stop_check = [] {};
 
   std::map<std::size_t, TaskOutcome> go(std::size_t jobs) const {
     std::size_t next = 0;
@@ -23,7 +23,7 @@ struct Work {
     tasks.next = [&] { return next < count ? std::optional(next++) : std::nullopt; };
     tasks.work = work;
     tasks.done = [&](const TaskOutcome& outcome) { EXPECT_TRUE(outcomes.emplace(outcome.task, outcome).second); };
-    tasks.look = look;
+    tasks.stop_check = stop_check;
     work_off(tasks, jobs);
     return outcomes;
   }
@@ -40,7 +40,7 @@ TEST(Workers, DoEveryTaskOnceWhateverTheirNumber) {
   }
 }
 
-TEST(Workers, TaskThatThrowsFailsAloneAndSaysWhy) {
+TEST(Workers, TaskThatThrowsFailsAloneWithItsReason) {
   const auto outcomes = Work{
       10, [](std::size_t task) -> std::string {
         if (task == 4) throw std::runtime_error("it is the fourth");
@@ -64,15 +64,15 @@ TEST(Workers, ProcessThatIsKilledTakesOneTaskWithIt) {
   }
 }
 
-TEST(Workers, LookThatThrowsEndsAllProcesses) {
-  int looks = 0;
+TEST(Workers, StopCheckThatThrowsEndsAllProcesses) {
+  int checks = 0;
   const Work work{1000,
                   [](std::size_t) {
                     usleep(20'000);
                     return std::string();
                   },
-                  [&looks] {
-                    if (++looks == 3) throw std::runtime_error("stop");
+                  [&checks] {
+                    if (++checks == 3) throw std::runtime_error("stop");
                   }};
   EXPECT_THROW(work.go(2), std::runtime_error);
 }

@@ -1,10 +1,13 @@
-// The contact solver by itself, on a grid: rows and stacks, lattices and packings, wedges and near copies, masses over
-// 0 to 12 decades, gravity, pushes and impacts. A line for each case, as CSV: the certificate, the error of the
-// motion against quadruple precision (where that holds, and for few contacts), CPU time cold, and warm after one
-// pressing contact was removed and restored. The last line has totals.
+// The contact solver alone, on a grid of problems: rows, stacks, lattices, packings, wedges and near copies. Masses
+// span 0 to 12 decades; loads are gravity, pushes and impacts.
+// Each case is one line of CSV:
+// - the certificate
+// - the error of the motion against quadruple precision, for few contacts and where that holds
+// - CPU time cold, and warm after one pressing contact was removed and restored
+// The last line has totals.
 //
-//   carom_contacts            all
-//   carom_contacts FAMILY     small, medium, hard or large
+//    carom_contacts            all
+//    carom_contacts FAMILY     small, medium, hard or large
 #include <fmt/format.h>
 #include <time.h>
 

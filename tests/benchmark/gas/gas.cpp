@@ -1,10 +1,10 @@
-// Cost of a collision in the exact simulator: balls on a face-centred cubic lattice set free in a room, e = 1, by their
-// number (from one to a million), their density and other content of the scene. Each line is measured in a process of
-// its own, which is warmed up first; the CPU time is the median of three such processes. A hash of the final state
-// follows the time: equal hashes are equal results, bit for bit.
+// Cost of a collision in the exact simulator. Balls on a face-centred cubic lattice are set free in a room, with e = 1.
+// Their number (one to a million), their density and other content of the scene vary. Each line is measured in a
+// process of its own, which is warmed up first. The CPU time is the median of three such processes. A hash of the final
+// state follows the time: equal hashes are equal results, bit for bit.
 //
-//   carom_gas                 the table, as CSV
-//   carom_gas K COLLISIONS    4 K^3 balls at density 0.5, so many collisions a ball after the warm-up, in this process
+//    carom_gas                 the table, as CSV
+//    carom_gas K COLLISIONS    4 K^3 balls at density 0.5, so many collisions a ball after the warm-up, in this process
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>

@@ -1,8 +1,10 @@
-// Bullet, in double precision. Settings: contacts only where bodies touch (gContactBreakingThreshold and
-// m_linearSlop 0), bounces at any speed (m_restitutionVelocityThreshold 0), overlaps pushed apart without speed
-// (m_splitImpulse at every depth), no impulses of the last step to start with. They are those of btContactSolverInfo.h
-// and of Bullet's author in issue 3094 of bulletphysics/bullet3. Sweep and prune is faster here than the tree of boxes,
-// and continuous collision detection changes nothing.
+// Bullet, in double precision, with these settings:
+// - contacts only where bodies touch: gContactBreakingThreshold and m_linearSlop are 0
+// - bounces at any speed: m_restitutionVelocityThreshold is 0
+// - overlaps are pushed apart without speed: m_splitImpulse at every depth
+// - no start from the impulses of the last step
+// They are those of btContactSolverInfo.h and of Bullet's author in issue 3094 of bulletphysics/bullet3. Sweep and
+// prune is faster here than the tree of boxes. Continuous collision detection changes nothing.
 #include <btBulletDynamicsCommon.h>
 
 #include <cmath>

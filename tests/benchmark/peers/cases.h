@@ -15,7 +15,7 @@ struct Case {
   std::string name;
   Scene scene;
   double end;                                  // s
-  double look;                                 // s; interval of the checks, or every step if that is longer
+  double sample_interval;                      // s; interval of the checks, or every step if that is longer
   double horizon;                              // s; positions are compared up to there: beyond, a gas is chaotic
   double budget;                               // s of CPU time, after which a run is ended
   std::function<Truth(const Scene&)> truth{};  // none: unknown

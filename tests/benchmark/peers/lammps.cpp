@@ -26,45 +26,45 @@ class LammpsWorld : public PeerWorld {
     for (const Vec3& x : scene.initial.position) low = low.cwiseMin(x), high = high.cwiseMax(x);
     low -= Vec3::Constant(2 * radius);
     high += Vec3::Constant(2 * radius);
-    say("units si");
-    say("atom_style sphere");
-    say("atom_modify map array");
-    say("boundary m m m");
-    say("newton off");
-    say("comm_modify vel yes");
-    say(fmt::format("region all block {} {} {} {} {} {}", low.x(), high.x(), low.y(), high.y(), low.z(), high.z()));
-    say("create_box 1 all");
+    execute("units si");
+    execute("atom_style sphere");
+    execute("atom_modify map array");
+    execute("boundary m m m");
+    execute("newton off");
+    execute("comm_modify vel yes");
+    execute(fmt::format("region all block {} {} {} {} {} {}", low.x(), high.x(), low.y(), high.y(), low.z(), high.z()));
+    execute("create_box 1 all");
     std::vector<int> type(balls_, 1);
     std::vector<double> x, v;
     for (const Vec3& p : scene.initial.position) x.insert(x.end(), p.begin(), p.end());
     for (const Vec3& p : scene.initial.velocity) v.insert(v.end(), p.begin(), p.end());
     lammps_create_atoms(lammps_, static_cast<int>(balls_), nullptr, type.data(), x.data(), v.data(), nullptr, 0);
-    say(fmt::format("set type 1 diameter {}", 2 * radius));
-    say(fmt::format("set type 1 mass {}", mass));
-    say(fmt::format("neighbor {} bin", 0.4 * radius));
-    say("neigh_modify delay 0 every 1 check yes");
+    execute(fmt::format("set type 1 diameter {}", 2 * radius));
+    execute(fmt::format("set type 1 mass {}", mass));
+    execute(fmt::format("neighbor {} bin", 0.4 * radius));
+    execute("neigh_modify delay 0 every 1 check yes");
     // A pair's reduced mass is half a ball's.
-    say(fmt::format("pair_style gran/hooke {} 0 {} 0 0 0", contact.stiffness * mass / 2, contact.damping));
-    say("pair_coeff * *");
+    execute(fmt::format("pair_style gran/hooke {} 0 {} 0 0 0", contact.stiffness * mass / 2, contact.damping));
+    execute("pair_coeff * *");
     int walls = 0;
     for (const Plane& plane : world.planes) {
       int axis = 0;
       plane.normal.cwiseAbs().maxCoeff(&axis);
       const double at = plane.point[axis];
       const std::string sides = plane.normal[axis] > 0 ? fmt::format("{} NULL", at) : fmt::format("NULL {}", at);
-      say(fmt::format("fix wall{} all wall/gran hooke {} 0 {} 0 0 0 {}plane {}", ++walls, contact.stiffness * mass,
-                      contact.damping, "xyz"[axis], sides));
+      execute(fmt::format("fix wall{} all wall/gran hooke {} 0 {} 0 0 0 {}plane {}", ++walls, contact.stiffness * mass,
+                          contact.damping, "xyz"[axis], sides));
     }
     const Vec3& g = world.gravity;
-    if (g.norm() > 0) say(fmt::format("fix gravity all gravity {} vector {} {} {}", g.norm(), g.x(), g.y(), g.z()));
-    say("fix move all nve");
-    say(fmt::format("timestep {}", step));
-    say("thermo 1000000000");
-    say("run 0");
+    if (g.norm() > 0) execute(fmt::format("fix gravity all gravity {} vector {} {} {}", g.norm(), g.x(), g.y(), g.z()));
+    execute("fix move all nve");
+    execute(fmt::format("timestep {}", step));
+    execute("thermo 1000000000");
+    execute("run 0");
   }
   ~LammpsWorld() override { lammps_close(lammps_); }
 
-  void advance(int steps) override { say(fmt::format("run {} pre no post no", steps)); }
+  void advance(int steps) override { execute(fmt::format("run {} pre no post no", steps)); }
 
   void read(State& state) override {
     numbers_.resize(3 * balls_);
@@ -76,7 +76,7 @@ class LammpsWorld : public PeerWorld {
   }
 
  private:
-  void say(const std::string& command) { lammps_command(lammps_, const_cast<char*>(command.c_str())); }
+  void execute(const std::string& command) { lammps_command(lammps_, const_cast<char*>(command.c_str())); }
 
   const std::size_t balls_;
   void* lammps_;

@@ -51,7 +51,7 @@ void measure_all(std::vector<Row>& rows) {
         row.result.outcome = Outcome::stopped;
         continue;
       }
-      const double step = row.steps_per_s == 0 ? row.what->look : 1.0 / row.steps_per_s;
+      const double step = row.steps_per_s == 0 ? row.what->sample_interval : 1.0 / row.steps_per_s;
       const Result result = measure(*row.peer, *row.what, step);
       if (round == 0) {
         row.result = result;

@@ -84,25 +84,25 @@ double cpu_of_short_run(const Peer& peer, const Case& what, double step) {
 }
 
 /// The run whose checks fill `result`; true at the end of the case.
-bool look_on(PeerWorld& motion, const Case& what, double step, const Truth& truth, Result& result, State& state) {
+bool run_sampled(PeerWorld& motion, const Case& what, double step, const Truth& truth, Result& result, State& state) {
   const World& world = what.scene.world;
-  const double look = std::max(step, what.look);
-  const int looks = static_cast<int>(std::lround(what.end / look));
+  const double sample_interval = std::max(step, what.sample_interval);
+  const int samples = static_cast<int>(std::lround(what.end / sample_interval));
   std::vector<Vec3> before = state.velocity, true_before = before;
   double given = 0, true_given = 0;
-  for (int k = 1; k <= looks; ++k) {
+  for (int k = 1; k <= samples; ++k) {
     const double from = cpu_seconds();
-    motion.advance(static_cast<int>(std::lround(look / step)));
+    motion.advance(static_cast<int>(std::lround(sample_interval / step)));
     motion.read(state);
     result.cpu += cpu_seconds() - from;
-    result.reached = state.time = k * look;
+    result.reached = state.time = k * sample_interval;
     result.end_overlap = deepest_overlap(world, state);
     result.overlap = std::max(result.overlap, result.end_overlap);
     for (std::size_t m = 0; m < settling_times.size(); ++m)
-      if (std::abs(state.time - settling_times[m]) < look / 2) result.until[m] = result.cpu;
+      if (std::abs(state.time - settling_times[m]) < sample_interval / 2) result.until[m] = result.cpu;
     if (truth) {
       const State& right = truth(state.time);
-      if (state.time < what.horizon + look / 2)
+      if (state.time < what.horizon + sample_interval / 2)
         result.position_error = std::max(result.position_error, largest_difference(state.position, right.position));
       given += exchanged(world, before, state.velocity);
       true_given += exchanged(world, true_before, right.velocity);
@@ -110,7 +110,7 @@ bool look_on(PeerWorld& motion, const Case& what, double step, const Truth& trut
       true_before = right.velocity;
       result.exchange = given / true_given;
     }
-    if (result.cpu > what.budget) return k == looks;
+    if (result.cpu > what.budget) return k == samples;
   }
   return true;
 }
@@ -126,7 +126,7 @@ Result run(const Peer& peer, const Case& what, double step) {
   const World& world = what.scene.world;
   const Truth truth = what.truth ? what.truth(what.scene) : Truth{};
   State state = what.scene.initial;
-  result.outcome = look_on(*motion, what, step, truth, result, state) ? Outcome::done : Outcome::stopped;
+  result.outcome = run_sampled(*motion, what, step, truth, result, state) ? Outcome::done : Outcome::stopped;
   result.kinetic = kinetic_energy(world, state);
   result.collisions = motion->collisions();
   result.hash = hash_of(state);

@@ -21,11 +21,11 @@ inline constexpr std::array<double, 3> settling_times{2, 5, 10};  // s
 struct Result {
   Outcome outcome = Outcome::failed;
   double reached = 0;             // s
-  double cpu = 0;                 // s, without looks where the run is short
-  double position_error = 0;      // m, the largest of all balls' at any look up to the horizon
+  double cpu = 0;                 // s, without the checks where the run is short
+  double position_error = 0;      // m, the largest of all balls' at any sample up to the horizon
   double velocity_error = 0;      // m/s, the largest at the end, of a case whose horizon is its end
   double energy_error = 0;        // by the energy of the start, at the end
-  double overlap = 0;             // by a radius, the deepest at any look
+  double overlap = 0;             // by a radius, the deepest at any sample
   double end_overlap = 0;         // by a radius
   double exchange = 0;            // momentum change of the balls between checks, relative to the true one
   double kinetic = 0;             // J, at the end

@@ -1,8 +1,7 @@
-// MuJoCo. It has no restitution: contacts are springs that push, given by their stiffness and damping (solref with
-// negative numbers, Modeling, section Solver parameters), here such that one lasts so many steps and gives the
-// restitution. The impedance (solimp) is as near to 1 as the solver CG still converges in a gas; Newton's needs
-// memory as the square of the number of balls; the Runge-Kutta method takes four times as long for nearly the same
-// errors.
+// MuJoCo. It has no restitution. Contacts are springs that push, given by stiffness and damping (solref with negative
+// numbers; Modeling, section Solver parameters). Here a contact lasts a given number of steps and has the restitution.
+// The impedance (solimp) is as near to 1 as the solver CG still converges in a gas. Newton's solver needs memory as the
+// square of the number of balls. The Runge-Kutta method takes four times as long for nearly the same errors.
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 

@@ -1,6 +1,8 @@
-// ODE. Settings, by the sections of its manual: bounces at any speed (Contact: bounce_vel 0), hard contacts (World: CFM
-// 0, contact surface layer 0), dWorldQuickStep (Stepping Functions): dWorldStep finds no solution for a row of
-// touching balls, and its time grows as the cube of a pile's contacts.
+// ODE. Settings, by the sections of its manual:
+// - bounces at any speed (Contact: bounce_vel 0)
+// - hard contacts (World: CFM 0, contact surface layer 0)
+// - dWorldQuickStep (Stepping Functions)
+// dWorldStep finds no solution for a row of touching balls. Its time grows as the cube of a pile's contacts.
 #include <ode/ode.h>
 
 #include "benchmark/peers/peer.h"

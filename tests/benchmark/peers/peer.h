@@ -1,7 +1,7 @@
 #pragma once
-// A peer: a simulator of balls among planes, carom or another library, behind the few calls that the benchmark
-// needs. Balls of one mass, radius and restitution, planes and gravity are taken from a Scene; nothing has friction or
-// damping, turns or is put to sleep.
+// A peer: a simulator of balls among planes, carom or another library, behind the calls that the benchmark needs. A
+// Scene supplies balls of one mass, radius and restitution, planes and gravity. Nothing has friction or damping, turns
+// or is put to sleep.
 #include <cstdint>
 #include <functional>
 #include <memory>

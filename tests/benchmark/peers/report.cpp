@@ -108,8 +108,8 @@ const Row* row_at(const std::vector<Row>& rows, const Peer* peer, const std::str
   return nullptr;
 }
 
-/// A column's value for a peer at a step. If that exceeded the budget: at the finest step within it, with the step, if
-/// that is finer than the usual one.
+/// A column's value for a peer at a step. A step that exceeded the budget is replaced by the finest one within it, if
+/// that is finer than the usual one. The text then names the step.
 std::string cell_of(const std::vector<Row>& rows, const Column& column, const Row& row) {
   const Peer& peer = *row.peer;
   const Row* shown = row_at(rows, row.peer, column.what, row.steps_per_s);

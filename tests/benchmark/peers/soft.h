@@ -5,8 +5,8 @@
 
 namespace carom {
 
-/// Steps that an undamped contact lasts: with fewer the restitution depends more on where in a step a contact begins,
-/// with more bodies overlap more. The first counts among few bodies, the second among many.
+/// The number of steps that an undamped contact lasts: 16 among few bodies, 8 among many. With fewer, the restitution
+/// depends more on where in a step a contact begins. With more, bodies overlap more.
 inline double steps_of_contact(std::size_t bodies) {
   return bodies <= 10 ? 16 : 8;
 }
@@ -16,8 +16,8 @@ struct SoftContact {
   double damping;    // 1/s: the overlap's acceleration by its rate
 };
 
-/// The restitution that an impact at speed 1 gets in steps of length 1, v += a, x += v, averaged over where in a step
-/// it begins. A contact that `pulls` does so while damping is stronger than the spring.
+/// The restitution of an impact at speed 1 in steps of length 1: v += a, x += v. It is the mean over the moments in a
+/// step at which the impact begins. A contact that `pulls` does so while damping is stronger than the spring.
 inline double restitution_of(const SoftContact& contact, bool pulls) {
   constexpr int phases = 32;
   double sum = 0;

@@ -1,6 +1,6 @@
-// Effect of the constants of simulate/tolerances.h: each is made 4 times as large and 4 times as small, and the same
-// runs are repeated. As CSV: the greatest change of a position, in radii, in runs of 1 to 20 bodies; * if a pile of up
-// to 54 balls comes to rest too late or never, or a run fails.
+// Effect of the constants of simulate/tolerances.h. Each is made 4 times as large and 4 times as small, and the same
+// runs are repeated. The CSV has the greatest change of a position, in radii, in runs of 1 to 20 bodies. A * marks a
+// failed run, or a pile of up to 54 balls that comes to rest too late or never.
 #include <fmt/format.h>
 
 #include <algorithm>

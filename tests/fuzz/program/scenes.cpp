@@ -1,8 +1,7 @@
-// carom_fuzz_scenes [SCENES [FIRST_SEED]]: random scenes of everything at once, through the loader and each run by its
-// engine; a process for every thousand, so that a crash or a hang is one finding.
-// carom_fuzz_scenes write FOLDER SCENES: these as files. carom_fuzz_scenes hash FILE...: a line for each file, with a
-// hash of whole states and all records, which does not depend on the compiler (the scene of a seed does: the order in
-// which a call's arguments are drawn).
+// carom_fuzz_scenes [SCENES [FIRST_SEED]]: random scenes of everything at once, loaded and run by their engines. Each
+// thousand has its own process, so that a crash or a hang is one finding. carom_fuzz_scenes write FOLDER SCENES: these
+// as files. carom_fuzz_scenes hash FILE...: a line for each file, with a hash of whole states and all records. The hash
+// does not depend on the compiler. The scene of a seed does, by the order in which a call's arguments are drawn.
 #include <sys/wait.h>
 #include <unistd.h>
 

@@ -90,7 +90,7 @@ int run(std::uint64_t scenes, std::uint64_t first) {
     for (const Counts& c : shared.family) sum += c.violated;
     return sum;
   };
-  std::time_t told = std::time(nullptr);
+  std::time_t reported = std::time(nullptr);
   for (int running = workers; running > 0;) {
     int status;
     const pid_t child = waitpid(-1, &status, WNOHANG);
@@ -110,8 +110,8 @@ int run(std::uint64_t scenes, std::uint64_t first) {
     if (child > 0) continue;
     const timespec nap{0, 50'000'000};
     nanosleep(&nap, nullptr);
-    if (std::time(nullptr) - told < 10) continue;
-    told = std::time(nullptr);
+    if (std::time(nullptr) - reported < 10) continue;
+    reported = std::time(nullptr);
     std::fprintf(stderr, "%llu of %llu scenes, %llu violated\n", static_cast<unsigned long long>(done()),
                  static_cast<unsigned long long>(scenes), static_cast<unsigned long long>(failed()));
   }
