@@ -83,7 +83,7 @@ lxw_format* make_format(lxw_workbook* book, CellStyle style) {
       format_set_bg_color(format, failed_tint);
       break;
     case CellStyle::plain:
-    case CellStyle::count_:
+    case CellStyle::number_of_styles:
       break;
   }
   return format;
@@ -196,7 +196,7 @@ Workbook::Workbook(const FilePlace& place, std::string name, const std::string& 
   // 2000-01-01 and not the clock, so that the same runs give the same bytes.
   properties.created = 946'684'800;
   workbook_set_properties(book_, &properties);
-  for (int style = 0; style < static_cast<int>(CellStyle::count_); ++style)
+  for (int style = 0; style < static_cast<int>(CellStyle::number_of_styles); ++style)
     formats_.push_back(make_format(book_, static_cast<CellStyle>(style)));
 }
 

@@ -40,7 +40,7 @@ enum class CellStyle {
   wrapped,
   doubtful,  // of a row with doubtful results
   failed,    // of a row without results
-  count_     // the number of styles
+  number_of_styles
 };
 
 /// The limits of a sheet.

@@ -55,8 +55,9 @@ class FadingWay {
   /// The greatest rate of change of the acceleration from t on (m/s^3).
   double jerk(double t) const { return pa_.fade * pa_.acceleration(t).norm() + pb_.fade * pb_.acceleration(t).norm(); }
   double descent(const Vec3& n, double t, double gap, double rate, double horizon) const {
-    return first_descent(
-        {gap, rate, {{{-n.dot(pa_.acceleration(t)), pa_.fade}, {n.dot(pb_.acceleration(t)), pb_.fade}}}}, horizon);
+    const FadingDistance distance{
+        gap, rate, {{{-n.dot(pa_.acceleration(t)), pa_.fade}, {n.dot(pb_.acceleration(t)), pb_.fade}}}};
+    return first_descent(distance, horizon);
   }
   double back(const Vec3& n, double t, double rate, double horizon) const { return descent(n, t, 0, rate, horizon); }
   FadingWay in(const auto& frame) const {

@@ -31,7 +31,7 @@ class Tournament {
       sizes.push_back(nodes * width);
       all += sizes.back();
     } while (nodes > 1);
-    times_.assign(all, never_);
+    times_.assign(all, never);
     winners_.assign(all - sizes[0], none);
     double* time = times_.data();
     std::uint32_t* winner = winners_.data();
@@ -87,7 +87,7 @@ class Tournament {
 
  private:
   static constexpr std::size_t width = 8;
-  static constexpr double never_ = std::numeric_limits<double>::infinity();
+  static constexpr double never = std::numeric_limits<double>::infinity();
 
   struct Level {
     double* time;  // s, padded to whole games
@@ -128,8 +128,8 @@ class Tournament {
     const auto entry = [&](unsigned k) {
       return l == 0 ? static_cast<std::uint32_t>(game * width + k) : level.winner[game * width + k];
     };
-    winner = time < never_ ? entry(static_cast<unsigned>(std::countr_zero(ties))) : none;
-    if (time == never_) return;
+    winner = time < never ? entry(static_cast<unsigned>(std::countr_zero(ties))) : none;
+    if (time == never) return;
     for (ties &= ties - 1; ties != 0; ties &= ties - 1) {
       const std::uint32_t other = entry(static_cast<unsigned>(std::countr_zero(ties)));
       if (before_(other, winner)) winner = other;
@@ -141,7 +141,7 @@ class Tournament {
   LargeVector<std::uint32_t> winners_;  // of all levels but the first
   std::vector<Level> levels_;
   std::uint32_t first_ = none;
-  double first_time_ = never_;
+  double first_time_ = never;
 };
 
 }  // namespace carom

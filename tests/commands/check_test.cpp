@@ -70,7 +70,7 @@ TEST(Check, ReportsWhenABodyEntersThePictureAndLeavesIt) {
   const Workplace here;
   here.write("passing.yaml", passing_ball + "output: {frames: {fps: 100, size: [64, 64]}}\n");
   const Json scene = Json::parse(here.carom({"check", "passing.yaml", "--json"}).out).at("scenes").at(0);
-  const Json seen = scene.at("camera");
+  const Json& seen = scene.at("camera");
   EXPECT_EQ(seen.at("out_of_view_names"), Json({"passing"}));
   // In at (12 - 10.1414...) / 10 = 0.18585... s, out at 2.21414... s: found at the next picture.
   EXPECT_EQ(seen.at("crossings_listed"), Json({{{"time_s", 0.19}, {"body", "passing"}, {"enters", true}},

@@ -150,7 +150,7 @@ TEST(CommandLine, VersionIsOneLine) {
 }
 
 TEST(CommandLine, WordsAfterTwoDashesAreScenes) {
-  const CommandText text = run_text();
+  const CommandText& text = run_text();
   const Options options = parse_options(text, {"-q", "a.yaml", "--", "--force", "-o"}).options;
   EXPECT_EQ(options.operands, (std::vector<std::string>{"a.yaml", "--force", "-o"}));
   EXPECT_TRUE(options.quiet);
@@ -158,7 +158,7 @@ TEST(CommandLine, WordsAfterTwoDashesAreScenes) {
 }
 
 TEST(CommandLine, EveryOptionIsRead) {
-  const CommandText text = run_text();
+  const CommandText& text = run_text();
   const Options options = parse_options(text, {"a.yaml", "--set", "x=1", "b.yaml", "--set=y=2=3", "-oout", "--only",
                                                "energy,sheet,energy", "--seed", "18446744073709551615", "--force",
                                                "--json", "-q", "--progress=lines", "--color", "never"})

@@ -568,8 +568,8 @@ TEST(SweepScenes, WhatLiesOnTheBasketballIsShotUpByTheClosedForm) {
   const auto rows = rows_of(here.read("out/summary.csv"));
   ASSERT_EQ(rows.size(), 6u);
   for (const auto& row : rows) {
-    const double m = std::stod(row.at("balls.tennis_ball.mass")), M = 0.62;
-    EXPECT_NEAR(std::stod(row.at("max_speed_m_per_s")), (3 * M - m) / (M + m) * 2.800949838893942, 1e-13);
+    const double m = std::stod(row.at("balls.tennis_ball.mass")), big = 0.62;
+    EXPECT_NEAR(std::stod(row.at("max_speed_m_per_s")), (3 * big - m) / (big + m) * 2.800949838893942, 1e-13);
   }
 }
 

@@ -7,7 +7,8 @@
 namespace carom {
 namespace {
 
-double meet(Vec3 d, Vec3 w, Vec3 a = Vec3::Zero(), double s = 1, double horizon = 1e9, bool left = false) {
+double meet(const Vec3& d, const Vec3& w, const Vec3& a = Vec3::Zero(), double s = 1, double horizon = 1e9,
+            bool left = false) {
   return sphere_contact_time({d, w, a, 2 * w.norm(), left}, s, horizon);
 }
 

@@ -23,7 +23,7 @@ struct Problem {
     world.gravity = Vec3::Zero();
     options.duration = 10;
   }
-  Entity ball(Vec3 x, Vec3 v, double mass = 1, double radius = 0.5, double e = 1) {
+  Entity ball(const Vec3& x, const Vec3& v, double mass = 1, double radius = 0.5, double e = 1) {
     world.mass.push_back(mass);
     world.radius.push_back(radius);
     world.restitution.push_back(e);
@@ -32,7 +32,7 @@ struct Problem {
     if (!world.volume.empty()) world.volume.push_back(Volume::sphere(radius));
     return world.body_count() - 1;
   }
-  Entity body(Volume volume, Vec3 x, Vec3 v, double mass = 1, double e = 1) {
+  Entity body(const Volume& volume, const Vec3& x, const Vec3& v, double mass = 1, double e = 1) {
     for (Entity i = static_cast<Entity>(world.volume.size()); i < world.body_count(); ++i)
       world.volume.push_back(Volume::sphere(world.radius[i]));
     world.volume.push_back(volume);
@@ -43,13 +43,15 @@ struct Problem {
     initial.velocity.push_back(v);
     return world.body_count() - 1;
   }
-  void obstacle(Vec3 center, Volume volume) { world.obstacles.push_back({center, volume, std::nullopt}); }
-  void plane(Vec3 point, Vec3 normal) { world.planes.push_back({point, normal.normalized(), std::nullopt}); }
-  void wall(Vec3 center, Vec3 normal, double width, double height, Vec3 up = Vec3(0, 1, 0)) {
+  void obstacle(const Vec3& center, const Volume& volume) { world.obstacles.push_back({center, volume, std::nullopt}); }
+  void plane(const Vec3& point, const Vec3& normal) {
+    world.planes.push_back({point, normal.normalized(), std::nullopt});
+  }
+  void wall(const Vec3& center, const Vec3& normal, double width, double height, const Vec3& up = Vec3(0, 1, 0)) {
     const Vec3 n = normal.normalized(), u = (up - n * n.dot(up)).normalized();
     world.walls.push_back({center, n, u.cross(n), u, width / 2, height / 2, std::nullopt});
   }
-  void room(Vec3 min, Vec3 max) {
+  void room(const Vec3& min, const Vec3& max) {
     for (int k = 0; k < 3; ++k) {
       plane(min, Vec3::Unit(k));
       plane(max, -Vec3::Unit(k));

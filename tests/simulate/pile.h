@@ -56,7 +56,7 @@ inline double energy_of_pile(const World& world, Simulator& simulator) {
 
 /// At these times only sliding bodies move, to the last bit, and nothing overlaps. Before, no overlap exceeds
 /// `deepest_ever` (m). The contact forces on each ball balance its weight, except for the share `unbalanced`.
-inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, std::vector<double> times,
+inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, const std::vector<double>& times,
                                 double deepest_ever = 1e-9, double unbalanced = 1e-9, double still = 0) {
   const World& world = problem.world;
   const Entity n = world.body_count(), floor = n;
