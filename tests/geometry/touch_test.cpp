@@ -150,7 +150,10 @@ TEST(Bending, IsTheGapsSecondDifference) {
           if (!world.walls.empty()) world.walls[0].center = x;
           return touch(world, 0, Vec3::Zero(), 1, x, t.feature).gap;
         };
-        const double second = (gap(h) - 2 * gap(0) + gap(-h)) / (h * h);
+        const auto second_difference = [&](double s) { return (gap(s) - 2 * gap(0) + gap(-s)) / (s * s); };
+        const double second = second_difference(h);
+        // Not across the border of two features, where it depends on the step.
+        if (std::abs(second - second_difference(2 * h)) > 1e-3 * (1 + std::abs(second))) continue;
         const double expected = bending(world, 0, Vec3::Zero(), 1, on, t, along);
         EXPECT_NEAR(expected, second, 1e-5 * (1 + std::abs(expected))) << name(ka) << " " << name(kb);
         ++seen;

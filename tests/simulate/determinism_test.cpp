@@ -30,8 +30,10 @@ Problem lattice(double e, double g) {
   Problem problem;
   problem.world.gravity = Vec3(0, -g, 0);
   for (int i = 0; i < 125; ++i) {
-    const Vec3 v(random(-1, 1), random(-1, 1), random(-1, 1));
-    problem.ball(Vec3(i % 5 + 0.5, i / 5 % 5 + 0.5, i / 25 + 0.5) * 1.25, v, random(1, 2), random(0.2, 0.5), e);
+    // One after another: the order of arguments' evaluation is the compiler's.
+    const double w = random(-1, 1), v = random(-1, 1), u = random(-1, 1);
+    const double radius = random(0.2, 0.5), mass = random(1, 2);
+    problem.ball(Vec3(i % 5 + 0.5, i / 5 % 5 + 0.5, i / 25 + 0.5) * 1.25, {u, v, w}, mass, radius, e);
   }
   problem.room({0, 0, 0}, Vec3::Constant(6.25));
   problem.wall({3, 0.1, 3}, {1, 0.25, 0.5}, 0.25, 0.125);
