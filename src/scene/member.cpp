@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "yaml/value_json.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -59,6 +60,18 @@ bool take(const View& view, const Field& field, Size& value) {
   return true;
 }
 
+bool take(const View& view, const Field& field, Rectangle& value) {
+  const Node* node = view.find(field);
+  if (node == nullptr || node->bad || node->items.size() != 2) return false;
+  const std::optional<double> width = as_number(&node->items[0]), height = as_number(&node->items[1]);
+  return put(width, value.width) && put(height, value.height);
+}
+
+bool take(const View& view, const Field& field, const Node*& value) {
+  value = view.given(field);
+  return value != nullptr;
+}
+
 bool take(const View& view, const Field& field, Color& value) {
   return put(as_color(view.find(field)), value);
 }
@@ -80,6 +93,14 @@ Json json_value(const Field&, const Vec3& value) {
 
 Json json_value(const Field&, const Size& value) {
   return Json::array({value.width, value.height});
+}
+
+Json json_value(const Field&, const Rectangle& value) {
+  return Json::array({value.width, value.height});
+}
+
+Json json_value(const Field&, const Node* value) {
+  return value != nullptr ? json_of(*value) : Json();
 }
 
 Json json_value(const Field&, const Color& value) {
