@@ -57,41 +57,35 @@ struct GroupKeys {
   std::optional<Vec3> velocity;  // m/s; none: that of the group's ball
 };
 
-struct PlaneKeys {
-  Vec3 point = Vec3(0, 0, 0);         // m
-  Vec3 normal = Vec3(0, 1, 0);        // to the free side, any length
+/// What planes, rooms, walls and obstacles have in common. `rgb`: the default colour.
+template <std::uint32_t rgb>
+struct FixedKeys {
   std::optional<double> restitution;  // none: the moving body's
-  Color color = from_rgb(0xb8bcc2);
+  Color color = from_rgb(rgb);
   bool visible = true;
 };
 
-struct RoomKeys {
-  std::optional<Vec3> min, max;       // m
-  std::optional<double> restitution;  // none: the moving body's
-  Color color = from_rgb(0xc9ccd1);
-  bool visible = true;
+struct PlaneKeys : FixedKeys<0xb8bcc2> {
+  Vec3 point = Vec3(0, 0, 0);   // m
+  Vec3 normal = Vec3(0, 1, 0);  // to the free side, any length
 };
+
+struct RoomKeys : BoxKeys, FixedKeys<0xc9ccd1> {};
 
 struct Rectangle {
   double width = 1;   // m
   double height = 1;  // m
 };
 
-struct WallKeys {
+struct WallKeys : FixedKeys<0x9aa3ad> {
   Vec3 center = Vec3(0, 0, 0);  // m
   Vec3 normal = Vec3(0, 0, 1);  // any length
   Rectangle size;
-  std::optional<Vec3> up;             // any length; none: default_up()
-  std::optional<double> restitution;  // none: the moving body's
-  Color color = from_rgb(0x9aa3ad);
-  bool visible = true;
+  std::optional<Vec3> up;  // any length; none: default_up()
 };
 
-struct ObstacleKeys : VolumeKeys {
-  Vec3 position = Vec3(0, 0, 0);      // m
-  std::optional<double> restitution;  // none: the moving body's
-  Color color = from_rgb(0xa39a8c);
-  bool visible = true;
+struct ObstacleKeys : VolumeKeys, FixedKeys<0xa39a8c> {
+  Vec3 position = Vec3(0, 0, 0);  // m
 };
 
 struct RestitutionKeys {
