@@ -1,10 +1,12 @@
 // The names of CSS, searched by bisection. Default colours come from a palette, because random ones may be alike.
 #include "scene/colors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstdint>
+#include <cmath>
 
 namespace carom {
 namespace {
@@ -168,12 +170,8 @@ constexpr NamedColor named_colors[] = {
 };
 // clang-format on
 
-constexpr std::array<std::string_view, 10> palette = {"#d1495b", "#2e86ab", "#edae49", "#5b8e3e", "#8d5fb0",
-                                                      "#ef7b45", "#1b998b", "#e38fb0", "#7c5c3f", "#5c7cfa"};
-
-Color from_rgb(std::uint32_t rgb) {
-  return {((rgb >> 16) & 0xFF) / 255.0, ((rgb >> 8) & 0xFF) / 255.0, (rgb & 0xFF) / 255.0};
-}
+constexpr std::array<std::uint32_t, 10> palette = {0xd1495b, 0x2e86ab, 0xedae49, 0x5b8e3e, 0x8d5fb0,
+                                                   0xef7b45, 0x1b998b, 0xe38fb0, 0x7c5c3f, 0x5c7cfa};
 
 }  // namespace
 
@@ -202,8 +200,13 @@ std::vector<std::string_view> color_names() {
   return names;
 }
 
-std::string_view body_color(std::size_t i) {
-  return palette[i % palette.size()];
+Color body_color(std::size_t i) {
+  return from_rgb(palette[i % palette.size()]);
+}
+
+std::string hex_text(const Color& color) {
+  return fmt::format("#{:02x}{:02x}{:02x}", std::lround(color.r * 255), std::lround(color.g * 255),
+                     std::lround(color.b * 255));
 }
 
 }  // namespace carom

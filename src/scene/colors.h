@@ -1,5 +1,6 @@
 #pragma once
-// Colours by name, and default colours.
+// Colours by name, and the default colours of bodies.
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,17 +14,21 @@ struct Color {
   friend bool operator==(const Color&, const Color&) = default;
 };
 
+/// 0xrrggbb
+constexpr Color from_rgb(std::uint32_t rgb) {
+  return {((rgb >> 16) & 0xFF) / 255.0, ((rgb >> 8) & 0xFF) / 255.0, (rgb & 0xFF) / 255.0};
+}
+
 /// Accepts a CSS name in any case, "#rgb" or "#rrggbb".
 std::optional<Color> parse_color(std::string_view text);
 
 /// All 148 CSS names, in alphabetical order.
 std::vector<std::string_view> color_names();
 
-/// The default colour, as "#rrggbb", of the i-th ball or group. Neighbours differ clearly.
-std::string_view body_color(std::size_t i);
-inline constexpr std::string_view plane_color = "#b8bcc2";
-inline constexpr std::string_view wall_color = "#9aa3ad";
-inline constexpr std::string_view obstacle_color = "#a39a8c";
-inline constexpr std::string_view room_color = "#c9ccd1";
+/// The default colour of the i-th ball, body or group. Neighbours differ clearly.
+Color body_color(std::size_t i);
+
+/// "#rrggbb"
+std::string hex_text(const Color& color);
 
 }  // namespace carom

@@ -9,7 +9,6 @@
 
 #include "numerics/vec3.h"
 #include "physics/entity.h"
-#include "physics/volume.h"
 #include "scene/forms.h"
 #include "scene/load.h"
 #include "scene/view.h"
@@ -81,9 +80,6 @@ Vec3 default_up(const Vec3& unit_normal);
 
 /// v / |v|, without overflow or underflow in between. v must not be zero.
 Vec3 unit(const Vec3& v);
-
-/// The mass (kg) of a ball or body, from mass or density.
-std::optional<double> mass_of(const View& body, const Volume& volume, Diagnostics& diagnostics);
 
 /// A key of the scene as a View. The view is empty if the key is absent.
 View scene_part(const Node& root, std::string_view key);

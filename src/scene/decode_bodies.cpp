@@ -12,6 +12,7 @@
 #include "scene/colors.h"
 #include "scene/decode.h"
 #include "scene/grid.h"
+#include "scene/member.h"
 #include "scene/overlaps.h"
 #include "scene/placement.h"
 #include "scene/random.h"
@@ -39,20 +40,21 @@ class Bodies {
     world_.restitution.assign(n, 1);
     scene_.initial.position.assign(n, Vec3::Zero());
     scene_.initial.velocity.assign(n, Vec3::Zero());
-    const View laws = scene_part(root_, "restitution");
-    default_restitution_ = laws.number("default").value_or(1);
+    default_restitution_ = filled<RestitutionKeys>(scene_part(root_, "restitution")).coefficient;
 
-    std::size_t order = 0;
     for (const BodyEntry& body : inventory_.bodies) {
       const View view = body_view(root_, body);
       const View each = body.group ? member_view(root_, view) : view;
-      const Color chosen = *parse_color(body_color(order++));
-      const std::optional<Form> form = forms_.of(each);
+      const auto keys = filled<BodyKeys>(each);
+      const std::optional<Form> form = forms_.of(keys);
       scene_.roster.bodies.push_back({body.key->text, body.first, static_cast<Entity>(body.count), body.group,
-                                      each.color("color").value_or(chosen), form ? form->mesh : std::nullopt});
-      const bool good = form && common(each, form->volume, body.first, body.count);
-      if (good && !body.group) single(body, view);
-      if (good && body.group && body.count > 0) groups_.push_back(&body);
+                                      keys.color.value_or(body_color(scene_.roster.bodies.size())),
+                                      form ? form->mesh : std::nullopt});
+      const std::optional<double> mass = form ? mass_of(keys, form->volume, each) : std::nullopt;
+      if (!mass) continue;
+      common(keys, *mass, form->volume, body);
+      if (!body.group) single(body.first, keys, view.place("position"));
+      if (body.group && body.count > 0) groups_.push_back(&body);
     }
     if (diagnostics_.empty()) {
       check_reach(root_, inventory_, scene_, diagnostics_);
@@ -64,33 +66,40 @@ class Bodies {
   }
 
  private:
-  /// Decodes what a ball, a body and a group's ball have in common, for `count` bodies from `first` on.
-  /// False: something is missing.
-  bool common(const View& body, const Volume& volume, Entity first, std::uint64_t count) {
-    const std::optional<double> mass = mass_of(body, volume, diagnostics_);
-    if (!mass) return false;
-    const auto fill = [&](auto& values, const auto& value) { std::fill_n(values.begin() + first, count, value); };
-    fill(world_.mass, *mass);
+  std::optional<double> mass_of(const BodyKeys& body, const Volume& volume, const View& view) {
+    if (body.mass || !body.density) return body.mass;
+    const double mass = *body.density * volume.size();
+    const Range limits = limited_range(*find_field(view.kind(), "mass"));
+    if (contains(limits, mass)) return mass;
+    diagnostics_.add(view.place("density"),
+                     fmt::format("this density and a volume of {:.6g} m^3 make a mass of {} kg", volume.size(), mass),
+                     limit_text(limits, "kg"));
+    return std::nullopt;
+  }
+
+  /// Sets what a ball, a body and a group's balls have in common.
+  void common(const BodyKeys& body, double mass, const Volume& volume, const BodyEntry& entry) {
+    const auto fill = [&](auto& values, const auto& value) {
+      std::fill_n(values.begin() + entry.first, entry.count, value);
+    };
+    fill(world_.mass, mass);
     fill(world_.radius, volume.reach());
     if (volume.shape != Shape::sphere && world_.volume.empty()) {
       world_.volume.reserve(inventory_.body_count);
       for (const double radius : world_.radius) world_.volume.push_back(Volume::sphere(radius));
     }
     if (!world_.volume.empty()) fill(world_.volume, volume);
-    fill(world_.restitution, body.number("restitution").value_or(default_restitution_));
-    if (const std::optional<Vec3> impulse = body.vector("impulse"); impulse && !impulse->isZero(0)) {
-      if (world_.impulse.empty()) world_.impulse.assign(inventory_.body_count, Vec3::Zero());
-      fill(world_.impulse, *impulse);
-    }
-    return true;
+    fill(world_.restitution, body.restitution.value_or(default_restitution_));
+    if (body.impulse.isZero(0)) return;
+    if (world_.impulse.empty()) world_.impulse.assign(inventory_.body_count, Vec3::Zero());
+    fill(world_.impulse, body.impulse);
   }
 
-  void single(const BodyEntry& body, const View& view) {
-    const std::optional<Vec3> position = view.vector("position"), velocity = view.vector("velocity");
-    if (!position || !velocity) return;
-    scene_.initial.position[body.first] = *position;
-    scene_.initial.velocity[body.first] = *velocity;
-    singles_.push_back({body.first, view.place("position")});
+  void single(Entity body, const BodyKeys& keys, Place place) {
+    if (!keys.position || !keys.velocity) return;
+    scene_.initial.position[body] = *keys.position;
+    scene_.initial.velocity[body] = *keys.velocity;
+    singles_.push_back({body, place});
   }
 
   /// Groups with large members first, which makes the grid's searches cheap.
@@ -102,53 +111,48 @@ class Bodies {
     for (const BodyEntry* body : groups_) one_group(*body, body_view(root_, *body));
   }
 
-  void one_group(const BodyEntry& body, const View& group) {
-    const View box = group.part("in", "in");
-    const std::optional<Vec3> min = box.vector("min"), max = box.vector("max");
-    const std::optional<std::string> arrange = group.text("arrange");
+  void one_group(const BodyEntry& body, const View& view) {
+    const auto group = filled<GroupKeys>(view);
+    const auto& [min, max] = group.in;
+    const std::optional<Arrange> arrange = group.arrange;
     if (!min || !max || !arrange) return;
     const double radius = world_.radius[body.first];
     if (!((*max - *min) * 2).allFinite() || !((*max - *min).array() > 0).all()) {
-      diagnostics_.add(box.place("max"), fmt::format("the box of {} has no volume", in_backticks(body.key->text)),
+      diagnostics_.add(view.part("in", "in").place("max"),
+                       fmt::format("the box of {} has no volume", in_backticks(body.key->text)),
                        "expected min below max on every axis");
       return;
     }
-    const Placing placing{
-        body.count,
-        body.first,
-        radius,
-        *min,
-        *max,
-        *arrange == "lattice" ? Arrange::lattice : *arrange == "hexagonal" ? Arrange::hexagonal : Arrange::random};
+    const Placing placing{body.count, body.first, radius, *min, *max, *arrange};
     Random random(scene_.seed, body.key->text + "/position");
     const Placed placed = place(placing, world_, grid_, random);
     if (placed.centers.size() < body.count) {
-      diagnostics_.add(group.place("count"),
+      diagnostics_.add(view.place("count"),
                        fmt::format("{} of radius {} {} not fit into the box of {}",
                                    body.count == 1 ? "1 ball" : fmt::format("{} balls", body.count), shortest(radius),
                                    body.count == 1 ? "does" : "do", in_backticks(body.key->text)),
                        fmt::format("{} would fit{}", placed.fit,
-                                   *arrange == "lattice"     ? " as a lattice; `arrange: hexagonal` packs closer"
-                                   : *arrange == "hexagonal" ? ""
-                                                             : ", close-packed"));
+                                   arrange == Arrange::lattice     ? " as a lattice; `arrange: hexagonal` packs closer"
+                                   : arrange == Arrange::hexagonal ? ""
+                                                                   : ", close-packed"));
       return;
     }
     std::copy(placed.centers.begin(), placed.centers.end(), scene_.initial.position.begin() + body.first);
     for (Entity i = 0; i < body.count; ++i) grid_.insert({placed.centers[i], radius, body.first + i});
-    set_velocities(body, group);
+    set_velocities(body, group, view);
   }
 
-  void set_velocities(const BodyEntry& body, const View& group) {
+  void set_velocities(const BodyEntry& body, const GroupKeys& group, const View& view) {
     Vec3* velocity = scene_.initial.velocity.data() + body.first;
-    if (const std::optional<double> speed = group.number("speed")) {
+    if (group.speed) {
       Random random(scene_.seed, body.key->text + "/velocity");
       for (std::uint64_t i = 0; i < body.count; ++i) {
-        for (int axis = 0; axis < 3; ++axis) velocity[i][axis] = *speed * random.normal();
+        for (int axis = 0; axis < 3; ++axis) velocity[i][axis] = *group.speed * random.normal();
       }
       return;
     }
     const std::optional<Vec3> common_velocity =
-        group.given("velocity") != nullptr ? group.vector("velocity") : member_view(root_, group).vector("velocity");
+        group.velocity ? group.velocity : filled<BodyKeys>(member_view(root_, view)).velocity;
     std::fill_n(velocity, body.count, common_velocity.value_or(Vec3::Zero()));
   }
 
@@ -166,19 +170,6 @@ class Bodies {
 };
 
 }  // namespace
-
-std::optional<double> mass_of(const View& body, const Volume& volume, Diagnostics& diagnostics) {
-  if (const std::optional<double> mass = body.number("mass")) return mass;
-  const std::optional<double> density = body.number("density");
-  if (!density) return std::nullopt;
-  const double mass = *density * volume.size();
-  const Range limits = limited_range(*find_field(body.kind(), "mass"));
-  if (contains(limits, mass)) return mass;
-  diagnostics.add(body.place("density"),
-                  fmt::format("this density and a volume of {:.6g} m^3 make a mass of {} kg", volume.size(), mass),
-                  limit_text(limits, "kg"));
-  return std::nullopt;
-}
 
 void decode_bodies(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics) {
   Bodies(root, inventory, forms, scene, diagnostics).run();

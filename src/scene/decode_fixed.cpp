@@ -1,10 +1,11 @@
 // Decodes planes, rooms, walls and obstacles.
 // A thing with an error still gets a number, so that the numbers of the others do not shift.
+// Its keys without a good value keep their defaults.
 #include <cmath>
 
 #include "physics/world.h"
-#include "scene/colors.h"
 #include "scene/decode.h"
+#include "scene/member.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -12,23 +13,15 @@ namespace {
 
 constexpr std::string_view face_names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
 
-std::optional<double> restitution_of(const View& view) {
-  return view.number("restitution");
-}
-
-void add_plane(const View& view, const std::string& name, Scene& scene) {
-  const std::optional<Vec3> point = view.vector("point"), normal = view.vector("normal");
-  // A plane with errors keeps its number, so that messages about the others stay correct.
-  scene.world.planes.push_back(
-      {point.value_or(Vec3::Zero()), normal ? unit(*normal) : Vec3::UnitY(), restitution_of(view)});
-  scene.roster.fixed.push_back(
-      {name, view.color("color").value_or(*parse_color(plane_color)), view.flag("visible").value_or(true)});
+void add_plane(const PlaneKeys& plane, const std::string& name, Scene& scene) {
+  scene.world.planes.push_back({plane.point, unit(plane.normal), plane.restitution});
+  scene.roster.fixed.push_back({name, plane.color, plane.visible});
 }
 
 void add_room(const View& view, const std::string& name, Scene& scene, Diagnostics& diagnostics) {
-  const std::optional<Vec3> min = view.vector("min"), max = view.vector("max");
-  for (int axis = 0; min && max && axis < 3; ++axis) {
-    if ((*min)[axis] < (*max)[axis]) continue;
+  const auto room = filled<RoomKeys>(view);
+  for (int axis = 0; room.min && room.max && axis < 3; ++axis) {
+    if ((*room.min)[axis] < (*room.max)[axis]) continue;
     const char letter = "xyz"[axis];
     diagnostics.add(view.place("max"), "the room's max." + std::string(1, letter) + " is not above its min." + letter,
                     "expected min below max on every axis");
@@ -37,11 +30,9 @@ void add_room(const View& view, const std::string& name, Scene& scene, Diagnosti
     const int axis = side / 2;
     Vec3 normal = Vec3::Zero();
     normal[axis] = side % 2 == 0 ? 1 : -1;
-    const std::optional<Vec3>& corner = side % 2 == 0 ? min : max;
-    scene.world.planes.push_back({corner.value_or(Vec3::Zero()), normal, restitution_of(view)});
-    scene.roster.fixed.push_back({name + "." + std::string(face_names[side]),
-                                  view.color("color").value_or(*parse_color(room_color)),
-                                  view.flag("visible").value_or(true)});
+    const std::optional<Vec3>& corner = side % 2 == 0 ? room.min : room.max;
+    scene.world.planes.push_back({corner.value_or(Vec3::Zero()), normal, room.restitution});
+    scene.roster.fixed.push_back({name + "." + std::string(face_names[side]), room.color, room.visible});
   }
 }
 
@@ -51,9 +42,9 @@ bool is_parallel(const Vec3& unit_up, const Vec3& unit_normal) {
 }
 
 void add_wall(const View& view, const std::string& name, Scene& scene, Diagnostics& diagnostics) {
-  const Vec3 center = view.vector("center").value_or(Vec3::Zero());
-  const Vec3 normal = unit(view.vector("normal").value_or(Vec3::UnitZ()));
-  Vec3 up = unit(view.vector("up").value_or(default_up(normal)));
+  const auto wall = filled<WallKeys>(view);
+  const Vec3 normal = unit(wall.normal);
+  Vec3 up = unit(wall.up.value_or(default_up(normal)));
   if (is_parallel(up, normal)) {
     diagnostics.add(view.place("up"), "up is parallel to the normal", "expected a direction along the wall");
     up = std::fabs(normal.x()) < 0.5 ? Vec3::UnitX() : Vec3::UnitY();
@@ -61,24 +52,16 @@ void add_wall(const View& view, const std::string& name, Scene& scene, Diagnosti
   up = unit(up - normal * up.dot(normal));
   // right x up = normal.
   const Vec3 right = unit(up.cross(normal));
-
-  double half_width = 0.5, half_height = 0.5;
-  if (const Node* size = view.find("size"); size != nullptr && !size->bad && size->items.size() == 2) {
-    half_width = as_number(&size->items[0]).value_or(1) / 2;
-    half_height = as_number(&size->items[1]).value_or(1) / 2;
-  }
-  scene.world.walls.push_back({center, normal, right, up, half_width, half_height, restitution_of(view)});
-  scene.roster.fixed.push_back(
-      {name, view.color("color").value_or(*parse_color(wall_color)), view.flag("visible").value_or(true)});
+  scene.world.walls.push_back(
+      {wall.center, normal, right, up, wall.size.width / 2, wall.size.height / 2, wall.restitution});
+  scene.roster.fixed.push_back({name, wall.color, wall.visible});
 }
 
-void add_obstacle(const View& view, const std::string& name, Forms& forms, Scene& scene) {
-  // An obstacle with errors keeps its number, as planes do. Its volume is then empty.
-  const std::optional<Form> form = forms.of(view);
-  scene.world.obstacles.push_back(
-      {view.vector("position").value_or(Vec3::Zero()), form ? form->volume : Volume{}, restitution_of(view)});
-  scene.roster.fixed.push_back({name, view.color("color").value_or(*parse_color(obstacle_color)),
-                                view.flag("visible").value_or(true), form ? form->mesh : std::nullopt});
+void add_obstacle(const ObstacleKeys& obstacle, const std::string& name, Forms& forms, Scene& scene) {
+  // The volume of an obstacle with errors is empty.
+  const Form form = forms.of(obstacle).value_or(Form{});
+  scene.world.obstacles.push_back({obstacle.position, form.volume, obstacle.restitution});
+  scene.roster.fixed.push_back({name, obstacle.color, obstacle.visible, form.mesh});
 }
 
 }  // namespace
@@ -96,10 +79,10 @@ void decode_fixed(const Node& root, const Inventory& inventory, Forms& forms, Sc
   for (const FixedEntry& entry : inventory.fixed) {
     const View view = fixed_view(root, entry);
     const std::string& name = entry.key->text;
-    if (entry.kind->name == "plane") add_plane(view, name, scene);
+    if (entry.kind->name == "plane") add_plane(filled<PlaneKeys>(view), name, scene);
     if (entry.kind->name == "room") add_room(view, name, scene, diagnostics);
     if (entry.kind->name == "wall") add_wall(view, name, scene, diagnostics);
-    if (entry.kind->name == "obstacle") add_obstacle(view, name, forms, scene);
+    if (entry.kind->name == "obstacle") add_obstacle(filled<ObstacleKeys>(view), name, forms, scene);
   }
 }
 

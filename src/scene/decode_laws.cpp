@@ -1,5 +1,4 @@
 // Decodes gravity, restitution and forces.
-// Forces go by a table of key and decoder, so that a new law is one row and one function.
 // A force without effect (zero strength, no bodies) is left out of the world.
 #include <fmt/format.h>
 
@@ -50,9 +49,7 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
 }
 
 void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
-  const View pair(&node, kind_named("pair"), node.place);
-  const Node* between = pair.find("between");
-  const std::optional<double> value = pair.number("value");
+  const auto [between, value] = filled<PairKeys>(View(&node, kind_named("pair"), node.place));
   if (between == nullptr || between->bad || between->items.size() != 2) return;
   const auto a = find_range(between->items[0], inventory, diagnostics);
   const auto b = find_range(between->items[1], inventory, diagnostics);
@@ -73,8 +70,7 @@ void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Dia
 }
 
 /// The bodies that a force acts on. An empty list: all bodies. None: no body at all, or an error was reported.
-std::optional<std::vector<Entity>> decode_on(const View& force, const Inventory& inventory, Diagnostics& diagnostics) {
-  const Node* on = force.given("on");
+std::optional<std::vector<Entity>> decode_on(const Node* on, const Inventory& inventory, Diagnostics& diagnostics) {
   if (on == nullptr) return std::vector<Entity>{};
   if (on->bad) return std::nullopt;
   std::vector<Entity> bodies;
@@ -96,62 +92,44 @@ std::optional<std::vector<Entity>> decode_on(const View& force, const Inventory&
   return good && !bodies.empty() ? std::optional(std::move(bodies)) : std::nullopt;
 }
 
-/// Decodes the law of a force from the value of its key. None: it has no effect, or the value has an error.
-using DecodeLaw = std::optional<ForceLaw> (*)(const View& force, Diagnostics& diagnostics);
-
-std::optional<ForceLaw> decode_uniform(const View& force, Diagnostics&) {
-  const std::optional<Vec3> value = force.vector("uniform");
-  return value && !value->isZero(0) ? std::optional<ForceLaw>(UniformForce{*value}) : std::nullopt;
+bool has_effect(const UniformForce& law) {
+  return !law.force.isZero(0);
+}
+bool has_effect(const UniformAcceleration& law) {
+  return !law.value.isZero(0);
+}
+bool has_effect(const Drag& law) {
+  return law.linear != 0 || law.quadratic != 0;
+}
+bool has_effect(const Spring& law) {
+  return law.stiffness != 0 || law.damping != 0;
+}
+bool has_effect(const Attractor& law) {
+  return law.strength != 0;
 }
 
-std::optional<ForceLaw> decode_acceleration(const View& force, Diagnostics&) {
-  const std::optional<Vec3> value = force.vector("acceleration");
-  return value && !value->isZero(0) ? std::optional<ForceLaw>(UniformAcceleration{*value}) : std::nullopt;
+std::optional<ForceLaw> law_of(const ForceKeys& force) {
+  std::optional<ForceLaw> law;
+  if (force.uniform) law = UniformForce{*force.uniform};
+  if (force.acceleration) law = UniformAcceleration{*force.acceleration};
+  if (force.drag) law = *force.drag;
+  if (force.spring) law = *force.spring;
+  if (force.attractor) law = *force.attractor;
+  return law;
 }
-
-std::optional<ForceLaw> decode_drag(const View& force, Diagnostics&) {
-  const View view = force.part("drag", "drag");
-  if (view.own() == nullptr) return std::nullopt;
-  Drag drag;
-  fill(&drag, view);
-  return drag.linear != 0 || drag.quadratic != 0 ? std::optional<ForceLaw>(drag) : std::nullopt;
-}
-
-std::optional<ForceLaw> decode_spring(const View& force, Diagnostics&) {
-  const View view = force.part("spring", "spring");
-  Spring spring;
-  fill(&spring, view);
-  return spring.stiffness != 0 || spring.damping != 0 ? std::optional<ForceLaw>(spring) : std::nullopt;
-}
-
-std::optional<ForceLaw> decode_attractor(const View& force, Diagnostics&) {
-  const View view = force.part("attractor", "attractor");
-  Attractor attractor;
-  fill(&attractor, view);
-  return attractor.strength != 0 ? std::optional<ForceLaw>(attractor) : std::nullopt;
-}
-
-constexpr std::pair<std::string_view, DecodeLaw> laws_of_force[] = {{"uniform", decode_uniform},
-                                                                    {"acceleration", decode_acceleration},
-                                                                    {"drag", decode_drag},
-                                                                    {"spring", decode_spring},
-                                                                    {"attractor", decode_attractor}};
 
 void decode_force(const Node& node, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
   const View view(&node, kind_named("force"), node.place);
-  const double from = view.number("from").value_or(0);
-  const double until = view.number("until").value_or(std::numeric_limits<double>::infinity());
-  if (until <= from) {
-    diagnostics.add(view.place("until"), fmt::format("`until` is {} but `from` is {}", shortest(until), shortest(from)),
+  const auto force = filled<ForceKeys>(view);
+  if (force.until <= force.from) {
+    diagnostics.add(view.place("until"),
+                    fmt::format("`until` is {} but `from` is {}", shortest(force.until), shortest(force.from)),
                     "expected from < until");
   }
-  std::optional<std::vector<Entity>> on = decode_on(view, inventory, diagnostics);
-  std::optional<ForceLaw> law;
-  for (const auto& [key, decode] : laws_of_force) {
-    if (view.given(key) != nullptr) law = decode(view, diagnostics);
-  }
-  if (!law || !on) return;
-  scene.world.forces.push_back({*law, from, until, std::move(*on)});
+  std::optional<std::vector<Entity>> on = decode_on(force.on, inventory, diagnostics);
+  const std::optional<ForceLaw> law = law_of(force);
+  if (!law || !on || !std::visit([](const auto& any) { return has_effect(any); }, *law)) return;
+  scene.world.forces.push_back({*law, force.from, force.until, std::move(*on)});
 }
 
 }  // namespace
@@ -161,8 +139,7 @@ void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Dia
   if (const std::optional<Vec3> gravity = whole.vector("gravity")) scene.world.gravity = *gravity;
 
   const View laws = scene_part(root, "restitution");
-  if (const std::optional<std::size_t> rule = choice_of(laws, *find_field(laws.kind(), "combine")))
-    scene.world.combine = static_cast<Combine>(*rule);
+  scene.world.combine = filled<RestitutionKeys>(laws).combine;
   if (!inventory.fits) return;
   const auto each = [](const Node* list, const auto& decode) {
     if (list == nullptr || !list->is(Node::Kind::sequence)) return;

@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "scene/engines.h"
+#include "scene/keys.h"
 #include "scene/member.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -43,9 +44,9 @@ constexpr Field scene_fields[] = {
 };
 
 constexpr Field restitution_fields[] = {
-    {.key = "default", .type = Type::number, .range = from_0, .initial = "1", .doc = "Coefficient of a body without one of its own.", .example = "0.9", .title = "Default coefficient of restitution"},
-    {.key = "combine", .type = Type::choice, .initial = "average", .of = "average|minimum|maximum|product|geometric_mean|mass_weighted|book",
-     .doc = "How two bodies' coefficients combine into the pair's; book is e1 e2 / 2.", .example = "minimum", .title = "Rule for two coefficients"},
+    {.key = "default", .type = Type::number, .range = from_0, .doc = "Coefficient of a body without one of its own.", .example = "0.9", .title = "Default coefficient of restitution", .member = fills<RestitutionKeys, &RestitutionKeys::coefficient>},
+    {.key = "combine", .type = Type::choice, .of = "average|minimum|maximum|product|geometric_mean|mass_weighted|book",
+     .doc = "How two bodies' coefficients combine into the pair's; book is e1 e2 / 2.", .example = "minimum", .title = "Rule for two coefficients", .member = fills<RestitutionKeys, &RestitutionKeys::combine>},
     {.key = "pairs", .type = Type::list, .of = "pair", .doc = "Pairs with a coefficient of their own; the last match wins.", .example = "[{between: [red, floor], value: 0.5}]"},
 };
 
@@ -54,8 +55,8 @@ constexpr std::string_view reference = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.([0-9]+|[xy
 
 constexpr Field pair_fields[] = {
     {.key = "between", .type = Type::two_names, .needed = true,
-     .doc = "Two names: balls, bodies, groups, members (gas.3), planes, walls, obstacles, room, room.y_min.", .example = "[red, floor]", .title = "Two names", .pattern = reference},
-    {.key = "value", .type = Type::number, .range = from_0, .needed = true, .doc = "The pair's coefficient of restitution.", .example = "0.5", .title = "Coefficient of restitution"},
+     .doc = "Two names: balls, bodies, groups, members (gas.3), planes, walls, obstacles, room, room.y_min.", .example = "[red, floor]", .title = "Two names", .pattern = reference, .member = fills<PairKeys, &PairKeys::between>},
+    {.key = "value", .type = Type::number, .range = from_0, .needed = true, .doc = "The pair's coefficient of restitution.", .example = "0.5", .title = "Coefficient of restitution", .member = fills<PairKeys, &PairKeys::value>},
 };
 
 constexpr Field defaults_fields[] = {
@@ -67,98 +68,98 @@ constexpr Field defaults_fields[] = {
     {.key = "group", .type = Type::part, .of = "group", .doc = "For every group.", .example = "{speed: 1}"},
 };
 
-constexpr Field mass{.key = "mass", .type = Type::number, .unit = "kg", .range = above_0, .one_of = "mass|density", .needed = true, .doc = "Mass.", .example = "10"};
-constexpr Field density{.key = "density", .type = Type::number, .unit = "kg/m^3", .range = above_0, .one_of = "mass|density", .doc = "Mass per volume, instead of mass.", .example = "700"};
-constexpr Field radius{.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .needed = true, .doc = "Radius.", .example = "0.11"};
-constexpr Field ball_velocity{.key = "velocity", .type = Type::vector, .unit = "m/s", .initial = "[0, 0, 0]", .doc = "Velocity at time 0.", .example = "[2, 0, 0]"};
-constexpr Field ball_restitution{.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution; above 1 adds energy. Default: restitution.default.", .example = "0.9"};
-constexpr Field impulse{.key = "impulse", .type = Type::vector, .unit = "N s", .doc = "Impulse at time 0.", .example = "[-20, 0, 0]"};
-constexpr Field color{.key = "color", .type = Type::color, .doc = "Colour in pictures. Default: one is chosen.", .example = "crimson"};
-constexpr Field mesh{.key = "mesh", .type = Type::file, .doc = "Mesh file, drawn scaled to the ball.", .example = "meshes/duck.obj"};
-constexpr Field ball_position{.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre at time 0.", .example = "[3, 1, 0]"};
+constexpr Field mass{.key = "mass", .type = Type::number, .unit = "kg", .range = above_0, .one_of = "mass|density", .needed = true, .doc = "Mass.", .example = "10", .member = fills<BodyKeys, &BodyKeys::mass>};
+constexpr Field density{.key = "density", .type = Type::number, .unit = "kg/m^3", .range = above_0, .one_of = "mass|density", .doc = "Mass per volume, instead of mass.", .example = "700", .member = fills<BodyKeys, &BodyKeys::density>};
+constexpr Field radius{.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .needed = true, .doc = "Radius.", .example = "0.11", .member = fills<BodyKeys, &BodyKeys::radius>};
+constexpr Field ball_velocity{.key = "velocity", .type = Type::vector, .unit = "m/s", .doc = "Velocity at time 0.", .example = "[2, 0, 0]", .member = fills<BodyKeys, &BodyKeys::velocity>};
+constexpr Field ball_restitution{.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution; above 1 adds energy. Default: restitution.default.", .example = "0.9", .member = fills<BodyKeys, &BodyKeys::restitution>};
+constexpr Field impulse{.key = "impulse", .type = Type::vector, .unit = "N s", .doc = "Impulse at time 0.", .example = "[-20, 0, 0]", .member = fills_if_given<BodyKeys, &BodyKeys::impulse>};
+template <typename Keys> constexpr Field color{.key = "color", .type = Type::color, .doc = "Colour in pictures. Default: one is chosen.", .example = "crimson", .member = fills_if_given<Keys, &Keys::color>};
+constexpr Field mesh{.key = "mesh", .type = Type::file, .doc = "Mesh file, drawn scaled to the ball.", .example = "meshes/duck.obj", .member = fills<BodyKeys, &BodyKeys::mesh>};
+constexpr Field ball_position{.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre at time 0.", .example = "[3, 1, 0]", .member = fills<BodyKeys, &BodyKeys::position>};
 
 constexpr Field ball_fields[] = {
     mass, density, radius,
-    ball_position, ball_velocity, ball_restitution, impulse, color, mesh,
+    ball_position, ball_velocity, ball_restitution, impulse, color<BodyKeys>, mesh,
 };
 
 constexpr std::string_view volumes = "radius|cylinder|box|fit";
 
 // A body's volume is one of these four keys. A mesh with `fit` is the volume itself.
 // A mesh beside one of the other three is drawn in its place.
-constexpr Field radius_of{.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .one_of = volumes, .needed = true, .doc = "Radius of a sphere.", .example = "0.11"};
-constexpr Field cylinder{.key = "cylinder", .type = Type::part, .of = "cylinder", .one_of = volumes, .doc = "An upright cylinder, its axis along y.", .example = "{radius: 0.1, height: 1}"};
-constexpr Field box{.key = "box", .type = Type::vector, .unit = "m", .range = above_0, .one_of = volumes, .doc = "An axis-aligned box: its full edge lengths.", .example = "[0.4, 0.3, 0.4]"};
-constexpr Field fit{.key = "fit", .type = Type::choice, .of = "sphere|cylinder|box", .one_of = volumes, .doc = "The tightest such volume around the mesh; position is its centre.", .example = "box", .with = "mesh"};
-constexpr Field mesh_of{.key = "mesh", .type = Type::file, .doc = "Mesh file: in its own size with `fit`, else drawn scaled into the volume.", .example = "meshes/pin.obj"};
+template <typename Keys> constexpr Field radius_of{.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .one_of = volumes, .needed = true, .doc = "Radius of a sphere.", .example = "0.11", .member = fills<Keys, &Keys::radius>};
+template <typename Keys> constexpr Field cylinder{.key = "cylinder", .type = Type::part, .of = "cylinder", .one_of = volumes, .doc = "An upright cylinder, its axis along y.", .example = "{radius: 0.1, height: 1}", .member = fills<Keys, &Keys::cylinder>};
+template <typename Keys> constexpr Field box{.key = "box", .type = Type::vector, .unit = "m", .range = above_0, .one_of = volumes, .doc = "An axis-aligned box: its full edge lengths.", .example = "[0.4, 0.3, 0.4]", .member = fills<Keys, &Keys::box>};
+template <typename Keys> constexpr Field fit{.key = "fit", .type = Type::choice, .of = "sphere|cylinder|box", .one_of = volumes, .doc = "The tightest such volume around the mesh; position is its centre.", .example = "box", .with = "mesh", .member = fills<Keys, &Keys::fit>};
+template <typename Keys> constexpr Field mesh_of{.key = "mesh", .type = Type::file, .doc = "Mesh file: in its own size with `fit`, else drawn scaled into the volume.", .example = "meshes/pin.obj", .member = fills<Keys, &Keys::mesh>};
 
 constexpr Field body_fields[] = {
-    mass, density, radius_of, cylinder, box, mesh_of, fit,
-    ball_position, ball_velocity, ball_restitution, impulse, color,
+    mass, density, radius_of<BodyKeys>, cylinder<BodyKeys>, box<BodyKeys>, mesh_of<BodyKeys>, fit<BodyKeys>,
+    ball_position, ball_velocity, ball_restitution, impulse, color<BodyKeys>,
 };
 
 constexpr Field cylinder_fields[] = {
-    {.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .needed = true, .doc = "Radius.", .example = "0.1"},
-    {.key = "height", .type = Type::number, .unit = "m", .range = above_0, .needed = true, .doc = "Height, along y.", .example = "1"},
+    {.key = "radius", .type = Type::number, .unit = "m", .range = above_0, .needed = true, .doc = "Radius.", .example = "0.1", .member = fills<CylinderKeys, &CylinderKeys::radius>},
+    {.key = "height", .type = Type::number, .unit = "m", .range = above_0, .needed = true, .doc = "Height, along y.", .example = "1", .member = fills<CylinderKeys, &CylinderKeys::height>},
 };
 
-constexpr Field member_fields[] = {mass, density, radius, ball_velocity, ball_restitution, impulse, color, mesh};
+constexpr Field member_fields[] = {mass, density, radius, ball_velocity, ball_restitution, impulse, color<BodyKeys>, mesh};
 
 constexpr Field group_fields[] = {
-    {.key = "count", .type = Type::whole, .range = from_0, .needed = true, .doc = "Number of balls: name.0, name.1, ...", .example = "20"},
+    {.key = "count", .type = Type::whole, .range = from_0, .needed = true, .doc = "Number of balls: name.0, name.1, ...", .example = "20", .member = fills<GroupKeys, &GroupKeys::count>},
     {.key = "ball", .type = Type::part, .of = "member", .needed = true, .doc = "A ball of the group, without position.", .example = "{mass: 1, radius: 0.1}"},
-    {.key = "in", .type = Type::part, .of = "in", .needed = true, .doc = "The box that every ball lies wholly inside.", .example = "{min: [-2, 2, -2], max: [2, 4, 2]}", .title = "Box of the balls"},
-    {.key = "arrange", .type = Type::choice, .initial = "random", .of = "random|lattice|hexagonal",
-     .doc = "random; lattice: cubic, spread evenly over the box; hexagonal: close-packed layers, spread as far as the box allows.", .example = "hexagonal"},
-    {.key = "speed", .type = Type::number, .unit = "m/s", .range = from_0, .one_of = "speed|velocity", .doc = "Standard deviation of each component of a ball's velocity.", .example = "1"},
-    {.key = "velocity", .type = Type::vector, .unit = "m/s", .one_of = "speed|velocity", .doc = "Velocity of every ball at time 0.", .example = "[0, -1, 0]"},
+    {.key = "in", .type = Type::part, .of = "in", .needed = true, .doc = "The box that every ball lies wholly inside.", .example = "{min: [-2, 2, -2], max: [2, 4, 2]}", .title = "Box of the balls", .member = fills<GroupKeys, &GroupKeys::in>},
+    {.key = "arrange", .type = Type::choice, .of = "random|lattice|hexagonal",
+     .doc = "random; lattice: cubic, spread evenly over the box; hexagonal: close-packed layers, spread as far as the box allows.", .example = "hexagonal", .member = fills<GroupKeys, &GroupKeys::arrange>},
+    {.key = "speed", .type = Type::number, .unit = "m/s", .range = from_0, .one_of = "speed|velocity", .doc = "Standard deviation of each component of a ball's velocity.", .example = "1", .member = fills<GroupKeys, &GroupKeys::speed>},
+    {.key = "velocity", .type = Type::vector, .unit = "m/s", .one_of = "speed|velocity", .doc = "Velocity of every ball at time 0.", .example = "[0, -1, 0]", .member = fills<GroupKeys, &GroupKeys::velocity>},
 };
 
 constexpr Field in_fields[] = {
-    {.key = "min", .type = Type::vector, .unit = "m", .needed = true, .doc = "Lowest corner.", .example = "[-2, 2, -2]", .title = "Lowest corner"},
-    {.key = "max", .type = Type::vector, .unit = "m", .needed = true, .doc = "Highest corner.", .example = "[2, 4, 2]", .title = "Highest corner"},
+    {.key = "min", .type = Type::vector, .unit = "m", .needed = true, .doc = "Lowest corner.", .example = "[-2, 2, -2]", .title = "Lowest corner", .member = fills<BoxKeys, &BoxKeys::min>},
+    {.key = "max", .type = Type::vector, .unit = "m", .needed = true, .doc = "Highest corner.", .example = "[2, 4, 2]", .title = "Highest corner", .member = fills<BoxKeys, &BoxKeys::max>},
 };
 
-constexpr Field fixed_restitution{.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution. Default: the moving body's.", .example = "0.5"};
-constexpr Field visible{.key = "visible", .type = Type::flag, .initial = "true", .doc = "Whether it is drawn.", .example = "false"};
+template <typename Keys> constexpr Field fixed_restitution{.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution. Default: the moving body's.", .example = "0.5", .member = fills<Keys, &Keys::restitution>};
+template <typename Keys> constexpr Field visible{.key = "visible", .type = Type::flag, .doc = "Whether it is drawn.", .example = "false", .member = fills<Keys, &Keys::visible>};
 
 constexpr Field plane_fields[] = {
-    {.key = "point", .type = Type::vector, .unit = "m", .needed = true, .doc = "Any point of the plane.", .example = "[0, 0, 0]", .title = "A point of the plane"},
-    {.key = "normal", .type = Type::direction, .needed = true, .doc = "Points to the free side; any length.", .example = "[0, 1, 0]"},
-    fixed_restitution, color, visible,
+    {.key = "point", .type = Type::vector, .unit = "m", .needed = true, .doc = "Any point of the plane.", .example = "[0, 0, 0]", .title = "A point of the plane", .member = fills<PlaneKeys, &PlaneKeys::point>},
+    {.key = "normal", .type = Type::direction, .needed = true, .doc = "Points to the free side; any length.", .example = "[0, 1, 0]", .member = fills<PlaneKeys, &PlaneKeys::normal>},
+    fixed_restitution<PlaneKeys>, color<PlaneKeys>, visible<PlaneKeys>,
 };
 
 constexpr Field wall_fields[] = {
-    {.key = "center", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre of the rectangle.", .example = "[5, 1, 0]"},
-    {.key = "normal", .type = Type::direction, .needed = true, .doc = "Perpendicular to the rectangle; any length.", .example = "[-1, 0, 0]"},
-    {.key = "size", .type = Type::extent, .unit = "m", .range = above_0, .needed = true, .doc = "Width and height.", .example = "[2, 2]", .title = "Width and height"},
-    {.key = "up", .type = Type::direction, .doc = "Direction of the height, made perpendicular to the normal. Default: y; z for a level wall.", .example = "[0, 1, 0.5]", .title = "Direction of the height"},
-    fixed_restitution, color, visible,
+    {.key = "center", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre of the rectangle.", .example = "[5, 1, 0]", .member = fills<WallKeys, &WallKeys::center>},
+    {.key = "normal", .type = Type::direction, .needed = true, .doc = "Perpendicular to the rectangle; any length.", .example = "[-1, 0, 0]", .member = fills<WallKeys, &WallKeys::normal>},
+    {.key = "size", .type = Type::extent, .unit = "m", .range = above_0, .needed = true, .doc = "Width and height.", .example = "[2, 2]", .title = "Width and height", .member = fills<WallKeys, &WallKeys::size>},
+    {.key = "up", .type = Type::direction, .doc = "Direction of the height, made perpendicular to the normal. Default: y; z for a level wall.", .example = "[0, 1, 0.5]", .title = "Direction of the height", .member = fills<WallKeys, &WallKeys::up>},
+    fixed_restitution<WallKeys>, color<WallKeys>, visible<WallKeys>,
 };
 
 constexpr Field room_fields[] = {
-    {.key = "min", .type = Type::vector, .unit = "m", .needed = true, .doc = "Lowest corner.", .example = "[-9, -1, -9]", .title = "Lowest corner"},
-    {.key = "max", .type = Type::vector, .unit = "m", .needed = true, .doc = "Highest corner.", .example = "[9, 9, 9]", .title = "Highest corner"},
-    fixed_restitution, color, visible,
+    {.key = "min", .type = Type::vector, .unit = "m", .needed = true, .doc = "Lowest corner.", .example = "[-9, -1, -9]", .title = "Lowest corner", .member = fills<RoomKeys, &RoomKeys::min>},
+    {.key = "max", .type = Type::vector, .unit = "m", .needed = true, .doc = "Highest corner.", .example = "[9, 9, 9]", .title = "Highest corner", .member = fills<RoomKeys, &RoomKeys::max>},
+    fixed_restitution<RoomKeys>, color<RoomKeys>, visible<RoomKeys>,
 };
 
 constexpr Field obstacle_fields[] = {
-    radius_of, cylinder, box, mesh_of, fit,
-    {.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre.", .example = "[-3, 1, 0]"},
-    fixed_restitution, color, visible,
+    radius_of<ObstacleKeys>, cylinder<ObstacleKeys>, box<ObstacleKeys>, mesh_of<ObstacleKeys>, fit<ObstacleKeys>,
+    {.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre.", .example = "[-3, 1, 0]", .member = fills<ObstacleKeys, &ObstacleKeys::position>},
+    fixed_restitution<ObstacleKeys>, color<ObstacleKeys>, visible<ObstacleKeys>,
 };
 
 constexpr std::string_view forces = "uniform|acceleration|drag|spring|attractor";
 
 constexpr Field force_fields[] = {
-    {.key = "uniform", .type = Type::vector, .unit = "N", .one_of = forces, .needed = true, .doc = "The same force on each body.", .example = "[2, 0, 0]"},
-    {.key = "acceleration", .type = Type::vector, .unit = "m/s^2", .one_of = forces, .doc = "The same acceleration of each body.", .example = "[3, 0, 0]"},
-    {.key = "drag", .type = Type::part, .of = "drag", .one_of = forces, .doc = "Drag of air or another medium.", .example = "{linear: 0.1, wind: [5, 0, 0]}"},
-    {.key = "spring", .type = Type::part, .of = "spring", .one_of = forces, .doc = "A spring from a fixed point to each body.", .example = "{anchor: [0, 3, 0], stiffness: 40, rest_length: 0.5}"},
-    {.key = "attractor", .type = Type::part, .of = "attractor", .one_of = forces, .doc = "Attraction to a fixed point, as by gravity.", .example = "{center: [0, 0, 0], strength: 10}"},
-    {.key = "on", .type = Type::names, .doc = "Balls, bodies, groups and members that it acts on. Default: all.", .example = "[red, gas.3]", .title = "Bodies that it acts on", .pattern = reference},
-    {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .initial = "0", .doc = "When the force starts.", .example = "0.5", .title = "Start"},
-    {.key = "until", .type = Type::number, .unit = "s", .range = above_0, .doc = "When the force ends. Default: never.", .example = "1.5", .title = "End"},
+    {.key = "uniform", .type = Type::vector, .unit = "N", .one_of = forces, .needed = true, .doc = "The same force on each body.", .example = "[2, 0, 0]", .member = fills<ForceKeys, &ForceKeys::uniform>},
+    {.key = "acceleration", .type = Type::vector, .unit = "m/s^2", .one_of = forces, .doc = "The same acceleration of each body.", .example = "[3, 0, 0]", .member = fills<ForceKeys, &ForceKeys::acceleration>},
+    {.key = "drag", .type = Type::part, .of = "drag", .one_of = forces, .doc = "Drag of air or another medium.", .example = "{linear: 0.1, wind: [5, 0, 0]}", .member = fills<ForceKeys, &ForceKeys::drag>},
+    {.key = "spring", .type = Type::part, .of = "spring", .one_of = forces, .doc = "A spring from a fixed point to each body.", .example = "{anchor: [0, 3, 0], stiffness: 40, rest_length: 0.5}", .member = fills<ForceKeys, &ForceKeys::spring>},
+    {.key = "attractor", .type = Type::part, .of = "attractor", .one_of = forces, .doc = "Attraction to a fixed point, as by gravity.", .example = "{center: [0, 0, 0], strength: 10}", .member = fills<ForceKeys, &ForceKeys::attractor>},
+    {.key = "on", .type = Type::names, .doc = "Balls, bodies, groups and members that it acts on. Default: all.", .example = "[red, gas.3]", .title = "Bodies that it acts on", .pattern = reference, .member = fills<ForceKeys, &ForceKeys::on>},
+    {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "When the force starts.", .example = "0.5", .title = "Start", .member = fills<ForceKeys, &ForceKeys::from>},
+    {.key = "until", .type = Type::number, .unit = "s", .range = above_0, .doc = "When the force ends. Default: never.", .example = "1.5", .title = "End", .member = fills_if_given<ForceKeys, &ForceKeys::until>},
 };
 
 constexpr Field drag_fields[] = {

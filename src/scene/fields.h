@@ -83,7 +83,7 @@ struct Field {
   /// A regular expression for the schema, for a text or for names.
   std::string_view pattern = {};
   bool needs_entries = false;  // a list must not be empty
-  /// Absent: the decoder reads the key itself.
+  /// Absent: the decoder reads the key itself (keys of the whole scene; lists; a group's ball, which has defaults).
   Member member = {};
 };
 

@@ -13,6 +13,7 @@
 #include "scene/check.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "scene/view.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -38,6 +39,13 @@ double as_written(double value) {
   return decimal;
 }
 
+std::optional<Volume> given_volume(const VolumeKeys& thing) {
+  if (thing.radius) return Volume::sphere(*thing.radius);
+  if (thing.box) return Volume::box(*thing.box);
+  if (!thing.cylinder || !thing.cylinder->radius || !thing.cylinder->height) return std::nullopt;
+  return Volume::cylinder(*thing.cylinder->radius, *thing.cylinder->height);
+}
+
 /// A .gltf refers to files beside it, which would have to be copied too.
 bool has_further_files(const std::filesystem::path& name) {
   std::string ending = name.extension().string();
@@ -47,30 +55,17 @@ bool has_further_files(const std::filesystem::path& name) {
 
 }  // namespace
 
-std::optional<Form> Forms::of(const View& thing) {
-  const Node* mesh = thing.given("mesh");
+std::optional<Form> Forms::of(const VolumeKeys& thing) {
+  const Node* mesh = thing.mesh;
   if (mesh != nullptr && mesh->bad) return std::nullopt;
-  if (thing.given("fit") != nullptr) return mesh == nullptr ? std::nullopt : fitted(thing, *mesh);
+  if (thing.fit) return mesh == nullptr ? std::nullopt : fitted(*thing.fit, *mesh);
   const std::optional<Volume> volume = given_volume(thing);
   if (!volume || mesh == nullptr) return volume ? std::optional(Form{*volume, std::nullopt}) : std::nullopt;
   return drawn(*volume, *mesh);
 }
 
-std::optional<Volume> Forms::given_volume(const View& thing) const {
-  if (const std::optional<double> radius = thing.number("radius")) return Volume::sphere(*radius);
-  if (const std::optional<Vec3> edges = thing.vector("box")) return Volume::box(*edges);
-  const Node* node = thing.given("cylinder");
-  if (node == nullptr || node->bad) return std::nullopt;
-  const View cylinder(node, kind_named("cylinder"), thing.place("cylinder"));
-  const std::optional<double> radius = cylinder.number("radius"), height = cylinder.number("height");
-  return radius && height ? std::optional(Volume::cylinder(*radius, *height)) : std::nullopt;
-}
-
 /// The volume is the tightest one around the mesh. The mesh keeps its size.
-std::optional<Form> Forms::fitted(const View& thing, const Node& mesh) {
-  const std::optional<std::string> name = thing.text("fit");
-  if (!name) return std::nullopt;
-  const auto shape = static_cast<Shape>(std::find(std::begin(shape_names), std::end(shape_names), *name) - shape_names);
+std::optional<Form> Forms::fitted(Shape shape, const Node& mesh) {
   const std::optional<Fit> tight = fit(shape, mesh);
   if (!tight) return std::nullopt;
   return Form{tight->volume, MeshUse{path_of(mesh), tight->center, 1}};

@@ -8,9 +8,9 @@
 
 #include "geometry/fit.h"
 #include "physics/volume.h"
+#include "scene/keys.h"
 #include "scene/load.h"
 #include "scene/scene.h"
-#include "scene/view.h"
 #include "yaml/diagnostics.h"
 
 namespace carom {
@@ -29,14 +29,13 @@ class Forms {
 
   /// The form of a ball, a group's ball, a body or an obstacle.
   /// None: its volume or its mesh has an error, which was reported.
-  std::optional<Form> of(const View& thing);
+  std::optional<Form> of(const VolumeKeys& thing);
 
   /// The mesh files in the order of their first use. `film`: the file name of the film, which no copy may take.
   std::vector<MeshFile> files(const std::string& film) const;
 
  private:
-  std::optional<Volume> given_volume(const View& thing) const;
-  std::optional<Form> fitted(const View& thing, const Node& mesh);
+  std::optional<Form> fitted(Shape shape, const Node& mesh);
   std::optional<Form> drawn(const Volume& volume, const Node& mesh);
   const std::vector<Vec3>* points(const Node& mesh);
   std::optional<Fit> fit(Shape shape, const Node& mesh);

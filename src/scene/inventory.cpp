@@ -4,6 +4,7 @@
 
 #include "scene/check.h"
 #include "scene/decode.h"
+#include "scene/member.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -34,7 +35,7 @@ class Census {
     const BodyEntry* most = nullptr;
     for (BodyEntry& body : inventory_.bodies) {
       body.first = static_cast<Entity>(total);
-      if (body.group) body.count = as_whole(body_view(root_, body).find("count")).value_or(0);
+      if (body.group) body.count = filled<GroupKeys>(body_view(root_, body)).count;
       total = body.count > most_bodies || total + body.count > most_bodies ? most_bodies + 1 : total + body.count;
       if (most == nullptr || body.count > most->count) most = &body;
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "yaml/value_json.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -21,36 +22,36 @@ bool put(const std::optional<T>& found, T& value) {
 }  // namespace
 
 bool take(const View& view, const Field& field, double& value) {
-  return put(view.number(field.key), value);
+  return put(as_number(view.find(field)), value);
 }
 
 bool take(const View& view, const Field& field, std::uint64_t& value) {
-  return put(view.whole(field.key), value);
+  return put(as_whole(view.find(field)), value);
 }
 
 bool take(const View& view, const Field& field, int& value) {
-  const std::optional<std::uint64_t> whole = view.whole(field.key);
+  const std::optional<std::uint64_t> whole = as_whole(view.find(field));
   if (whole) value = static_cast<int>(std::min<std::uint64_t>(*whole, 1 << 30));
   return whole.has_value();
 }
 
 bool take(const View& view, const Field& field, bool& value) {
-  if (field.type == Type::flag) return put(view.flag(field.key), value);
+  if (field.type == Type::flag) return put(as_flag(view.find(field)), value);
   const std::optional<std::size_t> choice = choice_of(view, field);
   if (choice) value = *choice == 1;
   return choice.has_value();
 }
 
 bool take(const View& view, const Field& field, std::string& value) {
-  return put(view.text(field.key), value);
+  return put(as_text(view.find(field)), value);
 }
 
 bool take(const View& view, const Field& field, Vec3& value) {
-  return put(view.vector(field.key), value);
+  return put(as_vector(view.find(field)), value);
 }
 
 bool take(const View& view, const Field& field, Size& value) {
-  const Node* node = view.find(field.key);
+  const Node* node = view.find(field);
   if (node == nullptr || node->bad || node->items.size() != 2) return false;
   const std::optional<std::uint64_t> width = as_whole(&node->items[0]), height = as_whole(&node->items[1]);
   if (!width || !height) return false;
@@ -59,12 +60,24 @@ bool take(const View& view, const Field& field, Size& value) {
   return true;
 }
 
+bool take(const View& view, const Field& field, Rectangle& value) {
+  const Node* node = view.find(field);
+  if (node == nullptr || node->bad || node->items.size() != 2) return false;
+  const std::optional<double> width = as_number(&node->items[0]), height = as_number(&node->items[1]);
+  return put(width, value.width) && put(height, value.height);
+}
+
+bool take(const View& view, const Field& field, const Node*& value) {
+  value = view.given(field);
+  return value != nullptr;
+}
+
 bool take(const View& view, const Field& field, Color& value) {
-  return put(view.color(field.key), value);
+  return put(as_color(view.find(field)), value);
 }
 
 std::optional<std::size_t> choice_of(const View& view, const Field& field) {
-  const std::optional<std::string> text = view.text(field.key);
+  const std::optional<std::string> text = as_text(view.find(field));
   const std::vector<std::string_view> all = choices(field);
   const auto at = text ? std::find(all.begin(), all.end(), *text) : all.end();
   return at == all.end() ? std::nullopt : std::optional(static_cast<std::size_t>(at - all.begin()));
@@ -80,6 +93,14 @@ Json json_value(const Field&, const Vec3& value) {
 
 Json json_value(const Field&, const Size& value) {
   return Json::array({value.width, value.height});
+}
+
+Json json_value(const Field&, const Rectangle& value) {
+  return Json::array({value.width, value.height});
+}
+
+Json json_value(const Field&, const Node* value) {
+  return value != nullptr ? json_of(*value) : Json();
 }
 
 Json json_value(const Field&, const Color& value) {

@@ -10,12 +10,14 @@
 #include "numerics/vec3.h"
 #include "scene/colors.h"
 #include "scene/fields.h"
+#include "scene/keys.h"
 #include "scene/output.h"
 #include "scene/view.h"
 
 namespace carom {
 
-// Reading. Each returns false if the map has no value or a bad one. Then the member keeps its value.
+// Reading. Each returns false if the map has no value or a bad one.
+// Then the member keeps its value, but an optional one becomes empty.
 bool take(const View& view, const Field& field, double& value);
 bool take(const View& view, const Field& field, std::uint64_t& value);
 // Accepts a whole number, or a choice of whole numbers.
@@ -25,7 +27,10 @@ bool take(const View& view, const Field& field, bool& value);
 bool take(const View& view, const Field& field, std::string& value);
 bool take(const View& view, const Field& field, Vec3& value);
 bool take(const View& view, const Field& field, Size& value);
+bool take(const View& view, const Field& field, Rectangle& value);
 bool take(const View& view, const Field& field, Color& value);
+/// The value with its place, bad or not: names, a file.
+bool take(const View& view, const Field& field, const Node*& value);
 /// The index of a choice.
 std::optional<std::size_t> choice_of(const View& view, const Field& field);
 
@@ -33,7 +38,9 @@ std::optional<std::size_t> choice_of(const View& view, const Field& field);
 nlohmann::ordered_json json_value(const Field& field, bool value);
 nlohmann::ordered_json json_value(const Field& field, const Vec3& value);
 nlohmann::ordered_json json_value(const Field& field, const Size& value);
+nlohmann::ordered_json json_value(const Field& field, const Rectangle& value);
 nlohmann::ordered_json json_value(const Field& field, const Color& value);
+nlohmann::ordered_json json_value(const Field& field, const Node* value);
 std::string yaml_of(double value);
 std::string yaml_of(const Vec3& value);
 std::string yaml_of(const Color& value);
@@ -45,16 +52,17 @@ inline constexpr bool is_optional<std::optional<T>> = true;
 
 /// Whether T is a struct that a nested map fills.
 template <typename T>
-inline constexpr bool is_settings = std::is_class_v<T> && !(std::is_same_v<T, std::string> || std::is_same_v<T, Vec3> ||
-                                                            std::is_same_v<T, Size> || std::is_same_v<T, Color>);
+inline constexpr bool is_settings = std::is_class_v<T> && !requires(const View& view, const Field& field, T& value) {
+  take(view, field, value);
+};
 
 template <typename T>
 bool take_any(const View& view, const Field& field, T& value) {
   if constexpr (is_optional<T>) {
     typename T::value_type inner{};
-    if (!take_any(view, field, inner)) return false;
-    value = inner;
-    return true;
+    const bool good = take_any(view, field, inner);
+    value = good ? std::optional(inner) : std::nullopt;
+    return good;
   } else if constexpr (is_settings<T>) {
     if (!view.wants(field.key)) return false;
     fill(&value, view.part(field.key, field.of));
@@ -76,7 +84,7 @@ nlohmann::ordered_json json_any(const Field& field, const T& value) {
     return json_of(kind_named(field.of), &value);
   } else if constexpr (std::is_enum_v<T>) {
     return std::string(choices(field)[static_cast<std::size_t>(value)]);
-  } else if constexpr (std::is_same_v<T, bool> || std::is_class_v<T>) {
+  } else if constexpr (std::is_same_v<T, bool> || std::is_class_v<T> || std::is_pointer_v<T>) {
     if constexpr (std::is_same_v<T, std::string>)
       return value;
     else
@@ -89,6 +97,8 @@ nlohmann::ordered_json json_any(const Field& field, const T& value) {
 template <typename T>
 std::string yaml_any(const Field& field, const T& value) {
   if constexpr (is_optional<T>) {
+    return value ? yaml_any(field, *value) : "";
+  } else if constexpr (std::is_pointer_v<T>) {
     return "";
   } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, Vec3> || std::is_same_v<T, Color>) {
     return yaml_of(value);
@@ -117,6 +127,14 @@ inline constexpr Member fills = {
 /// The same without a fixed default: it depends on other keys, or absence has a meaning of its own.
 template <typename Owner, auto pointer>
 inline constexpr Member fills_if_given = {fills<Owner, pointer>.fill, nullptr, fills<Owner, pointer>.json};
+
+/// A new struct, filled from a map.
+template <typename Settings>
+Settings filled(const View& view) {
+  Settings settings;
+  fill(&settings, view);
+  return settings;
+}
 
 /// A row shared by several kinds, with the member of one of them.
 constexpr Field with(Field field, Member member) {

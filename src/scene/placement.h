@@ -5,11 +5,10 @@
 
 #include "physics/entity.h"
 #include "scene/grid.h"
+#include "scene/keys.h"
 #include "scene/random.h"
 
 namespace carom {
-
-enum class Arrange : std::uint8_t { random, lattice, hexagonal };
 
 struct Placing {
   std::uint64_t count = 0;

@@ -10,6 +10,7 @@
 
 #include "scene/colors.h"
 #include "scene/engines.h"
+#include "scene/member.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "yaml/values.h"
@@ -54,10 +55,10 @@ class Resolver {
       if (key.text == "balls") bodies("balls", "ball");
       if (key.text == "bodies") bodies("bodies", "body");
       if (key.text == "groups") bodies("groups", "group");
-      if (key.text == "planes") fixed("planes", "plane", plane_color);
+      if (key.text == "planes") fixed("planes", "plane");
       if (key.text == "room") room();
-      if (key.text == "walls") fixed("walls", "wall", wall_color);
-      if (key.text == "obstacles") fixed("obstacles", "obstacle", obstacle_color);
+      if (key.text == "walls") fixed("walls", "wall");
+      if (key.text == "obstacles") fixed("obstacles", "obstacle");
     }
     forces();
     simulate();
@@ -96,7 +97,7 @@ class Resolver {
       const View view = body_view(root_, body);
       const View each = body.group ? member_view(root_, view) : view;
       if (each.find("restitution") == nullptr) overrides["restitution"] = default_restitution();
-      if (each.find("color") == nullptr) overrides["color"] = in_quotes(body_color(i));
+      if (each.find("color") == nullptr) overrides["color"] = in_quotes(hex_text(scene_.roster.bodies[i].color));
       name_copy(scene_.roster.bodies[i].mesh, overrides);
       if (!body.group) {
         entry(body.key->text, flow(each, overrides));
@@ -111,20 +112,22 @@ class Resolver {
     }
   }
 
-  void fixed(std::string_view key, std::string_view kind, std::string_view color) {
+  void fixed(std::string_view key, std::string_view kind) {
     heading(key, root_.find(key)->items.empty());
     for (const FixedEntry& thing : inventory_.fixed) {
-      if (thing.kind->name != kind) continue;
-      const View view = fixed_view(root_, thing);
-      Overrides overrides;
-      if (view.find("color") == nullptr) overrides["color"] = in_quotes(color);
-      if (kind == "wall" && view.find("up") == nullptr) {
-        const Vec3 up = default_up(unit(*view.vector("normal")));
-        overrides["up"] = up.y() == 1 ? "[0, 1, 0]" : "[0, 0, 1]";
-      }
-      name_copy(scene_.roster.fixed[thing.first].mesh, overrides);
-      entry(thing.key->text, flow(view, overrides));
+      if (thing.kind->name == kind) entry(thing.key->text, fixed_text(thing));
     }
+  }
+
+  std::string fixed_text(const FixedEntry& thing) const {
+    const View view = fixed_view(root_, thing);
+    const FixedName& known = scene_.roster.fixed[thing.first];
+    Overrides overrides;
+    if (view.find("color") == nullptr) overrides["color"] = in_quotes(hex_text(known.color));
+    if (thing.kind->name == "wall" && view.find("up") == nullptr)
+      overrides["up"] = yaml_of(default_up(scene_.world.wall(inventory_.body_count + thing.first).normal));
+    name_copy(known.mesh, overrides);
+    return flow(view, overrides);
   }
 
   void forces() {
@@ -138,10 +141,8 @@ class Resolver {
   }
 
   void room() {
-    const View view = scene_part(root_, "room");
-    Overrides overrides;
-    if (view.find("color") == nullptr) overrides["color"] = in_quotes(room_color);
-    line("room", flow(view, overrides));
+    for (const FixedEntry& thing : inventory_.fixed)
+      if (thing.kind->name == "room") line("room", fixed_text(thing));
   }
 
   void simulate() {

@@ -49,6 +49,14 @@ std::optional<std::uint64_t> as_whole(const Node* node) {
   return usable(node, Node::Kind::scalar) ? parse_whole(node->text) : std::nullopt;
 }
 
+std::optional<bool> as_flag(const Node* node) {
+  return usable(node, Node::Kind::scalar) ? std::optional(node->text == "true") : std::nullopt;
+}
+
+std::optional<std::string> as_text(const Node* node) {
+  return usable(node, Node::Kind::scalar) ? std::optional(node->text) : std::nullopt;
+}
+
 std::optional<Vec3> as_vector(const Node* node) {
   if (!usable(node, Node::Kind::sequence) || node->items.size() != 3) return std::nullopt;
   Vec3 v;
@@ -74,11 +82,14 @@ Place place_of(const Node& node) {
 
 const Node* View::given(std::string_view key) const {
   const Field* field = find_field(*kind_, key);
-  if (field == nullptr) return nullptr;
+  return field == nullptr ? nullptr : given(*field);
+}
+
+const Node* View::given(const Field& field) const {
   for (const Node* layer : {own_, defaults_}) {
     if (layer == nullptr) continue;
-    if (const Node* node = layer->find(key)) return node;
-    for (const std::string_view rival : rivals(*field)) {
+    if (const Node* node = layer->find(field.key)) return node;
+    for (const std::string_view rival : rivals(field)) {
       if (layer->find_key(rival) != nullptr) return nullptr;
     }
   }
@@ -86,10 +97,13 @@ const Node* View::given(std::string_view key) const {
 }
 
 const Node* View::find(std::string_view key) const {
-  if (const Node* node = given(key)) return node;
   const Field* field = find_field(*kind_, key);
-  if (field == nullptr || field->initial.empty()) return nullptr;
-  return &initial_node(*field);
+  return field == nullptr ? nullptr : find(*field);
+}
+
+const Node* View::find(const Field& field) const {
+  if (const Node* node = given(field)) return node;
+  return field.initial.empty() ? nullptr : &initial_node(field);
 }
 
 std::optional<double> View::number(std::string_view key) const {
@@ -106,15 +120,10 @@ std::optional<Color> View::color(std::string_view key) const {
 }
 
 std::optional<bool> View::flag(std::string_view key) const {
-  const Node* node = find(key);
-  if (!usable(node, Node::Kind::scalar)) return std::nullopt;
-  return node->text == "true";
+  return as_flag(find(key));
 }
-
 std::optional<std::string> View::text(std::string_view key) const {
-  const Node* node = find(key);
-  if (!usable(node, Node::Kind::scalar)) return std::nullopt;
-  return node->text;
+  return as_text(find(key));
 }
 
 View View::part(std::string_view key, std::string_view name) const {
@@ -127,8 +136,7 @@ View View::part(std::string_view key, std::string_view name) const {
 
 bool View::wants(std::string_view key) const {
   const Node* node = given(key);
-  return node != nullptr && !node->bad &&
-         (node->is(Node::Kind::map) || (node->is(Node::Kind::scalar) && node->text == "true"));
+  return node != nullptr && (node->is(Node::Kind::map) || as_flag(node).value_or(false));
 }
 
 Place View::place(std::string_view key) const {

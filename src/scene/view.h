@@ -24,8 +24,10 @@ class View {
 
   /// The value in effect, or null. A key that excludes this one (Field::one_of) hides the layers below it.
   const Node* find(std::string_view key) const;
+  const Node* find(const Field& field) const;  // a row of kind()
   /// The same without the table's default.
   const Node* given(std::string_view key) const;
+  const Node* given(const Field& field) const;
 
   // Each returns nothing if there is no value or a bad one.
   std::optional<double> number(std::string_view key) const;
@@ -58,6 +60,8 @@ const Node& initial_node(const Field& field);
 
 std::optional<double> as_number(const Node* node);
 std::optional<std::uint64_t> as_whole(const Node* node);
+std::optional<bool> as_flag(const Node* node);
+std::optional<std::string> as_text(const Node* node);
 std::optional<Vec3> as_vector(const Node* node);
 std::optional<Color> as_color(const Node* node);
 

@@ -56,6 +56,17 @@ TEST(Fields, DefaultsAreInTheirRange) {
   }
 }
 
+TEST(Fields, EveryKeyOfAThingFillsAMember) {
+  for (const Kind& kind : kinds()) {
+    if (kind.name == "scene" || kind.name == "defaults") continue;
+    for (const Field& field : kind.fields) {
+      // Lists, and a group's ball, which has defaults of its own.
+      if (field.type == Type::list || field.of == "member") continue;
+      EXPECT_NE(field.member.fill, nullptr) << kind.name << "." << field.key;
+    }
+  }
+}
+
 TEST(Fields, DefaultOfATableIsAThirtiethOfASecondToTheLastBit) {
   EXPECT_EQ(parse_number(find_field(kind_named("trajectory"), "every")->initial), 1.0 / 30);
 }

@@ -1,0 +1,113 @@
+#pragma once
+// The keys of bodies, groups, fixed things, pairs and forces, with their defaults. fields.cpp joins each to its row.
+// Decoding fills these structs, and makes World, State and Roster from them.
+// An optional member is empty if the file gives no value, or a wrong one.
+// A Node is a name or a file together with its place, for messages about it.
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "numerics/vec3.h"
+#include "physics/attractor.h"
+#include "physics/drag.h"
+#include "physics/spring.h"
+#include "physics/volume.h"
+#include "physics/world.h"
+#include "scene/colors.h"
+#include "yaml/document.h"
+
+namespace carom {
+
+struct CylinderKeys {
+  std::optional<double> radius;  // m
+  std::optional<double> height;  // m, along y
+};
+
+/// A volume is one of the first four. A mesh is drawn in its place, or `fit` is the volume around the mesh.
+struct VolumeKeys {
+  std::optional<double> radius;  // m
+  std::optional<CylinderKeys> cylinder;
+  std::optional<Vec3> box;  // m, full edge lengths
+  std::optional<Shape> fit;
+  const Node* mesh = nullptr;  // a file
+};
+
+/// A ball, a body or the ball of a group.
+struct BodyKeys : VolumeKeys {
+  std::optional<double> mass;                    // kg
+  std::optional<double> density;                 // kg/m^3
+  std::optional<Vec3> position;                  // m
+  std::optional<Vec3> velocity = Vec3(0, 0, 0);  // m/s; none: a wrong value
+  std::optional<double> restitution;             // none: that of the scene
+  Vec3 impulse = Vec3(0, 0, 0);                  // N s
+  std::optional<Color> color;                    // none: by its place in the file
+};
+
+struct BoxKeys {
+  std::optional<Vec3> min, max;  // m
+};
+
+enum class Arrange : std::uint8_t { random, lattice, hexagonal };
+
+struct GroupKeys {
+  std::uint64_t count = 0;
+  BoxKeys in;
+  std::optional<Arrange> arrange = Arrange::random;
+  std::optional<double> speed;   // m/s, standard deviation of a component
+  std::optional<Vec3> velocity;  // m/s; none: that of the group's ball
+};
+
+/// What planes, rooms, walls and obstacles have in common. `rgb`: the default colour.
+template <std::uint32_t rgb>
+struct FixedKeys {
+  std::optional<double> restitution;  // none: the moving body's
+  Color color = from_rgb(rgb);
+  bool visible = true;
+};
+
+struct PlaneKeys : FixedKeys<0xb8bcc2> {
+  Vec3 point = Vec3(0, 0, 0);   // m
+  Vec3 normal = Vec3(0, 1, 0);  // to the free side, any length
+};
+
+struct RoomKeys : BoxKeys, FixedKeys<0xc9ccd1> {};
+
+struct Rectangle {
+  double width = 1;   // m
+  double height = 1;  // m
+};
+
+struct WallKeys : FixedKeys<0x9aa3ad> {
+  Vec3 center = Vec3(0, 0, 0);  // m
+  Vec3 normal = Vec3(0, 0, 1);  // any length
+  Rectangle size;
+  std::optional<Vec3> up;  // any length; none: default_up()
+};
+
+struct ObstacleKeys : VolumeKeys, FixedKeys<0xa39a8c> {
+  Vec3 position = Vec3(0, 0, 0);  // m
+};
+
+struct RestitutionKeys {
+  double coefficient = 1;  // of a body without one of its own
+  Combine combine = Combine::average;
+};
+
+struct PairKeys {
+  const Node* between = nullptr;  // two names
+  std::optional<double> value;
+};
+
+/// One law, in a window of time.
+struct ForceKeys {
+  std::optional<Vec3> uniform;       // N
+  std::optional<Vec3> acceleration;  // m/s^2
+  std::optional<Drag> drag;
+  std::optional<Spring> spring;
+  std::optional<Attractor> attractor;
+  const Node* on = nullptr;                                // names; null: all bodies
+  double from = 0;                                         // s
+  double until = std::numeric_limits<double>::infinity();  // s
+};
+
+}  // namespace carom
