@@ -32,8 +32,17 @@ TEST(Terminal, NoColourAndNoBarWhereThereIsNoTerminal) {
   EXPECT_FALSE(colored(right.out + right.err));
 }
 
-TEST(Terminal, ColourOnATerminalUnlessNoColor) {
+/// With a pseudo-terminal, by script(1).
+class OnATerminal : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (here.shell("script -qec true /dev/null").code != 0)
+      GTEST_SKIP() << "this system has no pseudo-terminal (/dev/ptmx), or no script(1)";
+  }
   const Workplace here;
+};
+
+TEST_F(OnATerminal, ColourIsUsedUnlessNoColor) {
   here.write("a.yaml", two_balls());
   const auto on_terminal = [&](const std::string& command) {
     return here.shell("TERM=xterm script -qec '" + command + "' /dev/null").out;
@@ -47,8 +56,7 @@ TEST(Terminal, ColourOnATerminalUnlessNoColor) {
   EXPECT_TRUE(colored(here.shell("NO_COLOR=1 $CAROM check a.yaml --color always").out));
 }
 
-TEST(Terminal, BarIsClearedBeforeTheResult) {
-  const Workplace here;
+TEST_F(OnATerminal, BarIsClearedBeforeTheResult) {
   here.write("a.yaml", two_balls("output: {frames: {fps: 600, size: [64, 36], samples: 1}}\n"));
   const Finished run = here.shell("TERM=xterm script -qec '$CAROM run a.yaml --color never' /dev/null");
   const std::size_t bar = run.out.find("\ra ["), clear = run.out.find("\r\x1b[K"),
@@ -59,8 +67,7 @@ TEST(Terminal, BarIsClearedBeforeTheResult) {
   EXPECT_EQ(run.out.find("a [", result), std::string::npos);
 }
 
-TEST(Terminal, BarOfASweepShowsCountRateAndTimeLeft) {
-  const Workplace here;
+TEST_F(OnATerminal, BarOfASweepShowsCountRateAndTimeLeft) {
   here.write("a.yaml", two_balls());
   const Finished sweep = here.shell(
       "TERM=xterm script -qec 'stty cols 100; $CAROM sweep a.yaml --grid balls.red.mass=1:2:600 -j 1 --color never' "
