@@ -9,16 +9,18 @@
 #include <cmath>
 #include <limits>
 
-#if defined(__has_feature)
+// gcc defines __SANITIZE_ADDRESS__; clang answers __has_feature.
+#if defined(__SANITIZE_ADDRESS__)
+#define CAROM_SANITIZED
+#elif defined(__has_feature)
 #if __has_feature(address_sanitizer)
-// The name that gcc uses.
-#define __SANITIZE_ADDRESS__
+#define CAROM_SANITIZED
 #endif
 #endif
 
 // The same arithmetic in vectors of 2 or of 4, as the processor has them. The choice happens before a sanitizer is
 // ready.
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(CAROM_SANITIZED)
 #define CAROM_FOR_ALL_PROCESSORS __attribute__((target_clones("avx2", "default")))
 #else
 #define CAROM_FOR_ALL_PROCESSORS

@@ -222,7 +222,7 @@ void read_table_bytes(std::string_view bytes) {
     rows.pop_back();
     return true;
   });
-  if (!rows.empty() && bytes.substr(0, bytes.find('\n')).size() > 0)
+  if (!rows.empty() && !bytes.substr(0, bytes.find('\n')).empty())
     throw Finding("lines from the end stop before the first row");
 }
 

@@ -72,8 +72,8 @@ TEST(RestitutionRow, EveryBallRisesToESquaredOfTheHeight) {
 
 TEST(BasketballAndTennisBall, TheTennisBallIsShotUp) {
   const std::string file = "basketball_and_tennis_ball";
-  const double M = 0.62, m = 0.058, h = 0.4, t = std::sqrt(2 * h / g_n), v = std::sqrt(2 * g_n * h);
-  const double up = v * (3 * M - m) / (M + m);
+  const double big = 0.62, m = 0.058, h = 0.4, t = std::sqrt(2 * h / g_n), v = std::sqrt(2 * g_n * h);
+  const double up = v * (3 * big - m) / (big + m);
   const Played run = play(file, {0.5, t + up / g_n});
   EXPECT_NEAR(run.collisions[0].time, t, 4e-16);
   EXPECT_EQ(run.collisions[0].kind, CollisionKind::body_fixed);
@@ -81,13 +81,13 @@ TEST(BasketballAndTennisBall, TheTennisBallIsShotUp) {
   EXPECT_NEAR(run.collisions[1].time, t, 4e-16);
   EXPECT_NEAR(run.collisions[0].approach_speed, v, 2e-15);
   EXPECT_NEAR(run.states[0].velocity[1].y() + g_n * (0.5 - t), up, 1e-14);
-  EXPECT_NEAR(run.states[0].velocity[0].y() + g_n * (0.5 - t), v * (M - 3 * m) / (M + m), 1e-14);
-  EXPECT_NEAR(run.states[1].position[1].y() - 0.273, h * std::pow((3 * M - m) / (M + m), 2), 1e-14);
+  EXPECT_NEAR(run.states[0].velocity[0].y() + g_n * (0.5 - t), v * (big - 3 * m) / (big + m), 1e-14);
+  EXPECT_NEAR(run.states[1].position[1].y() - 0.273, h * std::pow((3 * big - m) / (big + m), 2), 1e-14);
   EXPECT_NEAR(stated(file, "sqrt(2 h / g) = "), t, 5e-16);
   EXPECT_NEAR(stated(file, "sqrt(2 g h) = "), v, 5e-15);
   EXPECT_NEAR(stated(file, "v (3 M - m)/(M + m) = "), up, 5e-14);
-  EXPECT_NEAR(stated(file, "v (M - 3 m)/(M + m) = "), v * (M - 3 * m) / (M + m), 5e-15);
-  EXPECT_NEAR(stated(file, "h ((3 M - m)/(M + m))^2 = "), h * std::pow((3 * M - m) / (M + m), 2), 5e-15);
+  EXPECT_NEAR(stated(file, "v (M - 3 m)/(M + m) = "), v * (big - 3 * m) / (big + m), 5e-15);
+  EXPECT_NEAR(stated(file, "h ((3 M - m)/(M + m))^2 = "), h * std::pow((3 * big - m) / (big + m), 2), 5e-15);
 }
 
 TEST(TiltedGroove, TheBallSlidesOnWithGSinTilt) {

@@ -191,11 +191,11 @@ TEST(LinearDrag, TheWindBlowsABoxOffATable) {
 /// A ball slides off a globe: angle'' = g/R sin - k angle' until the surface would have to pull.
 struct OffAGlobe {
   double k, angle = 0.1, rate = 0, time = 0;
-  static constexpr double g = 9.80665, R = 1.5;
+  static constexpr double g = 9.80665, reach = 1.5;
 
-  bool presses() const { return g * std::cos(angle) > R * rate * rate; }
+  bool presses() const { return g * std::cos(angle) > reach * rate * rate; }
   void step(double h) {
-    const auto f = [&](double at, double speed) { return g / R * std::sin(at) - k * speed; };
+    const auto f = [&](double at, double speed) { return g / reach * std::sin(at) - k * speed; };
     const double a1 = f(angle, rate), v1 = rate;
     const double v2 = rate + h / 2 * a1, a2 = f(angle + h / 2 * v1, v2);
     const double v3 = rate + h / 2 * a2, a3 = f(angle + h / 2 * v2, v3);
@@ -211,7 +211,7 @@ TEST(LinearDrag, ABallSlidesOffAGlobeByTheEquationOfItsOneAngle) {
     Problem problem;
     problem.world.gravity = {0, -OffAGlobe::g, 0};
     OffAGlobe reference{linear / 2};
-    problem.ball(OffAGlobe::R * Vec3(std::sin(0.1), std::cos(0.1), 0), Vec3::Zero(), 2, 0.5, 0);
+    problem.ball(OffAGlobe::reach * Vec3(std::sin(0.1), std::cos(0.1), 0), Vec3::Zero(), 2, 0.5, 0);
     problem.obstacle({0, 0, 0}, Volume::sphere(1));
     problem.world.forces = {{Drag{linear, 0, Vec3::Zero()}}};
     double h = 2e-5;
@@ -225,7 +225,7 @@ TEST(LinearDrag, ABallSlidesOffAGlobeByTheEquationOfItsOneAngle) {
     problem.options.duration = reference.time + 0.1;
     const Outcome got = run(problem);
     const Vec3 out(std::sin(reference.angle), std::cos(reference.angle), 0), along(out.y(), -out.x(), 0);
-    const Way way{OffAGlobe::R * out, OffAGlobe::R * reference.rate * along, problem.world.gravity, linear / 2};
+    const Way way{OffAGlobe::reach * out, OffAGlobe::reach * reference.rate * along, problem.world.gravity, linear / 2};
     EXPECT_LT((got.end.position[0] - way.position(0.1)).norm(), 2e-10) << linear;
     EXPECT_LT(got.tally.max_overlap, 1e-12);
     EXPECT_NEAR(residual(problem, got), 0, 1e-9);

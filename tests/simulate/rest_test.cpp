@@ -18,7 +18,7 @@ struct Press {
 };
 
 /// Runs to the end; at `times` nothing moves, to the last bit, and the forces are these.
-void expect_rest(const Problem& problem, const std::vector<Press>& forces, std::vector<double> times,
+void expect_rest(const Problem& problem, const std::vector<Press>& forces, const std::vector<double>& times,
                  const std::string& what, double tolerance) {
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   std::vector<Vec3> first;

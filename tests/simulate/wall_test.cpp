@@ -9,7 +9,7 @@
 namespace carom {
 namespace {
 
-Problem at_wall(Vec3 x, Vec3 v) {  // a wall 2 wide, 2 high, across the x axis
+Problem at_wall(const Vec3& x, const Vec3& v) {  // a wall 2 wide, 2 high, across the x axis
   Problem problem;
   problem.wall({0, 0, 0}, {1, 0, 0}, 2, 2);
   problem.ball(x, v);

@@ -150,7 +150,7 @@ inline constexpr std::array loads{Load::gravity, Load::push, Load::impact};
 
 /// Masses are 1 kg over up to so many decades. A push: a fifth of the balls are pushed at random; an impact: all move
 /// at random.
-inline Case loaded(std::string name, const Balls& balls, Load load, double decades, std::uint64_t seed = 1) {
+inline Case loaded(const std::string& name, const Balls& balls, Load load, double decades, std::uint64_t seed = 1) {
   constexpr std::array words{"gravity", "push", "impact"};
   Case c{
       name + ", " + words[static_cast<std::size_t>(load)] + ", masses 1e" + std::to_string(static_cast<int>(decades)),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "solver/contact_cases.h"
 #include "solver/contact_problem.h"
 
 namespace carom::contact_cases {
@@ -39,7 +40,6 @@ struct Reference {
 /// `contacts`: with the forces of a solution; those above 0 press.
 inline Reference reference(const std::vector<double>& inverse_mass, const std::vector<Vec3>& free,
                            const std::vector<ContactConstraint>& contacts) {
-  constexpr std::uint32_t fixed = ContactConstraint::fixed;
   std::vector<const ContactConstraint*> rows;
   for (const ContactConstraint& c : contacts)
     if (c.force > 0) rows.push_back(&c);

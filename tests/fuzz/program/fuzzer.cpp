@@ -9,6 +9,8 @@ namespace {
 const carom::fuzz::Target* chosen = nullptr;
 }
 
+// The names are those that libFuzzer calls.
+// NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
   const char* name = std::getenv("CAROM_FUZZ_TARGET");
   chosen = carom::fuzz::find_target(name == nullptr ? "" : name);
@@ -17,6 +19,7 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
   std::exit(2);
 }
 
+// NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     chosen->run({reinterpret_cast<const char*>(data), size});
