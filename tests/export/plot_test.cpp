@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <functional>
 
+#include "export/export_testing.h"
 #include "files/run_folder.h"
 
 namespace carom {
 namespace {
+
+using testing_export::error_of;
 
 Plot small_plot() {
   Plot plot;
