@@ -122,6 +122,7 @@ std::optional<Color> View::color(std::string_view key) const {
 std::optional<bool> View::flag(std::string_view key) const {
   return as_flag(find(key));
 }
+
 std::optional<std::string> View::text(std::string_view key) const {
   return as_text(find(key));
 }

@@ -150,7 +150,7 @@ TEST(WallFlyOver, FaceEdgeAndCornerAreStruckWithTheirNormals) {
   const Played run = play(file, {0.7, 0.8});
   const Entity wall = run.number("wall"), floor = run.number("floor");
   const State &after = run.states[0], &level = run.states[1];
-  const double g = 9.80665;
+  const double g = g_n;
 
   EXPECT_EQ(run.of("over")[0].b, floor);
   EXPECT_NEAR(level.position[run.number("over")].x(), 0, 1e-15);

@@ -191,7 +191,7 @@ TEST(LinearDrag, TheWindBlowsABoxOffATable) {
 /// A ball slides off a globe: angle'' = g/R sin - k angle' until the surface would have to pull.
 struct OffAGlobe {
   double k, angle = 0.1, rate = 0, time = 0;
-  static constexpr double g = 9.80665, reach = 1.5;
+  static constexpr double g = g_n, reach = 1.5;
 
   bool presses() const { return g * std::cos(angle) > reach * rate * rate; }
   void step(double h) {
