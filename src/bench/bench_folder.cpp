@@ -13,6 +13,7 @@
 #include "files/mesh_copies.h"
 #include "run/engine.h"
 #include "scene/scene.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 
@@ -170,7 +171,7 @@ FolderContent inspect_bench_folder(const std::string& folder, const Scene& scene
   Scene nothing_else;
   nothing_else.resolved = scene.resolved;
   nothing_else.meshes = scene.meshes;
-  return inspect_folder(folder, nothing_else, outputs_json(options).dump(), files);
+  return inspect_folder(folder, nothing_else, text_of_json(outputs_json(options)), files);
 }
 
 void BenchFolder::write(const Scene& scene, const BenchOptions& options, const BenchResult& result) {
@@ -186,7 +187,7 @@ void BenchFolder::write(const Scene& scene, const BenchOptions& options, const B
     records.push_back(file->record());
   }
   OutputFile manifest(place, manifest_name);
-  manifest.write(manifest_text(scene, outputs_json(options).dump(), facts_json(result).dump(), records));
+  manifest.write(manifest_text(scene, text_of_json(outputs_json(options)), text_of_json(facts_json(result)), records));
   manifest.complete();
   folder_.publish({&table, &png, &svg}, manifest);
 }

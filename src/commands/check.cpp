@@ -17,6 +17,7 @@
 #include "commands/volumes.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "yaml/joined.h"
 
 namespace carom {
 
@@ -86,7 +87,7 @@ std::string out_of_view_text(const PlannedScene& planned, const CameraPreview& v
   }
   const std::size_t more = view.out_of_view.size() - names.size();
   return more == 0 ? listed(names) + " at time 0"
-                   : fmt::format("{} and {} more at time 0", fmt::join(names, ", "), grouped(more));
+                   : fmt::format("{} and {} more at time 0", joined(names, ", "), grouped(more));
 }
 
 // "red and blue enter at 0.3 s; red leaves at 1.2 s"
@@ -105,7 +106,7 @@ std::string crossings_text(const PlannedScene& planned, const Foresight& foresig
                                 quantity(first.time, "s")));
   }
   if (i < all.size()) texts.push_back(fmt::format("{} more", grouped(all.size() - i)));
-  std::string text = texts.empty() ? "no body enters or leaves the picture" : fmt::format("{}", fmt::join(texts, "; "));
+  std::string text = texts.empty() ? "no body enters or leaves the picture" : joined(texts, "; ");
   if (foresight.cut) text += fmt::format(" (checked up to {})", quantity(foresight.watched_until, "s"));
   return text;
 }

@@ -14,6 +14,7 @@
 #include "scene/field_places.h"
 #include "scene/format_page.h"
 #include "yaml/diagnostics.h"
+#include "yaml/joined.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -77,7 +78,7 @@ std::string facts_text(const Field& field, const Kind& kind) {
   if (needed.size() > 1)
     facts.push_back(listed(std::vector<std::string_view>(needed.begin(), needed.end())) + " needed");
   if (!field.initial.empty()) facts.push_back(fmt::format("default {}", field.initial));
-  return facts.empty() ? "" : fmt::format(" ({})", fmt::join(facts, "; "));
+  return facts.empty() ? "" : fmt::format(" ({})", joined(facts, "; "));
 }
 
 std::string keys_text(const Kind& kind, std::size_t width) {
@@ -127,7 +128,7 @@ std::string word_text(const AbsentWord& word, bool is_key, const Palette& palett
   if (!word.see.empty()) {
     std::vector<std::string> commands;
     for (const std::string_view key : parts_of(word.see)) commands.push_back(fmt::format("carom explain {}", key));
-    block.line("see", fmt::format("{}", fmt::join(commands, ", ")));
+    block.line("see", joined(commands, ", "));
   }
   return block.text();
 }
@@ -197,7 +198,7 @@ bool is_default_alone(const FieldPlaces& row) {
 
 /// Several operands may be one term: `carom explain slow motion`.
 std::vector<std::string> words_of(const std::vector<std::string>& operands) {
-  const std::string term = fmt::format("{}", fmt::join(operands, " "));
+  const std::string term = joined(operands, " ");
   return operands.size() > 1 && find_absent_word(term) != nullptr ? std::vector<std::string>{term} : operands;
 }
 
@@ -270,7 +271,7 @@ int explain_command(const Options& options) {
   if (options.json) {
     write_out(document("explain", {{"fields", fields}, {"kinds", all}, {"words", words}}));
   } else if (!options.quiet) {
-    write_out(fmt::format("{}", fmt::join(texts, "\n")));
+    write_out(joined(texts, "\n"));
   }
   return 0;
 }

@@ -13,6 +13,7 @@
 #include "commands/options.h"
 #include "scene/field_places.h"
 #include "scene/fields.h"
+#include "yaml/joined.h"
 
 namespace carom {
 
@@ -87,7 +88,7 @@ std::string command_section(const CommandText& command) {
 /// A word list for the shell.
 template <typename Words>
 std::string list(const Words& words) {
-  return fmt::format("{}", fmt::join(words, " "));
+  return joined(words, " ");
 }
 
 /// Completion of an operand or a value of this name; empty: none.

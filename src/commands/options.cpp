@@ -14,6 +14,7 @@
 #include "commands/text.h"
 #include "scene/output_kinds.h"
 #include "yaml/diagnostics.h"
+#include "yaml/joined.h"
 
 namespace carom {
 
@@ -32,7 +33,7 @@ Choice chosen(const Words& words, std::string_view option, std::span<const std::
   const std::string& word = single(words, option);
   const auto found = std::find(names.begin(), names.end(), word);
   if (found == names.end()) {
-    throw UsageError(fmt::format("{} takes {}, not {}{}", option, fmt::join(names, ", "), in_backticks(word),
+    throw UsageError(fmt::format("{} takes {}, not {}{}", option, joined(names, ", "), in_backticks(word),
                                  did_you_mean(word, {names.begin(), names.end()})));
   }
   return static_cast<Choice>(found - names.begin());
@@ -86,8 +87,8 @@ void read_only(Options& options, const Words& words) {
   for (const std::string& name : split_lists(words)) {
     const auto& known = output_names();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw UsageError(fmt::format("--only takes {}, not {}{}", fmt::join(known, ", "), in_backticks(name),
-                                   did_you_mean(name, known)));
+      throw UsageError(
+          fmt::format("--only takes {}, not {}{}", joined(known, ", "), in_backticks(name), did_you_mean(name, known)));
     }
     if (std::find(only.begin(), only.end(), name) == only.end()) only.push_back(name);
   }
@@ -127,7 +128,7 @@ std::string_view only_help() {
   constexpr std::size_t width = 56;  // columns
   static const std::string text =
       wrapped(fmt::format("write only these outputs, of {}; one that the scene lacks is written with default settings",
-                          fmt::join(output_names(), ", ")),
+                          joined(output_names(), ", ")),
               0, width);
   return text;
 }

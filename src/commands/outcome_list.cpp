@@ -10,6 +10,7 @@
 
 #include "commands/report.h"
 #include "commands/text.h"
+#include "yaml/joined.h"
 
 namespace carom {
 
@@ -37,7 +38,7 @@ std::string OutcomeList::total(double wall) {
     rest -= counts_[status];
   }
   if (rest > 0) parts.push_back(fmt::format("{} not finished", rest));
-  return fmt::format("{} scenes: {}, in {}\n", entries_.size(), fmt::join(parts, ", "), wait_text(wall));
+  return fmt::format("{} scenes: {}, in {}\n", entries_.size(), joined(parts, ", "), wait_text(wall));
 }
 
 }  // namespace carom

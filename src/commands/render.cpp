@@ -18,6 +18,7 @@
 #include "scene/motion_text.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "yaml/joined.h"
 
 namespace carom {
 
@@ -37,7 +38,7 @@ void refuse_tables(const Options& options) {
   const std::vector<std::string> drawn = names_of(with_all({}), true);
   for (const std::string& name : options.only.value_or(std::vector<std::string>{}))
     if (std::find(drawn.begin(), drawn.end(), name) == drawn.end())
-      throw UsageError(fmt::format("render makes {}: carom run writes {}", fmt::join(drawn, ", "), name));
+      throw UsageError(fmt::format("render makes {}: carom run writes {}", joined(drawn, ", "), name));
 }
 
 /// As typed in a shell.
@@ -108,7 +109,7 @@ class Planner {
     Output kept = restricted(requested, tables);
     if (outputs_text(kept) != outputs_text(restricted(former.scene.output, tables)))
       throw ExportError(fmt::format("--set changes one of {}, which render leaves as they are\n  carom run writes them",
-                                    fmt::join(tables, ", ")));
+                                    joined(tables, ", ")));
     for (const OutputKind& kind : output_kinds())
       if (kind.asked(output)) kind.member.add(kept, output);
     output = kept;

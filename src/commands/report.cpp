@@ -15,6 +15,7 @@
 #include "files/open_folder.h"
 #include "files/series_folders.h"
 #include "scene/output_kinds.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 
@@ -233,8 +234,8 @@ std::string document(std::string_view command, Json scenes) {
     whole.update(scenes);
   else
     whole["scenes"] = std::move(scenes);
-  // A file's name may hold any bytes; bytes that are not UTF-8 are replaced.
-  return whole.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  // A file's name may hold any bytes.
+  return text_of_json(whole, 2) + "\n";
 }
 
 void complain(const Options& options, std::string_view text) {

@@ -92,8 +92,7 @@ SceneOutcome run_interrupted(const PlannedScene& planned) {
 }
 
 std::string packed(const SceneOutcome& outcome) {
-  return Json::array({outcome.status, outcome.entry, outcome.out, outcome.complaint})
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text_of_json(Json::array({outcome.status, outcome.entry, outcome.out, outcome.complaint}));
 }
 
 SceneOutcome unpacked(const std::string& text) {

@@ -11,6 +11,7 @@
 #include "commands/report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
+#include "yaml/joined.h"
 
 namespace carom {
 
@@ -59,7 +60,7 @@ int submit(const Options& options) {
   };
   for (const std::string& grid : options.grid) add("--grid", grid);
   for (const std::string& set : options.set) add("--set", set);
-  if (options.only) add("--only", fmt::format("{}", fmt::join(*options.only, ",")));
+  if (options.only) add("--only", joined(*options.only, ","));
   if (options.seed) add("--seed", std::to_string(*options.seed));
   if (options.force) words.emplace_back("--force");
   std::string batch;

@@ -10,6 +10,7 @@
 #include "commands/text.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "yaml/joined.h"
 
 namespace carom {
 
@@ -75,7 +76,7 @@ std::string volumes_text(const Scene& scene) {
     texts.push_back(
         fmt::format("{} {}{}", listed(alike.names, names_shown), alike.names.size() > 1 ? "each " : "", alike.text));
   }
-  const std::string text = fmt::format("{}", fmt::join(texts, "; "));
+  const std::string text = joined(texts, "; ");
   return all.size() > texts.size() ? text + fmt::format("; and {} more kinds", grouped(all.size() - texts.size()))
                                    : text;
 }

@@ -22,6 +22,7 @@
 #include "files/manifest.h"
 #include "files/run_folder.h"
 #include "yaml/diagnostics.h"
+#include "yaml/joined.h"
 
 namespace carom {
 namespace {
@@ -190,7 +191,7 @@ void check_charts(const ComparisonPlan& plan) {
     const std::string near = nearest(name, paths);
     std::string remedy;
     if (!near.empty()) remedy = fmt::format("; did you mean {}?", in_backticks(near));
-    if (near.empty() && !paths.empty()) remedy = fmt::format("; the varied paths are {}", fmt::join(paths, ", "));
+    if (near.empty() && !paths.empty()) remedy = fmt::format("; the varied paths are {}", joined(paths, ", "));
     throw MeasureError(fmt::format("a chart's {} {}{}", in_backticks(name), what, remedy));
   };
   for (const Chart& chart : plan.charts) {

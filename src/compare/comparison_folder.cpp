@@ -40,7 +40,7 @@ std::string request_text(const ComparisonPlan& plan, const std::string& runs, bo
                           {"measures", plan.measures},
                           {"charts", std::move(charts)},
                           {"video", video}}}};
-  return request.dump();
+  return text_of_json(request);
 }
 
 FolderContent inspect_comparison_folder(const std::string& path, const std::string& request) {

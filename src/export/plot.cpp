@@ -14,6 +14,7 @@
 
 #include "export/child.h"
 #include "files/run_folder.h"
+#include "yaml/joined.h"
 
 namespace carom {
 
@@ -146,7 +147,7 @@ std::string script(const Plot& plot, const std::string& terminal) {
         style.color));
   }
   if (layers.empty()) layers.push_back("NaN notitle");
-  return text + data + fmt::format("plot {}\n", fmt::join(layers, ", \\\n  "));
+  return text + data + fmt::format("plot {}\n", joined(layers, ", \\\n  "));
 }
 
 /// The standard output of gnuplot for a script on its standard input.

@@ -23,10 +23,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* tool = "carom";
 
-std::string to_text(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
 Json outputs_json(const Output& output) {
   Json json = Json::object();
   for (const OutputKind& kind : output_kinds())
@@ -88,13 +84,13 @@ std::string whole_text(const Json& of_scene, const std::string& outputs, const J
   for (const FileRecord& file : files)
     list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
   json["files"] = std::move(list);
-  return to_text(json, 2) + "\n";
+  return text_of_json(json, 2) + "\n";
 }
 
 }  // namespace
 
 std::string outputs_text(const Output& output) {
-  return to_text(outputs_json(output), -1);
+  return text_of_json(outputs_json(output));
 }
 
 std::string manifest_text(const Scene& scene, const std::string& outputs, const std::string& facts,
@@ -125,7 +121,7 @@ std::string manifest_text(const Scene& scene, const Summary& summary, const RunF
   json["status"] = summary.status;
   for (const Warning& warning : summary.warnings)
     json["warnings"].push_back({{"code", warning.code}, {"text", warning.text}});
-  return manifest_text(scene, outputs_text(scene.output), to_text(json, -1), files);
+  return manifest_text(scene, outputs_text(scene.output), text_of_json(json), files);
 }
 
 std::optional<Manifest> read_manifest(int folder, const std::string& name) {
@@ -137,10 +133,10 @@ std::optional<Manifest> read_manifest(int folder, const std::string& name) {
   if (outputs == json.end() || files == json.end() || !files->is_array()) return std::nullopt;
   Manifest manifest{text_member(json, "version"),
                     text_member(json.value("scene", Json()), "sha256"),
-                    to_text(*outputs, -1),
+                    text_of_json(*outputs),
                     "[]",
                     {}};
-  if (const auto meshes = json.find("meshes"); meshes != json.end()) manifest.meshes = to_text(*meshes, -1);
+  if (const auto meshes = json.find("meshes"); meshes != json.end()) manifest.meshes = text_of_json(*meshes);
   manifest.collisions = whole_member(json.value("counts", Json()), "collisions");
   manifest.scene_file = text_member(json.value("scene", Json()), "file");
   if (const auto left_out = json.find("left_out"); left_out != json.end() && left_out->is_object())
@@ -177,7 +173,7 @@ std::vector<std::string> run_files(const Scene& scene, const Output& output) {
 }
 
 std::string valid_utf8(const std::string& text) {
-  return json_of_text(to_text(text, -1)).get<std::string>();
+  return json_of_text(text_of_json(text)).get<std::string>();
 }
 
 }  // namespace carom

@@ -11,6 +11,7 @@
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "scene/scene.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 namespace {
@@ -41,7 +42,7 @@ std::string meshes_text(const Scene& scene) {
     const std::string name = mesh.copy.empty() ? std::filesystem::path(mesh.file).filename().string() : mesh.copy;
     list.push_back({{"name", name}, {"sha256", sha256(read_whole(mesh.file))}});
   }
-  return list.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text_of_json(list);
 }
 
 }  // namespace carom

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/renderer.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 namespace {
@@ -143,12 +144,12 @@ std::string mended_glb(std::string_view file, const std::string& title, const st
   const std::size_t json_size = word_at(file, head_size), json_from = head_size + chunk_head_size;
   if (word_at(file, 0) != magic || word_at(file, head_size + 4) != json_chunk || json_from + json_size > file.size())
     throw RenderError("assimp wrote no glTF file");
-  Json gltf = Json::parse(file.substr(json_from, json_size), nullptr, false);
+  Json gltf = json_of_text(file.substr(json_from, json_size));
   if (!gltf.is_object()) throw RenderError("assimp wrote a glTF file without its JSON");
   Mender(gltf, nodes).mend();
   gltf["asset"]["generator"] = "carom " CAROM_VERSION ", by assimp";
   gltf["scenes"][0]["name"] = title;
-  std::string text = gltf.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = text_of_json(gltf);
   text.resize((text.size() + 3) / 4 * 4, ' ');
 
   std::string out(file.substr(0, json_from));

@@ -25,6 +25,7 @@
 
 #include "render/mesh_import.h"
 #include "render/mesh_reply.h"
+#include "yaml/joined.h"
 
 namespace carom {
 namespace {
@@ -51,7 +52,7 @@ std::string check_file(const std::string& path, const MeshLimits& limits) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   const auto& known = mesh_endings();
   if (std::find(known.begin(), known.end(), ending) == known.end())
-    fail(path, fmt::format("meshes are read from files that end in .{}", fmt::join(known, ", .")));
+    fail(path, fmt::format("meshes are read from files that end in .{}", joined(known, ", .")));
   // Opening must not wait for a queue or a device.
   const int file = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (file < 0) fail(path, std::strerror(errno));

@@ -13,6 +13,7 @@
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "yaml/diagnostics.h"
+#include "yaml/joined.h"
 
 namespace carom {
 namespace {
@@ -136,7 +137,7 @@ Measure parse_measure(std::string_view name) {
     for (const QuantityText& text : quantities) names.push_back(text.name);
     throw MeasureError(fmt::format("{}: no quantity {}{}", in_backticks(name), in_backticks(quantity),
                                    meant(quantity, names).empty()
-                                       ? fmt::format("; the quantities are {}", fmt::join(names, ", "))
+                                       ? fmt::format("; the quantities are {}", joined(names, ", "))
                                        : meant(quantity, names)));
   }
   measure.quantity = static_cast<Quantity>(found - quantities.begin());

@@ -10,6 +10,7 @@
 #include "scene/absent_words.h"
 #include "scene/check.h"
 #include "yaml/diagnostics.h"
+#include "yaml/joined.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -94,7 +95,7 @@ bool are_equal(const Field& a, const Field& b) {
 }
 
 std::string path_text(const std::vector<std::string_view>& steps) {
-  return fmt::format("{}", fmt::join(steps, "."));
+  return joined(steps, ".");
 }
 
 /// The paths as texts, each once.

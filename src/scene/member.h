@@ -13,6 +13,7 @@
 #include "scene/keys.h"
 #include "scene/output.h"
 #include "scene/view.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 
@@ -107,7 +108,7 @@ std::string yaml_any(const Field& field, const T& value) {
   } else {
     const nlohmann::ordered_json json = json_any(field, value);
     if (json.is_string()) return json.get<std::string>();
-    std::string text = json.dump();
+    std::string text = text_of_json(json);
     if (json.is_array()) text.replace(text.find(','), 1, ", ");
     return text;
   }

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
@@ -11,6 +10,7 @@
 #include "scene/engines.h"
 #include "scene/fields.h"
 #include "scene/scene.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 namespace {
@@ -43,7 +43,7 @@ class MotionText {
   void simulate() {
     Simulate simulate = scene_.simulate;
     simulate.engine = engine_of(scene_.world, simulate);
-    line("simulate", json_of(kind_named("simulate"), &simulate).dump());
+    line("simulate", text_of_json(json_of(kind_named("simulate"), &simulate)));
   }
 
   void write(const Force& force) {
@@ -61,7 +61,7 @@ class MotionText {
   // The values, each followed by a blank.
   template <typename T>
   requires(std::is_arithmetic_v<T> || std::is_convertible_v<T, std::string_view>) void write(const T& value) {
-    fmt::format_to(std::back_inserter(text_), "{} ", value);
+    text_ += fmt::format("{} ", value);
   }
   template <typename T>
   void write(const std::optional<T>& value) {

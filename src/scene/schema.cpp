@@ -349,7 +349,7 @@ std::string json_schema(std::string_view root_name) {
   Json definitions = {{"color", color_schema()}};
   for (const Kind* kind : held) definitions[std::string(kind->name)] = kind_schema(*kind);
   schema["definitions"] = std::move(definitions);
-  return schema.dump(2) + "\n";
+  return text_of_json(schema, 2) + "\n";
 }
 
 }  // namespace carom

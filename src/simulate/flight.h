@@ -80,7 +80,7 @@ class Flights {
   /// `common`: the acceleration of all bodies (m/s^2) until `set` or `accelerate` changes it.
   Flights(Entity bodies, const Vec3& common) : core_(bodies), common_(common), fade_(bodies) {}
 
-  Flight operator[](Entity i) const {
+  [[gnu::always_inline]] Flight operator[](Entity i) const {
     return {core_[i].start, core_[i].x, core_[i].v, acceleration(i), fade(i), curve(i)};
   }
   double fade(Entity i) const { return fade_[i]; }  // 1/s
@@ -97,7 +97,7 @@ class Flights {
     accelerate(i, flight.a, flight.fade);
   }
   /// Sets another acceleration from the flight's start on.
-  void accelerate(Entity i, const Vec3& a, double new_fade = 0) {
+  [[gnu::always_inline]] void accelerate(Entity i, const Vec3& a, double new_fade = 0) {
     if (new_fade != 0 || any_fades()) [[unlikely]]
       set_fade(i, new_fade);
     if (acceleration_.empty()) {

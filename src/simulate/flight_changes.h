@@ -58,7 +58,7 @@ class FlightChanges {
   void correct(Entity i, const Vec3& v);
   /// Books the effect of forces on body i for the flight that ends at x (m) and `end`.
   /// These are the World's forces, and contact forces against them.
-  void book(Entity i, const Vec3& x, const Instant& end) {
+  [[gnu::always_inline]] void book(Entity i, const Vec3& x, const Instant& end) {
     const World& world = bodies_.world;
     if (stepped_[i]) book_stepped(i, end);
     if (bodies_.in_steps && (bodies_.bent[i] || bodies_.flights.curve(i) != nullptr)) [[unlikely]]

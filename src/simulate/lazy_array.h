@@ -31,7 +31,9 @@ template <typename T>
 class SparseArray {
  public:
   explicit SparseArray(std::size_t size) : place_(size, 0) {}
-  const T& operator[](std::size_t i) const { return place_[i] == 0 ? common_ : values_[place_[i] - 1]; }
+  [[gnu::always_inline]] const T& operator[](std::size_t i) const {
+    return place_[i] == 0 ? common_ : values_[place_[i] - 1];
+  }
   T& write(std::size_t i) {
     std::uint32_t& place = place_.write(i);
     if (place == 0) {

@@ -109,7 +109,7 @@ class Tournament {
     }
   }
 
-  void play(std::size_t l, std::size_t game, std::uint32_t& winner, double& time) const {
+  [[gnu::always_inline]] void play(std::size_t l, std::size_t game, std::uint32_t& winner, double& time) const {
     const Level& level = levels_[l];
     const double* t = level.time + game * width;
 #ifdef __SSE2__

@@ -21,6 +21,7 @@
 #include "scene/scene.h"
 #include "scene/scene_values.h"
 #include "study/sweep_folder.h"
+#include "yaml/joined.h"
 #include "yaml/source.h"
 
 namespace carom {
@@ -167,7 +168,7 @@ std::vector<ListedRun> list_runs(const std::vector<std::string>& folders, const 
     wrong.resize(most_listed);
     wrong.push_back(fmt::format("and {} more", more));
   }
-  if (!wrong.empty()) throw ExportError(fmt::format("{}", fmt::join(wrong, "\n  ")));
+  if (!wrong.empty()) throw ExportError(joined(wrong, "\n  "));
   name_all(runs);
   return runs;
 }

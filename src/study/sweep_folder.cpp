@@ -219,7 +219,7 @@ void SweepFolder::finish(const Sweep& sweep, const std::vector<RunStatus>& statu
   std::vector<FileRecord> records = begun_;
   for (const auto& file : files) records.push_back(file->record());
   OutputFile manifest(place_, manifest_name);
-  manifest.write(manifest_text(outputs.dump(), facts.dump(), records));
+  manifest.write(manifest_text(text_of_json(outputs), text_of_json(facts), records));
   manifest.complete();
 
   std::vector<PartFile*> parts;

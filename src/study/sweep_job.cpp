@@ -303,7 +303,7 @@ std::string SweepJob::work(const Unit& unit) {
   };
   if (unit.like != none) {
     copy_to_all(unit.like, unit.scenarios.front());
-    return failures.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    return text_of_json(failures);
   }
   std::vector<Scene> scenes;
   scenes.reserve(unit.scenarios.size());
@@ -333,7 +333,7 @@ std::string SweepJob::work(const Unit& unit) {
       for (const std::size_t number : runs) fail(number, error.what());
     }
   }
-  return failures.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return text_of_json(failures);
 }
 
 void SweepJob::run(const std::function<void(const SweepProgress&)>& report_progress,

@@ -17,6 +17,10 @@ Json json_of_text(std::string_view text) {
   return Json::parse(text, nullptr, false);
 }
 
+std::string text_of_json(const Json& value, int indent) {
+  return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 Json number_json(double value) {
   constexpr double whole_below = 9007199254740992.0;
   if (std::floor(value) == value && std::fabs(value) < whole_below) return static_cast<std::int64_t>(value);

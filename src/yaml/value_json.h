@@ -23,6 +23,10 @@ std::string cell_text(std::string_view yaml);
 /// A function of its own, since each source that calls the library's parser would compile it.
 nlohmann::ordered_json json_of_text(std::string_view text);
 
+/// A value as a JSON text; indent: spaces a level, -1: all on one line. Bytes that are not UTF-8 are replaced.
+/// A function of its own, since each source that calls the library's serializer would compile it.
+std::string text_of_json(const nlohmann::ordered_json& value, int indent = -1);
+
 /// A number as JSON. A whole one has no fraction: 2, not 2.0.
 nlohmann::ordered_json number_json(double value);
 
