@@ -14,7 +14,7 @@ namespace carom::fuzz {
 
 namespace {
 
-constexpr std::size_t small_scene = 8000;  // bytes; of longer ones an input would have only the beginning
+constexpr std::size_t longest_seed = 8000;  // bytes; of longer ones an input would have only the beginning
 
 LoadOptions options() {
   LoadOptions options;
@@ -80,7 +80,7 @@ void add_texts_of_tests(const std::string& word, std::vector<std::string>& seeds
       const std::size_t end = source.find(")\"", at += 3);
       if (end == std::string::npos) break;
       std::string text = source.substr(at, end - at);
-      if (text.find(word) != std::string::npos && text.size() < small_scene) seeds.push_back(std::move(text));
+      if (text.find(word) != std::string::npos && text.size() < longest_seed) seeds.push_back(std::move(text));
     }
   }
 }
@@ -99,7 +99,7 @@ void load_scene_bytes(std::string_view bytes) {
 std::vector<std::string> scene_seeds() {
   std::vector<std::string> seeds;
   for (const std::string& path : files_below(SOURCE_DIR "/scenes", ".yaml"))
-    if (std::string text = bytes_of(path); text.size() < small_scene) seeds.push_back(std::move(text));
+    if (std::string text = bytes_of(path); text.size() < longest_seed) seeds.push_back(std::move(text));
   add_texts_of_tests("scene: 1", seeds);
   return seeds;
 }

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 
 #include "physics/world.h"
+#include "stress/digits.h"
 #include "stress/gaps.h"
 #include "stress/paths.h"
 #include "stress/watch.h"
@@ -15,12 +15,6 @@
 namespace carom::stress {
 
 namespace {
-
-std::string text(double x) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.9g", x);
-  return digits;
-}
 
 std::string names_of(Entity a, Entity b) {
   return std::to_string(a) + " and " + std::to_string(b);

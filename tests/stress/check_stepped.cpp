@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "physics/world.h"
 #include "simulate/exact.h"
 #include "stress/check.h"
+#include "stress/digits.h"
 #include "stress/gaps.h"
 
 namespace carom::stress {
@@ -56,12 +56,6 @@ long double energy(const World& world, const State& s, long double& size) {
     }
   }
   return sum;
-}
-
-std::string text(double x) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.3g", x);
-  return digits;
 }
 
 }  // namespace

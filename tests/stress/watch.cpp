@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <ctime>
 #include <memory>
 
 #include "physics/world.h"
+#include "stress/digits.h"
 
 namespace carom::stress {
 
@@ -17,12 +17,6 @@ constexpr int looks = 24;
 
 bool same(double a, double b) {
   return a == b || (std::isnan(a) && std::isnan(b));
-}
-
-std::string text(double x) {
-  char digits[32];
-  std::snprintf(digits, sizeof digits, "%.17g", x);
-  return digits;
 }
 
 }  // namespace

@@ -1,18 +1,15 @@
 // A random scene as a scene file.
-#include <charconv>
 #include <cmath>
 
 #include "physics/world.h"
+#include "stress/digits.h"
 #include "stress/scene.h"
 
 namespace carom::stress {
 
 namespace {
 
-std::string text(double value) {
-  char digits[40];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
+using stress::text;
 
 std::string text(const Vec3& v) {
   return "[" + text(v.x()) + ", " + text(v.y()) + ", " + text(v.z()) + "]";
