@@ -33,8 +33,10 @@ Descriptor MemoryFile::open() const {
 }
 
 OwnFolder::OwnFolder() {
+  // In memory where the system lets this user write there.
   const fs::path shared = "/dev/shm";
-  path_ = ((fs::exists(shared) ? shared : fs::temp_directory_path()) / "carom_fuzz_XXXXXX").string();
+  const bool writable = access(shared.c_str(), W_OK | X_OK) == 0;
+  path_ = ((writable ? shared : fs::temp_directory_path()) / "carom_fuzz_XXXXXX").string();
   if (mkdtemp(path_.data()) == nullptr) throw std::runtime_error("no folder for inputs");
   folder_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
 }
