@@ -1,6 +1,6 @@
 #pragma once
-// The one interface to all engines that carry a World forward in time. It is crossed once for each output time, never
-// for each event.
+// The one interface to all engines that carry a World forward in time. A run calls it for each output time, never for
+// each event.
 #include <cstdint>
 #include <limits>
 #include <span>
