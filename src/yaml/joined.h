@@ -1,5 +1,5 @@
 #pragma once
-// Texts as one, with a separator. (fmt::join takes a compiler ten times as long.)
+// Texts as one, with a separator. (With fmt::join each source compiles fmt's formatter of strings.)
 #include <string>
 #include <string_view>
 
