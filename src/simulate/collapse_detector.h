@@ -19,9 +19,9 @@ class CollapseDetector {
 
   /// Counts an impact of a on b at `approach` (m/s). Returns whether it ends in contact, so that nothing is left of the
   /// approach. `press`: the acceleration that drives the two together (m/s^2). `length`: the diameter of the smaller
-  /// one (m). `alone`: on a flat surface, not among bodies. An inelastic collapse ends bouncing at any speed. Under
-  /// load a slow impact also ends it in two cases. It is one of very many within the time of a hop at that speed, or it
-  /// meets bodies in lasting contact.
+  /// one, or a's radius on a fixed thing (m). `alone`: on a flat surface, not among bodies. An inelastic collapse ends
+  /// bouncing at any speed. Under load a slow impact also ends it in two cases. It is one of very many within the time
+  /// of a hop at that speed, or it meets bodies in lasting contact.
   bool count_impact(Entity a, Entity b, double e, double approach, double press, double length, bool alone);
   /// Counts an impact of body i in turn with the impact that caused it. lost: its 1 - e.
   void count_in_turn(Entity i, double lost);

@@ -106,7 +106,7 @@ inline constexpr double contact_rounding = 0x1p-51;
 inline constexpr double least_overlap = 0x1p-50;
 // Share of the least radius and of speeds: error of a step, and of the parabolas in it.
 inline constexpr double step_error = 1e-12;
-// Share of a radius and of speeds: allowed error of a contact after steps.
+// Share of a radius and of speeds: allowed error of a contact after steps. Slower islands in balance fall asleep.
 inline constexpr double drift = 16e-12;
 // Share of the time in which bodies move by a radius: length of the first step.
 inline constexpr double first_step = 0.05;
@@ -171,7 +171,7 @@ inline constexpr double balance = 1e-11;
 inline constexpr double standstill = 1e-5;
 // Share of the speed of falling by a radius: in a jam slower bodies stop.
 inline constexpr double jammed_speed = 1e-3;
-// Consecutive steps ended at once by simultaneous impacts: a jam.
+// Consecutive steps ended at once by simultaneous impacts: more are a jam.
 inline constexpr std::uint32_t many_short_steps = 8;
 
 }  // namespace carom::exact_tolerance
