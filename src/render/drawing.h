@@ -1,0 +1,29 @@
+#pragma once
+// What one picture shows besides the State: the camera at that time, colours that change, and lines in space.
+#include <vector>
+
+#include "numerics/vec3.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+/// A straight round stroke with ends of two radii, such as a piece of a trail, a spring's wire or an arrow's head.
+struct Stroke {
+  Vec3 from, to;            // m
+  double from_radius = 0;   // m
+  double to_radius = 0;     // m
+  double least_width = 1;   // pixels; a thinner stroke is drawn this wide
+  Color color;              // sRGB
+  double from_opacity = 1;  // 0: invisible
+  double to_opacity = 1;
+  bool lit = false;  // takes light and casts none; false: its colour is seen as it is
+};
+
+struct Drawing {
+  Camera camera;
+  std::vector<Color> body_colors;  // by body; empty: those of the scene
+  std::vector<float> glow;         // by body, 0 to 1: how much of its own colour it sends out; empty: none does
+  std::vector<Stroke> strokes;
+};
+
+}  // namespace carom
