@@ -1,0 +1,45 @@
+#pragma once
+// Which solids each tile of the picture may show, and which are so near to what it shows that they take light of the
+// sky there.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "raster/outline.h"
+
+namespace carom::raster {
+
+inline constexpr int tile_side = 32;  // pixels
+
+/// A sphere takes cos(angle) (r / d)^2 of an even sky's light. Less than this share darkens nothing.
+inline constexpr float least_taken = 0.1F;
+/// Within so many radii of its centre a ball takes that share: 1 / sqrt(least_taken).
+inline constexpr float closeness = 3.1623F;
+
+class Bins {
+ public:
+  /// Computes the outlines of all solids and sorts the solids into tiles. The memory of the last picture is used again.
+  void fill(Frame& frame);
+
+  int columns() const { return columns_; }
+  int count() const { return columns_ * rows_; }
+  /// Numbers of solids, from the nearest to the farthest.
+  std::span<const std::uint32_t> tile(int i) const {
+    const auto k = static_cast<std::size_t>(i);
+    return {members_.data() + start_[k], start_[k + 1] - start_[k]};
+  }
+  const Bounds& bounds(std::uint32_t solid) const { return bounds_[solid]; }
+
+ private:
+  void sort_by_depth(const Frame& frame);
+
+  int columns_ = 0, rows_ = 0;
+  std::vector<Bounds> bounds_;  // by solid
+  std::vector<Bounds> tiles_;   // by solid, in tiles: where it is seen or takes light
+  std::vector<std::uint32_t> order_, spare_, keys_;
+  std::vector<std::size_t> start_, next_;
+  std::vector<std::uint32_t> members_;
+};
+
+}  // namespace carom::raster

@@ -1,0 +1,182 @@
+// Computes outlines. A ball has an ellipse, by which its edge is smooth and its depth free of cancellation. A box, a
+// cylinder and a wall have the convex hull of their corners, cut at the near plane. A cylinder's rims are polygons so
+// fine that they deviate by less than a twentieth of a pixel.
+#include "raster/outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace carom::raster {
+namespace {
+
+struct Point {
+  double x, y;
+};
+
+double side(const Point& a, const Point& b, const Point& p) {
+  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+/// The convex hull, counterclockwise, by the monotone chain (Andrew 1979).
+std::vector<Point> hull_of(std::vector<Point> points) {
+  std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::vector<Point> hull;
+  for (int half = 0; half < 2; ++half) {
+    const std::size_t start = hull.size();
+    for (const Point& p : points) {
+      while (hull.size() >= start + 2 && side(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+Vec3 vec(const Float3& v) {
+  return {v[0], v[1], v[2]};
+}
+
+/// Collects the projections of a polyhedron's edges, as far as they are before the near plane.
+class Projection {
+ public:
+  explicit Projection(double near) : near_(near) {}
+  void add(Vec3 a, Vec3 b) {
+    if (a.z() < b.z()) std::swap(a, b);
+    if (a.z() <= near_) return;
+    points_.push_back({a.x() / a.z(), a.y() / a.z()});
+    if (b.z() <= near_) b = a + (a.z() - near_) / (a.z() - b.z()) * (b - a);
+    const double z = std::max(b.z(), near_);
+    points_.push_back({b.x() / z, b.y() / z});
+  }
+  std::vector<Point> hull() { return hull_of(std::move(points_)); }
+
+ private:
+  double near_;
+  std::vector<Point> points_;
+};
+
+void project_box(const Frame& frame, const Solid& solid, Projection& to) {
+  const auto corner = [&](int k) {
+    Vec3 p = vec(solid.center);
+    for (std::size_t i = 0; i < 3; ++i) p += (k >> i & 1 ? 1 : -1) * double{solid.half[i]} * vec(frame.axes[i]);
+    return p;
+  };
+  for (int k = 0; k < 8; ++k)
+    for (int i = 0; i < 3; ++i)
+      if (!(k >> i & 1)) to.add(corner(k), corner(k | 1 << i));
+}
+
+void project_wall(const Solid& solid, Projection& to) {
+  const Vec3 c = vec(solid.center), u = double{solid.half[0]} * vec(solid.right), v = double{solid.half[1]} * vec(solid.up);
+  const Vec3 corners[4] = {c - u - v, c + u - v, c + u + v, c - u + v};
+  for (int k = 0; k < 4; ++k) to.add(corners[k], corners[(k + 1) % 4]);
+}
+
+void project_cylinder(const Frame& frame, const Solid& solid, Projection& to) {
+  const Vec3 c = vec(solid.center), h = double{solid.half[1]} * vec(frame.axes[1]);
+  const Vec3 u = double{solid.half[0]} * vec(frame.axes[0]), v = double{solid.half[0]} * vec(frame.axes[2]);
+  // A regular polygon of n corners deviates from its circle by r pi^2 / (2 n^2).
+  const double z = std::max(c.z() - solid.radius, double{frame.near});
+  const double pixels = solid.half[0] / (z * frame.pixel);
+  const int corners = std::clamp(static_cast<int>(std::ceil(std::numbers::pi * std::sqrt(10 * pixels))), 12, 512);
+  // The polygon of the circle's area.
+  const double step = 2 * std::numbers::pi / corners, wide = std::sqrt(step / std::sin(step));
+  Vec3 last = c + wide * u;
+  for (int k = 1; k <= corners; ++k) {
+    const Vec3 next = c + wide * (std::cos(step * k) * u + std::sin(step * k) * v);
+    to.add(last - h, next - h);
+    to.add(last + h, next + h);
+    to.add(next - h, next + h);
+    last = next;
+  }
+}
+
+/// From bounds in the plane z = 1 to pixels, with `margin` pixels around.
+Bounds pixels(const Frame& frame, double left, double right, double bottom, double top, double margin) {
+  const auto within = [](double x, int most) {
+    return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(most)));
+  };
+  // The middle of pixel i is at left + i pixel.
+  return {within(std::ceil((left - frame.left) / frame.pixel - margin), frame.width),
+          within(std::ceil((frame.top - top) / frame.pixel - margin), frame.height),
+          within(std::floor((right - frame.left) / frame.pixel + margin) + 1, frame.width),
+          within(std::floor((frame.top - bottom) / frame.pixel + margin) + 1, frame.height)};
+}
+
+Bounds outline_ball(const Frame& frame, Solid& solid) {
+  Outline o{};
+  if (!outline_of(vec(solid.center), solid.radius, o)) {
+    solid.kind = Kind::wide_ball;
+    return bounds_of_ball(frame, solid.center, solid.radius);
+  }
+  double a = std::hypot(o.ax, o.ay), b = std::hypot(o.bx, o.by);
+  const double ex = o.ax / a, ey = o.ay / a;
+  // A ball that is smaller than a pixel is larger and fainter, with the same coverage.
+  const double least = 0.75 * frame.pixel;
+  if (frame.smooth && b < least) {
+    const double longer = std::max(a, least);
+    solid.opacity = static_cast<float>(a * b / (longer * least));
+    a = longer, b = least;
+  }
+  solid.x = static_cast<float>(o.x), solid.y = static_cast<float>(o.y);
+  solid.xx = static_cast<float>(ex / a), solid.xy = static_cast<float>(ey / a);
+  solid.yx = static_cast<float>(-ey / b), solid.yy = static_cast<float>(ex / b);
+  solid.per_a = static_cast<float>(1 / a), solid.per_b = static_cast<float>(1 / b);
+  solid.depth2 = static_cast<float>(o.depth2);
+  const double wide = std::hypot(a * ex, b * ey), high = std::hypot(a * ey, b * ex);
+  return pixels(frame, o.x - wide, o.x + wide, o.y - high, o.y + high, 0.5);
+}
+
+}  // namespace
+
+Bounds bounds_of_ball(const Frame& frame, const Float3& center, float radius) {
+  const double near = center[2] - radius, far = center[2] + radius;
+  if (far <= frame.near) return {};
+  if (near <= frame.near) return {0, 0, frame.width, frame.height};
+  const auto low = [&](double x) { return x / (x < 0 ? near : far); };
+  const auto high = [&](double x) { return x / (x > 0 ? near : far); };
+  return pixels(frame, low(center[0] - radius), high(center[0] + radius), low(center[1] - radius),
+                high(center[1] + radius), 0.5);
+}
+
+Bounds outline(Frame& frame, Solid& solid) {
+  solid.nearest = solid.center[2] - solid.radius;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Float3& axis = frame.axes[i];
+    solid.world_center[i] = axis[0] * solid.center[0] + axis[1] * solid.center[1] + axis[2] * solid.center[2];
+  }
+  if (solid.shadow_only) return {};
+  if (solid.kind == Kind::ball) return outline_ball(frame, solid);
+  if (solid.kind == Kind::mesh) return bounds_of_ball(frame, solid.center, solid.radius);
+
+  Projection projection(frame.near);
+  if (solid.kind == Kind::box) project_box(frame, solid, projection);
+  if (solid.kind == Kind::cylinder) project_cylinder(frame, solid, projection);
+  if (solid.kind == Kind::wall) project_wall(solid, projection);
+  const std::vector<Point> hull = projection.hull();
+  if (hull.size() < 3) return {};
+
+  // Edges in pairs that are opposite each other.
+  solid.first_edge = static_cast<std::int32_t>(frame.edges.size());
+  const std::size_t pairs = (hull.size() + 1) / 2;
+  solid.edge_pairs = static_cast<std::int32_t>(pairs);
+  const auto edge = [&](std::size_t i) -> Edge {
+    if (i >= hull.size()) return {0, 0, 1e6F};
+    const Point &p = hull[i], &q = hull[(i + 1) % hull.size()];
+    const double length = std::hypot(q.x - p.x, q.y - p.y) * frame.pixel;
+    const double a = -(q.y - p.y) / length, b = (q.x - p.x) / length;
+    return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(-a * p.x - b * p.y)};
+  };
+  for (std::size_t i = 0; i < pairs; ++i) {
+    frame.edges.push_back(edge(i));
+    frame.edges.push_back(edge(i + pairs));
+  }
+  const auto [left, right] = std::minmax_element(hull.begin(), hull.end(), [](auto& p, auto& q) { return p.x < q.x; });
+  const auto [bottom, top] = std::minmax_element(hull.begin(), hull.end(), [](auto& p, auto& q) { return p.y < q.y; });
+  return pixels(frame, left->x, right->x, bottom->y, top->y, 0.5);
+}
+
+}  // namespace carom::raster

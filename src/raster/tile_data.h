@@ -1,0 +1,62 @@
+#pragma once
+// The memory of one thread for a tile. A tile has blocks of 4 x 4 pixels, one for each vector; pixel i of block b is
+// number 16 b + i.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "raster/tile.h"
+
+namespace carom::raster {
+
+inline constexpr int tile_pixels = tile_side * tile_side;
+inline constexpr int block_side = 4;
+inline constexpr int blocks_across = tile_side / block_side;
+inline constexpr int blocks = blocks_across * blocks_across;
+/// The nearest solids that a pixel shows. Behind so many that cover it in part, farther ones are not seen.
+inline constexpr int layers = 6;
+
+/// Bits of a layer's solid number.
+inline constexpr std::int32_t seen_inside = 1 << 30;  // cut open by the near plane
+inline constexpr std::int32_t number_mask = seen_inside - 1;
+inline constexpr std::int32_t no_solid = number_mask;
+
+/// Solids near a tile, as arrays for a test of many at a time. Their length is a multiple of 16.
+struct Nearby {
+  std::vector<float> x, y, z, radius;  // m, of a ball around each
+  std::vector<std::uint32_t> solid;
+  std::size_t count = 0;
+  void clear() {
+    for (auto* a : {&x, &y, &z, &radius}) a->clear();
+    solid.clear();
+    count = 0;
+  }
+};
+
+struct TileMemory::Data {
+  // By block, layer, pixel of the block; sorted by depth.
+  alignas(64) std::array<float, tile_pixels * layers> depth;  // z
+  alignas(64) std::array<float, tile_pixels * layers> cover;  // share of the pixel; then its share of the light
+  alignas(64) std::array<std::int32_t, tile_pixels * layers> solid;
+  // By pixel.
+  alignas(64) std::array<float, tile_pixels> opaque;  // z of the nearest solid that covers all of it
+  alignas(64) std::array<float, tile_pixels> clear;   // share that no solid covers
+  alignas(64) std::array<float, tile_pixels> red, green, blue, alpha;
+  alignas(64) std::array<float, tile_pixels> inverse;  // 1 / z of what has the largest share
+  alignas(64) std::array<float, tile_pixels> line;     // share of a line
+  // By block.
+  std::array<float, blocks> block_opaque;
+  std::array<int, blocks> used;  // layers
+  std::array<bool, blocks> overfull;
+
+  // Parts of layers that do not fill a block.
+  alignas(64) std::array<std::int32_t, tile_pixels * layers> queue;  // index into the arrays by block, layer, pixel
+  int queued = 0;
+
+  Nearby shading, close;
+  std::vector<std::uint32_t> cells;                    // of the light grid, without repetitions
+  std::vector<std::uint32_t> cell_mark, solid_mark;    // the last tile that visited it
+  std::uint32_t mark = 0;
+};
+
+}  // namespace carom::raster
