@@ -12,6 +12,9 @@ using Float3 = std::array<float, 3>;
 
 enum class Kind : std::int32_t { ball, wide_ball, box, cylinder, wall, mesh };
 
+/// A shadow whose blur is so many radii of its ball wide is gone.
+inline constexpr float faintest = 8;
+
 /// The number of a solid in a picture is its index. Opaque solids are sorted by the picture, not by the caller.
 struct Solid {
   Float3 center{};

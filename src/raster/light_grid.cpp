@@ -12,8 +12,8 @@ namespace carom::raster {
 namespace {
 
 // Balls that may shade one point, on average.
-constexpr float most_shades = 64;
-constexpr float faintest = 8;
+constexpr float most_shades = 16;
+constexpr float narrowest = 0.25F;
 constexpr int most_cells = 512;
 // Light at a smaller slope is too weak on a plane to cast shadows.
 constexpr float least_slope = 0.03F;
@@ -72,7 +72,8 @@ void LightGrid::measure(const Frame& frame) {
     if (s.kind != Kind::wall) covered += std::numbers::pi * double{s.radius} * s.radius;
   }
   const double area = std::max(double{u1 - u0} * (v1 - v0), 1e-30);
-  faint = std::clamp(static_cast<float>(std::sqrt(most_shades * area / std::max(covered, 1e-30))) - 1, 1.0F, faintest);
+  const auto shades = static_cast<float>(std::sqrt(most_shades * area / std::max(covered, 1e-30)));
+  widest_blur = std::clamp(shades - 1, narrowest, faintest);
 
   blur_.resize(frame.solids.size());
   float widest = 0;
@@ -89,7 +90,7 @@ void LightGrid::measure(const Frame& frame) {
       }
       blur = frame.softness * std::max(way, 0.0F);
     }
-    blur_[i] = std::min(blur, faint * s.radius);
+    blur_[i] = std::min(blur, widest_blur * s.radius);
     widest = std::max(widest, blur_[i]);
     if (s.kind == Kind::wall) continue;
     width += s.radius + blur_[i];
@@ -141,6 +142,11 @@ void LightGrid::fill(const Frame& frame) {
     v = cross(key.vector, u);
   }
   measure(frame);
+  towards_light.clear();
+  for (const Solid& s : frame.solids) {
+    const Float3 off = {key.vector[0] - s.center[0], key.vector[1] - s.center[1], key.vector[2] - s.center[2]};
+    towards_light.push_back(key.near ? -dot(off, off) : dot(key.vector, s.center));
+  }
   start_.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * (key.near ? 6 : 1) + 1, 0);
   const auto each_cell = [&](std::size_t i, auto visit) {
     footprint(frame, i, rects_);
@@ -156,8 +162,23 @@ void LightGrid::fill(const Frame& frame) {
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   members_.resize(start_.back());
   next_.assign(start_.begin(), start_.end() - 1);
-  for (std::size_t i = 0; i < frame.solids.size(); ++i)
-    each_cell(i, [&](std::size_t cell) { members_[next_[cell]++] = static_cast<std::uint32_t>(i); });
+  order_.resize(frame.solids.size());
+  std::iota(order_.begin(), order_.end(), 0U);
+  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return towards_light[a] != towards_light[b] ? towards_light[a] < towards_light[b] : a < b;
+  });
+  for (auto* a : {&x, &y, &z, &radius, &place}) a->resize(members_.size() + 16);
+  for (const std::uint32_t i : order_) {
+    const Solid& s = frame.solids[i];
+    const bool ball = s.kind == Kind::ball || s.kind == Kind::wide_ball;
+    each_cell(i, [&](std::size_t cell) {
+      const std::size_t k = next_[cell]++;
+      members_[k] = i;
+      x[k] = s.center[0], y[k] = s.center[1], z[k] = s.center[2];
+      radius[k] = ball ? s.radius : -1;
+      place[k] = towards_light[i];
+    });
+  }
 }
 
 }  // namespace carom::raster

@@ -19,14 +19,23 @@ class LightGrid {
   std::span<const std::uint32_t> cell(std::size_t i) const {
     return {members_.data() + start_[i], start_[i + 1] - start_[i]};
   }
+  /// The balls of a cell: members `first` to `end` - 1 of the arrays below, from the farthest to the light to the
+  /// nearest.
+  std::size_t first(std::size_t i) const { return start_[i]; }
+  std::size_t end(std::size_t i) const { return start_[i + 1]; }
+  std::span<const std::uint32_t> members() const { return members_; }
+  /// By member, and 16 more: centre, radius (not a ball: -1), place towards the light.
+  std::vector<float> x, y, z, radius, place;
 
   int side = 1;                             // cells along a face
   Float3 u{}, v{};                          // parallel light: unit, across it
   float u0 = -1, v0 = -1, u1 = 1, v1 = 1;   // m, of all solids; of a lamp's face in tangents
   float per_u = 1, per_v = 1;               // cells per m
-  /// A shadow whose blur is so many radii of its ball wide is gone. It is smaller in a crowd: there far balls take light
-  /// evenly, and a point would have too many of them.
-  float faint = 1;
+  /// The blur of a shadow is at most so many radii of its ball wide. In a crowd it is narrower, so that only so many
+  /// balls shade a point as can be counted.
+  float widest_blur = 1;
+  /// By solid: of two that shade a point, the nearer one has the smaller number.
+  std::vector<float> towards_light;
 
  private:
   struct Rect {
@@ -41,6 +50,7 @@ class LightGrid {
   std::vector<std::uint32_t> members_;
   std::vector<std::size_t> next_;
   std::vector<Rect> rects_;
+  std::vector<std::uint32_t> order_;
 };
 
 }  // namespace carom::raster

@@ -54,6 +54,8 @@ struct TileMemory::Data {
   int queued = 0;
 
   Nearby shading, close;
+  bool crowd = false;  // balls shade by the light grid's cells; `shading` has the other solids
+  std::vector<std::uint32_t> found;
   std::vector<std::uint32_t> cells;                    // of the light grid, without repetitions
   std::vector<std::uint32_t> cell_mark, solid_mark;    // the last tile that visited it
   std::uint32_t mark = 0;
