@@ -3,18 +3,12 @@
 #include "raster/bins.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <numeric>
+
+#include "raster/radix_sort.h"
 
 namespace carom::raster {
 namespace {
-
-/// The order of these numbers is that of the floats.
-std::uint32_t key_of(float x) {
-  const auto bits = std::bit_cast<std::uint32_t>(x);
-  return bits & 0x80000000U ? ~bits : bits | 0x80000000U;
-}
 
 Bounds in_tiles(const Bounds& b) {
   if (b.empty()) return {};
@@ -28,23 +22,6 @@ Bounds joined(const Bounds& a, const Bounds& b) {
 }
 
 }  // namespace
-
-/// Radix sort (Knuth, The Art of Computer Programming 3, 5.2.5), which keeps the order of equals.
-void Bins::sort_by_depth(const Frame& frame) {
-  const std::size_t count = frame.solids.size();
-  order_.resize(count);
-  spare_.resize(count);
-  keys_.resize(count);
-  std::iota(order_.begin(), order_.end(), 0U);
-  for (std::size_t i = 0; i < count; ++i) keys_[i] = key_of(frame.solids[i].nearest);
-  for (int shift = 0; shift < 32; shift += 11) {
-    std::array<std::uint32_t, 2049> places{};
-    for (const std::uint32_t key : keys_) ++places[(key >> shift & 2047U) + 1];
-    std::partial_sum(places.begin(), places.end(), places.begin());
-    for (const std::uint32_t i : order_) spare_[places[keys_[i] >> shift & 2047U]++] = i;
-    order_.swap(spare_);
-  }
-}
 
 void Bins::fill(Frame& frame) {
   columns_ = (frame.width + tile_side - 1) / tile_side;
@@ -62,7 +39,9 @@ void Bins::fill(Frame& frame) {
     if (solid.radius > frame.pixel * solid.nearest)
       tiles_[i] = joined(tiles_[i], in_tiles(bounds_of_ball(frame, solid.center, closeness * solid.radius)));
   }
-  sort_by_depth(frame);
+  keys_.clear();
+  for (const Solid& solid : frame.solids) keys_.push_back(key_of(solid.nearest));
+  sort_by_key(keys_, order_, spare_);
 
   start_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
   const auto each_tile = [&](std::uint32_t i, auto visit) {

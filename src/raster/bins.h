@@ -32,8 +32,6 @@ class Bins {
   const Bounds& bounds(std::uint32_t solid) const { return bounds_[solid]; }
 
  private:
-  void sort_by_depth(const Frame& frame);
-
   int columns_ = 0, rows_ = 0;
   std::vector<Bounds> bounds_;  // by solid
   std::vector<Bounds> tiles_;   // by solid, in tiles: where it is seen or takes light

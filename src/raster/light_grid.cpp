@@ -8,6 +8,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "raster/radix_sort.h"
+
 namespace carom::raster {
 namespace {
 
@@ -108,33 +110,50 @@ void LightGrid::measure(const Frame& frame) {
   per_v = static_cast<float>(side) / std::max(v1 - v0, 1e-30F);
 }
 
-void LightGrid::footprint(const Frame& frame, std::size_t i, std::vector<Rect>& rects) const {
-  const Solid& s = frame.solids[i];
+/// The cells of each solid's shadow.
+void LightGrid::find_rects(const Frame& frame) {
   const Lamp& key = frame.lamps[0];
-  rects.clear();
-  if (!key.near) {
-    const float x = dot(u, s.center), y = dot(v, s.center);
-    const float wide = half_width(frame, s, u) + blur_[i], high = half_width(frame, s, v) + blur_[i];
-    rects.push_back({0, x - wide, x + wide, y - high, y + high});
-    return;
+  const auto at = [&](float x, float origin, float per) {
+    return static_cast<std::int16_t>(std::clamp((x - origin) * per, 0.0F, static_cast<float>(side - 1)));
+  };
+  const auto add = [&](int face, float a0, float a1, float b0, float b1) {
+    rects_.push_back({static_cast<std::int16_t>(face), at(a0, u0, per_u), at(a1, u0, per_u), at(b0, v0, per_v), at(b1, v0, per_v)});
+  };
+  rects_.clear();
+  first_rect_.clear();
+  for (std::size_t i = 0; i < frame.solids.size(); ++i) {
+    const Solid& s = frame.solids[i];
+    first_rect_.push_back(static_cast<std::uint32_t>(rects_.size()));
+    if (!key.near) {
+      const float a = dot(u, s.center), b = dot(v, s.center);
+      const float wide = half_width(frame, s, u) + blur_[i], high = half_width(frame, s, v) + blur_[i];
+      add(0, a - wide, a + wide, b - high, b + high);
+      continue;
+    }
+    const float radius = s.radius + blur_[i];
+    for (int face = 0; face < 6; ++face) {
+      const auto axis = static_cast<std::size_t>(face / 2);
+      const auto p = [&](std::size_t k) { return s.center[k % 3] - key.vector[k % 3]; };
+      const float ahead = face % 2 ? -p(axis) : p(axis);
+      float a0, a1, b0, b1;
+      if (ahead > -radius && span_on_face(p(axis + 1), ahead, radius, a0, a1) &&
+          span_on_face(p(axis + 2), ahead, radius, b0, b1))
+        add(face, a0, a1, b0, b1);
+    }
   }
-  for (int face = 0; face < 6; ++face) {
-    const auto axis = static_cast<std::size_t>(face / 2);
-    const auto p = [&](std::size_t k) { return s.center[k % 3] - key.vector[k % 3]; };
-    const float ahead = face % 2 ? -p(axis) : p(axis), radius = s.radius + blur_[i];
-    Rect r{face, 0, 0, 0, 0};
-    if (ahead > -radius && span_on_face(p(axis + 1), ahead, radius, r.u0, r.u1) &&
-        span_on_face(p(axis + 2), ahead, radius, r.v0, r.v1))
-      rects.push_back(r);
-  }
+  first_rect_.push_back(static_cast<std::uint32_t>(rects_.size()));
+}
+
+/// Sorts solids by their place towards the light.
+void LightGrid::sort() {
+  keys_.clear();
+  for (const float place : towards_light) keys_.push_back(key_of(place));
+  sort_by_key(keys_, order_, spare_);
 }
 
 void LightGrid::fill(const Frame& frame) {
-  members_.clear();
-  if (frame.solids.empty()) {
-    start_.assign(1, 0);
-    return;
-  }
+  for (Cells* cells : {&balls, &others}) cells->members.clear(), cells->start.assign(1, 0);
+  if (frame.solids.empty()) return;
   const Lamp& key = frame.lamps[0];
   const Float3 aside = std::abs(key.vector[0]) < 0.7F ? Float3{1, 0, 0} : Float3{0, 1, 0};
   if (!key.near) {
@@ -147,37 +166,35 @@ void LightGrid::fill(const Frame& frame) {
     const Float3 off = {key.vector[0] - s.center[0], key.vector[1] - s.center[1], key.vector[2] - s.center[2]};
     towards_light.push_back(key.near ? -dot(off, off) : dot(key.vector, s.center));
   }
-  start_.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * (key.near ? 6 : 1) + 1, 0);
+  find_rects(frame);
+  sort();
+  const std::size_t count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * (key.near ? 6 : 1);
+  const auto is_ball = [&](std::size_t i) { return frame.solids[i].kind == Kind::ball || frame.solids[i].kind == Kind::wide_ball; };
   const auto each_cell = [&](std::size_t i, auto visit) {
-    footprint(frame, i, rects_);
-    const auto at = [&](float x, float origin, float per) {
-      return static_cast<int>(std::clamp((x - origin) * per, 0.0F, static_cast<float>(side - 1)));
-    };
-    for (const Rect& r : rects_)
-      for (int y = at(r.v0, v0, per_v); y <= at(r.v1, v0, per_v); ++y)
-        for (int x = at(r.u0, u0, per_u); x <= at(r.u1, u0, per_u); ++x)
-          visit(static_cast<std::size_t>((r.face * side + y) * side + x));
+    for (std::uint32_t k = first_rect_[i]; k < first_rect_[i + 1]; ++k) {
+      const Rect& r = rects_[k];
+      for (int b = r.v0; b <= r.v1; ++b)
+        for (int a = r.u0; a <= r.u1; ++a) visit(static_cast<std::size_t>((r.face * side + b) * side + a));
+    }
   };
-  for (std::size_t i = 0; i < frame.solids.size(); ++i) each_cell(i, [&](std::size_t cell) { ++start_[cell + 1]; });
-  std::partial_sum(start_.begin(), start_.end(), start_.begin());
-  members_.resize(start_.back());
-  next_.assign(start_.begin(), start_.end() - 1);
-  order_.resize(frame.solids.size());
-  std::iota(order_.begin(), order_.end(), 0U);
-  std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return towards_light[a] != towards_light[b] ? towards_light[a] < towards_light[b] : a < b;
-  });
-  for (auto* a : {&x, &y, &z, &radius, &place}) a->resize(members_.size() + 16);
-  for (const std::uint32_t i : order_) {
+  // The members of each cell are contiguous: count them first, then fill.
+  for (Cells* cells : {&balls, &others}) cells->start.assign(count + 1, 0);
+  for (std::size_t i = 0; i < frame.solids.size(); ++i) {
+    Cells& cells = is_ball(i) ? balls : others;
+    each_cell(i, [&](std::size_t cell) { ++cells.start[cell + 1]; });
+  }
+  for (Cells* cells : {&balls, &others}) {
+    std::partial_sum(cells->start.begin(), cells->start.end(), cells->start.begin());
+    cells->members.resize(cells->start.back());
+    next_.assign(cells->start.begin(), cells->start.end() - 1);
+    for (const std::uint32_t i : order_)
+      if (is_ball(i) == (cells == &balls)) each_cell(i, [&](std::size_t cell) { cells->members[next_[cell]++] = i; });
+  }
+  for (auto* a : {&x, &y, &z, &radius, &place}) a->resize(balls.members.size() + 16);
+  for (std::size_t k = 0; k < balls.members.size(); ++k) {
+    const std::uint32_t i = balls.members[k];
     const Solid& s = frame.solids[i];
-    const bool ball = s.kind == Kind::ball || s.kind == Kind::wide_ball;
-    each_cell(i, [&](std::size_t cell) {
-      const std::size_t k = next_[cell]++;
-      members_[k] = i;
-      x[k] = s.center[0], y[k] = s.center[1], z[k] = s.center[2];
-      radius[k] = ball ? s.radius : -1;
-      place[k] = towards_light[i];
-    });
+    x[k] = s.center[0], y[k] = s.center[1], z[k] = s.center[2], radius[k] = s.radius, place[k] = towards_light[i];
   }
 }
 

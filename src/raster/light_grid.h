@@ -9,22 +9,28 @@
 
 namespace carom::raster {
 
+/// Solids by cell.
+struct Cells {
+  std::vector<std::size_t> start;
+  std::vector<std::uint32_t> members;
+  std::size_t first(std::size_t cell) const { return start[cell]; }
+  std::size_t end(std::size_t cell) const { return start[cell + 1]; }
+  std::span<const std::uint32_t> of(std::size_t cell) const {
+    return {members.data() + start[cell], start[cell + 1] - start[cell]};
+  }
+};
+
 /// Parallel light has one plane grid, a lamp the six faces of a cube around it.
 class LightGrid {
  public:
   void fill(const Frame& frame);
 
-  bool empty() const { return members_.empty(); }
-  std::size_t cells() const { return start_.size() - 1; }
-  std::span<const std::uint32_t> cell(std::size_t i) const {
-    return {members_.data() + start_[i], start_[i + 1] - start_[i]};
-  }
-  /// The balls of a cell: members `first` to `end` - 1 of the arrays below, from the farthest to the light to the
-  /// nearest.
-  std::size_t first(std::size_t i) const { return start_[i]; }
-  std::size_t end(std::size_t i) const { return start_[i + 1]; }
-  std::span<const std::uint32_t> members() const { return members_; }
-  /// By member, and 16 more: centre, radius (not a ball: -1), place towards the light.
+  bool empty() const { return balls.members.empty() && others.members.empty(); }
+  std::size_t cells() const { return balls.start.size() - 1; }
+
+  // In each cell from the farthest to the light to the nearest.
+  Cells balls, others;
+  /// By member of `balls`, and 16 more: centre, radius, place towards the light.
   std::vector<float> x, y, z, radius, place;
 
   int side = 1;                             // cells along a face
@@ -38,19 +44,19 @@ class LightGrid {
   std::vector<float> towards_light;
 
  private:
+  /// Cells of one face, ends included.
   struct Rect {
-    int face;
-    float u0, u1, v0, v1;
+    std::int16_t face, u0, u1, v0, v1;
   };
   void measure(const Frame& frame);
-  void footprint(const Frame& frame, std::size_t i, std::vector<Rect>& rects) const;
+  void find_rects(const Frame& frame);
+  void sort();
 
-  std::vector<float> blur_;  // m, the most by solid
-  std::vector<std::size_t> start_;
-  std::vector<std::uint32_t> members_;
+  std::vector<float> blur_;                // m, the most by solid
+  std::vector<Rect> rects_;                // of all solids
+  std::vector<std::uint32_t> first_rect_;  // by solid, and one more
   std::vector<std::size_t> next_;
-  std::vector<Rect> rects_;
-  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> keys_, order_, spare_;
 };
 
 }  // namespace carom::raster
