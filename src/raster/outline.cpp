@@ -21,6 +21,7 @@ double side(const Point& a, const Point& b, const Point& p) {
 
 /// The convex hull, counterclockwise, by the monotone chain (Andrew 1979).
 std::vector<Point> hull_of(std::vector<Point> points) {
+  if (points.size() < 3) return {};
   std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   std::vector<Point> hull;
   for (int half = 0; half < 2; ++half) {
@@ -112,21 +113,22 @@ Bounds outline_ball(const Frame& frame, Solid& solid) {
     solid.kind = Kind::wide_ball;
     return bounds_of_ball(frame, solid.center, solid.radius);
   }
-  double a = std::hypot(o.ax, o.ay), b = std::hypot(o.bx, o.by);
+  double a = std::sqrt(o.ax * o.ax + o.ay * o.ay), b = std::sqrt(o.bx * o.bx + o.by * o.by);
   const double ex = o.ax / a, ey = o.ay / a;
-  // A ball that is smaller than a pixel is larger and fainter, with the same coverage.
-  const double least = 0.75 * frame.pixel;
-  if (frame.smooth && b < least) {
-    const double longer = std::max(a, least);
-    solid.opacity = static_cast<float>(a * b / (longer * least));
-    a = longer, b = least;
+  // A ball that is smaller than a pixel is larger and fainter. The edge of a disc is blurred over a pixel, which adds
+  // pi / 12 pixels to its area; the opacity takes them off where they count.
+  const double least = 0.75 * frame.pixel, seen = 2 * frame.pixel;
+  if (frame.smooth && b < seen) {
+    const double longer = std::max(a, least), shorter = std::max(b, least);
+    solid.opacity = static_cast<float>(a * b / (longer * shorter + frame.pixel * frame.pixel / 12));
+    a = longer, b = shorter;
   }
   solid.x = static_cast<float>(o.x), solid.y = static_cast<float>(o.y);
   solid.xx = static_cast<float>(ex / a), solid.xy = static_cast<float>(ey / a);
   solid.yx = static_cast<float>(-ey / b), solid.yy = static_cast<float>(ex / b);
   solid.per_a = static_cast<float>(1 / a), solid.per_b = static_cast<float>(1 / b);
   solid.depth2 = static_cast<float>(o.depth2);
-  const double wide = std::hypot(a * ex, b * ey), high = std::hypot(a * ey, b * ex);
+  const double wide = std::sqrt(a * a * ex * ex + b * b * ey * ey), high = std::sqrt(a * a * ey * ey + b * b * ex * ex);
   return pixels(frame, o.x - wide, o.x + wide, o.y - high, o.y + high, 0.5);
 }
 

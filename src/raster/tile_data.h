@@ -52,6 +52,9 @@ struct TileMemory::Data {
   // Parts of layers that do not fill a block.
   alignas(64) std::array<std::int32_t, tile_pixels * layers> queue;  // index into the arrays by block, layer, pixel
   int queued = 0;
+  alignas(64) std::array<std::int32_t, tile_pixels * layers> sorted;  // the queue, by solid
+  std::vector<std::uint32_t> slot, slot_mark;                         // by solid: its number among those of the queue
+  std::vector<int> slot_end;                                          // by slot
 
   Nearby shading, close;
   bool crowd = false;  // balls shade by the light grid's cells; `shading` has the other solids

@@ -25,6 +25,14 @@ struct Eye {
   }
   Vec3 point(const Vec3& world) const { return direction(world - camera.eye); }
 
+  /// Whether a ball at a place in the camera's frame may be in the picture. True for some beside its corners.
+  bool may_see(const Vec3& p, double radius) const {
+    const double z = p.z();
+    return z + radius > camera.near && z - radius < camera.far &&
+           std::abs(p.x()) - z * tan_x < radius * std::sqrt(1 + tan_x * tan_x) &&
+           std::abs(p.y()) - z * tan_y < radius * std::sqrt(1 + tan_y * tan_y);
+  }
+
   Camera camera;
   CameraFrame view;
   Size size;

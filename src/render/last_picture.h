@@ -30,17 +30,24 @@ bool same(const std::vector<T>& a, const std::vector<T>& b) {
 
 struct LastPicture {
   std::vector<Vec3> position;
-  std::vector<Entity> part_of;
+  std::vector<Entity> part_of;  // empty: each body is its own
   std::vector<double> radius;
   std::vector<Volume> volume;
   Drawing drawing;
 
   bool is_of(const State& state, const Drawing& now) const {
     const auto same_volume = [](const Volume& a, const Volume& b) { return a.shape == b.shape && a.half == b.half; };
-    return position == state.position && part_of == state.part_of && radius == state.radius &&
+    return position == state.position && same_parts(state.part_of) && radius == state.radius &&
            std::equal(volume.begin(), volume.end(), state.volume.begin(), state.volume.end(), same_volume) &&
            same(drawing.camera, now.camera) && same(drawing.body_colors, now.body_colors) && drawing.glow == now.glow &&
            same(drawing.strokes, now.strokes);
+  }
+  bool same_parts(const std::vector<Entity>& now) const {
+    for (std::size_t i = 0; i < std::max(part_of.size(), now.size()); ++i) {
+      const auto of = [&](const std::vector<Entity>& parts) { return i < parts.size() ? parts[i] : static_cast<Entity>(i); };
+      if (of(part_of) != of(now)) return false;
+    }
+    return true;
   }
   void take(const State& state, const Drawing& now) {
     position = state.position, part_of = state.part_of, radius = state.radius, volume = state.volume;

@@ -22,7 +22,7 @@ struct KeyLight {
 KeyLight default_light(const CameraFrame& view);
 
 /// Tangent of half the angle under which the key light appears. It makes shadows soft.
-inline constexpr double softness = 0.04;
+inline constexpr double softness = 0.03;
 
 /// Fills the lamps of a frame, their softness and the ambient light. The first lamp is the key light, which casts
 /// shadows. One with a position has the same apparent size from the camera's target.

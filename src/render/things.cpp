@@ -66,7 +66,7 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, cons
   const double distance2 = center.squaredNorm();
   const Vec3 off = (eye.camera.eye - position).cwiseAbs();
   const bool inside = solid.kind == raster::Kind::ball ? distance2 <= radius * radius : (off.array() <= volume.half.array()).all();
-  solid.shadow_only = inside || !is_sphere_in_view(eye.camera, eye.view, position, around);
+  solid.shadow_only = inside || !eye.may_see(center, around);
   // A thing smaller than a pixel is drawn as a ball, which is the fainter the smaller it is.
   if (solid.kind != raster::Kind::ball && around * around < 0.25 * eye.pixel * eye.pixel * distance2) {
     solid.kind = raster::Kind::ball;

@@ -115,7 +115,7 @@ TEST(Shadow, FallsOnABallBehindAnother) {
   const auto [x, y] = pixel_of(scene, size, Vec3(0, 1, 0));
   Renderer alone(scene, size, 4);
   const double lit = grey(alone.draw(scene.initial), x, y);
-  test::add_ball(scene, Vec3(0, 20, 0), 0.5, {0, 0, 1});  // high above, behind the camera's eye
+  test::add_ball(scene, Vec3(0, 10, 0), 0.5, {0, 0, 1});  // high above, behind the camera's eye
   Renderer shaded(scene, size, 4);
   EXPECT_LT(grey(shaded.draw(scene.initial), x, y), 0.6 * lit);
 }
@@ -145,7 +145,7 @@ TEST(Shadow, WhereABallTouchesTheFloorItIsDarkWithoutAnyKeyLight) {
   const double dark = grey(renderer.draw(scene.initial), x, y);
   State away = scene.initial;
   away.position[0] = Vec3(3, 0.5, 0);
-  // Of the sky cos (r / d)^2 = 0.305 is hidden; by the formula of shade.cpp 0.807 of the light is left.
+  // Of the sky cos (r / d)^2 = 0.305 is hidden; by the formula of shadow.inc 0.807 of the light is left.
   EXPECT_NEAR(dark / grey(renderer.draw(away), x, y), std::pow(0.807, 1 / 2.4), 0.02);
 }
 
