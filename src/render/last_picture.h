@@ -44,7 +44,9 @@ struct LastPicture {
   }
   bool same_parts(const std::vector<Entity>& now) const {
     for (std::size_t i = 0; i < std::max(part_of.size(), now.size()); ++i) {
-      const auto of = [&](const std::vector<Entity>& parts) { return i < parts.size() ? parts[i] : static_cast<Entity>(i); };
+      const auto of = [&](const std::vector<Entity>& parts) {
+        return i < parts.size() ? parts[i] : static_cast<Entity>(i);
+      };
       if (of(part_of) != of(now)) return false;
     }
     return true;

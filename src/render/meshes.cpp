@@ -178,14 +178,16 @@ void Meshes::draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, 
     if (b.left >= tile.right || b.right <= tile.left || b.top >= tile.bottom || b.bottom <= tile.top) continue;
     inside.push_back(i);
     used_ = {std::min(used_.left, std::max(b.left, tile.left)), std::min(used_.top, std::max(b.top, tile.top)),
-             std::max(used_.right, std::min(b.right, tile.right)), std::max(used_.bottom, std::min(b.bottom, tile.bottom))};
+             std::max(used_.right, std::min(b.right, tile.right)),
+             std::max(used_.bottom, std::min(b.bottom, tile.bottom))};
   }
   if (inside.empty()) {
     used_ = {};
     return;
   }
   // Meshes of one file are together.
-  std::stable_sort(inside.begin(), inside.end(), [&](std::size_t a, std::size_t b) { return meshes[a].file < meshes[b].file; });
+  std::stable_sort(inside.begin(), inside.end(),
+                   [&](std::size_t a, std::size_t b) { return meshes[a].file < meshes[b].file; });
   std::vector<float> rows;
   for (const std::size_t i : inside) {
     const PlacedMesh& m = meshes[i];
@@ -204,8 +206,8 @@ void Meshes::draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, 
   gl::ClearBufferfv(GL_DEPTH, 0, &infinitely_far);
   const double x = 1.0 / wide, y = 1.0 / high;
   program_.use();
-  gl::Uniform4f(program_.at("to_tile"), f(size_.width * x), f(size_.height * y), f((size_.width - 2 * tile.left) * x - 1),
-                f((size_.height - 2 * tile.top) * y - 1));
+  gl::Uniform4f(program_.at("to_tile"), f(size_.width * x), f(size_.height * y),
+                f((size_.width - 2 * tile.left) * x - 1), f((size_.height - 2 * tile.top) * y - 1));
   for (std::size_t first = 0, end = 0; first < inside.size(); first = end) {
     const std::size_t file = meshes[inside[first]].file;
     while (end < inside.size() && meshes[inside[end]].file == file) ++end;
@@ -231,7 +233,8 @@ void Meshes::resolve(const Rect& tile, const raster::Frame& frame) {
       std::uint32_t solid = 0;
       int covered = 0;
       for (int k = 0; k < fine_ * fine_; ++k) {
-        const auto at = static_cast<std::size_t>(((y - used_.top) * fine_ + k / fine_) * wide + (x - used_.left) * fine_ + k % fine_);
+        const auto at = static_cast<std::size_t>(((y - used_.top) * fine_ + k / fine_) * wide +
+                                                 (x - used_.left) * fine_ + k % fine_);
         const std::uint32_t number = what_read_[2 * at], q = what_read_[2 * at + 1];
         if (number == 0) continue;
         ++covered;
@@ -243,12 +246,13 @@ void Meshes::resolve(const Rect& tile, const raster::Frame& frame) {
         }
       }
       if (covered == 0) continue;
-      const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) + static_cast<std::size_t>(x);
+      const auto pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) + static_cast<std::size_t>(x);
       pixels_.depth[pixel] = frame.near / (0.5F * (nearest + farthest));
       pixels_.cover[pixel] = static_cast<float>(covered) / static_cast<float>(fine_ * fine_);
       pixels_.solid[pixel] = static_cast<std::int32_t>(solid) - 1;
-      // The mean normal: its light is the mean of matt faces' light. Across an edge it is short, and nothing glints there
-      // that would not on either face.
+      // The mean normal: its light is the mean of matt faces' light. Across an edge it is short, and nothing glints
+      // there that would not on either face.
       const float length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
       const float even = length / static_cast<float>(covered);
       for (std::size_t i = 0; i < 3; ++i) {

@@ -1,7 +1,7 @@
 #pragma once
 // The meshes of a picture, drawn as triangles by OSMesa: places and normals by pixel, and outlines along the key light
-// for their shadows. Bodies do not turn, so a mesh has one outline for all of them. In the light of a lamp the direction
-// differs from body to body. A mesh then casts the shadow of its volume.
+// for their shadows. Bodies do not turn, so a mesh has one outline for all of them. In the light of a lamp the
+// direction differs from body to body. A mesh then casts the shadow of its volume.
 #include <array>
 #include <cstdint>
 #include <string>

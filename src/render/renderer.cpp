@@ -10,6 +10,7 @@
 #include "render/last_picture.h"
 #include "render/lighting.h"
 #include "render/meshes.h"
+#include "render/room_edges.h"
 #include "render/strokes.h"
 #include "render/surfaces.h"
 #include "render/things.h"
@@ -31,7 +32,8 @@ Size checked(Size size, int samples) {
 }  // namespace
 
 struct Renderer::Impl {
-  Impl(const Scene& s, Size picture_size, int samples) : scene(s), size(checked(picture_size, samples)), things(s) {
+  Impl(const Scene& s, Size picture_size, int samples)
+      : scene(s), size(checked(picture_size, samples)), things(s), edges(room_edges(s)) {
     frame.smooth = samples > 1;
     frame.width = size.width, frame.height = size.height;
     if (scene.background) frame.plain_background = true, frame.background = linear(*scene.background);
@@ -49,6 +51,7 @@ struct Renderer::Impl {
   const Scene& scene;
   const Size size;
   Things things;
+  const std::vector<Stroke> edges;  // of the room
   raster::Frame frame;
   raster::Bins bins;
   raster::LightGrid lights;
@@ -81,7 +84,9 @@ void Renderer::Impl::draw(const State& state, const Drawing& drawing) {
   if (meshes) meshes->draw(things.meshes(), eye, frame);
   bins.fill(frame);
   lights.fill(frame);
-  lines.fill(drawing.strokes, eye);
+  std::vector<Stroke> strokes = edges;
+  strokes.insert(strokes.end(), drawing.strokes.begin(), drawing.strokes.end());
+  lines.fill(strokes, eye);
   if (!threads) threads.emplace(raster::drawing_threads());
   const raster::Picture picture{&frame, &bins, &lights, &lines.all, &lines.by_tile, image.pixels.data(), 3};
   threads->draw(picture, bins.count());

@@ -48,7 +48,9 @@ void Lines::fill(const std::vector<Stroke>& strokes, const Eye& eye) {
     line.joined = joined;
 
     const double wide = std::max(line.radius0, line.radius1) + 1;
-    const auto tile = [](double x, int most) { return static_cast<int>(std::clamp(std::floor(x / raster::tile_side), -1.0, 1.0 * most)); };
+    const auto tile = [](double x, int most) {
+      return static_cast<int>(std::clamp(std::floor(x / raster::tile_side), -1.0, 1.0 * most));
+    };
     const int left = std::max(tile(std::min(line.x0, line.x1) - wide, columns), 0);
     const int right = std::min(tile(std::max(line.x0, line.x1) + wide, columns), columns - 1);
     const int top = std::max(tile(std::min(line.y0, line.y1) - wide, rows), 0);

@@ -49,7 +49,9 @@ double pattern_unit(const Scene& scene, const Eye& eye) {
 /// The floor is the level plane below the eye that is nearest to it.
 void find_floor(const Eye& eye, raster::Frame& frame) {
   const raster::Float3 up = floats(eye.direction(Vec3(0, 1, 0)));
-  const auto dot = [](const raster::Float3& a, const raster::Float3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  const auto dot = [](const raster::Float3& a, const raster::Float3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
   frame.has_floor = false;
   for (const raster::Ground& g : frame.grounds) {
     if (g.height <= 0 || dot(g.normal, up) < 0.7F || (frame.has_floor && g.height >= frame.floor_height)) continue;

@@ -1,5 +1,5 @@
-// Places bodies, obstacles and walls in the camera's frame. Things outside the picture stay, since they may cast shadows
-// into it.
+// Places bodies, obstacles and walls in the camera's frame. Things outside the picture stay, since they may cast
+// shadows into it.
 #include "render/things.h"
 
 #include <algorithm>
@@ -14,7 +14,9 @@ namespace carom {
 namespace {
 
 raster::Kind kind_of(Shape shape) {
-  return shape == Shape::box ? raster::Kind::box : shape == Shape::cylinder ? raster::Kind::cylinder : raster::Kind::ball;
+  return shape == Shape::box        ? raster::Kind::box
+         : shape == Shape::cylinder ? raster::Kind::cylinder
+                                    : raster::Kind::ball;
 }
 
 }  // namespace
@@ -60,12 +62,14 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, cons
     solid.kind = raster::Kind::mesh;
     const Vec3 middle = eye.point(position + look.size.middle);
     solid.mesh_middle = floats(middle);
-    if (look.size.reach > 0) solid.mesh = static_cast<std::int32_t>(look.file), solid.mesh_reach = static_cast<float>(look.size.reach);
+    if (look.size.reach > 0)
+      solid.mesh = static_cast<std::int32_t>(look.file), solid.mesh_reach = static_cast<float>(look.size.reach);
   }
   // A thing around the eye would show only its own inside.
   const double distance2 = center.squaredNorm();
   const Vec3 off = (eye.camera.eye - position).cwiseAbs();
-  const bool inside = solid.kind == raster::Kind::ball ? distance2 <= radius * radius : (off.array() <= volume.half.array()).all();
+  const bool inside =
+      solid.kind == raster::Kind::ball ? distance2 <= radius * radius : (off.array() <= volume.half.array()).all();
   solid.shadow_only = inside || !eye.may_see(center, around);
   // A thing smaller than a pixel is drawn as a ball, which is the fainter the smaller it is.
   if (solid.kind != raster::Kind::ball && around * around < 0.25 * eye.pixel * eye.pixel * distance2) {
@@ -120,7 +124,8 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
   std::size_t look = world.body_count();
   for (const std::uint32_t i : obstacles_) {
     const Obstacle& obstacle = world.obstacles[i];
-    add(obstacle.center, obstacle.volume, obstacle.volume.reach(), looks_[look], looks_[look].mesh.has_value(), eye, frame);
+    add(obstacle.center, obstacle.volume, obstacle.volume.reach(), looks_[look], looks_[look].mesh.has_value(), eye,
+        frame);
     ++look;
   }
   add_walls(eye, frame);

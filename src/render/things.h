@@ -49,8 +49,8 @@ class Things {
       if (look.mesh) look.size = size_of(*look.mesh, look.file);
   }
 
-  /// Fills the frame's solids with the bodies of `state`, the obstacles and the walls. A body that is part of another is
-  /// left out, and the joint body has the volume of the state. The frame's camera must be filled before.
+  /// Fills the frame's solids with the bodies of `state`, the obstacles and the walls. A body that is part of another
+  /// is left out, and the joint body has the volume of the state. The frame's camera must be filled before.
   void place(const State& state, const Drawing& drawing, const Eye& eye, raster::Frame& frame);
   const std::vector<PlacedMesh>& meshes() const { return meshes_; }
 

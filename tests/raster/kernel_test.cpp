@@ -70,7 +70,8 @@ Frame crowded(int balls, bool lamp) {
   frame.solids.push_back(ball({0.2F, -0.1F, 0.15F}, 0.1F));  // across the near plane
   frame.grounds.push_back({{0, 1, 0}, 1, {1, 0, 0}, {0, 0, 1}, 0.3F, 0.2F, {0.6F, 0.5F, 0.4F}, true});
   frame.grounds.push_back({{0, 0, -1}, 8, {1, 0, 0}, {0, 1, 0}, 0.3F, 0.2F, {0.4F, 0.5F, 0.4F}, true});
-  frame.has_floor = true, frame.floor_normal = {0, 1, 0}, frame.floor_height = 1, frame.floor_light = {0.3F, 0.3F, 0.2F};
+  frame.has_floor = true, frame.floor_normal = {0, 1, 0}, frame.floor_height = 1,
+  frame.floor_light = {0.3F, 0.3F, 0.2F};
   if (lamp) frame.lamps[0] = {{0.5F, 1.5F, 3}, true, {0.8F, 0.8F, 0.7F}}, frame.lamp_radius = 0.1F;
   return frame;
 }
@@ -115,7 +116,8 @@ TEST(Edges, OfBallsAreThoseOfSixtyFourSamples) {
         for (const Solid& s : frame.solids) {
           const double dd = dx * dx + dy * dy + 1;
           const double dc = dx * double{s.center[0]} + dy * double{s.center[1]} + double{s.center[2]};
-          const double cc = double{s.center[0]} * s.center[0] + double{s.center[1]} * s.center[1] + double{s.center[2]} * s.center[2];
+          const double cc =
+              double{s.center[0]} * s.center[0] + double{s.center[1]} * s.center[1] + double{s.center[2]} * s.center[2];
           if (dc * dc - dd * (cc - double{s.radius} * s.radius) < 0) continue;
           ++hits;
           break;

@@ -82,8 +82,8 @@ TEST(Shadow, OfParallelLightFallsAlongItsDirection) {
 }
 
 TEST(Shadow, ItsPenumbraGrowsWithTheWayToTheFloor) {
-  // Light from above with half its disc's tangent s: a ball at height h darkens the floor by half at its own radius, and
-  // not at all beyond s h more.
+  // Light from above with half its disc's tangent s: a ball at height h darkens the floor by half at its own radius,
+  // and not at all beyond s h more.
   for (const double height : {2.0, 6.0}) {
     Scene scene = floor_scene(Vec3(0, height, 0));
     scene.ambient = Color{0, 0, 0};

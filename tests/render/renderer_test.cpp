@@ -41,7 +41,8 @@ TEST(Bytes, LeaveNothingToTheNextPicture) {
   // Between two equal pictures come others with everything that may be left behind.
   Scene scene = test::gas(200);
   for (int i = 0; i < 5; ++i)
-    test::add_body(scene, Vec3(i - 2, 1, 0), i % 2 ? Volume::box(Vec3(1, 0.7, 0.5)) : Volume::cylinder(0.4, 1), test::red);
+    test::add_body(scene, Vec3(i - 2, 1, 0), i % 2 ? Volume::box(Vec3(1, 0.7, 0.5)) : Volume::cylinder(0.4, 1),
+                   test::red);
   scene.roster.bodies.back().mesh = MeshUse{SCENES_DIR "/meshes/duck.obj", Vec3(0, 0.5, 0), 0.7};
   Renderer renderer(scene, {320, 180}, 4);
   const std::uint64_t first = hash_of(renderer.draw(scene.initial));
