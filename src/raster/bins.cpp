@@ -10,12 +10,12 @@
 namespace carom::raster {
 namespace {
 
-Bounds in_tiles(const Bounds& b) {
+PixelBounds in_tiles(const PixelBounds& b) {
   if (b.empty()) return {};
   return {b.left / tile_side, b.top / tile_side, (b.right - 1) / tile_side + 1, (b.bottom - 1) / tile_side + 1};
 }
 
-Bounds joined(const Bounds& a, const Bounds& b) {
+PixelBounds joined(const PixelBounds& a, const PixelBounds& b) {
   if (a.empty()) return b;
   if (b.empty()) return a;
   return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
@@ -23,29 +23,26 @@ Bounds joined(const Bounds& a, const Bounds& b) {
 
 }  // namespace
 
-void Bins::fill(Frame& frame) {
-  columns_ = (frame.width + tile_side - 1) / tile_side;
-  rows_ = (frame.height + tile_side - 1) / tile_side;
-  const std::size_t count = frame.solids.size();
-  bounds_.resize(count);
+void Bins::fill(const Shot& shot, const Silhouettes& silhouettes) {
+  columns_ = (shot.lens.width + tile_side - 1) / tile_side;
+  rows_ = (shot.lens.height + tile_side - 1) / tile_side;
+  const auto count = static_cast<std::uint32_t>(shot.solids.size());
   tiles_.resize(count);
-  frame.edges.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    Solid& solid = frame.solids[i];
-    bounds_[i] = outline(frame, solid);
-    tiles_[i] = in_tiles(bounds_[i]);
-    if (solid.kind == Kind::wall) continue;
+  keys_.resize(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Solid& solid = shot.solids[i];
+    const float nearest = silhouettes.of(i).nearest;
+    keys_[i] = key_of(nearest);
+    tiles_[i] = in_tiles(silhouettes.bounds(i));
     // Of balls smaller than a pixel the darkening is not seen.
-    if (solid.radius > frame.pixel * solid.nearest)
-      tiles_[i] = joined(tiles_[i], in_tiles(bounds_of_ball(frame, solid.center, closeness * solid.radius)));
+    if (solid.kind != SolidKind::wall && solid.radius > shot.lens.pixel * nearest)
+      tiles_[i] = joined(tiles_[i], in_tiles(bounds_of_ball(shot.lens, solid.center, closeness * solid.radius)));
   }
-  keys_.clear();
-  for (const Solid& solid : frame.solids) keys_.push_back(key_of(solid.nearest));
   sort_by_key(keys_, order_, spare_);
 
   start_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
   const auto each_tile = [&](std::uint32_t i, auto visit) {
-    const Bounds& b = tiles_[i];
+    const PixelBounds& b = tiles_[i];
     for (int y = b.top; y < b.bottom; ++y)
       for (int x = b.left; x < b.right; ++x) visit(static_cast<std::size_t>(y * columns_ + x));
   };

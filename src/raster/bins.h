@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "raster/outline.h"
+#include "raster/silhouettes.h"
 
 namespace carom::raster {
 
@@ -19,8 +19,8 @@ inline constexpr float closeness = 3.1623F;
 
 class Bins {
  public:
-  /// Computes the outlines of all solids and sorts the solids into tiles. The memory of the last picture is used again.
-  void fill(Frame& frame);
+  /// Sorts the solids into tiles. The memory of the last picture is used again.
+  void fill(const Shot& shot, const Silhouettes& silhouettes);
 
   int columns() const { return columns_; }
   int count() const { return columns_ * rows_; }
@@ -29,12 +29,10 @@ class Bins {
     const auto k = static_cast<std::size_t>(i);
     return {members_.data() + start_[k], start_[k + 1] - start_[k]};
   }
-  const Bounds& bounds(std::uint32_t solid) const { return bounds_[solid]; }
 
  private:
   int columns_ = 0, rows_ = 0;
-  std::vector<Bounds> bounds_;  // by solid
-  std::vector<Bounds> tiles_;   // by solid, in tiles: where it is seen or takes light
+  std::vector<PixelBounds> tiles_;  // by solid, in tiles: where it is seen or takes light
   std::vector<std::uint32_t> order_, spare_, keys_;
   std::vector<std::size_t> start_, next_;
   std::vector<std::uint32_t> members_;

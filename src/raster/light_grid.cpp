@@ -34,12 +34,16 @@ Float3 unit(const Float3& a) {
 }
 
 /// Half the width of a solid along a unit direction.
-float half_width(const Frame& frame, const Solid& s, const Float3& d) {
-  if (s.kind == Kind::wall) return s.half[0] * std::abs(dot(s.right, d)) + s.half[1] * std::abs(dot(s.up, d));
-  if (s.kind == Kind::mesh) return std::max(s.radius, 1.5F * s.mesh_reach);
-  if (s.kind == Kind::ball || s.kind == Kind::wide_ball) return s.radius;
-  const float x = std::abs(dot(frame.axes[0], d)), y = std::abs(dot(frame.axes[1], d)), z = std::abs(dot(frame.axes[2], d));
-  if (s.kind == Kind::box) return s.half[0] * x + s.half[1] * y + s.half[2] * z;
+float half_width(const Shot& shot, const Solid& s, const Float3& d) {
+  if (s.kind == SolidKind::ball) return s.radius;
+  if (s.kind == SolidKind::mesh) return std::max(s.radius, 1.5F * shot.meshes[s.part].reach);
+  if (s.kind == SolidKind::wall) {
+    const WallAxes& axes = shot.walls[s.part];
+    return s.half[0] * std::abs(dot(axes.right, d)) + s.half[1] * std::abs(dot(axes.up, d));
+  }
+  const float x = std::abs(dot(shot.lens.axes[0], d)), y = std::abs(dot(shot.lens.axes[1], d)),
+              z = std::abs(dot(shot.lens.axes[2], d));
+  if (s.kind == SolidKind::box) return s.half[0] * x + s.half[1] * y + s.half[2] * z;
   return s.half[0] * std::sqrt(x * x + z * z) + s.half[1] * y;
 }
 
@@ -60,73 +64,81 @@ bool span_on_face(float aside, float ahead, float radius, float& low, float& hig
 }  // namespace
 
 /// Finds the grid's extent, and how far shadows reach.
-void LightGrid::measure(const Frame& frame) {
-  const Lamp& key = frame.lamps[0];
+void LightGrid::measure(const Shot& shot) {
   const float infinity = std::numeric_limits<float>::infinity();
-  u0 = v0 = infinity, u1 = v1 = -infinity;
-  float lowest = infinity;
+  LightExtent& e = extent;
+  e.u0 = e.v0 = infinity, e.u1 = e.v1 = -infinity;
   double covered = 0;
-  for (const Solid& s : frame.solids) {
-    const float wide = half_width(frame, s, u), high = half_width(frame, s, v);
-    u0 = std::min(u0, dot(u, s.center) - wide), u1 = std::max(u1, dot(u, s.center) + wide);
-    v0 = std::min(v0, dot(v, s.center) - high), v1 = std::max(v1, dot(v, s.center) + high);
-    lowest = std::min(lowest, dot(key.vector, s.center) - s.radius);
-    if (s.kind != Kind::wall) covered += std::numbers::pi * double{s.radius} * s.radius;
+  for (const Solid& s : shot.solids) {
+    const float wide = half_width(shot, s, e.u), high = half_width(shot, s, e.v);
+    const float at_u = dot(e.u, s.center), at_v = dot(e.v, s.center);
+    e.u0 = std::min(e.u0, at_u - wide), e.u1 = std::max(e.u1, at_u + wide);
+    e.v0 = std::min(e.v0, at_v - high), e.v1 = std::max(e.v1, at_v + high);
+    if (s.kind != SolidKind::wall) covered += std::numbers::pi * double{s.radius} * s.radius;
   }
-  const double area = std::max(double{u1 - u0} * (v1 - v0), 1e-30);
+  const double area = std::max(double{e.u1 - e.u0} * (e.v1 - e.v0), 1e-30);
   const auto shades = static_cast<float>(std::sqrt(most_shades * area / std::max(covered, 1e-30)));
   widest_blur = std::clamp(shades - 1, narrowest, faintest);
 
-  blur_.resize(frame.solids.size());
-  float widest = 0;
+  const double width = find_blurs(shot);
+  if (shot.lighting.lamps[0].near) {
+    e.u0 = e.v0 = -1, e.u1 = e.v1 = 1;
+    e.side = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(shot.solids.size()))), 1, most_cells / 2);
+  } else {
+    const float widest = *std::max_element(blur_.begin(), blur_.end());
+    e.u0 -= widest, e.v0 -= widest, e.u1 += widest, e.v1 += widest;
+    e.side = std::clamp(static_cast<int>(std::max(e.u1 - e.u0, e.v1 - e.v0) / width), 1, most_cells);
+  }
+  e.per_u = static_cast<float>(e.side) / std::max(e.u1 - e.u0, 1e-30F);
+  e.per_v = static_cast<float>(e.side) / std::max(e.v1 - e.v0, 1e-30F);
+}
+
+/// The widest blur of each solid's shadow. Returns the mean of radius and blur, m; without any but walls, the extent.
+double LightGrid::find_blurs(const Shot& shot) {
+  const Lamp& key = shot.lighting.lamps[0];
+  float lowest = std::numeric_limits<float>::infinity();
+  for (const Solid& s : shot.solids) lowest = std::min(lowest, dot(key.vector, s.center) - s.radius);
+  blur_.resize(shot.solids.size());
   double width = 0;
   int count = 0;
-  for (std::size_t i = 0; i < frame.solids.size(); ++i) {
-    const Solid& s = frame.solids[i];
-    float blur = frame.lamp_radius;
+  for (std::size_t i = 0; i < shot.solids.size(); ++i) {
+    const Solid& s = shot.solids[i];
+    float blur = shot.lighting.lamp_radius;
     if (!key.near) {
       float way = dot(key.vector, s.center) - lowest;
-      for (const Ground& g : frame.grounds) {
+      for (const Ground& g : shot.grounds) {
         const float slope = dot(g.normal, key.vector);
         if (slope > least_slope) way = std::max(way, (dot(g.normal, s.center) + g.height) / slope);
       }
-      blur = frame.softness * std::max(way, 0.0F);
+      blur = shot.lighting.softness * std::max(way, 0.0F);
     }
     blur_[i] = std::min(blur, widest_blur * s.radius);
-    widest = std::max(widest, blur_[i]);
-    if (s.kind == Kind::wall) continue;
+    if (s.kind == SolidKind::wall) continue;
     width += s.radius + blur_[i];
     ++count;
   }
-  width = count > 0 ? width / count : double{u1 - u0};
-  if (key.near) {
-    u0 = v0 = -1, u1 = v1 = 1;
-    side = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(frame.solids.size()))), 1, most_cells / 2);
-  } else {
-    u0 -= widest, v0 -= widest, u1 += widest, v1 += widest;
-    side = std::clamp(static_cast<int>(std::max(u1 - u0, v1 - v0) / width), 1, most_cells);
-  }
-  per_u = static_cast<float>(side) / std::max(u1 - u0, 1e-30F);
-  per_v = static_cast<float>(side) / std::max(v1 - v0, 1e-30F);
+  return count > 0 ? width / count : double{extent.u1 - extent.u0};
 }
 
 /// The cells of each solid's shadow.
-void LightGrid::find_rects(const Frame& frame) {
-  const Lamp& key = frame.lamps[0];
+void LightGrid::find_rects(const Shot& shot) {
+  const Lamp& key = shot.lighting.lamps[0];
+  const LightExtent& e = extent;
   const auto at = [&](float x, float origin, float per) {
-    return static_cast<std::int16_t>(std::clamp((x - origin) * per, 0.0F, static_cast<float>(side - 1)));
+    return static_cast<std::int16_t>(std::clamp((x - origin) * per, 0.0F, static_cast<float>(e.side - 1)));
   };
   const auto add = [&](int face, float a0, float a1, float b0, float b1) {
-    rects_.push_back({static_cast<std::int16_t>(face), at(a0, u0, per_u), at(a1, u0, per_u), at(b0, v0, per_v), at(b1, v0, per_v)});
+    rects_.push_back({static_cast<std::int16_t>(face), at(a0, e.u0, e.per_u), at(a1, e.u0, e.per_u),
+                      at(b0, e.v0, e.per_v), at(b1, e.v0, e.per_v)});
   };
   rects_.clear();
   first_rect_.clear();
-  for (std::size_t i = 0; i < frame.solids.size(); ++i) {
-    const Solid& s = frame.solids[i];
+  for (std::size_t i = 0; i < shot.solids.size(); ++i) {
+    const Solid& s = shot.solids[i];
     first_rect_.push_back(static_cast<std::uint32_t>(rects_.size()));
     if (!key.near) {
-      const float a = dot(u, s.center), b = dot(v, s.center);
-      const float wide = half_width(frame, s, u) + blur_[i], high = half_width(frame, s, v) + blur_[i];
+      const float a = dot(e.u, s.center), b = dot(e.v, s.center);
+      const float wide = half_width(shot, s, e.u) + blur_[i], high = half_width(shot, s, e.v) + blur_[i];
       add(0, a - wide, a + wide, b - high, b + high);
       continue;
     }
@@ -144,57 +156,60 @@ void LightGrid::find_rects(const Frame& frame) {
   first_rect_.push_back(static_cast<std::uint32_t>(rects_.size()));
 }
 
-/// Sorts solids by their place towards the light.
-void LightGrid::sort() {
-  keys_.clear();
-  for (const float place : towards_light) keys_.push_back(key_of(place));
-  sort_by_key(keys_, order_, spare_);
-}
-
-void LightGrid::fill(const Frame& frame) {
-  for (Cells* cells : {&balls, &others}) cells->members.clear(), cells->start.assign(1, 0);
-  if (frame.solids.empty()) return;
-  const Lamp& key = frame.lamps[0];
-  const Float3 aside = std::abs(key.vector[0]) < 0.7F ? Float3{1, 0, 0} : Float3{0, 1, 0};
-  if (!key.near) {
-    u = unit(cross(key.vector, aside));
-    v = cross(key.vector, u);
-  }
-  measure(frame);
-  towards_light.clear();
-  for (const Solid& s : frame.solids) {
-    const Float3 off = {key.vector[0] - s.center[0], key.vector[1] - s.center[1], key.vector[2] - s.center[2]};
-    towards_light.push_back(key.near ? -dot(off, off) : dot(key.vector, s.center));
-  }
-  find_rects(frame);
-  sort();
-  const std::size_t count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side) * (key.near ? 6 : 1);
-  const auto is_ball = [&](std::size_t i) { return frame.solids[i].kind == Kind::ball || frame.solids[i].kind == Kind::wide_ball; };
+/// The members of each cell are contiguous: counts them first, then fills.
+void LightGrid::sort_into_cells(const Shot& shot) {
+  const int side = extent.side;
+  const std::size_t faces = shot.lighting.lamps[0].near ? 6 : 1;
+  const std::size_t count = faces * static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  const auto is_ball = [&](std::size_t i) { return shot.solids[i].kind == SolidKind::ball; };
   const auto each_cell = [&](std::size_t i, auto visit) {
     for (std::uint32_t k = first_rect_[i]; k < first_rect_[i + 1]; ++k) {
-      const Rect& r = rects_[k];
+      const CellRect& r = rects_[k];
       for (int b = r.v0; b <= r.v1; ++b)
         for (int a = r.u0; a <= r.u1; ++a) visit(static_cast<std::size_t>((r.face * side + b) * side + a));
     }
   };
-  // The members of each cell are contiguous: count them first, then fill.
-  for (Cells* cells : {&balls, &others}) cells->start.assign(count + 1, 0);
-  for (std::size_t i = 0; i < frame.solids.size(); ++i) {
-    Cells& cells = is_ball(i) ? balls : others;
+  for (LightCells* cells : {&balls, &others}) cells->start.assign(count + 1, 0);
+  for (std::size_t i = 0; i < shot.solids.size(); ++i) {
+    LightCells& cells = is_ball(i) ? balls : others;
     each_cell(i, [&](std::size_t cell) { ++cells.start[cell + 1]; });
   }
-  for (Cells* cells : {&balls, &others}) {
+  for (LightCells* cells : {&balls, &others}) {
     std::partial_sum(cells->start.begin(), cells->start.end(), cells->start.begin());
     cells->members.resize(cells->start.back());
     next_.assign(cells->start.begin(), cells->start.end() - 1);
     for (const std::uint32_t i : order_)
       if (is_ball(i) == (cells == &balls)) each_cell(i, [&](std::size_t cell) { cells->members[next_[cell]++] = i; });
   }
-  for (auto* a : {&x, &y, &z, &radius, &place}) a->resize(balls.members.size() + 16);
+}
+
+void LightGrid::fill(const Shot& shot) {
+  for (LightCells* cells : {&balls, &others}) cells->members.clear(), cells->start.assign(1, 0);
+  if (shot.solids.empty()) return;
+  const Lamp& key = shot.lighting.lamps[0];
+  const Float3 aside = std::abs(key.vector[0]) < 0.7F ? Float3{1, 0, 0} : Float3{0, 1, 0};
+  if (!key.near) {
+    extent.u = unit(cross(key.vector, aside));
+    extent.v = cross(key.vector, extent.u);
+  }
+  measure(shot);
+  towards_light.clear();
+  keys_.clear();
+  for (const Solid& s : shot.solids) {
+    const Float3 off = {key.vector[0] - s.center[0], key.vector[1] - s.center[1], key.vector[2] - s.center[2]};
+    towards_light.push_back(key.near ? -dot(off, off) : dot(key.vector, s.center));
+    keys_.push_back(key_of(towards_light.back()));
+  }
+  find_rects(shot);
+  sort_by_key(keys_, order_, spare_);
+  sort_into_cells(shot);
+  ShadingBalls& a = ball_arrays;
+  for (auto* array : {&a.x, &a.y, &a.z, &a.radius, &a.place}) array->resize(balls.members.size() + 16);
   for (std::size_t k = 0; k < balls.members.size(); ++k) {
     const std::uint32_t i = balls.members[k];
-    const Solid& s = frame.solids[i];
-    x[k] = s.center[0], y[k] = s.center[1], z[k] = s.center[2], radius[k] = s.radius, place[k] = towards_light[i];
+    const Solid& s = shot.solids[i];
+    a.x[k] = s.center[0], a.y[k] = s.center[1], a.z[k] = s.center[2];
+    a.radius[k] = s.radius, a.place[k] = towards_light[i];
   }
 }
 

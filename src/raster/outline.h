@@ -1,9 +1,8 @@
 #pragma once
-// Outlines of solids in the plane z = 1 before the eye: ellipses of balls, convex polygons of all else.
+// The outline of a ball in the plane z = 1 before the eye.
 #include <cmath>
 
 #include "numerics/vec3.h"
-#include "raster/frame.h"
 
 namespace carom {
 
@@ -12,9 +11,10 @@ struct Outline {
   double x, y;    // centre
   double ax, ay;  // the longer half axis
   double bx, by;  // the shorter half axis
-  double depth2;  // (half the chord of the ray through the centre)^2 x |ray|^2
+  double depth2;  // m^2, (half the chord of the ray through the centre)^2 x |ray|^2
 };
-/// Computes the outline. False: the sphere reaches behind the plane z = 0, so that its outline is not an ellipse.
+/// Computes the outline of a sphere, m. False: the sphere reaches behind the plane z = 0, so that its outline is not an
+/// ellipse.
 inline bool outline_of(const Vec3& center, double radius, Outline& out) {
   // The tangent cone (x.k)^2 = cos^2(alpha) |x|^2, cut by z = 1. theta is the angle between k and z.
   const double distance2 = center.squaredNorm();
@@ -30,19 +30,4 @@ inline bool outline_of(const Vec3& center, double radius, Outline& out) {
   return true;
 }
 
-namespace raster {
-
-/// The pixels in which a solid may be seen, ends excluded.
-struct Bounds {
-  int left = 0, top = 0, right = 0, bottom = 0;
-  bool empty() const { return left >= right || top >= bottom; }
-};
-
-/// Fills the members of the solid that describe its outline, and appends its edges to those of the frame.
-Bounds outline(Frame& frame, Solid& solid);
-
-/// The pixels that a ball may meet, roughly: it is never too small.
-Bounds bounds_of_ball(const Frame& frame, const Float3& center, float radius);
-
-}  // namespace raster
 }  // namespace carom

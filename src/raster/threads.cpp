@@ -1,4 +1,4 @@
-// Each thread takes the next tile that nobody has taken. A thread keeps its memory for all pictures.
+// Each thread takes the next part that is not taken. A thread keeps its memory for all pictures.
 #include "raster/threads.h"
 
 #include <algorithm>
@@ -24,20 +24,20 @@ int drawing_threads() {
 
 struct Threads::Impl {
   void work(TileMemory& memory) {
-    for (int tile; (tile = next.fetch_add(1)) < count;) draw_tile(*picture, memory, tile);
+    for (int i; (i = next.fetch_add(1)) < count;) (*task)(memory, i);
   }
 
   void wait_for_work() {
-    TileMemory memory;
+    TileMemory own_memory;
     std::uint64_t done = 0;
     for (;;) {
       {
         std::unique_lock lock(mutex);
-        begins.wait(lock, [&] { return ended || pictures > done; });
+        begins.wait(lock, [&] { return ended || tasks > done; });
         if (ended) return;
-        done = pictures;
+        done = tasks;
       }
-      work(memory);
+      work(own_memory);
       const std::lock_guard lock(mutex);
       if (--busy == 0) ends.notify_one();
     }
@@ -45,13 +45,13 @@ struct Threads::Impl {
 
   std::mutex mutex;
   std::condition_variable begins, ends;
-  const Picture* picture = nullptr;
-  int count = 0;               // tiles
-  std::atomic<int> next{0};    // tile
-  std::uint64_t pictures = 0;  // begun so far
-  std::size_t busy = 0;        // threads
+  const Task* task = nullptr;
+  int count = 0;             // parts of the task
+  std::atomic<int> next{0};  // part
+  std::uint64_t tasks = 0;   // begun so far
+  std::size_t busy = 0;      // threads
   bool ended = false;
-  TileMemory memory;  // of the caller
+  TileMemory callers_memory;
   std::vector<std::thread> threads;
 };
 
@@ -72,19 +72,23 @@ Threads::~Threads() {
   for (std::thread& thread : impl_->threads) thread.join();
 }
 
-void Threads::draw(const Picture& picture, int count) {
+void Threads::run(int count, const Task& task) {
   {
     const std::lock_guard lock(impl_->mutex);
-    impl_->picture = &picture;
+    impl_->task = &task;
     impl_->count = count;
     impl_->next = 0;
     impl_->busy = impl_->threads.size();
-    ++impl_->pictures;
+    ++impl_->tasks;
   }
   impl_->begins.notify_all();
-  impl_->work(impl_->memory);
+  impl_->work(impl_->callers_memory);
   std::unique_lock lock(impl_->mutex);
   impl_->ends.wait(lock, [&] { return impl_->busy == 0; });
+}
+
+void Threads::draw(const Picture& picture) {
+  run(picture.bins->count(), [&](TileMemory& memory, int tile) { draw_tile(picture, memory, tile); });
 }
 
 }  // namespace carom::raster

@@ -1,5 +1,6 @@
 #pragma once
 // Threads that draw the tiles of a picture together. The bytes do not depend on their number.
+#include <functional>
 #include <memory>
 
 #include "raster/tile.h"
@@ -18,8 +19,12 @@ class Threads {
   Threads(const Threads&) = delete;
   Threads& operator=(const Threads&) = delete;
 
-  /// Draws tiles 0 to count - 1.
-  void draw(const Picture& picture, int count);
+  /// One part of a task, by its number. The memory is the thread's own.
+  using Task = std::function<void(TileMemory& memory, int part)>;
+  /// Does parts 0 to count - 1 in any order, and returns when all are done. A task throws nothing.
+  void run(int count, const Task& task);
+  /// Draws all tiles.
+  void draw(const Picture& picture);
 
  private:
   struct Impl;

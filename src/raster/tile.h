@@ -9,25 +9,27 @@
 
 #include "raster/bins.h"
 #include "raster/light_grid.h"
+#include "raster/silhouettes.h"
 
 namespace carom::raster {
 
 /// A stroke of the picture in front of all that is farther: a line with round ends, in pixels.
 struct Line {
-  float x0, y0, x1, y1;          // pixels, its ends
-  float radius0, radius1;        // pixels
-  float depth0, depth1;          // 1 / z at its ends
-  Float3 color;                  // linear
-  float opacity0, opacity1;
-  bool joined;                   // begins where the last one ends, and is of one colour with it
+  float x0, y0, x1, y1;      // pixels, its ends
+  float radius0, radius1;    // pixels
+  float depth0, depth1;      // 1 / z at its ends, 1 / m
+  Float3 color;              // linear
+  float opacity0, opacity1;  // 0 to 1
+  bool joined;               // begins where the last one ends, and is of one colour with it
 };
 
 /// What one tile needs of a picture.
 struct Picture {
-  const Frame* frame;
+  const Shot* shot;
+  const Silhouettes* silhouettes;
   const Bins* bins;
   const LightGrid* lights;
-  const std::vector<Line>* lines;
+  const std::vector<Line>* lines;                             // or nullptr
   const std::vector<std::vector<std::uint32_t>>* tile_lines;  // by tile
   std::uint8_t* pixels;                                       // rows of `channels` bytes each
   int channels;                                               // 3: RGB; 4: with alpha, not premultiplied

@@ -1,4 +1,4 @@
-// The lights of a scene in the camera's frame. A matt surface that faces a light of intensity 1 has its own colour.
+// The lights of a scene in the camera's shot. A matt surface that faces a light of intensity 1 has its own colour.
 // Light does not weaken with distance.
 #include "render/lighting.h"
 
@@ -29,23 +29,23 @@ KeyLight default_light(const CameraFrame& view) {
   return {(-0.55 * right + 1.0 * Vec3(0, 1, 0) - 0.45 * ahead).normalized(), {0.82F, 0.80F, 0.76F}};
 }
 
-void add_lights(const Scene& scene, const Eye& eye, raster::Frame& frame) {
-  frame.lamps.clear();
+void add_lights(const Scene& scene, const Eye& eye, raster::Shot& shot) {
+  shot.lighting.lamps.clear();
   for (const Light& light : scene.lights) {
     raster::Float3 radiance = linear(light.color);
     for (float& c : radiance) c *= static_cast<float>(light.intensity);
     const bool near = light.position.has_value();
     const Vec3 vector = near ? eye.point(*light.position) : Vec3(-eye.direction(light.direction->normalized()));
-    frame.lamps.push_back({floats(vector), near, radiance});
-    if (near && frame.lamps.size() == 1)
-      frame.lamp_radius = static_cast<float>(softness * (eye.point(eye.camera.target) - vector).norm());
+    shot.lighting.lamps.push_back({floats(vector), near, radiance});
+    if (near && shot.lighting.lamps.size() == 1)
+      shot.lighting.lamp_radius = static_cast<float>(softness * (eye.point(eye.camera.target) - vector).norm());
   }
   if (scene.lights.empty()) {
     const KeyLight light = default_light(eye.view);
-    frame.lamps.push_back({floats(eye.direction(light.towards)), false, light.radiance});
+    shot.lighting.lamps.push_back({floats(eye.direction(light.towards)), false, light.radiance});
   }
-  frame.softness = static_cast<float>(softness);
-  frame.ambient = scene.ambient ? linear(*scene.ambient) : raster::Float3{0.26F, 0.28F, 0.31F};
+  shot.lighting.softness = static_cast<float>(softness);
+  shot.lighting.ambient = scene.ambient ? linear(*scene.ambient) : raster::Float3{0.26F, 0.28F, 0.31F};
 }
 
 }  // namespace carom

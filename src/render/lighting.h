@@ -4,7 +4,7 @@
 #include <array>
 
 #include "numerics/vec3.h"
-#include "raster/frame.h"
+#include "raster/shot.h"
 #include "render/eye.h"
 #include "scene/colors.h"
 
@@ -17,15 +17,15 @@ struct KeyLight {
   Vec3 towards;                   // unit, in the world's frame
   std::array<float, 3> radiance;  // linear
 };
-/// The light of a scene without lights: from above, left of and behind the camera, in the world's upright frame. The
+/// The light of a scene without lights: from above, left of and behind the camera, in the world's upright shot. The
 /// sun then stays high for a steep camera.
 KeyLight default_light(const CameraFrame& view);
 
 /// Tangent of half the angle under which the key light appears. It makes shadows soft.
 inline constexpr double softness = 0.03;
 
-/// Fills the lamps of a frame, their softness and the ambient light. The first lamp is the key light, which casts
+/// Fills the lamps of a shot, their softness and the ambient light. The first lamp is the key light, which casts
 /// shadows. One with a position has the same apparent size from the camera's target.
-void add_lights(const Scene& scene, const Eye& eye, raster::Frame& frame);
+void add_lights(const Scene& scene, const Eye& eye, raster::Shot& shot);
 
 }  // namespace carom

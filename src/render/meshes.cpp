@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raster/silhouettes.h"
 #include "render/renderer.h"
 
 namespace carom {
@@ -81,9 +82,9 @@ raster::Float3 unit(const raster::Float3& a) {
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 
-void set_axes(const gl::Program& program, const raster::Frame& frame) {
+void set_axes(const gl::Program& program, const raster::Shot& shot) {
   std::array<float, 9> axes{};
-  for (std::size_t i = 0; i < 9; ++i) axes[i] = frame.axes[i / 3][i % 3];
+  for (std::size_t i = 0; i < 9; ++i) axes[i] = shot.lens.axes[i / 3][i % 3];
   gl::UniformMatrix3fv(program.at("axes"), 1, GL_FALSE, axes.data());
 }
 
@@ -138,18 +139,18 @@ MeshSize Meshes::size_of(const MeshUse& use, std::size_t file) const {
           use.scale * reach_of(shapes_, file)};
 }
 
-void Meshes::draw_outlines(raster::Frame& frame) {
-  const raster::Float3& l = frame.lamps[0].vector;
-  frame.across_u = unit(cross(l, std::abs(l[0]) < 0.7F ? raster::Float3{1, 0, 0} : raster::Float3{0, 1, 0}));
-  frame.across_v = cross(l, frame.across_u);
-  const std::array<raster::Float3, 4> now{l, frame.axes[0], frame.axes[1], frame.axes[2]};
+void Meshes::draw_outlines(raster::Shot& shot) {
+  const raster::Float3& l = shot.lighting.lamps[0].vector;
+  shot.outlines.across_u = unit(cross(l, std::abs(l[0]) < 0.7F ? raster::Float3{1, 0, 0} : raster::Float3{0, 1, 0}));
+  shot.outlines.across_v = cross(l, shot.outlines.across_u);
+  const std::array<raster::Float3, 4> now{l, shot.lens.axes[0], shot.lens.axes[1], shot.lens.axes[2]};
   if (outlines_.empty() || now != outlined_) {
     outlined_ = now;
     outlines_.assign(shapes_.count(), {});
     outline_program_.use();
-    set_axes(outline_program_, frame);
-    gl::Uniform3fv(outline_program_.at("across_u"), 1, frame.across_u.data());
-    gl::Uniform3fv(outline_program_.at("across_v"), 1, frame.across_v.data());
+    set_axes(outline_program_, shot);
+    gl::Uniform3fv(outline_program_.at("across_u"), 1, shot.outlines.across_u.data());
+    gl::Uniform3fv(outline_program_.at("across_v"), 1, shot.outlines.across_v.data());
     shapes_.fill_instances(std::array<float, Shapes::row>{});
     const gl::Texture texture = gl::make_texture(GL_R32F, outline_side, outline_side);
     const gl::Framebuffer framebuffer = gl::make_framebuffer(std::array{texture.name()}, 0);
@@ -167,7 +168,7 @@ void Meshes::draw_outlines(raster::Frame& frame) {
     }
     gl::check("drawing the meshes' outlines");
   }
-  frame.outlines = outlines_;
+  shot.outlines.of_files = outlines_;
 }
 
 void Meshes::draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, const std::vector<Rect>& bounds) {
@@ -215,7 +216,7 @@ void Meshes::draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, 
   }
 }
 
-void Meshes::resolve(const Rect& tile, const raster::Frame& frame) {
+void Meshes::resolve(const Rect& tile, const raster::Shot& shot) {
   const int wide = (used_.right - used_.left) * fine_, high = (used_.bottom - used_.top) * fine_;
   if (wide <= 0) return;
   const std::size_t points = static_cast<std::size_t>(wide) * static_cast<std::size_t>(high);
@@ -242,13 +243,13 @@ void Meshes::resolve(const Rect& tile, const raster::Frame& frame) {
         farthest = std::min(farthest, depth_read_[at]);
         for (std::size_t i = 0; i < 3; ++i) {
           normal[i] += (static_cast<float>(q >> 10 * i & 1023U) - 512) / 511;
-          color[i] += frame.solids[number - 1].color[i];
+          color[i] += shot.solids[number - 1].color[i];
         }
       }
       if (covered == 0) continue;
       const auto pixel =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) + static_cast<std::size_t>(x);
-      pixels_.depth[pixel] = frame.near / (0.5F * (nearest + farthest));
+      pixels_.depth[pixel] = shot.lens.near / (0.5F * (nearest + farthest));
       pixels_.cover[pixel] = static_cast<float>(covered) / static_cast<float>(fine_ * fine_);
       pixels_.solid[pixel] = static_cast<std::int32_t>(solid) - 1;
       // The mean normal: its light is the mean of matt faces' light. Across an edge it is short, and nothing glints
@@ -262,30 +263,30 @@ void Meshes::resolve(const Rect& tile, const raster::Frame& frame) {
     }
 }
 
-void Meshes::draw(const std::vector<PlacedMesh>& meshes, const Eye& eye, raster::Frame& frame) {
+void Meshes::draw(const std::vector<PlacedMesh>& meshes, const Eye& eye, raster::Shot& shot) {
   context_.make_current();
-  if (!frame.lamps[0].near) {
-    draw_outlines(frame);
+  if (!shot.lighting.lamps[0].near) {
+    draw_outlines(shot);
   } else {
-    for (raster::Solid& solid : frame.solids) solid.mesh = -1;
+    for (raster::MeshShadow& mesh : shot.meshes) mesh.outline = -1;
   }
   std::fill(pixels_.depth.begin(), pixels_.depth.end(), 0.0F);
-  frame.meshes = &pixels_;
+  shot.mesh_pixels = &pixels_;
   program_.use();
-  set_axes(program_, frame);
+  set_axes(program_, shot);
   gl::Uniform2f(program_.at("tangent"), f(eye.tan_x), f(eye.tan_y));
-  gl::Uniform1f(program_.at("near"), frame.near);
+  gl::Uniform1f(program_.at("near"), shot.lens.near);
   std::vector<Rect> bounds;
   for (const PlacedMesh& m : meshes) {
-    const raster::Solid& solid = frame.solids[static_cast<std::size_t>(m.solid)];
-    const raster::Bounds b = raster::bounds_of_ball(frame, solid.center, solid.radius);
+    const raster::Solid& solid = shot.solids[static_cast<std::size_t>(m.solid)];
+    const raster::PixelBounds b = raster::bounds_of_ball(shot.lens, solid.center, solid.radius);
     bounds.push_back({b.left, b.top, b.right, b.bottom});
   }
   for (int y = 0; y < size_.height; y += tile_side)
     for (int x = 0; x < size_.width; x += tile_side) {
       const Rect tile{x, y, std::min(x + tile_side, size_.width), std::min(y + tile_side, size_.height)};
       draw_tile(tile, meshes, bounds);
-      resolve(tile, frame);
+      resolve(tile, shot);
     }
 }
 

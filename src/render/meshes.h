@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "raster/frame.h"
+#include "raster/shot.h"
 #include "render/gl.h"
 #include "render/shapes.h"
 #include "render/things.h"
@@ -25,8 +25,8 @@ class Meshes {
   /// Of a file as `use` draws it.
   MeshSize size_of(const MeshUse& use, std::size_t file) const;
 
-  /// Draws meshes for the frame, which then points to the result. It is valid until the next draw. Throws RenderError.
-  void draw(const std::vector<PlacedMesh>& meshes, const Eye& eye, raster::Frame& frame);
+  /// Draws meshes for the shot, which then points to the result. It is valid until the next draw. Throws RenderError.
+  void draw(const std::vector<PlacedMesh>& meshes, const Eye& eye, raster::Shot& shot);
 
  private:
   struct Rect {
@@ -34,9 +34,9 @@ class Meshes {
   };
   static constexpr int tile_side = 256;  // pixels
 
-  void draw_outlines(raster::Frame& frame);
+  void draw_outlines(raster::Shot& shot);
   void draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, const std::vector<Rect>& bounds);
-  void resolve(const Rect& tile, const raster::Frame& frame);
+  void resolve(const Rect& tile, const raster::Shot& shot);
 
   Size size_;
   int fine_;  // places across a pixel

@@ -1,4 +1,4 @@
-// Places what a picture shows in the camera's frame, and draws the tiles of the picture by several threads. Meshes are
+// Places what a picture shows in the camera's shot, and draws the tiles of the picture by several threads. Meshes are
 // drawn by OSMesa before, into a picture of places and normals. A picture equal to the last one is not drawn again.
 #include "render/renderer.h"
 
@@ -34,11 +34,11 @@ Size checked(Size size, int samples) {
 struct Renderer::Impl {
   Impl(const Scene& s, Size picture_size, int samples)
       : scene(s), size(checked(picture_size, samples)), things(s), edges(room_edges(s)) {
-    frame.smooth = samples > 1;
-    frame.width = size.width, frame.height = size.height;
-    if (scene.background) frame.plain_background = true, frame.background = linear(*scene.background);
+    shot.lens.smooth = samples > 1;
+    shot.lens.width = size.width, shot.lens.height = size.height;
+    if (scene.background) shot.backdrop.plain = true, shot.backdrop.color = linear(*scene.background);
     if (!things.files().empty()) {
-      meshes.emplace(things.files(), size, frame.smooth);
+      meshes.emplace(things.files(), size, shot.lens.smooth);
       things.measure([&](const MeshUse& use, std::size_t file) { return meshes->size_of(use, file); });
     }
     image.width = size.width, image.height = size.height;
@@ -52,7 +52,8 @@ struct Renderer::Impl {
   const Size size;
   Things things;
   const std::vector<Stroke> edges;  // of the room
-  raster::Frame frame;
+  raster::Shot shot;
+  raster::Silhouettes silhouettes;
   raster::Bins bins;
   raster::LightGrid lights;
   Lines lines;
@@ -65,13 +66,13 @@ struct Renderer::Impl {
 };
 
 void Renderer::Impl::place_camera(const Eye& eye) {
-  frame.pixel = static_cast<float>(eye.pixel);
-  frame.left = static_cast<float>(-eye.tan_x + 0.5 * eye.pixel);
-  frame.top = static_cast<float>(eye.tan_y - 0.5 * eye.pixel);
-  frame.near = static_cast<float>(eye.camera.near);
-  for (std::size_t i = 0; i < 3; ++i) frame.axes[i] = floats(eye.direction(Vec3::Unit(static_cast<int>(i))));
-  add_lights(scene, eye, frame);
-  add_surfaces(scene, eye, frame);
+  shot.lens.pixel = static_cast<float>(eye.pixel);
+  shot.lens.left = static_cast<float>(-eye.tan_x + 0.5 * eye.pixel);
+  shot.lens.top = static_cast<float>(eye.tan_y - 0.5 * eye.pixel);
+  shot.lens.near = static_cast<float>(eye.camera.near);
+  for (std::size_t i = 0; i < 3; ++i) shot.lens.axes[i] = floats(eye.direction(Vec3::Unit(static_cast<int>(i))));
+  add_lights(scene, eye, shot);
+  add_surfaces(scene, eye, shot);
 }
 
 void Renderer::Impl::draw(const State& state, const Drawing& drawing) {
@@ -80,16 +81,18 @@ void Renderer::Impl::draw(const State& state, const Drawing& drawing) {
   if (drawn == 0 || !same(last.drawing.camera, drawing.camera)) place_camera(eye);
   last.take(state, drawing);
   ++drawn;
-  things.place(state, drawing, eye, frame);
-  if (meshes) meshes->draw(things.meshes(), eye, frame);
-  bins.fill(frame);
-  lights.fill(frame);
+  things.place(state, drawing, eye, shot);
+  if (meshes) meshes->draw(things.meshes(), eye, shot);
+  silhouettes.fill(shot);
+  bins.fill(shot, silhouettes);
+  lights.fill(shot);
   std::vector<Stroke> strokes = edges;
   strokes.insert(strokes.end(), drawing.strokes.begin(), drawing.strokes.end());
   lines.fill(strokes, eye);
   if (!threads) threads.emplace(raster::drawing_threads());
-  const raster::Picture picture{&frame, &bins, &lights, &lines.all, &lines.by_tile, image.pixels.data(), 3};
-  threads->draw(picture, bins.count());
+  const raster::Picture picture{&shot,          &silhouettes,        &bins, &lights, &lines.all,
+                                &lines.by_tile, image.pixels.data(), 3};
+  threads->draw(picture);
 }
 
 Renderer::Renderer(const Scene& scene, Size size, int samples) : impl_(std::make_unique<Impl>(scene, size, samples)) {}

@@ -1,4 +1,4 @@
-// Planes in the camera's frame. Coordinates are computed in double precision, and only differences from the eye become
+// Planes in the camera's shot. Coordinates are computed in double precision, and only differences from the eye become
 // floats.
 #include "render/surfaces.h"
 
@@ -47,22 +47,22 @@ double pattern_unit(const Scene& scene, const Eye& eye) {
 }
 
 /// The floor is the level plane below the eye that is nearest to it.
-void find_floor(const Eye& eye, raster::Frame& frame) {
+void find_floor(const Eye& eye, raster::Shot& shot) {
   const raster::Float3 up = floats(eye.direction(Vec3(0, 1, 0)));
   const auto dot = [](const raster::Float3& a, const raster::Float3& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   };
-  frame.has_floor = false;
-  for (const raster::Ground& g : frame.grounds) {
-    if (g.height <= 0 || dot(g.normal, up) < 0.7F || (frame.has_floor && g.height >= frame.floor_height)) continue;
-    frame.has_floor = true;
-    frame.floor_normal = g.normal;
-    frame.floor_height = g.height;
+  shot.floor.present = false;
+  for (const raster::Ground& g : shot.grounds) {
+    if (g.height <= 0 || dot(g.normal, up) < 0.7F || (shot.floor.present && g.height >= shot.floor.height)) continue;
+    shot.floor.present = true;
+    shot.floor.normal = g.normal;
+    shot.floor.height = g.height;
     for (std::size_t i = 0; i < 3; ++i) {
-      float light = frame.ambient[i];
-      for (const raster::Lamp& lamp : frame.lamps)
+      float light = shot.lighting.ambient[i];
+      for (const raster::Lamp& lamp : shot.lighting.lamps)
         light += lamp.radiance[i] * (lamp.near ? 0.7F : std::max(dot(g.normal, lamp.vector), 0.0F));
-      frame.floor_light[i] = 0.9F * g.color[i] * light;
+      shot.floor.light[i] = 0.9F * g.color[i] * light;
     }
   }
 }
@@ -78,15 +78,15 @@ const FixedName& name_of_obstacle(const Scene& scene, std::size_t obstacle) {
   return name_of_fixed(scene, scene.world.planes.size() + scene.world.walls.size() + obstacle);
 }
 
-void add_surfaces(const Scene& scene, const Eye& eye, raster::Frame& frame) {
+void add_surfaces(const Scene& scene, const Eye& eye, raster::Shot& shot) {
   double reach = (eye.camera.target - eye.camera.eye).norm();
   for (const Vec3& p : scene.initial.position) reach = std::max(reach, (p - eye.camera.eye).norm());
   reach = std::clamp(reach, 1e-6, 1e12);
   const double unit = pattern_unit(scene, eye);
-  frame.reach = static_cast<float>(reach);
-  frame.unit = static_cast<float>(unit);
+  shot.pattern.reach = static_cast<float>(reach);
+  shot.pattern.unit = static_cast<float>(unit);
 
-  frame.grounds.clear();
+  shot.grounds.clear();
   for (std::size_t i = 0; i < scene.world.planes.size(); ++i) {
     const FixedName& name = name_of_fixed(scene, i);
     if (!name.visible) continue;
@@ -102,10 +102,10 @@ void add_surfaces(const Scene& scene, const Eye& eye, raster::Frame& frame) {
     g.right_offset = static_cast<float>(std::fmod(right.dot(eye.camera.eye), 2 * unit));
     g.up_offset = static_cast<float>(std::fmod(up.dot(eye.camera.eye), 2 * unit));
     g.color = linear(name.color);
-    frame.grounds.push_back(g);
+    shot.grounds.push_back(g);
   }
-  for (raster::Ground& g : frame.grounds) g.corners = frame.grounds.size() > 1;
-  find_floor(eye, frame);
+  for (raster::Ground& g : shot.grounds) g.corners = shot.grounds.size() > 1;
+  find_floor(eye, shot);
 }
 
 }  // namespace carom

@@ -1,4 +1,4 @@
-// Places bodies, obstacles and walls in the camera's frame. Things outside the picture stay, since they may cast
+// Places bodies, obstacles and walls in the camera's shot. Things outside the picture stay, since they may cast
 // shadows into it.
 #include "render/things.h"
 
@@ -13,10 +13,10 @@
 namespace carom {
 namespace {
 
-raster::Kind kind_of(Shape shape) {
-  return shape == Shape::box        ? raster::Kind::box
-         : shape == Shape::cylinder ? raster::Kind::cylinder
-                                    : raster::Kind::ball;
+raster::SolidKind kind_of(Shape shape) {
+  return shape == Shape::box        ? raster::SolidKind::box
+         : shape == Shape::cylinder ? raster::SolidKind::cylinder
+                                    : raster::SolidKind::ball;
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ Look Things::look_of(const Color& color, const std::optional<MeshUse>& mesh) {
 }
 
 void Things::add(const Vec3& position, const Volume& volume, double radius, const Look& look, bool mesh, const Eye& eye,
-                 raster::Frame& frame) {
+                 raster::Shot& shot) {
   raster::Solid solid;
   const Vec3 center = eye.point(position);
   solid.center = floats(center);
@@ -58,31 +58,33 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, cons
   if (mesh) {
     around = std::max(radius, look.size.radius);
     solid.radius = static_cast<float>(around);
-    solid.volume = solid.kind;
-    solid.kind = raster::Kind::mesh;
-    const Vec3 middle = eye.point(position + look.size.middle);
-    solid.mesh_middle = floats(middle);
+    raster::MeshShadow shadow;
+    shadow.volume = solid.kind;
+    shadow.middle = floats(eye.point(position + look.size.middle));
     if (look.size.reach > 0)
-      solid.mesh = static_cast<std::int32_t>(look.file), solid.mesh_reach = static_cast<float>(look.size.reach);
+      shadow.outline = static_cast<std::int32_t>(look.file), shadow.reach = static_cast<float>(look.size.reach);
+    solid.kind = raster::SolidKind::mesh;
+    solid.part = static_cast<std::uint32_t>(shot.meshes.size());
+    shot.meshes.push_back(shadow);
   }
   // A thing around the eye would show only its own inside.
   const double distance2 = center.squaredNorm();
   const Vec3 off = (eye.camera.eye - position).cwiseAbs();
   const bool inside =
-      solid.kind == raster::Kind::ball ? distance2 <= radius * radius : (off.array() <= volume.half.array()).all();
+      solid.kind == raster::SolidKind::ball ? distance2 <= radius * radius : (off.array() <= volume.half.array()).all();
   solid.shadow_only = inside || !eye.may_see(center, around);
   // A thing smaller than a pixel is drawn as a ball, which is the fainter the smaller it is.
-  if (solid.kind != raster::Kind::ball && around * around < 0.25 * eye.pixel * eye.pixel * distance2) {
-    solid.kind = raster::Kind::ball;
+  if (solid.kind != raster::SolidKind::ball && around * around < 0.25 * eye.pixel * eye.pixel * distance2) {
+    solid.kind = raster::SolidKind::ball;
     solid.radius = static_cast<float>(std::cbrt(0.2387 * volume.size()));
   }
-  if (solid.kind == raster::Kind::mesh && !solid.shadow_only)
+  if (solid.kind == raster::SolidKind::mesh && !solid.shadow_only)
     meshes_.push_back({look.file, eye.point(position + look.size.middle), look.mesh->scale,
-                       static_cast<std::int32_t>(frame.solids.size())});
-  frame.solids.push_back(solid);
+                       static_cast<std::int32_t>(shot.solids.size())});
+  shot.solids.push_back(solid);
 }
 
-void Things::add_walls(const Eye& eye, raster::Frame& frame) const {
+void Things::add_walls(const Eye& eye, raster::Shot& shot) const {
   const World& world = scene_.world;
   for (std::size_t i = 0; i < world.walls.size(); ++i) {
     const FixedName& name = name_of_fixed(scene_, world.planes.size() + i);
@@ -90,20 +92,21 @@ void Things::add_walls(const Eye& eye, raster::Frame& frame) const {
     const Wall& wall = world.walls[i];
     const double height = wall.normal.dot(eye.camera.eye - wall.center);
     raster::Solid solid;
-    solid.kind = raster::Kind::wall;
+    solid.kind = raster::SolidKind::wall;
     solid.center = floats(eye.point(wall.center));
     solid.radius = static_cast<float>(std::hypot(wall.half_width, wall.half_height));
     solid.half = {static_cast<float>(wall.half_width), static_cast<float>(wall.half_height), 0};
-    solid.normal = floats(eye.direction(height < 0 ? Vec3(-wall.normal) : wall.normal));
-    solid.right = floats(eye.direction(wall.right)), solid.up = floats(eye.direction(wall.up));
+    solid.part = static_cast<std::uint32_t>(shot.walls.size());
+    shot.walls.push_back({floats(eye.direction(wall.right)), floats(eye.direction(wall.up)),
+                          floats(eye.direction(height < 0 ? Vec3(-wall.normal) : wall.normal))});
     solid.color = linear(name.color);
     solid.shadow_only = height == 0;
-    frame.solids.push_back(solid);
+    shot.solids.push_back(solid);
   }
 }
 
-void Things::place(const State& state, const Drawing& drawing, const Eye& eye, raster::Frame& frame) {
-  frame.solids.clear();
+void Things::place(const State& state, const Drawing& drawing, const Eye& eye, raster::Shot& shot) {
+  shot.solids.clear(), shot.walls.clear(), shot.meshes.clear();
   meshes_.clear();
   const World& world = scene_.world;
   for (std::uint32_t i = 0; i < world.body_count(); ++i) {
@@ -117,18 +120,18 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
       radius = volume.reach();
       mesh = false;
     }
-    add(state.position[i], volume, radius, looks_[i], mesh, eye, frame);
-    if (!drawing.body_colors.empty()) frame.solids.back().color = linear(drawing.body_colors[i]);
-    if (!drawing.glow.empty()) frame.solids.back().glow = drawing.glow[i];
+    add(state.position[i], volume, radius, looks_[i], mesh, eye, shot);
+    if (!drawing.body_colors.empty()) shot.solids.back().color = linear(drawing.body_colors[i]);
+    if (!drawing.glow.empty()) shot.solids.back().glow = drawing.glow[i];
   }
   std::size_t look = world.body_count();
   for (const std::uint32_t i : obstacles_) {
     const Obstacle& obstacle = world.obstacles[i];
     add(obstacle.center, obstacle.volume, obstacle.volume.reach(), looks_[look], looks_[look].mesh.has_value(), eye,
-        frame);
+        shot);
     ++look;
   }
-  add_walls(eye, frame);
+  add_walls(eye, shot);
 }
 
 }  // namespace carom

@@ -1,12 +1,12 @@
 #pragma once
-// The bodies, obstacles and walls of a picture, placed in the camera's frame.
+// The bodies, obstacles and walls of a picture, placed in the camera's shot.
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "physics/state.h"
-#include "raster/frame.h"
+#include "raster/shot.h"
 #include "render/drawing.h"
 #include "render/eye.h"
 #include "scene/scene.h"
@@ -49,16 +49,16 @@ class Things {
       if (look.mesh) look.size = size_of(*look.mesh, look.file);
   }
 
-  /// Fills the frame's solids with the bodies of `state`, the obstacles and the walls. A body that is part of another
-  /// is left out, and the joint body has the volume of the state. The frame's camera must be filled before.
-  void place(const State& state, const Drawing& drawing, const Eye& eye, raster::Frame& frame);
+  /// Fills the solids of a picture with the bodies of `state`, the obstacles and the walls. A body that is part of
+  /// another is left out, and the joint body has the volume of the state. Its lens must be filled before.
+  void place(const State& state, const Drawing& drawing, const Eye& eye, raster::Shot& shot);
   const std::vector<PlacedMesh>& meshes() const { return meshes_; }
 
  private:
   Look look_of(const Color& color, const std::optional<MeshUse>& mesh);
   void add(const Vec3& position, const Volume& volume, double radius, const Look& look, bool mesh, const Eye& eye,
-           raster::Frame& frame);
-  void add_walls(const Eye& eye, raster::Frame& frame) const;
+           raster::Shot& shot);
+  void add_walls(const Eye& eye, raster::Shot& shot) const;
 
   const Scene& scene_;
   std::vector<Look> looks_;               // of the bodies, then of obstacles_
