@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "raster/outline.h"
+#include "raster/shot.h"
 #include "render/camera.h"
 
 namespace carom {
