@@ -123,7 +123,7 @@ class Trial {
   Clock::time_point start_ = Clock::now();
   Camera camera_;
   CameraFrame view_;
-  Ticks ticks_ = Ticks::even(0, 0);
+  Ticks ticks_ = Ticks::even(0, 0, 0);
   std::int64_t next_ = 0, last_ = -1;  // ticks left to check
   std::vector<bool> in_view_;          // by body, at the previous tick; empty: there was none
   std::unique_ptr<Simulator> oracle_;

@@ -16,6 +16,7 @@
 #include "commands/text.h"
 #include "compare/comparison.h"
 #include "render/mesh.h"
+#include "files/processors.h"
 #include "scene/output_kinds.h"
 #include "scene/resolve.h"
 #include "scene/scene.h"

@@ -143,8 +143,11 @@ void SideBySide::complete() {
     layout += fmt::format("{}{}_{}", k > 0 ? "|" : "", column * grid.width, row * grid.height);
   }
   graph += fmt::format("{}xstack=inputs={}:layout={}:fill=black", stacked, tiles_.size(), layout);
-  file_.start(input, {"-filter_complex", graph}, crf, false);
-  file_.complete(frames);
+  FfmpegRun run = std::move(input);
+  run.insert(run.end(), {"-filter_complex", graph});
+  for (std::string& argument : h264_output(crf)) run.push_back(std::move(argument));
+  file_.start(run, false);
+  file_.complete(h264_file, frames, rate_of(fastest));
 }
 
 }  // namespace carom
