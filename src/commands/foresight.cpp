@@ -32,7 +32,7 @@ Ticks instants_of(const Scene& scene, Foresight& result) {
   const Output& output = scene.output;
   double fps = 30, from = 0, until = scene.simulate.duration;
   if (output.frames || output.video) {
-    fps = output.frames ? output.frames->fps : output.video->fps;
+    fps = output.frames ? output.frames->fps : output.video->fps / output.video->speed;
     from = output.frames ? output.frames->from : output.video->from;
     until = (output.frames ? output.frames->until : output.video->until).value_or(until);
   }

@@ -135,7 +135,7 @@ void FilmFile::end_run() {
 void FilmFile::complete(const std::string& made, std::uint64_t frames, double fps) {
   end_run();
   std::string error;
-  const std::uint64_t found = made.ends_with(".webp") ? webp_frames(workshop(), made, fps)
+  const std::uint64_t found = made.ends_with(".webp") ? webp_frames(workshop(), made, fps).value_or(frames)
                                                       : counted_frames(tools_, workshop_.get(), made, error);
   if (!error.empty()) fail_with(error);
   if (found != frames) fail_with("ffmpeg wrote " + std::to_string(found) + " of " + std::to_string(frames) + " frames");

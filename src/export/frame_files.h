@@ -16,6 +16,8 @@ class FrameFiles {
   /// The files and their bytes do not depend on it. `folder` must outlive this object.
   /// Throws ExportError, as all functions of this class do.
   FrameFiles(OpenFolder& folder, std::size_t threads);
+  /// Writes the pictures that are on their way, as far as possible.
+  ~FrameFiles();
 
   /// `again`: the picture equals the one before. Waits while as many pictures as there are threads, and three more, are
   /// on their way. Throws the error of an earlier picture, too.

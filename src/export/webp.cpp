@@ -31,7 +31,7 @@ std::uint64_t number_in(std::string_view bytes) {
 
 }  // namespace
 
-std::uint64_t webp_frames(const FilePlace& place, const std::string& name, double fps) {
+std::optional<std::uint64_t> webp_frames(const FilePlace& place, const std::string& name, double fps) {
   const Descriptor file = open_stored(place.folder, name);
   const std::optional<std::uint64_t> size = stored_size(place.folder, name);
   if (!file || !size) return 0;
@@ -53,7 +53,7 @@ std::uint64_t webp_frames(const FilePlace& place, const std::string& name, doubl
     if (type == "VP8 " || type == "VP8L") ++still;
     at += chunk_head + length + length % 2;
   }
-  if (animated == 0) return still;
+  if (animated == 0) return still == 1 ? std::nullopt : std::optional<std::uint64_t>(0);
   return static_cast<std::uint64_t>(nearest_whole(static_cast<double>(milliseconds) * fps / 1000));
 }
 

@@ -46,9 +46,9 @@ struct VideoOutput : PictureOutput {
 
 struct SheetOutput {
   int columns = 4, rows = 3;
-  std::optional<Size> size;     // of the whole sheet; none: by the columns
-  double from = 0;              // s, of the first picture
-  std::optional<double> until;  // s, of the last picture; none: the duration
+  std::optional<Size> size{};     // of the whole sheet; none: by the columns
+  double from = 0;                // s, of the first picture
+  std::optional<double> until{};  // s, of the last picture; none: the duration
 };
 struct VtkOutput {
   double every = 1.0 / 30;  // s
