@@ -33,6 +33,17 @@ PictureOutput sheet_model(const Output& output) {
   return output.video ? static_cast<const PictureOutput&>(*output.video) : PictureOutput{};
 }
 
+std::vector<Ticks> shown_instants(const Scene& scene) {
+  const Output& output = scene.requested.pictures() ? scene.requested : scene.output;
+  const double duration = scene.simulate.duration;
+  std::vector<Ticks> instants;
+  if (output.frames) instants.push_back(ticks_of(*output.frames, duration));
+  if (output.video) instants.push_back(ticks_of(*output.video, duration));
+  if (output.sheet) instants.push_back(Ticks::even(std::int64_t{output.sheet->columns} * output.sheet->rows, duration));
+  if (instants.empty()) instants.push_back(Ticks::every(1 / output.gltf.value_or(GltfOutput{}).fps, duration));
+  return instants;
+}
+
 PictureStreams plan_pictures(const Scene& scene) {
   const Output& output = scene.output;
   const double duration = scene.simulate.duration;

@@ -37,9 +37,9 @@ Size checked(Size size, int samples) {
 // with what is behind them. One sample for each pixel gives hard edges. Any larger number gives smooth ones, finer than
 // so many samples would be.
 struct Renderer::Impl {
-  Impl(const Scene& s, Size size, int samples)
+  Impl(const Scene& s, const Camera& camera, Size size, int samples)
       : scene(s),
-        eye(camera_of(s), checked(size, samples)),
+        eye(camera, size),
         smooth(samples > 1),
         lighting(s, eye),
         surfaces(s, eye),
@@ -123,24 +123,43 @@ void Renderer::Impl::read() {
     for (std::size_t c = 0; c < 3; ++c) image.pixels[3 * i + c] = rgba[4 * i + c];
 }
 
-Renderer::Renderer(const Scene& scene, Size size, int samples) : impl_(std::make_unique<Impl>(scene, size, samples)) {}
+Renderer::Renderer(const Scene& scene, Size size, int samples)
+    : scene_(scene), size_(checked(size, samples)), samples_(samples) {}
 
 Renderer::~Renderer() {
+  leave();
+}
+
+void Renderer::leave() {
+  if (!impl_) return;
   try {
     impl_->context.make_current();
   } catch (const RenderError&) {
     // A context that cannot be used has nothing left to free.
   }
+  drawn_ += impl_->drawn;
+  impl_.reset();
 }
 
 const Image& Renderer::draw(const State& state) {
+  Drawing drawing;
+  drawing.camera = camera_of(scene_);
+  return draw(state, drawing);
+}
+
+const Image& Renderer::draw(const State& state, const Drawing& drawing) {
+  if (!impl_ || !(drawing.camera == camera_)) {
+    leave();
+    impl_ = std::make_unique<Impl>(scene_, drawing.camera, size_, samples_);
+    camera_ = drawing.camera;
+  }
   impl_->context.make_current();
   impl_->draw(state);
   return impl_->image;
 }
 
 std::uint64_t Renderer::drawn() const {
-  return impl_->drawn;
+  return drawn_ + (impl_ ? impl_->drawn : 0);
 }
 
 }  // namespace carom

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "physics/state.h"
+#include "render/drawing.h"
 #include "render/image.h"
 #include "scene/output.h"
 
@@ -25,14 +26,23 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Draws the bodies of `state` and the still things. It draws nothing if all is as in the last picture.
-  /// The picture is valid until the next draw.
+  /// Draws the bodies of `state` and the still things, as `drawing` shows them. It draws nothing if all is as in the last
+  /// picture. The picture is valid until the next draw.
+  const Image& draw(const State& state, const Drawing& drawing);
+  /// The same by the scene's camera of time 0.
   const Image& draw(const State& state);
   std::uint64_t drawn() const;  // pictures so far, repetitions of the last one excluded
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void leave();
+
+  const Scene& scene_;
+  Size size_;
+  int samples_;
+  Camera camera_;               // of impl_
+  std::unique_ptr<Impl> impl_;  // made for each camera
+  std::uint64_t drawn_ = 0;     // by those before impl_
 };
 
 }  // namespace carom

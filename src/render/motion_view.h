@@ -1,0 +1,60 @@
+#pragma once
+// What a view of a motion is to hold.
+#include <vector>
+
+#include "physics/state.h"
+#include "render/frustum.h"
+#include "render/model.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+/// A motion as it is collected, instant by instant, for a view in one direction. The view is to hold:
+///
+/// All bodies at all instants, unless they fly away for ever. A body flies away from the instant on after which its
+/// distance from the middle of all bodies at the first instant only grows. At least half of the bodies stay in view to
+/// the end, those that get least far. So does each of the others, unless the view would become more than twice as wide
+/// as with that half alone, and half of the bodies lower than a hundredth of it.
+///
+/// Walls and obstacles that bodies meet or pass, unless they are larger than the motion. Of larger ones, and of planes,
+/// the part at the bodies.
+class MotionView {
+ public:
+  struct Content {
+    Frustum::Reach reach;
+    Extent bodies;
+    Extent near;  // around all that the bodies met or passed within their own size
+    void add(const Content& other);
+  };
+
+  /// `scene` must outlive this object.
+  MotionView(const Scene& scene, const Frustum& frustum) : scene_(scene), frustum_(frustum) {}
+
+  /// Takes the next instant in order.
+  void add(const State& state);
+  /// Without bodies, the fixed things.
+  Content content() const;
+
+  const Frustum& frustum() const { return frustum_; }
+
+ private:
+  /// A body since the last instant at which it came no farther.
+  struct Departure {
+    Content content;
+    double distance2 = -1;  // m^2, from the middle, at the previous instant; negative: there was none
+  };
+
+  void add(Content& content, const Vec3& position, const Vec3& before, const Volume& volume) const;
+  Content without_the_leaving() const;
+  void add_surroundings(Content& content) const;
+  void add_fixed_things(Content& content) const;
+
+  const Scene& scene_;
+  Frustum frustum_;
+  Vec3 middle_ = Vec3::Zero();         // m, of all bodies at the first instant
+  double time_ = 0;                    // s, of the previous instant
+  Content core_;                       // all but the departures
+  std::vector<Departure> departures_;  // by body; empty before the first instant
+};
+
+}  // namespace carom
