@@ -13,10 +13,10 @@ double radians(double degrees) {
   return degrees * std::numbers::pi / 180;
 }
 
-/// The front is the side of +z. With z up it is that of -y, so that +x stays on the right.
+/// The front is the side of +z. With z up or down it is that of +y, above.
 Vec3 front_of(const Vec3& up) {
   const Vec3 u = up.normalized(), front = Vec3(0, 0, 1) - u.z() * u;
-  return front.norm() > 1e-9 ? Vec3(front.normalized()) : Vec3(0, -u.z(), 0);
+  return front.norm() > 1e-9 ? Vec3(front.normalized()) : Vec3(0, 1, 0);
 }
 
 CameraFrame frame_of(Camera lens, Size size, const Vec3& front, double elevation) {

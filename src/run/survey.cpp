@@ -21,16 +21,16 @@ struct Framing {
   std::vector<int> streams;  // of the timeline
 };
 
-/// Signals are handled where no picture is due for long.
-void carry_to(Simulator& simulator, double time, double slice, const std::function<void()>& stop_check) {
+}  // namespace
+
+void carry_to(Simulator& simulator, double time, double duration, const std::function<void()>& stop_check) {
+  const double piece = duration / 1000;
   while (simulator.time() < time) {
     stop_check();
-    const double next = std::min(time, simulator.time() + slice);
+    const double next = std::min(time, simulator.time() + piece);
     simulator.advance_to(next > simulator.time() ? next : time);
   }
 }
-
-}  // namespace
 
 void survey(std::span<MovingCamera* const> cameras, Simulator& simulator, const std::function<void()>& stop_check) {
   std::vector<Framing> framings;
@@ -47,7 +47,7 @@ void survey(std::span<MovingCamera* const> cameras, Simulator& simulator, const 
     }
   try {
     while (timeline.advance() && timeline.time() <= end) {
-      carry_to(simulator, timeline.time(), duration / 1000, stop_check);
+      carry_to(simulator, timeline.time(), duration, stop_check);
       for (Framing& framing : framings) {
         const auto is_due = [&](int stream) { return timeline.due(stream).has_value(); };
         if (std::any_of(framing.streams.begin(), framing.streams.end(), is_due)) framing.fit.add(simulator.state());

@@ -13,4 +13,8 @@ namespace carom {
 /// it goes: the run itself fails there again. `stop_check` is called often, and may throw.
 void survey(std::span<MovingCamera* const> cameras, Simulator& simulator, const std::function<void()>& stop_check);
 
+/// Carries the simulator to `time` (s) in pieces, so that `stop_check` is called where nothing happens for long.
+/// `duration`: of its motion (s).
+void carry_to(Simulator& simulator, double time, double duration, const std::function<void()>& stop_check);
+
 }  // namespace carom

@@ -77,7 +77,7 @@ class Checker : ValueChecker {
       node.bad = true;
       diagnostics_.add(
           key == nullptr ? view.where() : key->place,
-          fmt::format("{} has a {} but no {}", what, in_backticks(field.key), in_backticks(field.with)),
+          fmt::format("{} has {} but no {}", what, in_backticks(field.key), in_backticks(field.with)),
           fmt::format("expected {}: {}", in_backticks(field.with), expected(*find_field(view.kind(), field.with))));
     }
   }

@@ -108,10 +108,10 @@ class CameraDecoder {
     const auto keys = filled<KeyframeKeys>(view);
     if (!keys.eye || !keys.target || !view.number("at")) return;
     if (!plan_.path.empty() && !(keys.at > plan_.path.back().at))
-      diagnostics_.add(
-          view.place("at"),
-          fmt::format("a keyframe at {} s after one at {} s", shortest(keys.at), shortest(plan_.path.back().at)),
-          "expected later times from entry to entry");
+      diagnostics_.add(view.place("at"),
+                       fmt::format("{} s is not later than the keyframe before, at {} s", shortest(keys.at),
+                                   shortest(plan_.path.back().at)),
+                       "expected ascending times");
     check_sight(*keys.eye, *keys.target, view);
     plan_.path.push_back({keys.at, *keys.eye, *keys.target, keys.fov.value_or(plan_.fov)});
   }
