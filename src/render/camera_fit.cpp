@@ -26,7 +26,7 @@ void CameraFit::add(const State& state) {
 
 Camera CameraFit::camera() const {
   MotionView::Content content = low_.content();
-  const double height = size_along(content.bodies, lens_.up.normalized());
+  const double height = size_along(content.bodies, low_.frustum().up());
   const bool is_flat = 2 * height < size_along(content.bodies, low_.frustum().front());
   if (is_flat) content = high_.content();
   const Frustum& frustum = (is_flat ? high_ : low_).frustum();

@@ -15,7 +15,7 @@ double radians(double degrees) {
 
 /// The front is the side of +z. With z up or down it is that of +y, above.
 Vec3 front_of(const Vec3& up) {
-  const Vec3 u = up.normalized(), front = Vec3(0, 0, 1) - u.z() * u;
+  const Vec3 front = Vec3(0, 0, 1) - up.z() * up;
   return front.norm() > 1e-9 ? Vec3(front.normalized()) : Vec3(0, 1, 0);
 }
 
@@ -28,7 +28,8 @@ CameraFrame frame_of(Camera lens, Size size, const Vec3& front, double elevation
 }  // namespace
 
 Frustum::Frustum(const Camera& lens, Size size, double elevation)
-    : front_(front_of(lens.up)),
+    : up_(lens.up.normalized()),
+      front_(front_of(up_)),
       view_(frame_of(lens, size, front_, elevation)),
       tan_x_(used * std::tan(radians(view_.fov_x / 2))),
       tan_y_(used * std::tan(radians(view_.fov_y / 2))),

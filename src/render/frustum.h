@@ -37,13 +37,14 @@ class Frustum {
   double height(double depth) const { return 2 * depth * tan_y_ / used; }
 
   const CameraFrame& view() const { return view_; }
+  const Vec3& up() const { return up_; }  // unit
   /// To the level side from which it looks, unit: +z with y up.
   const Vec3& front() const { return front_; }
 
  private:
   static constexpr double used = 0.9;  // of the picture's width and height
 
-  Vec3 front_;
+  Vec3 up_, front_;
   CameraFrame view_;
   double tan_x_, tan_y_;         // of half the angles, for what is used
   std::array<Vec3, 4> normals_;  // unit, inward: left, right, bottom, top

@@ -112,6 +112,14 @@ MotionView::Content MotionView::without_the_leaving() const {
 void MotionView::add_surroundings(Content& content) const {
   const World& world = scene_.world;
   const double size = (content.bodies.high - content.bodies.low).norm();
+  const Vec3 middle = content.bodies.middle();
+  for (std::size_t i = 0; i < world.planes.size(); ++i) {
+    const Plane& plane = world.planes[i];
+    const double above = plane.normal.dot(middle - plane.point);
+    const bool is_floor = plane.normal.dot(frustum_.up()) > 0.5;
+    if (is_drawn(scene_, i) && is_floor && above > 0 && above < 3 * size)
+      frustum_.add(content.reach, middle - above * plane.normal, 0);
+  }
   for (std::size_t i = 0; i < world.walls.size(); ++i) {
     const Wall& wall = world.walls[i];
     if (!is_drawn(scene_, world.planes.size() + i) || 2 * std::max(wall.half_width, wall.half_height) > size) continue;

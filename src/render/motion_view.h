@@ -17,7 +17,8 @@ namespace carom {
 /// as with that half alone, and half of the bodies lower than a hundredth of it.
 ///
 /// Walls and obstacles that bodies meet or pass, unless they are larger than the motion. Of larger ones, and of planes,
-/// the part at the bodies.
+/// the part at the bodies. Of a floor below, the point under the motion's middle, unless that is farther away than
+/// three times the size of the motion.
 class MotionView {
  public:
   struct Content {

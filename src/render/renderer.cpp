@@ -124,7 +124,11 @@ void Renderer::Impl::read() {
 }
 
 Renderer::Renderer(const Scene& scene, Size size, int samples)
-    : scene_(scene), size_(checked(size, samples)), samples_(samples) {}
+    : scene_(scene),
+      size_(checked(size, samples)),
+      samples_(samples),
+      camera_(camera_of(scene)),
+      impl_(std::make_unique<Impl>(scene, camera_, size, samples)) {}
 
 Renderer::~Renderer() {
   leave();
@@ -148,7 +152,7 @@ const Image& Renderer::draw(const State& state) {
 }
 
 const Image& Renderer::draw(const State& state, const Drawing& drawing) {
-  if (!impl_ || !(drawing.camera == camera_)) {
+  if (!(drawing.camera == camera_)) {
     leave();
     impl_ = std::make_unique<Impl>(scene_, drawing.camera, size_, samples_);
     camera_ = drawing.camera;
@@ -159,7 +163,7 @@ const Image& Renderer::draw(const State& state, const Drawing& drawing) {
 }
 
 std::uint64_t Renderer::drawn() const {
-  return drawn_ + (impl_ ? impl_->drawn : 0);
+  return drawn_ + impl_->drawn;
 }
 
 }  // namespace carom

@@ -26,8 +26,8 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Draws the bodies of `state` and the still things, as `drawing` shows them. It draws nothing if all is as in the last
-  /// picture. The picture is valid until the next draw.
+  /// Draws the bodies of `state` and the still things, as `drawing` shows them. It draws nothing if all is as in the
+  /// last picture. The picture is valid until the next draw.
   const Image& draw(const State& state, const Drawing& drawing);
   /// The same by the scene's camera of time 0.
   const Image& draw(const State& state);
