@@ -175,7 +175,11 @@ Findings examine(const PlannedScene& planned) {
 // Wall time of a run (s): of the part that was simulated, scaled up, and of its outputs.
 std::optional<double> seconds_to_come(const PlannedScene& planned, const Findings& findings) {
   if (!findings.foresight.simulate_s) return std::nullopt;
-  return planned.load_s + *findings.foresight.simulate_s + planned.forecast.seconds;
+  const Output& output = planned.scene->output;
+  const bool drawn = output.pictures() || output.gltf;
+  // A camera that frames the motion needs it before the first picture.
+  const int times = drawn && (!planned.scene->camera || planned.scene->camera->fit) ? 2 : 1;
+  return planned.load_s + times * *findings.foresight.simulate_s + planned.forecast.seconds;
 }
 
 std::string steps_text(double steps) {
