@@ -4,7 +4,7 @@
 
 #include "physics/state.h"
 #include "render/camera.h"
-#include "scene/camera_path.h"
+#include "render/camera_path.h"
 #include "scene/scene.h"
 
 namespace carom {

@@ -4,12 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <array>
 
-#include "numerics/monotone_cubic.h"
+#include "numerics/monotone_path.h"
 #include "numerics/polynomial.h"
 #include "physics/center_of_mass.h"
-#include "scene/camera_path.h"
 #include "scene/decode.h"
 #include "scene/member.h"
 #include "scene/scene.h"
@@ -29,20 +28,26 @@ Polynomial square(const std::array<double, 4>& c) {
   return out;
 }
 
-/// The part of a piece, from 0 to 1, at which `sight` comes nearest to the line along the unit vector `up`, if it
-/// touches that line.
-std::optional<double> touches(const std::array<std::array<double, 4>, 3>& sight, const Vec3& up) {
+using Cubic = std::array<double, 4>;
+
+/// The part of a piece of a path, from 0 to 1, at which target less eye comes to lie along the unit vector `up`. None:
+/// it never does.
+std::optional<double> touches(const std::array<Cubic, 3>& eye, const std::array<Cubic, 3>& target, const Vec3& up) {
+  std::array<Cubic, 3> sight{};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t power = 0; power < 4; ++power) sight[i][power] = target[i][power] - eye[i][power];
   Polynomial across, length;  // squares
   across.degree = length.degree = 6;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    std::array<double, 4> component{};
+    Cubic component{};
     for (std::size_t power = 0; power < 4; ++power)
-      component[power] =
-          sight[j][power] * up[static_cast<Eigen::Index>(k)] - sight[k][power] * up[static_cast<Eigen::Index>(j)];
+      component[power] = sight[j][power] * up[static_cast<int>(k)] - sight[k][power] * up[static_cast<int>(j)];
     const Polynomial a = square(component), l = square(sight[i]);
-    for (std::size_t power = 0; power < across.c.size(); ++power)
-      across.c[power] += a.c[power], length.c[power] += l.c[power];
+    for (std::size_t power = 0; power < across.c.size(); ++power) {
+      across.c[power] += a.c[power];
+      length.c[power] += l.c[power];
+    }
   }
   const double scale = std::max(length(0), length(1));
   const Roots turning = roots_between(across.derivative(), 0, 1);
@@ -70,7 +75,7 @@ class CameraDecoder {
       follow(*keys_.follow);
     } else if (path != nullptr && path->is(Node::Kind::sequence)) {
       for (const Node& node : path->items) add_keyframe(node);
-      for (std::size_t i = 0; i + 1 < plan_.path.size(); ++i) check_between(i, path->items[i + 1]);
+      check_between(path->items);
     } else if (view_.vector("eye") && view_.vector("target")) {
       check_sight(plan_.eye, plan_.target, view_);
     }
@@ -129,17 +134,25 @@ class CameraDecoder {
     }
   }
 
-  /// The piece of the path from keyframe i to the one of `node`.
-  void check_between(std::size_t i, const Node& node) {
+  /// The pieces between the keyframes that `nodes` give.
+  void check_between(const std::vector<Node>& nodes) {
     if (!diagnostics_.empty()) return;
-    const CameraPath path(plan_.path);
-    const std::optional<double> s = touches(path.sight(i), unit(plan_.up));
-    if (!s) return;
-    const Keyframe &from = plan_.path[i], &to = plan_.path[i + 1];
-    diagnostics_.add(node.place,
-                     fmt::format("on the way to this keyframe, at {:.4g} s, the camera looks along its up direction",
-                                 from.at + *s * (to.at - from.at)),
-                     "the picture would turn over: expected a keyframe between the two, beside that direction");
+    std::vector<double> at;
+    std::vector<Vec3> eye, target;
+    for (const Keyframe& key : plan_.path) {
+      at.push_back(key.at);
+      eye.push_back(key.eye);
+      target.push_back(key.target);
+    }
+    const MonotonePath eyes(at, eye), targets(at, target);
+    for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+      const std::optional<double> s = touches(eyes.piece(i), targets.piece(i), unit(plan_.up));
+      if (!s) continue;
+      diagnostics_.add(nodes[i + 1].place,
+                       fmt::format("on the way to this keyframe, at {:.4g} s, the camera looks along its up direction",
+                                   at[i] + *s * (at[i + 1] - at[i])),
+                       "the picture would turn over: expected a keyframe between the two, beside that direction");
+    }
   }
 
   void check_depth() {

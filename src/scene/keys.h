@@ -110,11 +110,11 @@ struct ForceKeys {
   double until = std::numeric_limits<double>::infinity();  // s
 };
 
-enum class CameraFit : std::uint8_t { motion };
+enum class FitTo : std::uint8_t { motion };
 
 /// Eye and target may be missing, depending on the keys here.
 struct CameraKeys : Camera {
-  std::optional<CameraFit> fit;
+  std::optional<FitTo> fit;
   const Node* follow = nullptr;  // a name
 };
 

@@ -70,7 +70,7 @@ struct Camera {
   friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-/// A view at a time. The camera moves smoothly from one to the next (render/moving_camera.h).
+/// A view at a time. The camera moves smoothly from one to the next (render/camera_path.h).
 struct Keyframe {
   double at = 0;               // s
   Vec3 eye = Vec3::Zero();     // m
