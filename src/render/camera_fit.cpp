@@ -1,5 +1,5 @@
-// Two views are collected, because only the end of a motion shows its shape. A motion that is less than half as high as
-// it is deep, such as one on a table, is seen from higher up. There bodies hide one another less.
+// The motion is collected for two directions, because only its end shows its shape. A motion that is less than half as
+// high as it is deep, such as one on a table, is seen from higher up. There bodies hide one another less.
 #include "render/camera_fit.h"
 
 namespace carom {
@@ -16,25 +16,25 @@ double size_along(const Extent& box, const Vec3& n) {
 
 CameraFit::CameraFit(const Scene& scene, Size size)
     : lens_(scene.camera ? static_cast<const Camera&>(*scene.camera) : Camera{}),
-      low_(scene, Frustum(lens_, size, slight_elevation)),
-      high_(scene, Frustum(lens_, size, flat_elevation)) {}
+      motion_(scene, {Frustum(lens_, size, slight_elevation), Frustum(lens_, size, flat_elevation)}) {}
 
 void CameraFit::add(const State& state) {
-  low_.add(state);
-  high_.add(state);
+  motion_.add(state);
 }
 
 Camera CameraFit::camera() const {
-  MotionView::Content content = low_.content();
-  const double height = size_along(content.bodies, low_.frustum().up());
-  const bool is_flat = 2 * height < size_along(content.bodies, low_.frustum().front());
-  if (is_flat) content = high_.content();
-  const Frustum& frustum = (is_flat ? high_ : low_).frustum();
+  MotionView::Content content = motion_.content(0);
+  const double height = size_along(content.bodies, motion_.direction(0).up());
+  const bool is_flat = 2 * height < size_along(content.bodies, motion_.direction(0).front());
+  const std::size_t direction = is_flat ? 1 : 0;
+  if (is_flat) content = motion_.content(direction);
+  const Frustum& frustum = motion_.direction(direction);
+  const Frustum::Reach& reach = content.reach[direction];
 
   Camera camera = lens_;
   const Vec3 middle = content.bodies.middle();
-  camera.eye = frustum.eye(content.reach);
-  double distance = frustum.depth(content.reach, middle);
+  camera.eye = frustum.eye(reach);
+  double distance = frustum.depth(reach, middle);
   // All is in one point.
   if (!(distance > 0)) {
     distance = 1;

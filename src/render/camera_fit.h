@@ -20,8 +20,7 @@ class CameraFit {
 
  private:
   Camera lens_;
-  // One of the two, once the motion's shape is known.
-  MotionView low_, high_;
+  MotionView motion_;  // from low, and from higher up
 };
 
 }  // namespace carom

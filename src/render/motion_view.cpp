@@ -41,7 +41,7 @@ double median(std::vector<double> values) {
 }  // namespace
 
 void MotionView::Content::add(const Content& other) {
-  reach.add(other.reach);
+  for (std::size_t i = 0; i < reach.size(); ++i) reach[i].add(other.reach[i]);
   join(bodies, other.bodies);
   join(near, other.near);
 }
@@ -62,29 +62,29 @@ void MotionView::add(const State& state) {
     const double before = std::exchange(departure.distance2, distance2);
     const bool part = is_part_of_another(state, body);
     const bool departs = !part && before >= 0 && distance2 > before;
-    if (!departs && !departure.content.reach.empty()) core_.add(std::exchange(departure.content, {}));
+    if (!departs && !departure.content.empty()) core_.add(std::exchange(departure.content, {}));
     if (part) continue;
+    const Volume volume = volume_now(scene_.world, state, body);
+    Content& content = departs ? departure.content : core_;
+    add(content, position, volume);
     // Straight back to what the body has met since the previous instant.
-    add(departs ? departure.content : core_, position, position - since * state.velocity[body],
-        volume_now(scene_.world, state, body));
+    content.near.include(position, 3 * volume.half);
+    content.near.include(position - since * state.velocity[body], 3 * volume.half);
   }
 }
 
-/// `before`: where the body was at the previous instant, or would have been if it had met nothing since (m).
-void MotionView::add(Content& content, const Vec3& position, const Vec3& before, const Volume& volume) const {
-  frustum_.add(content.reach, position, volume);
-  content.bodies.include(position, volume.half);
-  content.near.include(position, 3 * volume.half);
-  content.near.include(before, 3 * volume.half);
+void MotionView::add(Content& content, const Vec3& center, const Volume& volume) const {
+  for (std::size_t i = 0; i < directions_.size(); ++i) directions_[i].add(content.reach[i], center, volume);
+  content.bodies.include(center, volume.half);
 }
 
-MotionView::Content MotionView::without_the_leaving() const {
+MotionView::Content MotionView::without_the_leaving(const Frustum& frustum, std::size_t direction) const {
   // The width of a view is proportional to the depth of one point.
   const Vec3 middle = core_.bodies.middle();
-  const auto depth = [&](const Content& content) { return frustum_.depth(content.reach, middle); };
+  const auto depth = [&](const Content& content) { return frustum.depth(content.reach[direction], middle); };
   std::vector<std::pair<double, std::size_t>> leaving;  // by depth
   for (std::size_t body = 0; body < departures_.size(); ++body) {
-    if (departures_[body].content.reach.empty()) continue;
+    if (departures_[body].content.empty()) continue;
     Content with = core_;
     with.add(departures_[body].content);
     leaving.emplace_back(depth(with), body);
@@ -92,7 +92,7 @@ MotionView::Content MotionView::without_the_leaving() const {
   if (leaving.empty()) return core_;
   std::sort(leaving.begin(), leaving.end());
 
-  const double largest_dot = dot * frustum_.height(1) / (2 * median(scene_.world.radius));  // per m of depth
+  const double largest_dot = dot * frustum.height(1) / (2 * median(scene_.world.radius));  // per m of depth
   Content content = core_;
   std::size_t in_view = departures_.size() - leaving.size();
   double with_half = depth(core_);
@@ -111,14 +111,14 @@ MotionView::Content MotionView::without_the_leaving() const {
 
 void MotionView::add_surroundings(Content& content) const {
   const World& world = scene_.world;
-  const double size = (content.bodies.high - content.bodies.low).norm();
-  const Vec3 middle = content.bodies.middle();
+  const Extent bodies = content.bodies;
+  const double size = (bodies.high - bodies.low).norm();
   for (std::size_t i = 0; i < world.planes.size(); ++i) {
     const Plane& plane = world.planes[i];
-    const double above = plane.normal.dot(middle - plane.point);
-    const bool is_floor = plane.normal.dot(frustum_.up()) > 0.5;
+    const double above = plane.normal.dot(bodies.middle() - plane.point);
+    const bool is_floor = plane.normal.dot(directions_[0].up()) > 0.5;
     if (is_drawn(scene_, i) && is_floor && above > 0 && above < 3 * size)
-      frustum_.add(content.reach, middle - above * plane.normal, 0);
+      add(content, bodies.middle() - above * plane.normal, {});
   }
   for (std::size_t i = 0; i < world.walls.size(); ++i) {
     const Wall& wall = world.walls[i];
@@ -126,7 +126,7 @@ void MotionView::add_surroundings(Content& content) const {
     Extent box;
     for (const Vec3& corner : corners(wall)) box.include(corner);
     if (!meet(box, content.near)) continue;
-    for (const Vec3& corner : corners(wall)) frustum_.add(content.reach, corner, 0);
+    for (const Vec3& corner : corners(wall)) add(content, corner, {});
   }
   for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
     const Obstacle& obstacle = world.obstacles[i];
@@ -134,28 +134,25 @@ void MotionView::add_surroundings(Content& content) const {
     if (!drawn || 2 * obstacle.volume.half.maxCoeff() > size) continue;
     Extent box;
     box.include(obstacle.center, obstacle.volume.half);
-    if (meet(box, content.near)) frustum_.add(content.reach, obstacle.center, obstacle.volume);
+    if (meet(box, content.near)) add(content, obstacle.center, obstacle.volume);
   }
+  content.bodies = bodies;
 }
 
 void MotionView::add_fixed_things(Content& content) const {
-  const auto include = [&](const Vec3& center, const Volume& volume) {
-    frustum_.add(content.reach, center, volume);
-    content.bodies.include(center, volume.half);
-  };
-  for (const Plane& plane : scene_.world.planes) include(plane.point, {});
+  for (const Plane& plane : scene_.world.planes) add(content, plane.point, {});
   for (const Wall& wall : scene_.world.walls)
-    for (const Vec3& corner : corners(wall)) include(corner, {});
-  for (const Obstacle& obstacle : scene_.world.obstacles) include(obstacle.center, obstacle.volume);
-  if (content.reach.empty()) include(Vec3::Zero(), {});
+    for (const Vec3& corner : corners(wall)) add(content, corner, {});
+  for (const Obstacle& obstacle : scene_.world.obstacles) add(content, obstacle.center, obstacle.volume);
+  if (content.empty()) add(content, Vec3::Zero(), {});
 }
 
-MotionView::Content MotionView::content() const {
+MotionView::Content MotionView::content(std::size_t direction) const {
   Content content;
   if (departures_.empty()) {
     add_fixed_things(content);
   } else {
-    content = without_the_leaving();
+    content = without_the_leaving(directions_[direction], direction);
     add_surroundings(content);
   }
   return content;
