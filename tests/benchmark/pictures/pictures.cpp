@@ -80,7 +80,7 @@ Cost cost_of(int balls) {
     const double start = processor_ms();
     const Image& image = renderer.draw(state);
     const double drawn = processor_ms();
-    const std::string png = encode_png(image, PngEffort::fast);
+    const std::string png = encode_png(image);
     draws.push_back(drawn - start);
     writes.push_back(processor_ms() - drawn);
   }
@@ -112,14 +112,14 @@ int run(int argc, char** argv) {
   Renderer renderer(scene, {1280, 720}, 4);
   const std::string what = argv[2];
   if (what.ends_with(".png")) {
-    std::ofstream(what, std::ios::binary) << encode_png(renderer.draw(scene.initial), PngEffort::fast);
+    std::ofstream(what, std::ios::binary) << encode_png(renderer.draw(scene.initial));
     return 0;
   }
   const int pictures = std::atoi(argv[2]);
   State state = scene.initial;
   for (int i = 1; i <= pictures; ++i) {
     move(state, i);
-    encode_png(renderer.draw(state), PngEffort::fast);
+    encode_png(renderer.draw(state));
     if (i % std::max(1, pictures / 10) == 0) fmt::print("{} pictures, {} kB\n", i, peak_kb());
   }
   return 0;
