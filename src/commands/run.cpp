@@ -59,7 +59,8 @@ int run_command(const Options& options) {
   return run_planned(options, "run", plan_scenes(options));
 }
 
-int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes, const SceneWork& work) {
+int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes,
+                const SceneWork& work) {
   refuse_other_content(scenes, options);
   if (const std::string errors = error_count(scenes); !errors.empty()) return refuse(options, command, scenes, errors);
   for (const PlannedScene& planned : scenes)

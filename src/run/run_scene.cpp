@@ -79,7 +79,10 @@ class Run {
     }
     if (cameras.empty()) return;
     const auto ahead = settings_.simulator ? settings_.simulator(scene()) : make_simulator(scene(), {}, engine_.steps);
-    survey(cameras, *ahead, watch_.stop_check);
+    survey(cameras, *ahead, [this] {
+      watch_.stop_check();
+      watch_.report_progress(0, 0, 0);
+    });
   }
 
   /// A failure of one of several shows does not affect the others.

@@ -20,40 +20,40 @@ namespace {
 /// The sine of the smallest allowed angle between the line of sight and the up direction.
 constexpr double least_sine = 1e-9;
 
-Polynomial square(const std::array<double, 4>& c) {
-  Polynomial out;
-  out.degree = 6;
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = 0; j < 4; ++j) out.c[i + j] += c[i] * c[j];
-  return out;
+using Cubic = std::array<double, 4>;
+
+void add_square(Polynomial& sum, const Cubic& c) {
+  for (std::size_t i = 0; i < c.size(); ++i)
+    for (std::size_t j = 0; j < c.size(); ++j) sum.c[i + j] += c[i] * c[j];
 }
 
-using Cubic = std::array<double, 4>;
+double value(const Cubic& c, double s) {
+  return c[0] + s * (c[1] + s * (c[2] + s * c[3]));
+}
 
 /// The part of a piece of a path, from 0 to 1, at which target less eye comes to lie along the unit vector `up`. None:
 /// it never does.
 std::optional<double> touches(const std::array<Cubic, 3>& eye, const std::array<Cubic, 3>& target, const Vec3& up) {
-  std::array<Cubic, 3> sight{};
+  std::array<Cubic, 3> sight{}, across{};  // across: sight x up
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t power = 0; power < 4; ++power) sight[i][power] = target[i][power] - eye[i][power];
-  Polynomial across, length;  // squares
-  across.degree = length.degree = 6;
+  Polynomial distance2;
+  distance2.degree = 6;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    Cubic component{};
     for (std::size_t power = 0; power < 4; ++power)
-      component[power] = sight[j][power] * up[static_cast<int>(k)] - sight[k][power] * up[static_cast<int>(j)];
-    const Polynomial a = square(component), l = square(sight[i]);
-    for (std::size_t power = 0; power < across.c.size(); ++power) {
-      across.c[power] += a.c[power];
-      length.c[power] += l.c[power];
-    }
+      across[i][power] = sight[j][power] * up[static_cast<int>(k)] - sight[k][power] * up[static_cast<int>(j)];
+    add_square(distance2, across[i]);
   }
-  const double scale = std::max(length(0), length(1));
-  const Roots turning = roots_between(across.derivative(), 0, 1);
+  const auto at = [](const std::array<Cubic, 3>& of, double s) {
+    return Vec3(value(of[0], s), value(of[1], s), value(of[2], s));
+  };
+  const double length = std::max(at(sight, 0).norm(), at(sight, 1).norm());
+  // The distance itself from its vector: the polynomial of its square cancels.
+  const Roots turning = roots_between(distance2.derivative(), 0, 1);
   for (int i = 0; i < turning.count; ++i) {
     const double s = turning.at[static_cast<std::size_t>(i)];
-    if (!(across(s) > least_sine * least_sine * scale)) return s;
+    if (!(at(across, s).norm() > least_sine * length)) return s;
   }
   return std::nullopt;
 }
