@@ -439,17 +439,19 @@ TEST(Run, FailedRunDoesNotStopTheNext) {
 }
 
 // OSMesa's library is loaded with the program, but making a context costs memory and starts llvmpipe's threads.
-TEST(Run, NoPictureNoOpenGl) {
+TEST(Run, NoMeshInAPictureNoOpenGl) {
   const Workplace here;
-  here.write("balls.yaml", two_balls());
-  here.write("seen.yaml", two_balls(small_pictures));
+  here.write("balls.yaml", two_balls(small_pictures));
+  std::string meshes = two_balls(small_pictures);
+  meshes.replace(meshes.find("radius:"), 0, "mesh: " SCENES_DIR "/meshes/duck.obj, ");
+  here.write("seen.yaml", meshes);
   const auto peak = [&](const std::string& scene) {
     const Finished run = here.carom({"run", scene, "--json"});
     EXPECT_EQ(run.code, 0) << run.err;
     return Json::parse(run.out).at("scenes").at(0).at("time").at("peak_memory_bytes").get<double>();
   };
   const double without = peak("balls.yaml"), with = peak("seen.yaml");
-  EXPECT_GT(with, without + 10e6) << without << " bytes without pictures, " << with << " with";
+  EXPECT_GT(with, without + 10e6) << without << " bytes without meshes, " << with << " with";
 }
 
 TEST(Run, PicturesAreNumberedAndCounted) {
