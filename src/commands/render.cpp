@@ -154,7 +154,7 @@ const CommandText& render_text() {
       "render",
       "draws other pictures of a run, without simulating again",
       "  carom render output/ten_pins --set camera.eye.y=9       the run's pictures, from higher up\n"
-      "  carom render output/ten_pins --set output.video.fps=240 -o output/smooth\n"
+      "  carom render output/ten_pins --set output.video.speed=0.125 -o output/slow\n"
       "  carom render output/ten_pins --only sheet --set \"output.sheet={columns: 8, rows: 8}\"\n"
       "  carom render output/ten_pins --at 1.25                  still_1.25s.png, one picture\n",
       "A run keeps the paths of its bodies in flights.bin, so that any instant is exact. With -o the\n"
