@@ -25,7 +25,7 @@ class Requests {
     simulate();
     if (root_.find("camera") != nullptr) camera();
     lights();
-    scene_.background = View(&root_, kind_named("scene"), Place{}).color("background");
+    background();
     output();
     if (budget_.enforced) check_budget();
   }
@@ -81,6 +81,12 @@ class Requests {
     }
   }
 
+  void background() {
+    const View whole(&root_, kind_named("scene"), Place{});
+    scene_.background = whole.color("background");
+    scene_.transparent = whole.text("background") == "none";
+  }
+
   void output() {
     Output& out = scene_.output;
     const Node* node = root_.find("output");
@@ -95,6 +101,9 @@ class Requests {
     fill(&out, view);
     if (out.frames) check_window(view.part("frames", "frames"), *out.frames);
     if (out.video) check_video(view.part("video", "video"), *out.video);
+    if (out.video && scene_.transparent)
+      diagnostics_.add(view.place("video"), "a film has no transparency, and `background` is `none`",
+                       "expected `frames` or `sheet` in place of `video`, or a colour for `background`");
     flights(view);
   }
 

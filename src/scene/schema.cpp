@@ -130,6 +130,7 @@ Json value_schema(const Field& field) {
     case Type::flag:
       return {{"type", "boolean"}};
     case Type::text:
+    case Type::text_or_flag:
     case Type::file:
       return text_schema(field);
     case Type::choice:
@@ -147,6 +148,10 @@ Json value_schema(const Field& field) {
       return array_schema(whole_schema(field.range), 2);
     case Type::color:
       return {{"allOf", Json::array({reference("color")})}};
+    case Type::color_or_none:
+      return {{"anyOf", Json::array({reference("color"), {{"const", "none"}}})}};
+    case Type::color_or_part:
+      return {{"anyOf", Json::array({reference("color"), reference(field.of)})}};
     case Type::two_names:
       return array_schema(text_schema(field), 2);
     case Type::names:
@@ -194,8 +199,8 @@ std::vector<std::vector<std::string_view>> needs_of(const Kind& kind) {
   return needs;
 }
 
-/// Field::one_of: each key excludes the rivals listed after it.
-Json exclusions(const Kind& kind) {
+/// Field::one_of: each key excludes the rivals listed after it. Field::with, in a kind without defaults.
+Json dependencies(const Kind& kind) {
   Json all = Json::object();
   for (const Field& field : kind.fields) {
     Json later = Json::object();
@@ -205,6 +210,7 @@ Json exclusions(const Kind& kind) {
       passed = passed || key == field.key;
     }
     if (!later.empty()) all[std::string(field.key)] = {{"properties", later}};
+    if (!field.with.empty() && kind.defaults.empty()) all[std::string(field.key)] = Json::array({field.with});
   }
   return all;
 }
@@ -261,7 +267,7 @@ Json kind_schema(const Kind& kind) {
   schema["properties"] = properties;
   if (!keys.empty()) schema["required"] = keys;
   schema["additionalProperties"] = false;
-  if (const Json excluded = exclusions(kind); !excluded.empty()) schema["dependencies"] = excluded;
+  if (const Json all = dependencies(kind); !all.empty()) schema["dependencies"] = all;
   if (!rules.empty()) schema["allOf"] = rules;
   return schema;
 }
