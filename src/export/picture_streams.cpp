@@ -20,8 +20,9 @@ bool same_pictures(const PictureOutput& a, const PictureOutput& b, double durati
          std::min(a.until.value_or(duration), duration) == std::min(b.until.value_or(duration), duration);
 }
 
-void add(PictureStreams& plan, Size size, int samples, const Ticks& ticks, const PictureUse& use) {
-  plan.streams.push_back({size, samples, static_cast<int>(plan.streams.size())});
+void add(PictureStreams& plan, Size size, const PictureOutput& model, const Ticks& ticks, const PictureUse& use) {
+  plan.streams.push_back(
+      {size, model.samples, static_cast<int>(plan.streams.size()), 1 / model.fps, 1, ticks.decimals()});
   plan.uses.push_back(use);
   plan.ticks.push_back(ticks);
 }
@@ -39,19 +40,21 @@ PictureStreams plan_pictures(const Scene& scene) {
   PictureStreams plan;
   if (const auto& frames = output.frames) {
     const bool film = output.video && same_pictures(*frames, *output.video, duration);
-    add(plan, frames->size, frames->samples, ticks_of(*frames, duration), {true, film, false});
+    add(plan, frames->size, *frames, ticks_of(*frames, duration), {true, film, false});
   }
   if (const auto& video = output.video) {
     const Ticks ticks = ticks_of(*video, duration);
     if (ticks.count() < 1)
       throw ExportError("cannot make " + video->file + ": no picture falls between `from` and `until`");
-    if (plan.uses.empty() || !plan.uses.front().film)
-      add(plan, video->size, video->samples, ticks, {false, true, false});
+    if (scene.transparent)
+      throw ExportError("cannot make " + video->file + ": a film has no transparency, and `background` is `none`; " +
+                        "write frames, or give the background a colour");
+    if (plan.uses.empty() || !plan.uses.front().film) add(plan, video->size, *video, ticks, {false, true, false});
   }
   if (output.sheet) {
     const PictureOutput model = sheet_model(output);
     const Sheet sheet(*output.sheet, model.size);
-    add(plan, sheet.picture_size(), model.samples, Ticks::even(sheet.count(), duration), {false, false, true});
+    add(plan, sheet.picture_size(), model, Ticks::even(sheet.count(), duration), {false, false, true});
   }
   return plan;
 }

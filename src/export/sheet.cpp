@@ -33,26 +33,32 @@ Sheet::Sheet(const SheetOutput& sheet, Size shape) : columns_(sheet.columns), ro
   whole_ = {static_cast<int>(total_width), static_cast<int>(total_height)};
 }
 
-void Sheet::prepare() {
+void Sheet::prepare(bool transparent) {
   if (!image_.pixels.empty()) return;
   image_.width = whole_.width;
   image_.height = whole_.height;
   image_.pixels.assign(static_cast<std::size_t>(whole_.width) * static_cast<std::size_t>(whole_.height) * 3, paper);
+  if (transparent) image_.alpha.assign(image_.pixels.size() / 3, 0);
 }
 
 void Sheet::put(std::int64_t number, const Image& picture) {
   if (number < 0 || number >= count() || picture.width != picture_.width || picture.height != picture_.height)
     throw ExportError("cannot put a picture into the contact sheet: it is of another size or number");
-  prepare();
+  prepare(!picture.alpha.empty());
   const std::int64_t left = gap + number % columns_ * (picture_.width + gap);
   const std::int64_t top = gap + number / columns_ * (picture_.height + gap);
-  for (int y = 0; y < picture.height; ++y)
-    std::copy_n(picture.row(y), std::size_t{3} * static_cast<std::size_t>(picture.width),
-                image_.pixels.begin() + ((top + y) * whole_.width + left) * 3);
+  const auto width = static_cast<std::size_t>(picture.width);
+  for (int y = 0; y < picture.height; ++y) {
+    const std::int64_t at = (top + y) * whole_.width + left;
+    std::copy_n(picture.row(y), 3 * width, image_.pixels.begin() + at * 3);
+    if (!image_.alpha.empty() && !picture.alpha.empty())
+      std::copy_n(picture.alpha.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * width), width,
+                  image_.alpha.begin() + at);
+  }
 }
 
 const Image& Sheet::image() {
-  prepare();
+  prepare(false);
   return image_;
 }
 

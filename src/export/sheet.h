@@ -18,10 +18,11 @@ class Sheet {
   std::int64_t count() const { return std::int64_t{columns_} * rows_; }
   /// Copies picture `number` to its place. Numbers run row by row, from the left.
   void put(std::int64_t number, const Image& picture);
+  /// Where the pictures have opacity, the space between them is transparent.
   const Image& image();
 
  private:
-  void prepare();
+  void prepare(bool transparent);
 
   int columns_, rows_;
   Size picture_, whole_;
