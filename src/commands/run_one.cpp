@@ -7,6 +7,7 @@
 
 #include "commands/interrupt.h"
 #include "commands/text.h"
+#include "overlay/history.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -24,10 +25,14 @@ RunSettings settings_of(const PlannedScene& planned, bool quiet) {
   if (!planned.former) return settings;
   const FormerRun& former = *planned.former;
   settings.warnings = former.manifest.warnings;
-  if (former.has_flights())
+  const OverlayNeeds needs = overlay_needs(*planned.scene);
+  const bool collisions = needs.collisions || needs.collision_counts;
+  if (former.has_flights() && !collisions)
     settings.simulator = [&former](const Scene& scene) { return former.motion(scene); };
   else if (!quiet)
-    write_err(fmt::format("{}: no flights are stored: simulating again\n", printable(former.folder)));
+    write_err(fmt::format(
+        "{}: {}: simulating again\n", printable(former.folder),
+        former.has_flights() ? "the pictures show collisions, which flights do not hold" : "no flights are stored"));
   settings.measure = [&former](const Scene&, const State&, const Summary& summary) {
     if (summary.collisions != former.manifest.collisions)
       throw ExportError(

@@ -1,54 +1,111 @@
-// Writes what is due at an instant, then draws what is due.
-// The state is computed only if an output is due, and a renderer is made only for its first picture.
+// Writes what is due at an instant, then draws what is due. Between the instants of the timeline there are those of a
+// picture with motion blur, and those of states for trails.
+// The state is computed only if something is due.
 #include "run/stage.h"
+
+#include <algorithm>
+#include <filesystem>
 
 #include "render/glb.h"
 #include "render/still_things.h"
 #include "run/stopwatch.h"
 
 namespace carom {
+namespace {
+
+const Scene& drawable(const Scene& scene) {
+  check_font(scene);
+  return scene;
+}
+
+std::string name_of_folder(const std::string& folder) {
+  const std::filesystem::path path = std::filesystem::path(folder).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+}  // namespace
 
 Stage::Stage(const Show& show, Durability durability)
-    : scene(*show.scene),
+    : scene(drawable(*show.scene)),
       exports(scene, show.folder, durability, {still_things, glb}, show.renewed),
-      renderers_(exports.pictures().size()) {
+      history_(scene) {
   facts.load_s = show.load_s;
+  for (const PictureStream& stream : exports.pictures())
+    series_.emplace_back(scene, stream, history_, name_of_folder(show.folder));
   more = exports.timeline().advance();
+  for (std::size_t i = 0; i < series_.size(); ++i) series_[i].aim(next_picture(i));
+}
+
+std::optional<double> Stage::next_picture(std::size_t stream) {
+  return exports.timeline().next(exports.pictures()[stream].timeline_stream);
+}
+
+bool Stage::is_picture_due(std::size_t stream) {
+  return exports.timeline().due(exports.pictures()[stream].timeline_stream).has_value();
+}
+
+double Stage::time() {
+  double next = std::min(exports.timeline().time(), history_.next_sample());
+  for (const PictureSeries& series : series_) next = std::min(next, series.next_instant());
+  return next;
+}
+
+void Stage::record(std::span<const Collision> collisions, std::span<const PathPiece> paths) {
+  exports.record(collisions);
+  exports.record_paths(paths);
+  history_.record(collisions);
+  history_.record_paths(paths);
+}
+
+bool Stage::needs_state(double time) {
+  return (exports.timeline().time() <= time && exports.needs_state()) || history_.next_sample() <= time ||
+         std::any_of(series_.begin(), series_.end(),
+                     [&](const PictureSeries& series) { return series.next_instant() <= time; });
 }
 
 void Stage::sample(Simulator& simulator, const StageWatch& watch) {
-  if (exports.needs_state()) {
+  const double time = simulator.time();
+  const bool on_timeline = exports.timeline().time() <= time;
+  if (needs_state(time)) {
     const State& state = simulator.state();
-    {
+    history_.sample(state);
+    if (on_timeline && exports.needs_state()) {
       const Stopwatch stopwatch(facts.export_s);
       exports.sample(state, exports.needs_contacts() ? simulator.contacts() : std::span<const ContactForce>{});
     }
-    draw_what_is_due(state, watch);
+    for (std::size_t i = 0; i < series_.size(); ++i) {
+      if (on_timeline && is_picture_due(i))
+        draw(i, simulator, watch);
+      else if (series_[i].next_instant() <= time)
+        expose(i, state, watch);
+    }
   }
+  if (!on_timeline) return;
+  std::vector<bool> drawn(series_.size());
+  for (std::size_t i = 0; i < series_.size(); ++i) drawn[i] = is_picture_due(i);
   more = exports.timeline().advance();
+  for (std::size_t i = 0; i < series_.size(); ++i)
+    if (drawn[i]) series_[i].aim(next_picture(i));
 }
 
-void Stage::draw_what_is_due(const State& state, const StageWatch& watch) {
-  const std::vector<PictureStream>& streams = exports.pictures();
-  for (std::size_t i = 0; i < streams.size(); ++i) {
-    if (!exports.timeline().due(streams[i].timeline_stream)) continue;
-    watch.stop_check();
-    const Image* image = nullptr;
-    bool again = false;
-    {
-      const Stopwatch stopwatch(facts.render_s);
-      // Made at the first picture that is due. A scene without pictures needs no OpenGL context and reads no mesh.
-      if (!renderers_[i]) renderers_[i] = std::make_unique<Renderer>(scene, streams[i].size, streams[i].samples);
-      const std::uint64_t before = renderers_[i]->drawn();
-      image = &renderers_[i]->draw(state);
-      again = renderers_[i]->drawn() == before;
-    }
-    {
-      const Stopwatch stopwatch(facts.export_s);
-      exports.picture(i, *image, again);
-    }
-    watch.report_progress();
+void Stage::expose(std::size_t stream, const State& state, const StageWatch& watch) {
+  watch.stop_check();
+  const Stopwatch stopwatch(facts.render_s);
+  series_[stream].expose(state);
+}
+
+void Stage::draw(std::size_t stream, Simulator& simulator, const StageWatch& watch) {
+  watch.stop_check();
+  const Image* image = nullptr;
+  {
+    const Stopwatch stopwatch(facts.render_s);
+    image = &series_[stream].picture(simulator.state(), simulator.tally());
   }
+  {
+    const Stopwatch stopwatch(facts.export_s);
+    exports.picture(stream, *image, series_[stream].is_repeated());
+  }
+  watch.report_progress();
 }
 
 }  // namespace carom

@@ -2,11 +2,14 @@
 // One output folder during a run: its exports, and the pictures that are due for them.
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "export/exports.h"
-#include "render/renderer.h"
+#include "overlay/history.h"
+#include "run/picture_series.h"
 #include "simulate/simulator.h"
 
 namespace carom {
@@ -32,10 +35,13 @@ struct StageWatch {
 
 class Stage {
  public:
-  /// Opens the folder. Throws ExportError.
+  /// Opens the folder. Throws ExportError, RenderError.
   Stage(const Show& show, Durability durability);
 
-  double time() { return exports.timeline().time(); }  // s, of its next instant
+  double time();  // s, of its next instant
+
+  /// Takes what the simulator has recorded since the last call.
+  void record(std::span<const Collision> collisions, std::span<const PathPiece> paths);
 
   /// Writes and draws what is due at the next instant, which must be the simulator's time.
   /// Throws ExportError, RenderError.
@@ -47,9 +53,14 @@ class Stage {
   bool more = false;  // whether a next instant exists
 
  private:
-  void draw_what_is_due(const State& state, const StageWatch& watch);
+  std::optional<double> next_picture(std::size_t stream);
+  bool is_picture_due(std::size_t stream);
+  bool needs_state(double time);
+  void expose(std::size_t stream, const State& state, const StageWatch& watch);
+  void draw(std::size_t stream, Simulator& simulator, const StageWatch& watch);
 
-  std::vector<std::unique_ptr<Renderer>> renderers_;  // by picture stream
+  History history_;
+  std::vector<PictureSeries> series_;  // by picture stream
 };
 
 }  // namespace carom
