@@ -1,5 +1,7 @@
 #pragma once
 // A small picture with opacity, to be laid onto the pictures of a run.
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,17 +23,28 @@ class Canvas {
   void add_plate(double feather);
   /// The part `coverage` of each pixel. It must have the canvas' size.
   void add(const Coverage& coverage, const Color& color);
-  /// One pixel.
-  void add(int x, int y, const Color& color, double opacity);
+  /// One pixel. `opacity`: 0 to 255.
+  void add(int x, int y, const Color& color, int opacity = 255) { add(pixel(x, y), Bytes(color), opacity); }
 
   /// Lays the canvas onto a picture, its upper left corner at (left, top). All of it must lie inside.
   void lay_onto(Image& image, int left, int top) const;
 
  private:
-  struct Pixel {
-    float r = 0, g = 0, b = 0;  // sRGB, 0 to 255, times the opacity
-    float opacity = 0;          // 0 to 1
+  /// A colour of three bytes.
+  struct Bytes {
+    explicit Bytes(const Color& color);
+    std::array<std::uint32_t, 3> rgb;
   };
+  struct Pixel {
+    std::array<std::uint8_t, 3> rgb{};  // sRGB, times the opacity
+    std::uint8_t opacity = 0;
+  };
+
+  Pixel& pixel(int x, int y) {
+    return pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+  }
+  static void add(Pixel& pixel, const Bytes& color, int opacity);
+
   int width_, height_;
   std::vector<Pixel> pixels_;  // top row first
 };

@@ -75,7 +75,7 @@ class LegendPen {
 
   void fill(const PixelBox& box, const Color& color) {
     for (int y = box.top; y < box.top + box.height; ++y)
-      for (int x = box.left; x < box.left + box.width; ++x) canvas_->add(x, y, color, 1);
+      for (int x = box.left; x < box.left + box.width; ++x) canvas_->add(x, y, color);
   }
 
   const Font& font_;

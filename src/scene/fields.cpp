@@ -166,7 +166,7 @@ constexpr Field force_fields[] = {
     {.key = "on", .type = Type::names, .doc = "Balls, bodies, groups and members that it acts on. Default: all.", .example = "[red, gas.3]", .title = "Bodies that it acts on", .pattern = reference, .member = fills<ForceKeys, &ForceKeys::on>},
     {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "When the force starts.", .example = "0.5", .title = "Start", .member = fills<ForceKeys, &ForceKeys::from>},
     {.key = "until", .type = Type::number, .unit = "s", .range = above_0, .doc = "When the force ends. Default: never.", .example = "1.5", .title = "End", .member = fills_if_given<ForceKeys, &ForceKeys::until>},
-    {.key = "visible", .type = Type::flag, .doc = "Whether the spring is drawn.", .example = "false", .with = "spring", .member = fills<ForceKeys, &ForceKeys::visible>},
+    {.key = "visible", .type = Type::flag, .doc = "Whether the spring is drawn. Default: true.", .example = "false", .with = "spring", .member = fills_if_given<ForceKeys, &ForceKeys::visible>},
 };
 
 constexpr Field drag_fields[] = {
