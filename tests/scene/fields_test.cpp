@@ -25,9 +25,7 @@ TEST(Fields, EveryRowIsComplete) {
         ASSERT_NE(other, nullptr) << kind.name << "." << field.key;
         EXPECT_EQ(other->one_of, field.one_of);
       }
-      const bool is_map = field.type == Type::part || field.type == Type::part_or_flag || field.type == Type::named ||
-                          field.type == Type::list;
-      if (is_map) {
+      if (holds_map(field) || field.type == Type::named || field.type == Type::list) {
         EXPECT_EQ(kind_named(field.of).name, field.of);
       }
       if (field.type == Type::choice) {
