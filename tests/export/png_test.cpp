@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "export/export_testing.h"
+#include "export/sheet.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -36,6 +37,22 @@ TEST(Png, ReadsBackPixelForPixel) {
     }
 }
 
+TEST(Png, KeepsTheOpacityOfEachPixel) {
+  Image image = picture({5, 3}, 5);
+  for (int i = 0; i < 15; ++i) image.alpha.push_back(static_cast<std::uint8_t>(17 * i));
+  const std::string bytes = encode_png(image, PngEffort::small);
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  ASSERT_TRUE(png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()));
+  EXPECT_EQ(png.format, PNG_FORMAT_RGBA);
+  std::vector<std::uint8_t> rgba(PNG_IMAGE_SIZE(png));
+  ASSERT_TRUE(png_image_finish_read(&png, nullptr, rgba.data(), 0, nullptr));
+  for (std::size_t i = 0; i < 15; ++i) {
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(rgba[4 * i + c], image.pixels[3 * i + c]);
+    EXPECT_EQ(rgba[4 * i + 3], image.alpha[i]);
+  }
+}
+
 TEST(Png, IsMarkedAsSrgb) {
   const std::string bytes = encode_png(picture({4, 4}, 0), PngEffort::fast);
   EXPECT_NE(bytes.find("sRGB"), std::string::npos);
@@ -50,6 +67,8 @@ TEST(Png, TheSamePictureGivesTheSameBytes) {
 TEST(Png, AnImageThatIsNoneIsRefused) {
   EXPECT_THROW(encode_png({0, 0, {}}, PngEffort::fast), ExportError);
   EXPECT_THROW(encode_png({2, 2, std::vector<std::uint8_t>(11)}, PngEffort::fast), ExportError);
+  EXPECT_THROW(encode_png({2, 1, std::vector<std::uint8_t>(6), std::vector<std::uint8_t>(1)}, PngEffort::fast),
+               ExportError);
   EXPECT_THROW(encode_png({-1, -1, std::vector<std::uint8_t>(3)}, PngEffort::fast), ExportError);
 }
 
@@ -133,6 +152,35 @@ TEST(Frames, APictureThatIsTheLastOneAgainIsNotEncodedAgain) {
   EXPECT_EQ(first, encode_png(picture({32, 18}, 0), PngEffort::fast));
   EXPECT_EQ(read(temp / "run/frames/frame_00001.png"), first);
   EXPECT_EQ(read(temp / "run/frames/frame_00002.png"), encode_png(picture({32, 18}, 2), PngEffort::fast));
+}
+
+TEST(Sheet, OfTransparentPicturesIsTransparentBetweenThem) {
+  Sheet sheet({2, 1}, {48, 32});
+  Image opaque{sheet.picture_size().width, sheet.picture_size().height, {}};
+  const auto pixels = static_cast<std::size_t>(opaque.width * opaque.height);
+  opaque.pixels.assign(3 * pixels, 200);
+  Image clear = opaque;
+  clear.alpha.assign(pixels, 99);
+  sheet.put(0, clear);
+  sheet.put(1, clear);
+  const Image& whole = sheet.image();
+  ASSERT_EQ(whole.alpha.size() * 3, whole.pixels.size());
+  EXPECT_EQ(whole.alpha[0], 0);
+  EXPECT_EQ(whole.alpha[static_cast<std::size_t>(8 * whole.width + 8)], 99);
+  Sheet plain({2, 1}, {48, 32});
+  plain.put(0, opaque);
+  EXPECT_TRUE(plain.image().alpha.empty());
+}
+
+TEST(Film, OfTransparentPicturesIsRefusedBeforeTheFolderIsChanged) {
+  TempFolder temp;
+  Scene scene = small_scene();
+  scene.transparent = true;
+  scene.output.video.emplace();
+  EXPECT_EQ(error_of([&] { Exports(scene, temp / "run"); }),
+            "cannot make animation.mp4: a film has no transparency, and `background` is `none`; write frames, or give "
+            "the background a colour");
+  EXPECT_EQ(names_in(temp.path()), std::vector<std::string>());
 }
 
 }  // namespace
