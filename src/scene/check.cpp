@@ -208,7 +208,8 @@ class Checker : ValueChecker {
       case Type::text:
         return text(value, name, required);
       case Type::text_or_flag:
-        return text(value, name, required);
+        return text(value, name,
+                    value.is(Node::Kind::map) ? required + "\na text that begins with a brace needs quotes" : required);
       case Type::choice:
         return choice(value, field, name);
       case Type::vector:

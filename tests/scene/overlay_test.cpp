@@ -81,6 +81,15 @@ TEST(Caption, WithAnUnknownNameIsAnErrorAtItsPlace) {
   EXPECT_NE(error_of("{time").find("scene.yaml:9:11: error: a brace is not closed\n"), std::string::npos);
 }
 
+TEST(Caption, ThatBeginsWithABraceNeedsQuotes) {
+  EXPECT_EQ(errors_of(balls + "caption: {title}\n"),
+            "scene.yaml:9:10: error: `caption` is a map of keys\n"
+            "   9 | caption: {title}\n"
+            "     |          ^\n"
+            "     = expected true, false or a text\n"
+            "     = a text that begins with a brace needs quotes\n");
+}
+
 TEST(Caption, FollowsPathsToForcesGroupsAndFilms) {
   const Scene scene = load_text(
       start +
