@@ -43,6 +43,7 @@ int exposures_of(const Scene& scene, const State& state, double open, const Eye&
 }
 
 void Shutter::aim(double picture) {
+  if (picture == picture_) return;
   from_ = std::max(picture_, picture - open_);
   picture_ = picture;
   opened_ = !(from_ < picture);

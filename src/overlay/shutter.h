@@ -27,6 +27,7 @@ class Shutter {
   bool is_used() const { return open_ > 0; }
 
   /// Sets the time (s) of the next picture. The shutter opens no earlier than at the time of the picture before.
+  /// Another call with the same time changes nothing.
   void aim(double picture);
   double length() const { return picture_ - from_; }  // s, of being open for this picture
   double next() const;                                // s, of the next instant before the picture's; infinity: none

@@ -20,7 +20,7 @@ class PictureSeries {
   /// `run`: the name of the run's folder. `scene` and `history` must outlive this object.
   PictureSeries(const Scene& scene, const PictureStream& stream, const History& history, std::string run);
 
-  /// Sets the time (s) of the next picture. None: there is no further one.
+  /// Sets the time (s) of the next picture, also repeatedly. None: there is no further one.
   void aim(std::optional<double> picture);
   /// The next time (s) before that of the picture at which a state is needed. Infinity: none.
   double next_instant() const { return shutter_.next(); }

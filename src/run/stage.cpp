@@ -13,7 +13,8 @@
 namespace carom {
 namespace {
 
-const Scene& drawable(const Scene& scene) {
+/// The scene, if the font of its pictures is there.
+const Scene& with_font(const Scene& scene) {
   check_font(scene);
   return scene;
 }
@@ -26,18 +27,19 @@ std::string name_of_folder(const std::string& folder) {
 }  // namespace
 
 Stage::Stage(const Show& show, Durability durability)
-    : scene(drawable(*show.scene)),
+    : scene(with_font(*show.scene)),
       exports(scene, show.folder, durability, {still_things, glb}, show.renewed),
       history_(scene) {
   facts.load_s = show.load_s;
   for (const PictureStream& stream : exports.pictures())
     series_.emplace_back(scene, stream, history_, name_of_folder(show.folder));
   more = exports.timeline().advance();
-  for (std::size_t i = 0; i < series_.size(); ++i) series_[i].aim(next_picture(i));
+  aim();
 }
 
-std::optional<double> Stage::next_picture(std::size_t stream) {
-  return exports.timeline().next(exports.pictures()[stream].timeline_stream);
+void Stage::aim() {
+  for (std::size_t i = 0; i < series_.size(); ++i)
+    series_[i].aim(exports.timeline().next(exports.pictures()[i].timeline_stream));
 }
 
 bool Stage::is_picture_due(std::size_t stream) {
@@ -81,11 +83,8 @@ void Stage::sample(Simulator& simulator, const StageWatch& watch) {
     }
   }
   if (!on_timeline) return;
-  std::vector<bool> drawn(series_.size());
-  for (std::size_t i = 0; i < series_.size(); ++i) drawn[i] = is_picture_due(i);
   more = exports.timeline().advance();
-  for (std::size_t i = 0; i < series_.size(); ++i)
-    if (drawn[i]) series_[i].aim(next_picture(i));
+  aim();
 }
 
 void Stage::expose(std::size_t stream, const State& state, const StageWatch& watch) {

@@ -2,7 +2,6 @@
 // One output folder during a run: its exports, and the pictures that are due for them.
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,7 +52,7 @@ class Stage {
   bool more = false;  // whether a next instant exists
 
  private:
-  std::optional<double> next_picture(std::size_t stream);
+  void aim();
   bool is_picture_due(std::size_t stream);
   bool needs_state(double time);
   void expose(std::size_t stream, const State& state, const StageWatch& watch);
