@@ -1,3 +1,4 @@
+// What a scene does not request is not computed: a Drawing of it has a camera and nothing else.
 #include "overlay/drawing_maker.h"
 
 #include <algorithm>

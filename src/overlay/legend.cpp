@@ -1,3 +1,4 @@
+// Legends are words, numbers and colours. Their size and place follow from the picture (legend_block.h).
 #include "overlay/legend.h"
 
 #include <fmt/format.h>
