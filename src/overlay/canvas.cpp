@@ -43,7 +43,7 @@ void Canvas::add_plate(double feather) {
   const Bytes black(Color{0, 0, 0});
   auto at = pixels_.begin();
   for (const double y : down)
-    for (const double x : across) add(*at++, black, static_cast<int>(255 * plate_opacity * x * y + 0.5));
+    for (const double x : across) add(*at++, black, static_cast<int>(std::lround(255 * plate_opacity * x * y)));
 }
 
 void Canvas::add(const Coverage& coverage, const Color& color) {

@@ -188,8 +188,8 @@ std::optional<std::size_t> SweepJob::other_content() const {
 
 std::vector<std::string> SweepJob::idle_paths() const {
   constexpr std::size_t most = 20'000;  // runs that are examined
-  constexpr std::array<std::string_view, 10> picture_keys = {
-      "camera", "lights", "background", "output", "title", "caption", "trails", "flash", "arrows", "shutter"};
+  constexpr std::array<std::string_view, 10> picture_keys = {"camera",  "lights", "background", "output", "title",
+                                                             "caption", "trails", "flash",      "arrows", "shutter"};
   std::vector<std::string> idle;
   for (std::size_t p = 0; p < sweep_.paths.size(); ++p) {
     const std::string& path = sweep_.paths[p];
