@@ -6,25 +6,31 @@
 
 #include "export/sheet.h"
 #include "files/run_folder.h"
+#include "scene/film_format.h"
 #include "scene/scene.h"
 
 namespace carom {
 namespace {
 
-Ticks ticks_of(const PictureOutput& frames, double duration) {
-  return Ticks::rate(frames.fps, frames.from, std::min(frames.until.value_or(duration), duration));
+double end_of(const std::optional<double>& until, double duration) {
+  return std::min(until.value_or(duration), duration);
 }
 
-bool same_pictures(const PictureOutput& a, const PictureOutput& b, double duration) {
-  return a.fps == b.fps && a.size == b.size && a.samples == b.samples && a.from == b.from &&
-         std::min(a.until.value_or(duration), duration) == std::min(b.until.value_or(duration), duration);
-}
-
-void add(PictureStreams& plan, Size size, const PictureOutput& model, const Ticks& ticks, const PictureUse& use) {
-  plan.streams.push_back(
-      {size, model.samples, static_cast<int>(plan.streams.size()), 1 / model.fps, 1, ticks.decimals()});
+void add(PictureStreams& plan, Size size, const PictureOutput& model, double speed, const Ticks& ticks,
+         const PictureUse& use) {
+  const int number = static_cast<int>(plan.streams.size());
+  plan.streams.push_back({size, model.samples, number, speed / model.fps, speed, ticks.decimals()});
   plan.uses.push_back(use);
   plan.ticks.push_back(ticks);
+}
+
+/// Whether the pictures of the frames are those of the film.
+bool shows_film(const Scene& scene, const PictureStream& frames, const Ticks& of_frames, const Ticks& of_film) {
+  const VideoOutput& video = *scene.output.video;
+  const bool same_flashes = !scene.overlay.flash || frames.speed == video.speed;
+  const bool same_blur = scene.overlay.shutter == 0 || frames.interval == video.speed / video.fps;
+  return frames.size == video.size && frames.samples == video.samples && of_frames.has_times_of(of_film) &&
+         same_flashes && same_blur;
 }
 
 }  // namespace
@@ -38,23 +44,27 @@ PictureStreams plan_pictures(const Scene& scene) {
   const Output& output = scene.output;
   const double duration = scene.simulate.duration;
   PictureStreams plan;
-  if (const auto& frames = output.frames) {
-    const bool film = output.video && same_pictures(*frames, *output.video, duration);
-    add(plan, frames->size, *frames, ticks_of(*frames, duration), {true, film, false});
-  }
+  if (const auto& frames = output.frames)
+    add(plan, frames->size, *frames, 1, Ticks::rate(frames->fps, frames->from, end_of(frames->until, duration)),
+        {true, false, false});
   if (const auto& video = output.video) {
-    const Ticks ticks = ticks_of(*video, duration);
+    const Ticks ticks = Ticks::film(video->fps, video->speed, video->from, end_of(video->until, duration));
     if (ticks.count() < 1)
       throw ExportError("cannot make " + video->file + ": no picture falls between `from` and `until`");
-    if (scene.transparent)
-      throw ExportError("cannot make " + video->file + ": a film has no transparency, and `background` is `none`; " +
-                        "write frames, or give the background a colour");
-    if (plan.uses.empty() || !plan.uses.front().film) add(plan, video->size, *video, ticks, {false, true, false});
+    if (scene.transparent && film_format(video->file) == FilmFormat::mp4)
+      throw ExportError("cannot make " + video->file + ": an MP4 has no transparency, and `background` is `none`; " +
+                        "write frames, a .gif or a .webp, or give the background a colour");
+    if (plan.streams.empty() || !shows_film(scene, plan.streams.front(), plan.ticks.front(), ticks))
+      add(plan, video->size, *video, video->speed, ticks, {false, true, false});
+    else
+      plan.uses.front().film = true;
   }
   if (output.sheet) {
     const PictureOutput model = sheet_model(output);
     const Sheet sheet(*output.sheet, model.size);
-    add(plan, sheet.picture_size(), model, Ticks::even(sheet.count(), duration), {false, false, true});
+    const double speed = output.frames || !output.video ? 1 : output.video->speed;
+    add(plan, sheet.picture_size(), model, speed,
+        Ticks::even(sheet.count(), output.sheet->from, end_of(output.sheet->until, duration)), {false, false, true});
   }
   return plan;
 }

@@ -9,23 +9,23 @@ namespace carom {
 
 class Sheet {
  public:
-  /// Pictures with the aspect ratio of `shape`.
-  /// A row of them is up to 1920 pixels wide, and each is at most 480 pixels wide.
-  /// Throws ExportError if the sheet would be too large.
+  /// A sheet of the size that `sheet` gives, whose pictures fill it.
+  /// Otherwise pictures with the aspect ratio of `shape`, each at most 480 pixels wide, and a row of them up to 1920.
+  /// Throws ExportError if the sheet would be too large, or its pictures too small.
   Sheet(const SheetOutput& sheet, Size shape);
 
   Size picture_size() const { return picture_; }
   std::int64_t count() const { return std::int64_t{columns_} * rows_; }
   /// Copies picture `number` to its place. Numbers run row by row, from the left.
   void put(std::int64_t number, const Image& picture);
-  /// Where the pictures have opacity, the space between them is transparent.
   const Image& image();
 
  private:
-  void prepare(bool transparent);
+  void prepare(int channels);
 
   int columns_, rows_;
   Size picture_, whole_;
+  Size margin_;  // left of the pictures and above them, pixels
   Image image_;  // allocated at the first picture
 };
 

@@ -54,18 +54,17 @@ void Canvas::add(const Coverage& coverage, const Color& color) {
 
 void Canvas::lay_onto(Image& image, int left, int top) const {
   for (int y = 0; y < height_; ++y) {
-    const std::size_t at =
-        static_cast<std::size_t>(top + y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(left);
     const Pixel* above = &pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_)];
-    std::uint8_t* rgb = image.pixels.data() + 3 * at;
-    for (int x = 0; x < width_; ++x, ++above, rgb += 3) {
+    std::uint8_t* rgb = image.pixels.data() + static_cast<std::size_t>(top + y) * image.row_size() +
+                        static_cast<std::size_t>(left * image.channels);
+    for (int x = 0; x < width_; ++x, ++above, rgb += image.channels) {
       const std::uint32_t rest = 255U - above->opacity;
-      if (image.alpha.empty()) {
+      if (image.channels == 3) {
         for (std::size_t c = 0; c < 3; ++c)
           rgb[c] = static_cast<std::uint8_t>(above->rgb[c] + part_of_255(rest * rgb[c]));
         continue;
       }
-      std::uint8_t& alpha = image.alpha[at + static_cast<std::size_t>(x)];
+      std::uint8_t& alpha = rgb[3];
       const std::uint32_t below = part_of_255(rest * alpha), whole = above->opacity + below;
       if (whole == 0) continue;
       for (std::size_t c = 0; c < 3; ++c)

@@ -43,39 +43,36 @@ const std::vector<std::uint8_t>& bytes_of_light() {
 }  // namespace
 
 void LightMean::add(const Image& image) {
-  const std::size_t pixels = image.pixels.size() / 3;
   if (count_++ == 0) {
     mean_.width = image.width;
     mean_.height = image.height;
-    light_.assign(image.pixels.size(), 0);
-    opacity_.assign(image.alpha.size(), 0);
+    mean_.channels = image.channels;
+    sums_.assign(image.pixels.size(), 0);
   }
   const std::array<std::uint16_t, 256>& light = light_of_bytes();
-  if (image.alpha.empty()) {
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) light_[i] += light[image.pixels[i]];
+  if (image.channels == 3) {
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) sums_[i] += light[image.pixels[i]];
     return;
   }
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const std::uint32_t opacity = image.alpha[i];
-    opacity_[i] += opacity;
-    for (std::size_t c = 0; c < 3; ++c) light_[3 * i + c] += (light[image.pixels[3 * i + c]] * opacity + 127) / 255;
+  for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+    const std::uint32_t opacity = image.pixels[i + 3];
+    for (std::size_t c = 0; c < 3; ++c) sums_[i + c] += (light[image.pixels[i + c]] * opacity + 127) / 255;
+    sums_[i + 3] += opacity;
   }
 }
 
 const Image& LightMean::take() {
   const auto count = static_cast<std::uint32_t>(std::max(count_, 1));
   const std::vector<std::uint8_t>& bytes = bytes_of_light();
-  mean_.pixels.resize(light_.size());
-  mean_.alpha.resize(opacity_.size());
-  if (opacity_.empty()) {
-    for (std::size_t i = 0; i < light_.size(); ++i) mean_.pixels[i] = bytes[(light_[i] + count / 2) / count];
+  mean_.pixels.resize(sums_.size());
+  if (mean_.channels == 3) {
+    for (std::size_t i = 0; i < sums_.size(); ++i) mean_.pixels[i] = bytes[(sums_[i] + count / 2) / count];
   } else {
-    for (std::size_t i = 0; i < opacity_.size(); ++i) {
-      mean_.alpha[i] = static_cast<std::uint8_t>((opacity_[i] + count / 2) / count);
-      const double whole = std::max(opacity_[i] / 255.0, 1e-9);
+    for (std::size_t i = 0; i < sums_.size(); i += 4) {
+      const double whole = std::max(sums_[i + 3] / 255.0, 1e-9);
       for (std::size_t c = 0; c < 3; ++c)
-        mean_.pixels[3 * i + c] =
-            bytes[static_cast<std::size_t>(std::min(most, std::round(light_[3 * i + c] / whole)))];
+        mean_.pixels[i + c] = bytes[static_cast<std::size_t>(std::min(most, std::round(sums_[i + c] / whole)))];
+      mean_.pixels[i + 3] = static_cast<std::uint8_t>((sums_[i + 3] + count / 2) / count);
     }
   }
   count_ = 0;

@@ -18,8 +18,8 @@ class LightMean {
  private:
   Image mean_;
   int count_ = 0;
-  std::vector<std::uint32_t> light_;    // by channel of a pixel: linear light of 65535, summed
-  std::vector<std::uint32_t> opacity_;  // by pixel, summed; empty: opaque
+  /// By byte of a picture: linear light of 65535 times opacity, and opacity of 255, summed.
+  std::vector<std::uint32_t> sums_;
 };
 
 }  // namespace carom

@@ -5,49 +5,41 @@
 #include <cmath>
 #include <numbers>
 
+#include "raster/outline.h"
+#include "raster/shot.h"
 #include "render/camera.h"
 
 namespace carom {
+
+inline raster::Float3 floats(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
 
 struct Eye {
   Eye(const Camera& c, Size s) : camera(c), view(view_of(c, s)), size(s) {
     tan_x = std::tan(view.fov_x * std::numbers::pi / 360);
     tan_y = std::tan(view.fov_y * std::numbers::pi / 360);
     pixel = 2 * tan_x / s.width;
+    per_cos_x = std::sqrt(1 + tan_x * tan_x), per_cos_y = std::sqrt(1 + tan_y * tan_y);
   }
   Vec3 direction(const Vec3& world) const {
     return Vec3(view.right.dot(world), view.up.dot(world), view.forward.dot(world));
   }
   Vec3 point(const Vec3& world) const { return direction(world - camera.eye); }
 
+  /// Whether a ball at a place in the camera's frame may be in the picture. True for some beside its corners.
+  bool may_see(const Vec3& p, double radius) const {
+    const double z = p.z();
+    return z + radius > camera.near && z - radius < camera.far && std::abs(p.x()) - z * tan_x < radius * per_cos_x &&
+           std::abs(p.y()) - z * tan_y < radius * per_cos_y;
+  }
+
   Camera camera;
   CameraFrame view;
   Size size;
-  double tan_x, tan_y;  // of half the angles of view
-  double pixel;         // a pixel's side in the plane z = 1
+  double tan_x, tan_y;          // of half the angles of view
+  double per_cos_x, per_cos_y;  // one over the cosines of these
+  double pixel;                 // a pixel's side in the plane z = 1
 };
-
-/// The ellipse that a sphere is in the plane z = 1, as seen from the origin.
-struct Outline {
-  double x, y;    // centre
-  double ax, ay;  // the longer half axis
-  double bx, by;  // the shorter half axis
-  double depth2;  // (half the chord of the ray through the centre)^2 x |ray|^2
-};
-/// Computes the outline. False: the sphere reaches behind the plane z = 0, so that its outline is not an ellipse.
-inline bool outline_of(const Vec3& center, double radius, Outline& out) {
-  // The tangent cone (x.k)^2 = cos^2(alpha) |x|^2, cut by z = 1. theta is the angle between k and z.
-  const double distance2 = center.squaredNorm();
-  const double sin2 = radius * radius / distance2, cos2 = 1 - sin2;
-  const double lateral2 = center.x() * center.x() + center.y() * center.y();
-  const double q = cos2 - lateral2 / distance2;
-  if (!(center.z() > 0 && q > 1e-4)) return false;
-  const double lateral = std::sqrt(lateral2);
-  const double ex = lateral > 0 ? center.x() / lateral : 1, ey = lateral > 0 ? center.y() / lateral : 0;
-  const double m = lateral * center.z() / (distance2 * q);
-  const double a = std::sqrt(sin2 * cos2) / q, b = std::sqrt(sin2 / q);
-  out = {m * ex, m * ey, a * ex, a * ey, -b * ey, b * ex, radius * radius * cos2 / q};
-  return true;
-}
 
 }  // namespace carom

@@ -100,27 +100,6 @@ Texture make_texture(GLenum format, int width, int height) {
   return texture;
 }
 
-Texture make_outlines(int side, int layers) {
-  Texture texture(made(gl::GenTextures));
-  gl::BindTexture(GL_TEXTURE_2D_ARRAY, texture.name());
-  GLsizei levels = 1;
-  while (side >> levels > 0) ++levels;
-  gl::TexStorage3D(GL_TEXTURE_2D_ARRAY, levels, GL_R8, side, side, layers);
-  gl::TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  gl::TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  gl::TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-  gl::TexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-  return texture;
-}
-
-Framebuffer make_layer_framebuffer(const Texture& outlines, int layer) {
-  Framebuffer framebuffer(made(gl::GenFramebuffers));
-  gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-  gl::FramebufferTextureLayer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, outlines.name(), 0, layer);
-  check("allocating the outline of a mesh");
-  return framebuffer;
-}
-
 Framebuffer make_framebuffer(std::span<const GLuint> colors, GLuint depth) {
   Framebuffer framebuffer(made(gl::GenFramebuffers));
   gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
@@ -153,64 +132,6 @@ Program::Program(std::initializer_list<std::string_view> vertex, std::initialize
   gl::GetProgramInfoLog(handle_.name(), static_cast<GLsizei>(log.size()), &length, log.data());
   log.resize(static_cast<std::size_t>(length));
   throw RenderError(fmt::format("a shader does not link on this OpenGL: {}", log));
-}
-
-Instances::Instances(std::initializer_list<int> floats)
-    : vertices_(made(gl::GenVertexArrays)), buffer_(made(gl::GenBuffers)) {
-  for (int n : floats) stride_ += static_cast<std::size_t>(n) * sizeof(float);
-  gl::BindVertexArray(vertices_.name());
-  gl::BindBuffer(GL_ARRAY_BUFFER, buffer_.name());
-  GLuint index = 0;
-  std::size_t offset = 0;
-  for (int n : floats) {
-    gl::EnableVertexAttribArray(index);
-    gl::VertexAttribPointer(index, n, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride_),
-                            reinterpret_cast<const void*>(offset));
-    gl::VertexAttribDivisor(index, 1);
-    ++index;
-    offset += static_cast<std::size_t>(n) * sizeof(float);
-  }
-}
-
-void Instances::draw(std::span<const float> rows) {
-  count_ = static_cast<GLsizei>(rows.size_bytes() / std::max<std::size_t>(stride_, 1));
-  gl::BindBuffer(GL_ARRAY_BUFFER, buffer_.name());
-  gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size_bytes()), rows.data(), GL_STREAM_DRAW);
-  draw_again();
-}
-
-void Instances::draw_again() const {
-  gl::BindVertexArray(vertices_.name());
-  gl::DrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count_);
-}
-
-TexelBuffer::TexelBuffer() : buffer_(made(gl::GenBuffers)), texture_(made(gl::GenTextures)) {
-  const float nothing[4] = {};
-  fill(nothing);
-}
-
-void TexelBuffer::fill(std::span<const float> values) {
-  gl::BindBuffer(GL_TEXTURE_BUFFER, buffer_.name());
-  gl::BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(values.size_bytes()), values.data(), GL_STREAM_DRAW);
-  gl::BindTexture(GL_TEXTURE_BUFFER, texture_.name());
-  gl::TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer_.name());
-}
-
-void TexelBuffer::bind(GLuint unit) const {
-  gl::ActiveTexture(GL_TEXTURE0 + unit);
-  gl::BindTexture(GL_TEXTURE_BUFFER, texture_.name());
-}
-
-void draw_picture() {
-  const Vertices none(made(gl::GenVertexArrays));
-  gl::BindVertexArray(none.name());
-  gl::DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  gl::BindVertexArray(0);
-}
-
-void bind_texture(GLuint unit, const Texture& texture) {
-  gl::ActiveTexture(GL_TEXTURE0 + unit);
-  gl::BindTexture(GL_TEXTURE_2D, texture.name());
 }
 
 void check(const char* doing) {

@@ -70,12 +70,8 @@ using Vertices = Handle<release_vertices>;
 
 Buffer make_buffer();
 Vertices make_vertices();
-/// A picture-sized texture without mipmaps, read by texelFetch.
+/// A texture without mipmaps.
 Texture make_texture(GLenum format, int width, int height);
-/// A stack of coverage pictures, `side` pixels (a power of two) wide and high, with room for mipmaps. The border is
-/// empty.
-Texture make_outlines(int side, int layers);
-Framebuffer make_layer_framebuffer(const Texture& outlines, int layer);
 /// Draws into `colors` in this order, and tests against `depth` (0: none). Throws RenderError.
 Framebuffer make_framebuffer(std::span<const GLuint> colors, GLuint depth);
 
@@ -90,38 +86,6 @@ class Program {
  private:
   Handle<release_program> handle_;
 };
-
-/// One quadrilateral for each instance, with one row of a buffer that is filled anew for every picture.
-class Instances {
- public:
-  /// Attribute i takes `floats[i]` floats of the row, in order.
-  explicit Instances(std::initializer_list<int> floats);
-  void draw(std::span<const float> rows);  // uploads and draws
-  void draw_again() const;                 // draws the same once more
-
- private:
-  Vertices vertices_;
-  Buffer buffer_;
-  std::size_t stride_ = 0;  // bytes
-  GLsizei count_ = 0;
-};
-
-/// Four floats for each texel, read by texelFetch from a samplerBuffer.
-class TexelBuffer {
- public:
-  TexelBuffer();
-  void fill(std::span<const float> values);
-  void bind(GLuint unit) const;
-
- private:
-  Buffer buffer_;
-  Texture texture_;
-};
-
-/// One quadrilateral without attributes, for a vertex shader that covers the picture.
-void draw_picture();
-
-void bind_texture(GLuint unit, const Texture& texture);
 
 /// Throws RenderError if an OpenGL call has failed since the last check. `doing` names the operation for the message.
 void check(const char* doing);

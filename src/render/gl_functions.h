@@ -7,20 +7,16 @@
 
 // clang-format off
 #define CAROM_GL_FUNCTIONS(CAROM) \
-  CAROM(ActiveTexture) CAROM(AttachShader) CAROM(BindBuffer) CAROM(BindFramebuffer) CAROM(BindTexture) \
-  CAROM(BindVertexArray) CAROM(BlendEquation) CAROM(BlendFunc) CAROM(BufferData) CAROM(CheckFramebufferStatus) \
-  CAROM(ClearBufferfv) CAROM(ClearBufferuiv) CAROM(CompileShader) CAROM(CopyImageSubData) CAROM(CreateProgram) \
-  CAROM(CreateShader) CAROM(DeleteBuffers) CAROM(DeleteFramebuffers) CAROM(DeleteProgram) CAROM(DeleteShader) \
-  CAROM(DeleteTextures) CAROM(DeleteVertexArrays) CAROM(DepthFunc) CAROM(DepthMask) CAROM(Disable) \
-  CAROM(DrawArrays) CAROM(DrawArraysInstanced) CAROM(DrawBuffers) CAROM(DrawElementsInstancedBaseInstance) \
-  CAROM(Enable) CAROM(EnableVertexAttribArray) CAROM(FramebufferTexture2D) CAROM(FramebufferTextureLayer) \
-  CAROM(FrontFace) CAROM(GenBuffers) CAROM(GenFramebuffers) CAROM(GenTextures) CAROM(GenVertexArrays) \
-  CAROM(GenerateMipmap) CAROM(GetError) CAROM(GetProgramInfoLog) CAROM(GetProgramiv) CAROM(GetShaderInfoLog) \
-  CAROM(GetShaderiv) CAROM(GetUniformLocation) CAROM(LinkProgram) CAROM(PixelStorei) CAROM(ReadPixels) \
-  CAROM(ShaderSource) CAROM(TexBuffer) CAROM(TexParameteri) CAROM(TexStorage2D) CAROM(TexStorage3D) \
-  CAROM(Uniform1f) CAROM(Uniform1i) CAROM(Uniform2f) CAROM(Uniform2i) CAROM(Uniform3f) CAROM(Uniform3fv) \
-  CAROM(Uniform4f) CAROM(Uniform4fv) CAROM(UniformMatrix3fv) CAROM(UseProgram) CAROM(VertexAttribDivisor) \
-  CAROM(VertexAttribPointer) CAROM(Viewport)
+  CAROM(AttachShader) CAROM(BindBuffer) CAROM(BindFramebuffer) CAROM(BindTexture) CAROM(BindVertexArray) \
+  CAROM(BufferData) CAROM(CheckFramebufferStatus) CAROM(ClearBufferfv) CAROM(ClearBufferuiv) CAROM(CompileShader) \
+  CAROM(CreateProgram) CAROM(CreateShader) CAROM(DeleteBuffers) CAROM(DeleteFramebuffers) CAROM(DeleteProgram) \
+  CAROM(DeleteShader) CAROM(DeleteTextures) CAROM(DeleteVertexArrays) CAROM(DepthFunc) CAROM(Disable) \
+  CAROM(DrawBuffers) CAROM(DrawElementsInstancedBaseInstance) CAROM(Enable) CAROM(EnableVertexAttribArray) \
+  CAROM(FramebufferTexture2D) CAROM(GenBuffers) CAROM(GenFramebuffers) CAROM(GenTextures) CAROM(GenVertexArrays) \
+  CAROM(GetError) CAROM(GetProgramInfoLog) CAROM(GetProgramiv) CAROM(GetShaderInfoLog) CAROM(GetShaderiv) \
+  CAROM(GetUniformLocation) CAROM(LinkProgram) CAROM(PixelStorei) CAROM(ReadPixels) CAROM(ShaderSource) \
+  CAROM(TexParameteri) CAROM(TexStorage2D) CAROM(Uniform1f) CAROM(Uniform2f) CAROM(Uniform3fv) CAROM(Uniform4f) \
+  CAROM(UniformMatrix3fv) CAROM(UseProgram) CAROM(VertexAttribDivisor) CAROM(VertexAttribPointer) CAROM(Viewport)
 #define CAROM_OSMESA_FUNCTIONS(CAROM) \
   CAROM(CreateContextAttribs) CAROM(DestroyContext) CAROM(MakeCurrent)
 // clang-format on

@@ -1,26 +1,24 @@
-// Draws a picture in passes: a copy of the backdrop, shadows, solids that cover whole pixels, balls from back to front,
-// and edges of solids. Everything that does not move is drawn once. A picture equal to the last one is not drawn again.
+// Places what a picture shows in the camera's shot, and draws the tiles of the picture by several threads. Meshes are
+// drawn by OSMesa before, into a picture of places and normals. A picture equal to the last one is not drawn again.
 #include "render/renderer.h"
 
 #include <fmt/format.h>
 
-#include <array>
 #include <optional>
 
-#include "render/backdrop.h"
-#include "render/gl.h"
-#include "render/mesh_shadows.h"
-#include "render/shade.h"
-#include "render/shapes.h"
-#include "render/solids.h"
-#include "render/spheres.h"
+#include "raster/threads.h"
+#include "render/last_picture.h"
+#include "render/lighting.h"
+#include "render/meshes.h"
+#include "render/room_edges.h"
+#include "render/strokes.h"
+#include "render/surfaces.h"
 #include "render/things.h"
 #include "scene/scene.h"
 
 namespace carom {
 namespace {
 
-/// OSMesa returns unpainted pictures beyond this side, without an error.
 constexpr int largest_side = 16384;
 
 Size checked(Size size, int samples) {
@@ -33,110 +31,85 @@ Size checked(Size size, int samples) {
 
 }  // namespace
 
-// Edges are smoothed by the computed coverage of a pixel, without sampling. Balls are drawn back to front and blend
-// with what is behind them. One sample for each pixel gives hard edges. Any larger number gives smooth ones, finer than
-// so many samples would be.
 struct Renderer::Impl {
-  Impl(const Scene& s, Size size, int samples)
-      : scene(s),
-        eye(camera_of(s), checked(size, samples)),
-        smooth(samples > 1),
-        lighting(s, eye),
-        surfaces(s, eye),
-        things(s, eye),
-        color(gl::make_texture(GL_SRGB8_ALPHA8, size.width, size.height)),
-        depth(gl::make_texture(GL_DEPTH_COMPONENT32F, size.width, size.height)),
-        framebuffer(gl::make_framebuffer(std::array{color.name()}, depth.name())) {
-    if (!surfaces.rows().empty()) rows.fill(surfaces.rows());
-    backdrop.emplace(scene, eye, lighting, surfaces, rows, smooth);
-    const bool any_solids = things.any_solids();
-    if (any_solids) shapes.emplace(things.files());
+  Impl(const Scene& s, Size picture_size, int samples)
+      : scene(s), size(checked(picture_size, samples)), things(s), edges(room_edges(s)) {
+    shot.lens.smooth = samples > 1;
+    shot.lens.width = size.width, shot.lens.height = size.height;
+    if (scene.background) shot.backdrop.plain = true, shot.backdrop.color = linear(*scene.background);
     if (!things.files().empty()) {
-      if (!lighting.key_is_near()) mesh_shadows.emplace(*shapes, things.files().size(), eye, lighting);
-      things.measure(*shapes, mesh_shadows.has_value());
+      meshes.emplace(things.files(), size, shot.lens.smooth);
+      things.measure([&](const MeshUse& use, std::size_t file) { return meshes->size_of(use, file); });
     }
-    const MeshShadows* meshes = mesh_shadows ? &*mesh_shadows : nullptr;
-    if (!surfaces.all().empty() && things.any()) shade.emplace(eye, lighting, surfaces, meshes, any_solids);
-    if (things.any()) spheres.emplace(eye, lighting, surfaces, meshes, any_solids, smooth);
-    if (any_solids) solids.emplace(*shapes, eye, lighting, surfaces, meshes, smooth);
-    image.width = size.width;
-    image.height = size.height;
+    shot.backdrop.none = scene.transparent;
+    image.width = size.width, image.height = size.height;
+    image.channels = scene.transparent ? 4 : 3;
+    image.pixels.resize(static_cast<std::size_t>(size.height) * image.row_size());
   }
 
-  void copy_backdrop();
-  void draw(const State& state);
-  void read();
+  void place_camera(const Eye& eye);
+  void draw(const State& state, const Drawing& drawing);
 
   const Scene& scene;
-  const Eye eye;
-  const bool smooth;
-  // The members below need it.
-  gl::Context context;
-  const Lighting lighting;
-  const Surfaces surfaces;
+  const Size size;
   Things things;
-  gl::TexelBuffer rows;
-  gl::Texture color, depth;
-  gl::Framebuffer framebuffer;
-  std::optional<Backdrop> backdrop;
-  std::optional<Shapes> shapes;
-  std::optional<MeshShadows> mesh_shadows;
-  std::optional<Shade> shade;
-  std::optional<Spheres> spheres;
-  std::optional<Solids> solids;
-  std::vector<std::uint8_t> rgba;
+  const std::vector<Stroke> edges;  // of the room
+  raster::Shot shot;
+  raster::Silhouettes silhouettes;
+  raster::Bins bins;
+  raster::LightGrid lights;
+  Lines lines;
+  std::optional<Meshes> meshes;
+  std::optional<raster::Threads> threads;
+  std::optional<Camera> own_camera;
+  LastPicture last;
   Image image;
   std::uint64_t drawn = 0;
 };
 
-void Renderer::Impl::copy_backdrop() {
-  const auto [width, height] = eye.size;
-  gl::CopyImageSubData(backdrop->lit.name(), GL_TEXTURE_2D, 0, 0, 0, 0, color.name(), GL_TEXTURE_2D, 0, 0, 0, 0, width,
-                       height, 1);
-  gl::CopyImageSubData(backdrop->depth.name(), GL_TEXTURE_2D, 0, 0, 0, 0, depth.name(), GL_TEXTURE_2D, 0, 0, 0, 0,
-                       width, height, 1);
+void Renderer::Impl::place_camera(const Eye& eye) {
+  shot.lens.pixel = static_cast<float>(eye.pixel);
+  shot.lens.left = static_cast<float>(-eye.tan_x + 0.5 * eye.pixel);
+  shot.lens.top = static_cast<float>(eye.tan_y - 0.5 * eye.pixel);
+  shot.lens.near = static_cast<float>(eye.camera.near);
+  for (std::size_t i = 0; i < 3; ++i) shot.lens.axes[i] = floats(eye.direction(Vec3::Unit(static_cast<int>(i))));
+  add_lights(scene, eye, shot);
+  add_surfaces(scene, eye, shot);
 }
 
-void Renderer::Impl::draw(const State& state) {
-  if (!things.place(state) && drawn > 0) return;
+void Renderer::Impl::draw(const State& state, const Drawing& drawing) {
+  if (drawn > 0 && last.is_of(state, drawing)) return;
+  const Eye eye(drawing.camera, size);
+  if (drawn == 0 || !same(last.drawing.camera, drawing.camera)) place_camera(eye);
+  last.take(state, drawing);
   ++drawn;
-  if (solids) solids->prepare(things, *backdrop, rows);
-  copy_backdrop();
-  gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-  gl::Viewport(0, 0, eye.size.width, eye.size.height);
-  gl::Enable(GL_FRAMEBUFFER_SRGB);
-  if (shade) shade->draw(things, *backdrop, rows);
-  if (solids) solids->draw(Solids::Cover::whole);
-  if (spheres) spheres->draw(things, *backdrop, rows);
-  if (solids) solids->draw(Solids::Cover::part);
-  read();
-}
-
-void Renderer::Impl::read() {
-  const std::size_t pixels = static_cast<std::size_t>(eye.size.width) * static_cast<std::size_t>(eye.size.height);
-  rgba.resize(4 * pixels);
-  image.pixels.resize(3 * pixels);
-  gl::PixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl::ReadPixels(0, 0, eye.size.width, eye.size.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-  gl::check("reading the picture");
-  for (std::size_t i = 0; i < pixels; ++i)
-    for (std::size_t c = 0; c < 3; ++c) image.pixels[3 * i + c] = rgba[4 * i + c];
+  things.place(state, drawing, eye, shot);
+  if (meshes) meshes->draw(things.meshes(), eye, shot);
+  silhouettes.fill(shot);
+  bins.fill(shot, silhouettes);
+  lights.fill(shot);
+  std::vector<Stroke> strokes = edges;
+  strokes.insert(strokes.end(), drawing.strokes.begin(), drawing.strokes.end());
+  lines.fill(strokes, eye);
+  if (!threads) threads.emplace(raster::drawing_threads());
+  const raster::Picture picture{&shot,          &silhouettes,        &bins,         &lights, &lines.all,
+                                &lines.by_tile, image.pixels.data(), image.channels};
+  threads->draw(picture);
 }
 
 Renderer::Renderer(const Scene& scene, Size size, int samples) : impl_(std::make_unique<Impl>(scene, size, samples)) {}
+Renderer::~Renderer() = default;
 
-Renderer::~Renderer() {
-  try {
-    impl_->context.make_current();
-  } catch (const RenderError&) {
-    // A context that cannot be used has nothing left to free.
-  }
+const Image& Renderer::draw(const State& state, const Drawing& drawing) {
+  impl_->draw(state, drawing);
+  return impl_->image;
 }
 
 const Image& Renderer::draw(const State& state) {
-  impl_->context.make_current();
-  impl_->draw(state);
-  return impl_->image;
+  if (!impl_->own_camera) impl_->own_camera = camera_of(impl_->scene);
+  Drawing drawing;
+  drawing.camera = *impl_->own_camera;
+  return draw(state, drawing);
 }
 
 std::uint64_t Renderer::drawn() const {

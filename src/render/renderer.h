@@ -1,10 +1,11 @@
 #pragma once
-// From the look of a scene and a State to pixels. One renderer is one off-screen OpenGL context with one picture size.
+// From the look of a scene and a State to pixels.
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
 
 #include "physics/state.h"
+#include "render/drawing.h"
 #include "render/image.h"
 #include "scene/output.h"
 
@@ -19,14 +20,17 @@ struct RenderError : std::runtime_error {
 
 class Renderer {
  public:
-  /// `scene` must outlive the renderer. `samples` per pixel: 1, 2, 4 ... Throws RenderError.
+  /// `scene` must outlive the renderer. `samples` per pixel: 1 gives hard edges, any larger number smooth ones.
+  /// Throws RenderError.
   Renderer(const Scene& scene, Size size, int samples);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Draws the bodies of `state` and the still things. It draws nothing if all is as in the last picture.
+  /// Draws the bodies of `state`, the still things and the strokes. It draws nothing if all is as in the last picture.
   /// The picture is valid until the next draw.
+  const Image& draw(const State& state, const Drawing& drawing);
+  /// The same by the scene's camera (camera_of) and nothing besides.
   const Image& draw(const State& state);
   std::uint64_t drawn() const;  // pictures so far, repetitions of the last one excluded
 

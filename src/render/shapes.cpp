@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -26,35 +25,7 @@ Mesh unit_box() {
   return mesh;
 }
 
-Mesh unit_cylinder(std::uint32_t sides) {
-  // The polygon has the area of the circle.
-  const double angle = 2 * std::numbers::pi / sides;
-  const double wide = std::sqrt(angle / std::sin(angle));
-  Mesh mesh;
-  for (std::uint32_t k = 0; k < sides; ++k) {
-    const double x = std::cos(angle * k), z = std::sin(angle * k);
-    // Vertices of the flank.
-    for (const double y : {-1.0, 1.0}) {
-      mesh.vertices.emplace_back(wide * x, y, wide * z);
-      mesh.normals.emplace_back(x, 0, z);
-    }
-    // Vertices of the ends.
-    for (const double y : {-1.0, 1.0}) {
-      mesh.vertices.emplace_back(wide * x, y, wide * z);
-      mesh.normals.emplace_back(0, y, 0);
-    }
-    const std::uint32_t a = 4 * k, b = 4 * ((k + 1) % sides);
-    for (const std::uint32_t i : {a, a + 1, b + 1, a, b + 1, b}) mesh.triangles.push_back(i);
-    if (k > 0 && k + 1 < sides)
-      for (const std::uint32_t i : {2U, a + 2, b + 2, 3U, b + 3, a + 3}) mesh.triangles.push_back(i);
-  }
-  return mesh;
-}
-
 Shapes::Shapes(const std::vector<std::string>& files) : instances_(gl::make_buffer()) {
-  upload(unit_box());
-  upload(unit_cylinder(32));
-  upload(unit_cylinder(160));
   for (const std::string& file : files) {
     Mesh mesh;
     try {

@@ -1,5 +1,5 @@
 #pragma once
-// The triangles of all drawn things: a box, a cylinder, and the scene's meshes. Each is read and uploaded once.
+// The triangles of the scene's meshes. Each file is read and uploaded once.
 #include <cstddef>
 #include <span>
 #include <string>
@@ -10,31 +10,26 @@
 
 namespace carom {
 
-/// The cube from -1 to 1, and the upright cylinder of radius 1 and half height 1.
+/// The cube from -1 to 1.
 Mesh unit_box();
-Mesh unit_cylinder(std::uint32_t sides);
 
 class Shapes {
  public:
   /// Reads the files. Throws RenderError.
   explicit Shapes(const std::vector<std::string>& files);
 
-  static constexpr std::size_t box = 0, small_cylinder = 1, large_cylinder = 2;
-  static constexpr std::size_t file(std::size_t i) { return i + 3; }
-  /// From this radius in pixels on, the sides of the small cylinder are visible by a tenth of a pixel.
-  static constexpr double small_up_to = 40;
-
+  std::size_t count() const { return shapes_.size(); }
   /// The point of the file to which vertices are relative, so that they fit into floats.
-  const Vec3& middle(std::size_t shape) const { return shapes_[shape].middle; }
+  const Vec3& middle(std::size_t file) const { return shapes_[file].middle; }
   /// Half extents of the box around the vertices, about that point.
-  const Vec3& half(std::size_t shape) const { return shapes_[shape].half; }
+  const Vec3& half(std::size_t file) const { return shapes_[file].half; }
   /// Radius of the ball about `center` that contains a file's vertices, in the file's units.
   double radius(std::size_t file, const Vec3& center) const;
 
   /// Fills rows of `row` floats, which are attributes 2 and 3 of the vertex shader. Attributes 0 and 1 are a vertex's
   /// position and normal.
   void fill_instances(std::span<const float> rows) const;
-  void draw(std::size_t shape, std::size_t first, std::size_t count) const;
+  void draw(std::size_t file, std::size_t first, std::size_t count) const;
   static constexpr std::size_t row = 8;
 
  private:

@@ -1,10 +1,10 @@
-// Planes, walls and the sides of boxes in the camera's frame, as rows for the shaders.
-// Coordinates are computed in double precision, and only differences from the eye become floats.
+// Planes in the camera's shot. Coordinates are computed in double precision, and only differences from the eye become
+// floats.
 #include "render/surfaces.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 #include "physics/world.h"
 #include "render/lighting.h"
@@ -12,26 +12,6 @@
 
 namespace carom {
 namespace {
-
-const FixedName& name_of(const Scene& scene, std::size_t i) {
-  static const FixedName unnamed{"", {0.8, 0.8, 0.8}, true};
-  return i < scene.roster.fixed.size() ? scene.roster.fixed[i] : unnamed;
-}
-
-/// The sides of a box.
-std::array<Wall, 6> sides_of(const Obstacle& box) {
-  std::array<Wall, 6> sides;
-  for (std::size_t i = 0; i < 6; ++i) {
-    const auto axis = static_cast<int>(i / 2);
-    const Vec3 normal = (i % 2 ? 1 : -1) * Vec3::Unit(axis);
-    const Vec3 up = axis == 1 ? Vec3(0, 0, -1) : Vec3(0, 1, 0);
-    const Vec3 right = up.cross(normal);
-    const Vec3& half = box.volume.half;
-    sides[i] = {box.center + half[axis] * normal, normal, right, up, half.dot(right.cwiseAbs()),
-                half.dot(up.cwiseAbs()),          {}};
-  }
-  return sides;
-}
 
 /// Two directions along a plane. They are world axes where the plane has some, so that lines have round coordinates.
 void pattern_axes(const Vec3& normal, Vec3& right, Vec3& up) {
@@ -42,78 +22,90 @@ void pattern_axes(const Vec3& normal, Vec3& right, Vec3& up) {
   up = normal.cross(right);
 }
 
+/// The largest of 1, 2, 5 times a power of ten that is not above x.
+double round_below(double x) {
+  const double power = std::pow(10, std::floor(std::log10(x)));
+  for (const double digit : {5.0, 2.0})
+    if (digit * power <= x * (1 + 1e-12)) return digit * power;
+  return power;
+}
+
+/// Half the median body's size, m; 0: there are no bodies.
+double body_radius(const World& world) {
+  std::vector<double> sizes(world.radius.begin(), world.radius.end());
+  if (sizes.empty()) return 0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return *middle;
+}
+
+/// The side of the pattern's squares: several bodies wide, between a twelfth and half of the picture at the target.
+double pattern_unit(const Scene& scene, const Eye& eye) {
+  const double distance = std::max((eye.camera.target - eye.camera.eye).norm(), 1e-6);
+  const double width = 2 * distance * eye.tan_x;
+  return round_below(std::clamp(8 * body_radius(scene.world), width / 12, width / 2));
+}
+
+/// The floor is the level plane below the eye that is nearest to it.
+void find_floor(const Eye& eye, raster::Shot& shot) {
+  const raster::Float3 up = floats(eye.direction(Vec3(0, 1, 0)));
+  const auto dot = [](const raster::Float3& a, const raster::Float3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
+  shot.floor.present = false;
+  for (const raster::Ground& g : shot.grounds) {
+    if (g.height <= 0 || dot(g.normal, up) < 0.7F || (shot.floor.present && g.height >= shot.floor.height)) continue;
+    shot.floor.present = true;
+    shot.floor.normal = g.normal;
+    shot.floor.height = g.height;
+    for (std::size_t i = 0; i < 3; ++i) {
+      float light = shot.lighting.ambient[i];
+      for (const raster::Lamp& lamp : shot.lighting.lamps)
+        light += lamp.radiance[i] * (lamp.near ? 0.7F : std::max(dot(g.normal, lamp.vector), 0.0F));
+      shot.floor.light[i] = 0.9F * g.color[i] * light;
+    }
+  }
+}
+
 }  // namespace
 
+const FixedName& name_of_fixed(const Scene& scene, std::size_t fixed) {
+  static const FixedName unnamed{"", {0.8, 0.8, 0.8}, true};
+  return fixed < scene.roster.fixed.size() ? scene.roster.fixed[fixed] : unnamed;
+}
+
 const FixedName& name_of_obstacle(const Scene& scene, std::size_t obstacle) {
-  return name_of(scene, scene.world.planes.size() + scene.world.walls.size() + obstacle);
+  return name_of_fixed(scene, scene.world.planes.size() + scene.world.walls.size() + obstacle);
 }
 
-bool is_surface(const Scene& scene, std::size_t obstacle) {
-  return scene.world.obstacles[obstacle].volume.shape == Shape::box && !name_of_obstacle(scene, obstacle).mesh;
-}
+void add_surfaces(const Scene& scene, const Eye& eye, raster::Shot& shot) {
+  double reach = (eye.camera.target - eye.camera.eye).norm();
+  for (const Vec3& p : scene.initial.position) reach = std::max(reach, (p - eye.camera.eye).norm());
+  reach = std::clamp(reach, 1e-6, 1e12);
+  const double unit = pattern_unit(scene, eye);
+  shot.pattern.reach = static_cast<float>(reach);
+  shot.pattern.unit = static_cast<float>(unit);
 
-Surfaces::Surfaces(const Scene& scene, const Eye& eye) {
-  reach_ = (eye.camera.target - eye.camera.eye).norm();
-  for (const Vec3& p : scene.initial.position) reach_ = std::max(reach_, (p - eye.camera.eye).norm());
-  reach_ = std::clamp(reach_, 1e-6, 1e12);
-  unit_ = std::pow(10, std::floor(std::log10(reach_ * eye.tan_x / 3)));
-
+  shot.grounds.clear();
   for (std::size_t i = 0; i < scene.world.planes.size(); ++i) {
-    const FixedName& name = name_of(scene, i);
+    const FixedName& name = name_of_fixed(scene, i);
     if (!name.visible) continue;
     const Plane& plane = scene.world.planes[i];
     Vec3 right, up;
     pattern_axes(plane.normal, right, up);
-    Surface s;
-    s.height = plane.normal.dot(eye.camera.eye - plane.point);
-    s.normal = eye.direction(plane.normal);
-    s.right = eye.direction(right);
-    s.up = eye.direction(up);
+    raster::Ground g{};
+    g.normal = floats(eye.direction(plane.normal));
+    g.height = static_cast<float>(plane.normal.dot(eye.camera.eye - plane.point));
+    g.right = floats(eye.direction(right)), g.up = floats(eye.direction(up));
     // The pattern repeats after two squares. Only this remainder of the eye's own coordinates has an effect, and only
     // this fits into a float.
-    add_row(s, std::fmod(right.dot(eye.camera.eye), 2 * unit_), std::fmod(up.dot(eye.camera.eye), 2 * unit_),
-            name.color);
-    all_.push_back(s);
+    g.right_offset = static_cast<float>(std::fmod(right.dot(eye.camera.eye), 2 * unit));
+    g.up_offset = static_cast<float>(std::fmod(up.dot(eye.camera.eye), 2 * unit));
+    g.color = linear(name.color);
+    shot.grounds.push_back(g);
   }
-  planes_ = all_.size();
-  for (std::size_t i = 0; i < scene.world.walls.size(); ++i) {
-    const FixedName& name = name_of(scene, scene.world.planes.size() + i);
-    if (!name.visible) continue;
-    add_wall(scene.world.walls[i], name, eye);
-  }
-  for (std::size_t i = 0; i < scene.world.obstacles.size(); ++i) {
-    const FixedName& name = name_of_obstacle(scene, i);
-    if (!name.visible || !is_surface(scene, i)) continue;
-    for (const Wall& side : sides_of(scene.world.obstacles[i])) add_wall(side, name, eye);
-  }
-}
-
-void Surfaces::add_wall(const Wall& wall, const FixedName& name, const Eye& eye) {
-  const double height = wall.normal.dot(eye.camera.eye - wall.center);
-  Surface s;
-  s.wall = true;
-  s.height = std::abs(height);
-  s.normal = eye.direction(height < 0 ? Vec3(-wall.normal) : wall.normal);
-  s.center = eye.point(wall.center);
-  s.right = eye.direction(wall.right);
-  s.up = eye.direction(wall.up);
-  s.half_width = wall.half_width;
-  s.half_height = wall.half_height;
-  add_row(s, -s.right.dot(s.center), -s.up.dot(s.center), name.color);
-  all_.push_back(s);
-}
-
-void Surfaces::add_row(const Surface& s, double right_offset, double up_offset, const Color& color) {
-  const auto add = [&](const Vec3& v, double w) {
-    for (int i = 0; i < 3; ++i) rows_.push_back(static_cast<float>(v[i]));
-    rows_.push_back(static_cast<float>(w));
-  };
-  const auto c = linear(color);
-  add(s.normal, s.height);
-  add(s.right, right_offset);
-  add(s.up, up_offset);
-  add(Vec3(c[0], c[1], c[2]), 0);
-  add(Vec3(s.half_width, s.half_height, 0), 0);
+  for (raster::Ground& g : shot.grounds) g.corners = shot.grounds.size() > 1;
+  find_floor(eye, shot);
 }
 
 }  // namespace carom

@@ -1,6 +1,5 @@
-// Places bodies and obstacles in the camera's frame, and sorts them into balls and solids. Things outside the picture
-// stay as occluders only. Comparison with the last picture shows whether anything has changed, so that an equal picture
-// is not drawn.
+// Places bodies, obstacles and walls in the camera's shot. Things outside the picture stay, since they may cast
+// shadows into it.
 #include "render/things.h"
 
 #include <algorithm>
@@ -8,32 +7,37 @@
 
 #include "physics/world.h"
 #include "render/lighting.h"
-#include "render/mesh_shadows.h"
 #include "render/surfaces.h"
 #include "scene/scene.h"
 
 namespace carom {
+namespace {
 
-Things::Things(const Scene& scene, const Eye& eye) : scene_(scene), eye_(eye) {
+raster::SolidKind kind_of(Shape shape) {
+  return shape == Shape::box        ? raster::SolidKind::box
+         : shape == Shape::cylinder ? raster::SolidKind::cylinder
+                                    : raster::SolidKind::ball;
+}
+
+}  // namespace
+
+Things::Things(const Scene& scene) : scene_(scene) {
   const std::size_t bodies = scene.world.body_count();
   looks_.resize(bodies);
   for (const BodyRange& range : scene.roster.bodies) {
     const Look look = look_of(range.color, range.mesh);
     for (std::size_t i = range.first; i < range.first + std::size_t{range.count} && i < bodies; ++i) looks_[i] = look;
   }
-  for (const Volume& volume : scene.world.volume) any_solids_ = any_solids_ || volume.shape != Shape::sphere;
   for (std::uint32_t i = 0; i < scene.world.obstacles.size(); ++i) {
     const FixedName& name = name_of_obstacle(scene, i);
-    if (!name.visible || is_surface(scene, i)) continue;
+    if (!name.visible) continue;
     obstacles_.push_back(i);
     looks_.push_back(look_of(name.color, name.mesh));
-    any_solids_ = any_solids_ || scene.world.obstacles[i].volume.shape != Shape::sphere;
   }
-  any_solids_ = any_solids_ || !files_.empty();
 }
 
 Look Things::look_of(const Color& color, const std::optional<MeshUse>& mesh) {
-  Look look{linear(color), mesh};
+  Look look{linear(color), mesh, 0, {}};
   if (mesh) {
     look.file = static_cast<std::size_t>(std::find(files_.begin(), files_.end(), mesh->file) - files_.begin());
     if (look.file == files_.size()) files_.push_back(mesh->file);
@@ -41,54 +45,69 @@ Look Things::look_of(const Color& color, const std::optional<MeshUse>& mesh) {
   return look;
 }
 
-void Things::measure(const Shapes& shapes, bool outlines) {
-  for (Look& look : looks_) {
-    if (!look.mesh) continue;
-    const double scale = look.mesh->scale;
-    look.mesh_radius = scale * shapes.radius(look.file, look.mesh->center);
-    look.mesh_middle = scale * (shapes.middle(Shapes::file(look.file)) - look.mesh->center);
-    look.outline_reach = outlines ? scale * MeshShadows::reach(shapes, look.file) : 0;
-  }
-}
-
-void Things::add(const Vec3& position, const Volume& volume, double radius, std::uint32_t look, bool mesh) {
-  Thing thing{eye_.point(position), radius, volume.shape, volume.half, look, mesh, Vec3::Zero()};
+void Things::add(const Vec3& position, const Volume& volume, double radius, const Look& look, bool mesh, const Eye& eye,
+                 raster::Shot& shot) {
+  raster::Solid solid;
+  const Vec3 center = eye.point(position);
+  solid.center = floats(center);
+  solid.radius = static_cast<float>(radius);
+  solid.half = floats(volume.half);
+  solid.kind = kind_of(volume.shape);
+  solid.color = look.color;
+  double around = radius;
   if (mesh) {
-    thing.radius = std::max(radius, looks_[look].mesh_radius);
-    thing.mesh_middle = eye_.point(position + looks_[look].mesh_middle);
+    around = std::max(radius, look.size.radius);
+    solid.radius = static_cast<float>(around);
+    raster::MeshShadow shadow;
+    shadow.volume = solid.kind;
+    shadow.middle = floats(eye.point(position + look.size.middle));
+    if (look.size.reach > 0)
+      shadow.outline = static_cast<std::int32_t>(look.file), shadow.reach = static_cast<float>(look.size.reach);
+    solid.kind = raster::SolidKind::mesh;
+    solid.part = static_cast<std::uint32_t>(shot.meshes.size());
+    shot.meshes.push_back(shadow);
   }
   // A thing around the eye would show only its own inside.
-  const double distance2 = thing.center.squaredNorm();
-  const bool ball = volume.shape == Shape::sphere && !mesh;
-  const Vec3 eye = (eye_.camera.eye - position).cwiseAbs();
-  const bool around = ball ? distance2 <= radius * radius : (eye.array() <= volume.half.array()).all();
-  if (around || !is_sphere_in_view(eye_.camera, eye_.view, position, thing.radius)) {
-    keep(thing);
-    return;
-  }
+  const double distance2 = center.squaredNorm();
+  const Vec3 off = (eye.camera.eye - position).cwiseAbs();
+  const bool inside =
+      solid.kind == raster::SolidKind::ball ? distance2 <= radius * radius : (off.array() <= volume.half.array()).all();
+  solid.shadow_only = inside || !eye.may_see(center, around);
   // A thing smaller than a pixel is drawn as a ball, which is the fainter the smaller it is.
-  const bool tiny = !ball && thing.radius * thing.radius < 0.25 * eye_.pixel * eye_.pixel * distance2;
-  if (tiny) thing.radius = std::cbrt(0.2387 * volume.size());
-  (ball || tiny ? balls_ : solids_).push_back(keep(thing));
-}
-
-/// Stores the thing. Returns its number.
-std::uint32_t Things::keep(const Thing& thing) {
-  if (placed_ == all_.size()) {
-    all_.push_back(thing);
-    differs_ = true;
-  } else if (!(all_[placed_] == thing)) {
-    all_[placed_] = thing;
-    differs_ = true;
+  if (solid.kind != raster::SolidKind::ball && around * around < 0.25 * eye.pixel * eye.pixel * distance2) {
+    solid.kind = raster::SolidKind::ball;
+    solid.radius = static_cast<float>(std::cbrt(0.2387 * volume.size()));
   }
-  return placed_++;
+  if (solid.kind == raster::SolidKind::mesh && !solid.shadow_only)
+    meshes_.push_back({look.file, eye.point(position + look.size.middle), look.mesh->scale,
+                       static_cast<std::int32_t>(shot.solids.size())});
+  shot.solids.push_back(solid);
 }
 
-bool Things::place(const State& state) {
-  placed_ = 0;
-  differs_ = false;
-  balls_.clear();
-  solids_.clear();
+void Things::add_walls(const Eye& eye, raster::Shot& shot) const {
+  const World& world = scene_.world;
+  for (std::size_t i = 0; i < world.walls.size(); ++i) {
+    const FixedName& name = name_of_fixed(scene_, world.planes.size() + i);
+    if (!name.visible) continue;
+    const Wall& wall = world.walls[i];
+    const double height = wall.normal.dot(eye.camera.eye - wall.center);
+    raster::Solid solid;
+    solid.kind = raster::SolidKind::wall;
+    solid.center = floats(eye.point(wall.center));
+    solid.radius = static_cast<float>(std::hypot(wall.half_width, wall.half_height));
+    solid.half = {static_cast<float>(wall.half_width), static_cast<float>(wall.half_height), 0};
+    solid.part = static_cast<std::uint32_t>(shot.walls.size());
+    shot.walls.push_back({floats(eye.direction(wall.right)), floats(eye.direction(wall.up)),
+                          floats(eye.direction(height < 0 ? Vec3(-wall.normal) : wall.normal))});
+    solid.color = linear(name.color);
+    solid.shadow_only = height == 0;
+    shot.solids.push_back(solid);
+  }
+}
+
+void Things::place(const State& state, const Drawing& drawing, const Eye& eye, raster::Shot& shot) {
+  shot.solids.clear(), shot.walls.clear(), shot.meshes.clear();
+  meshes_.clear();
   const World& world = scene_.world;
   for (std::uint32_t i = 0; i < world.body_count(); ++i) {
     if (!state.part_of.empty() && state.part_of[i] != i) continue;
@@ -101,33 +120,18 @@ bool Things::place(const State& state) {
       radius = volume.reach();
       mesh = false;
     }
-    add(state.position[i], volume, radius, i, mesh);
+    add(state.position[i], volume, radius, looks_[i], mesh, eye, shot);
+    if (!drawing.body_colors.empty()) shot.solids.back().color = linear(drawing.body_colors[i]);
+    if (!drawing.glow.empty()) shot.solids.back().glow = drawing.glow[i];
   }
-  std::uint32_t look = world.body_count();
+  std::size_t look = world.body_count();
   for (const std::uint32_t i : obstacles_) {
     const Obstacle& obstacle = world.obstacles[i];
-    add(obstacle.center, obstacle.volume, obstacle.volume.reach(), look, looks_[look].mesh.has_value());
+    add(obstacle.center, obstacle.volume, obstacle.volume.reach(), looks_[look], looks_[look].mesh.has_value(), eye,
+        shot);
     ++look;
   }
-  if (placed_ < all_.size()) {
-    all_.erase(all_.begin() + placed_, all_.end());
-    differs_ = true;
-  }
-  sort_balls();
-  return differs_;
-}
-
-void Things::sort_balls() {
-  // Of balls that do not overlap, a ball can only hide another of greater power |c|^2 - r^2. The cells of a power
-  // diagram have this order from any eye. The distance alone would put a small ball beside a large one on the wrong
-  // side.
-  order_.clear();
-  for (const std::uint32_t i : balls_) {
-    const double distance = all_[i].center.norm();
-    order_.emplace_back(-(distance - all_[i].radius) * (distance + all_[i].radius), i);
-  }
-  std::sort(order_.begin(), order_.end());
-  std::transform(order_.begin(), order_.end(), balls_.begin(), [](const auto& o) { return o.second; });
+  add_walls(eye, shot);
 }
 
 }  // namespace carom

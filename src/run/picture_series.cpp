@@ -9,14 +9,6 @@
 #include "scene/scene.h"
 
 namespace carom {
-namespace {
-
-const Image& drawn_by(Renderer& renderer, const State& state, const Drawing& /*drawing*/) {
-  return renderer.draw(state);
-}
-
-}  // namespace
-
 PictureSeries::PictureSeries(const Scene& scene, const PictureStream& stream, const History& history, std::string run)
     : scene_(scene),
       stream_(stream),
@@ -31,7 +23,7 @@ void PictureSeries::aim(std::optional<double> picture) {
 const Image& PictureSeries::draw(const State& state) {
   if (!renderer_) renderer_ = std::make_unique<Renderer>(scene_, stream_.size, stream_.samples);
   if (!maker_) maker_.emplace(scene_, history_, stream_.size, stream_.speed);
-  return drawn_by(*renderer_, state, maker_->at(state));
+  return renderer_->draw(state, maker_->at(state));
 }
 
 void PictureSeries::expose(const State& state) {

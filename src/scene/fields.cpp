@@ -39,7 +39,7 @@ constexpr Field scene_fields[] = {
     {.key = "simulate", .type = Type::part, .of = "simulate", .needed = true, .doc = "Duration, engine and accuracy.", .example = "{duration: 2}"},
     {.key = "camera", .type = Type::part, .of = "camera", .doc = "Camera of the pictures. Default: a view of all bodies at time 0.", .example = "{eye: [0, 3, -5], target: [0, 0, 0]}"},
     {.key = "lights", .type = Type::named, .of = "light", .doc = "Lights by name, and `ambient`, the colour of the ambient light.", .example = "{sun: {direction: [1, -2, 1]}, ambient: dimgray}"},
-    {.key = "background", .type = Type::color_or_none, .doc = "Background colour; none: transparent, in pictures as PNG.", .example = "skyblue"},
+    {.key = "background", .type = Type::color_or_none, .doc = "Background colour; none: transparent, in PNG, GIF and WebP.", .example = "skyblue"},
     {.key = "caption", .type = Type::text_or_flag, .doc = "A text in each picture. Names in braces become values: {title}, {time} in s, {run} (the name of the run's folder), {collisions} (so far), and paths into the scene, such as {restitution.default}. Two braces are one. true: the title and the time.", .example = "\"{title}, t = {time} s\"", .title = "Text in the pictures"},
     {.key = "trails", .type = Type::part_or_flag, .of = "trails", .doc = "The paths of bodies during the last seconds, which fade with age.", .example = "{seconds: 0.5}"},
     {.key = "flash", .type = Type::flag, .doc = "Whether bodies that collide flash: for 0.1 s of the film, from bright to their own colour.", .example = "true", .title = "Flash of collisions"},

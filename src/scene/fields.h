@@ -23,7 +23,7 @@ enum class Type : std::uint8_t {
   vector,         // [x, y, z], numbers
   direction,      // [x, y, z], not all zero; any length
   extent,         // [width, height], numbers in range
-  pixels,         // [width, height], wholes in range
+  pixels,         // [width, height], wholes in range, or one of Field::of, separated by |
   color,          // CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1
   color_or_none,  // a colour, or the word none
   color_or_part,  // a colour, or a map of kind Field::of
@@ -86,6 +86,7 @@ struct Field {
   /// A regular expression for the schema, for a text or for names.
   std::string_view pattern = {};
   bool needs_entries = false;  // a list must not be empty
+  bool own = false;            // never taken from Kind::beneath
   /// Absent: the decoder reads the key itself (keys of the whole scene; lists; a group's ball, which has defaults).
   Member member = {};
 };

@@ -3,7 +3,7 @@
 // not depend on the processor.
 #include "simulate/straight_times.h"
 
-#include "simulate/processor.h"
+#include "numerics/processor.h"
 
 #ifdef __x86_64__
 #include <immintrin.h>

@@ -3,7 +3,7 @@
 // processor.
 #include "simulate/touching.h"
 
-#include "simulate/processor.h"
+#include "numerics/processor.h"
 
 #ifdef __x86_64__
 #include <immintrin.h>

@@ -74,13 +74,13 @@ TEST(Overlay, OfASweepIsDrawnOnceForEqualRunsWithoutTheirNames) {
   EXPECT_EQ(frames_of(here, "s/runs/r0001"), frames_of(here, "s/runs/r0002"));
 }
 
-TEST(Overlay, OfATransparentSceneHasNoFilm) {
+TEST(Overlay, OfATransparentSceneHasNoMp4) {
   const Workplace here;
   here.write("balls.yaml", two_balls("background: none\n" + small_frames));
   const Finished film = here.carom({"run", "balls.yaml", "--only", "video"});
   EXPECT_EQ(film.code, 2);
-  EXPECT_NE(film.err.find("a film has no transparency, and `background` is `none`; write frames, or give the "
-                          "background a colour"),
+  EXPECT_NE(film.err.find("an MP4 has no transparency, and `background` is `none`; write frames, a .gif or a .webp, or "
+                          "give the background a colour"),
             std::string::npos)
       << film.err;
 }

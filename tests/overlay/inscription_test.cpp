@@ -20,7 +20,7 @@ const std::string two_balls =
 
 /// A picture in which neighbouring pixels differ.
 Image noise(Size size) {
-  Image image{size.width, size.height, {}, {}};
+  Image image{size.width, size.height, {}};
   image.pixels.resize(static_cast<std::size_t>(size.width * size.height) * 3);
   unsigned value = 1;
   for (std::uint8_t& byte : image.pixels) {
@@ -146,16 +146,18 @@ TEST(Caption, BreaksAtSpacesAndShrinksBeforeItIsCutOff) {
 }
 
 TEST(Caption, IsOpaqueWhereAPictureIsTransparent) {
-  Image image{60, 30, std::vector<std::uint8_t>(60 * 30 * 3, 7), std::vector<std::uint8_t>(60 * 30, 0)};
+  Image image{60, 30, std::vector<std::uint8_t>(60 * 30 * 4, 0), 4};
   Canvas canvas(10, 10);
   canvas.add(3, 4, Color{1, 1, 1});
   canvas.add(5, 4, Color{0, 0, 0}, 153);
   canvas.lay_onto(image, 2, 2);
-  EXPECT_EQ(image.alpha[6 * 60 + 5], 255);
-  EXPECT_EQ(image.row(6)[3 * 5], 255);
-  EXPECT_EQ(image.alpha[6 * 60 + 7], 153);
-  EXPECT_EQ(image.row(6)[3 * 7], 0);
-  EXPECT_EQ(image.alpha[0], 0);
+  const auto pixel = [&](int x, int y) {
+    const std::uint8_t* p = image.row(y) + 4 * x;
+    return std::vector<int>(p, p + 4);
+  };
+  EXPECT_EQ(pixel(5, 6), (std::vector<int>{255, 255, 255, 255}));
+  EXPECT_EQ(pixel(7, 6), (std::vector<int>{0, 0, 0, 153}));
+  EXPECT_EQ(pixel(0, 0), (std::vector<int>{0, 0, 0, 0}));
 }
 
 TEST(Caption, WithoutItsFontIsAnErrorWithARemedy) {

@@ -24,8 +24,8 @@ TEST(LightMean, IsThatOfLinearLight) {
   for (int a = 0; a < 256; a += 5) {
     for (const int b : {0, 3, 128, 255}) {
       const auto byte = [](int value) { return static_cast<std::uint8_t>(value); };
-      mean.add({1, 1, {byte(a), byte(b), byte(a)}, {}});
-      mean.add({1, 1, {byte(b), byte(b), byte(a)}, {}});
+      mean.add({1, 1, {byte(a), byte(b), byte(a)}});
+      mean.add({1, 1, {byte(b), byte(b), byte(a)}});
       const Image& image = mean.take();
       EXPECT_NEAR(image.pixels[0], encoded((linear(a) + linear(b)) / 2), 1) << a << ", " << b;
       EXPECT_EQ(image.pixels[1], b);
@@ -36,18 +36,16 @@ TEST(LightMean, IsThatOfLinearLight) {
 
 TEST(LightMean, OfBlackAndWhiteIs188) {
   LightMean mean;
-  mean.add({1, 1, {0, 0, 0}, {}});
-  mean.add({1, 1, {255, 255, 255}, {}});
+  mean.add({1, 1, {0, 0, 0}});
+  mean.add({1, 1, {255, 255, 255}});
   EXPECT_EQ(mean.take().pixels[0], 188);
 }
 
 TEST(LightMean, WeighsColoursByTheirOpacity) {
   LightMean mean;
-  mean.add({1, 1, {200, 10, 0}, {255}});
-  mean.add({1, 1, {0, 0, 0}, {0}});
-  const Image& image = mean.take();
-  EXPECT_EQ(image.pixels, (std::vector<std::uint8_t>{200, 10, 0}));
-  EXPECT_EQ(image.alpha, std::vector<std::uint8_t>{128});
+  mean.add({1, 1, {200, 10, 0, 255}, 4});
+  mean.add({1, 1, {0, 0, 0, 0}, 4});
+  EXPECT_EQ(mean.take().pixels, (std::vector<std::uint8_t>{200, 10, 0, 128}));
 }
 
 TEST(Shutter, OpensForAPartOfTheIntervalUntilThePicture) {

@@ -81,6 +81,39 @@ TEST(Shadow, OfParallelLightFallsAlongItsDirection) {
   }
 }
 
+TEST(Shadow, ItsPenumbraGrowsWithTheWayToTheFloor) {
+  // Light from above with half its disc's tangent s: a ball at height h darkens the floor by half at its own radius,
+  // and not at all beyond s h more.
+  for (const double height : {2.0, 6.0}) {
+    Scene scene = floor_scene(Vec3(0, height, 0));
+    scene.ambient = Color{0, 0, 0};
+    scene.background = Color{0, 0, 0};
+    scene.lights.push_back({"noon", Vec3(0, -1, 0), {}, {1, 1, 1}, 0.8});
+    scene.camera->eye = Vec3(0, 1.2, 6);
+    const Size size{1200, 400};
+    Renderer renderer(scene, size, 4);
+    const Image& image = renderer.draw(scene.initial);
+    State away = scene.initial;
+    away.position[0] = Vec3(500, height, 0);
+    Renderer other(scene, size, 4);
+    const Image& open = other.draw(away);
+    const auto light = [&](double x) {
+      const auto [px, py] = pixel_of(scene, size, Vec3(x, 0, 0));
+      const auto decoded = [&, px = px, py = py](const Image& seen) {
+        const double c = grey(seen, px, py) / 255;
+        return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+      };
+      return decoded(image) / decoded(open);
+    };
+    const double blur = softness * height;
+    EXPECT_NEAR(light(0.5), 0.5, 0.1) << height;  // a pixel is up to a tenth of the blur wide
+    EXPECT_LT(light(0.5 - 1.15 * blur), 0.03) << height;
+    EXPECT_GT(light(0.5 + 1.15 * blur), 0.97) << height;
+    EXPECT_NEAR(light(0.5 + 0.5 * blur), 27.0 / 32, 0.1) << height;  // 3 t^2 - 2 t^3 at t = 3/4
+    EXPECT_NEAR(light(0.5 - 0.5 * blur), 5.0 / 32, 0.1) << height;
+  }
+}
+
 TEST(Shadow, OfALampSpreadsFromIt) {
   Scene scene = floor_scene(Vec3(0, 2, 0));
   scene.lights.push_back({"lamp", {}, Vec3(0, 4, 0), {1, 1, 1}, 0.8});
@@ -115,7 +148,7 @@ TEST(Shadow, FallsOnABallBehindAnother) {
   const auto [x, y] = pixel_of(scene, size, Vec3(0, 1, 0));
   Renderer alone(scene, size, 4);
   const double lit = grey(alone.draw(scene.initial), x, y);
-  test::add_ball(scene, Vec3(0, 20, 0), 0.5, {0, 0, 1});  // high above, behind the camera's eye
+  test::add_ball(scene, Vec3(0, 10, 0), 0.5, {0, 0, 1});  // high above, behind the camera's eye
   Renderer shaded(scene, size, 4);
   EXPECT_LT(grey(shaded.draw(scene.initial), x, y), 0.6 * lit);
 }
@@ -145,7 +178,7 @@ TEST(Shadow, WhereABallTouchesTheFloorItIsDarkWithoutAnyKeyLight) {
   const double dark = grey(renderer.draw(scene.initial), x, y);
   State away = scene.initial;
   away.position[0] = Vec3(3, 0.5, 0);
-  // Of the sky cos (r / d)^2 = 0.305 is hidden; by the formula of shade.cpp 0.807 of the light is left.
+  // Of the sky cos (r / d)^2 = 0.305 is hidden; by the formula of shadow.inc 0.807 of the light is left.
   EXPECT_NEAR(dark / grey(renderer.draw(away), x, y), std::pow(0.807, 1 / 2.4), 0.02);
 }
 

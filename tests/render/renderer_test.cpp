@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "render/camera.h"
 #include "render/scenes.h"
 #include "scene/scene.h"
 
@@ -34,6 +35,49 @@ TEST(Bytes, AreTheSameAtEveryDraw) {
   EXPECT_NE(hash_of(renderer.draw(moved)), first);
   EXPECT_EQ(hash_of(renderer.draw(scene.initial)), first);
   EXPECT_EQ(hash_of(drawn(scene, {320, 180})), first);
+}
+
+TEST(Bytes, LeaveNothingToTheNextPicture) {
+  // Between two equal pictures come others with everything that may be left behind.
+  Scene scene = test::gas(200);
+  for (int i = 0; i < 5; ++i)
+    test::add_body(scene, Vec3(i - 2, 1, 0), i % 2 ? Volume::box(Vec3(1, 0.7, 0.5)) : Volume::cylinder(0.4, 1),
+                   test::red);
+  scene.roster.bodies.back().mesh = MeshUse{SCENES_DIR "/meshes/duck.obj", Vec3(0, 0.5, 0), 0.7};
+  Renderer renderer(scene, {320, 180}, 4);
+  const std::uint64_t first = hash_of(renderer.draw(scene.initial));
+  Drawing drawing;
+  drawing.camera = camera_of(scene);
+  drawing.camera.eye += Vec3(1, 1, -1);
+  drawing.body_colors.assign(205, test::blue);
+  drawing.glow.assign(205, 1);
+  drawing.strokes.push_back({Vec3(-3, -3, 0), Vec3(3, 3, 0), 0.1, 0.2, 1, test::green, 1, 0.5, false});
+  State moved = scene.initial;
+  for (Vec3& p : moved.position) p.y() += 0.7;
+  EXPECT_NE(hash_of(renderer.draw(moved, drawing)), first);
+  EXPECT_EQ(hash_of(renderer.draw(scene.initial)), first);
+}
+
+TEST(Strokes, AreSeenWhereTheyAreAndHiddenBehindBodies) {
+  Scene scene = test::flat_scene(Vec3(0, 0, 5), Vec3::Zero());
+  test::add_ball(scene, Vec3::Zero(), 0.5, test::red);
+  Drawing drawing;
+  drawing.camera = camera_of(scene);
+  // One behind the ball, 0.2 m wide, and one before it, a pixel wide.
+  drawing.strokes.push_back({Vec3(-2, 0, -1), Vec3(2, 0, -1), 0.1, 0.1, 1, test::green, 1, 1, false});
+  drawing.strokes.push_back({Vec3(0, -2, 1), Vec3(0, 2, 1), 0, 0, 1, test::blue, 1, 1, false});
+  Renderer renderer(scene, {201, 201}, 4);
+  const Image& image = renderer.draw(scene.initial, drawing);
+  const auto channel = [&](int x, int y, int c) { return int{image.row(y)[3 * x + c]}; };
+  EXPECT_EQ(channel(20, 100, 1), 255);
+  EXPECT_LT(channel(85, 100, 1), 100);   // behind the ball
+  EXPECT_EQ(channel(100, 100, 2), 255);  // before it
+  EXPECT_EQ(channel(100, 20, 2), 255);
+  EXPECT_EQ(channel(103, 20, 2), 0);
+  // 0.2 m at a distance of 6 m.
+  int wide = 0;
+  for (int y = 0; y < 201; ++y) wide += channel(20, y, 1) > 128;
+  EXPECT_NEAR(wide, 0.2 / 6 * 100.5 / std::tan(22.5 * M_PI / 180), 1);
 }
 
 TEST(Bytes, WhatIsAsInTheLastPictureIsNotDrawnAgain) {

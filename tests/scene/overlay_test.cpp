@@ -134,11 +134,12 @@ TEST(Background, MayBeNoneInPicturesAlone) {
   EXPECT_TRUE(none.transparent && !none.background);
   EXPECT_FALSE(load_text(balls + "background: white\n").transparent);
   EXPECT_EQ(errors_of(balls + "background: none\noutput: {video: true}\n"),
-            "scene.yaml:10:17: error: a film has no transparency, and `background` is `none`\n"
+            "scene.yaml:10:17: error: an MP4 has no transparency, and `background` is `none`\n"
             "  10 | output: {video: true}\n"
             "     |                 ^~~~\n"
-            "     = expected `frames` or `sheet` in place of `video`, or a colour for `background`\n");
+            "     = expected a `file` ending in .gif or .webp, `frames` or `sheet`, or a colour for `background`\n");
   EXPECT_TRUE(load_text(none.resolved).transparent);
+  EXPECT_EQ(errors_of(balls + "background: none\noutput: {video: {file: a.webp}}\n"), "");
 }
 
 TEST(ColourBy, StandsWhereverAColourOfBodiesGoes) {

@@ -90,7 +90,7 @@ const std::vector<Beyond>& beyond_schemas() {
       {"never moves: it has no trail", "what a name stands for"},
       {"the scale of colours ends at", "two numbers against one another"},
       {"has no meaning for groups", "two keys against one another"},
-      {"a film has no transparency", "two keys against one another"},
+      {"an MP4 has no transparency", "two keys against one another"},
       {"is taken", "names of two kinds of things against one another"},
       {"there is no file", "what files there are"},
       {"at the start", "where things are"},
@@ -107,6 +107,7 @@ const std::vector<Beyond>& beyond_schemas() {
       {"the limit is", "how much a run may write, which --force lifts"},
       {"paths have no closed form", "what an engine can do depends on forces, volumes and obstacles together"},
       {"`engine: book` has no", "what an engine can do depends on forces, volumes and obstacles together"},
+      {"a GIF cannot show", "the end of a name against a number"},
       {"parabolas from impact to impact", "what an engine can do depends on forces, volumes and obstacles together"},
   };
   return all;

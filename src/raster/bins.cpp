@@ -1,0 +1,57 @@
+// Sorts solids into tiles by counting. Solids are sorted by depth first, so that each tile has its own from front to
+// back, and can end where all its pixels are covered.
+#include "raster/bins.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace carom::raster {
+namespace {
+
+PixelBounds in_tiles(const PixelBounds& b) {
+  if (b.empty()) return {};
+  return {b.left / tile_side, b.top / tile_side, (b.right - 1) / tile_side + 1, (b.bottom - 1) / tile_side + 1};
+}
+
+PixelBounds joined(const PixelBounds& a, const PixelBounds& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
+}
+
+}  // namespace
+
+void Bins::fill(const Shot& shot, const Silhouettes& silhouettes) {
+  columns_ = (shot.lens.width + tile_side - 1) / tile_side;
+  rows_ = (shot.lens.height + tile_side - 1) / tile_side;
+  const auto count = static_cast<std::uint32_t>(shot.solids.size());
+  tiles_.resize(count);
+  around_.resize(count);
+  nearest_.resize(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Solid& solid = shot.solids[i];
+    const float nearest = silhouettes.of(i).nearest;
+    nearest_[i] = nearest;
+    tiles_[i] = in_tiles(silhouettes.bounds(i));
+    // Of balls smaller than a pixel the darkening is not seen.
+    const bool takes = solid.kind != SolidKind::wall && solid.radius > shot.lens.pixel * nearest;
+    around_[i] = {solid.center, takes ? solid.radius : 0};
+    if (takes)
+      tiles_[i] = joined(tiles_[i], in_tiles(bounds_of_ball(shot.lens, solid.center, closeness * solid.radius)));
+  }
+  order_.sort(nearest_);
+
+  start_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
+  const auto each_tile = [&](std::uint32_t i, auto visit) {
+    const PixelBounds& b = tiles_[i];
+    for (int y = b.top; y < b.bottom; ++y)
+      for (int x = b.left; x < b.right; ++x) visit(static_cast<std::size_t>(y * columns_ + x));
+  };
+  for (std::uint32_t i = 0; i < count; ++i) each_tile(i, [&](std::size_t tile) { ++start_[tile + 1]; });
+  std::partial_sum(start_.begin(), start_.end(), start_.begin());
+  members_.resize(start_.back());
+  next_.assign(start_.begin(), start_.end() - 1);
+  for (const std::uint32_t i : order_.numbers()) each_tile(i, [&](std::size_t tile) { members_[next_[tile]++] = i; });
+}
+
+}  // namespace carom::raster

@@ -1,0 +1,229 @@
+// Registers each solid in the cells of its shadow's directions, blur included. A point then has the solids of one cell.
+// A test of all pairs would grow with the square of their number.
+#include "raster/light_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace carom::raster {
+namespace {
+
+// Balls that may shade one point, on average.
+constexpr float most_shades = 16;
+constexpr float narrowest = 0.25F;
+constexpr int most_cells = 512;
+// Light at a smaller slope is too weak on a plane to cast shadows.
+constexpr float least_slope = 0.03F;
+
+float dot(const Float3& a, const Float3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Float3 cross(const Float3& a, const Float3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Float3 unit(const Float3& a) {
+  const float length = std::sqrt(dot(a, a));
+  return {a[0] / length, a[1] / length, a[2] / length};
+}
+
+/// Half the width of a solid along a unit direction.
+float half_width_of_others(const Shot& shot, const Solid& s, const Float3& d);
+inline float half_width(const Shot& shot, const Solid& s, const Float3& d) {
+  return s.kind == SolidKind::ball ? s.radius : half_width_of_others(shot, s, d);
+}
+float half_width_of_others(const Shot& shot, const Solid& s, const Float3& d) {
+  if (s.kind == SolidKind::mesh) return std::max(s.radius, 1.5F * shot.meshes[s.part].reach);
+  if (s.kind == SolidKind::wall) {
+    const WallAxes& axes = shot.walls[s.part];
+    return s.half[0] * std::abs(dot(axes.right, d)) + s.half[1] * std::abs(dot(axes.up, d));
+  }
+  const float x = std::abs(dot(shot.lens.axes[0], d)), y = std::abs(dot(shot.lens.axes[1], d)),
+              z = std::abs(dot(shot.lens.axes[2], d));
+  if (s.kind == SolidKind::box) return s.half[0] * x + s.half[1] * y + s.half[2] * z;
+  return s.half[0] * std::sqrt(x * x + z * z) + s.half[1] * y;
+}
+
+/// The span of tan(angle) of a disc in one plane through the lamp. False: the disc is not on this face.
+bool span_on_face(float aside, float ahead, float radius, float& low, float& high) {
+  const double distance = std::hypot(aside, ahead);
+  if (distance <= radius) {
+    low = -1, high = 1;
+    return true;
+  }
+  const double middle = std::atan2(aside, ahead), half = std::asin(radius / distance), quarter = std::numbers::pi / 4;
+  if (middle - half > quarter || middle + half < -quarter) return false;
+  low = static_cast<float>(std::tan(std::max(middle - half, -quarter)));
+  high = static_cast<float>(std::tan(std::min(middle + half, quarter)));
+  return true;
+}
+
+}  // namespace
+
+/// Finds the grid's extent, and how far shadows reach.
+void LightGrid::measure(const Shot& shot) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  LightExtent& e = extent;
+  e.u0 = e.v0 = infinity, e.u1 = e.v1 = -infinity;
+  double covered = 0;
+  for (const Solid& s : shot.solids) {
+    const float wide = half_width(shot, s, e.u), high = half_width(shot, s, e.v);
+    const float at_u = dot(e.u, s.center), at_v = dot(e.v, s.center);
+    e.u0 = std::min(e.u0, at_u - wide), e.u1 = std::max(e.u1, at_u + wide);
+    e.v0 = std::min(e.v0, at_v - high), e.v1 = std::max(e.v1, at_v + high);
+    if (s.kind != SolidKind::wall) covered += std::numbers::pi * double{s.radius} * s.radius;
+  }
+  const double area = std::max(double{e.u1 - e.u0} * (e.v1 - e.v0), 1e-30);
+  const auto shades = static_cast<float>(std::sqrt(most_shades * area / std::max(covered, 1e-30)));
+  widest_blur = std::clamp(shades - 1, narrowest, faintest);
+
+  const double width = find_blurs(shot);
+  if (shot.lighting.lamps[0].near) {
+    e.u0 = e.v0 = -1, e.u1 = e.v1 = 1;
+    e.side = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(shot.solids.size()))), 1, most_cells / 2);
+  } else {
+    const float widest = *std::max_element(blur_.begin(), blur_.end());
+    e.u0 -= widest, e.v0 -= widest, e.u1 += widest, e.v1 += widest;
+    e.side = std::clamp(static_cast<int>(std::max(e.u1 - e.u0, e.v1 - e.v0) / width), 1, most_cells);
+  }
+  e.per_u = static_cast<float>(e.side) / std::max(e.u1 - e.u0, 1e-30F);
+  e.per_v = static_cast<float>(e.side) / std::max(e.v1 - e.v0, 1e-30F);
+}
+
+/// The widest blur of each solid's shadow. Returns the mean of radius and blur, m; without any but walls, the extent.
+double LightGrid::find_blurs(const Shot& shot) {
+  const Lamp& key = shot.lighting.lamps[0];
+  float lowest = std::numeric_limits<float>::infinity();
+  for (const Solid& s : shot.solids) lowest = std::min(lowest, dot(key.vector, s.center) - s.radius);
+  blur_.resize(shot.solids.size());
+  double width = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < shot.solids.size(); ++i) {
+    const Solid& s = shot.solids[i];
+    float blur = shot.lighting.lamp_radius;
+    if (!key.near) {
+      float way = dot(key.vector, s.center) - lowest;
+      for (const Ground& g : shot.grounds) {
+        const float slope = dot(g.normal, key.vector);
+        if (slope > least_slope) way = std::max(way, (dot(g.normal, s.center) + g.height) / slope);
+      }
+      blur = shot.lighting.softness * std::max(way, 0.0F);
+    }
+    blur_[i] = std::min(blur, widest_blur * s.radius);
+    if (s.kind == SolidKind::wall) continue;
+    width += s.radius + blur_[i];
+    ++count;
+  }
+  return count > 0 ? width / count : double{extent.u1 - extent.u0};
+}
+
+/// The cells of each solid's shadow.
+void LightGrid::find_rects(const Shot& shot) {
+  const Lamp& key = shot.lighting.lamps[0];
+  const LightExtent& e = extent;
+  const auto at = [&](float x, float origin, float per) {
+    return static_cast<std::int16_t>(std::clamp((x - origin) * per, 0.0F, static_cast<float>(e.side - 1)));
+  };
+  const auto add = [&](int face, float a0, float a1, float b0, float b1) {
+    rects_.push_back({static_cast<std::int16_t>(face), at(a0, e.u0, e.per_u), at(a1, e.u0, e.per_u),
+                      at(b0, e.v0, e.per_v), at(b1, e.v0, e.per_v)});
+  };
+  rects_.clear();
+  rects_.reserve(shot.solids.size());
+  first_rect_.resize(shot.solids.size() + 1);
+  for (std::size_t i = 0; i < shot.solids.size(); ++i) {
+    const Solid& s = shot.solids[i];
+    first_rect_[i] = static_cast<std::uint32_t>(rects_.size());
+    if (!key.near) {
+      const float a = dot(e.u, s.center), b = dot(e.v, s.center);
+      const float wide = half_width(shot, s, e.u) + blur_[i], high = half_width(shot, s, e.v) + blur_[i];
+      add(0, a - wide, a + wide, b - high, b + high);
+      continue;
+    }
+    const float radius = s.radius + blur_[i];
+    for (int face = 0; face < 6; ++face) {
+      const auto axis = static_cast<std::size_t>(face / 2);
+      const auto p = [&](std::size_t k) { return s.center[k % 3] - key.vector[k % 3]; };
+      const float ahead = face % 2 ? -p(axis) : p(axis);
+      float a0, a1, b0, b1;
+      if (ahead > -radius && span_on_face(p(axis + 1), ahead, radius, a0, a1) &&
+          span_on_face(p(axis + 2), ahead, radius, b0, b1))
+        add(face, a0, a1, b0, b1);
+    }
+  }
+  first_rect_.back() = static_cast<std::uint32_t>(rects_.size());
+}
+
+/// The members of each cell are contiguous: counts them first, then fills.
+void LightGrid::sort_into_cells(const Shot& shot) {
+  const int side = extent.side;
+  const std::size_t faces = shot.lighting.lamps[0].near ? 6 : 1;
+  const std::size_t count = faces * static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+  const auto each_cell = [&](std::size_t i, auto visit) {
+    for (std::uint32_t k = first_rect_[i]; k < first_rect_[i + 1]; ++k) {
+      const CellRect& r = rects_[k];
+      for (int b = r.v0; b <= r.v1; ++b)
+        for (int a = r.u0; a <= r.u1; ++a) visit(static_cast<std::size_t>((r.face * side + b) * side + a));
+    }
+  };
+  for (LightCells* cells : {&balls, &others}) cells->start.assign(count + 1, 0);
+  is_ball_.resize(shot.solids.size());
+  for (std::size_t i = 0; i < shot.solids.size(); ++i) {
+    is_ball_[i] = shot.solids[i].kind == SolidKind::ball;
+    LightCells& cells = is_ball_[i] ? balls : others;
+    each_cell(i, [&](std::size_t cell) { ++cells.start[cell + 1]; });
+  }
+  for (LightCells* cells : {&balls, &others}) {
+    std::partial_sum(cells->start.begin(), cells->start.end(), cells->start.begin());
+    cells->members.resize(cells->start.back());
+  }
+  next_ball_.assign(balls.start.begin(), balls.start.end() - 1);
+  next_other_.assign(others.start.begin(), others.start.end() - 1);
+  for (const std::uint32_t i : order_.numbers()) {
+    LightCells& cells = is_ball_[i] ? balls : others;
+    std::vector<std::size_t>& next = is_ball_[i] ? next_ball_ : next_other_;
+    each_cell(i, [&](std::size_t cell) { cells.members[next[cell]++] = i; });
+  }
+}
+
+/// Copies what a test of many balls at a time reads.
+void LightGrid::copy_balls(const Shot& shot) {
+  ShadingBalls& a = ball_arrays;
+  const std::size_t count = balls.members.size();
+  for (auto* array : {&a.x, &a.y, &a.z, &a.radius, &a.place}) array->resize(count + 16);
+  a.solid.resize(count + 16);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t i = balls.members[k];
+    const Solid& s = shot.solids[i];
+    a.x[k] = s.center[0], a.y[k] = s.center[1], a.z[k] = s.center[2];
+    a.radius[k] = s.radius, a.place[k] = towards_light[i], a.solid[k] = static_cast<std::int32_t>(i);
+  }
+}
+
+void LightGrid::fill(const Shot& shot) {
+  for (LightCells* cells : {&balls, &others}) cells->members.clear(), cells->start.assign(1, 0);
+  if (shot.solids.empty()) return;
+  const Lamp& key = shot.lighting.lamps[0];
+  const Float3 aside = std::abs(key.vector[0]) < 0.7F ? Float3{1, 0, 0} : Float3{0, 1, 0};
+  if (!key.near) {
+    extent.u = unit(cross(key.vector, aside));
+    extent.v = cross(key.vector, extent.u);
+  }
+  measure(shot);
+  towards_light.resize(shot.solids.size());
+  for (std::size_t i = 0; i < shot.solids.size(); ++i) {
+    const Float3& c = shot.solids[i].center;
+    const Float3 off = {key.vector[0] - c[0], key.vector[1] - c[1], key.vector[2] - c[2]};
+    towards_light[i] = key.near ? -dot(off, off) : dot(key.vector, c);
+  }
+  order_.sort(towards_light);
+  find_rects(shot);
+  sort_into_cells(shot);
+  copy_balls(shot);
+}
+
+}  // namespace carom::raster

@@ -1,0 +1,76 @@
+#pragma once
+// The solids that may shade a point, by a grid of the directions across the key light.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "raster/radix_sort.h"
+#include "raster/shot.h"
+
+namespace carom::raster {
+
+/// Solids by cell, in each cell from the farthest to the light to the nearest.
+struct LightCells {
+  std::vector<std::size_t> start;
+  std::vector<std::uint32_t> members;
+  std::size_t first(std::size_t cell) const { return start[cell]; }
+  std::size_t end(std::size_t cell) const { return start[cell + 1]; }
+  std::span<const std::uint32_t> of(std::size_t cell) const {
+    return {members.data() + start[cell], start[cell + 1] - start[cell]};
+  }
+};
+
+/// Balls by member of their cells, for a test of many at a time. There are 16 more of each.
+struct ShadingBalls {
+  std::vector<float> x, y, z, radius;  // m
+  std::vector<float> place;            // towards the light, as in LightGrid::towards_light
+  std::vector<std::int32_t> solid;     // number
+};
+
+/// Where the cells of a face are.
+struct LightExtent {
+  int side = 1;                            // cells along a face
+  Float3 u{}, v{};                         // parallel light: unit, across it
+  float u0 = -1, v0 = -1, u1 = 1, v1 = 1;  // m, of all solids; of a lamp's face in tangents
+  float per_u = 1, per_v = 1;              // cells per m, or per tangent
+};
+
+/// Parallel light has one plane grid, a lamp the six faces of a cube around it.
+class LightGrid {
+ public:
+  void fill(const Shot& shot);
+
+  bool empty() const { return balls.members.empty() && others.members.empty(); }
+  std::size_t cells() const { return balls.start.size() - 1; }
+
+  LightCells balls, others;
+  ShadingBalls ball_arrays;
+  LightExtent extent;
+  /// The blur of a shadow is at most so many radii of its ball wide. In a crowd it is narrower, so that only so many
+  /// balls shade a point as can be counted.
+  float widest_blur = 1;
+  /// By solid: m along parallel light, minus the squared distance from a lamp, m^2. Of two that shade a point, the
+  /// nearer one to it has the smaller number.
+  std::vector<float> towards_light;
+
+ private:
+  /// Cells of one face, ends included.
+  struct CellRect {
+    std::int16_t face, u0, u1, v0, v1;
+  };
+  void measure(const Shot& shot);
+  double find_blurs(const Shot& shot);
+  void find_rects(const Shot& shot);
+  void sort_into_cells(const Shot& shot);
+  void copy_balls(const Shot& shot);
+
+  std::vector<float> blur_;                          // m, the most by solid
+  std::vector<CellRect> rects_;                      // of all solids
+  std::vector<std::uint32_t> first_rect_;            // by solid, and one more
+  std::vector<std::uint8_t> is_ball_;                // by solid
+  std::vector<std::size_t> next_ball_, next_other_;  // by cell
+  SortedNumbers order_;                              // by towards_light
+};
+
+}  // namespace carom::raster

@@ -1,0 +1,130 @@
+#pragma once
+// One picture as plain numbers: camera, light, surfaces and solids in the camera's frame. That is x to the right, y up,
+// z ahead, the eye at the origin, lengths in m. A ray through a picture point is (x, y, 1), so that the place on it is
+// its z. Colours and light are linear.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace carom::raster {
+
+using Float3 = std::array<float, 3>;
+
+enum class SolidKind : std::int32_t { ball, box, cylinder, wall, mesh };
+
+/// A shadow whose blur is so many radii of its ball wide is gone.
+inline constexpr float faintest = 8;
+
+/// The number of a solid in a picture is its index. Opaque solids are sorted by the picture, not by the caller.
+struct Solid {
+  Float3 center{};
+  float radius = 0;  // m, of the ball, or of a ball around the solid
+  Float3 half{};     // m, along the world's axes; walls: half width, half height, 0
+  SolidKind kind = SolidKind::ball;
+  Float3 color{1, 1, 1};
+  float glow = 0;            // 0 to 1: the share of its colour that it sends out
+  std::uint32_t part = 0;    // walls, meshes: index into Shot::walls, Shot::meshes
+  bool shadow_only = false;  // out of view
+};
+
+/// Unit vectors of a wall.
+struct WallAxes {
+  Float3 right{}, up{};
+  Float3 normal{};  // to the eye's side
+};
+
+/// What a mesh casts its shadow by.
+struct MeshShadow {
+  SolidKind volume = SolidKind::ball;  // whose shadow it casts without an outline
+  std::int32_t outline = -1;           // in MeshOutlines::of_files; -1: none
+  Float3 middle{};                     // m, of that outline
+  float reach = 0;                     // m, half of its side
+};
+
+/// A visible plane with its pattern.
+struct Ground {
+  Float3 normal;                  // unit, towards the free side
+  float height;                   // m, of the eye above it; negative: the eye is behind it
+  Float3 right, up;               // unit, along it
+  float right_offset, up_offset;  // m, of the eye in the pattern
+  Float3 color;
+  bool corners;  // others meet it
+};
+
+struct Lamp {
+  Float3 vector;  // near: its place, m; otherwise the unit direction towards it
+  bool near;
+  Float3 radiance;
+};
+
+/// The coverage of a mesh's outline along the light, with all coarser levels, each half as wide.
+struct OutlineLevels {
+  int side = 0;                            // of level 0, a power of two
+  std::vector<std::vector<float>> levels;  // rows of side / 2^level values, 0 to 1
+};
+
+struct MeshOutlines {
+  Float3 across_u{}, across_v{};  // unit, along rows and columns
+  std::vector<OutlineLevels> of_files;
+};
+
+/// Meshes that were drawn elsewhere: by pixel.
+struct MeshPixels {
+  std::vector<float> depth;           // z; 0: nothing there
+  std::vector<float> cover;           // share of the pixel
+  std::vector<std::int32_t> solid;    // number
+  std::vector<Float3> normal, color;  // of the nearest
+};
+
+/// The picture before the eye.
+struct Lens {
+  int width = 0, height = 0;     // pixels
+  float pixel = 0;               // side of a pixel in the plane z = 1
+  float left = 0, top = 0;       // x, y of the middle of the pixel in the corner
+  float near = 0;                // m; what is nearer is cut off
+  bool smooth = true;            // anti-aliased edges
+  std::array<Float3, 3> axes{};  // the world's axes x, y, z
+};
+
+/// What rays show that meet nothing.
+struct Backdrop {
+  bool plain = false;  // of one colour; otherwise a sky
+  bool none = false;   // transparent
+  Float3 color{};
+};
+
+struct Lighting {
+  std::vector<Lamp> lamps;  // the first one, the key light, casts shadows
+  Float3 ambient{};
+  float softness = 0;     // tangent of half the angle of the key light
+  float lamp_radius = 0;  // m, of a key light that is near
+};
+
+/// The ground that lights bodies from below.
+struct FloorLight {
+  bool present = false;
+  Float3 normal{};
+  float height = 0;  // m, of the eye above it
+  Float3 light{};    // what it sends up
+};
+
+struct Pattern {
+  float unit = 1;   // m, side of the squares
+  float reach = 1;  // m, from the eye to the main content; grounds melt into the sky many times as far away
+};
+
+struct Shot {
+  Lens lens;
+  Backdrop backdrop;
+  Lighting lighting;
+  FloorLight floor;
+  Pattern pattern;
+  std::vector<Ground> grounds;
+  std::vector<Solid> solids;
+  std::vector<WallAxes> walls;
+  std::vector<MeshShadow> meshes;
+  MeshOutlines outlines;
+  const MeshPixels* mesh_pixels = nullptr;
+};
+
+}  // namespace carom::raster

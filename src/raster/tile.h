@@ -1,0 +1,63 @@
+#pragma once
+// Draws one tile of a picture: finds what each pixel shows, then the light from there. The kernel is compiled for each
+// vector width and chosen by the processor at run time. All widths have the same arithmetic in the same order, so that
+// the bytes do not depend on the processor.
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "raster/bins.h"
+#include "raster/light_grid.h"
+#include "raster/silhouettes.h"
+
+namespace carom::raster {
+
+/// A stroke of the picture in front of all that is farther: a line with round ends, in pixels.
+struct Line {
+  float x0, y0, x1, y1;      // pixels, its ends
+  float radius0, radius1;    // pixels
+  float depth0, depth1;      // 1 / z at its ends, 1 / m
+  Float3 color;              // linear
+  float opacity0, opacity1;  // 0 to 1
+  bool joined;               // begins where the last one ends, and is of one colour with it
+};
+
+/// What one tile needs of a picture.
+struct Picture {
+  const Shot* shot;
+  const Silhouettes* silhouettes;
+  const Bins* bins;
+  const LightGrid* lights;
+  const std::vector<Line>* lines;                             // or nullptr
+  const std::vector<std::vector<std::uint32_t>>* tile_lines;  // by tile
+  std::uint8_t* pixels;                                       // rows of `channels` bytes each
+  int channels;                                               // 3: RGB; 4: with alpha, not premultiplied
+};
+
+/// The memory of one thread for the tiles that it draws.
+class TileMemory {
+ public:
+  TileMemory();
+  ~TileMemory();
+  TileMemory(const TileMemory&) = delete;
+  TileMemory& operator=(const TileMemory&) = delete;
+  struct Data;
+  Data& data() { return *data_; }
+
+ private:
+  std::unique_ptr<Data> data_;
+};
+
+using TileKernel = void (*)(const Picture& picture, TileMemory::Data& memory, int tile);
+
+/// The kernels that this processor can run, the widest last.
+std::vector<TileKernel> tile_kernels();
+
+/// Draws the tile by the widest one.
+void draw_tile(const Picture& picture, TileMemory& memory, int tile);
+
+/// The byte of a share of light, by the sRGB curve (IEC 61966-2-1).
+std::uint8_t srgb_byte(float light);
+
+}  // namespace carom::raster

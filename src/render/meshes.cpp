@@ -1,0 +1,293 @@
+// Draws meshes tile by tile with 4 x 4 points for each pixel, each with the number of its solid and its normal. A pixel
+// is the mean of its points.
+#include "render/meshes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "raster/silhouettes.h"
+#include "render/renderer.h"
+
+namespace carom {
+namespace {
+
+constexpr int outline_side = 1024;  // a power of two
+
+const char* const vertex_shader = R"(
+layout(location = 0) in vec3 vertex;
+layout(location = 1) in vec3 normal_in;
+layout(location = 2) in vec4 origin;  // in the camera's frame; number
+layout(location = 3) in vec4 scale;
+uniform mat3 axes;                    // the world's
+uniform vec4 to_tile;                 // from (x / tangent, y / tangent, z) to the tile's clip space: factors, shifts
+uniform vec2 tangent;
+uniform float near;
+out vec3 p;
+out vec3 normal;
+flat out uint number;
+
+void main() {
+  p = origin.xyz + axes * (scale.x * vertex);
+  normal = axes * normal_in;
+  number = uint(origin.w);
+  vec2 at = p.xy / tangent * vec2(1, -1);
+  gl_Position = vec4(to_tile.xy * at + to_tile.zw * p.z, 2 * near - p.z, p.z);  // the depth is near / z
+}
+)";
+
+const char* const fragment_shader = R"(
+in vec3 p;
+in vec3 normal;
+flat in uint number;
+layout(location = 0) out uvec2 what;
+
+void main() {
+  // The face's own normal, towards the eye, decides on which side of it the eye is: files disagree about the rest.
+  vec3 face = cross(dFdx(p), dFdy(p));
+  if (dot(face, p) > 0) face = -face;
+  vec3 n = dot(normal, normal) > 0 ? normalize(normal) : normalize(face);
+  if (dot(n, face) < 0) n = -n;
+  uvec3 q = uvec3(clamp(n * 511 + 512.5, 0, 1023));
+  what = uvec2(number, q.x | q.y << 10 | q.z << 20);
+}
+)";
+
+const char* const outline_vertex_shader = R"(
+layout(location = 0) in vec3 vertex;
+uniform mat3 axes;  // the world's
+uniform vec3 across_u, across_v;
+uniform float reach;
+
+void main() {
+  vec3 p = axes * vertex / reach;
+  gl_Position = vec4(dot(p, across_u), dot(p, across_v), 0, 1);
+}
+)";
+
+const char* const outline_fragment_shader = R"(
+layout(location = 0) out float covered;
+void main() { covered = 1; }
+)";
+
+float f(double x) {
+  return static_cast<float>(x);
+}
+
+raster::Float3 cross(const raster::Float3& a, const raster::Float3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+raster::Float3 unit(const raster::Float3& a) {
+  const float length = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+  return {a[0] / length, a[1] / length, a[2] / length};
+}
+
+void set_axes(const gl::Program& program, const raster::Shot& shot) {
+  std::array<float, 9> axes{};
+  for (std::size_t i = 0; i < 9; ++i) axes[i] = shot.lens.axes[i / 3][i % 3];
+  gl::UniformMatrix3fv(program.at("axes"), 1, GL_FALSE, axes.data());
+}
+
+/// Half the side of an outline's picture, in the file's units.
+double reach_of(const Shapes& shapes, std::size_t file) {
+  return 1.05 * shapes.half(file).norm();
+}
+
+/// Each level has the means of four values of the one before.
+void add_levels(raster::OutlineLevels& outline) {
+  for (int side = outline.side; side > 1; side /= 2) {
+    const std::vector<float>& fine = outline.levels.back();
+    const auto n = static_cast<std::size_t>(side), half = n / 2;
+    std::vector<float> coarse(half * half);
+    for (std::size_t y = 0; y < half; ++y)
+      for (std::size_t x = 0; x < half; ++x)
+        coarse[y * half + x] = 0.25F * (fine[2 * y * n + 2 * x] + fine[2 * y * n + 2 * x + 1] +
+                                        fine[(2 * y + 1) * n + 2 * x] + fine[(2 * y + 1) * n + 2 * x + 1]);
+    outline.levels.push_back(std::move(coarse));
+  }
+}
+
+}  // namespace
+
+Meshes::Meshes(const std::vector<std::string>& files, Size size, bool smooth)
+    : size_(size),
+      fine_(smooth ? 4 : 1),
+      shapes_(files),
+      program_({vertex_shader}, {fragment_shader}),
+      outline_program_({outline_vertex_shader}, {outline_fragment_shader}),
+      what_(gl::make_texture(GL_RG32UI, tile_side * fine_, tile_side * fine_)),
+      depth_(gl::make_texture(GL_DEPTH_COMPONENT32F, tile_side * fine_, tile_side * fine_)),
+      buffer_(gl::make_framebuffer(std::array{what_.name()}, depth_.name())) {
+  const std::size_t pixels = static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+  pixels_.depth.resize(pixels);
+  pixels_.cover.resize(pixels);
+  pixels_.solid.resize(pixels);
+  pixels_.normal.resize(pixels);
+  pixels_.color.resize(pixels);
+}
+
+Meshes::~Meshes() {
+  try {
+    context_.make_current();
+  } catch (const RenderError&) {
+    // A context that cannot be used has nothing left to free.
+  }
+}
+
+MeshSize Meshes::size_of(const MeshUse& use, std::size_t file) const {
+  return {use.scale * shapes_.radius(file, use.center), use.scale * (shapes_.middle(file) - use.center),
+          use.scale * reach_of(shapes_, file)};
+}
+
+void Meshes::draw_outlines(raster::Shot& shot) {
+  const raster::Float3& l = shot.lighting.lamps[0].vector;
+  shot.outlines.across_u = unit(cross(l, std::abs(l[0]) < 0.7F ? raster::Float3{1, 0, 0} : raster::Float3{0, 1, 0}));
+  shot.outlines.across_v = cross(l, shot.outlines.across_u);
+  const std::array<raster::Float3, 4> now{l, shot.lens.axes[0], shot.lens.axes[1], shot.lens.axes[2]};
+  if (outlines_.empty() || now != outlined_) {
+    outlined_ = now;
+    outlines_.assign(shapes_.count(), {});
+    outline_program_.use();
+    set_axes(outline_program_, shot);
+    gl::Uniform3fv(outline_program_.at("across_u"), 1, shot.outlines.across_u.data());
+    gl::Uniform3fv(outline_program_.at("across_v"), 1, shot.outlines.across_v.data());
+    shapes_.fill_instances(std::array<float, Shapes::row>{});
+    const gl::Texture texture = gl::make_texture(GL_R32F, outline_side, outline_side);
+    const gl::Framebuffer framebuffer = gl::make_framebuffer(std::array{texture.name()}, 0);
+    gl::Viewport(0, 0, outline_side, outline_side);
+    gl::Disable(GL_DEPTH_TEST);
+    for (std::size_t i = 0; i < shapes_.count(); ++i) {
+      const float nothing[4] = {};
+      gl::ClearBufferfv(GL_COLOR, 0, nothing);
+      gl::Uniform1f(outline_program_.at("reach"), f(reach_of(shapes_, i)));
+      shapes_.draw(i, 0, 1);
+      outlines_[i].side = outline_side;
+      outlines_[i].levels.emplace_back(std::size_t{outline_side} * outline_side);
+      gl::ReadPixels(0, 0, outline_side, outline_side, GL_RED, GL_FLOAT, outlines_[i].levels[0].data());
+      add_levels(outlines_[i]);
+    }
+    gl::check("drawing the meshes' outlines");
+  }
+  shot.outlines.of_files = outlines_;
+}
+
+void Meshes::draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, const std::vector<Rect>& bounds) {
+  used_ = {tile.right, tile.bottom, tile.left, tile.top};
+  std::vector<std::size_t> inside;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const Rect& b = bounds[i];
+    if (b.left >= tile.right || b.right <= tile.left || b.top >= tile.bottom || b.bottom <= tile.top) continue;
+    inside.push_back(i);
+    used_ = {std::min(used_.left, std::max(b.left, tile.left)), std::min(used_.top, std::max(b.top, tile.top)),
+             std::max(used_.right, std::min(b.right, tile.right)),
+             std::max(used_.bottom, std::min(b.bottom, tile.bottom))};
+  }
+  if (inside.empty()) {
+    used_ = {};
+    return;
+  }
+  // Meshes of one file are together.
+  std::stable_sort(inside.begin(), inside.end(),
+                   [&](std::size_t a, std::size_t b) { return meshes[a].file < meshes[b].file; });
+  std::vector<float> rows;
+  for (const std::size_t i : inside) {
+    const PlacedMesh& m = meshes[i];
+    rows.insert(rows.end(), {f(m.middle.x()), f(m.middle.y()), f(m.middle.z()), f(m.solid + 1), f(m.scale), 0, 0, 0});
+  }
+  shapes_.fill_instances(rows);
+
+  const int wide = tile.right - tile.left, high = tile.bottom - tile.top;
+  gl::BindFramebuffer(GL_FRAMEBUFFER, buffer_.name());
+  gl::Viewport(0, 0, wide * fine_, high * fine_);
+  gl::Enable(GL_DEPTH_TEST);
+  gl::DepthFunc(GL_GREATER);
+  const GLuint nothing[4] = {};
+  const float infinitely_far = 0;
+  gl::ClearBufferuiv(GL_COLOR, 0, nothing);
+  gl::ClearBufferfv(GL_DEPTH, 0, &infinitely_far);
+  const double x = 1.0 / wide, y = 1.0 / high;
+  program_.use();
+  gl::Uniform4f(program_.at("to_tile"), f(size_.width * x), f(size_.height * y),
+                f((size_.width - 2 * tile.left) * x - 1), f((size_.height - 2 * tile.top) * y - 1));
+  for (std::size_t first = 0, end = 0; first < inside.size(); first = end) {
+    const std::size_t file = meshes[inside[first]].file;
+    while (end < inside.size() && meshes[inside[end]].file == file) ++end;
+    shapes_.draw(file, first, end - first);
+  }
+}
+
+void Meshes::resolve(const Rect& tile, const raster::Shot& shot) {
+  const int wide = (used_.right - used_.left) * fine_, high = (used_.bottom - used_.top) * fine_;
+  if (wide <= 0) return;
+  const std::size_t points = static_cast<std::size_t>(wide) * static_cast<std::size_t>(high);
+  what_read_.resize(2 * points);
+  depth_read_.resize(points);
+  const int left = (used_.left - tile.left) * fine_, top = (used_.top - tile.top) * fine_;
+  gl::PixelStorei(GL_PACK_ALIGNMENT, 4);
+  gl::ReadPixels(left, top, wide, high, GL_RG_INTEGER, GL_UNSIGNED_INT, what_read_.data());
+  gl::ReadPixels(left, top, wide, high, GL_DEPTH_COMPONENT, GL_FLOAT, depth_read_.data());
+  gl::check("drawing meshes");
+  for (int y = used_.top; y < used_.bottom; ++y)
+    for (int x = used_.left; x < used_.right; ++x) {
+      raster::Float3 normal{}, color{};
+      float nearest = 0, farthest = 2;
+      std::uint32_t solid = 0;
+      int covered = 0;
+      for (int k = 0; k < fine_ * fine_; ++k) {
+        const auto at = static_cast<std::size_t>(((y - used_.top) * fine_ + k / fine_) * wide +
+                                                 (x - used_.left) * fine_ + k % fine_);
+        const std::uint32_t number = what_read_[2 * at], q = what_read_[2 * at + 1];
+        if (number == 0) continue;
+        ++covered;
+        if (depth_read_[at] > nearest) nearest = depth_read_[at], solid = number;
+        farthest = std::min(farthest, depth_read_[at]);
+        for (std::size_t i = 0; i < 3; ++i) {
+          normal[i] += (static_cast<float>(q >> 10 * i & 1023U) - 512) / 511;
+          color[i] += shot.solids[number - 1].color[i];
+        }
+      }
+      if (covered == 0) continue;
+      const auto pixel =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width) + static_cast<std::size_t>(x);
+      pixels_.depth[pixel] = shot.lens.near / (0.5F * (nearest + farthest));
+      pixels_.cover[pixel] = static_cast<float>(covered) / static_cast<float>(fine_ * fine_);
+      pixels_.solid[pixel] = static_cast<std::int32_t>(solid) - 1;
+      // The mean normal: its light is the mean of matt faces' light. Across an edge it is short, and nothing glints
+      // there that would not on either face.
+      const float length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+      const float even = length / static_cast<float>(covered);
+      for (std::size_t i = 0; i < 3; ++i) {
+        pixels_.normal[pixel][i] = even > 0.97F ? normal[i] / length : normal[i] / static_cast<float>(covered);
+        pixels_.color[pixel][i] = color[i] / static_cast<float>(covered);
+      }
+    }
+}
+
+void Meshes::draw(const std::vector<PlacedMesh>& meshes, const Eye& eye, raster::Shot& shot) {
+  context_.make_current();
+  if (!shot.lighting.lamps[0].near) {
+    draw_outlines(shot);
+  } else {
+    for (raster::MeshShadow& mesh : shot.meshes) mesh.outline = -1;
+  }
+  std::fill(pixels_.depth.begin(), pixels_.depth.end(), 0.0F);
+  shot.mesh_pixels = &pixels_;
+  program_.use();
+  set_axes(program_, shot);
+  gl::Uniform2f(program_.at("tangent"), f(eye.tan_x), f(eye.tan_y));
+  gl::Uniform1f(program_.at("near"), shot.lens.near);
+  std::vector<Rect> bounds;
+  for (const PlacedMesh& m : meshes) {
+    const raster::Solid& solid = shot.solids[static_cast<std::size_t>(m.solid)];
+    const raster::PixelBounds b = raster::bounds_of_ball(shot.lens, solid.center, solid.radius);
+    bounds.push_back({b.left, b.top, b.right, b.bottom});
+  }
+  for (int y = 0; y < size_.height; y += tile_side)
+    for (int x = 0; x < size_.width; x += tile_side) {
+      const Rect tile{x, y, std::min(x + tile_side, size_.width), std::min(y + tile_side, size_.height)};
+      draw_tile(tile, meshes, bounds);
+      resolve(tile, shot);
+    }
+}
+
+}  // namespace carom

@@ -1,0 +1,56 @@
+#pragma once
+// The meshes of a picture, drawn as triangles by OSMesa: places and normals by pixel, and outlines along the key light
+// for their shadows. Bodies do not turn, so a mesh has one outline for all of them. In the light of a lamp the
+// direction differs from body to body. A mesh then casts the shadow of its volume.
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "raster/shot.h"
+#include "render/gl.h"
+#include "render/shapes.h"
+#include "render/things.h"
+
+namespace carom {
+
+class Meshes {
+ public:
+  /// Reads the files. `smooth`: pixels are sampled at 4 x 4 places. Throws RenderError.
+  Meshes(const std::vector<std::string>& files, Size size, bool smooth);
+  ~Meshes();
+  Meshes(const Meshes&) = delete;
+  Meshes& operator=(const Meshes&) = delete;
+
+  /// Of a file as `use` draws it.
+  MeshSize size_of(const MeshUse& use, std::size_t file) const;
+
+  /// Draws meshes for the shot, which then points to the result. It is valid until the next draw. Throws RenderError.
+  void draw(const std::vector<PlacedMesh>& meshes, const Eye& eye, raster::Shot& shot);
+
+ private:
+  struct Rect {
+    int left, top, right, bottom;  // pixels, ends excluded
+  };
+  static constexpr int tile_side = 256;  // pixels
+
+  void draw_outlines(raster::Shot& shot);
+  void draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, const std::vector<Rect>& bounds);
+  void resolve(const Rect& tile, const raster::Shot& shot);
+
+  Size size_;
+  int fine_;  // places across a pixel
+  gl::Context context_;
+  Shapes shapes_;
+  gl::Program program_, outline_program_;
+  gl::Texture what_, depth_;
+  gl::Framebuffer buffer_;
+  raster::MeshPixels pixels_;
+  std::vector<raster::OutlineLevels> outlines_;
+  std::array<raster::Float3, 4> outlined_{};  // key light and axes of these outlines
+  std::vector<std::uint32_t> what_read_;
+  std::vector<float> depth_read_;
+  Rect used_{};
+};
+
+}  // namespace carom

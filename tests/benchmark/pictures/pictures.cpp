@@ -1,0 +1,133 @@
+// CPU time of a picture of 1280 x 720 by number of balls, on one thread: drawing, and the same with its PNG. Balls fly
+// above a floor, as many as fit into a cube at a tenth of its volume, so that their size falls with their number.
+//
+//    carom_pictures              the table, as CSV
+//    carom_pictures N FILE.png   one picture of N balls
+//    carom_pictures N PICTURES   so many pictures of N balls, and the peak of memory after each tenth of them
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "export/png.h"
+#include "physics/world.h"
+#include "render/renderer.h"
+#include "scene/scene.h"
+
+namespace carom {
+namespace {
+
+double processor_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+double noise(std::uint64_t& seed) {
+  seed = seed * 6364136223846793005U + 1442695040888963407U;
+  return static_cast<double>(seed >> 11U) * 0x1p-53;
+}
+
+Scene cloud(int balls) {
+  Scene scene;
+  // N (4/3) pi r^3 = 0.1 of a cube of 2 m.
+  const double radius = std::cbrt(0.8 * 3 / (4 * M_PI * balls)) * (balls == 1 ? 0.7 : 1);
+  std::uint64_t seed = 7;
+  const Color palette[] = {{0.90, 0.30, 0.26}, {0.20, 0.55, 0.85}, {0.95, 0.75, 0.25}, {0.35, 0.70, 0.45}};
+  const auto cells = static_cast<int>(std::ceil(std::cbrt(balls)));
+  for (int i = 0; i < balls; ++i) {
+    // One in each cell of a grid, so that they do not overlap.
+    const double side = 2.0 / cells, room = std::max(side - 2 * radius, 0.0);
+    const auto along = [&](int k) { return k * side + radius + room * noise(seed); };
+    scene.initial.position.emplace_back(along(i % cells) - 1, along(i / cells % cells), along(i / cells / cells) - 1);
+    scene.initial.velocity.push_back(Vec3::Zero());
+    scene.world.mass.push_back(1);
+    scene.world.radius.push_back(radius);
+    scene.world.restitution.push_back(1);
+    scene.roster.bodies.push_back({"b" + std::to_string(i), static_cast<Entity>(i), 1, false, palette[i % 4]});
+  }
+  scene.world.planes.push_back({Vec3::Zero(), Vec3(0, 1, 0), {}});
+  scene.roster.fixed.push_back({"floor", {0.82, 0.80, 0.76}, true});
+  Camera camera;
+  camera.eye = Vec3(0.9, 2.2, 4.2);
+  camera.target = Vec3(0, 0.8, 0);
+  scene.camera = camera;
+  return scene;
+}
+
+void move(State& state, int picture) {
+  for (Vec3& p : state.position) p.y() += (picture % 2 ? -1 : 1) * 1e-3;
+}
+
+struct Cost {
+  double draw, write;  // ms
+};
+
+Cost cost_of(int balls) {
+  const Scene scene = cloud(balls);
+  Renderer renderer(scene, {1280, 720}, 4);
+  State state = scene.initial;
+  std::vector<double> draws, writes;
+  renderer.draw(state);
+  for (int i = 0; i < 15; ++i) {
+    move(state, i);
+    const double start = processor_ms();
+    const Image& image = renderer.draw(state);
+    const double drawn = processor_ms();
+    const std::string png = encode_png(image, PngEffort::fast);
+    draws.push_back(drawn - start);
+    writes.push_back(processor_ms() - drawn);
+  }
+  const auto median = [](std::vector<double>& times) {
+    std::nth_element(times.begin(), times.begin() + 7, times.end());
+    return times[7];
+  };
+  return {median(draws), median(writes)};
+}
+
+long peak_kb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+int run(int argc, char** argv) {
+  setenv("LP_NUM_THREADS", "0", 1);
+  if (argc == 1) {
+    fmt::print("balls,draw_ms,png_ms,picture_ms\n");
+    for (const int balls : {1, 100, 1000, 10000, 100000}) {
+      const Cost cost = cost_of(balls);
+      fmt::print("{},{:.1f},{:.1f},{:.1f}\n", balls, cost.draw, cost.write, cost.draw + cost.write);
+    }
+    return 0;
+  }
+  if (argc != 3) return 2;
+  const Scene scene = cloud(std::max(1, std::atoi(argv[1])));
+  Renderer renderer(scene, {1280, 720}, 4);
+  const std::string what = argv[2];
+  if (what.ends_with(".png")) {
+    std::ofstream(what, std::ios::binary) << encode_png(renderer.draw(scene.initial), PngEffort::fast);
+    return 0;
+  }
+  const int pictures = std::atoi(argv[2]);
+  State state = scene.initial;
+  for (int i = 1; i <= pictures; ++i) {
+    move(state, i);
+    encode_png(renderer.draw(state), PngEffort::fast);
+    if (i % std::max(1, pictures / 10) == 0) fmt::print("{} pictures, {} kB\n", i, peak_kb());
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace carom
+
+int main(int argc, char** argv) {
+  return carom::run(argc, argv);
+}
