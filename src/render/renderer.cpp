@@ -41,8 +41,10 @@ struct Renderer::Impl {
       meshes.emplace(things.files(), size, shot.lens.smooth);
       things.measure([&](const MeshUse& use, std::size_t file) { return meshes->size_of(use, file); });
     }
+    shot.backdrop.none = scene.transparent;
     image.width = size.width, image.height = size.height;
-    image.pixels.resize(3 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+    image.channels = scene.transparent ? 4 : 3;
+    image.pixels.resize(static_cast<std::size_t>(size.height) * image.row_size());
   }
 
   void place_camera(const Eye& eye);
@@ -90,8 +92,8 @@ void Renderer::Impl::draw(const State& state, const Drawing& drawing) {
   strokes.insert(strokes.end(), drawing.strokes.begin(), drawing.strokes.end());
   lines.fill(strokes, eye);
   if (!threads) threads.emplace(raster::drawing_threads());
-  const raster::Picture picture{&shot,          &silhouettes,        &bins, &lights, &lines.all,
-                                &lines.by_tile, image.pixels.data(), 3};
+  const raster::Picture picture{&shot,          &silhouettes,        &bins,         &lights, &lines.all,
+                                &lines.by_tile, image.pixels.data(), image.channels};
   threads->draw(picture);
 }
 

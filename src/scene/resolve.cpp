@@ -65,6 +65,7 @@ class Resolver {
     camera();
     lights();
     if (const Node* background = root_.find("background")) line("background", flow_text(*background));
+    overlay();
     output();
     return std::move(out_);
   }
@@ -170,6 +171,16 @@ class Resolver {
       entry(node->keys[i].text,
             ambient ? flow_text(node->items[i]) : flow(View(&node->items[i], kind_named("light"), Place{})));
     }
+  }
+
+  void overlay() {
+    const Overlay& overlay = scene_.overlay;
+    const View whole(&root_, kind_named("scene"), Place{});
+    if (!overlay.caption.empty()) line("caption", in_quotes(overlay.caption));
+    if (overlay.trails) line("trails", flow(whole.part("trails", "trails")));
+    if (overlay.flash) line("flash", "true");
+    if (const Node* arrows = root_.find("arrows")) line("arrows", flow_text(*arrows));
+    if (const Node* shutter = root_.find("shutter")) line("shutter", flow_text(*shutter));
   }
 
   void output() {

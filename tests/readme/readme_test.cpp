@@ -313,6 +313,16 @@ TEST(ReadmeScenes, DescribeEveryKey) {
   }
 }
 
+TEST(ReadmeScenes, TheExampleOfColoursAndTextIsAScene) {
+  const std::vector<std::string> blocks = page_at("scenes/README.md").blocks("yaml");
+  const auto block = std::find_if(blocks.begin(), blocks.end(),
+                                  [](const std::string& text) { return text.find("caption:") != std::string::npos; });
+  ASSERT_NE(block, blocks.end());
+  const Scene scene = scene_of("scene: 1\nsimulate: {duration: 1}\nballs: {red: {position: [0, 0, 0]}}\n" + *block);
+  EXPECT_EQ(scene.overlay.caption, "{title}, t = {time} s, e = 1");
+  EXPECT_EQ(scene.roster.bodies[0].coloring->by, ColorQuantity::speed);
+}
+
 TEST(ReadmeScenes, RulesOfRestitutionGiveTheTablesNumbers) {
   const std::map<std::string, Combine> rules = {{"| `average` (default) | ", Combine::average},
                                                 {"| `minimum` | ", Combine::minimum},
