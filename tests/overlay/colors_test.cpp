@@ -122,7 +122,7 @@ TEST(Flash, LastsATenthOfASecondOfTheFilm) {
     State state = scene.initial;
     const auto glow_at = [&](double time, std::size_t body) {
       state.time = time;
-      return maker.at(state).glow[body];
+      return maker.at(state, camera_of(scene)).glow[body];
     };
     EXPECT_EQ(glow_at(0.5, 0), 1);
     EXPECT_FLOAT_EQ(glow_at(0.5 + 0.05 * speed, 0), 0.5F);
