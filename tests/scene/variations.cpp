@@ -204,6 +204,7 @@ output:
           "{scene: 1, simulate: {duration: 1, engine: book, as_printed: true}}",
           "{scene: 1, simulate: {duration: 1}, output: {video: {file: b.mp4, fps: 16, size: square}}}",
           "{scene: 1, simulate: {duration: 1}, camera: {fit: motion, fov: 30}}",
+          "{scene: 1, simulate: {duration: 1}, background: gray, output: {video: {file: b.mp4}}}",
           R"(
 scene: 1
 balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
