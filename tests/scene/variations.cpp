@@ -113,7 +113,8 @@ class Varying {
 }  // namespace
 
 std::vector<std::string> right_scenes() {
-  return {R"(
+  return {"{scene: 1, simulate: {duration: 1}, background: gray, output: {video: {file: b.mp4}}}",
+          R"(
 scene: 1
 title: Balls
 seed: 3
@@ -204,7 +205,6 @@ output:
           "{scene: 1, simulate: {duration: 1, engine: book, as_printed: true}}",
           "{scene: 1, simulate: {duration: 1}, output: {video: {file: b.mp4, fps: 16, size: square}}}",
           "{scene: 1, simulate: {duration: 1}, camera: {fit: motion, fov: 30}}",
-          "{scene: 1, simulate: {duration: 1}, background: gray, output: {video: {file: b.mp4}}}",
           R"(
 scene: 1
 balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
