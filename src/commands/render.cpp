@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 
 #include "commands/plan.h"
 #include "commands/run.h"
@@ -15,14 +14,13 @@
 #include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/publication.h"
+#include "files/series_folders.h"
 #include "scene/motion_text.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "yaml/joined.h"
 
 namespace carom {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -60,7 +58,8 @@ class Planner {
     LoadOptions load = load_options(options_, true);
     load.set.clear();
     SceneFile file(path, load);
-    auto former = std::make_shared<FormerRun>(read_former_run(planned.file, file));
+    auto former = std::make_shared<FormerRun>(
+        read_former_run(planned.file, file, [](const FormerRun&, std::string_view name) { return is_picture(name); }));
     if (is_same_folder(planned.folder, planned.file)) planned.folder = planned.file;
     std::vector<Setting> settings;
     for (const std::string& set : options_.set) settings.push_back({set, ""});
@@ -110,6 +109,11 @@ class Planner {
     if (outputs_text(kept) != outputs_text(restricted(former.scene.output, tables)))
       throw ExportError(fmt::format("--set changes one of {}, which render leaves as they are\n  carom run writes them",
                                     joined(tables, ", ")));
+    if (kept.plots && planned.scene->title != former.scene.title)
+      throw ExportError(
+          fmt::format("--set changes the title, which the charts in {}/ show and render leaves as they are\n"
+                      "  render to another folder with -o",
+                      plot_files.folder));
     for (const OutputKind& kind : output_kinds())
       if (kind.asked(output)) kind.member.add(kept, output);
     output = kept;
@@ -154,19 +158,9 @@ const CommandText& render_text() {
 
 int render_command(const Options& options) {
   refuse_tables(options);
-  std::vector<PlannedScene> runs;
-  for (const std::string& folder : options.operands) {
-    PlannedScene& run = runs.emplace_back();
-    run.file = folder;
-    while (run.file.size() > 1 && run.file.ends_with('/')) run.file.pop_back();
-    run.name = name_of_folder(folder);
-    run.folder = !options.output                ? run.file
-                 : options.operands.size() == 1 ? *options.output
-                                                : (fs::path(*options.output) / run.name).string();
-  }
   const Planner planner(options);
   return run_planned(options, "render",
-                     plan_scenes(std::move(runs), [&](PlannedScene& planned) { planner.check(planned); }));
+                     plan_scenes(planned_folders(options), [&](PlannedScene& planned) { planner.check(planned); }));
 }
 
 }  // namespace carom

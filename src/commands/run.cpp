@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <utility>
 
 #include "commands/batch.h"
 #include "commands/outcome_list.h"
@@ -60,6 +61,14 @@ int run_command(const Options& options) {
 }
 
 int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes) {
+  return run_planned(options, command, std::move(scenes),
+                     [&](const PlannedScene& planned, const Style& style, Progress& progress) {
+                       return run_one(planned, options, style, progress);
+                     });
+}
+
+int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes,
+                const SceneWork& work) {
   refuse_other_content(scenes, options);
   if (const std::string errors = error_count(scenes); !errors.empty()) return refuse(options, command, scenes, errors);
   const auto start = std::chrono::steady_clock::now();
@@ -73,7 +82,7 @@ int run_planned(const Options& options, std::string_view command, std::vector<Pl
   batch.run = [&](const PlannedScene& planned, ProgressChoice choice) {
     Progress progress(choice, uses_color(options.color, STDERR_FILENO), label(scenes, planned),
                       planned.scene->simulate.duration, planned.forecast.frames);
-    return run_one(planned, options, style, progress);
+    return work(planned, style, progress);
   };
   batch.settle = [&](SceneOutcome outcome) { list.add(std::move(outcome)); };
   const int code = run_batch(batch, scenes, options, command);

@@ -1,10 +1,13 @@
 #pragma once
 // carom run: scenes -> folders of results.
+#include <functional>
 #include <string_view>
 #include <vector>
 
 #include "commands/command_line.h"
 #include "commands/plan.h"
+#include "commands/progress.h"
+#include "commands/scene_outcome.h"
 
 namespace carom {
 
@@ -12,7 +15,14 @@ const CommandText& run_text();
 /// The program's exit code. Throws UsageError, Interrupted.
 int run_command(const Options& options);
 
-/// Runs planned scenes and reports them; `command`: for the document of --json. Returns the program's exit code.
+/// Settles one planned scene. May throw Interrupted.
+using SceneWork = std::function<SceneOutcome(const PlannedScene&, const Style&, Progress&)>;
+
+/// Settles planned scenes, each by `work`, and reports them; `command`: for the document of --json.
+/// Returns the program's exit code.
+int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes,
+                const SceneWork& work);
+/// The same by running them.
 int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes);
 
 }  // namespace carom

@@ -51,6 +51,11 @@ std::string manifest_text(const std::string& outputs, const std::string& facts, 
 std::string manifest_text(const Scene& scene, const Summary& summary, const RunFacts& facts,
                           const std::vector<FileRecord>& files);
 
+/// The text of a run's manifest with the outputs of `scene`, which has the same motion, and with other files.
+/// The number of pictures and the files given up remain as far as the outputs have them, and all else remains.
+/// Throws ExportError for a text that is no manifest.
+std::string changed_manifest(const std::string& text, const Scene& scene, const std::vector<FileRecord>& files);
+
 /// A manifest that this program wrote.
 /// None if the file is absent, incomplete, another program's, or names files that no run writes.
 std::optional<Manifest> read_manifest(int folder, const std::string& name);

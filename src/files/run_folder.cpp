@@ -100,10 +100,10 @@ bool is_whole_since(const std::string& path, const std::string& mark) {
   return all_files(folder.get(), *manifest, unchanged);
 }
 
-std::string wrong_file(int folder, const Manifest& manifest) {
+std::string wrong_file(int folder, const Manifest& manifest, const std::function<bool(std::string_view name)>& spared) {
   SeriesFolders folders(folder);
   for (const FileRecord& file : manifest.files) {
-    if (is_picture(file.name)) continue;
+    if (spared(file.name)) continue;
     const FileSpot spot = folders.spot(file.name);
     if (spot.folder < 0 || !has_size(spot, file) || !has_hash(spot, file)) return file.name;
   }

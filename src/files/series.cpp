@@ -2,10 +2,12 @@
 // The complete files of a series stay even if the run fails later.
 #include "files/series.h"
 
+#include <utility>
+
 namespace carom {
 
-void Series::put(std::int64_t number, std::string_view bytes) {
-  OutputFile file(place_, files_.name(number));
+void Series::put(std::string name, std::string_view bytes) {
+  OutputFile file(place_, std::move(name));
   file.write(bytes);
   file.publish();
   folder_.keep();

@@ -1,5 +1,5 @@
 #pragma once
-// Numbered files in a folder of their own (frames/, vtk/). Each file is complete when its name appears.
+// Files of one output in a folder of their own (frames/, vtk/, plots/). Each file is complete when its name appears.
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,7 +13,9 @@ class Series {
  public:
   /// Makes the folder. Both arguments must outlive this object. Throws ExportError, as all functions of this class do.
   Series(OpenFolder& folder, const FileSeries& files) : folder_(folder), files_(files), place_(folder.series(files)) {}
-  void put(std::int64_t number, std::string_view bytes);
+  void put(std::int64_t number, std::string_view bytes) { put(files_.name(number), bytes); }
+  /// `name`: one of the series' names.
+  void put(std::string name, std::string_view bytes);
   const std::vector<FileRecord>& records() const { return records_; }  // names relative to the run's folder
 
  private:

@@ -38,7 +38,7 @@ class Run {
     const Stopwatch stopwatch(simulate_s_);
     if (!settings.simulator) settle_steps(scene(), engine_, watch_.stop_check);
     const bool collisions =
-        std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.collisions; });
+        std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.needs_collisions(); });
     const bool paths =
         std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.flights; });
     simulator_ =

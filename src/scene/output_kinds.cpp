@@ -118,6 +118,14 @@ constexpr OutputMember pictures = {[](const Output& output) { return (output.*me
                                    },
                                    nullptr, fills_if_given<Output, member>};
 
+/// The charts show the rows of tables, whether these are written or not.
+constexpr OutputMember charts = {[](const Output& output) { return output.plots; },
+                                 [](Output& to, const Output& requested) {
+                                   to.plots = true;
+                                   to.left_out_tables = plot_intervals(requested);
+                                 },
+                                 nullptr, fills<Output, &Output::plots>};
+
 /// An output without settings, either present or absent.
 template <auto member, const Member& key>
 constexpr OutputMember flag = {[](const Output& output) { return output.*member; },
@@ -216,6 +224,11 @@ constexpr OutputKind all_kinds[] = {
      .example = "true",
      .member = flag<&Output::flights, fills_if_given<Output, &Output::flights>>,
      .files = "flights.bin"},
+    {.name = "plots",
+     .doc = "plots/energy.svg and so on: charts of energy, heights, speeds and collisions, by gnuplot.",
+     .example = "true",
+     .member = charts,
+     .series = plot_files},
 };
 
 }  // namespace
@@ -225,6 +238,10 @@ std::string FileSeries::name(std::int64_t number) const {
 }
 
 bool FileSeries::has(std::string_view name) const {
+  if (!names.empty()) {
+    const std::vector<std::string_view> all = parts_of(names);
+    return std::find(all.begin(), all.end(), name) != all.end();
+  }
   constexpr std::size_t digits = 5;
   if (!name.starts_with(stem) || !name.ends_with(ending) || name.size() < stem.size() + digits + ending.size())
     return false;
@@ -265,12 +282,21 @@ Output with_all(const Output& requested) {
   return output;
 }
 
+PlotIntervals plot_intervals(const Output& output) {
+  PlotIntervals intervals = output.left_out_tables;
+  if (output.energy) intervals.energy = output.energy->every;
+  if (output.trajectory) intervals.trajectory = output.trajectory->every;
+  return intervals;
+}
+
 std::vector<std::string> output_files(const Output& output) {
   std::vector<std::string> names;
   for (const OutputKind& kind : all_kinds) {
     if (!kind.asked(output)) continue;
     for (const std::string_view name : parts_of(kind.files)) names.emplace_back(name);
     if (kind.named) names.push_back(kind.named(output));
+    for (const std::string_view name : parts_of(kind.series.names))
+      names.push_back(fmt::format("{}/{}", kind.series.folder, name));
   }
   return names;
 }
