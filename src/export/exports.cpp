@@ -58,10 +58,10 @@ struct Exports::Impl {
     const std::vector<MeshCopy> meshes = read_meshes(scene);
     std::optional<FilmTools> tools;
     if (output.video) tools = find_film_tools();
-    if (output.plots) find_gnuplot();
+    if (renewed != nullptr) kept = kept_files(*renewed);
+    if (draws_plots()) find_gnuplot();
 
     folder.emplace(path, durability);
-    if (renewed != nullptr) kept = kept_files(*renewed);
     first_records = renewed != nullptr ? folder->renew(scene, meshes) : folder->begin(scene, meshes);
     for (const OutputKind& kind : output_kinds()) {
       const WriterKind* writer = writer_named(kind.name);
@@ -90,6 +90,11 @@ struct Exports::Impl {
   }
   bool keeps(const OutputKind& kind) const {
     return std::any_of(kept.begin(), kept.end(), [&](const FileRecord& file) { return output_of(file.name) == &kind; });
+  }
+  bool draws_plots() const {
+    return scene.output.plots &&
+           std::none_of(output_kinds().begin(), output_kinds().end(),
+                        [&](const OutputKind& kind) { return kind.series.folder == plot_files.folder && keeps(kind); });
   }
 
   void write_frame(std::int64_t number, const Image& image, bool again) {

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <memory>
+#include <string_view>
 
 #include "export/child.h"
 #include "export/plot_script.h"
@@ -21,6 +22,12 @@ constexpr std::size_t most_bytes = (1 << 20) - 1;
 /// The size of the PNG by that of the SVG.
 constexpr int enlarged = 2;
 constexpr const char* plot_font = "font 'DejaVu Sans,13'";
+
+/// Whether a PNG or an SVG has its end.
+bool is_whole_picture(std::string_view bytes) {
+  const std::size_t end = bytes.find_last_not_of('\n');
+  return bytes.ends_with("IEND\xAE\x42\x60\x82") || bytes.substr(0, end + 1).ends_with("</svg>");
+}
 
 /// gnuplot at work on a script.
 class PlotDrawing {
@@ -44,6 +51,8 @@ class PlotDrawing {
     if (bytes.empty()) throw ExportError("cannot draw the plot: gnuplot wrote nothing: " + child_.errors());
     if (!sent_) throw ExportError("cannot draw the plot: gnuplot did not read all of it: " + child_.errors());
     if (bytes.size() > most_bytes) throw ExportError("cannot draw the plot: it takes more than a megabyte");
+    if (!is_whole_picture(bytes))
+      throw ExportError("cannot draw the plot: gnuplot wrote a part of it: " + child_.errors());
     return bytes;
   }
 

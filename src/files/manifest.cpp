@@ -3,6 +3,8 @@
 // The depth of brackets is checked before parsing.
 #include "files/manifest.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -191,6 +193,9 @@ std::vector<std::string> run_files(const Scene& scene, const Output& output) {
     if (!mesh.copy.empty()) names.push_back(mesh.copy);
   }
   for (std::string& name : output_files(output)) names.push_back(std::move(name));
+  for (const OutputKind& kind : output_kinds())
+    for (const std::string_view name : parts_of(kind.series.names))
+      if (kind.asked(output)) names.push_back(fmt::format("{}/{}", kind.series.folder, name));
   return names;
 }
 

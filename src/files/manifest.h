@@ -66,7 +66,7 @@ inline constexpr std::array<const char*, 3> bench_files = {"bench.csv", "bench.p
 /// Whether a run may write a file of this name: a plain one, or one of a series: frames/frame_<digits>.png.
 bool is_run_file(std::string_view name);
 
-/// The files of a run of this scene with these outputs, without series.
+/// The files of a run of this scene with these outputs, without numbered ones.
 std::vector<std::string> run_files(const Scene& scene, const Output& output);
 
 /// The text with invalid UTF-8 replaced.

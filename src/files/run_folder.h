@@ -62,7 +62,7 @@ struct FoundFolder {
 /// Throws ExportError if the folder exists and cannot be opened.
 FoundFolder find_folder(const std::string& folder);
 
-/// The content of `folder`, from its manifest.json. Changes nothing.
+/// The content of `folder`, from its manifest.json. Changes nothing. A run with charts besides is this_run too.
 FolderContent inspect_folder(const std::string& folder, const Scene& scene);
 /// The same for a folder that is not a run's. `outputs`: as in its manifest. `files`: those it must have.
 FolderContent inspect_folder(const std::string& folder, const Scene& scene, const std::string& outputs,

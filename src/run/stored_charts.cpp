@@ -139,7 +139,7 @@ PossibleCharts possible_charts(const FormerRun& former) {
     else
       charts.missing.push_back(
           {std::string(source.chart),
-           fmt::format("the run has no {}, which `{}` in `output` gives", source.table, source.key)});
+           fmt::format("the run has no {}, which the key output.{} gives", source.table, source.key)});
   }
   return charts;
 }

@@ -295,8 +295,6 @@ std::vector<std::string> output_files(const Output& output) {
     if (!kind.asked(output)) continue;
     for (const std::string_view name : parts_of(kind.files)) names.emplace_back(name);
     if (kind.named) names.push_back(kind.named(output));
-    for (const std::string_view name : parts_of(kind.series.names))
-      names.push_back(fmt::format("{}/{}", kind.series.folder, name));
   }
   return names;
 }

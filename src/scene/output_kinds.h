@@ -93,7 +93,7 @@ Output with_all(const Output& requested);
 /// The intervals of the samples for the charts of `plots`, in s.
 PlotIntervals plot_intervals(const Output& output);
 
-/// The files of these outputs, without numbered ones.
+/// The files of these outputs, without series.
 std::vector<std::string> output_files(const Output& output);
 
 /// Whether a run may write a file or folder of this name, whatever the scene.

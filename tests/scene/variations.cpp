@@ -194,6 +194,7 @@ output:
   xyz: {every: 0.1}
   gltf: {fps: 2}
   flights: true
+  plots: true
 )", "{scene: 1, simulate: {duration: 1, engine: book, as_printed: true}}"};
 }
 
