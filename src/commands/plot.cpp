@@ -116,10 +116,13 @@ void describe_charts(SceneOutcome& outcome, const PlannedScene& planned, const S
   outcome.out = block.text();
 }
 
-SceneOutcome plot_one(const PlannedScene& planned, const std::string& gnuplot, const Style& style) {
+SceneOutcome plot_one(const PlannedScene& planned, const std::string& gnuplot, const Style& style, Progress& progress) {
   SceneOutcome outcome = without_run(planned, scene_status::failed);
   try {
-    plot_run({planned.former.get(), planned.scene.get(), planned.folder, gnuplot}, stop_if_interrupted);
+    plot_run({planned.former.get(), planned.scene.get(), planned.folder, gnuplot}, [&](double done) {
+      stop_if_interrupted();
+      progress.update(done, done < 1 ? "reading" : "drawing");
+    });
     outcome = without_run(planned, scene_status::done);
     describe_charts(outcome, planned, style);
     return outcome;
@@ -168,9 +171,11 @@ const CommandText& plot_text() {
 int plot_command(const Options& options) {
   const std::string gnuplot = find_gnuplot();
   const PlotPlanner planner(options);
-  return run_planned(
-      options, "plot", plan_scenes(planned_folders(options), [&](PlannedScene& run) { planner.check(run); }),
-      [&](const PlannedScene& planned, const Style& style, Progress&) { return plot_one(planned, gnuplot, style); });
+  return run_planned(options, "plot",
+                     plan_scenes(planned_folders(options), [&](PlannedScene& run) { planner.check(run); }),
+                     [&](const PlannedScene& planned, const Style& style, Progress& progress) {
+                       return plot_one(planned, gnuplot, style, progress);
+                     });
 }
 
 }  // namespace carom

@@ -19,7 +19,7 @@ void PlotsWriter::add(double time, const State& state, std::span<const ContactFo
 std::vector<OutputFile*> PlotsWriter::files() {
   std::vector<std::string_view> names;
   for (const RunChart& chart : run_charts()) names.push_back(chart.name);
-  draw_charts(names, charts_, gnuplot_, series_);
+  for (const ChartFile& file : draw_charts(names, charts_, gnuplot_)) series_.put(file.name, file.bytes);
   return {};
 }
 

@@ -5,6 +5,7 @@
 
 #include "export/run_charts.h"
 #include "export/writer.h"
+#include "files/series.h"
 
 namespace carom {
 

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <utility>
+
 #include "physics/energy.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -49,17 +52,19 @@ std::span<const RunChart> run_charts() {
   return all_charts;
 }
 
-void draw_charts(std::span<const std::string_view> names, const RunCharts& charts, const std::string& gnuplot,
-                 Series& files) {
+std::vector<ChartFile> draw_charts(std::span<const std::string_view> names, const RunCharts& charts,
+                                   const std::string& gnuplot) {
   std::vector<Plot> plots;
   for (const std::string_view name : names)
     for (const RunChart& chart : all_charts)
       if (chart.name == name) plots.push_back(chart.plot(charts));
-  const std::vector<PlotPictures> pictures = draw_plots(plots, gnuplot);
+  std::vector<PlotPictures> pictures = draw_plots(plots, gnuplot);
+  std::vector<ChartFile> files;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
-    files.put(fmt::format("{}.svg", names[i]), pictures[i].svg);
-    files.put(fmt::format("{}.png", names[i]), pictures[i].png);
+    files.push_back({fmt::format("{}.svg", names[i]), std::move(pictures[i].svg)});
+    files.push_back({fmt::format("{}.png", names[i]), std::move(pictures[i].png)});
   }
+  return files;
 }
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 // The charts of a run, gathered from its states and collisions, or from its tables. Memory depends on the number of
 // bodies, not on that of instants.
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -10,7 +11,6 @@
 #include "export/heights_chart.h"
 #include "export/speeds_chart.h"
 #include "export/timeline.h"
-#include "files/series.h"
 
 namespace carom {
 
@@ -48,8 +48,12 @@ struct RunChart {
 /// In the order of plot_files.names (scene/output_kinds.h).
 std::span<const RunChart> run_charts();
 
-/// Draws the named charts, each into its two files. Throws ExportError.
-void draw_charts(std::span<const std::string_view> names, const RunCharts& charts, const std::string& gnuplot,
-                 Series& files);
+/// A file of plots/.
+struct ChartFile {
+  std::string name, bytes;
+};
+/// Draws the named charts, each as two files. Throws ExportError.
+std::vector<ChartFile> draw_charts(std::span<const std::string_view> names, const RunCharts& charts,
+                                   const std::string& gnuplot);
 
 }  // namespace carom

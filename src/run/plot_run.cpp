@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
 #include "files/open_folder.h"
 #include "files/run_folder.h"
+#include "files/series.h"
 #include "files/stored_file.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -59,33 +61,37 @@ class RunPlotter {
         in_place_(request.folder == former_.folder),
         possible_(possible_charts(former_)) {}
 
-  void go(const std::function<void()>& stop_check) {
+  void go(const ReadingWatch& watch) {
     RunCharts charts(*request_.scene);
-    read_charts(former_, *request_.scene, charts, stop_check);
+    read_charts(former_, *request_.scene, charts, watch);
+    watch(1);
+    write(draw_charts(possible_.names, charts, request_.gnuplot));
+  }
+
+ private:
+  void write(const std::vector<ChartFile>& drawn) {
     OpenFolder folder(request_.folder);
     std::vector<FileRecord> records =
         in_place_ ? kept_files() : folder.begin(*request_.scene, read_meshes(*request_.scene));
     if (in_place_) folder.renew(*request_.scene, {});
     std::optional<OutputFile> summary;
+    std::vector<PartFile*> files;
     if (!in_place_) {
       summary.emplace(folder.place(), "summary.csv");
       summary->write(without_pictures(text_of_run(former_, "summary.csv", largest_summary)));
       summary->complete();
       records.push_back(summary->record());
+      files.push_back(&*summary);
     }
     Series series(folder, plot_files);
-    draw_charts(possible_.names, charts, request_.gnuplot, series);
-    stop_check();
+    for (const ChartFile& file : drawn) series.put(file.name, file.bytes);
     records.insert(records.end(), series.records().begin(), series.records().end());
     OutputFile manifest(folder.place(), manifest_name);
     manifest.write(changed_manifest(text_of_run(former_, manifest_name, largest_manifest), *request_.scene, records));
     manifest.complete();
-    std::vector<PartFile*> files;
-    if (summary) files.push_back(&*summary);
     folder.publish(std::move(files), manifest);
   }
 
- private:
   /// All files of the run except those that are drawn now.
   std::vector<FileRecord> kept_files() const {
     std::vector<FileRecord> files = former_.manifest.files;
@@ -101,8 +107,8 @@ class RunPlotter {
 
 }  // namespace
 
-void plot_run(const PlotRequest& request, const std::function<void()>& stop_check) {
-  RunPlotter(request).go(stop_check);
+void plot_run(const PlotRequest& request, const ReadingWatch& watch) {
+  RunPlotter(request).go(watch);
 }
 
 }  // namespace carom

@@ -1,6 +1,5 @@
 #pragma once
 // Draws the charts of a finished run, into its own folder or another one.
-#include <functional>
 #include <string>
 
 #include "run/stored_charts.h"
@@ -16,8 +15,8 @@ struct PlotRequest {
   std::string gnuplot;  // its absolute path
 };
 
-/// Draws the possible charts; until all are drawn the folder stays as it is. Throws ExportError, and what `stop_check`
+/// Draws the possible charts. Until all are drawn the folder stays as it is. Throws ExportError, and what `watch`
 /// throws.
-void plot_run(const PlotRequest& request, const std::function<void()>& stop_check);
+void plot_run(const PlotRequest& request, const ReadingWatch& watch);
 
 }  // namespace carom

@@ -36,18 +36,20 @@ bool has_table(const FormerRun& former, std::string_view name) {
   return std::any_of(files.begin(), files.end(), [&](const FileRecord& file) { return file.name == name; });
 }
 
-/// Rows between two calls of stop_check.
+/// Rows between two calls of the watch.
 constexpr std::uint64_t rows_between = 1000;
 
 class ChartReader {
  public:
-  ChartReader(const FormerRun& former, const Scene& scene, RunCharts& charts, const std::function<void()>& stop_check)
-      : former_(former), scene_(scene), charts_(charts), stop_check_(stop_check) {}
+  ChartReader(const FormerRun& former, const Scene& scene, RunCharts& charts, const ReadingWatch& watch)
+      : former_(former), scene_(scene), charts_(charts), watch_(watch) {}
 
   void go() {
     if (has_table(former_, "collisions.csv")) collisions();
+    ++parts_done_;
     if (former_.has_flights()) return paths();
     if (has_table(former_, "energy.csv")) energy();
+    ++parts_done_;
     if (has_table(former_, "trajectory.csv")) trajectory();
   }
 
@@ -58,25 +60,33 @@ class ChartReader {
     for (const Ticks& ticks : {charts_.energy_ticks, charts_.height_ticks}) timeline.add(ticks);
     while (timeline.advance()) {
       do {
-        stop_check_();
+        watch_(share(motion->time()));
         motion->advance_to(timeline.time());
       } while (motion->time() < timeline.time());
       charts_.sample(timeline.time(), motion->state());
     }
   }
 
+  /// The part that is done at a time of one of at most three files.
+  double share(double time) const {
+    const double duration = scene_.simulate.duration;
+    return (parts_done_ + (duration > 0 ? std::min(time / duration, 1.0) : 0)) / 3;
+  }
+
   void energy() {
     StoredTable table = open("energy.csv");
     const std::size_t time = column(table, "time_s"), kinetic = column(table, "kinetic_J"),
                       potential = column(table, "potential_J");
-    while (const auto* row = next(table))
+    while (const auto* row = table.next()) {
+      watch_now_and_then(number(*row, time));
       charts_.energy.add(number(*row, time), number(*row, kinetic), number(*row, potential));
+    }
   }
 
   void trajectory() {
     StoredTrajectory trajectory(file("trajectory.csv"), scene_);
     while (trajectory.next()) {
-      check_now_and_then();
+      watch_(share(trajectory.time()));
       charts_.heights.add(trajectory.time(), trajectory.heights());
       for (std::size_t body = 0; body < trajectory.velocities().size(); ++body)
         if (std::isfinite(trajectory.heights()[body]))
@@ -87,8 +97,10 @@ class ChartReader {
   void collisions() {
     StoredTable table = open("collisions.csv");
     const std::size_t time = column(table, "time_s"), kind = column(table, "kind");
-    while (const auto* row = next(table))
+    while (const auto* row = table.next()) {
+      watch_now_and_then(number(*row, time));
       if (const auto known = collision_kind_named(cell(*row, kind))) charts_.collisions.add(number(*row, time), *known);
+    }
   }
 
   Descriptor file(const char* name) const {
@@ -105,12 +117,8 @@ class ChartReader {
     return *found;
   }
 
-  const std::vector<std::string_view>* next(StoredTable& table) {
-    check_now_and_then();
-    return table.next();
-  }
-  void check_now_and_then() {
-    if (rows_++ % rows_between == 0) stop_check_();
+  void watch_now_and_then(double time) {
+    if (rows_++ % rows_between == 0) watch_(share(time));
   }
 
   static std::string_view cell(const std::vector<std::string_view>& row, std::size_t column) {
@@ -125,7 +133,8 @@ class ChartReader {
   const FormerRun& former_;
   const Scene& scene_;
   RunCharts& charts_;
-  const std::function<void()>& stop_check_;
+  const ReadingWatch& watch_;
+  double parts_done_ = 0;
   std::uint64_t rows_ = 0;
 };
 
@@ -151,9 +160,8 @@ bool is_drawn_by(const PossibleCharts& charts, std::string_view file) {
   return std::find(charts.names.begin(), charts.names.end(), name) != charts.names.end();
 }
 
-void read_charts(const FormerRun& former, const Scene& scene, RunCharts& charts,
-                 const std::function<void()>& stop_check) {
-  ChartReader(former, scene, charts, stop_check).go();
+void read_charts(const FormerRun& former, const Scene& scene, RunCharts& charts, const ReadingWatch& watch) {
+  ChartReader(former, scene, charts, watch).go();
 }
 
 }  // namespace carom

@@ -21,10 +21,12 @@ PossibleCharts possible_charts(const FormerRun& former);
 /// Whether a file of this name, relative to a run's folder, is that of a possible chart.
 bool is_drawn_by(const PossibleCharts& charts, std::string_view file);
 
+/// Called often while files are read, with the part that is done, 0 to 1. May throw.
+using ReadingWatch = std::function<void(double done)>;
+
 /// Fills what the possible charts show. `scene`: that of the run, with `plots` among its outputs.
 /// With flights the states are those at the ticks of the charts, otherwise the rows of the tables, which are the same.
-/// `stop_check` is called often and may throw. Throws ExportError.
-void read_charts(const FormerRun& former, const Scene& scene, RunCharts& charts,
-                 const std::function<void()>& stop_check);
+/// Throws ExportError, and what `watch` throws.
+void read_charts(const FormerRun& former, const Scene& scene, RunCharts& charts, const ReadingWatch& watch);
 
 }  // namespace carom
