@@ -75,8 +75,7 @@ TEST(PlotRuns, KeepsTheOtherFilesAndLeavesTheRunUpToDate) {
   const Files before = here.files("run");
   ASSERT_EQ(here.carom({"plot", "run"}).code, 0);
   const Files after = here.files("run");
-  for (const auto& [name, bytes] : before)
-    EXPECT_TRUE(name == "manifest.json" || after.at(name) == bytes) << name;
+  for (const auto& [name, bytes] : before) EXPECT_TRUE(name == "manifest.json" || after.at(name) == bytes) << name;
   EXPECT_EQ(after.size(), before.size() + 8);
   EXPECT_NE(here.carom({"run", "balls.yaml", "-o", "run"}).out.find("up to date"), std::string::npos);
   EXPECT_NE(here.carom({"plot", "run"}).out.find("up to date"), std::string::npos);
