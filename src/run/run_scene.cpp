@@ -42,7 +42,7 @@ class Run {
     Recording recording;
     for (const Show& show : shows) {
       const OverlayNeeds needs = overlay_needs(*show.scene);
-      recording.collisions = recording.collisions || show.scene->output.collisions || needs.collisions;
+      recording.collisions = recording.collisions || show.scene->output.needs_collisions() || needs.collisions;
       recording.paths = recording.paths || show.scene->output.flights || needs.paths;
     }
     simulator_ = settings.simulator ? settings.simulator(scene()) : make_simulator(scene(), recording, engine_.steps);

@@ -188,9 +188,14 @@ class Resolver {
     heading("output", false);
     for (const OutputKind& kind : output_kinds()) {
       if (!kind.keys.empty() && kind.asked(scene_.output)) entry(kind.name, output_text(view, kind));
-      if (kind.keys.empty() && (kind.name != "flights" || flights_matter()))
-        entry(kind.name, kind.asked(scene_.output) ? "true" : "false");
+      if (kind.keys.empty() && is_said(kind)) entry(kind.name, kind.asked(scene_.output) ? "true" : "false");
     }
+  }
+
+  /// Whether the text of a scene has this flag. `plots` is absent unless it is true, as an output with settings is.
+  bool is_said(const OutputKind& kind) const {
+    if (kind.name == "flights") return flights_matter();
+    return kind.name != "plots" || kind.asked(scene_.output);
   }
 
   std::string output_text(const View& view, const OutputKind& kind) const {

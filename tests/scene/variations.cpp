@@ -201,6 +201,7 @@ output:
   xyz: {every: 0.1}
   gltf: {fps: 2}
   flights: true
+  plots: true
 )",
           "{scene: 1, simulate: {duration: 1, engine: book, as_printed: true}}",
           "{scene: 1, simulate: {duration: 1}, output: {video: {file: b.mp4, fps: 16, size: square}}}",
