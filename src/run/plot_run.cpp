@@ -85,7 +85,8 @@ class RunPlotter {
     }
     Series series(folder, plot_files);
     for (const ChartFile& file : drawn) series.put(file.name, file.bytes);
-    records.insert(records.end(), series.records().begin(), series.records().end());
+    const std::vector<FileRecord> charts = series.records();
+    records.insert(records.end(), charts.begin(), charts.end());
     OutputFile manifest(folder.place(), manifest_name);
     manifest.write(changed_manifest(text_of_run(former_, manifest_name, largest_manifest), *request_.scene, records));
     manifest.complete();
