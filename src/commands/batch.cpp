@@ -10,6 +10,7 @@
 
 #include "commands/interrupt.h"
 #include "commands/progress.h"
+#include "files/processors.h"
 #include "scene/scene.h"
 #include "study/workers.h"
 

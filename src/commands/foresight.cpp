@@ -32,7 +32,7 @@ Ticks instants_of(const Scene& scene, Foresight& result) {
   const Output& output = scene.output;
   double fps = 30, from = 0, until = scene.simulate.duration;
   if (output.frames || output.video) {
-    fps = output.frames ? output.frames->fps : output.video->fps;
+    fps = output.frames ? output.frames->fps : output.video->fps / output.video->speed;
     from = output.frames ? output.frames->from : output.video->from;
     until = (output.frames ? output.frames->until : output.video->until).value_or(until);
   }
@@ -123,7 +123,7 @@ class Trial {
   Clock::time_point start_ = Clock::now();
   Camera camera_;
   CameraFrame view_;
-  Ticks ticks_ = Ticks::even(0, 0);
+  Ticks ticks_ = Ticks::even(0, 0, 0);
   std::int64_t next_ = 0, last_ = -1;  // ticks left to check
   std::vector<bool> in_view_;          // by body, at the previous tick; empty: there was none
   std::unique_ptr<Simulator> oracle_;

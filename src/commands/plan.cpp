@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bench/bench_folder.h"
+#include "commands/idle_settings.h"
 #include "commands/interrupt.h"
 #include "commands/text.h"
 #include "files/open_folder.h"
@@ -56,7 +57,13 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
   planned.scene = std::make_unique<Scene>(
       load_scene(planned.file, load_options(options, options.only || purpose == Purpose::bench)));
   const Output requested = planned.scene->output;
-  if (options.only) planned.scene->output = restricted(requested, *options.only);
+  const auto written = [&](const Output& all) { return options.only ? restricted(all, *options.only) : all; };
+  planned.scene->output = written(requested);
+  planned.notes = idle_settings(options.set, planned.scene->output, [&](const std::vector<std::string>& set) {
+    LoadOptions load = load_options(options, true);
+    load.set = set;
+    return written(load_scene(planned.file, load).output);
+  });
   check_flights(*planned.scene);
   planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   planned.engine = choose_engine(*planned.scene);

@@ -26,6 +26,8 @@ struct PlannedScene {
   EngineChoice engine;
   Forecast forecast;
   FolderContent content = FolderContent::nothing;
+  /// What the user may not expect of this command, for the terminal.
+  std::vector<std::string> notes{};
   std::shared_ptr<const FormerRun> former{};  // a run to draw again; in its own folder: renewed there
 };
 

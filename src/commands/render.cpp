@@ -9,6 +9,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "commands/idle_settings.h"
 #include "commands/plan.h"
 #include "commands/run.h"
 #include "commands/text.h"
@@ -67,6 +68,16 @@ class Planner {
     planned.scene = std::make_unique<Scene>(file.scene(settings));
     refuse_other_motion(file, *former, *planned.scene, path);
     choose_outputs(planned, *former);
+    planned.notes = idle_settings(options_.set, planned.scene->output, [&](const std::vector<std::string>& set) {
+      std::vector<Setting> others;
+      for (const std::string& text : set) others.push_back({text, ""});
+      PlannedScene other;
+      other.file = planned.file;
+      other.folder = planned.folder;
+      other.scene = std::make_unique<Scene>(file.scene(others));
+      choose_outputs(other, *former);
+      return other.scene->output;
+    });
     planned.scene->file = former->scene.file;
     planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     planned.engine = choose_engine(*planned.scene);

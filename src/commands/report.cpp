@@ -243,4 +243,10 @@ void complain(const Options& options, std::string_view text) {
   write_err(fmt::format("{}carom:{} {}\n", palette.red, palette.reset, text));
 }
 
+void remark(const Options& options, std::string_view text) {
+  if (options.quiet) return;
+  const Palette palette(uses_color(options.color, STDERR_FILENO));
+  write_err(fmt::format("{}carom:{} {}\n", palette.yellow, palette.reset, text));
+}
+
 }  // namespace carom

@@ -54,7 +54,9 @@ nlohmann::ordered_json facts_json(const RunResult& result);
 /// they are instead of scenes.
 std::string document(std::string_view command, nlohmann::ordered_json scenes);
 
-/// One error or remark to stderr, after the program's name.
+/// One error to stderr, after the program's name.
 void complain(const Options& options, std::string_view text);
+/// The same for what is no error. With --quiet nothing is shown.
+void remark(const Options& options, std::string_view text);
 
 }  // namespace carom

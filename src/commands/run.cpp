@@ -62,6 +62,8 @@ int run_command(const Options& options) {
 int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes) {
   refuse_other_content(scenes, options);
   if (const std::string errors = error_count(scenes); !errors.empty()) return refuse(options, command, scenes, errors);
+  for (const PlannedScene& planned : scenes)
+    for (const std::string& note : planned.notes) remark(options, fmt::format("{}: {}", printable(planned.file), note));
   const auto start = std::chrono::steady_clock::now();
   const Style style{Palette(uses_color(options.color, STDOUT_FILENO)), terminal_width(STDOUT_FILENO)};
   OutcomeList list(options);

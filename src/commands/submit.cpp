@@ -11,6 +11,7 @@
 #include "commands/report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
+#include "files/processors.h"
 #include "yaml/joined.h"
 
 namespace carom {

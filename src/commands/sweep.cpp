@@ -13,6 +13,7 @@
 #include "commands/sweep_report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
+#include "files/processors.h"
 #include "files/publication.h"
 #include "scene/scene.h"
 #include "study/sweep_folder.h"

@@ -15,6 +15,7 @@
 #include "commands/options.h"
 #include "commands/text.h"
 #include "compare/comparison.h"
+#include "files/processors.h"
 #include "render/mesh.h"
 #include "scene/output_kinds.h"
 #include "scene/resolve.h"

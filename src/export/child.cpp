@@ -140,6 +140,7 @@ Child::Sent Child::send(const void* bytes, std::size_t size, std::chrono::millis
   const char* from = static_cast<const char*>(bytes);
   auto limit = Clock::now() + patience;
   while (size > 0) {
+    if (abandoned_) return Sent::abandoned;
     const ssize_t n = ::send(input_.get(), from, size, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (n >= 0) {
       from += n;
@@ -181,7 +182,7 @@ bool Child::has_ended() {
 std::optional<int> Child::wait(std::chrono::milliseconds patience) {
   const auto limit = Clock::now() + patience;
   std::chrono::microseconds pause(200);
-  while (!has_ended() && Clock::now() < limit) {
+  while (!has_ended() && !abandoned_ && Clock::now() < limit) {
     stop_check()();
     std::this_thread::sleep_for(pause);
     pause = std::min(pause * 2, std::chrono::microseconds(20'000));

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "export/film.h"
+#include "export/frame_files.h"
 #include "export/picture_streams.h"
 #include "export/png.h"
 #include "export/sheet.h"
@@ -16,7 +17,7 @@
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
 #include "files/open_folder.h"
-#include "files/series.h"
+#include "files/processors.h"
 #include "files/series_folders.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -68,7 +69,7 @@ struct Exports::Impl {
           kind.is_sampled() ? timeline.add(Ticks::every(kind.every(output), scene.simulate.duration)) : -1;
       writers.push_back({writer->open(*folder, scene, makers), ticks});
     }
-    if (output.frames) frames.emplace(*folder, frame_files);
+    if (output.frames) frames.emplace(*folder, share_of_processors());
     if (output.video) film.emplace(folder->place(), *output.video, std::move(*tools));
     if (output.sheet) sheet.emplace(*output.sheet, sheet_model(output).size);
     for (std::size_t i = 0; i < plan.streams.size(); ++i) plan.streams[i].timeline_stream = timeline.add(plan.ticks[i]);
@@ -87,11 +88,6 @@ struct Exports::Impl {
     return std::any_of(kept.begin(), kept.end(), [&](const FileRecord& file) { return output_of(file.name) == &kind; });
   }
 
-  void write_frame(std::int64_t number, const Image& image, bool again) {
-    if (!again || frame.empty()) frame = encode_png(image, PngEffort::fast);
-    frames->put(number, frame);
-  }
-
   bool due(int stream) const { return stream >= 0 && timeline.due(stream); }
 
   const Scene& scene;
@@ -105,8 +101,7 @@ struct Exports::Impl {
   std::vector<FileRecord> first_records;
   // Declared before all that writes into it, so that it is destroyed last and can clean up.
   std::optional<OpenFolder> folder;
-  std::optional<Series> frames;
-  std::string frame;  // the previous one, as PNG
+  std::optional<FrameFiles> frames;
   std::vector<OpenWriter> writers;
   std::optional<Film> film;
   std::optional<Sheet> sheet;
@@ -157,7 +152,7 @@ void Exports::picture(std::size_t stream, const Image& image, bool again) {
   const auto number = impl_->timeline.due(impl_->plan.streams.at(stream).timeline_stream);
   if (!number) return;
   const PictureUse& use = impl_->plan.uses[stream];
-  if (use.frames) impl_->write_frame(*number, image, again);
+  if (use.frames) impl_->frames->put(*number, image, again);
   if (use.film) impl_->film->add(image);
   if (use.sheet) impl_->sheet->put(*number, image);
   impl_->pictures += use.frames || use.film;
@@ -177,6 +172,7 @@ std::vector<LeftOut> Exports::end(const Tally& tally) {
 }
 
 void Exports::finish(const Summary& summary, const RunFacts& facts) {
+  if (impl_->frames) impl_->frames->finish();
   const FilePlace& place = impl_->folder->place();
   // In the order of the files of a run that keeps none.
   std::vector<FileRecord> records = impl_->first_records;
@@ -191,7 +187,7 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
   std::optional<OutputFile> sheet_file;
   if (impl_->sheet) {
     sheet_file.emplace(place, "sheet.png");
-    sheet_file->write(encode_png(impl_->sheet->image(), PngEffort::small));
+    sheet_file->write(encode_png(impl_->sheet->image()));
     files.push_back(&*sheet_file);
   }
   for (OutputFile* file : files) {

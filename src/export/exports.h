@@ -50,7 +50,8 @@ class Exports {
   /// Writes the rows that are due. `contacts`: sorted by a, then b; read only if needs_contacts().
   void sample(const State& state, std::span<const ContactForce> contacts = {});
   const std::vector<PictureStream>& pictures() const;
-  /// Takes the picture that is due for pictures()[stream]. `again`: it equals the stream's previous one.
+  /// Copies the picture that is due for pictures()[stream]. `again`: it equals the stream's previous one.
+  /// Other threads encode and write it. An error of theirs is thrown by a later call, or by finish().
   void picture(std::size_t stream, const Image& image, bool again = false);
   /// The pictures taken so far for frames and video. Those of the sheet do not count.
   std::uint64_t frames() const;

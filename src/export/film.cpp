@@ -1,46 +1,39 @@
-// Feeds raw RGB pictures to ffmpeg, which converts them to limited-range BT.709.
-// The flags of the conversion are fixed, so that the same pictures give the same bytes.
+// The colours of .mp4 are converted here, so that ffmpeg only encodes.
 #include "export/film.h"
 
-#include <charconv>
+#include "export/yuv.h"
+#include "scene/film_format.h"
 
 namespace carom {
-namespace {
-
-std::string decimal(double value) {
-  char text[32];
-  return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
-
-/// The pictures are full-range sRGB. The film is limited-range Y'CbCr by BT.709 and is marked so.
-std::string film_filter(Size size) {
-  std::string filter =
-      "scale=in_range=pc:out_range=tv:out_color_matrix=bt709:flags=accurate_rnd+full_chroma_int+bitexact";
-  // Colour has half the resolution, so both sides must be even. An odd side repeats its last pixel.
-  const int right = size.width % 2, bottom = size.height % 2;
-  if (right || bottom) {
-    filter = "pad=" + std::to_string(size.width + right) + ":" + std::to_string(size.height + bottom) +
-             ",fillborders=right=" + std::to_string(right) + ":bottom=" + std::to_string(bottom) + ":mode=smear," +
-             filter;
-  }
-  return filter;
-}
-
-}  // namespace
 
 Film::Film(const FilePlace& place, const VideoOutput& video, FilmTools tools, const FilmPatience& patience)
-    : video_(video), file_(place, video.file, std::move(tools), patience) {}
+    : video_(video),
+      file_(place, video.file, std::move(tools), patience),
+      pictures_([this](const RawPicture& picture) { file_.send(picture.data(), picture.size()); }, 0) {}
 
 void Film::add(const Image& image) {
-  const int width = video_.size.width, height = video_.size.height;
-  if (image.width != width || image.height != height) file_.fail_with("a picture is of another size");
-  if (!file_.started())
-    file_.start(
-        {"-f", "rawvideo", "-pixel_format", "rgb24", "-video_size",
-         std::to_string(width) + "x" + std::to_string(height), "-framerate", decimal(video_.fps), "-i", "pipe:0"},
-        {"-vf", film_filter(video_.size)}, video_.crf, true);
-  file_.send(image.pixels.data(), image.pixels.size());
+  if (image.width != video_.size.width || image.height != video_.size.height || !image.is_whole())
+    file_.fail_with("a picture is of another size");
+  if (!file_.started()) {
+    encoding_ = film_encoding(video_, image);
+    file_.start(encoding_.runs.front(), true);
+  }
+  RawPicture& picture = pictures_.item();
+  if (film_format(video_.file) == FilmFormat::mp4)
+    to_yuv420p(image, picture);
+  else
+    picture.assign(image.pixels.begin(), image.pixels.end());
+  pictures_.send();
   ++frames_;
+}
+
+void Film::complete() {
+  pictures_.finish();
+  for (std::size_t run = 1; run < encoding_.runs.size(); ++run) {
+    file_.end_run();
+    file_.start(encoding_.runs[run], false);
+  }
+  file_.complete(encoding_.file, frames_, video_.fps);
 }
 
 }  // namespace carom

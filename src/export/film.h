@@ -1,31 +1,40 @@
 #pragma once
-// animation.mp4. Raw pictures go to ffmpeg as they are drawn, without intermediate files.
+// animation.mp4, or a film as GIF or WebP. Pictures go to ffmpeg as they are drawn, without files of their own.
 #include <cstdint>
+#include <vector>
 
 #include "export/film_file.h"
+#include "files/conveyor.h"
 #include "render/image.h"
 #include "scene/output.h"
 
 namespace carom {
 
-/// H.264, yuv420p, BT.709, index in front. Frame i is shown at i / fps. The same pictures give the same bytes.
+/// A film whose frame i is shown at i / fps. The same pictures give the same bytes.
+/// ffmpeg encodes one frame while the caller draws the next ones: a thread of its own passes the pictures on.
 class Film {
  public:
   Film(const FilePlace& place, const VideoOutput& video, FilmTools tools, const FilmPatience& patience = {});
+  ~Film() { file_.abandon(); }
 
-  /// Throws ExportError, as all functions of this class do.
+  /// Copies the picture. Waits while 4 pictures are on their way.
+  /// Throws ExportError, as all functions of this class do, also the error of an earlier picture.
   void add(const Image& image);
   std::uint64_t frames() const { return frames_; }
 
   /// Waits for ffmpeg and verifies the number of frames in the film.
-  void complete() { file_.complete(frames_); }
+  void complete();
   PartFile& file() { return file_; }
   const FileRecord& record() const { return file_.record(); }  // valid after complete()
 
  private:
+  using RawPicture = std::vector<std::uint8_t>;
+
   VideoOutput video_;
+  FilmEncoding encoding_;  // known with the first picture
   FilmFile file_;
   std::uint64_t frames_ = 0;
+  Conveyor<RawPicture> pictures_;  // last, because its thread uses file_
 };
 
 }  // namespace carom

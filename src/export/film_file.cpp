@@ -1,5 +1,5 @@
-// Runs ffmpeg with a fixed number of threads and without version numbers, for reproducible bytes.
-// The film is made in a temporary folder, and its frames are counted by ffprobe before it is accepted.
+// Runs ffmpeg and waits for it.
+// The film is made in a temporary folder, and its frames are counted before it is accepted.
 // Exit codes are not sufficient: ffmpeg may succeed with a part of the frames.
 #include "export/film_file.h"
 
@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <charconv>
 
+#include "export/webp.h"
 #include "files/folder_names.h"
 #include "files/open_folder.h"
 #include "files/run_folder.h"
@@ -17,9 +18,6 @@
 
 namespace carom {
 namespace {
-
-/// The film's name in ffmpeg's folder. Its final name comes from the scene and never appears on a command line.
-constexpr const char* film_name = "film.mp4";
 
 /// The last lines of a program's error output, on one line.
 std::string complaint(const std::string& text) {
@@ -48,6 +46,13 @@ std::uint64_t take_number(std::string_view& text) {
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value).ptr;
   text.remove_prefix(std::min(text.size(), static_cast<std::size_t>(end - text.data()) + 1));
   return value;
+}
+
+/// ffprobe counts them, because a GIF does not store their number.
+std::uint64_t counted_frames(const FilmTools& tools, int folder, const std::string& name, std::string& error) {
+  const std::string counted = probed(tools, folder, name, true, "nb_read_packets", error);
+  std::string_view text = counted;
+  return take_number(text);
 }
 
 }  // namespace
@@ -90,21 +95,9 @@ FilePlace FilmFile::workshop() {
   return {workshop_.get(), place_.path + "/" + folder};
 }
 
-void FilmFile::start(const std::vector<std::string>& input, const std::vector<std::string>& filter, int crf, bool fed) {
-  std::vector<std::string> arguments = {tools_.ffmpeg, "-nostdin", "-hide_banner", "-loglevel", "error", "-y"};
-  arguments.insert(arguments.end(), input.begin(), input.end());
-  arguments.emplace_back("-an");
-  arguments.insert(arguments.end(), filter.begin(), filter.end());
-  // A fixed number of threads and no version numbers give the same bytes on every machine.
-  const std::string quality = std::to_string(crf), out = std::string("file:") + film_name;
-  for (const std::string_view argument :
-       {"-c:v",         "libx264",   "-preset",          "medium",     "-crf",       quality.c_str(),
-        "-pix_fmt",     "yuv420p",   "-threads",         "4",          "-fps_mode",  "passthrough",
-        "-colorspace",  "bt709",     "-color_primaries", "bt709",      "-color_trc", "bt709",
-        "-color_range", "tv",        "-movflags",        "+faststart", "-fflags",    "+bitexact",
-        "-flags:v",     "+bitexact", "-map_metadata",    "-1",         "-f",         "mp4",
-        out.c_str()})
-    arguments.emplace_back(argument);
+void FilmFile::start(const FfmpegRun& run, bool fed) {
+  FfmpegRun arguments = {tools_.ffmpeg, "-nostdin", "-hide_banner", "-loglevel", "error", "-y"};
+  arguments.insert(arguments.end(), run.begin(), run.end());
   const FilePlace place = workshop();
   ffmpeg_ = std::make_unique<Child>(arguments, place.folder, fed);
 }
@@ -112,6 +105,7 @@ void FilmFile::start(const std::vector<std::string>& input, const std::vector<st
 void FilmFile::send(const void* bytes, std::size_t size) {
   switch (ffmpeg_->send(bytes, size, patience_.each)) {
     case Child::Sent::all:
+    case Child::Sent::abandoned:
       return;
     case Child::Sent::closed:
       ffmpeg_->wait(std::chrono::seconds(5));
@@ -123,7 +117,11 @@ void FilmFile::send(const void* bytes, std::size_t size) {
   }
 }
 
-void FilmFile::complete(std::uint64_t frames) {
+void FilmFile::abandon() {
+  if (ffmpeg_) ffmpeg_->abandon();
+}
+
+void FilmFile::end_run() {
   if (!ffmpeg_) fail_with("it has no pictures");
   ffmpeg_->end_input();
   const std::optional<int> code = ffmpeg_->wait(patience_.end);
@@ -132,25 +130,27 @@ void FilmFile::complete(std::uint64_t frames) {
     fail_with("ffmpeg did not end within " + std::to_string(patience_.end.count() / 1000) + " s and was stopped");
   }
   if (*code != 0) fail_with("ffmpeg failed with code " + std::to_string(*code) + ": " + complaint(ffmpeg_->errors()));
+}
 
+void FilmFile::complete(const std::string& made, std::uint64_t frames, double fps) {
+  end_run();
   std::string error;
-  const std::string counted = probed(tools_, workshop_.get(), film_name, true, "nb_read_packets", error);
+  const std::uint64_t found = made.ends_with(".webp") ? webp_frames(workshop(), made, fps).value_or(frames)
+                                                      : counted_frames(tools_, workshop_.get(), made, error);
   if (!error.empty()) fail_with(error);
-  std::string_view text = counted;
-  if (const std::uint64_t found = take_number(text); found != frames)
-    fail_with("ffmpeg wrote " + std::to_string(found) + " of " + std::to_string(frames) + " frames");
+  if (found != frames) fail_with("ffmpeg wrote " + std::to_string(found) + " of " + std::to_string(frames) + " frames");
 
-  const auto stored = read_record(workshop_.get(), film_name);
+  const auto stored = read_record(workshop_.get(), made);
   if (!stored) fail("read", place_, record_.name);
   record_.bytes = stored->bytes;
   record_.sha256 = stored->sha256;
-  give_name(workshop_.get(), film_name, place_, part());
+  give_name(workshop_.get(), made, place_, part());
   remove_entry(place_, workshop_name());
 }
 
 FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const std::string& name) {
   std::string error;
-  const std::string output = probed(tools, place.folder, name, false, "width,height,r_frame_rate,nb_frames", error);
+  const std::string output = probed(tools, place.folder, name, false, "width,height,r_frame_rate", error);
   if (!error.empty()) fail("read the film", place, name, error);
   std::string_view text = output;
   FilmFacts facts;
@@ -158,7 +158,8 @@ FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const std::
   facts.height = static_cast<int>(take_number(text));
   facts.rate = take_number(text);
   facts.per = take_number(text);
-  facts.frames = take_number(text);
+  facts.frames = counted_frames(tools, place.folder, name, error);
+  if (!error.empty()) fail("read the film", place, name, error);
   if (facts.width == 0 || facts.height == 0 || facts.rate == 0 || facts.per == 0 || facts.frames == 0)
     fail("read the film", place, name, "ffprobe finds no pictures in it");
   return facts;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "export/child.h"
+#include "export/film_encoding.h"
 #include "files/output_file.h"
 
 namespace carom {
@@ -34,15 +35,20 @@ class FilmFile : public PartFile {
 
   /// The temporary folder of ffmpeg. The first call makes it.
   FilePlace workshop();
-  /// Starts ffmpeg there. `input`: the options of the input. `filter`: an option and its value.
-  /// The other options are those of every film: H.264 in yuv420p and BT.709, index in front, reproducible bytes.
-  void start(const std::vector<std::string>& input, const std::vector<std::string>& filter, int crf, bool fed);
+  /// Starts a run of ffmpeg there. `fed`: send() gives it its input.
+  void start(const FfmpegRun& run, bool fed);
   bool started() const { return ffmpeg_ != nullptr; }
+  /// May be called on another thread than the rest.
   void send(const void* bytes, std::size_t size);
+  /// Ends a send() on another thread.
+  void abandon();
+  /// Waits for the end of the present run.
+  void end_run();
 
-  /// Waits for ffmpeg's end and verifies the number of frames, because ffmpeg may succeed with half of them.
+  /// Ends the present run and verifies the number of frames, because ffmpeg may succeed with half of them.
+  /// `made`: the film's name in the temporary folder. `fps`: its pictures a second.
   /// The film then has its temporary name, and publish() renames it.
-  void complete(std::uint64_t frames);
+  void complete(const std::string& made, std::uint64_t frames, double fps);
 
   [[noreturn]] void fail_with(const std::string& reason) const;
 

@@ -11,13 +11,8 @@
 namespace carom {
 namespace {
 
-Ticks ticks_of(const PictureOutput& frames, double duration) {
-  return Ticks::rate(frames.fps, frames.from, std::min(frames.until.value_or(duration), duration));
-}
-
-bool same_pictures(const PictureOutput& a, const PictureOutput& b, double duration) {
-  return a.fps == b.fps && a.size == b.size && a.samples == b.samples && a.from == b.from &&
-         std::min(a.until.value_or(duration), duration) == std::min(b.until.value_or(duration), duration);
+double end_of(const std::optional<double>& until, double duration) {
+  return std::min(until.value_or(duration), duration);
 }
 
 void add(PictureStreams& plan, Size size, int samples, const Ticks& ticks, const PictureUse& use) {
@@ -37,21 +32,25 @@ PictureStreams plan_pictures(const Scene& scene) {
   const Output& output = scene.output;
   const double duration = scene.simulate.duration;
   PictureStreams plan;
-  if (const auto& frames = output.frames) {
-    const bool film = output.video && same_pictures(*frames, *output.video, duration);
-    add(plan, frames->size, frames->samples, ticks_of(*frames, duration), {true, film, false});
-  }
+  if (const auto& frames = output.frames)
+    add(plan, frames->size, frames->samples, Ticks::rate(frames->fps, frames->from, end_of(frames->until, duration)),
+        {true, false, false});
   if (const auto& video = output.video) {
-    const Ticks ticks = ticks_of(*video, duration);
+    const Ticks ticks = Ticks::film(video->fps, video->speed, video->from, end_of(video->until, duration));
     if (ticks.count() < 1)
       throw ExportError("cannot make " + video->file + ": no picture falls between `from` and `until`");
-    if (plan.uses.empty() || !plan.uses.front().film)
+    const auto& frames = output.frames;
+    if (frames && frames->size == video->size && frames->samples == video->samples &&
+        plan.ticks.front().has_times_of(ticks))
+      plan.uses.front().film = true;
+    else
       add(plan, video->size, video->samples, ticks, {false, true, false});
   }
   if (output.sheet) {
     const PictureOutput model = sheet_model(output);
     const Sheet sheet(*output.sheet, model.size);
-    add(plan, sheet.picture_size(), model.samples, Ticks::even(sheet.count(), duration), {false, false, true});
+    add(plan, sheet.picture_size(), model.samples,
+        Ticks::even(sheet.count(), output.sheet->from, end_of(output.sheet->until, duration)), {false, false, true});
   }
   return plan;
 }

@@ -9,9 +9,9 @@ namespace carom {
 
 class Sheet {
  public:
-  /// Pictures with the aspect ratio of `shape`.
-  /// A row of them is up to 1920 pixels wide, and each is at most 480 pixels wide.
-  /// Throws ExportError if the sheet would be too large.
+  /// A sheet of the size that `sheet` gives, whose pictures fill it.
+  /// Otherwise pictures with the aspect ratio of `shape`, each at most 480 pixels wide, and a row of them up to 1920.
+  /// Throws ExportError if the sheet would be too large, or its pictures too small.
   Sheet(const SheetOutput& sheet, Size shape);
 
   Size picture_size() const { return picture_; }
@@ -21,10 +21,11 @@ class Sheet {
   const Image& image();
 
  private:
-  void prepare();
+  void prepare(int channels);
 
   int columns_, rows_;
   Size picture_, whole_;
+  Size margin_;  // left of the pictures and above them, pixels
   Image image_;  // allocated at the first picture
 };
 

@@ -14,6 +14,7 @@
 #include "files/open_folder.h"
 #include "files/run_folder.h"
 #include "numerics/whole.h"
+#include "scene/film_format.h"
 
 namespace carom {
 namespace {
@@ -63,7 +64,7 @@ struct Span {
 Span span_of(const FilmTile& tile, const FilmFacts& film, const FilmFacts& fastest, double start) {
   const double rate = rate_of(fastest);
   const double frames = static_cast<double>(film.frames) * rate / rate_of(film);
-  return {static_cast<std::uint64_t>(std::max<std::int64_t>(0, nearest_whole((tile.from - start) * rate))),
+  return {static_cast<std::uint64_t>(std::max<std::int64_t>(0, nearest_whole((tile.from - start) / tile.speed * rate))),
           static_cast<std::uint64_t>(std::max<std::int64_t>(1, nearest_whole(frames)))};
 }
 
@@ -125,6 +126,9 @@ void SideBySide::complete() {
     input.insert(input.end(),
                  {"-i", "file:" + absolute((std::filesystem::path(tiles_[k].folder) / tiles_[k].file).string())});
     graph += fmt::format("[{}:v]", k);
+    // Other films are in these colours already.
+    if (film_format(tiles_[k].file) == FilmFormat::gif)
+      graph += "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bitexact,format=yuv420p,";
     if (is_faster(fastest, film)) graph += fmt::format("fps={}/{},", fastest.rate, fastest.per);
     if (film.width != grid.width || film.height != grid.height)
       graph += fmt::format(
@@ -143,8 +147,11 @@ void SideBySide::complete() {
     layout += fmt::format("{}{}_{}", k > 0 ? "|" : "", column * grid.width, row * grid.height);
   }
   graph += fmt::format("{}xstack=inputs={}:layout={}:fill=black", stacked, tiles_.size(), layout);
-  file_.start(input, {"-filter_complex", graph}, crf, false);
-  file_.complete(frames);
+  FfmpegRun run = std::move(input);
+  run.insert(run.end(), {"-filter_complex", graph});
+  for (std::string& argument : h264_output(crf)) run.push_back(std::move(argument));
+  file_.start(run, false);
+  file_.complete(h264_file, frames, rate_of(fastest));
 }
 
 }  // namespace carom

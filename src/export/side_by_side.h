@@ -12,6 +12,7 @@ struct FilmTile {
   std::string folder, file;         // the film
   double from = 0;                  // s, the simulated time of its first frame
   std::vector<std::string> labels;  // lines
+  double speed = 1;                 // seconds of motion a second of film; the same of all tiles
 };
 
 /// The maximum number of films in one.

@@ -1,4 +1,4 @@
-// Tick i is i * numerator / denominator, rounded once.
+// Tick i is (offset + i * numerator) / denominator, rounded once.
 // A sum of intervals would drift, and the product i * 0.01 is not the double of the decimal that the author means.
 // Intervals are therefore recovered as decimals or as one over a whole number.
 #include "export/timeline.h"
@@ -95,27 +95,51 @@ Ticks Ticks::rate(double per_second, double from, double until) {
   std::int64_t first = tick_number(from * per_second);
   for (int i = 0; i < 3 && first > 0 && ticks.at(first - 1) >= from; ++i) --first;
   for (int i = 0; i < 3 && first < most_ticks && ticks.at(first) < from; ++i) ++first;
-  std::int64_t last = until >= 0 ? tick_number(until * per_second) : -1;
-  for (int i = 0; i < 3 && last >= 0 && ticks.at(last) > until; ++i) --last;
-  for (int i = 0; i < 3 && last >= 0 && last < most_ticks && ticks.at(last + 1) <= until; ++i) ++last;
   ticks.first_ = first;
-  ticks.last_ = std::max(last, first - 1);
+  ticks.last_ = std::max(until >= 0 ? ticks.last_until(until, until * per_second) : -1, first - 1);
   return ticks;
 }
 
-Ticks Ticks::even(std::int64_t count, double duration) {
+// a/b + i c/d / fps = (a d fps + i b c) / (b d fps), with a/b = from and c/d = speed.
+Ticks Ticks::film(double per_second, double speed, double from, double until) {
+  if (!(per_second > 0) || !std::isfinite(per_second) || !(speed > 0) || !std::isfinite(speed))
+    throw std::invalid_argument("Ticks::film: the rate and the speed must be positive and finite");
+  Ticks ticks;
+  const Ratio start = as_ratio(from), pace = as_ratio(speed);
+  ticks.offset_ = start.numerator * pace.denominator * per_second;
+  ticks.numerator_ = start.denominator * pace.numerator;
+  ticks.denominator_ = start.denominator * pace.denominator * per_second;
+  ticks.last_ = until >= from ? ticks.last_until(until, (until - from) / speed * per_second) : -1;
+  return ticks;
+}
+
+std::int64_t Ticks::last_until(double until, double guess) const {
+  std::int64_t last = tick_number(guess);
+  for (int i = 0; i < 3 && last >= 0 && at(last) > until; ++i) --last;
+  for (int i = 0; i < 3 && last >= 0 && last < most_ticks && at(last + 1) <= until; ++i) ++last;
+  return last;
+}
+
+Ticks Ticks::even(std::int64_t count, double from, double until) {
   Ticks ticks;
   if (count <= 0) return ticks;
+  const auto steps = static_cast<double>(std::max<std::int64_t>(count - 1, 1));
   ticks.last_ = count - 1;
-  ticks.numerator_ = duration;
-  ticks.denominator_ = static_cast<double>(std::max<std::int64_t>(count - 1, 1));
-  ticks.end_ = duration;
+  ticks.offset_ = from * steps;
+  ticks.numerator_ = until - from;
+  ticks.denominator_ = steps;
+  ticks.end_ = until;
   return ticks;
 }
 
 double Ticks::at(std::int64_t i) const {
-  // The product is exact for every run of practical length. The division then rounds once.
-  return end_ && i == last_ ? *end_ : static_cast<double>(i) * numerator_ / denominator_;
+  // The products are exact for every run of practical length. The division then rounds once.
+  return end_ && i == last_ ? *end_ : (offset_ + static_cast<double>(i) * numerator_) / denominator_;
+}
+
+bool Ticks::has_times_of(const Ticks& other) const {
+  return count() == other.count() &&
+         (count() == 0 || (at(first_) == other.at(other.first_) && at(last_) == other.at(other.last_)));
 }
 
 Timeline::Timeline(double duration) : duration_(duration) {}

@@ -14,18 +14,26 @@ class Ticks {
   static Ticks every(double interval, double duration);
   /// Tick i at i / per_second exactly, for every i with a time in from .. until (s).
   static Ticks rate(double per_second, double from, double until);
-  /// `count` evenly spaced instants from 0 to `duration` (s), ends included. A single one is at the duration.
-  static Ticks even(std::int64_t count, double duration);
+  /// Tick i at from + i * speed / per_second exactly, for every i >= 0 with a time of at most `until` (s).
+  /// A `from` or a `speed` that is a short decimal, or one over a whole number, is meant as such: 0.4 is 4/10.
+  static Ticks film(double per_second, double speed, double from, double until);
+  /// `count` evenly spaced instants from `from` to `until` (s), ends included. A single one is at `until`.
+  static Ticks even(std::int64_t count, double from, double until);
 
   std::int64_t first() const { return first_; }
   std::int64_t last() const { return last_; }  // first() - 1: none
   std::int64_t count() const { return last_ - first_ + 1; }
   double at(std::int64_t i) const;  // s
+  /// Whether both have the same instants, with any numbers.
+  bool has_times_of(const Ticks& other) const;
 
  private:
+  /// The largest number whose time is at most `until`, near a guess of it. -1: none.
+  std::int64_t last_until(double until, double guess) const;
+
   std::int64_t first_ = 0, last_ = -1;
-  /// Tick i is at i * numerator / denominator.
-  double numerator_ = 1, denominator_ = 1;
+  /// Tick i is at (offset + i * numerator) / denominator.
+  double offset_ = 0, numerator_ = 1, denominator_ = 1;
   std::optional<double> end_;  // the last tick's own time
 };
 

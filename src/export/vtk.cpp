@@ -153,10 +153,8 @@ VtkWriter::VtkWriter(OpenFolder& folder, const Scene& scene, const ModelMakers& 
 void VtkWriter::add(double time, const State& state, std::span<const ContactForce>) {
   for (Entity body = 0; body < scene_.world.body_count(); ++body)
     extent_.include(state.position[body], volume_now(scene_.world, state, body).half);
-  const auto instant = static_cast<std::int64_t>(bodies_.records().size());
-  bodies_.put(instant, bodies_text(scene_, time, state, solids_));
-  collection_.write(fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", number_cell(time),
-                                bodies_.records().back().name));
+  const std::string file = bodies_.put(instants_++, bodies_text(scene_, time, state, solids_));
+  collection_.write(fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", number_cell(time), file));
 }
 
 std::vector<OutputFile*> VtkWriter::files() {

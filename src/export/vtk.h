@@ -27,6 +27,7 @@ class VtkWriter : public Writer {
   const ModelMakers& makers_;
   bool solids_;
   Series bodies_;
+  std::int64_t instants_ = 0;
   OutputFile collection_, surfaces_;
   /// Of the bodies at all instants so far.
   Extent extent_;

@@ -1,5 +1,6 @@
 #pragma once
 // The folder of a run during writing: locked, cleared of a former run, and cleaned up when the run fails.
+#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -65,7 +66,7 @@ class OpenFolder {
   /// Makes the folder of a series if needed, and opens it.
   FilePlace series(const FileSeries& series);
 
-  /// Keeps the folder's content even if the run fails.
+  /// Keeps the folder's content even if the run fails. May be called by several threads.
   void keep() { keep_ = true; }
 
   /// Renames complete files to their final names, then the manifest (publication.h).
@@ -85,7 +86,8 @@ class OpenFolder {
   Descriptor folder_;
   std::vector<Descriptor> series_;
   FilePlace place_;
-  bool made_ = false, keep_ = false;
+  bool made_ = false;
+  std::atomic<bool> keep_ = false;
   std::vector<FileRecord> begun_;  // the files written by begin()
   // After renew(), series are written in temporary folders until publish().
   bool renews_ = false;

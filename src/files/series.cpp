@@ -2,15 +2,31 @@
 // The complete files of a series stay even if the run fails later.
 #include "files/series.h"
 
+#include <cstring>
+
 namespace carom {
 
-void Series::put(std::int64_t number, std::string_view bytes) {
+std::string Series::put(std::int64_t number, std::string_view bytes) {
   OutputFile file(place_, files_.name(number));
-  file.write(bytes);
+  // In one piece, so that a large file starts no thread of its own.
+  char* const to = file.room(bytes.size());
+  std::memcpy(to, bytes.data(), bytes.size());
+  file.written(to + bytes.size());
   file.publish();
   folder_.keep();
-  records_.push_back(file.record());
-  records_.back().name.insert(0, std::string(files_.folder) + "/");
+  FileRecord record = file.record();
+  record.name.insert(0, std::string(files_.folder) + "/");
+  const std::string name = record.name;
+  const std::lock_guard lock(mutex_);
+  records_.insert_or_assign(number, std::move(record));
+  return name;
+}
+
+std::vector<FileRecord> Series::records() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<FileRecord> records;
+  for (const auto& [number, record] : records_) records.push_back(record);
+  return records;
 }
 
 }  // namespace carom

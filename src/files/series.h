@@ -1,5 +1,8 @@
 #pragma once
 // Numbered files in a folder of their own (frames/, vtk/). Each file is complete when its name appears.
+#include <cstdint>
+#include <map>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,14 +16,17 @@ class Series {
  public:
   /// Makes the folder. Both arguments must outlive this object. Throws ExportError, as all functions of this class do.
   Series(OpenFolder& folder, const FileSeries& files) : folder_(folder), files_(files), place_(folder.series(files)) {}
-  void put(std::int64_t number, std::string_view bytes);
-  const std::vector<FileRecord>& records() const { return records_; }  // names relative to the run's folder
+  /// Returns the file's name relative to the run's folder. May be called by several threads.
+  std::string put(std::int64_t number, std::string_view bytes);
+  /// In the order of the numbers; names relative to the run's folder.
+  std::vector<FileRecord> records() const;
 
  private:
   OpenFolder& folder_;
   const FileSeries& files_;
   FilePlace place_;
-  std::vector<FileRecord> records_;
+  mutable std::mutex mutex_;
+  std::map<std::int64_t, FileRecord> records_;  // by number, changed under the mutex
 };
 
 }  // namespace carom

@@ -3,6 +3,7 @@
 #include "files/series_folders.h"
 
 #include "files/open_folder.h"
+#include "scene/film_format.h"
 #include "scene/output_kinds.h"
 
 namespace carom {
@@ -24,7 +25,7 @@ const OutputKind* output_of(std::string_view name) {
 
 bool is_picture(std::string_view name) {
   const OutputKind* kind = output_of(name);
-  return kind != nullptr ? kind->draws : name.ends_with(".mp4");
+  return kind != nullptr ? kind->draws : film_format(name).has_value();
 }
 
 FileSpot SeriesFolders::spot(std::string_view name) {

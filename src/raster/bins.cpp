@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "raster/radix_sort.h"
-
 namespace carom::raster {
 namespace {
 
@@ -28,17 +26,20 @@ void Bins::fill(const Shot& shot, const Silhouettes& silhouettes) {
   rows_ = (shot.lens.height + tile_side - 1) / tile_side;
   const auto count = static_cast<std::uint32_t>(shot.solids.size());
   tiles_.resize(count);
-  keys_.resize(count);
+  around_.resize(count);
+  nearest_.resize(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     const Solid& solid = shot.solids[i];
     const float nearest = silhouettes.of(i).nearest;
-    keys_[i] = key_of(nearest);
+    nearest_[i] = nearest;
     tiles_[i] = in_tiles(silhouettes.bounds(i));
     // Of balls smaller than a pixel the darkening is not seen.
-    if (solid.kind != SolidKind::wall && solid.radius > shot.lens.pixel * nearest)
+    const bool takes = solid.kind != SolidKind::wall && solid.radius > shot.lens.pixel * nearest;
+    around_[i] = {solid.center, takes ? solid.radius : 0};
+    if (takes)
       tiles_[i] = joined(tiles_[i], in_tiles(bounds_of_ball(shot.lens, solid.center, closeness * solid.radius)));
   }
-  sort_by_key(keys_, order_, spare_);
+  order_.sort(nearest_);
 
   start_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
   const auto each_tile = [&](std::uint32_t i, auto visit) {
@@ -50,7 +51,7 @@ void Bins::fill(const Shot& shot, const Silhouettes& silhouettes) {
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   members_.resize(start_.back());
   next_.assign(start_.begin(), start_.end() - 1);
-  for (const std::uint32_t i : order_) each_tile(i, [&](std::size_t tile) { members_[next_[tile]++] = i; });
+  for (const std::uint32_t i : order_.numbers()) each_tile(i, [&](std::size_t tile) { members_[next_[tile]++] = i; });
 }
 
 }  // namespace carom::raster

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "raster/radix_sort.h"
 #include "raster/silhouettes.h"
 
 namespace carom::raster {
@@ -16,6 +17,12 @@ inline constexpr int tile_side = 32;  // pixels
 inline constexpr float least_taken = 0.1F;
 /// Within so many radii of its centre a ball takes that share: 1 / sqrt(least_taken).
 inline constexpr float closeness = 3.1623F;
+
+/// A ball around a solid that takes light of the sky from what is close to it. Radius 0: it takes none that is seen.
+struct BallAround {
+  Float3 center;  // m
+  float radius;   // m
+};
 
 class Bins {
  public:
@@ -29,11 +36,14 @@ class Bins {
     const auto k = static_cast<std::size_t>(i);
     return {members_.data() + start_[k], start_[k + 1] - start_[k]};
   }
+  const BallAround& around(std::uint32_t solid) const { return around_[solid]; }
 
  private:
   int columns_ = 0, rows_ = 0;
   std::vector<PixelBounds> tiles_;  // by solid, in tiles: where it is seen or takes light
-  std::vector<std::uint32_t> order_, spare_, keys_;
+  std::vector<BallAround> around_;  // by solid
+  std::vector<float> nearest_;      // m, by solid
+  SortedNumbers order_;             // by nearest_
   std::vector<std::size_t> start_, next_;
   std::vector<std::uint32_t> members_;
 };

@@ -8,8 +8,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "raster/radix_sort.h"
-
 namespace carom::raster {
 namespace {
 
@@ -34,8 +32,11 @@ Float3 unit(const Float3& a) {
 }
 
 /// Half the width of a solid along a unit direction.
-float half_width(const Shot& shot, const Solid& s, const Float3& d) {
-  if (s.kind == SolidKind::ball) return s.radius;
+float half_width_of_others(const Shot& shot, const Solid& s, const Float3& d);
+inline float half_width(const Shot& shot, const Solid& s, const Float3& d) {
+  return s.kind == SolidKind::ball ? s.radius : half_width_of_others(shot, s, d);
+}
+float half_width_of_others(const Shot& shot, const Solid& s, const Float3& d) {
   if (s.kind == SolidKind::mesh) return std::max(s.radius, 1.5F * shot.meshes[s.part].reach);
   if (s.kind == SolidKind::wall) {
     const WallAxes& axes = shot.walls[s.part];
@@ -132,10 +133,11 @@ void LightGrid::find_rects(const Shot& shot) {
                       at(b0, e.v0, e.per_v), at(b1, e.v0, e.per_v)});
   };
   rects_.clear();
-  first_rect_.clear();
+  rects_.reserve(shot.solids.size());
+  first_rect_.resize(shot.solids.size() + 1);
   for (std::size_t i = 0; i < shot.solids.size(); ++i) {
     const Solid& s = shot.solids[i];
-    first_rect_.push_back(static_cast<std::uint32_t>(rects_.size()));
+    first_rect_[i] = static_cast<std::uint32_t>(rects_.size());
     if (!key.near) {
       const float a = dot(e.u, s.center), b = dot(e.v, s.center);
       const float wide = half_width(shot, s, e.u) + blur_[i], high = half_width(shot, s, e.v) + blur_[i];
@@ -153,7 +155,7 @@ void LightGrid::find_rects(const Shot& shot) {
         add(face, a0, a1, b0, b1);
     }
   }
-  first_rect_.push_back(static_cast<std::uint32_t>(rects_.size()));
+  first_rect_.back() = static_cast<std::uint32_t>(rects_.size());
 }
 
 /// The members of each cell are contiguous: counts them first, then fills.
@@ -161,7 +163,6 @@ void LightGrid::sort_into_cells(const Shot& shot) {
   const int side = extent.side;
   const std::size_t faces = shot.lighting.lamps[0].near ? 6 : 1;
   const std::size_t count = faces * static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-  const auto is_ball = [&](std::size_t i) { return shot.solids[i].kind == SolidKind::ball; };
   const auto each_cell = [&](std::size_t i, auto visit) {
     for (std::uint32_t k = first_rect_[i]; k < first_rect_[i + 1]; ++k) {
       const CellRect& r = rects_[k];
@@ -170,16 +171,36 @@ void LightGrid::sort_into_cells(const Shot& shot) {
     }
   };
   for (LightCells* cells : {&balls, &others}) cells->start.assign(count + 1, 0);
+  is_ball_.resize(shot.solids.size());
   for (std::size_t i = 0; i < shot.solids.size(); ++i) {
-    LightCells& cells = is_ball(i) ? balls : others;
+    is_ball_[i] = shot.solids[i].kind == SolidKind::ball;
+    LightCells& cells = is_ball_[i] ? balls : others;
     each_cell(i, [&](std::size_t cell) { ++cells.start[cell + 1]; });
   }
   for (LightCells* cells : {&balls, &others}) {
     std::partial_sum(cells->start.begin(), cells->start.end(), cells->start.begin());
     cells->members.resize(cells->start.back());
-    next_.assign(cells->start.begin(), cells->start.end() - 1);
-    for (const std::uint32_t i : order_)
-      if (is_ball(i) == (cells == &balls)) each_cell(i, [&](std::size_t cell) { cells->members[next_[cell]++] = i; });
+  }
+  next_ball_.assign(balls.start.begin(), balls.start.end() - 1);
+  next_other_.assign(others.start.begin(), others.start.end() - 1);
+  for (const std::uint32_t i : order_.numbers()) {
+    LightCells& cells = is_ball_[i] ? balls : others;
+    std::vector<std::size_t>& next = is_ball_[i] ? next_ball_ : next_other_;
+    each_cell(i, [&](std::size_t cell) { cells.members[next[cell]++] = i; });
+  }
+}
+
+/// Copies what a test of many balls at a time reads.
+void LightGrid::copy_balls(const Shot& shot) {
+  ShadingBalls& a = ball_arrays;
+  const std::size_t count = balls.members.size();
+  for (auto* array : {&a.x, &a.y, &a.z, &a.radius, &a.place}) array->resize(count + 16);
+  a.solid.resize(count + 16);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t i = balls.members[k];
+    const Solid& s = shot.solids[i];
+    a.x[k] = s.center[0], a.y[k] = s.center[1], a.z[k] = s.center[2];
+    a.radius[k] = s.radius, a.place[k] = towards_light[i], a.solid[k] = static_cast<std::int32_t>(i);
   }
 }
 
@@ -193,24 +214,16 @@ void LightGrid::fill(const Shot& shot) {
     extent.v = cross(key.vector, extent.u);
   }
   measure(shot);
-  towards_light.clear();
-  keys_.clear();
-  for (const Solid& s : shot.solids) {
-    const Float3 off = {key.vector[0] - s.center[0], key.vector[1] - s.center[1], key.vector[2] - s.center[2]};
-    towards_light.push_back(key.near ? -dot(off, off) : dot(key.vector, s.center));
-    keys_.push_back(key_of(towards_light.back()));
+  towards_light.resize(shot.solids.size());
+  for (std::size_t i = 0; i < shot.solids.size(); ++i) {
+    const Float3& c = shot.solids[i].center;
+    const Float3 off = {key.vector[0] - c[0], key.vector[1] - c[1], key.vector[2] - c[2]};
+    towards_light[i] = key.near ? -dot(off, off) : dot(key.vector, c);
   }
+  order_.sort(towards_light);
   find_rects(shot);
-  sort_by_key(keys_, order_, spare_);
   sort_into_cells(shot);
-  ShadingBalls& a = ball_arrays;
-  for (auto* array : {&a.x, &a.y, &a.z, &a.radius, &a.place}) array->resize(balls.members.size() + 16);
-  for (std::size_t k = 0; k < balls.members.size(); ++k) {
-    const std::uint32_t i = balls.members[k];
-    const Solid& s = shot.solids[i];
-    a.x[k] = s.center[0], a.y[k] = s.center[1], a.z[k] = s.center[2];
-    a.radius[k] = s.radius, a.place[k] = towards_light[i];
-  }
+  copy_balls(shot);
 }
 
 }  // namespace carom::raster

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "raster/radix_sort.h"
 #include "raster/shot.h"
 
 namespace carom::raster {
@@ -24,6 +25,7 @@ struct LightCells {
 struct ShadingBalls {
   std::vector<float> x, y, z, radius;  // m
   std::vector<float> place;            // towards the light, as in LightGrid::towards_light
+  std::vector<std::int32_t> solid;     // number
 };
 
 /// Where the cells of a face are.
@@ -61,12 +63,14 @@ class LightGrid {
   double find_blurs(const Shot& shot);
   void find_rects(const Shot& shot);
   void sort_into_cells(const Shot& shot);
+  void copy_balls(const Shot& shot);
 
-  std::vector<float> blur_;                // m, the most by solid
-  std::vector<CellRect> rects_;            // of all solids
-  std::vector<std::uint32_t> first_rect_;  // by solid, and one more
-  std::vector<std::size_t> next_;
-  std::vector<std::uint32_t> keys_, order_, spare_;
+  std::vector<float> blur_;                          // m, the most by solid
+  std::vector<CellRect> rects_;                      // of all solids
+  std::vector<std::uint32_t> first_rect_;            // by solid, and one more
+  std::vector<std::uint8_t> is_ball_;                // by solid
+  std::vector<std::size_t> next_ball_, next_other_;  // by cell
+  SortedNumbers order_;                              // by towards_light
 };
 
 }  // namespace carom::raster

@@ -2,31 +2,50 @@
 // Radix sort (Knuth, The Art of Computer Programming 3, 5.2.5) of numbers by floats.
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 namespace carom::raster {
 
-/// The order of these numbers is that of the floats.
-inline std::uint32_t key_of(float x) {
-  const auto bits = std::bit_cast<std::uint32_t>(x);
-  return bits & 0x80000000U ? ~bits : bits | 0x80000000U;
-}
-
-/// Fills `order` with the numbers of the keys in their order. Equals keep theirs.
-inline void sort_by_key(const std::vector<std::uint32_t>& keys, std::vector<std::uint32_t>& order,
-                        std::vector<std::uint32_t>& spare) {
-  order.resize(keys.size());
-  spare.resize(keys.size());
-  std::iota(order.begin(), order.end(), 0U);
-  for (int shift = 0; shift < 32; shift += 11) {
-    std::array<std::uint32_t, 2049> places{};
-    for (const std::uint32_t key : keys) ++places[(key >> shift & 2047U) + 1];
-    std::partial_sum(places.begin(), places.end(), places.begin());
-    for (const std::uint32_t i : order) spare[places[keys[i] >> shift & 2047U]++] = i;
-    order.swap(spare);
+/// The numbers 0 to n - 1 in the order of n floats. Equals keep their order.
+class SortedNumbers {
+ public:
+  /// Sorts. The memory of the last time is used again.
+  void sort(const std::vector<float>& by) {
+    const std::size_t count = by.size();
+    pairs_.resize(count), spare_.resize(count), numbers_.resize(count);
+    std::array<std::array<std::uint32_t, 2048>, 3> places{};
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t key = key_of(by[i]);
+      pairs_[i] = {key, static_cast<std::uint32_t>(i)};
+      for (std::size_t k = 0; k < 3; ++k) ++places[k][key >> 11 * k & 2047U];
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t next = 0;
+      for (std::uint32_t& place : places[k]) {
+        const std::uint32_t members = place;
+        place = next, next += members;
+      }
+      for (const Keyed& pair : pairs_) spare_[places[k][pair.key >> 11 * k & 2047U]++] = pair;
+      pairs_.swap(spare_);
+    }
+    for (std::size_t i = 0; i < count; ++i) numbers_[i] = pairs_[i].number;
   }
-}
+  const std::vector<std::uint32_t>& numbers() const { return numbers_; }
+
+ private:
+  struct Keyed {
+    std::uint32_t key, number;
+  };
+  /// The order of these keys is that of the floats.
+  static std::uint32_t key_of(float x) {
+    const auto bits = std::bit_cast<std::uint32_t>(x);
+    return bits & 0x80000000U ? ~bits : bits | 0x80000000U;
+  }
+
+  std::vector<Keyed> pairs_, spare_;
+  std::vector<std::uint32_t> numbers_;
+};
 
 }  // namespace carom::raster

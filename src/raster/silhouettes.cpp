@@ -100,16 +100,24 @@ void project_cylinder(const Lens& lens, const Solid& solid, Projection& to) {
   }
 }
 
-/// From bounds in the plane z = 1 to pixels, with `margin` pixels around.
-PixelBounds pixels(const Lens& lens, double left, double right, double bottom, double top, double margin) {
-  const auto within = [](double x, int most) {
-    return static_cast<int>(std::clamp(x, 0.0, static_cast<double>(most)));
+/// Bounds in the plane z = 1 as pixels, with a margin of half a pixel around.
+PixelBounds pixels(const Lens& lens, double left, double right, double bottom, double top) {
+  // std::ceil and std::floor would be calls.
+  const auto first = [](double x, int most) {
+    x = std::clamp(x, 0.0, static_cast<double>(most));
+    const int i = static_cast<int>(x);
+    return i < x ? i + 1 : i;
+  };
+  const auto end = [](double x, int most) {
+    x = std::clamp(x, -1.0, most - 1.0);
+    const int i = static_cast<int>(x);
+    return i > x ? i : i + 1;
   };
   // The middle of pixel i is at left + i pixel.
-  return {within(std::ceil((left - lens.left) / lens.pixel - margin), lens.width),
-          within(std::ceil((lens.top - top) / lens.pixel - margin), lens.height),
-          within(std::floor((right - lens.left) / lens.pixel + margin) + 1, lens.width),
-          within(std::floor((lens.top - bottom) / lens.pixel + margin) + 1, lens.height)};
+  return {first((left - lens.left) / lens.pixel - 0.5, lens.width),
+          first((lens.top - top) / lens.pixel - 0.5, lens.height),
+          end((right - lens.left) / lens.pixel + 0.5, lens.width),
+          end((lens.top - bottom) / lens.pixel + 0.5, lens.height)};
 }
 
 /// The outline of a ball, with the pixels that it may cover.
@@ -136,7 +144,7 @@ PixelBounds outline_ball(const Lens& lens, const Solid& solid, Silhouette& to) {
   ball.per_a = static_cast<float>(1 / a), ball.per_b = static_cast<float>(1 / b);
   ball.depth2 = static_cast<float>(o.depth2);
   const double wide = std::sqrt(a * a * ex * ex + b * b * ey * ey), high = std::sqrt(a * a * ey * ey + b * b * ex * ex);
-  return pixels(lens, o.x - wide, o.x + wide, o.y - high, o.y + high, 0.5);
+  return pixels(lens, o.x - wide, o.x + wide, o.y - high, o.y + high);
 }
 
 }  // namespace
@@ -148,7 +156,7 @@ PixelBounds bounds_of_ball(const Lens& lens, const Float3& center, float radius)
   const auto low = [&](double x) { return x / (x < 0 ? near : far); };
   const auto high = [&](double x) { return x / (x > 0 ? near : far); };
   return pixels(lens, low(center[0] - radius), high(center[0] + radius), low(center[1] - radius),
-                high(center[1] + radius), 0.5);
+                high(center[1] + radius));
 }
 
 PixelBounds Silhouettes::add_polygon(const Shot& shot, const Solid& solid, Silhouette& to) {
@@ -176,7 +184,7 @@ PixelBounds Silhouettes::add_polygon(const Shot& shot, const Solid& solid, Silho
   }
   const auto [left, right] = std::minmax_element(hull.begin(), hull.end(), [](auto& p, auto& q) { return p.x < q.x; });
   const auto [bottom, top] = std::minmax_element(hull.begin(), hull.end(), [](auto& p, auto& q) { return p.y < q.y; });
-  return pixels(lens, left->x, right->x, bottom->y, top->y, 0.5);
+  return pixels(lens, left->x, right->x, bottom->y, top->y);
 }
 
 void Silhouettes::fill(const Shot& shot) {

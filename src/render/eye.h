@@ -20,6 +20,7 @@ struct Eye {
     tan_x = std::tan(view.fov_x * std::numbers::pi / 360);
     tan_y = std::tan(view.fov_y * std::numbers::pi / 360);
     pixel = 2 * tan_x / s.width;
+    per_cos_x = std::sqrt(1 + tan_x * tan_x), per_cos_y = std::sqrt(1 + tan_y * tan_y);
   }
   Vec3 direction(const Vec3& world) const {
     return Vec3(view.right.dot(world), view.up.dot(world), view.forward.dot(world));
@@ -29,16 +30,16 @@ struct Eye {
   /// Whether a ball at a place in the camera's frame may be in the picture. True for some beside its corners.
   bool may_see(const Vec3& p, double radius) const {
     const double z = p.z();
-    return z + radius > camera.near && z - radius < camera.far &&
-           std::abs(p.x()) - z * tan_x < radius * std::sqrt(1 + tan_x * tan_x) &&
-           std::abs(p.y()) - z * tan_y < radius * std::sqrt(1 + tan_y * tan_y);
+    return z + radius > camera.near && z - radius < camera.far && std::abs(p.x()) - z * tan_x < radius * per_cos_x &&
+           std::abs(p.y()) - z * tan_y < radius * per_cos_y;
   }
 
   Camera camera;
   CameraFrame view;
   Size size;
-  double tan_x, tan_y;  // of half the angles of view
-  double pixel;         // a pixel's side in the plane z = 1
+  double tan_x, tan_y;          // of half the angles of view
+  double per_cos_x, per_cos_y;  // one over the cosines of these
+  double pixel;                 // a pixel's side in the plane z = 1
 };
 
 }  // namespace carom

@@ -37,13 +37,13 @@ constexpr AbsentWord all_words[] = {
      "motion.",
      "simulate.step|simulate.tolerance|engine"},
     {"speed|fast|velocity magnitude",
-     "A ball or body has a `velocity`, a vector. `speed` belongs to groups: the spread of random velocities. A "
-     "film plays in real time, whatever its `fps`.",
-     "velocity|groups.speed|video.fps"},
+     "A ball or body has a `velocity`, a vector. `speed` belongs to groups, the spread of random velocities, and to "
+     "videos.",
+     "velocity|groups.speed|video.speed"},
     {"slow motion|slowmo|slow|slowdown|time lapse|playback speed|time scale|timescale|replay speed|speed up",
-     "A film plays in real time, whatever its `fps`. For slow motion write frames with a high `fps` and put them "
-     "together at a lower rate; every instant is exact.",
-     "frames.fps|video.fps"},
+     "`video.speed` is the seconds of motion a second of film: 0.125 is eightfold slow motion, 10 a time lapse. Every "
+     "instant is exact. `fps` alone does not change how fast a film plays.",
+     "video.speed|video.fps"},
     {"bounce|bounciness|rebound|bouncy|bouncing",
      "The coefficient of restitution sets how bodies bounce: 1 keeps the speed, 0 none of it.",
      "restitution|restitution.combine"},
@@ -91,12 +91,14 @@ constexpr AbsentWord all_words[] = {
      "All bodies meet all others. A pair can have a coefficient of restitution of its own.", "pair"},
     {"material|texture|opacity|transparency|shininess|roughness map|shader",
      "Things have a colour, or a mesh with its own.", "color|mesh"},
-    {"resolution|width|height|image size|picture size", "The size of pictures is `size: [width, height]`, in pixels.",
+    {"resolution|width|height|image size|picture size",
+     "The size of pictures is `size: [width, height]`, in pixels, or a name such as `1080p`.",
      "frames.size|video.size"},
     {"frame rate|framerate|frames per second|sample rate|sampling",
      "`fps` spaces the pictures, `every` the rows of tables. Neither changes the motion.",
      "frames.fps|trajectory.every"},
-    {"gif|webp|mp4|movie|film|animation", "A film is `output.video`, H.264 in an .mp4 file.", "video"},
+    {"gif|webp|mp4|movie|film|animation",
+     "A film is `output.video`. The ending of `video.file` chooses H.264, GIF or WebP.", "video|video.file"},
     {"csv|table|spreadsheet|excel|xlsx|data",
      "Tables are `output.trajectory`, `collisions`, `energy` and `contacts`; `carom compare` puts runs into a "
      "workbook.",

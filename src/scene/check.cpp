@@ -214,8 +214,11 @@ class Checker : ValueChecker {
         return;
       case Type::direction:
         return direction(value, field, name, required);
-      case Type::extent:
       case Type::pixels:
+        if (value.is(Node::Kind::scalar)) return choice(value, field, name);
+        numbers(value, field, name, 2);
+        return;
+      case Type::extent:
         numbers(value, field, name, 2);
         return;
       case Type::color:

@@ -9,6 +9,7 @@
 #include "physics/world.h"
 #include "scene/decode.h"
 #include "scene/engines.h"
+#include "scene/film_format.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "yaml/values.h"
@@ -93,8 +94,9 @@ class Requests {
     const Key& key = *root_.find_key("output");
     const View view(node, kind_named("output"), key.place);
     fill(&out, view);
-    if (out.frames) check_window(view.part("frames", "frames"), *out.frames);
+    if (out.frames) check_window(view.part("frames", "frames"), out.frames->from, out.frames->until);
     if (out.video) check_video(view.part("video", "video"), *out.video);
+    if (out.sheet) check_window(view.part("sheet", "sheet"), out.sheet->from, out.sheet->until);
     flights(view);
   }
 
@@ -112,24 +114,33 @@ class Requests {
     const bool plain = std::all_of(video.file.begin(), video.file.end(), [](char c) {
       return static_cast<unsigned char>(c) >= 0x20 && c != '/' && c != '\\';
     });
-    if (!plain || !video.file.ends_with(".mp4") || video.file.size() < 5 || video.file.size() > 200 ||
-        video.file[0] == '.' || video.file[0] == '-') {
+    const std::optional<FilmFormat> format = film_format(video.file);
+    if (!plain || !format || video.file.size() > 200 || video.file[0] == '.' || video.file[0] == '-') {
       diagnostics_.add(part.place("file"), fmt::format("{} is not a name for a video", in_backticks(video.file)),
-                       "expected a plain file name such as animation.mp4, without folders");
+                       "expected a plain file name that ends in .mp4, .gif or .webp, such as animation.mp4, without "
+                       "folders");
     }
     if (video.size.width % 2 != 0 || video.size.height % 2 != 0) {
       diagnostics_.add(part.place("size"),
                        fmt::format("a video of {} x {} pixels", video.size.width, video.size.height),
                        "expected an even width and height: its colours (yuv420p) are stored for 2 x 2 pixels");
     }
-    check_window(part, video);
+    if (format == FilmFormat::gif) check_gif(part, video);
+    check_window(part, video.from, video.until);
   }
 
-  void check_window(const View& part, PictureOutput& pictures) {
+  void check_gif(const View& part, VideoOutput& video) {
+    if (part.given("fps") == nullptr) video.fps = gif_fps;
+    if (keeps_rate(FilmFormat::gif, video.fps)) return;
+    diagnostics_.add(
+        part.place("fps"), fmt::format("a GIF cannot show {} pictures a second", shortest(video.fps)),
+        "expected 50, 25, 20, 12.5, 10 or another 100/n: a GIF shows each picture for whole hundredths of a "
+        "second, at least 2");
+  }
+
+  void check_window(const View& part, double from, std::optional<double>& until) {
     const double duration = scene_.simulate.duration;
     if (!scene_part(root_, "simulate").number("duration")) return;
-    const double from = pictures.from;
-    std::optional<double>& until = pictures.until;
     if (from > duration) {
       diagnostics_.add(part.place("from"),
                        fmt::format("`from` is {} but the scene ends at {} s", shortest(from), shortest(duration)),
@@ -143,9 +154,14 @@ class Requests {
     if (until) until = std::min(*until, duration);
   }
 
-  double count(const PictureOutput& pictures) const {
-    const double until = pictures.until.value_or(scene_.simulate.duration);
-    return std::max(0.0, std::floor(until * pictures.fps) - std::ceil(pictures.from * pictures.fps) + 1);
+  double count(const FramesOutput& frames) const {
+    const double until = frames.until.value_or(scene_.simulate.duration);
+    return std::max(0.0, std::floor(until * frames.fps) - std::ceil(frames.from * frames.fps) + 1);
+  }
+
+  double count(const VideoOutput& video) const {
+    const double until = video.until.value_or(scene_.simulate.duration);
+    return std::max(0.0, std::floor((until - video.from) * video.fps / video.speed) + 1);
   }
 
   void check_budget() {
@@ -168,7 +184,7 @@ class Requests {
                     : fmt::format("a {} `{}`, a shorter duration or fewer bodies",
                                   kind.spacing == "every" ? "longer" : "lower", kind.spacing));
     }
-    // Frames and a video with equal settings share their pictures.
+    // Frames and a video of the same instants share their pictures.
     double total = 0, most = -1;
     std::string_view largest = "frames";
     const auto add = [&](double n, std::string_view key) {
@@ -179,7 +195,9 @@ class Requests {
       }
     };
     if (out.frames) add(count(*out.frames), "frames");
-    const bool shared = out.frames && out.video && static_cast<const PictureOutput&>(*out.frames) == *out.video;
+    const bool shared = out.frames && out.video && out.video->speed == 1 &&
+                        static_cast<const PictureOutput&>(*out.frames) == *out.video &&
+                        std::remainder(out.video->from * out.video->fps, 1) == 0;
     if (out.video && !shared) add(count(*out.video), "video");
     if (out.sheet) add(static_cast<double>(out.sheet->columns) * out.sheet->rows, "sheet");
     if (total > static_cast<double>(budget_.frames)) {

@@ -154,7 +154,8 @@ std::string expected(const Field& field) {
     case Type::extent:
       return fmt::format("[width, height], two numbers{}{}", limits, unit);
     case Type::pixels:
-      return fmt::format("[width, height], two {}whole numbers{}{}", field.range.even ? "even " : "", limits, unit);
+      return fmt::format("[width, height], two {}whole numbers{}{}, or {}", field.range.even ? "even " : "", limits,
+                         unit, listed(choices(field)));
     case Type::color:
       return "a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
     case Type::file:

@@ -22,7 +22,7 @@ enum class Type : std::uint8_t {
   vector,     // [x, y, z], numbers
   direction,  // [x, y, z], not all zero; any length
   extent,     // [width, height], numbers in range
-  pixels,     // [width, height], wholes in range
+  pixels,     // [width, height], wholes in range, or one of Field::of, separated by |
   color,      // CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1
   file,       // path, from the scene file's folder
   two_names,  // [name, name] of bodies or fixed things
@@ -83,6 +83,7 @@ struct Field {
   /// A regular expression for the schema, for a text or for names.
   std::string_view pattern = {};
   bool needs_entries = false;  // a list must not be empty
+  bool own = false;            // never taken from Kind::beneath
   /// Absent: the decoder reads the key itself (keys of the whole scene; lists; a group's ball, which has defaults).
   Member member = {};
 };

@@ -52,6 +52,7 @@ bool take(const View& view, const Field& field, Vec3& value) {
 
 bool take(const View& view, const Field& field, Size& value) {
   const Node* node = view.find(field);
+  if (const std::optional<std::string> name = as_text(node)) return put(size_named(*name), value);
   if (node == nullptr || node->bad || node->items.size() != 2) return false;
   const std::optional<std::uint64_t> width = as_whole(&node->items[0]), height = as_whole(&node->items[1]);
   if (!width || !height) return false;

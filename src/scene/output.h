@@ -2,6 +2,7 @@
 // The keys of `output`: what a scene requests a run to write. Their rows are in output_kinds.cpp.
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace carom {
 
@@ -9,6 +10,11 @@ struct Size {
   int width = 1280, height = 720;  // pixels
   friend bool operator==(const Size&, const Size&) = default;
 };
+
+/// The sizes that have names in the format, separated by |.
+inline constexpr std::string_view size_names = "720p|1080p|4k|square";
+/// 1280 x 720, 1920 x 1080, 3840 x 2160, 1080 x 1080. None: no such name.
+std::optional<Size> size_named(std::string_view name);
 
 struct TrajectoryOutput {
   double every = 1.0 / 30;  // s
@@ -32,12 +38,17 @@ struct PictureOutput {
 };
 struct FramesOutput : PictureOutput {};
 struct VideoOutput : PictureOutput {
-  std::string file = "animation.mp4";  // a plain file name
+  std::string file = "animation.mp4";  // a plain file name; its ending chooses the format (film_format.h)
   int crf = 18;
+  /// Seconds of motion a second of film. Picture i shows the time from + i * speed / fps.
+  double speed = 1;
 };
 
 struct SheetOutput {
   int columns = 4, rows = 3;
+  std::optional<Size> size{};     // of the whole sheet; none: by the columns
+  double from = 0;                // s, of the first picture
+  std::optional<double> until{};  // s, of the last picture; none: the duration
 };
 struct VtkOutput {
   double every = 1.0 / 30;  // s

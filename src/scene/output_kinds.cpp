@@ -45,11 +45,14 @@ constexpr Field gltf_fields[] = {
 };
 
 constexpr Field fps{.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .doc = "Pictures a second.", .example = "25", .title = "Pictures a second"};
-constexpr Field size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = image_side, .doc = "Width and height of a picture.", .example = "[640, 360]", .title = "Width and height"};
+constexpr Field size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = image_side, .of = size_names, .doc = "Width and height of a picture.", .example = "[640, 360]", .title = "Width and height"};
 // A film stores colours for blocks of 2 x 2 pixels.
-constexpr Field film_size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = {16, 16384, false, false, true}, .doc = "Width and height of a picture, both even.", .example = "[640, 360]", .title = "Width and height"};
+constexpr Field film_size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = {16, 16384, false, false, true}, .of = size_names, .doc = "Width and height of a picture, both even.", .example = "[640, 360]", .title = "Width and height"};
 constexpr Field samples{.key = "samples", .type = Type::choice, .of = "1|2|4|8", .doc = "Samples a pixel, against jagged edges.", .example = "8"};
 constexpr Field from{.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture before this time.", .example = "0.5", .title = "Start"};
+// The window of a film is its own: a window of frames/ is often a single picture.
+constexpr Field film_from{.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "Time of the first picture.", .example = "0.5", .title = "Start", .own = true};
+constexpr Field film_until{.key = "until", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture after this time. Default: the duration.", .example = "1.5", .title = "End", .own = true};
 constexpr Field until{.key = "until", .type = Type::number, .unit = "s", .range = from_0, .doc = "No picture after this time. Default: the duration.", .example = "1.5", .title = "End"};
 
 constexpr Field frames_fields[] = {
@@ -61,19 +64,23 @@ constexpr Field frames_fields[] = {
 };
 
 constexpr Field video_fields[] = {
-    {.key = "file", .type = Type::text, .doc = "Name of the file, ending in .mp4.", .example = "break.mp4",
-     .pattern = R"(^(?![-.])[^/\\\u0000-\u001f]{1,196}\.mp4$)", .member = fills<VideoOutput, &VideoOutput::file>},
+    {.key = "file", .type = Type::text, .doc = "Name of the file, ending in .mp4 (H.264), .gif or .webp.", .example = "break.mp4",
+     .pattern = R"(^(?=.{5,200}$)(?![-.])[^/\\\u0000-\u001f]+\.(mp4|gif|webp)$)", .member = fills<VideoOutput, &VideoOutput::file>},
     with(fps, fills<VideoOutput, &VideoOutput::fps>),
     with(film_size, fills<VideoOutput, &VideoOutput::size>),
-    {.key = "crf", .type = Type::whole, .range = {0, 51}, .doc = "0: largest and best, 51: smallest and worst.", .example = "23", .title = "Constant rate factor", .member = fills<VideoOutput, &VideoOutput::crf>},
+    {.key = "crf", .type = Type::whole, .range = {0, 51}, .doc = "0: largest and best, 51: smallest and worst. Not of a GIF; quality 100 to 0 of a WebP.", .example = "23", .title = "Constant rate factor", .member = fills<VideoOutput, &VideoOutput::crf>},
     with(samples, fills<VideoOutput, &VideoOutput::samples>),
-    with(from, fills<VideoOutput, &VideoOutput::from>),
-    with(until, fills<VideoOutput, &VideoOutput::until>),
+    with(film_from, fills<VideoOutput, &VideoOutput::from>),
+    with(film_until, fills<VideoOutput, &VideoOutput::until>),
+    {.key = "speed", .type = Type::number, .range = {1e-6, 1e6}, .doc = "Seconds of motion a second of film; 0.125 is eightfold slow motion.", .example = "0.125", .title = "Seconds of motion a second of film", .member = fills<VideoOutput, &VideoOutput::speed>},
 };
 
 constexpr Field sheet_fields[] = {
     {.key = "columns", .type = Type::whole, .range = {1, 100}, .doc = "Pictures side by side.", .example = "5", .member = fills<SheetOutput, &SheetOutput::columns>},
     {.key = "rows", .type = Type::whole, .range = {1, 100}, .doc = "Pictures one below another.", .example = "2", .member = fills<SheetOutput, &SheetOutput::rows>},
+    {.key = "size", .type = Type::pixels, .unit = "pixels", .range = image_side, .of = size_names, .doc = "Width and height of the whole sheet. Default: by the columns and the shape of frames, at most 1920 wide.", .example = "1080p", .title = "Width and height", .member = fills_if_given<SheetOutput, &SheetOutput::size>},
+    {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "Time of the first picture.", .example = "0.5", .title = "Start", .member = fills<SheetOutput, &SheetOutput::from>},
+    {.key = "until", .type = Type::number, .unit = "s", .range = from_0, .doc = "Time of the last picture. Default: the duration.", .example = "1.5", .title = "End", .member = fills<SheetOutput, &SheetOutput::until>},
 };
 // clang-format on
 
@@ -107,14 +114,18 @@ constexpr OutputMember part = {[](const Output& output) { return (output.*member
                                },
                                every_in<member>(), fills_if_given<Output, member>};
 
-/// Pictures. If `requested` lacks this output, it takes the settings of the other picture output, `like`.
+/// Pictures. If `requested` lacks this output, it takes rate, size and samples of the other picture output, `like`.
 template <auto member, auto like>
 constexpr OutputMember pictures = {[](const Output& output) { return (output.*member).has_value(); },
                                    [](Output& to, const Output& requested) {
                                      to.*member = requested.*member;
                                      if (to.*member) return;
                                      PictureOutput& settings = (to.*member).emplace();
-                                     if (requested.*like) settings = *(requested.*like);
+                                     if (!(requested.*like)) return;
+                                     const PictureOutput& other = *(requested.*like);
+                                     settings.fps = other.fps;
+                                     settings.size = other.size;
+                                     settings.samples = other.samples;
                                    },
                                    nullptr, fills_if_given<Output, member>};
 
@@ -161,16 +172,16 @@ constexpr OutputKind all_kinds[] = {
      .series = frame_files,
      .draws = true},
     {.name = "video",
-     .doc = "A film, H.264.",
+     .doc = "A film: H.264, GIF or WebP.",
      .example = "true",
      .keys = video_fields,
-     .keys_doc = "A film; a key left out takes its value from frames.",
+     .keys_doc = "A film; `fps`, `size` and `samples` left out are those of frames.",
      .beneath = "frames",
      .member = pictures<&Output::video, &Output::frames>,
      .named = [](const Output& o) { return o.video->file; },
      .draws = true},
     {.name = "sheet",
-     .doc = "sheet.png: pictures from start to end side by side.",
+     .doc = "sheet.png: pictures at even times side by side.",
      .example = "{columns: 4, rows: 3}",
      .keys = sheet_fields,
      .keys_doc = "A contact sheet.",
@@ -218,7 +229,16 @@ constexpr OutputKind all_kinds[] = {
      .files = "flights.bin"},
 };
 
+/// In the order of size_names.
+constexpr Size named_sizes[] = {{1280, 720}, {1920, 1080}, {3840, 2160}, {1080, 1080}};
+
 }  // namespace
+
+std::optional<Size> size_named(std::string_view name) {
+  const std::vector<std::string_view> names = parts_of(size_names);
+  const auto at = std::find(names.begin(), names.end(), name);
+  return at == names.end() ? std::nullopt : std::optional(named_sizes[at - names.begin()]);
+}
 
 std::string FileSeries::name(std::int64_t number) const {
   return fmt::format("{}{:05}{}", stem, number, ending);

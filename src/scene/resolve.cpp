@@ -168,10 +168,18 @@ class Resolver {
     const View view(root_.find("output"), kind_named("output"), Place{});
     heading("output", false);
     for (const OutputKind& kind : output_kinds()) {
-      if (!kind.keys.empty() && kind.asked(scene_.output)) entry(kind.name, flow(view.part(kind.name, kind.name)));
+      if (!kind.keys.empty() && kind.asked(scene_.output)) entry(kind.name, output_text(view, kind));
       if (kind.keys.empty() && (kind.name != "flights" || flights_matter()))
         entry(kind.name, kind.asked(scene_.output) ? "true" : "false");
     }
+  }
+
+  std::string output_text(const View& view, const OutputKind& kind) const {
+    const View part = view.part(kind.name, kind.name);
+    Overrides overrides;
+    // The rate of a GIF is chosen by decoding.
+    if (kind.name == "video" && part.given("fps") == nullptr) overrides["fps"] = shortest(scene_.output.video->fps);
+    return flow(part, overrides);
   }
 
   /// Whether flights are possible and their default could differ.

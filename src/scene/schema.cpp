@@ -144,7 +144,7 @@ Json value_schema(const Field& field) {
     case Type::extent:
       return array_schema(number_schema(limited_range(field)), 2);
     case Type::pixels:
-      return array_schema(whole_schema(field.range), 2);
+      return {{"anyOf", Json::array({array_schema(whole_schema(field.range), 2), choice_schema(field)})}};
     case Type::color:
       return {{"allOf", Json::array({reference("color")})}};
     case Type::two_names:

@@ -87,7 +87,7 @@ const Node* View::given(std::string_view key) const {
 
 const Node* View::given(const Field& field) const {
   for (const Node* layer : {own_, defaults_}) {
-    if (layer == nullptr) continue;
+    if (layer == nullptr || (field.own && layer == defaults_)) continue;
     if (const Node* node = layer->find(field.key)) return node;
     for (const std::string_view rival : rivals(field)) {
       if (layer->find_key(rival) != nullptr) return nullptr;

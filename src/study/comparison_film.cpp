@@ -13,7 +13,9 @@
 #include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/run_folder.h"
+#include "scene/film_format.h"
 #include "yaml/value_json.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {
@@ -34,11 +36,27 @@ FilmTile tile_of(const ListedRun& run) {
   };
   if (!video.is_object()) throw damaged();
   const nlohmann::ordered_json file = video.value("file", nlohmann::ordered_json("animation.mp4")),
-                               from = video.value("from", nlohmann::ordered_json(0.0));
-  if (!file.is_string() || !is_plain_name(file.get<std::string>()) || !from.is_number()) throw damaged();
+                               from = video.value("from", nlohmann::ordered_json(0.0)),
+                               speed = video.value("speed", nlohmann::ordered_json(1.0));
+  if (!file.is_string() || !is_plain_name(file.get<std::string>()) || !from.is_number() || !speed.is_number())
+    throw damaged();
   tile.file = file.get<std::string>();
   tile.from = from.get<double>();
+  tile.speed = speed.get<double>();
+  if (film_format(tile.file) == FilmFormat::webp)
+    throw ExportError(
+        fmt::format("{0} has a film that ffmpeg cannot read, {1}: draw it as .mp4 (carom render {0} --set "
+                    "output.video.file=animation.mp4)",
+                    run.folder, tile.file));
   return tile;
+}
+
+void refuse_other_speed(const FilmTile& tile, const FilmTile& first) {
+  if (tile.speed == first.speed) return;
+  throw ExportError(fmt::format(
+      "the films of {} and {} have the speeds {} and {}: draw one of them again (carom render {} --set "
+      "output.video.speed={})",
+      first.folder, tile.folder, shortest(first.speed), shortest(tile.speed), tile.folder, shortest(first.speed)));
 }
 
 }  // namespace
@@ -56,6 +74,7 @@ std::vector<FilmTile> film_tiles(const RunSet& runs) {
   std::vector<FilmTile> tiles;
   for (std::size_t i = 0; i < count; ++i) {
     tiles.push_back(tile_of(runs.runs()[i]));
+    refuse_other_speed(tiles.back(), tiles.front());
     const ComparedRun run = runs.run(i);
     for (std::size_t k = 0; k < std::min(varied.size(), most_labels); ++k)
       tiles.back().labels.push_back(name_of_value(plan.parameters[varied[k]], run.values[varied[k]]));

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 #include <poll.h>
-#include <sched.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -282,16 +281,6 @@ class Pool {
 };
 
 }  // namespace
-
-std::size_t processors() {
-  cpu_set_t set;
-  if (sched_getaffinity(0, sizeof set, &set) != 0) return 1;
-  return static_cast<std::size_t>(std::max(CPU_COUNT(&set), 1));
-}
-
-void share_processors(std::size_t jobs) {
-  setenv("LP_NUM_THREADS", std::to_string(std::max<std::size_t>(1, processors() / jobs)).c_str(), 0);
-}
 
 void work_off(const Tasks& tasks, std::size_t jobs) {
   Pool(tasks, jobs).go();

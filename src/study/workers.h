@@ -26,13 +26,6 @@ struct Tasks {
   std::function<void()> stop_check;
 };
 
-/// The number of processors that this process may use, at least 1.
-std::size_t processors();
-
-/// Divides the processors among `jobs` processes, so that each draws with its share of threads.
-/// It sets LP_NUM_THREADS, which OSMesa obeys, unless that is set already. Call it before threads exist.
-void share_processors(std::size_t jobs);
-
 /// Executes all tasks in `jobs` processes. The calling process must have no other threads.
 /// Throws std::system_error if no process can be started, and what the functions executed in this process throw.
 void work_off(const Tasks& tasks, std::size_t jobs);

@@ -34,7 +34,6 @@ const std::map<std::string, std::vector<std::string>> library_words = {
     {"yaml-cpp", {"yaml-cpp/"}},
     {"OSMesa/OpenGL", {"GL/", "KHR/", "EGL/"}},
     {"assimp", {"assimp/"}},
-    {"PNG", {"png.h", "zlib.h"}},
     {"nettle", {"nettle/"}},
     {"libxlsxwriter", {"xlsxwriter"}},
     {"minizip", {"minizip/"}},

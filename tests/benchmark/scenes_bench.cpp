@@ -50,7 +50,7 @@ void frame(benchmark::State& state, const std::string& file) {
   const FramesOutput frames = scene.output.frames.value_or(FramesOutput{});
   Renderer renderer(scene, frames.size, frames.samples);
   for (auto _ : state) {
-    benchmark::DoNotOptimize(encode_png(renderer.draw(scene.initial), PngEffort::fast));
+    benchmark::DoNotOptimize(encode_png(renderer.draw(scene.initial)));
   }
   state.counters["frames_per_s"] = benchmark::Counter(1, benchmark::Counter::kIsIterationInvariantRate);
 }

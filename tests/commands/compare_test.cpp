@@ -198,6 +198,46 @@ TEST(CompareCommand, FilmShowsRunsSideBySideAndInStep) {
   EXPECT_FALSE(here.has("output/comparison/comparison.mp4"));
 }
 
+TEST(CompareCommand, FilmOfSlowMotionStaysInStep) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("camera: {eye: [0, 3, -5], target: [0, 0, 0]}\n"
+                                     "output: {video: {fps: 10, size: [64, 48], speed: 0.5}}\n"));
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "runs/first"}).code, 0);
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "runs/later", "--set", "output.video.from=0.5"}).code, 0);
+  const Finished run = here.carom({"compare", "runs/first", "runs/later", "--video"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(here.shell("ffprobe -v error -count_packets -show_entries stream=r_frame_rate,nb_read_packets -of csv=p=0 "
+                       "output/comparison/comparison.mp4")
+                .out,
+            "10/1,21\n")
+      << "1 s of motion in 2 s, for both";
+}
+
+TEST(CompareCommand, FilmMixesGifsAndNamesTheRemedyForOthers) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("camera: {eye: [0, 3, -5], target: [0, 0, 0]}\n"
+                                     "output: {video: {fps: 10, size: [64, 48]}}\n"));
+  const auto make = [&](const std::string& folder, const std::string& setting) {
+    ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", folder, "--set", setting}).code, 0);
+  };
+  make("runs/first", "output.video.fps=10");
+  make("runs/gif", "output.video.file=film.gif");
+  make("runs/webp", "output.video.file=film.webp");
+  make("runs/slow", "output.video.speed=0.5");
+  const Finished run = here.carom({"compare", "runs/first", "runs/gif", "--video"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(here.shell("ffprobe -v error -count_packets -show_entries stream=width,nb_read_packets -of csv=p=0 "
+                       "output/comparison/comparison.mp4")
+                .out,
+            "128,11\n");
+  EXPECT_EQ(here.carom({"compare", "runs/first", "runs/webp", "--video", "--force"}).err,
+            "carom: runs/webp has a film that ffmpeg cannot read, film.webp: draw it as .mp4 (carom render runs/webp "
+            "--set output.video.file=animation.mp4)\n");
+  EXPECT_EQ(here.carom({"compare", "runs/first", "runs/slow", "--video", "--force"}).err,
+            "carom: the films of runs/first and runs/slow have the speeds 1 and 0.5: draw one of them again (carom "
+            "render runs/slow --set output.video.speed=1)\n");
+}
+
 TEST(CompareCommand, FilmOfTooManyRunsIsRefused) {
   const Workplace here;
   make_runs(here);

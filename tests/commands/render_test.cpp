@@ -114,6 +114,55 @@ TEST(Render, DrawsWhatTheRunDidNotRequest) {
   EXPECT_TRUE(here.has("run/sheet.png") && here.has("run/energy.csv") && here.has("run/flights.bin"));
 }
 
+TEST(Render, AFilmOfAnotherFormatReplacesTheFilm) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(near_camera + "output: {energy: true, video: {fps: 10, size: [64, 36]}}\n"));
+  here.carom({"run", "balls.yaml", "-o", "run"});
+  ASSERT_TRUE(here.has("run/animation.mp4"));
+  for (const std::string file : {"film.gif", "film.webp"}) {
+    const Finished render = here.carom({"render", "run", "--set", "output.video.file=" + file});
+    EXPECT_EQ(render.code, 0) << render.err;
+    EXPECT_TRUE(here.has("run/" + file) && here.has("run/energy.csv"));
+    EXPECT_FALSE(here.has("run/animation.mp4"));
+  }
+  EXPECT_FALSE(here.has("run/film.gif"));
+}
+
+TEST(Render, SlowMotionIsDrawnFromTheRecordedPaths) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(near_camera + "output: {video: {fps: 10, size: [64, 36]}}\n"));
+  here.carom({"run", "balls.yaml", "-o", "run"});
+  const auto frames = [&](const std::string& film) {
+    return here.shell("ffprobe -v error -count_packets -show_entries stream=nb_read_packets -of csv=p=0 " + film).out;
+  };
+  EXPECT_EQ(frames("run/animation.mp4"), "11\n");
+  const Finished render = here.carom({"render", "run", "--set", "output.video.speed=0.125", "-o", "slow"});
+  EXPECT_EQ(render.code, 0) << render.err;
+  EXPECT_EQ(frames("slow/animation.mp4"), "81\n");
+}
+
+TEST(Render, ASettingThatChangesNothingIsSaid) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(near_camera + "output: {frames: {fps: 2, size: [64, 36]}, video: true}\n"));
+  here.carom({"run", "balls.yaml", "-o", "run"});
+  const std::vector<std::string> words = {"render", "run", "--only", "video", "-o", "other", "--set"};
+  const auto errors = [&](const std::string& setting) {
+    std::vector<std::string> line = words;
+    line.push_back(setting);
+    line.push_back("--force");
+    const Finished render = here.carom(line);
+    EXPECT_EQ(render.code, 0) << render.err;
+    return render.err;
+  };
+  EXPECT_EQ(errors("output.frames.from=0.5"),
+            "carom: run: --set output.frames.from=0.5 changes nothing: the output `frames` is not written\n");
+  EXPECT_EQ(errors("output.frames.fps=4"),
+            "carom: run: --set output.frames.fps=4 changes nothing: the output `frames` is not written\n")
+      << "scene.yaml of a run gives each output its own settings";
+  EXPECT_EQ(errors("output.video.from=0.5"), "");
+  EXPECT_EQ(errors("camera.eye.y=2"), "");
+}
+
 TEST(Render, RefusesAnotherMotionAndNamesTheCommandThatSimulatesIt) {
   const Workplace here;
   here.write("balls.yaml", two_balls(near_camera + frames));

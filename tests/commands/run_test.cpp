@@ -317,6 +317,30 @@ TEST(Run, SetAndSeedChangeTheScene) {
   EXPECT_FALSE(here.has("bad"));
 }
 
+TEST(Run, ASettingThatChangesNothingOfWhatIsWrittenIsSaid) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("output: {energy: true, frames: {fps: 2, size: [64, 36]}, video: true}\n"));
+  const auto errors = [&](const std::string& only, const std::string& setting, bool quiet = false) {
+    std::vector<std::string> line = {"run", "balls.yaml", "--only", only, "--set", setting, "--force"};
+    if (quiet) line.emplace_back("-q");
+    const Finished run = here.carom(line);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.err;
+  };
+  EXPECT_EQ(errors("video", "output.frames.from=0.5"),
+            "carom: balls.yaml: --set output.frames.from=0.5 changes nothing: the output `frames` is not written\n");
+  EXPECT_EQ(errors("video", "output.frames.from=0.5", true), "");
+  // The video takes the rate of frames.
+  EXPECT_EQ(errors("video", "output.frames.fps=4"), "");
+  EXPECT_EQ(errors("frames", "output.frames.from=0.5"), "");
+  EXPECT_EQ(errors("energy", "background=black"),
+            "carom: balls.yaml: --set background=black changes nothing: no output is drawn\n");
+  EXPECT_EQ(errors("energy", "balls.red.color=blue"),
+            "carom: balls.yaml: --set balls.red.color=blue changes nothing: no output is drawn\n");
+  EXPECT_EQ(errors("energy", "balls.red.restitution=0.5"), "");
+  EXPECT_EQ(errors("frames", "balls.red.color=blue"), "");
+}
+
 TEST(Run, JsonIsOneDocumentWithTheSummarysFields) {
   const Workplace here;
   here.write("a.yaml", two_balls());

@@ -14,6 +14,8 @@
 #include <functional>
 
 #include "export/export_testing.h"
+#include "export/picture_streams.h"
+#include "export/webp.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -167,11 +169,151 @@ TEST(Film, FramesAndFilmOfOneKindAreDrawnOnce) {
   }
 }
 
+TEST(Film, OfSpeedAnEighthLastsEightTimesAsLong) {
+  TempFolder temp;
+  Scene scene = scene_with_film();
+  for (const auto& [speed, frames] : std::vector<std::pair<double, int>>{{1, 6}, {0.125, 41}, {2, 3}}) {
+    scene.output.video->speed = speed;
+    run(scene, temp / "run");
+    // From the first picture to the last: 0.2 s of motion.
+    EXPECT_EQ((frames - 1) / 25.0 * speed, speed == 2 ? 0.16 : 0.2);
+    EXPECT_EQ(probe(temp / "run/animation.mp4", "r_frame_rate,nb_read_frames"),
+              "25/1\n" + std::to_string(frames) + "\n");
+  }
+}
+
+TEST(Film, HasAWindowOfItsOwnAndBeginsThere) {
+  Scene scene = scene_with_film();
+  scene.output.video->from = 0.13;
+  scene.output.frames = FramesOutput{25, small, 4, 0, {}};
+  const PictureStreams plan = plan_pictures(scene);
+  ASSERT_EQ(plan.streams.size(), 2U);
+  EXPECT_EQ(plan.ticks[1].at(0), 0.13);
+  EXPECT_EQ(plan.ticks[1].count(), 2);
+}
+
+TEST(Film, AGifHasEveryPictureForItsTime) {
+  TempFolder temp;
+  Scene scene = scene_with_film("film.gif");
+  for (const auto& [fps, facts] : std::vector<std::pair<double, std::string>>{
+           {50, "0.220000\n11\n"}, {25, "0.240000\n6\n"}, {12.5, "0.240000\n3\n"}, {100.0 / 3, "0.210000\n7\n"}}) {
+    scene.output.video->fps = fps;
+    run(scene, temp / "run");
+    EXPECT_EQ(probe(temp / "run/film.gif", "duration,nb_read_frames"), facts) << fps;
+  }
+  EXPECT_EQ(probe(temp / "run/film.gif", "codec_name,width,height"), "gif\n64\n36\n");
+  EXPECT_EQ(names_in(temp / "run"),
+            (std::vector<std::string>{"film.gif", "manifest.json", "scene.yaml", "summary.csv"}));
+}
+
+TEST(Film, AGifsColoursAreThoseOfThePictures) {
+  TempFolder temp;
+  const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  VideoOutput video;
+  video.file = "film.gif";
+  video.fps = 25;
+  video.size = {64, 16};
+  Image image{64, 16, {}};
+  const std::array<std::array<int, 3>, 4> colours = {{{255, 255, 255}, {220, 20, 60}, {65, 105, 225}, {0, 0, 0}}};
+  for (int i = 0; i < 64 * 16; ++i)
+    for (const int c : colours[static_cast<std::size_t>(i % 64 / 16)])
+      image.pixels.push_back(static_cast<std::uint8_t>(c));
+  Film film({folder.get(), temp.path()}, video, find_film_tools());
+  for (int i = 0; i < 3; ++i) film.add(image);
+  film.complete();
+  film.file().publish();
+  const std::string pixels = first_frame(temp / "film.gif");
+  ASSERT_EQ(pixels.size(), image.pixels.size());
+  EXPECT_TRUE(std::equal(pixels.begin(), pixels.end(), image.pixels.begin(),
+                         [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; }));
+}
+
+TEST(Film, AWebpHasEveryPictureForItsTime) {
+  TempFolder temp;
+  const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  VideoOutput video;
+  video.file = "film.webp";
+  video.size = {64, 36};
+  for (const double fps : {30.0, 25.0, 60.0})
+    // Equal pictures in a row are stored as one, at the end, too.
+    for (const std::vector<int>& phases : {std::vector<int>{0, 1, 2, 3, 4}, {0, 0, 0, 1, 1}, {0, 1, 1, 1, 1, 1, 1}}) {
+      video.fps = fps;
+      Film film({folder.get(), temp.path()}, video, find_film_tools());
+      for (const int phase : phases) film.add(picture(video.size, 40 * phase));
+      EXPECT_EQ(error_of([&] { film.complete(); }), "no error") << fps << ", " << phases.size() << " pictures";
+      film.file().publish();
+      EXPECT_EQ(webp_frames({folder.get(), temp.path()}, "film.webp", fps), phases.size());
+    }
+}
+
+TEST(Film, AWebpInWhichNothingMovesIsAStillPicture) {
+  TempFolder temp;
+  const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  VideoOutput video;
+  video.file = "film.webp";
+  video.size = {64, 36};
+  for (const int pictures : {1, 5}) {
+    Film film({folder.get(), temp.path()}, video, find_film_tools());
+    for (int i = 0; i < pictures; ++i) film.add(picture(video.size, 0));
+    EXPECT_EQ(error_of([&] { film.complete(); }), "no error") << pictures;
+    film.file().publish();
+    EXPECT_EQ(webp_frames({folder.get(), temp.path()}, "film.webp", video.fps), std::nullopt);
+  }
+}
+
+TEST(Film, ADamagedWebpHasNoPictures) {
+  TempFolder temp;
+  run(scene_with_film("film.webp"), temp / "run");
+  const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const std::string whole = read(temp / "run/film.webp");
+  for (const std::string& damaged :
+       {std::string(), std::string("RIFF"), whole.substr(0, whole.size() / 2), "x" + whole}) {
+    write(temp / "film.webp", damaged);
+    EXPECT_EQ(webp_frames({folder.get(), temp.path()}, "film.webp", 25), 0U);
+  }
+  EXPECT_EQ(webp_frames({folder.get(), temp.path()}, "absent.webp", 25), 0U);
+}
+
+TEST(Film, OpacityStaysInAGifAndAWebp) {
+  TempFolder temp;
+  const Descriptor folder(open(temp.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  for (const std::string name : {"film.gif", "film.webp", "film.mp4"}) {
+    VideoOutput video;
+    video.file = name;
+    video.fps = 25;
+    video.size = {32, 32};
+    video.crf = 1;
+    Film film({folder.get(), temp.path()}, video, find_film_tools());
+    for (int i = 0; i < 3; ++i) {
+      Image image{32, 32, {}, 4};
+      for (int k = 0; k < 32 * 32; ++k)
+        for (const int c : {200, 40 * i, 50, k % 16 < 8 ? 0 : 255}) image.pixels.push_back(static_cast<std::uint8_t>(c));
+      film.add(image);
+    }
+    EXPECT_EQ(error_of([&] { film.complete(); }), "no error") << name;
+    film.file().publish();
+  }
+  const std::string rgb = first_frame(temp / "film.mp4");
+  EXPECT_NEAR(static_cast<unsigned char>(rgb[3 * (32 * 16 + 4)]), 0, 8);  // on black
+  EXPECT_NEAR(static_cast<unsigned char>(rgb[3 * (32 * 16 + 12)]), 200, 8);
+  const std::string webp = read(temp / "film.webp");
+  ASSERT_EQ(webp.substr(12, 4), "VP8X");
+  EXPECT_TRUE(webp[20] & 0x10) << "the container names no opacity";
+  Child child({find_film_tools().ffmpeg, "-nostdin", "-v", "error", "-i", "film.gif", "-frames:v", "1", "-pix_fmt",
+               "rgba", "-f", "rawvideo", "pipe:1"},
+              folder.get(), false);
+  EXPECT_EQ(child.wait(std::chrono::seconds(60)), 0) << child.errors();
+  const std::string rgba = child.output();
+  ASSERT_EQ(rgba.size(), 32U * 32 * 4);
+  EXPECT_EQ(static_cast<unsigned char>(rgba[4 * (32 * 16 + 4) + 3]), 0);
+  EXPECT_EQ(static_cast<unsigned char>(rgba[4 * (32 * 16 + 12) + 3]), 255);
+}
+
 TEST(Film, AFilmOfNothingIsRefusedBeforeAnythingIsWritten) {
   TempFolder temp;
   Scene scene = scene_with_film();
   scene.output.video->from = 0.13;
-  scene.output.video->until = 0.15;
+  scene.output.video->until = 0.12;
   EXPECT_EQ(error_of([&] { Exports exports(scene, temp / "run"); }),
             "cannot make animation.mp4: no picture falls between `from` and `until`");
   EXPECT_FALSE(fs::exists(temp / "run"));
@@ -263,7 +405,7 @@ TEST_F(ScriptedFfmpeg, AKilledOneIsReported) {
 }
 
 TEST_F(ScriptedFfmpeg, HalfAFilmIsReported) {
-  EXPECT_EQ(film("head -c " + std::to_string(3 * 320 * 180 * 3) + " | " + real() + "; cat >/dev/null", 5),
+  EXPECT_EQ(film("head -c " + std::to_string(3 * 320 * 180 * 3 / 2) + " | " + real() + "; cat >/dev/null", 5),
             "cannot make the film out/animation.mp4: ffmpeg wrote 3 of 5 frames");
 }
 
@@ -275,6 +417,24 @@ TEST_F(ScriptedFfmpeg, NoFilmAtAllIsReported) {
 TEST_F(ScriptedFfmpeg, OneThatTakesNothingIsStopped) {
   EXPECT_EQ(film("exec sleep 1000", 50, {milliseconds(1000), milliseconds(1000)}),
             "cannot make the film out/animation.mp4: ffmpeg accepted no picture for 1 s and was stopped");
+}
+
+TEST_F(ScriptedFfmpeg, OneThatTakesNothingDelaysNoOtherError) {
+  write(temp_ / "ffmpeg", "#!/bin/sh\nexec sleep 1000\n");
+  chmod((temp_ / "ffmpeg").c_str(), 0755);
+  const Descriptor folder(open(temp_.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  VideoOutput video;
+  video.size = {640, 360};  // more than a socket holds
+  const auto start = std::chrono::steady_clock::now();
+  {
+    Film film({folder.get(), "out"}, video, {temp_ / "ffmpeg", find_film_tools().ffprobe});
+    film.add(picture(video.size, 0));
+    EXPECT_EQ(error_of([&] {
+                film.add(picture({2, 2}, 0));
+              }),
+              "cannot make the film out/animation.mp4: a picture is of another size");
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
 }
 
 TEST_F(ScriptedFfmpeg, OneThatDoesNotEndIsStopped) {

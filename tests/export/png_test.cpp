@@ -6,6 +6,9 @@
 #include <cstring>
 
 #include "export/export_testing.h"
+#include "export/frame_files.h"
+#include "export/picture_streams.h"
+#include "files/hash.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -18,39 +21,63 @@ Image decode(const std::string& bytes) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   EXPECT_TRUE(png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) << png.message;
-  EXPECT_EQ(png.format, PNG_FORMAT_RGB);
-  Image image{static_cast<int>(png.width), static_cast<int>(png.height), {}};
+  EXPECT_TRUE(png.format == PNG_FORMAT_RGB || png.format == PNG_FORMAT_RGBA);
+  Image image{static_cast<int>(png.width), static_cast<int>(png.height), {}, png.format == PNG_FORMAT_RGBA ? 4 : 3};
   image.pixels.resize(PNG_IMAGE_SIZE(png));
   EXPECT_TRUE(png_image_finish_read(&png, nullptr, image.pixels.data(), 0, nullptr)) << png.message;
   return image;
 }
 
-TEST(Png, ReadsBackPixelForPixel) {
+/// The picture with an opacity that goes from 0 to 255 from left to right.
+Image with_opacity(const Image& rgb) {
+  Image image{rgb.width, rgb.height, {}, 4};
+  for (std::size_t i = 0; i < rgb.pixels.size(); i += 3) {
+    image.pixels.insert(image.pixels.end(), rgb.pixels.begin() + static_cast<std::ptrdiff_t>(i),
+                        rgb.pixels.begin() + static_cast<std::ptrdiff_t>(i) + 3);
+    image.pixels.push_back(static_cast<std::uint8_t>(i / 3 % static_cast<std::size_t>(rgb.width) * 255 /
+                                                     static_cast<std::size_t>(std::max(rgb.width - 1, 1))));
+  }
+  return image;
+}
+
+TEST(Png, ReadsBackPixelForPixelWithAndWithoutOpacity) {
   for (const Size size : {Size{1, 1}, Size{3, 2}, Size{64, 48}, Size{1279, 3}, Size{2, 701}})
-    for (const PngEffort effort : {PngEffort::fast, PngEffort::small}) {
-      const Image image = picture(size, 5);
-      const Image back = decode(encode_png(image, effort));
+    for (const Image& image : {picture(size, 5), with_opacity(picture(size, 5))}) {
+      const Image back = decode(encode_png(image));
       EXPECT_EQ(back.width, image.width);
       EXPECT_EQ(back.height, image.height);
+      EXPECT_EQ(back.channels, image.channels);
       EXPECT_TRUE(back.pixels == image.pixels) << size.width << " x " << size.height;
     }
 }
 
 TEST(Png, IsMarkedAsSrgb) {
-  const std::string bytes = encode_png(picture({4, 4}, 0), PngEffort::fast);
+  const std::string bytes = encode_png(picture({4, 4}, 0));
   EXPECT_NE(bytes.find("sRGB"), std::string::npos);
   EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n");
 }
 
-TEST(Png, TheSamePictureGivesTheSameBytes) {
-  const Image image = picture({320, 180}, 3);
-  EXPECT_EQ(encode_png(image, PngEffort::fast), encode_png(image, PngEffort::fast));
+TEST(Png, AnEncoderIsUsedAgainForPicturesOfOtherSizes) {
+  PngEncoder encoder;
+  for (const Size size : {Size{320, 180}, Size{5, 7}, Size{320, 180}}) {
+    encoder.take(picture(size, 3));
+    EXPECT_EQ(encoder.encode(), encode_png(picture(size, 3)));
+    EXPECT_EQ(encoder.file(), encode_png(picture(size, 3)));
+  }
+}
+
+TEST(Png, HasTheSameBytesOnEveryMachine) {
+  EXPECT_EQ(sha256(encode_png(picture({640, 360}, 3))),
+            "68a539acc3e25730573f40f113e5a8c07a5dae7d929ecd094584099e7faa2dec");
+  EXPECT_EQ(sha256(encode_png(with_opacity(picture({640, 360}, 3)))),
+            "c105c16386da2ca9d7f811c9e2854043d3a4e7311738bef5af656bbbf6ee7dc1");
 }
 
 TEST(Png, AnImageThatIsNoneIsRefused) {
-  EXPECT_THROW(encode_png({0, 0, {}}, PngEffort::fast), ExportError);
-  EXPECT_THROW(encode_png({2, 2, std::vector<std::uint8_t>(11)}, PngEffort::fast), ExportError);
-  EXPECT_THROW(encode_png({-1, -1, std::vector<std::uint8_t>(3)}, PngEffort::fast), ExportError);
+  EXPECT_THROW(encode_png({0, 0, {}}), ExportError);
+  EXPECT_THROW(encode_png({2, 2, std::vector<std::uint8_t>(11)}), ExportError);
+  EXPECT_THROW(encode_png({-1, -1, std::vector<std::uint8_t>(3)}), ExportError);
+  EXPECT_THROW(encode_png({1, 1, std::vector<std::uint8_t>(2), 2}), ExportError);
 }
 
 TEST(Frames, FrameIIsTickIAndKeepsItsNumber) {
@@ -105,11 +132,40 @@ TEST(Sheet, ManyColumnsStayWithinAScreensWidth) {
   }
 }
 
+TEST(Sheet, OfAGivenSizeHasThatSizeAndFillsIt) {
+  TempFolder temp;
+  Scene scene = small_scene();
+  scene.output.sheet = SheetOutput{3, 2, Size{1000, 500}, 0.05, 0.15};
+  Exports exports(scene, temp / "run");
+  const Size size = exports.pictures()[0].size;
+  EXPECT_EQ(size.width, (1000 - 4 * 8) / 3);
+  EXPECT_EQ(size.height, (500 - 3 * 8) / 2);
+  play(scene, exports);
+  exports.finish(some_summary(scene), {});
+  const Image sheet = decode(read(temp / "run/sheet.png"));
+  EXPECT_EQ(sheet.width, 1000);
+  EXPECT_EQ(sheet.height, 500);
+  const Image last = picture(size, 5);
+  // 1000 leaves 2 pixels over, one for each side.
+  const int left = 9 + 2 * (size.width + 8), top = 8 + size.height + 8;
+  EXPECT_EQ(std::memcmp(sheet.row(top) + 3 * left, last.row(0), last.row_size()), 0);
+}
+
+TEST(Sheet, ShowsItsOwnWindow) {
+  Scene scene = small_scene();
+  scene.output.sheet = SheetOutput{3, 1, {}, 0.05, 0.15};
+  scene.output.frames = FramesOutput{10, {32, 18}, 1, 0.1, 0.1};
+  const Ticks ticks = plan_pictures(scene).ticks[1];
+  EXPECT_EQ(ticks.at(0), 0.05);
+  EXPECT_EQ(ticks.at(1), 0.1);
+  EXPECT_EQ(ticks.at(2), 0.15);
+}
+
 TEST(Sheet, OneTooLargeIsRefusedBeforeAnythingIsWritten) {
   TempFolder temp;
   Scene scene = small_scene();
-  for (const SheetOutput sheet :
-       {SheetOutput{2'000'000'000, 2'000'000'000}, SheetOutput{1000, 1000}, SheetOutput{0, 1}}) {
+  for (const SheetOutput sheet : {SheetOutput{2'000'000'000, 2'000'000'000}, SheetOutput{1000, 1000}, SheetOutput{0, 1},
+                                  SheetOutput{40, 2, Size{1280, 720}, 0, {}}}) {
     scene.output.sheet = sheet;
     EXPECT_THROW(Exports(scene, temp / "run"), ExportError);
   }
@@ -129,10 +185,56 @@ TEST(Frames, APictureThatIsTheLastOneAgainIsNotEncodedAgain) {
     ++number;
   }
   EXPECT_EQ(number, 5);
+  exports.finish(some_summary(scene), {});
   const std::string first = read(temp / "run/frames/frame_00000.png");
-  EXPECT_EQ(first, encode_png(picture({32, 18}, 0), PngEffort::fast));
+  EXPECT_EQ(first, encode_png(picture({32, 18}, 0)));
   EXPECT_EQ(read(temp / "run/frames/frame_00001.png"), first);
-  EXPECT_EQ(read(temp / "run/frames/frame_00002.png"), encode_png(picture({32, 18}, 2), PngEffort::fast));
+  EXPECT_EQ(read(temp / "run/frames/frame_00002.png"), encode_png(picture({32, 18}, 2)));
+}
+
+/// Writes 40 frames with so many threads, and gives the records.
+std::vector<FileRecord> frames_by(std::size_t threads, const std::string& path) {
+  OpenFolder folder(path, Durability::deferred);
+  FrameFiles frames(folder, threads);
+  for (int i = 0; i < 40; ++i) frames.put(i, picture({64, 36}, i / 3), i % 3 > 0);
+  frames.finish();
+  folder.keep();
+  return frames.records();
+}
+
+TEST(Frames, AnyNumberOfThreadsWritesTheSameFiles) {
+  TempFolder temp;
+  const std::vector<FileRecord> one = frames_by(1, temp / "one");
+  ASSERT_EQ(one.size(), 40U);
+  for (const std::size_t threads : {2U, 5U}) {
+    const std::string path = temp / std::to_string(threads);
+    const std::vector<FileRecord> several = frames_by(threads, path);
+    ASSERT_EQ(several.size(), one.size());
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      EXPECT_EQ(several[i].name, one[i].name);
+      EXPECT_EQ(several[i].sha256, one[i].sha256);
+      EXPECT_EQ(read(path + "/" + one[i].name), read(temp / "one/" + one[i].name));
+    }
+  }
+}
+
+TEST(Frames, AFrameThatCannotBeWrittenIsNamedWhateverTheThreads) {
+  for (const std::size_t threads : {1U, 4U}) {
+    TempFolder temp;
+    fs::create_directories(temp / "run/frames/frame_00007.png/in_the_way");
+    OpenFolder folder(temp / "run", Durability::deferred);
+    const std::string error = error_of([&] {
+      FrameFiles frames(folder, threads);
+      for (int i = 0; i < 40; ++i) frames.put(i, picture({64, 36}, i), false);
+      frames.finish();
+    });
+    EXPECT_TRUE(error.starts_with("cannot write " + (temp / "run/frames/frame_00007.png") + ": ")) << error;
+    for (const std::string& name : names_in(temp / "run")) EXPECT_EQ(name.find(".part"), std::string::npos) << name;
+    // All frames before it are there, and whole.
+    for (int i = 0; i < 7; ++i)
+      EXPECT_TRUE(decode(read(temp / "run/" + frame_files.folder.data() + ("/" + frame_files.name(i)))).pixels ==
+                  picture({64, 36}, i).pixels);
+  }
 }
 
 }  // namespace

@@ -80,6 +80,7 @@ TEST(Ticks, HugeCountsNeitherLoopNorOverflow) {
   EXPECT_GT(Ticks::every(1e-300, 1e300).count(), std::int64_t{1} << 52);
   EXPECT_EQ(Ticks::every(1e-300, 1e300).at(Ticks::every(1e-300, 1e300).last()), 1e300);
   EXPECT_GT(Ticks::rate(1e300, 0, 1e300).count(), std::int64_t{1} << 52);
+  EXPECT_GT(Ticks::film(1e300, 1e-6, 0, 1e300).count(), std::int64_t{1} << 52);
   EXPECT_EQ(Ticks::every(1e300, 1).count(), 2);
   EXPECT_EQ(Ticks::every(5e-324, 1e-323).count(), 3);
 }
@@ -90,6 +91,8 @@ TEST(Ticks, SenselessIntervalsAreRefused) {
   EXPECT_THROW(Ticks::every(std::nan(""), 1), std::invalid_argument);
   EXPECT_THROW(Ticks::every(1, std::numeric_limits<double>::infinity()), std::invalid_argument);
   EXPECT_THROW(Ticks::rate(0, 0, 1), std::invalid_argument);
+  EXPECT_THROW(Ticks::film(0, 1, 0, 1), std::invalid_argument);
+  EXPECT_THROW(Ticks::film(1, 0, 0, 1), std::invalid_argument);
 }
 
 TEST(Ticks, FrameIStandsAtIOverFps) {
@@ -98,6 +101,30 @@ TEST(Ticks, FrameIStandsAtIOverFps) {
   EXPECT_EQ(ticks.last(), 60);
   for (int i = 0; i <= 60; ++i) EXPECT_EQ(ticks.at(i), i / 30.0);
   EXPECT_EQ(Ticks::rate(29.97, 0, 10).at(100), 100 / 29.97);
+}
+
+TEST(Ticks, AFilmsPictureIStandsAtFromPlusITimesSpeedOverFps) {
+  const Ticks slow = Ticks::film(30, 0.125, 0.4, 2);
+  EXPECT_EQ(slow.first(), 0);
+  EXPECT_EQ(slow.last(), 384);
+  // 0.4 + i / 240 in one rounding: (96 + i) / 240.
+  for (int i = 0; i <= 384; ++i) EXPECT_EQ(slow.at(i), (96 + i) / 240.0) << i;
+  const Ticks lapse = Ticks::film(25, 10, 0.1, 1e6);
+  for (int i = 0; i <= 1000; ++i) EXPECT_EQ(lapse.at(i), (1 + 4 * i) / 10.0) << i;
+  EXPECT_EQ(Ticks::film(30, 1.0 / 3, 0, 1).at(45), 0.5);
+  EXPECT_EQ(times(Ticks::film(10, 1, 0.13, 0.34)), (std::vector<double>{0.13, 0.23, 0.33}));
+  EXPECT_EQ(times(Ticks::film(10, 0.5, 2, 2)), (std::vector<double>{2}));
+  EXPECT_EQ(Ticks::film(10, 0.5, 2, 1).count(), 0);
+}
+
+TEST(Ticks, AFilmInRealTimeHasTheInstantsOfFrames) {
+  for (const double fps : {24.0, 29.97, 30.0, 60.0}) {
+    EXPECT_TRUE(Ticks::film(fps, 1, 0, 3).has_times_of(Ticks::rate(fps, 0, 3))) << fps;
+    EXPECT_FALSE(Ticks::film(fps, 0.5, 0, 3).has_times_of(Ticks::rate(fps, 0, 3))) << fps;
+    EXPECT_FALSE(Ticks::film(fps, 1, 0, 2).has_times_of(Ticks::rate(fps, 0, 3))) << fps;
+  }
+  EXPECT_TRUE(Ticks::film(30, 1, 0.4, 3).has_times_of(Ticks::rate(30, 0.4, 3)));
+  EXPECT_FALSE(Ticks::film(30, 1, 0.41, 3).has_times_of(Ticks::rate(30, 0.41, 3)));
 }
 
 TEST(Ticks, FramesLieWithinFromAndUntilEndsIncluded) {
@@ -120,10 +147,12 @@ TEST(Ticks, FramesLieWithinFromAndUntilEndsIncluded) {
 }
 
 TEST(Ticks, EvenOnesIncludeBothEnds) {
-  EXPECT_EQ(times(Ticks::even(5, 2)), (std::vector<double>{0, 0.5, 1, 1.5, 2}));
-  EXPECT_EQ(times(Ticks::even(12, 0.7)).back(), 0.7);
-  EXPECT_EQ(times(Ticks::even(1, 2)), (std::vector<double>{2}));
-  EXPECT_EQ(Ticks::even(0, 2).count(), 0);
+  EXPECT_EQ(times(Ticks::even(5, 0, 2)), (std::vector<double>{0, 0.5, 1, 1.5, 2}));
+  EXPECT_EQ(times(Ticks::even(12, 0, 0.7)).back(), 0.7);
+  EXPECT_EQ(times(Ticks::even(1, 0, 2)), (std::vector<double>{2}));
+  EXPECT_EQ(Ticks::even(0, 0, 2).count(), 0);
+  EXPECT_EQ(times(Ticks::even(3, 0.5, 1.5)), (std::vector<double>{0.5, 1, 1.5}));
+  EXPECT_EQ(times(Ticks::even(1, 0.5, 1.5)), (std::vector<double>{1.5}));
 }
 
 TEST(Timeline, WithoutOutputsItStillEndsAtTheDuration) {

@@ -5,11 +5,16 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <csignal>
+#include <mutex>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "export/export_testing.h"
@@ -38,7 +43,7 @@ TEST(Conveyor, UsesWhatIsSentInOrder) {
   conveyor.finish();
   ASSERT_EQ(used.size(), 1000U);
   for (int i = 0; i < 1000; ++i) EXPECT_EQ(used[static_cast<std::size_t>(i)], i);
-  EXPECT_EQ(items.size(), Conveyor<int>::items);
+  EXPECT_EQ(items.size(), conveyor.items());
 }
 
 TEST(Conveyor, ASlowReaderHoldsUpTheWriter) {
@@ -52,8 +57,64 @@ TEST(Conveyor, ASlowReaderHoldsUpTheWriter) {
   for (int sent = 1; sent <= 20; ++sent) {
     conveyor.send();
     // The one that is filled next is free.
-    EXPECT_LT(sent - used, static_cast<int>(Conveyor<int>::items));
+    EXPECT_LT(sent - used, static_cast<int>(conveyor.items()));
   }
+}
+
+TEST(Conveyor, SeveralThreadsUseEachItemOnceAndAtTheSameTime) {
+  std::mutex mutex;
+  std::condition_variable changed;
+  int in_use = 0, most = 0;
+  std::set<int> used;
+  Conveyor<int> conveyor(
+      [&](int& item) {
+        std::unique_lock lock(mutex);
+        most = std::max(most, ++in_use);
+        changed.notify_all();
+        // The first three wait for one another, which a single thread could not do.
+        if (item < 3) changed.wait(lock, [&] { return most == 3; });
+        --in_use;
+        EXPECT_TRUE(used.insert(item).second);
+      },
+      0, 3);
+  EXPECT_EQ(conveyor.items(), 6U);
+  for (int i = 0; i < 1000; ++i) {
+    conveyor.item() = i;
+    conveyor.send();
+  }
+  conveyor.finish();
+  EXPECT_EQ(used.size(), 1000U);
+  EXPECT_EQ(most, 3);
+}
+
+TEST(Conveyor, OfSeveralFailuresTheFirstItemsIsThrown) {
+  for (int round = 0; round < 50; ++round) {
+    Conveyor<int> conveyor(
+        [&](int& item) {
+          if (item == 7) std::this_thread::sleep_for(std::chrono::microseconds(200));
+          if (item >= 7) throw std::runtime_error(std::to_string(item));
+        },
+        0, 4);
+    std::string failure;
+    try {
+      for (int i = 0; i < 20; ++i) {
+        conveyor.item() = i;
+        conveyor.send();
+      }
+      conveyor.finish();
+    } catch (const std::runtime_error& error) {
+      failure = error.what();
+    }
+    EXPECT_EQ(failure, "7");
+  }
+}
+
+TEST(Conveyor, OneForTheSenderAloneStartsNoThread) {
+  int used = 0;
+  Conveyor<int> conveyor([&](int&) { ++used; }, Conveyor<int>::no_thread);
+  for (int i = 0; i < 100; ++i) conveyor.send();
+  EXPECT_FALSE(conveyor.started());
+  EXPECT_EQ(used, 100);
 }
 
 TEST(Conveyor, LittleWorkStartsNoThread) {

@@ -161,7 +161,8 @@ TEST(Manifest, HashesAreSha256) {
 }
 
 TEST(Manifest, OnlyNamesThatARunWritesAreAccepted) {
-  for (const char* name : {"trajectory.csv", "my film.mp4", "frames/frame_00000.png", "frames/frame_123456.png"})
+  for (const char* name :
+       {"trajectory.csv", "my film.mp4", "x.gif", "x.webp", "frames/frame_00000.png", "frames/frame_123456.png"})
     EXPECT_TRUE(is_run_file(name)) << name;
   for (const char* name :
        {"", ".", "..", ".hidden", "../x", "/etc/passwd", "a/b", "frames/x.png", "frames/../x", "frames/frame_0000.png",

@@ -71,13 +71,65 @@ TEST(LoadScene, WithOutputThereIsOnlyWhatItNames) {
   EXPECT_FALSE(scene.output.trajectory || scene.output.collisions || scene.output.pictures());
 }
 
-TEST(LoadScene, VideoTakesMissingKeysFromFrames) {
-  const Scene scene =
-      load_text(start + "output: {frames: {fps: 24, size: [320, 200], samples: 8, until: 0.5}, video: {fps: 12}}\n");
+TEST(LoadScene, VideoTakesRateSizeAndSamplesFromFramesAndNoWindow) {
+  const Scene scene = load_text(
+      start + "output: {frames: {fps: 24, size: [320, 200], samples: 8, from: 0.2, until: 0.5}, video: {fps: 12}}\n");
   EXPECT_EQ(scene.output.video->fps, 12);
   EXPECT_EQ(scene.output.video->size.width, 320);
   EXPECT_EQ(scene.output.video->samples, 8);
-  EXPECT_EQ(scene.output.video->until, 0.5);
+  EXPECT_EQ(scene.output.video->from, 0);
+  EXPECT_EQ(scene.output.video->until, std::nullopt);
+}
+
+TEST(LoadScene, SizesHaveNames) {
+  for (const auto& [name, size] : std::vector<std::pair<std::string, Size>>{{"720p", {1280, 720}},
+                                                                            {"1080p", {1920, 1080}},
+                                                                            {"4k", {3840, 2160}},
+                                                                            {"square", {1080, 1080}},
+                                                                            {"\"4k\"", {3840, 2160}}}) {
+    const Scene scene =
+        load_text(start + "output: {frames: {size: " + name + "}, video: true, sheet: {size: " + name + "}}\n");
+    EXPECT_EQ(scene.output.frames->size, size) << name;
+    EXPECT_EQ(scene.output.video->size, size) << name;
+    EXPECT_EQ(scene.output.sheet->size, size) << name;
+  }
+  EXPECT_EQ(load_text(start + "output: {sheet: true}\n").output.sheet->size, std::nullopt);
+  EXPECT_EQ(
+      errors_of(start + "output: {frames: {size: 1080}}\n"),
+      "scene.yaml:3:25: error: `size` is `1080`\n"
+      "   3 | output: {frames: {size: 1080}}\n"
+      "     |                         ^~~~\n"
+      "     = did you mean `1080p`?\n"
+      "     = expected [width, height], two whole numbers from 16 to 16384 in pixels, or 720p, 1080p, 4k or square\n");
+}
+
+TEST(LoadScene, TheEndOfAFilmsNameIsItsFormat) {
+  EXPECT_EQ(
+      errors_of(start + "output: {video: {file: x.avi}}\n"),
+      "scene.yaml:3:24: error: `x.avi` is not a name for a video\n"
+      "   3 | output: {video: {file: x.avi}}\n"
+      "     |                        ^~~~~\n"
+      "     = expected a plain file name that ends in .mp4, .gif or .webp, such as animation.mp4, without folders\n");
+  for (const char* file : {"x.mp4", "x.gif", "x.webp"})
+    EXPECT_EQ(load_text(start + "output: {video: {file: " + file + "}}\n").output.video->file, file);
+}
+
+TEST(LoadScene, AGifHasARateThatItCanKeep) {
+  EXPECT_EQ(load_text(start + "output: {video: {file: x.gif}}\n").output.video->fps, 25);
+  EXPECT_EQ(load_text(start + "output: {video: {file: x.mp4}}\n").output.video->fps, 30);
+  for (const char* fps : {"50", "25", "20", "12.5", "10", "33.333333333333336", "1", "0.01"})
+    EXPECT_EQ(errors_of(start + "output: {video: {file: x.gif, fps: " + fps + "}}\n"), "") << fps;
+  for (const char* fps : {"100", "60", "30", "24", "29.97", "33.3"})
+    EXPECT_NE(errors_of(start + "output: {video: {file: x.gif, fps: " + fps + "}}\n").find("a GIF cannot show"),
+              std::string::npos)
+        << fps;
+  // That of frames, too.
+  EXPECT_EQ(errors_of(start + "output: {frames: {fps: 30}, video: {file: x.gif}}\n"),
+            "scene.yaml:3:24: error: a GIF cannot show 30 pictures a second\n"
+            "   3 | output: {frames: {fps: 30}, video: {file: x.gif}}\n"
+            "     |                        ^~\n"
+            "     = expected 50, 25, 20, 12.5, 10 or another 100/n: a GIF shows each picture for whole hundredths of a "
+            "second, at least 2\n");
 }
 
 TEST(LoadScene, DensityMakesTheMass) {
@@ -298,6 +350,14 @@ TEST(LoadScene, BudgetIsCheckedBeforeAnythingIsMade) {
   EXPECT_NE(errors_of(start + gas, force).find("the limit is 4000000000"), std::string::npos);
 }
 
+TEST(LoadScene, TheBudgetOfPicturesFollowsTheSpeedOfTheFilm) {
+  // 1 s of motion: 101 pictures a second of film, slowed down a thousandfold.
+  EXPECT_EQ(errors_of(start + "output: {video: {fps: 100, speed: 0.001001}}\n"), "");
+  EXPECT_NE(errors_of(start + "output: {video: {fps: 100, speed: 0.001}}\n").find("would write 100001 pictures"),
+            std::string::npos);
+  EXPECT_EQ(errors_of(start + "output: {video: {fps: 1e6, speed: 100}}\n"), "");
+}
+
 TEST(LoadScene, PicturesHaveLimits) {
   EXPECT_NE(errors_of(start + "output: {video: {size: [17, 20]}}\n").find("an even whole number from 16 to 16384"),
             std::string::npos);
@@ -307,6 +367,11 @@ TEST(LoadScene, PicturesHaveLimits) {
   EXPECT_NE(errors_of(start + "output: {frames: {samples: 3}}\n").find("expected 1, 2, 4 or 8"), std::string::npos);
   EXPECT_NE(errors_of(start + "output: {frames: {from: 2}}\n").find("`from` is 2 but the scene ends at 1 s"),
             std::string::npos);
+  EXPECT_NE(errors_of(start + "output: {sheet: {from: 2}}\n").find("`from` is 2 but the scene ends at 1 s"),
+            std::string::npos);
+  EXPECT_NE(errors_of(start + "output: {sheet: {from: 0.5, until: 0.25}}\n").find("`until` is 0.25 but `from` is 0.5"),
+            std::string::npos);
+  EXPECT_NE(errors_of(start + "output: {video: {speed: 0}}\n").find("`speed` is 0"), std::string::npos);
   EXPECT_NE(errors_of(start + "output: {sheet: {rows: 0}}\n").find("`rows` is 0"), std::string::npos);
   for (const char* file : {"../x.mp4", ".mp4", "-x.mp4", ".x.mp4", "x.avi", "a/b.mp4", "\"\"", "\"a\\nb.mp4\""}) {
     EXPECT_NE(errors_of(start + "output: {video: {file: " + file + "}}\n"), "") << file;

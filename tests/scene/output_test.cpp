@@ -55,7 +55,10 @@ TEST(Outputs, KeepTheirSettingsAndTakeThoseOfTheirLike) {
   EXPECT_EQ(output.energy->every, 0.5);
   EXPECT_FALSE(output.frames);
   EXPECT_EQ(output.video->fps, 12);
-  EXPECT_EQ(output.video->until, 3.0);
+  EXPECT_EQ(output.video->size.width, 64);
+  EXPECT_EQ(output.video->samples, 2);
+  EXPECT_EQ(output.video->from, 0);
+  EXPECT_EQ(output.video->until, std::nullopt);
 }
 
 TEST(Outputs, NoTwoHaveAFileOfTheSameName) {

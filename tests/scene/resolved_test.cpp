@@ -118,9 +118,16 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.output.video->size.width, b.output.video->size.width);
     EXPECT_EQ(a.output.video->samples, b.output.video->samples);
     EXPECT_EQ(a.output.video->crf, b.output.video->crf);
+    EXPECT_EQ(a.output.video->from, b.output.video->from);
     EXPECT_EQ(a.output.video->until, b.output.video->until);
+    EXPECT_EQ(a.output.video->speed, b.output.video->speed);
   }
   ASSERT_EQ(a.output.sheet.has_value(), b.output.sheet.has_value());
+  if (a.output.sheet) {
+    EXPECT_EQ(a.output.sheet->size, b.output.sheet->size);
+    EXPECT_EQ(a.output.sheet->from, b.output.sheet->from);
+    EXPECT_EQ(a.output.sheet->until, b.output.sheet->until);
+  }
 }
 
 void expect_stable(const std::string& text, const LoadOptions& options = {}) {
@@ -155,7 +162,7 @@ TEST(ResolvedScene, HasEveryDefaultWrittenOut) {
       "simulate: {duration: 2, engine: book, step: 0.016666666666666666, as_printed: false, contact: bounce}\n"
       "output:\n"
       "  collisions: false\n"
-      "  video: {file: \"animation.mp4\", fps: 30, size: [1280, 720], crf: 18, samples: 4, from: 0}\n");
+      "  video: {file: \"animation.mp4\", fps: 30, size: [1280, 720], crf: 18, samples: 4, from: 0, speed: 1}\n");
 }
 
 TEST(ResolvedScene, OfASceneWithEverythingMeansTheSame) {
@@ -197,7 +204,7 @@ simulate: {duration: 2.5, max_collisions: 1000, rest_speed: 1e-3, contact: merge
 camera: {eye: [0, 3, -5], target: [0, 0, 0], fov_axis: horizontal, far: 1e2}
 lights: {sun: {direction: [0, -1, 0.5], intensity: 2}, ambient: dimgray}
 background: '#112233'
-output: {trajectory: {layout: wide}, energy: true, contacts: true, frames: {fps: 10, size: [64, 48], until: 1}, video: {file: "b c.mp4"}, sheet: true}
+output: {trajectory: {layout: wide}, energy: true, contacts: true, frames: {fps: 10, size: [64, 48], until: 1}, video: {file: "b c.mp4", from: 0.25, speed: 0.5, size: 720p}, sheet: {size: square, from: 0.5, until: 1}}
 )");
 }
 
@@ -206,6 +213,10 @@ TEST(ResolvedScene, HoldsWithoutOutputAndWithEmptyParts) {
   expect_stable(
       "scene: 1\nballs: {}\nplanes: {}\nbodies: {}\nobstacles: {}\nforces: []\nlights: {}\noutput: {}\nsimulate: "
       "{duration: 1}\n");
+}
+
+TEST(ResolvedScene, HasTheRateThatAGifGets) {
+  EXPECT_NE(load_text(start + "output: {video: {file: x.gif}}\n").resolved.find("fps: 25,"), std::string::npos);
 }
 
 TEST(ResolvedScene, HoldsSettingsAndSeed) {

@@ -18,7 +18,8 @@ std::vector<Json> values_for(const Field& field, bool few) {
       [], [1], [16, 17], [1, 2, 3], [0, -0.0, 0], [0.1, 0.2, 0.3], [1, 2, x], [1, 2, ~], [1, 2, 3, 4], [-99, 2, 3],
       [0, 3, -5], [red, floor], [red, red], [fence, floor], [fence], [{}], {}, {zzz: 1}, {mass: 1}, {red: ~}])");
   std::vector<Json> values(few ? one_each.begin() : many.begin(), few ? one_each.end() : many.end());
-  for (const std::string_view choice : field.type == Type::choice ? choices(field) : std::vector<std::string_view>())
+  const bool chosen = field.type == Type::choice || field.type == Type::pixels;
+  for (const std::string_view choice : chosen ? choices(field) : std::vector<std::string_view>())
     values.push_back(json_of_yaml(choice));
   if (few) return values;
   values.push_back(json_of_yaml(field.example));
@@ -188,13 +189,15 @@ output:
   energy: {every: 0.1}
   contacts: {every: 0.1}
   frames: {fps: 2, size: [16, 17], samples: 1, from: 0.5, until: 0.75}
-  video: {file: b.mp4, fps: 4, size: [16, 16], crf: 20, samples: 2, from: 0.25, until: 1}
-  sheet: {columns: 2, rows: 2}
+  video: {file: b.gif, fps: 4, size: [16, 16], crf: 20, samples: 2, from: 0.25, until: 1, speed: 0.5}
+  sheet: {columns: 2, rows: 2, size: [64, 48], from: 0.25, until: 1}
   vtk: {every: 0.1}
   xyz: {every: 0.1}
   gltf: {fps: 2}
   flights: true
-)", "{scene: 1, simulate: {duration: 1, engine: book, as_printed: true}}"};
+)",
+          "{scene: 1, simulate: {duration: 1, engine: book, as_printed: true}}",
+          "{scene: 1, simulate: {duration: 1}, output: {video: {file: b.mp4, fps: 16, size: square}}}"};
 }
 
 std::vector<Variation> vary(const std::string& scene, std::set<std::string>& visited) {

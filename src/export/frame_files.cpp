@@ -1,0 +1,35 @@
+#include "export/frame_files.h"
+
+#include <exception>
+
+#include "scene/output_kinds.h"
+
+namespace carom {
+
+FrameFiles::FrameFiles(OpenFolder& folder, std::size_t threads)
+    : series_(folder, frame_files),
+      frames_([this](Frame& frame) { series_.put(frame.number, frame.png.encode()); },
+              threads > 1 ? 0 : Conveyor<Frame>::no_thread, threads) {}
+
+FrameFiles::~FrameFiles() {
+  try {
+    frames_.finish();
+  } catch (const std::exception&) {
+    // Another error ends the run.
+  }
+}
+
+void FrameFiles::put(std::int64_t number, const Image& image, bool again) {
+  if (again && last_ != nullptr) {
+    frames_.finish();
+    series_.put(number, last_->file());
+    return;
+  }
+  Frame& frame = frames_.item();
+  frame.number = number;
+  frame.png.take(image);
+  last_ = &frame.png;
+  frames_.send();
+}
+
+}  // namespace carom

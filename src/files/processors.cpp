@@ -1,0 +1,31 @@
+#include "files/processors.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+namespace carom {
+namespace {
+
+std::size_t processes = 1;
+
+}  // namespace
+
+std::size_t processors() {
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) != 0) return 1;
+  return static_cast<std::size_t>(std::max(CPU_COUNT(&set), 1));
+}
+
+void share_processors(std::size_t jobs) {
+  processes = std::max<std::size_t>(jobs, 1);
+  setenv("LP_NUM_THREADS", std::to_string(share_of_processors()).c_str(), 0);
+}
+
+std::size_t share_of_processors() {
+  return std::max<std::size_t>(1, processors() / processes);
+}
+
+}  // namespace carom
