@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Ten scenes as drawn by carom and by POV-Ray with radiosity, one by one and on one sheet.
 
     look.py CAROM SCENES_FOLDER OUTPUT_FOLDER [SCENE...]
@@ -15,8 +15,10 @@ import yaml
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SIZE = (1280, 720)
-SCENES = {'two_bowling_balls': 1.5, 'billiard_break': 0.4, 'ten_pins': 0.55, 'crates': 0.65, 'gas_in_a_room': 1,
-          'pile_at_rest': 8, 'pyramid': 0, 'newtons_cradle_gap': 0.5, 'balls_in_a_box': 1, 'rolling_off': 0.5}
+# The time of the picture, s, and other settings.
+SCENES = {'two_bowling_balls': (1.5, 'camera.fov=14'), 'billiard_break': (0.4,), 'ten_pins': (0.55,),
+          'crates': (0.65,), 'gas_in_a_room': (1.0,), 'pile_at_rest': (8.0,), 'pyramid': (1.0,),
+          'balls_in_a_box': (4.0,), 'rolling_off': (0.5,), 'wall_fly_over': (0.5,)}
 
 # POV-Ray's values are linear and half as bright; carom's curve (src/raster/light.inc) and sRGB follow.
 SEEN = '(val/maxval*2)'
@@ -35,10 +37,10 @@ def ffmpeg(*words):
     run('ffmpeg', '-nostdin', '-hide_banner', '-loglevel', 'error', '-y', *words)
 
 
-def pictures(carom, scenes, folder, scene, time):
+def pictures(carom, scenes, folder, scene, time, *settings):
     work = os.path.join(folder, scene)
     fps = 1 / time if time else 1
-    settings = [f'output.frames.{key}={value}' for key, value in
+    settings = [*settings] + [f'output.frames.{key}={value}' for key, value in
                 [('fps', repr(fps)), ('from', repr(time)), ('until', repr(time)), ('size', f'[{SIZE[0]},{SIZE[1]}]')]]
     settings += [f'output.gltf.fps={fps!r}', f'simulate.duration={time!r}']
     run(carom, 'run', os.path.join(scenes, scene + '.yaml'), '--only', 'frames,gltf', '--force', '-o', work,
@@ -76,7 +78,7 @@ def main():
     chosen = sys.argv[4:] or list(SCENES)
     for scene in chosen:
         print(scene, flush=True)
-        pictures(carom, scenes, folder, scene, SCENES[scene])
+        pictures(carom, scenes, folder, scene, *SCENES[scene])
     sheet(folder, chosen)
 
 

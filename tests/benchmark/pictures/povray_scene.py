@@ -1,7 +1,7 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The scene of an animation.glb, at one of its keyframes, as a scene of POV-Ray with radiosity.
 
-    povray_scene.py ANIMATION.glb TIME > SCENE.pov
+    povray_scene.py ANIMATION.glb TIME DISTANCE > SCENE.pov
 
 A picture of it shows what carom's approximates: the same camera, bodies, surfaces, key light and sky, with light that is
 passed on from surface to surface. Balls, boxes and cylinders are exact, and planes are endless. Colours are linear, and
