@@ -16,6 +16,7 @@
 #include "commands/text.h"
 #include "commands/volumes.h"
 #include "physics/world.h"
+#include "render/moving_camera.h"
 #include "scene/scene.h"
 #include "yaml/joined.h"
 
@@ -27,6 +28,7 @@ namespace {
 
 constexpr std::size_t bodies_shown = 10, crossings_shown = 10, crossings_listed = 1000;
 constexpr double trial_budget = 0.1;  // s of wall time
+constexpr const char* unknown_view = "not known: the camera frames the motion, which takes longer to simulate";
 
 // "red, blue and gas (1,000)".
 std::string bodies_text(const Scene& scene) {
@@ -72,6 +74,21 @@ std::string first_collision_text(const PlannedScene& planned, const Foresight& f
   return text;
 }
 
+struct Findings {
+  Foresight foresight;
+  std::optional<CameraPreview> camera;  // none: the scene has neither pictures nor a camera
+};
+
+/// How the camera moves; empty: it stands still.
+std::string camera_text(const Scene& scene) {
+  if (!scene.camera || scene.camera->fit) return "frames the motion; ";
+  if (const auto& follow = scene.camera->follow) {
+    const BodyRange& range = scene.roster.range_of(follow->first);
+    return fmt::format("follows {}; ", follow->count == range.count ? range.name : scene.roster.name(follow->first));
+  }
+  return scene.camera->path.empty() ? "" : counted(scene.camera->path.size(), "keyframe", "keyframes") + "; ";
+}
+
 std::string plus_x_text(const std::string& direction) {
   if (direction == "left" || direction == "right") return fmt::format("+x points to the {} of the picture", direction);
   if (direction == "up" || direction == "down") return fmt::format("+x points {} in the picture", direction);
@@ -79,19 +96,22 @@ std::string plus_x_text(const std::string& direction) {
 }
 
 std::string out_of_view_text(const PlannedScene& planned, const CameraPreview& view) {
-  if (view.out_of_view.empty()) return "no body at time 0";
+  if (!view.out_of_view) return unknown_view;
+  if (view.out_of_view->empty()) return "no body at time 0";
   std::vector<std::string> names;
-  for (const Entity body : view.out_of_view) {
+  for (const Entity body : *view.out_of_view) {
     if (names.size() == bodies_shown) break;
     names.push_back(planned.scene->roster.name(body));
   }
-  const std::size_t more = view.out_of_view.size() - names.size();
+  const std::size_t more = view.out_of_view->size() - names.size();
   return more == 0 ? listed(names) + " at time 0"
                    : fmt::format("{} and {} more at time 0", joined(names, ", "), grouped(more));
 }
 
 // "red and blue enter at 0.3 s; red leaves at 1.2 s"
-std::string crossings_text(const PlannedScene& planned, const Foresight& foresight) {
+std::string crossings_text(const PlannedScene& planned, const Findings& findings) {
+  if (!findings.camera->out_of_view) return unknown_view;
+  const Foresight& foresight = findings.foresight;
   const std::vector<Crossing>& all = foresight.crossings;
   std::vector<std::string> texts;
   std::size_t i = 0;
@@ -143,23 +163,23 @@ std::string content_name(FolderContent content) {
   return "other run";
 }
 
-struct Findings {
-  Foresight foresight;
-  std::optional<CameraPreview> camera;  // none: the scene has neither pictures nor a camera
-};
-
 Findings examine(const PlannedScene& planned) {
   const Scene& scene = *planned.scene;
-  const bool watch = scene.camera || scene.output.pictures();
-  Findings findings{foresee(scene, planned.engine, watch, trial_budget), std::nullopt};
-  if (watch) findings.camera = preview_camera(scene);
-  return findings;
+  if (!scene.camera && !scene.output.pictures())
+    return {foresee(scene, planned.engine, nullptr, trial_budget), std::nullopt};
+  MovingCamera camera(scene, picture_size(scene.output));
+  const bool known = frame_motion(camera, trial_budget);
+  return {foresee(scene, planned.engine, known ? &camera : nullptr, trial_budget), preview_camera(camera, known)};
 }
 
 // Wall time of a run (s): of the part that was simulated, scaled up, and of its outputs.
 std::optional<double> seconds_to_come(const PlannedScene& planned, const Findings& findings) {
   if (!findings.foresight.simulate_s) return std::nullopt;
-  return planned.load_s + *findings.foresight.simulate_s + planned.forecast.seconds;
+  const Output& output = planned.scene->output;
+  const bool drawn = output.pictures() || output.gltf;
+  // A camera that frames the motion needs it before the first picture.
+  const int times = drawn && (!planned.scene->camera || planned.scene->camera->fit) ? 2 : 1;
+  return planned.load_s + times * *findings.foresight.simulate_s + planned.forecast.seconds;
 }
 
 std::string steps_text(double steps) {
@@ -191,10 +211,11 @@ std::string as_text(const PlannedScene& planned, const Findings& findings, const
   block.line("first hit", first_collision_text(planned, findings.foresight));
   if (!findings.foresight.failure.empty()) block.line("trouble", "a run would stop: " + findings.foresight.failure);
   if (findings.camera) {
-    block.line("camera", fmt::format("{}; fields of view {:.4g} x {:.4g} degrees", plus_x_text(findings.camera->plus_x),
-                                     findings.camera->fov_x, findings.camera->fov_y));
+    block.line("camera",
+               fmt::format("{}{}; fields of view {:.4g} x {:.4g} degrees", camera_text(*planned.scene),
+                           plus_x_text(findings.camera->plus_x), findings.camera->fov_x, findings.camera->fov_y));
     block.line("unseen", out_of_view_text(planned, *findings.camera));
-    block.line("in and out", crossings_text(planned, findings.foresight));
+    block.line("in and out", crossings_text(planned, findings));
   } else {
     block.line("camera", "none: the scene has no pictures");
   }
@@ -224,14 +245,15 @@ Json camera_json(const Scene& scene, const CameraPreview& camera, const Foresigh
         {{"time_s", crossing.time}, {"body", scene.roster.name(crossing.body)}, {"enters", crossing.enters}});
   }
   Json names = Json::array();
-  for (const Entity body : camera.out_of_view) {
+  for (const Entity body : camera.out_of_view.value_or(std::vector<Entity>())) {
     if (names.size() == bodies_shown) break;
     names.push_back(scene.roster.name(body));
   }
-  return {{"plus_x", camera.plus_x},
+  return {{"kind", camera.kind},
+          {"plus_x", camera.plus_x},
           {"fov_x_degrees", camera.fov_x},
           {"fov_y_degrees", camera.fov_y},
-          {"out_of_view", camera.out_of_view.size()},
+          {"out_of_view", camera.out_of_view ? Json(camera.out_of_view->size()) : Json(nullptr)},
           {"out_of_view_names", names},
           {"watched_from_s", foresight.watched_from},
           {"watched_until_s", foresight.watched_until},

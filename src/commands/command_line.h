@@ -59,9 +59,10 @@ struct Options {
   SubmitOptions submit;
   std::vector<std::string> grid;  // path=from:to:count, path=value,value
   std::optional<Shard> shard;
-  bool plan = false;      // show, do not do
-  bool accuracy = false;  // of check and run: estimate the error by more runs
-  bool page = false;      // of explain: the whole format
+  bool plan = false;         // show, do not do
+  bool accuracy = false;     // of check and run: estimate the error by more runs
+  bool page = false;         // of explain: the whole format
+  std::optional<double> at;  // s, of render: the time of a still
 };
 
 /// An option that a command has, by its name in the table of options (options.h).

@@ -38,11 +38,7 @@ bool has_defaults(const FieldPlaces& row) {
 
 // The keys of which one is needed; empty: none.
 std::vector<std::string> needed_keys(const Field& field, const Kind& kind) {
-  if (field.needed && field.one_of.empty()) return {std::string(field.key)};
-  for (const Field& other : kind.fields) {
-    if (other.needed && !field.one_of.empty() && other.one_of == field.one_of) return strings(parts_of(field.one_of));
-  }
-  return {};
+  return strings(need_with(kind, field));
 }
 
 std::vector<std::string> needed_keys(const FieldPlaces& row) {

@@ -13,7 +13,8 @@
 #include "export/timeline.h"
 #include "physics/force.h"
 #include "physics/world.h"
-#include "render/camera.h"
+#include "render/moving_camera.h"
+#include "run/survey.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -47,9 +48,9 @@ Ticks instants_of(const Scene& scene, Foresight& result) {
 /// Runs the most exact simulator from instant to instant.
 class Trial {
  public:
-  Trial(const Scene& scene, bool watch, double budget)
-      : scene_(scene), budget_(budget), camera_(camera_of(scene)), view_(view_of(camera_, picture_size(scene.output))) {
-    if (!watch) return;
+  Trial(const Scene& scene, const MovingCamera* camera, double budget)
+      : scene_(scene), budget_(budget), camera_(camera) {
+    if (camera == nullptr) return;
     ticks_ = instants_of(scene, result_);
     next_ = ticks_.first();
     last_ = ticks_.last();
@@ -110,8 +111,10 @@ class Trial {
     const State& state = oracle_->state();
     const bool begins = in_view_.empty();
     in_view_.resize(state.position.size());
+    const Camera camera = camera_->at(state);
+    const CameraFrame view = view_of(camera, camera_->size());
     for (Entity body = 0; body < in_view_.size(); ++body) {
-      const bool in_view = is_sphere_in_view(camera_, view_, state.position[body], scene_.world.radius[body]);
+      const bool in_view = is_sphere_in_view(camera, view, state.position[body], scene_.world.radius[body]);
       if (!begins && in_view != in_view_[body]) result_.crossings.push_back({body, ticks_.at(next_), in_view});
       in_view_[body] = in_view;
     }
@@ -121,8 +124,7 @@ class Trial {
   const Scene& scene_;
   double budget_;
   Clock::time_point start_ = Clock::now();
-  Camera camera_;
-  CameraFrame view_;
+  const MovingCamera* camera_;  // null: crossings are not sought
   Ticks ticks_ = Ticks::even(0, 0, 0);
   std::int64_t next_ = 0, last_ = -1;  // ticks left to check
   std::vector<bool> in_view_;          // by body, at the previous tick; empty: there was none
@@ -151,8 +153,8 @@ std::optional<double> own_engine_s(const Scene& scene, const EngineChoice& engin
 
 }  // namespace
 
-Foresight foresee(const Scene& scene, const EngineChoice& engine, bool watch, double budget) {
-  Trial trial(scene, watch, budget);
+Foresight foresee(const Scene& scene, const EngineChoice& engine, const MovingCamera* camera, double budget) {
+  Trial trial(scene, camera, budget);
   Foresight result = trial.go();
   const Engine oracle = most_exact(scene.world);
   // A failure of another simulator.
@@ -162,6 +164,25 @@ Foresight foresee(const Scene& scene, const EngineChoice& engine, bool watch, do
   if (!settled) return result;
   result.simulate_s = engine.engine == oracle ? trial.whole() : own_engine_s(scene, engine, budget);
   return result;
+}
+
+bool frame_motion(MovingCamera& camera, double budget) {
+  if (!camera.frames_motion()) return true;
+  struct Spent {};
+  const auto start = Clock::now();
+  try {
+    MovingCamera* const cameras[] = {&camera};
+    survey(cameras, *make_oracle(camera.scene()), [&] {
+      stop_if_interrupted();
+      if (since(start) >= budget) throw Spent();
+    });
+    return true;
+  } catch (const Spent&) {
+    return false;
+  } catch (const SimulationError&) {
+    // There is no motion.
+    return false;
+  }
 }
 
 }  // namespace carom

@@ -11,6 +11,7 @@
 
 namespace carom {
 
+class MovingCamera;
 struct Scene;
 
 /// A body enters or leaves the picture between the previous instant and this one.
@@ -32,7 +33,10 @@ struct Foresight {
 };
 
 /// Simulates by the most exact engine, whatever the scene names, to the first collision, and further for at most
-/// `budget` (s). `watch`: whether to find crossings.
-Foresight foresee(const Scene& scene, const EngineChoice& engine, bool watch, double budget);
+/// `budget` (s). `camera`: of the crossings; null: none are sought.
+Foresight foresee(const Scene& scene, const EngineChoice& engine, const MovingCamera* camera, double budget);
+
+/// Frames the motion by the most exact engine, if the camera does that. False: it takes longer than `budget` (s).
+bool frame_motion(MovingCamera& camera, double budget);
 
 }  // namespace carom

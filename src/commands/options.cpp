@@ -61,6 +61,16 @@ double number(const std::string& word, std::string_view option) {
   return value;
 }
 
+/// A time of a run, in s.
+double time_of(const std::string& word, std::string_view option) {
+  double value = 0;
+  const char* end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, value);
+  if (error != std::errc() || stop != end || !(value >= 0) || !std::isfinite(value))
+    throw UsageError(fmt::format("{} takes a time in seconds, such as 1.25, not {}", option, in_backticks(word)));
+  return value;
+}
+
 void read_set(Options& options, const Words& words) {
   options.set = words;
   for (const std::string& set : words) {
@@ -209,6 +219,8 @@ const Option table[] = {
      [](Options& o, const Words&) { o.accuracy = true; }},
     {"--verbose", "-v", "", "also the expected error by its sources; takes four or\nmore runs",
      [](Options& o, const Words&) { o.accuracy = true; }},
+    {"--at", "", "SECONDS", "draw one picture, at this time",
+     [](Options& o, const Words& w) { o.at = time_of(single(w, "--at"), "--at"); }},
     {"--page", "", "", "the whole format as a page of Markdown", [](Options& o, const Words&) { o.page = true; }},
     {"--progress", "", "HOW", "auto, bar, lines or none (auto: a bar on a terminal,\nlines elsewhere)",
      [](Options& o, const Words& w) { o.progress = chosen<ProgressChoice>(w, "--progress", progress_names); },

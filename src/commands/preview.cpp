@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "physics/world.h"
-#include "render/camera.h"
+#include "render/moving_camera.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -20,19 +20,27 @@ std::string direction_of_plus_x(const CameraFrame& view) {
   return up > 0 ? "up" : "down";
 }
 
+std::string kind_of(const MovingCamera& camera) {
+  if (camera.frames_motion()) return "fit";
+  return camera.scene().camera->follow ? "follow" : camera.stands_still() ? "still" : "path";
+}
+
 }  // namespace
 
-CameraPreview preview_camera(const Scene& scene) {
-  const Camera camera = camera_of(scene);
-  const CameraFrame view = view_of(camera, picture_size(scene.output));
+CameraPreview preview_camera(const MovingCamera& moving, bool known) {
+  const Scene& scene = moving.scene();
+  const Camera camera = moving.at(scene.initial);
+  const CameraFrame view = view_of(camera, moving.size());
   CameraPreview preview;
   preview.plus_x = direction_of_plus_x(view);
   preview.fov_x = view.fov_x;
   preview.fov_y = view.fov_y;
+  preview.kind = kind_of(moving);
+  if (!known) return preview;
+  preview.out_of_view.emplace();
   for (Entity body = 0; body < scene.world.body_count(); ++body) {
-    if (!is_sphere_in_view(camera, view, scene.initial.position[body], scene.world.radius[body])) {
-      preview.out_of_view.push_back(body);
-    }
+    if (!is_sphere_in_view(camera, view, scene.initial.position[body], scene.world.radius[body]))
+      preview.out_of_view->push_back(body);
   }
   return preview;
 }

@@ -1,5 +1,6 @@
 #pragma once
 // What a scene's camera sees at time 0.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,15 +8,17 @@
 
 namespace carom {
 
-struct Scene;
+class MovingCamera;
 
 struct CameraPreview {
-  std::string plus_x;               // where +x points in the picture: "right", "left", "up", "down", "away", "toward"
-  double fov_x = 0, fov_y = 0;      // degrees, full angles
-  std::vector<Entity> out_of_view;  // bodies wholly outside the picture at time 0
+  std::string plus_x;           // where +x points in the picture: "right", "left", "up", "down", "away", "toward"
+  double fov_x = 0, fov_y = 0;  // degrees, full angles
+  std::string kind;             // "still", "fit", "follow" or "path"
+  // Bodies wholly outside the picture at time 0; none: not known.
+  std::optional<std::vector<Entity>> out_of_view;
 };
 
-/// For the scene's camera, or the default camera if it has none.
-CameraPreview preview_camera(const Scene& scene);
+/// `known`: whether the place of a camera that frames the motion is known. Its direction always is.
+CameraPreview preview_camera(const MovingCamera& camera, bool known);
 
 }  // namespace carom

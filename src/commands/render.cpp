@@ -12,6 +12,7 @@
 #include "commands/idle_settings.h"
 #include "commands/plan.h"
 #include "commands/run.h"
+#include "commands/still.h"
 #include "commands/text.h"
 #include "files/manifest.h"
 #include "files/open_folder.h"
@@ -20,6 +21,7 @@
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "yaml/joined.h"
+#include "yaml/values.h"
 
 namespace carom {
 
@@ -67,33 +69,49 @@ class Planner {
     for (const std::string& set : options_.set) settings.push_back({set, ""});
     planned.scene = std::make_unique<Scene>(file.scene(settings));
     refuse_other_motion(file, *former, *planned.scene, path);
-    choose_outputs(planned, *former);
-    planned.notes = idle_settings(options_.set, planned.scene->output, [&](const std::vector<std::string>& set) {
-      std::vector<Setting> others;
-      for (const std::string& text : set) others.push_back({text, ""});
-      PlannedScene other;
-      other.file = planned.file;
-      other.folder = planned.folder;
-      other.scene = std::make_unique<Scene>(file.scene(others));
-      choose_outputs(other, *former);
-      return other.scene->output;
-    });
+    if (!options_.at) {
+      choose_outputs(planned, *former);
+      planned.notes = idle_settings(options_.set, planned.scene->output, [&](const std::vector<std::string>& set) {
+        std::vector<Setting> others;
+        for (const std::string& text : set) others.push_back({text, ""});
+        PlannedScene other;
+        other.file = planned.file;
+        other.folder = planned.folder;
+        other.scene = std::make_unique<Scene>(file.scene(others));
+        choose_outputs(other, *former);
+        return other.scene->output;
+      });
+    }
     planned.scene->file = former->scene.file;
     planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     planned.engine = choose_engine(*planned.scene);
-    planned.forecast = forecast(*planned.scene);
-    if (!options_.force) hold_to_budget(*planned.scene, planned.forecast, "this would make");
     if (what_stands(planned.folder) == Standing::other)
       throw ExportError(fmt::format("{} is not a folder", printable(planned.folder)));
-    planned.content = inspect_folder(planned.folder, *planned.scene);
-    const bool renews = planned.folder == planned.file;
-    if (renews && planned.content != FolderContent::this_run) planned.content = FolderContent::incomplete;
+    if (options_.at)
+      check_time(*planned.scene);
+    else
+      check_content(planned);
     // One scene in memory is enough.
     former->scene = {};
     planned.former = std::move(former);
   }
 
  private:
+  void check_content(PlannedScene& planned) const {
+    planned.forecast = forecast(*planned.scene);
+    if (!options_.force) hold_to_budget(*planned.scene, planned.forecast, "this would make");
+    planned.content = inspect_folder(planned.folder, *planned.scene);
+    const bool renews = planned.folder == planned.file;
+    if (renews && planned.content != FolderContent::this_run) planned.content = FolderContent::incomplete;
+  }
+
+  void check_time(const Scene& scene) const {
+    const double duration = scene.simulate.duration;
+    if (*options_.at > duration)
+      throw ExportError(fmt::format("--at {} is after its end\n  name a time from 0 to {} s", shortest(*options_.at),
+                                    shortest(duration)));
+  }
+
   void refuse_other_motion(SceneFile& file, const FormerRun& former, const Scene& scene,
                            const std::string& path) const {
     const std::string motion = motion_text(former.scene);
@@ -136,8 +154,9 @@ const CommandText& render_text() {
       "render",
       "draws other pictures of a run, without simulating again",
       "  carom render output/ten_pins --set camera.eye.y=9       the run's pictures, from higher up\n"
-      "  carom render output/ten_pins --set output.video.fps=240 -o output/smooth\n"
-      "  carom render output/ten_pins --only sheet --set \"output.sheet={columns: 8, rows: 8}\"\n",
+      "  carom render output/ten_pins --set output.video.speed=0.125 -o output/slow\n"
+      "  carom render output/ten_pins --only sheet --set \"output.sheet={columns: 8, rows: 8}\"\n"
+      "  carom render output/ten_pins --at 1.25                  still_1.25s.png, one picture\n",
       "A run keeps the paths of its bodies in flights.bin, so that any instant is exact. With -o the\n"
       "pictures go to another folder, as carom run --only frames,video,sheet would write it. Without -o\n"
       "they replace the run's own, and its other files stay. --set may change the camera, lights,\n"
@@ -150,6 +169,8 @@ const CommandText& render_text() {
        {"--only",
         "draw only these, of frames, video, sheet, vtk, xyz, gltf;\none that the scene lacks is drawn with default "
         "settings"},
+       {"--at",
+        "draw one picture at this time, still_SECONDSs.png; size and\nquality are those of the frames, or of the film"},
        {"--jobs", "N runs at a time (1); changes no result"},
        {"--force"},
        {"--progress"}},
@@ -165,6 +186,7 @@ const CommandText& render_text() {
 
 int render_command(const Options& options) {
   refuse_tables(options);
+  if (options.at && options.only) throw UsageError("--at draws one picture: leave out --only");
   std::vector<PlannedScene> runs;
   for (const std::string& folder : options.operands) {
     PlannedScene& run = runs.emplace_back();
@@ -176,8 +198,10 @@ int render_command(const Options& options) {
                                                 : (fs::path(*options.output) / run.name).string();
   }
   const Planner planner(options);
-  return run_planned(options, "render",
-                     plan_scenes(std::move(runs), [&](PlannedScene& planned) { planner.check(planned); }));
+  runs = plan_scenes(std::move(runs), [&](PlannedScene& planned) { planner.check(planned); });
+  SceneWork still;
+  if (options.at) still = [&](const PlannedScene& planned) { return still_of(planned, options); };
+  return run_planned(options, "render", std::move(runs), still);
 }
 
 }  // namespace carom

@@ -59,7 +59,8 @@ int run_command(const Options& options) {
   return run_planned(options, "run", plan_scenes(options));
 }
 
-int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes) {
+int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes,
+                const SceneWork& work) {
   refuse_other_content(scenes, options);
   if (const std::string errors = error_count(scenes); !errors.empty()) return refuse(options, command, scenes, errors);
   for (const PlannedScene& planned : scenes)
@@ -73,6 +74,7 @@ int run_planned(const Options& options, std::string_view command, std::vector<Pl
   };
   batch.up_to_date = [&](const PlannedScene& planned) { return run_up_to_date(planned, style); };
   batch.run = [&](const PlannedScene& planned, ProgressChoice choice) {
+    if (work) return work(planned);
     Progress progress(choice, uses_color(options.color, STDERR_FILENO), label(scenes, planned),
                       planned.scene->simulate.duration, planned.forecast.frames);
     return run_one(planned, options, style, progress);

@@ -24,10 +24,7 @@ RunSettings settings_of(const PlannedScene& planned, bool quiet) {
   if (!planned.former) return settings;
   const FormerRun& former = *planned.former;
   settings.warnings = former.manifest.warnings;
-  if (former.has_flights())
-    settings.simulator = [&former](const Scene& scene) { return former.motion(scene); };
-  else if (!quiet)
-    write_err(fmt::format("{}: no flights are stored: simulating again\n", printable(former.folder)));
+  settings.simulator = replay_of(planned, quiet);
   settings.measure = [&former](const Scene&, const State&, const Summary& summary) {
     if (summary.collisions != former.manifest.collisions)
       throw ExportError(
@@ -38,6 +35,13 @@ RunSettings settings_of(const PlannedScene& planned, bool quiet) {
 }
 
 }  // namespace
+
+std::function<std::unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedScene& planned, bool quiet) {
+  const FormerRun& former = *planned.former;
+  if (former.has_flights()) return [&former](const Scene& scene) { return former.motion(scene); };
+  if (!quiet) write_err(fmt::format("{}: no flights are stored: simulating again\n", printable(former.folder)));
+  return {};
+}
 
 SceneOutcome run_one(const PlannedScene& planned, const Options& options, const Style& style, Progress& progress) {
   const RunWatch watch{stop_if_interrupted, [&](double time, std::uint64_t collisions, std::uint64_t pictures) {

@@ -1,5 +1,8 @@
 #pragma once
 // One planned scene -> its folder and its report.
+#include <functional>
+#include <memory>
+
 #include "commands/progress.h"
 #include "commands/scene_outcome.h"
 
@@ -7,5 +10,9 @@ namespace carom {
 
 /// Failures are in the outcome. Throws Interrupted.
 SceneOutcome run_one(const PlannedScene& planned, const Options& options, const Style& style, Progress& progress);
+
+/// A function that makes a simulator of the recorded motion of a planned run. Empty: it has no record, and is simulated
+/// again, which is said unless `quiet`.
+std::function<std::unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedScene& planned, bool quiet);
 
 }  // namespace carom

@@ -16,7 +16,7 @@ namespace carom {
 namespace {
 
 // Bytes of a pixel of a rendered picture as PNG.
-constexpr double png_bytes_per_pixel = 0.3;
+constexpr double png_bytes_per_pixel = 0.45;
 // Bytes of a pixel of a picture in a film at crf 18. They halve for each 6 more.
 constexpr double film_bytes_per_pixel = 0.02;
 
@@ -28,10 +28,10 @@ constexpr double first_picture_s = 0.3;
 constexpr double pixel_s = 8e-9;
 // For each sample of a pixel.
 constexpr double sample_s = 3e-9;
-// For a pixel as PNG.
-constexpr double png_pixel_s = 5e-8;
+// For a pixel as PNG, encoded beside the drawing.
+constexpr double png_pixel_s = 4e-9;
 // For a pixel of a film.
-constexpr double film_pixel_s = 4.5e-8;
+constexpr double film_pixel_s = 8e-9;
 // For a byte of a table.
 constexpr double table_byte_s = 1e-8;
 

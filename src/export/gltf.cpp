@@ -12,6 +12,7 @@ void GltfWriter::add(double time, const State& state, std::span<const ContactFor
   const World& world = scene_.world;
   const std::size_t key = motion_.times.size();
   motion_.times.push_back(time);
+  motion_.cameras.push_back(makers_.camera(state));
   for (Entity body = 0; body < world.body_count(); ++body) {
     const Vec3& p = state.position[body];
     motion_.position.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});

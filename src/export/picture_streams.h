@@ -32,6 +32,10 @@ struct PictureStreams {
 /// Throws ExportError for a film or a sheet that is impossible.
 PictureStreams plan_pictures(const Scene& scene);
 
+/// The instants of all pictures that the scene requests, whichever of them --only leaves. If it requests none, those of
+/// the pictures that --only adds, else the keyframes of gltf.
+std::vector<Ticks> shown_instants(const Scene& scene);
+
 /// The shape and quality of the sheet's pictures: those of the frames, else of the film, else the defaults of frames.
 PictureOutput sheet_model(const Output& output);
 

@@ -2,6 +2,7 @@
 // Of the five filters it gives the smallest files of rendered pictures, and a loop that compilers turn into vectors.
 #include "export/png.h"
 
+#include <algorithm>
 #include <string_view>
 
 #include "export/checksums.h"
@@ -30,10 +31,15 @@ void put_chunk(std::string& file, std::string_view type, const Data& put_data) {
   put_number(file, crc32({reinterpret_cast<const std::uint8_t*>(file.data()) + begin + 4, length + 4}));
 }
 
-/// The row's difference to itself, moved by one pixel.
-void filter_row(const std::uint8_t* row, std::size_t size, std::size_t pixel, std::uint8_t* to) {
-  for (std::size_t i = 0; i < pixel; ++i) to[i] = row[i];
-  for (std::size_t i = pixel; i < size; ++i) to[i] = static_cast<std::uint8_t>(row[i] - row[i - pixel]);
+/// The row's difference to itself, moved by one pixel. `to` is another memory.
+void filter_row(const std::uint8_t* row, std::size_t size, std::size_t pixel, std::uint8_t* __restrict to) {
+  constexpr std::size_t block = 16;  // a number that compilers see, for vectors
+  to = std::copy_n(row, pixel, to);
+  const std::uint8_t* left = row;
+  row += pixel;
+  for (size -= pixel; size >= block; size -= block, row += block, left += block, to += block)
+    for (std::size_t i = 0; i < block; ++i) to[i] = static_cast<std::uint8_t>(row[i] - left[i]);
+  for (std::size_t i = 0; i < size; ++i) to[i] = static_cast<std::uint8_t>(row[i] - left[i]);
 }
 
 }  // namespace

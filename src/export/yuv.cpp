@@ -37,8 +37,9 @@ constexpr std::int64_t cr_red = fixed(cr * (whole - red)), cr_green = fixed(cr *
 
 /// `rgb`: `width` pixels.
 void luma_row(const std::uint8_t* rgb, std::size_t width, std::uint8_t* y) {
-  for (std::size_t x = 0; x < width; ++x, rgb += 3)
-    y[x] = static_cast<std::uint8_t>((rgb[0] * y_red + rgb[1] * y_green + rgb[2] * y_blue + above(16)) >> bits);
+  for (std::size_t x = 0; x < width; ++x)
+    y[x] = static_cast<std::uint8_t>(
+        (rgb[3 * x] * y_red + rgb[3 * x + 1] * y_green + rgb[3 * x + 2] * y_blue + above(16)) >> bits);
 }
 
 /// `upper`, `lower`: two rows of 2 * `width` pixels.

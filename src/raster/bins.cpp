@@ -8,9 +8,11 @@
 namespace carom::raster {
 namespace {
 
+/// Tiles, ends excluded.
 PixelBounds in_tiles(const PixelBounds& b) {
   if (b.empty()) return {};
-  return {b.left / tile_side, b.top / tile_side, (b.right - 1) / tile_side + 1, (b.bottom - 1) / tile_side + 1};
+  const auto tile = [](int pixel) { return static_cast<std::int16_t>(pixel / tile_side); };
+  return {tile(b.left), tile(b.top), tile(b.right - 1 + tile_side), tile(b.bottom - 1 + tile_side)};
 }
 
 PixelBounds joined(const PixelBounds& a, const PixelBounds& b) {
@@ -28,14 +30,16 @@ void Bins::fill(const Shot& shot, const Silhouettes& silhouettes) {
   tiles_.resize(count);
   around_.resize(count);
   nearest_.resize(count);
+  largest_around_ = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Solid& solid = shot.solids[i];
     const float nearest = silhouettes.of(i).nearest;
     nearest_[i] = nearest;
-    tiles_[i] = in_tiles(silhouettes.bounds(i));
+    tiles_[i] = in_tiles(silhouettes.of(i).bounds);
     // Of balls smaller than a pixel the darkening is not seen.
     const bool takes = solid.kind != SolidKind::wall && solid.radius > shot.lens.pixel * nearest;
     around_[i] = {solid.center, takes ? solid.radius : 0};
+    largest_around_ = std::max(largest_around_, around_[i].radius);
     if (takes)
       tiles_[i] = joined(tiles_[i], in_tiles(bounds_of_ball(shot.lens, solid.center, closeness * solid.radius)));
   }

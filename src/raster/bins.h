@@ -37,11 +37,13 @@ class Bins {
     return {members_.data() + start_[k], start_[k + 1] - start_[k]};
   }
   const BallAround& around(std::uint32_t solid) const { return around_[solid]; }
+  float largest_around() const { return largest_around_; }
 
  private:
   int columns_ = 0, rows_ = 0;
   std::vector<PixelBounds> tiles_;  // by solid, in tiles: where it is seen or takes light
   std::vector<BallAround> around_;  // by solid
+  float largest_around_ = 0;        // m, of their radii
   std::vector<float> nearest_;      // m, by solid
   SortedNumbers order_;             // by nearest_
   std::vector<std::size_t> start_, next_;

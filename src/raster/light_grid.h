@@ -1,5 +1,6 @@
 #pragma once
 // The solids that may shade a point, by a grid of the directions across the key light.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -14,18 +15,23 @@ namespace carom::raster {
 struct LightCells {
   std::vector<std::size_t> start;
   std::vector<std::uint32_t> members;
-  std::size_t first(std::size_t cell) const { return start[cell]; }
-  std::size_t end(std::size_t cell) const { return start[cell + 1]; }
   std::span<const std::uint32_t> of(std::size_t cell) const {
     return {members.data() + start[cell], start[cell + 1] - start[cell]};
   }
 };
 
-/// Balls by member of their cells, for a test of many at a time. There are 16 more of each.
-struct ShadingBalls {
-  std::vector<float> x, y, z, radius;  // m
-  std::vector<float> place;            // towards the light, as in LightGrid::towards_light
-  std::vector<std::int32_t> solid;     // number
+/// Sixteen balls of a cell, for a test of all of them at a time. Radius 0: there are fewer.
+struct BallPack {
+  alignas(64) std::array<float, 16> x, y, z, radius;  // m
+  std::array<std::int32_t, 16> solid;                 // number
+};
+
+/// The balls of all cells, in the order of LightCells.
+struct BallPacks {
+  std::vector<std::uint32_t> first;  // by cell, and one more
+  std::vector<BallPack> packs;
+  /// The largest LightGrid::towards_light of a full pack; of others infinity.
+  std::vector<float> last_place;
 };
 
 /// Where the cells of a face are.
@@ -45,7 +51,7 @@ class LightGrid {
   std::size_t cells() const { return balls.start.size() - 1; }
 
   LightCells balls, others;
-  ShadingBalls ball_arrays;
+  BallPacks packs;
   LightExtent extent;
   /// The blur of a shadow is at most so many radii of its ball wide. In a crowd it is narrower, so that only so many
   /// balls shade a point as can be counted.
@@ -63,7 +69,7 @@ class LightGrid {
   double find_blurs(const Shot& shot);
   void find_rects(const Shot& shot);
   void sort_into_cells(const Shot& shot);
-  void copy_balls(const Shot& shot);
+  void pack_balls(const Shot& shot);
 
   std::vector<float> blur_;                          // m, the most by solid
   std::vector<CellRect> rects_;                      // of all solids

@@ -106,12 +106,12 @@ PixelBounds pixels(const Lens& lens, double left, double right, double bottom, d
   const auto first = [](double x, int most) {
     x = std::clamp(x, 0.0, static_cast<double>(most));
     const int i = static_cast<int>(x);
-    return i < x ? i + 1 : i;
+    return static_cast<std::int16_t>(i < x ? i + 1 : i);
   };
   const auto end = [](double x, int most) {
     x = std::clamp(x, -1.0, most - 1.0);
     const int i = static_cast<int>(x);
-    return i > x ? i : i + 1;
+    return static_cast<std::int16_t>(i > x ? i : i + 1);
   };
   // The middle of pixel i is at left + i pixel.
   return {first((left - lens.left) / lens.pixel - 0.5, lens.width),
@@ -152,7 +152,7 @@ PixelBounds outline_ball(const Lens& lens, const Solid& solid, Silhouette& to) {
 PixelBounds bounds_of_ball(const Lens& lens, const Float3& center, float radius) {
   const double near = center[2] - radius, far = center[2] + radius;
   if (far <= lens.near) return {};
-  if (near <= lens.near) return {0, 0, lens.width, lens.height};
+  if (near <= lens.near) return {0, 0, static_cast<std::int16_t>(lens.width), static_cast<std::int16_t>(lens.height)};
   const auto low = [&](double x) { return x / (x < 0 ? near : far); };
   const auto high = [&](double x) { return x / (x > 0 ? near : far); };
   return pixels(lens, low(center[0] - radius), high(center[0] + radius), low(center[1] - radius),
@@ -190,20 +190,19 @@ PixelBounds Silhouettes::add_polygon(const Shot& shot, const Solid& solid, Silho
 void Silhouettes::fill(const Shot& shot) {
   edges_.clear();
   all_.resize(shot.solids.size());
-  bounds_.resize(shot.solids.size());
   for (std::size_t i = 0; i < shot.solids.size(); ++i) {
     const Solid& solid = shot.solids[i];
     Silhouette& to = all_[i];
     to = {};
     to.nearest = solid.center[2] - solid.radius;
     if (solid.shadow_only) {
-      bounds_[i] = {};
+      to.bounds = {};
     } else if (solid.kind == SolidKind::ball) {
-      bounds_[i] = outline_ball(shot.lens, solid, to);
+      to.bounds = outline_ball(shot.lens, solid, to);
     } else if (solid.kind == SolidKind::mesh) {
-      bounds_[i] = bounds_of_ball(shot.lens, solid.center, solid.radius);
+      to.bounds = bounds_of_ball(shot.lens, solid.center, solid.radius);
     } else {
-      bounds_[i] = add_polygon(shot, solid, to);
+      to.bounds = add_polygon(shot, solid, to);
     }
   }
 }

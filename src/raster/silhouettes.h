@@ -8,9 +8,9 @@
 
 namespace carom::raster {
 
-/// Pixels, ends excluded.
+/// Pixels, ends excluded. A picture's side is at most 16384.
 struct PixelBounds {
-  int left = 0, top = 0, right = 0, bottom = 0;
+  std::int16_t left = 0, top = 0, right = 0, bottom = 0;
   bool empty() const { return left >= right || top >= bottom; }
 };
 
@@ -28,9 +28,11 @@ struct BallOutline {
   float opacity = 1;                     // of a ball that is smaller than a pixel
 };
 
-struct Silhouette {
-  float nearest = 0;  // m, least z
-  bool wide = false;  // a ball that reaches behind the eye: it has no ellipse
+/// Fits into a line of the cache: most are read once a tile.
+struct alignas(64) Silhouette {
+  float nearest = 0;   // m, least z
+  PixelBounds bounds;  // in which the solid may be seen
+  bool wide = false;   // a ball that reaches behind the eye: it has no ellipse
   BallOutline ball;
   // Of other solids: edges in pairs that are opposite each other.
   std::int32_t first_edge = 0, edge_pairs = 0;
@@ -42,15 +44,12 @@ class Silhouettes {
   void fill(const Shot& shot);
 
   const Silhouette& of(std::uint32_t solid) const { return all_[solid]; }
-  /// The pixels in which a solid may be seen.
-  const PixelBounds& bounds(std::uint32_t solid) const { return bounds_[solid]; }
   const Edge* edges(const Silhouette& silhouette) const { return edges_.data() + silhouette.first_edge; }
 
  private:
   PixelBounds add_polygon(const Shot& shot, const Solid& solid, Silhouette& to);
 
-  std::vector<Silhouette> all_;      // by solid
-  std::vector<PixelBounds> bounds_;  // by solid
+  std::vector<Silhouette> all_;  // by solid
   std::vector<Edge> edges_;
 };
 

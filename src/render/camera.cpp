@@ -1,6 +1,5 @@
-// The scene's camera, or a default one, and the test whether a sphere is in view. The default camera looks at the box
-// of all bodies and of the fixed things near them, as near as all its corners allow. The test uses the distance to the
-// frustum. Tests of single planes would accept spheres beyond its edges.
+// The camera's frame, and the test whether a sphere is in view. The test uses the distance to the frustum. Tests of
+// single planes would accept spheres beyond its edges.
 #include "render/camera.h"
 
 #include <algorithm>
@@ -10,81 +9,12 @@
 #include <numbers>
 #include <span>
 
-#include "physics/world.h"
 #include "scene/scene.h"
 
 namespace carom {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-
-/// An axis-aligned box that grows.
-struct Box {
-  Vec3 min = Vec3::Constant(std::numeric_limits<double>::infinity());
-  Vec3 max = Vec3::Constant(-std::numeric_limits<double>::infinity());
-  void add(const Vec3& p) {
-    min = min.cwiseMin(p);
-    max = max.cwiseMax(p);
-  }
-  bool empty() const { return !(min.x() <= max.x()); }
-  double diagonal() const { return (max - min).norm(); }
-};
-
-bool drawn(const Scene& scene, std::size_t fixed) {
-  return fixed >= scene.roster.fixed.size() || scene.roster.fixed[fixed].visible;
-}
-
-/// The box of the bodies, of the surfaces that they may fall or fly onto, and of the walls and obstacles among them.
-Box box_of(const Scene& scene) {
-  Box bodies;
-  for (std::size_t i = 0; i < scene.world.radius.size() && i < scene.initial.position.size(); ++i) {
-    const Vec3 half =
-        scene.world.volume.empty() ? Vec3(Vec3::Constant(scene.world.radius[i])) : scene.world.volume[i].half;
-    bodies.add(scene.initial.position[i] - half);
-    bodies.add(scene.initial.position[i] + half);
-  }
-  if (bodies.empty()) {
-    for (const Plane& plane : scene.world.planes) bodies.add(plane.point);
-    for (const Wall& wall : scene.world.walls) bodies.add(wall.center);
-    for (const Obstacle& obstacle : scene.world.obstacles) {
-      bodies.add(obstacle.center - obstacle.volume.half);
-      bodies.add(obstacle.center + obstacle.volume.half);
-    }
-  }
-  if (bodies.empty()) bodies.add(Vec3::Zero());
-  const double size = std::max(bodies.diagonal(), 1e-9);
-  const Vec3 middle = (bodies.min + bodies.max) / 2;
-
-  Box all = bodies;
-  for (std::size_t i = 0; i < scene.world.planes.size(); ++i) {
-    if (!drawn(scene, i)) continue;
-    const Plane& plane = scene.world.planes[i];
-    const double height = plane.normal.dot(middle - plane.point);
-    // Bodies may fall onto a plane below from any height. A plane beside them counts only if it is near.
-    const bool below = scene.world.gravity.dot(plane.normal) < -0.5 * scene.world.gravity.norm();
-    if (height > 0 && height < (below ? 100 : 3) * size) all.add(middle - height * plane.normal);
-  }
-  for (std::size_t i = 0; i < scene.world.walls.size(); ++i) {
-    const Wall& wall = scene.world.walls[i];
-    if (!drawn(scene, scene.world.planes.size() + i) || (wall.center - middle).norm() > 3 * size) continue;
-    for (double u : {-1.0, 1.0})
-      for (double v : {-1.0, 1.0})
-        all.add(wall.center + u * wall.half_width * wall.right + v * wall.half_height * wall.up);
-  }
-  const std::size_t obstacles = scene.world.planes.size() + scene.world.walls.size();
-  for (std::size_t i = 0; i < scene.world.obstacles.size(); ++i) {
-    if (!drawn(scene, obstacles + i)) continue;
-    // Only the near part counts: a floor may be a box of any size.
-    const Obstacle& obstacle = scene.world.obstacles[i];
-    const Vec3 near_low = bodies.min.array() - size, near_high = bodies.max.array() + size;
-    const Vec3 low = (obstacle.center - obstacle.volume.half).cwiseMax(near_low);
-    const Vec3 high = (obstacle.center + obstacle.volume.half).cwiseMin(near_high);
-    if ((low.array() > high.array()).any()) continue;
-    all.add(low);
-    all.add(high);
-  }
-  return all;
-}
 
 double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a;
@@ -155,34 +85,6 @@ bool is_sphere_in_view(const Camera& camera, const CameraFrame& view, const Vec3
   for (const auto& face : {right, top, front, back})
     if (distance_to_quad(p, face) <= radius) return true;
   return false;
-}
-
-Camera camera_of(const Scene& scene) {
-  if (scene.camera) return *scene.camera;
-  Camera camera;
-  const Box box = box_of(scene);
-  camera.target = (box.min + box.max) / 2;
-  // From the front, slightly downwards.
-  const Vec3 back = Vec3(0, std::sin(18 * degree), std::cos(18 * degree));
-  camera.eye = camera.target + back;
-  const CameraFrame view = view_of(camera, picture_size(scene.output));
-  const double margin = 1.12;
-  const double tx = std::tan(view.fov_x * degree / 2) / margin, ty = std::tan(view.fov_y * degree / 2) / margin;
-
-  // As near as all eight corners allow: |x| <= (distance + z) tx, z along the line of sight from the centre.
-  double distance = 0;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 corner(i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(),
-                      i & 4 ? box.max.z() : box.min.z());
-    const Vec3 p = corner - camera.target;
-    const double z = view.forward.dot(p);
-    distance = std::max({distance, std::abs(view.right.dot(p)) / tx - z, std::abs(view.up.dot(p)) / ty - z});
-  }
-  if (!(distance > 0)) distance = 1;
-  camera.eye = camera.target + distance * back;
-  camera.near = distance / 1000;
-  camera.far = distance * 1000;
-  return camera;
 }
 
 }  // namespace carom

@@ -1,11 +1,12 @@
 #pragma once
-// The camera as numbers: its direction and its field of view. It needs no OpenGL, so that `check` can use it too.
+// The camera as numbers: its direction and its field of view. It needs no renderer, so that `check` can use it too.
 #include "physics/state.h"
 #include "scene/scene.h"
 
 namespace carom {
 
-/// The scene's camera. Without one, it is a camera that sees all bodies at time 0 and the fixed things near them.
+/// The scene's camera at time 0. One that frames the motion frames the bodies of time 0 alone, as far as is known here:
+/// camera_fit.h takes the motion into account.
 Camera camera_of(const Scene& scene);
 
 /// The size of the frames. Without frames it is that of the film, and without a film the default.

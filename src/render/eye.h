@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "raster/outline.h"
 #include "raster/shot.h"
 #include "render/camera.h"
 

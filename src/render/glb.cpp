@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -169,10 +170,11 @@ class GlbBuilder {
   }
 
   void add_camera_and_lights() {
-    const Camera camera = camera_of(scene_);
+    const Camera camera = motion_.cameras.empty() ? camera_of(scene_) : motion_.cameras.front();
     const Size size = picture_size(scene_.output);
     const CameraFrame view = view_of(camera, size);
-    GlbNode eye{free_name("camera"), camera.eye, rotation_to(view.right, view.up, -view.forward)};
+    camera_node_ = nodes_.size();
+    GlbNode eye{free_name("camera"), camera.eye, rotation_of(camera)};
     eye.camera = GlbCamera{static_cast<double>(size.width) / size.height, view.fov_y * std::numbers::pi / 180,
                            camera.near, camera.far};
     nodes_.push_back(std::move(eye));
@@ -193,6 +195,12 @@ class GlbBuilder {
     }
   }
 
+  /// Of the camera's node: it looks along its -z.
+  std::array<double, 4> rotation_of(const Camera& camera) const {
+    const CameraFrame view = view_of(camera, picture_size(scene_.output));
+    return rotation_to(view.right, view.up, -view.forward);
+  }
+
   void add_sun(const std::string& name, const Vec3& towards, const std::array<float, 3>& color, double intensity) {
     const Vec3 right = (std::abs(towards.y()) < 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0)).cross(towards).normalized();
     GlbNode node{free_name(name)};
@@ -203,7 +211,10 @@ class GlbBuilder {
 
   void animate() {
     const Entity bodies = scene_.world.body_count();
-    if (motion_.times.empty() || bodies == 0) return;
+    const bool camera_moves = std::any_of(motion_.cameras.begin(), motion_.cameras.end(), [&](const Camera& camera) {
+      return camera.eye != motion_.cameras.front().eye || camera.target != motion_.cameras.front().target;
+    });
+    if (motion_.times.empty() || (bodies == 0 && !camera_moves)) return;
     auto animation = std::make_unique<aiAnimation>();
     animation->mName = "motion";
     animation->mTicksPerSecond = 1;
@@ -226,9 +237,34 @@ class GlbBuilder {
       channel->mScalingKeys = new aiVectorKey[scales[body].size()];
       std::copy(scales[body].begin(), scales[body].end(), channel->mScalingKeys);
     }
+    if (camera_moves) channels.push_back(camera_channel());
     hand_over(channels, animation->mChannels, animation->mNumChannels);
     std::vector<aiAnimation*> animations = {animation.release()};
     hand_over(animations, out_->mAnimations, out_->mNumAnimations);
+  }
+
+  /// The camera's position and direction at each keyframe.
+  aiNodeAnim* camera_channel() const {
+    const std::size_t keys = motion_.times.size();
+    auto* channel = new aiNodeAnim;
+    channel->mNodeName = exported_name(camera_node_);
+    channel->mNumPositionKeys = channel->mNumRotationKeys = static_cast<unsigned>(keys);
+    channel->mPositionKeys = new aiVectorKey[keys];
+    channel->mRotationKeys = new aiQuatKey[keys];
+    std::array<double, 4> before{};
+    for (std::size_t key = 0; key < keys; ++key) {
+      std::array<double, 4> q = rotation_of(motion_.cameras[key]);
+      // q and -q are one rotation. Between two of one sign the turn is the shorter one.
+      const double cosine = std::inner_product(q.begin(), q.end(), before.begin(), 0.0);
+      if (cosine < 0)
+        for (double& part : q) part = -part;
+      channel->mPositionKeys[key] = {motion_.times[key], vector_of(motion_.cameras[key].eye)};
+      channel->mRotationKeys[key] = {
+          motion_.times[key],
+          {static_cast<float>(q[3]), static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2])}};
+      before = q;
+    }
+    return channel;
   }
 
   /// Adds a keyframe for the scale: a mesh grows as its volume does.
@@ -268,6 +304,7 @@ class GlbBuilder {
   const KeyedMotion& motion_;
   std::unique_ptr<aiScene> out_;
   std::vector<GlbNode> nodes_;  // the bodies first
+  std::size_t camera_node_ = 0;
   std::vector<aiMesh*> meshes_;
   std::vector<aiMaterial*> materials_;
   std::map<std::pair<Srgb, bool>, std::size_t> material_numbers_;

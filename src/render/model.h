@@ -11,13 +11,13 @@
 
 #include "numerics/vec3.h"
 #include "physics/entity.h"
+#include "physics/state.h"
 #include "physics/volume.h"
 #include "render/mesh.h"
 #include "scene/colors.h"
+#include "scene/scene.h"
 
 namespace carom {
-
-struct Scene;
 
 /// A plane, a wall or an obstacle that a picture shows.
 struct StillThing {
@@ -33,9 +33,10 @@ struct Extent {
 
   void include(const Vec3& point) { low = low.cwiseMin(point), high = high.cwiseMax(point); }
   void include(const Vec3& center, const Vec3& half) { include(center - half), include(center + half); }
+  Vec3 middle() const { return (low + high) / 2; }
 };
 
-/// The bodies' positions at keyframes, and the changes of their volumes.
+/// The bodies' positions at keyframes, the changes of their volumes, and the camera.
 struct KeyedMotion {
   /// From keyframe `key` on, body `body` has this volume. Without one it has become part of another body.
   struct Change {
@@ -47,14 +48,17 @@ struct KeyedMotion {
   std::vector<std::array<float, 3>> position;  // m, by keyframe, then by body
   std::vector<Change> changes;                 // by keyframe
   Extent extent;                               // of all bodies at all keyframes
+  std::vector<Camera> cameras;                 // by keyframe; empty: the scene's at time 0
 };
 
-/// The functions by which render/ makes these for src/export/. Both throw RenderError.
+/// The functions by which render/ makes these for src/export/. They throw RenderError.
 struct ModelMakers {
   /// `seen`: planes, which have no bounds, are cut off at some distance around it.
   std::function<std::vector<StillThing>(const Scene& scene, const Extent& seen)> still_things;
   /// The bytes of a binary glTF 2 file.
   std::function<std::string(const Scene& scene, const KeyedMotion& motion)> glb;
+  /// The scene's camera at the state's time.
+  std::function<Camera(const State& state)> camera;
 };
 
 }  // namespace carom

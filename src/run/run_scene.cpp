@@ -12,6 +12,7 @@
 
 #include "run/account.h"
 #include "run/stopwatch.h"
+#include "run/survey.h"
 #include "run/warnings.h"
 #include "scene/scene.h"
 
@@ -41,6 +42,7 @@ class Run {
         std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.collisions; });
     const bool paths =
         std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.flights; });
+    frame_motion();
     simulator_ =
         settings.simulator ? settings.simulator(scene()) : make_simulator(scene(), {collisions, paths}, engine_.steps);
     record({}, simulator_->paths());
@@ -66,6 +68,22 @@ class Run {
  private:
   // All shows have the same motion.
   const Scene& scene() const { return *shows_.front().scene; }
+
+  /// Gives the cameras that frame the motion what they need, by a simulation in advance.
+  void frame_motion() {
+    std::vector<MovingCamera*> cameras;
+    for (const auto& stage : stages_) {
+      if (!stage) continue;
+      for (MovingCamera* camera : stage->cameras())
+        if (camera->frames_motion()) cameras.push_back(camera);
+    }
+    if (cameras.empty()) return;
+    const auto ahead = settings_.simulator ? settings_.simulator(scene()) : make_simulator(scene(), {}, engine_.steps);
+    survey(cameras, *ahead, [this] {
+      watch_.stop_check();
+      watch_.report_progress(0, 0, 0);
+    });
+  }
 
   /// A failure of one of several shows does not affect the others.
   template <typename Work>

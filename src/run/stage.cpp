@@ -1,7 +1,8 @@
 // Writes what is due at an instant, then draws what is due.
-// The state is computed only if an output is due, and a renderer is made only for its first picture.
+// The state is computed only if an output is due.
 #include "run/stage.h"
 
+#include "render/camera.h"
 #include "render/glb.h"
 #include "render/still_things.h"
 #include "run/stopwatch.h"
@@ -10,10 +11,19 @@ namespace carom {
 
 Stage::Stage(const Show& show, Durability durability)
     : scene(*show.scene),
-      exports(scene, show.folder, durability, {still_things, glb}, show.renewed),
-      renderers_(exports.pictures().size()) {
+      exports(scene, show.folder, durability,
+              {still_things, glb, [this](const State& state) { return of_model_.at(state); }}, show.renewed),
+      of_model_(scene, picture_size(scene.output)) {
+  for (const PictureStream& stream : exports.pictures()) shots_.emplace_back(scene, stream.size, stream.samples);
   facts.load_s = show.load_s;
   more = exports.timeline().advance();
+}
+
+std::vector<MovingCamera*> Stage::cameras() {
+  std::vector<MovingCamera*> cameras;
+  for (Shot& shot : shots_) cameras.push_back(&shot.camera);
+  if (scene.output.gltf) cameras.push_back(&of_model_);
+  return cameras;
 }
 
 void Stage::sample(Simulator& simulator, const StageWatch& watch) {
@@ -37,11 +47,9 @@ void Stage::draw_what_is_due(const State& state, const StageWatch& watch) {
     bool again = false;
     {
       const Stopwatch stopwatch(facts.render_s);
-      // Made at the first picture that is due. A scene without pictures needs no OpenGL context and reads no mesh.
-      if (!renderers_[i]) renderers_[i] = std::make_unique<Renderer>(scene, streams[i].size, streams[i].samples);
-      const std::uint64_t before = renderers_[i]->drawn();
-      image = &renderers_[i]->draw(state);
-      again = renderers_[i]->drawn() == before;
+      const std::uint64_t before = shots_[i].drawn();
+      image = &shots_[i].draw(state);
+      again = shots_[i].drawn() == before;
     }
     {
       const Stopwatch stopwatch(facts.export_s);

@@ -1,12 +1,12 @@
 #pragma once
 // One output folder during a run: its exports, and the pictures that are due for them.
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "export/exports.h"
-#include "render/renderer.h"
+#include "render/moving_camera.h"
+#include "run/shot.h"
 #include "simulate/simulator.h"
 
 namespace carom {
@@ -34,6 +34,11 @@ class Stage {
  public:
   /// Opens the folder. Throws ExportError.
   Stage(const Show& show, Durability durability);
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  /// The cameras of what is drawn. Those that frame the motion must have been given it before the first sample.
+  std::vector<MovingCamera*> cameras();
 
   double time() { return exports.timeline().time(); }  // s, of its next instant
 
@@ -49,7 +54,8 @@ class Stage {
  private:
   void draw_what_is_due(const State& state, const StageWatch& watch);
 
-  std::vector<std::unique_ptr<Renderer>> renderers_;  // by picture stream
+  std::vector<Shot> shots_;  // by picture stream
+  MovingCamera of_model_;    // of gltf
 };
 
 }  // namespace carom

@@ -51,10 +51,12 @@ constexpr AbsentWord all_words[] = {
      "Elasticity is the coefficient of restitution: 1 elastic, below 1 inelastic, 0 perfectly inelastic. "
      "`simulate.contact: merge` makes bodies stick together for good.",
      "restitution|contact"},
-    {"camera path|camera motion|fly through|flythrough|follow|tracking shot|keyframe|keyframes|dolly|orbit camera|zoom",
-     "The camera stands still: `eye`, `target` and `fov` hold for the whole run. "
+    {"camera path|camera motion|fly through|flythrough|tracking shot|keyframes|dolly|orbit camera|zoom",
+     "`camera.path` moves the camera through keyframes, and `camera.follow` takes it along with a body. "
      "`carom render` draws other views of a run without simulating again.",
-     "camera|camera.fov"},
+     "camera.path|camera.follow"},
+    {"auto camera|autofit|framing|bounding view|zoom to fit|default camera",
+     "Without a camera, or with `fit: motion`, the camera frames where the bodies go.", "camera.fit"},
     {"loop|repeat|for|foreach|array|instances|copies|clone|duplicate",
      "A scene has no loops. Many balls made by rule are a group; many runs with other values are a sweep.",
      "group|grid"},

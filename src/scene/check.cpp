@@ -71,11 +71,13 @@ class Checker : ValueChecker {
   void needed_beside(const View& view, Node& node, const std::string& what) {
     for (const Field& field : view.kind().fields) {
       if (field.with.empty() || view.given(field.key) == nullptr || view.given(field.with) != nullptr) continue;
+      const std::vector<std::string_view> sparing = parts_of(field.spared_by);
+      if (std::any_of(sparing.begin(), sparing.end(), [&](auto key) { return view.given(key) != nullptr; })) continue;
       const Key* key = node.find_key(field.key);
       node.bad = true;
       diagnostics_.add(
           key == nullptr ? view.where() : key->place,
-          fmt::format("{} has a {} but no {}", what, in_backticks(field.key), in_backticks(field.with)),
+          fmt::format("{} has {} but no {}", what, in_backticks(field.key), in_backticks(field.with)),
           fmt::format("expected {}: {}", in_backticks(field.with), expected(*find_field(view.kind(), field.with))));
     }
   }
@@ -101,7 +103,7 @@ class Checker : ValueChecker {
       const Key& key = node.keys[i];
       if (find_field(kind, key.text) != nullptr) continue;
       const std::string near = meant(key.text, kind);
-      const std::vector<std::string_view> others = rivals(field);
+      const std::vector<std::string_view> others = substitutes(field);
       if (near == field.key || std::find(others.begin(), others.end(), near) != others.end()) return true;
     }
     return false;
@@ -115,7 +117,7 @@ class Checker : ValueChecker {
     return node.find_key(key) != nullptr || (defaults != nullptr && defaults->find_key(key) != nullptr);
   }
   static bool has_any(const Node& node, const Node* defaults, const Field& field) {
-    const std::vector<std::string_view> others = rivals(field);
+    const std::vector<std::string_view> others = substitutes(field);
     return has(node, defaults, field.key) || std::any_of(others.begin(), others.end(), [&](std::string_view other) {
              return has(node, defaults, other);
            });
@@ -132,7 +134,7 @@ class Checker : ValueChecker {
     }
     std::string message = fmt::format("{} has no {}", what, in_backticks(field.key));
     std::string remedy = fmt::format("expected {}: {}", in_backticks(field.key), expected(field));
-    for (const std::string_view key : rivals(field)) {
+    for (const std::string_view key : substitutes(field)) {
       const Field& other = *find_field(kind, key);
       message += fmt::format(" and no {}", in_backticks(key));
       remedy += fmt::format("\nor {}: {}", in_backticks(key), expected(other));
@@ -223,6 +225,9 @@ class Checker : ValueChecker {
         return;
       case Type::color:
         return color(value, name);
+      case Type::name:
+        if (!value.is(Node::Kind::scalar)) wrong_type(value, name, required);
+        return;
       case Type::two_names:
       case Type::names:
         return names(value, field, name, required);

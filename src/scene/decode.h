@@ -60,7 +60,9 @@ void decode_fixed(const Node& root, const Inventory& inventory, Forms& forms, Sc
 void decode_bodies(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics);
 /// Decodes gravity, combine, pairs and forces.
 void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
-/// Decodes simulate, camera, lights, background and output. Checks that frames and rows are within `budget`.
+/// Decodes the camera. Bodies must be decoded before.
+void decode_camera(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
+/// Decodes simulate, lights, background and output. Checks that frames and rows are within `budget`.
 void decode_requests(const Node& root, const Inventory& inventory, const Budget& budget, Scene& scene,
                      Diagnostics& diagnostics);
 
@@ -74,6 +76,10 @@ void check_steps(const Node& root, const Scene& scene, const Budget& budget, Dia
 /// Adds an error where the engine of the scene lacks something that the scene uses.
 /// The whole scene must be decoded before.
 void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics);
+
+/// The numbers of a named thing: a body, group, member, fixed thing, the room or one of its sides.
+/// None: an error was reported, here or before.
+std::optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Diagnostics& diagnostics);
 
 /// The default direction of a wall's height: y, or z for a level wall.
 Vec3 default_up(const Vec3& unit_normal);

@@ -11,9 +11,7 @@
 #include "yaml/values.h"
 
 namespace carom {
-namespace {
 
-/// The numbers of a named thing: a body, group, member, fixed thing, the room or one of its sides.
 std::optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Diagnostics& diagnostics) {
   if (name.bad || !name.is(Node::Kind::scalar)) return std::nullopt;
   if (const auto it = inventory.names.find(name.text); it != inventory.names.end()) return it->second;
@@ -47,6 +45,8 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
                                : fmt::format("did you mean {}?", in_backticks(near)));
   return std::nullopt;
 }
+
+namespace {
 
 void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
   const auto [between, value] = filled<PairKeys>(View(&node, kind_named("pair"), node.place));

@@ -24,7 +24,6 @@ class Requests {
 
   void run() {
     simulate();
-    if (root_.find("camera") != nullptr) camera();
     lights();
     scene_.background = View(&root_, kind_named("scene"), Place{}).color("background");
     output();
@@ -42,29 +41,6 @@ class Requests {
       diagnostics_.add(view.place("as_printed"), "`as_printed` needs `engine: book`",
                        "only that engine follows the printed listings");
     }
-  }
-
-  void camera() {
-    const View view = scene_part(root_, "camera");
-    Camera camera;
-    fill(&camera, view);
-    const bool aimed = view.vector("eye") && view.vector("target");
-    if (!view.vector("target")) camera.target = camera.eye + Vec3(0, 0, 1);
-    const Vec3 sight = camera.target - camera.eye;
-    if (aimed && sight.isZero(0)) {
-      diagnostics_.add(view.place("target"), "the camera's target is where its eye is", "expected a point to look at");
-    } else if (aimed && unit(sight).cross(unit(camera.up)).norm() < 1e-9) {
-      const bool said = view.given("up") != nullptr;
-      diagnostics_.add(
-          view.place(said ? "up" : "target"), "the camera looks along its up direction",
-          said ? "expected another direction" : "expected `up` across the line of sight, such as up: [0, 0, 1]");
-    }
-    if (view.number("near") && view.number("far") && camera.near >= camera.far) {
-      diagnostics_.add(view.place(view.given("far") != nullptr ? "far" : "near"),
-                       fmt::format("far ({}) is not beyond near ({})", shortest(camera.far), shortest(camera.near)),
-                       "expected near < far");
-    }
-    scene_.camera = camera;
   }
 
   void lights() {

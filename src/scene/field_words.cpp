@@ -79,6 +79,29 @@ std::vector<std::string_view> rivals(const Field& field) {
   return out;
 }
 
+std::vector<std::string_view> substitutes(const Field& field) {
+  std::vector<std::string_view> out = rivals(field);
+  for (const std::string_view key : parts_of(field.spared_by)) out.push_back(key);
+  return out;
+}
+
+std::vector<std::vector<std::string_view>> needs_of(const Kind& kind) {
+  std::vector<std::vector<std::string_view>> needs;
+  for (const Field& field : kind.fields) {
+    if (!field.needed) continue;
+    std::vector<std::string_view>& keys = needs.emplace_back(parts_of(field.one_of));
+    if (keys.empty()) keys.push_back(field.key);
+    for (const std::string_view key : parts_of(field.spared_by)) keys.push_back(key);
+  }
+  return needs;
+}
+
+std::vector<std::string_view> need_with(const Kind& kind, const Field& field) {
+  for (const std::vector<std::string_view>& keys : needs_of(kind))
+    if (std::find(keys.begin(), keys.end(), field.key) != keys.end()) return keys;
+  return {};
+}
+
 std::vector<std::string_view> choices(const Field& field) {
   return parts_of(field.of);
 }
@@ -87,6 +110,14 @@ std::string title_of(const Field& field) {
   std::string title(field.title.empty() ? field.key : field.title);
   for (char& c : title) c = c == '_' ? ' ' : c;
   return capital(std::move(title));
+}
+
+std::string condition_text(const Field& field) {
+  if (field.with.empty()) return {};
+  if (field.spared_by.empty()) return fmt::format("Only with `{}`.", field.with);
+  std::vector<std::string> sparing;
+  for (const std::string_view key : parts_of(field.spared_by)) sparing.push_back(fmt::format("`{}`", key));
+  return fmt::format("Only with `{}` or {}.", field.with, listed({sparing.begin(), sparing.end()}));
 }
 
 std::string described(const Field& field) {
@@ -102,7 +133,7 @@ std::string described(const Field& field) {
   std::vector<std::string> others;
   for (const std::string_view rival : rivals(field)) others.push_back(fmt::format("`{}`", rival));
   if (!others.empty()) text += fmt::format(" Not with {}.", listed({others.begin(), others.end()}));
-  if (!field.with.empty()) text += fmt::format(" Only with `{}`.", field.with);
+  if (!field.with.empty()) text += " " + condition_text(field);
   if (!field.engines.empty()) text += fmt::format(" Only with engine {}.", listed(parts_of(field.engines)));
   return text;
 }
@@ -160,6 +191,8 @@ std::string expected(const Field& field) {
       return "a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
     case Type::file:
       return "the path of a file, relative to the folder of the scene";
+    case Type::name:
+      return "a name";
     case Type::two_names:
       return "[name, name]";
     case Type::names:

@@ -37,7 +37,7 @@ constexpr Field scene_fields[] = {
     {.key = "obstacles", .type = Type::named, .of = "obstacle", .doc = "Bodies that never move.", .example = "{post: {cylinder: {radius: 0.1, height: 1}, position: [-3, 1, 0]}}"},
     {.key = "forces", .type = Type::list, .of = "force", .doc = "Forces on bodies, in addition to gravity.", .example = "[{drag: {linear: 0.1}}]"},
     {.key = "simulate", .type = Type::part, .of = "simulate", .needed = true, .doc = "Duration, engine and accuracy.", .example = "{duration: 2}"},
-    {.key = "camera", .type = Type::part, .of = "camera", .doc = "Camera of the pictures. Default: a view of all bodies at time 0.", .example = "{eye: [0, 3, -5], target: [0, 0, 0]}"},
+    {.key = "camera", .type = Type::part, .of = "camera", .doc = "Camera of the pictures. Default: {fit: motion}.", .example = "{eye: [0, 3, -5], target: [0, 0, 0]}"},
     {.key = "lights", .type = Type::named, .of = "light", .doc = "Lights by name, and `ambient`, the colour of the ambient light.", .example = "{sun: {direction: [1, -2, 1]}, ambient: dimgray}"},
     {.key = "background", .type = Type::color, .doc = "Background colour.", .example = "skyblue"},
     {.key = "output", .type = Type::part, .of = "output", .doc = "What the run writes. Default: trajectory, collisions and energy, no pictures.", .example = "{trajectory: {every: 0.01}, collisions: true, energy: true}"},
@@ -195,13 +195,23 @@ constexpr Field simulate_fields[] = {
 };
 
 constexpr Field camera_fields[] = {
-    {.key = "eye", .type = Type::vector, .unit = "m", .needed = true, .doc = "Position of the camera.", .example = "[0, 3, -5]", .title = "Position of the camera", .member = fills<Camera, &Camera::eye>},
-    {.key = "target", .type = Type::vector, .unit = "m", .needed = true, .doc = "Point that the camera looks at.", .example = "[0, 0, 0]", .member = fills<Camera, &Camera::target>},
-    {.key = "up", .type = Type::direction, .doc = "Direction that is up in the picture.", .example = "[0, 0, 1]", .title = "Up in the picture", .member = fills<Camera, &Camera::up>},
-    {.key = "fov", .type = Type::number, .unit = "degrees", .range = {0, 180, true, true}, .doc = "Field of view, the full angle along fov_axis.", .example = "30", .title = "Field of view", .member = fills<Camera, &Camera::fov>},
-    {.key = "fov_axis", .type = Type::choice, .of = "vertical|horizontal", .doc = "Axis along which fov is measured.", .example = "horizontal", .title = "Axis of the field of view", .member = fills<Camera, &Camera::fov_horizontal>},
-    {.key = "near", .type = Type::number, .unit = "m", .range = above_0, .doc = "Nothing nearer is drawn.", .example = "1", .title = "Near limit", .member = fills<Camera, &Camera::near>},
-    {.key = "far", .type = Type::number, .unit = "m", .range = above_0, .doc = "Nothing farther is drawn.", .example = "100", .title = "Far limit", .member = fills<Camera, &Camera::far>},
+    {.key = "eye", .type = Type::vector, .unit = "m", .one_of = "eye|fit|path", .needed = true, .spared_by = "follow", .doc = "Position of the camera; with follow at time 0.", .example = "[0, 3, -5]", .title = "Position of the camera", .with = "target", .member = fills<CameraKeys, &CameraKeys::eye>},
+    {.key = "target", .type = Type::vector, .unit = "m", .one_of = "target|fit|path", .doc = "Point that the camera looks at; with follow at time 0.", .example = "[0, 0, 0]", .member = fills_if_given<CameraKeys, &CameraKeys::target>},
+    {.key = "up", .type = Type::direction, .doc = "Direction that is up in the picture.", .example = "[0, 0, 1]", .title = "Up in the picture", .member = fills<CameraKeys, &CameraKeys::up>},
+    {.key = "fov", .type = Type::number, .unit = "degrees", .range = {0, 180, true, true}, .doc = "Field of view, the full angle along fov_axis.", .example = "30", .title = "Field of view", .member = fills<CameraKeys, &CameraKeys::fov>},
+    {.key = "fov_axis", .type = Type::choice, .of = "vertical|horizontal", .doc = "Axis along which fov is measured.", .example = "horizontal", .title = "Axis of the field of view", .member = fills<CameraKeys, &CameraKeys::fov_horizontal>},
+    {.key = "near", .type = Type::number, .unit = "m", .range = above_0, .one_of = "near|fit", .doc = "Nothing nearer is drawn.", .example = "1", .title = "Near limit", .member = fills<CameraKeys, &CameraKeys::near>},
+    {.key = "far", .type = Type::number, .unit = "m", .range = above_0, .one_of = "far|fit", .doc = "Nothing farther is drawn.", .example = "100", .title = "Far limit", .member = fills<CameraKeys, &CameraKeys::far>},
+    {.key = "fit", .type = Type::choice, .of = "motion", .one_of = "fit|follow|path|eye|target|near|far", .doc = "Frames where the bodies go during the time shown, with the walls and obstacles that they meet.", .example = "motion", .title = "Framing", .member = fills<CameraKeys, &CameraKeys::fit>},
+    {.key = "follow", .type = Type::name, .one_of = "follow|fit|path", .doc = "A ball, body, group or member (gas.3): eye and target go with its centre of mass. Default of target: that centre; of eye: a view from the front, slightly from above.", .example = "red", .title = "Followed bodies", .pattern = reference, .member = fills<CameraKeys, &CameraKeys::follow>},
+    {.key = "path", .type = Type::list, .of = "keyframe", .one_of = "path|fit|follow|eye|target", .doc = "Views at times in order; the camera moves smoothly from one to the next.", .example = "[{at: 0, eye: [0, 3, -5], target: [0, 0, 0]}, {at: 2, eye: [5, 3, 0], target: [0, 0, 0]}]", .needs_entries = true},
+};
+
+constexpr Field keyframe_fields[] = {
+    {.key = "at", .type = Type::number, .unit = "s", .range = from_0, .needed = true, .doc = "Time of the view, later than that of the entry before.", .example = "1.5", .title = "Time", .member = fills<KeyframeKeys, &KeyframeKeys::at>},
+    {.key = "eye", .type = Type::vector, .unit = "m", .needed = true, .doc = "Position of the camera.", .example = "[0, 3, -5]", .title = "Position of the camera", .member = fills<KeyframeKeys, &KeyframeKeys::eye>},
+    {.key = "target", .type = Type::vector, .unit = "m", .needed = true, .doc = "Point that the camera looks at.", .example = "[0, 0, 0]", .member = fills<KeyframeKeys, &KeyframeKeys::target>},
+    {.key = "fov", .type = Type::number, .unit = "degrees", .range = {0, 180, true, true}, .doc = "Field of view. Default: that of the camera.", .example = "30", .title = "Field of view", .member = fills<KeyframeKeys, &KeyframeKeys::fov>},
 };
 
 constexpr Field ambient{.key = "ambient", .type = Type::color, .doc = "Colour of the ambient light, which comes from all directions.", .example = "dimgray"};
@@ -238,6 +248,7 @@ constexpr Kind kinds_of_scenes[] = {
     {"attractor", "", "Attraction to a fixed point by the inverse square of the distance.", attractor_fields},
     {"simulate", "", "Duration, engine and accuracy.", simulate_fields},
     {"camera", "", "Camera of the pictures.", camera_fields},
+    {"keyframe", "a", "A view at a time.", keyframe_fields},
     {"light", "a", "A light.", light_fields, &ambient},
 };
 

@@ -25,6 +25,7 @@ enum class Type : std::uint8_t {
   pixels,     // [width, height], wholes in range, or one of Field::of, separated by |
   color,      // CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1
   file,       // path, from the scene file's folder
+  name,       // of a body or a fixed thing
   two_names,  // [name, name] of bodies or fixed things
   /// A list of names, at least one. If Field::of is given, they are from it, separated by |.
   names,
@@ -70,13 +71,15 @@ struct Field {
   std::string_view of = {};  // kind, or choices
   /// Keys of the kind that exclude one another, including this one, separated by |.
   std::string_view one_of = {};
-  /// Whether this key, or another of `one_of`, must be present.
+  /// Whether this key, or another of `one_of` or `spared_by`, must be present.
   bool needed = false;
+  /// Keys of the kind beside which this one is not needed, and does not need `with`; separated by |.
+  std::string_view spared_by = {};
   std::string_view doc = {};
   std::string_view example = {};  // a value as YAML
   /// Empty: derived from the key.
   std::string_view title = {};
-  /// A key of the kind that must stand beside this one.
+  /// A key of the kind that must stand beside this one, unless one of `spared_by` does.
   std::string_view with = {};
   /// Engines that accept a value other than `initial`, separated by |. Empty: all.
   std::string_view engines = {};
@@ -140,6 +143,9 @@ std::string limit_text(const Range& limits, std::string_view unit);
 /// The form of a value of this field: "a number above 0 in kg", "[x, y, z] in m", "average, minimum or maximum".
 std::string expected(const Field& field);
 
+/// "Only with `mesh`.": the key that must stand beside this one. Empty: none.
+std::string condition_text(const Field& field);
+
 /// The field in sentences: its doc, the form of a value, its default, the keys that it excludes.
 std::string described(const Field& field);
 
@@ -148,6 +154,15 @@ std::vector<std::string_view> parts_of(std::string_view text);
 
 /// The keys that exclude this one.
 std::vector<std::string_view> rivals(const Field& field);
+
+/// The other keys that may stand in place of a needed one: those that exclude it, and those that spare it.
+std::vector<std::string_view> substitutes(const Field& field);
+
+/// For each needed field, the keys of which one must be present.
+std::vector<std::vector<std::string_view>> needs_of(const Kind& kind);
+
+/// The first of these that holds the field's key. Empty: the field is not needed.
+std::vector<std::string_view> need_with(const Kind& kind, const Field& field);
 
 /// The choices of a field, as separate words.
 std::vector<std::string_view> choices(const Field& field);

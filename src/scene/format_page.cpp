@@ -26,7 +26,7 @@ for `true`: write `1.0e-3` and `"on"` for them. A flag is `true` or `false`. Nam
 unique in a scene. An unknown or repeated key, an alias, an anchor, a tag, `<<`, a tab and a second document are errors.
 
 In paths NAME stands for a name, and N for the index of a list's entry, from 0. A key in bold is needed, here or in
-`defaults`. Of bold keys that exclude one another, one is needed.
+`defaults`. Of bold keys that replace one another, one is needed.
 
 )";
 
@@ -34,14 +34,6 @@ std::string quoted_list(const std::vector<std::string_view>& keys) {
   std::vector<std::string> marked;
   for (const std::string_view key : keys) marked.push_back(fmt::format("`{}`", key));
   return listed({marked.begin(), marked.end()});
-}
-
-bool is_needed(const Kind& kind, const Field& field) {
-  if (field.needed) return true;
-  for (const Field& other : kind.fields) {
-    if (other.needed && !field.one_of.empty() && other.one_of == field.one_of) return true;
-  }
-  return false;
 }
 
 std::string value_text(const Field& field) {
@@ -66,7 +58,7 @@ std::string value_text(const Field& field) {
 std::string meaning(const Field& field) {
   std::string text(field.doc);
   if (!rivals(field).empty()) text += fmt::format(" Not with {}.", quoted_list(rivals(field)));
-  if (!field.with.empty()) text += fmt::format(" Only with `{}`.", field.with);
+  if (!field.with.empty()) text += " " + condition_text(field);
   if (!field.engines.empty()) text += fmt::format(" Only with engine {}.", listed(parts_of(field.engines)));
   return text;
 }
@@ -88,7 +80,7 @@ std::string section(const Kind& kind, bool is_file) {
   }
   text += "| key | value | default | example | meaning |\n| --- | --- | --- | --- | --- |\n";
   const auto row = [&](const Field& field, std::string_view more) {
-    const std::string_view bold = is_needed(kind, field) ? "**" : "";
+    const std::string_view bold = !need_with(kind, field).empty() ? "**" : "";
     text += fmt::format("| {}`{}`{} | {} | {} | {} | {}{} |\n", bold, field.key, bold, value_text(field),
                         code(field.initial), code(field.example), meaning(field), more);
   };

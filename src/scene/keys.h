@@ -1,8 +1,7 @@
 #pragma once
-// The keys of bodies, groups, fixed things, pairs and forces, with their defaults. fields.cpp joins each to its row.
-// Decoding fills these structs, and makes World, State and Roster from them.
-// An optional member is empty if the file gives no value, or a wrong one.
-// A Node is a name or a file together with its place, for messages about it.
+// The keys of bodies, groups, fixed things, pairs, forces and the camera, with their defaults. fields.cpp joins each to
+// its row. Decoding fills these structs, and makes World, State and Roster from them. An optional member is empty if
+// the file gives no value, or a wrong one. A Node is a name or a file together with its place, for messages about it.
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -14,6 +13,7 @@
 #include "physics/volume.h"
 #include "physics/world.h"
 #include "scene/colors.h"
+#include "scene/scene.h"
 #include "yaml/document.h"
 
 namespace carom {
@@ -108,6 +108,20 @@ struct ForceKeys {
   const Node* on = nullptr;                                // names; null: all bodies
   double from = 0;                                         // s
   double until = std::numeric_limits<double>::infinity();  // s
+};
+
+enum class FitTo : std::uint8_t { motion };
+
+/// Eye and target may be missing, depending on the keys here.
+struct CameraKeys : Camera {
+  std::optional<FitTo> fit;
+  const Node* follow = nullptr;  // a name
+};
+
+struct KeyframeKeys {
+  double at = 0;                    // s
+  std::optional<Vec3> eye, target;  // m
+  std::optional<double> fov;        // degrees; none: that of the camera
 };
 
 }  // namespace carom

@@ -74,10 +74,12 @@ struct SceneFile::Impl {
     decode_fixed(tree, inventory, forms, scene, diagnostics);
     decode_requests(tree, inventory, options.budget, scene, diagnostics);
     if (inventory.fits) decode_bodies(tree, inventory, forms, scene, diagnostics);
+    decode_camera(tree, inventory, scene, diagnostics);
     check_engine(tree, scene, diagnostics);
     if (diagnostics.empty() && options.budget.enforced) check_steps(tree, scene, options.budget, diagnostics);
     stop_if_wrong(diagnostics, options);
     scene.meshes = forms.files(scene.output.video ? scene.output.video->file : "");
+    scene.requested = scene.output;
     scene.resolved = resolved_text(tree, inventory, scene);
     return scene;
   }

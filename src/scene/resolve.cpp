@@ -62,7 +62,7 @@ class Resolver {
     }
     forces();
     simulate();
-    if (root_.find("camera") != nullptr) line("camera", flow(scene_part(root_, "camera")));
+    camera();
     lights();
     if (const Node* background = root_.find("background")) line("background", flow_text(*background));
     output();
@@ -151,6 +151,14 @@ class Resolver {
     if (scene_.simulate.engine == Engine::book && view.find("step") == nullptr)
       overrides["step"] = shortest(*scene_.simulate.step);
     line("simulate", flow(view, overrides));
+  }
+
+  void camera() {
+    if (root_.find("camera") == nullptr) return;
+    Overrides overrides;
+    // Near and far follow from the bodies' size, as the eye does.
+    if (const auto& follow = scene_.camera->follow; follow && !follow->has_eye) overrides = {{"near", ""}, {"far", ""}};
+    line("camera", flow(scene_part(root_, "camera"), overrides));
   }
 
   void lights() {

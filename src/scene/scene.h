@@ -58,6 +58,7 @@ struct Roster {
   const BodyRange& range_of(Entity body) const;  // the range that holds this body
 };
 
+/// The view of one picture.
 struct Camera {
   Vec3 eye = Vec3::Zero();     // m
   Vec3 target = Vec3::Zero();  // m
@@ -66,6 +67,35 @@ struct Camera {
   bool fov_horizontal = false;
   double near = 0.1;  // m
   double far = 1000;  // m
+  friend bool operator==(const Camera&, const Camera&) = default;
+};
+
+/// A view at a time. The camera moves smoothly from one to the next (render/camera_path.h).
+struct Keyframe {
+  double at = 0;               // s
+  Vec3 eye = Vec3::Zero();     // m
+  Vec3 target = Vec3::Zero();  // m
+  double fov = 45;             // degrees, along fov_horizontal's axis
+};
+
+/// The bodies whose centre of mass a camera goes with.
+struct Followed {
+  Entity first = 0;
+  Entity count = 1;
+  bool has_eye = false;  // otherwise the eye, near and far follow from the bodies' size
+};
+
+/// The camera of all pictures. At most one of `fit`, `follow` and `path` is set. Without them it stands still.
+struct CameraPlan : Camera {
+  CameraPlan() = default;
+  CameraPlan(const Camera& still) : Camera(still) {}
+
+  /// It frames the motion. Eye, target, near and far come from that.
+  bool fit = false;
+  /// Eye and target are those of time 0, and go with these bodies.
+  std::optional<Followed> follow;
+  /// Eye, target and fov come from these. Ascending in time.
+  std::vector<Keyframe> path;
 };
 
 struct Light {
@@ -85,11 +115,13 @@ struct Scene {
   State initial;  // at time 0, before impulses
   Roster roster;
   Simulate simulate;
-  std::optional<Camera> camera;
-  std::vector<Light> lights;  // empty: the renderer's default lights
+  std::optional<CameraPlan> camera;  // none: one that frames the motion
+  std::vector<Light> lights;         // empty: the renderer's default lights
   std::optional<Color> ambient;
   std::optional<Color> background;
   Output output;
+  /// The outputs of the file, whichever of them --only leaves in `output`.
+  Output requested;
   std::vector<MeshFile> meshes;  // each file once
   /// YAML text: this scene with defaults and --set applied. Running it gives the same bytes.
   std::string resolved;

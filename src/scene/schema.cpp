@@ -130,6 +130,7 @@ Json value_schema(const Field& field) {
     case Type::flag:
       return {{"type", "boolean"}};
     case Type::text:
+    case Type::name:
     case Type::file:
       return text_schema(field);
     case Type::choice:
@@ -184,16 +185,6 @@ Json field_schema(const Field& field) {
   return schema;
 }
 
-/// For each needed field, the keys of which one must be present.
-std::vector<std::vector<std::string_view>> needs_of(const Kind& kind) {
-  std::vector<std::vector<std::string_view>> needs;
-  for (const Field& field : kind.fields) {
-    if (!field.needed) continue;
-    needs.push_back(field.one_of.empty() ? std::vector{field.key} : parts_of(field.one_of));
-  }
-  return needs;
-}
-
 /// Field::one_of: each key excludes the rivals listed after it.
 Json exclusions(const Kind& kind) {
   Json all = Json::object();
@@ -218,6 +209,13 @@ Json engine_rule(const Field& field) {
   Json then = at(engine.key, {{"enum", engines}});
   if (std::find(engines.begin(), engines.end(), engine.initial) == engines.end()) then.update(required({engine.key}));
   return {{"if", when}, {"then", then}};
+}
+
+/// Field::with, of a kind without defaults.
+Json beside_rule(const Field& field) {
+  std::vector<std::string_view> keys = parts_of(field.spared_by);
+  keys.insert(keys.begin(), field.with);
+  return {{"if", required({field.key})}, {"then", one_required(keys)}};
 }
 
 /// Kind::beneath: if a value of the map beneath is invalid in the map that would inherit it, that map needs its own.
@@ -246,6 +244,7 @@ Json kind_schema(const Kind& kind) {
   for (const Field& field : kind.fields) {
     properties[std::string(field.key)] = field_schema(field);
     if (!field.engines.empty()) rules.push_back(engine_rule(field));
+    if (!field.with.empty() && kind.defaults.empty()) rules.push_back(beside_rule(field));
     add_beneath_rules(field, rules);
   }
   if (kind.defaults.empty()) {

@@ -86,14 +86,18 @@ const Node* View::given(std::string_view key) const {
 }
 
 const Node* View::given(const Field& field) const {
+  return search(field).node;
+}
+
+View::Found View::search(const Field& field) const {
   for (const Node* layer : {own_, defaults_}) {
     if (layer == nullptr || (field.own && layer == defaults_)) continue;
-    if (const Node* node = layer->find(field.key)) return node;
+    if (const Node* node = layer->find(field.key)) return {node, false};
     for (const std::string_view rival : rivals(field)) {
-      if (layer->find_key(rival) != nullptr) return nullptr;
+      if (layer->find_key(rival) != nullptr) return {nullptr, true};
     }
   }
-  return nullptr;
+  return {nullptr, false};
 }
 
 const Node* View::find(std::string_view key) const {
@@ -102,8 +106,8 @@ const Node* View::find(std::string_view key) const {
 }
 
 const Node* View::find(const Field& field) const {
-  if (const Node* node = given(field)) return node;
-  return field.initial.empty() ? nullptr : &initial_node(field);
+  const Found found = search(field);
+  return found.node != nullptr || found.is_replaced || field.initial.empty() ? found.node : &initial_node(field);
 }
 
 std::optional<double> View::number(std::string_view key) const {

@@ -49,6 +49,13 @@ class View {
   Place place(std::string_view key) const;
 
  private:
+  /// A value of the map or of its defaults, or whether another key replaces it.
+  struct Found {
+    const Node* node;
+    bool is_replaced;
+  };
+  Found search(const Field& field) const;
+
   const Node* own_;
   const Kind* kind_;
   Place where_;

@@ -91,6 +91,38 @@ TEST(Check, ChecksTheInstantsOfThePictures) {
   EXPECT_EQ(crossings("3"), Json({{{"time_s", 2.3}, {"body", "passing"}, {"enters", false}}}));
 }
 
+TEST(Check, OfACameraThatMovesWatchesItsOwnPictures) {
+  const Workplace here;
+  here.write("passing.yaml", passing_ball + "output: {frames: {fps: 10, size: [64, 64]}}\n");
+  const auto checked = [&](const std::string& set) {
+    const Json all = Json::parse(
+        here.carom({"check", "passing.yaml", "--json", "--set", "balls.passing.radius=0.3", "--set", set}).out);
+    return all.at("scenes").at(0).at("camera");
+  };
+  const auto text = [&](const std::string& set) { return here.carom({"check", "passing.yaml", "--set", set}).out; };
+  // The still ball comes into view beside the passing one, and leaves again.
+  const Json follow = checked("camera={follow: passing, eye: [-12, 0, 9], fov: 60}");
+  EXPECT_EQ(follow.at("kind"), "follow");
+  EXPECT_EQ(follow.at("out_of_view_names"), Json({"still"}));
+  EXPECT_EQ(follow.at("crossings_listed").size(), 2u);
+  EXPECT_EQ(follow.at("crossings_listed").at(0).at("body"), "still");
+  EXPECT_NE(text("camera={follow: passing}").find("  camera      follows passing; +x points"), std::string::npos);
+
+  const Json fit = checked("camera={fit: motion}");
+  EXPECT_EQ(fit.at("kind"), "fit");
+  EXPECT_EQ(fit.at("out_of_view"), 0);
+  EXPECT_EQ(fit.at("crossings"), 0);
+  EXPECT_NE(text("camera.fit=motion").find("  camera      frames the motion; +x points"), std::string::npos);
+
+  // It turns away from the passing ball.
+  const std::string path =
+      "camera={path: [{at: 0, eye: [-12, 0, 9], target: [-12, 0, 0]}, {at: 1, eye: [-12, 0, 9], target: [-30, 0, 0]}]}";
+  EXPECT_EQ(checked(path).at("kind"), "path");
+  EXPECT_EQ(checked(path).at("out_of_view_names"), Json({"still"}));
+  EXPECT_EQ(checked(path).at("crossings_listed").at(0).at("body"), "passing");
+  EXPECT_NE(text(path).find("  camera      2 keyframes; +x points"), std::string::npos);
+}
+
 TEST(Check, ReportsBytesAndSecondsToCome) {
   const Workplace here;
   here.write("passing.yaml", passing_ball + "output: {frames: {fps: 10, size: [640, 360]}}\n");
@@ -119,6 +151,20 @@ TEST(Check, EndsItsTrialSoon) {
   EXPECT_LT(scene.at("camera").at("watched_until_s"), 1000);
   EXPECT_NE(scene.at("first_collision"), nullptr);
   EXPECT_GT(scene.at("seconds"), 100);
+}
+
+TEST(Check, DoesNotGuessAtAMotionThatTakesLong) {
+  const Workplace here;
+  here.write("gas.yaml",
+             "scene: 1\ngravity: [0, 0, 0]\nroom: {min: [0, 0, 0], max: [2, 2, 2]}\n"
+             "groups: {gas: {count: 3000, ball: {mass: 1, radius: 0.05}, in: {min: [0, 0, 0], max: [2, 2, 2]}, "
+             "arrange: lattice, speed: 5}}\nsimulate: {duration: 1000}\noutput: {frames: {fps: 5}}\n");
+  const Json camera = Json::parse(here.carom({"check", "gas.yaml", "--json"}).out).at("scenes").at(0).at("camera");
+  EXPECT_EQ(camera.at("out_of_view"), nullptr);
+  EXPECT_EQ(camera.at("plus_x"), "right");
+  EXPECT_NE(here.carom({"check", "gas.yaml"})
+                .out.find("  unseen      not known: the camera frames the motion, which takes longer to simulate\n"),
+            std::string::npos);
 }
 
 TEST(Check, ReportsWhatWouldStopARun) {

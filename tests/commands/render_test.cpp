@@ -1,5 +1,6 @@
 // carom render, by the real program: other pictures of a run, without simulating again.
 #include <gtest/gtest.h>
+#include <png.h>
 
 #include <algorithm>
 #include <csignal>
@@ -256,6 +257,94 @@ TEST(Render, RefusesFlightsOfWhatIsNoParabola) {
   EXPECT_EQ(only.err,
             "balls.yaml: flights need parabolas from impact to impact, and this scene has other paths: leave them out\n"
             "carom: 1 error; nothing was run\n");
+}
+
+TEST(Render, OfACameraThatFramesTheMotionHasTheBytesOfARun) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("output: {frames: {fps: 4, size: [64, 36]}, video: {fps: 8, size: [32, 18]}}\n"));
+  here.carom({"run", "balls.yaml", "-o", "run", "--only", "frames,flights"});
+  ASSERT_EQ(
+      here.carom({"render", "run", "--only", "frames", "--set", "camera={fit: motion, fov: 20}", "-o", "render"}).code,
+      0);
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "--set", "camera={fit: motion, fov: 20}", "-o", "fresh"}).code, 0);
+  for (int i = 0; i <= 4; ++i) {
+    const std::string frame = "/frames/frame_0000" + std::to_string(i) + ".png";
+    EXPECT_EQ(here.read("render" + frame), here.read("fresh" + frame));
+    EXPECT_FALSE(here.read("render" + frame).empty());
+    EXPECT_NE(here.read("render" + frame), here.read("run" + frame));
+  }
+}
+
+/// The pixels of a PNG file.
+std::vector<std::uint8_t> pixels_of(const std::string& file) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  EXPECT_TRUE(png_image_begin_read_from_memory(&image, file.data(), file.size()));
+  image.format = PNG_FORMAT_RGB;
+  std::vector<std::uint8_t> pixels(PNG_IMAGE_SIZE(image));
+  png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr);
+  return pixels;
+}
+
+TEST(Still, IsTheFrameOfItsTime) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(frames));
+  here.carom({"run", "balls.yaml", "-o", "run"});
+  const Finished still = here.carom({"render", "run", "--at", "0.75"});
+  EXPECT_EQ(still.code, 0);
+  EXPECT_EQ(still.out, "run/still_0.75s.png\n");
+  EXPECT_EQ(still.err, "");
+  EXPECT_EQ(pixels_of(here.read("run/still_0.75s.png")), pixels_of(here.read("run/frames/frame_00003.png")));
+  EXPECT_NE(here.carom({"run", "run/scene.yaml", "-o", "run"}).out.find("up to date"), std::string::npos);
+  EXPECT_EQ(here.carom({"render", "run", "--at", "0"}).out, "run/still_0s.png\n");
+  EXPECT_EQ(here.carom({"render", "run", "--at", "1"}).out, "run/still_1s.png\n");
+}
+
+TEST(Still, TakesCameraSizeAndFolder) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(near_camera + frames));
+  here.carom({"run", "balls.yaml", "-o", "run"});
+  const Files before = here.files("run");
+  const Words still = {
+      "render", "run",      "--at", "0.3", "--set", "camera={follow: red}", "--set", "output.frames.size=[40, 20]",
+      "-o",     "a/new one"};
+  EXPECT_EQ(here.carom(still).out, "a/new one/still_0.3s.png\n");
+  EXPECT_EQ(here.files("run"), before);
+  EXPECT_EQ(pixels_of(here.read("a/new one/still_0.3s.png")).size(), 3u * 40 * 20);
+  Words json = still;
+  json.push_back("--json");
+  const auto entry = nlohmann::json::parse(here.carom(json).out).at("scenes").at(0);
+  EXPECT_EQ(entry.at("status"), "done");
+  EXPECT_EQ(entry.at("files"), nlohmann::json({"still_0.3s.png"}));
+}
+
+TEST(Still, OfSeveralRunsAndWithoutFlightsIsDrawnToo) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("output: {energy: {every: 0.5}}\n"));
+  here.carom({"run", "balls.yaml", "-o", "a/one"});
+  here.carom({"run", "balls.yaml", "-o", "a/two", "--set", "simulate.engine=stepped"});
+  const Finished still = here.carom({"render", "a/one", "a/two", "--at", "0.5", "-o", "b"});
+  EXPECT_EQ(still.code, 0);
+  EXPECT_EQ(still.out.substr(0, still.out.find("2 scenes")), "b/one/still_0.5s.png\nb/two/still_0.5s.png\n");
+  EXPECT_EQ(still.err,
+            "a/one: no flights are stored: simulating again\na/two: no flights are stored: simulating again\n");
+  EXPECT_EQ(pixels_of(here.read("b/one/still_0.5s.png")).size(), 3u * 1280 * 720);
+}
+
+TEST(Still, OutsideTheRunOrBesideOtherOutputsIsRefused) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(near_camera + frames));
+  here.carom({"run", "balls.yaml", "-o", "run"});
+  const Finished after = here.carom({"render", "run", "--at", "1.5"});
+  EXPECT_EQ(after.code, 2);
+  EXPECT_EQ(after.err,
+            "run: --at 1.5 is after its end\n  name a time from 0 to 1 s\ncarom: 1 error; nothing was run\n");
+  for (const char* time : {"-1", "x", "inf", ""})
+    EXPECT_EQ(here.carom({"render", "run", "--at", time}).code, 2) << time;
+  EXPECT_EQ(here.carom({"render", "run", "--at", "0.5", "--only", "frames"}).code, 2);
+  const Finished motion = here.carom({"render", "run", "--at", "0.5", "--set", "balls.red.mass=3"});
+  EXPECT_EQ(motion.code, 2);
+  EXPECT_NE(motion.err.find("changes the motion"), std::string::npos);
 }
 
 TEST(Render, OfSeveralRunsPutsEachIntoAFolderOfItsOwn) {

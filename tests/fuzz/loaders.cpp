@@ -157,16 +157,20 @@ output: {trajectory: {every: 0.1}, energy: {every: 0.1}}
 }
 
 std::vector<std::string> settings_seeds() {
-  return {"balls.red.mass=2",
-          "defaults.ball.restitution=0.5\nsimulate.duration=2",
-          "balls.red.position=[0, 2, 0]\nballs.blue.velocity.x=3",
-          "groups.gas.count=5\ngroups.gas.in.max=[9, 9, 9]",
-          "forces.0.uniform.y=2\nforces.1.drag={quadratic: 1}",
-          "output.video={fps: 30, size: [64, 48]}\ncamera.eye.z=9",
-          "balls.red.density=1000",
-          "simulate={duration: 1, engine: stepped, integrator: verlet, step: 0.01}",
-          "restitution={combine: minimum}\nrestitution.pairs=[{between: [red, blue], value: 0.5}]",
-          "title=\"a = b\"\nlights.sun.color=red"};
+  return {
+      "balls.red.mass=2",
+      "defaults.ball.restitution=0.5\nsimulate.duration=2",
+      "balls.red.position=[0, 2, 0]\nballs.blue.velocity.x=3",
+      "groups.gas.count=5\ngroups.gas.in.max=[9, 9, 9]",
+      "forces.0.uniform.y=2\nforces.1.drag={quadratic: 1}",
+      "output.video={fps: 30, size: [64, 48]}\ncamera.eye.z=9",
+      "camera.fit=motion\ncamera.fov=30",
+      "camera={follow: gas.1}\ncamera.eye=[0, 1, 9]",
+      "camera.path=[{at: 0, eye: [0, 1, 5], target: [0, 0, 0]}, {at: 1, eye: [5, 1, 0], target: [0, 0, 0], fov: 9}]",
+      "balls.red.density=1000",
+      "simulate={duration: 1, engine: stepped, integrator: verlet, step: 0.01}",
+      "restitution={combine: minimum}\nrestitution.pairs=[{between: [red, blue], value: 0.5}]",
+      "title=\"a = b\"\nlights.sun.color=red"};
 }
 
 }  // namespace carom::fuzz

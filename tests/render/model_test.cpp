@@ -140,6 +140,67 @@ TEST(Glb, KeepsWhatAssimpLoses) {
   EXPECT_EQ(animation["samplers"][1]["interpolation"], "STEP");
 }
 
+/// The floats of an accessor, in order.
+std::vector<float> floats_of(const std::string& file, const Json& gltf, std::size_t accessor) {
+  const Json& has = gltf["accessors"][accessor];
+  const Json& view = gltf["bufferViews"][has["bufferView"].get<std::size_t>()];
+  std::uint32_t json_size = 0;
+  std::memcpy(&json_size, file.data() + 12, sizeof json_size);
+  const std::size_t parts = has["type"] == "VEC4" ? 4 : has["type"] == "VEC3" ? 3 : 1;
+  std::vector<float> floats(parts * has["count"].get<std::size_t>());
+  const std::size_t at =
+      20 + json_size + 8 + view.value("byteOffset", std::size_t{0}) + has.value("byteOffset", std::size_t{0});
+  std::memcpy(floats.data(), file.data() + at, floats.size() * sizeof(float));
+  return floats;
+}
+
+TEST(Glb, ACameraThatMovesHasKeyframes) {
+  Scene scene = ball_at(Vec3(0, 0, 0));
+  KeyedMotion motion;
+  for (int i = 0; i <= 8; ++i) {
+    // Once around, so that the quaternion changes its sign.
+    const double turn = M_PI / 4 * i;
+    motion.times.push_back(0.5 * i);
+    motion.position.push_back({0, 0, 0});
+    motion.cameras.push_back({.eye = Vec3(5 * std::sin(turn), 1, 5 * std::cos(turn)), .target = Vec3(0, 1, 0)});
+  }
+  const std::string file = glb(scene, motion);
+  const Json gltf = json_of(file);
+  std::size_t node = 0;
+  while (!gltf["nodes"][node].contains("camera")) ++node;
+  EXPECT_EQ(gltf["nodes"][node]["translation"], Json({0, 1, 5}));
+  std::vector<float> place, turned;
+  for (const Json& channel : gltf["animations"][0]["channels"]) {
+    if (channel["target"]["node"] != node) continue;
+    const Json& sampler = gltf["animations"][0]["samplers"][channel["sampler"].get<std::size_t>()];
+    EXPECT_EQ(floats_of(file, gltf, sampler["input"])[8], 4.0F);
+    (channel["target"]["path"] == "rotation" ? turned : place) = floats_of(file, gltf, sampler["output"]);
+  }
+  ASSERT_EQ(place.size(), 27U);
+  ASSERT_EQ(turned.size(), 36U);
+  Eigen::Quaternionf before(turned[3], turned[0], turned[1], turned[2]);
+  for (std::size_t i = 0; i < 9; ++i) {
+    const Vec3& eye = motion.cameras[i].eye;
+    EXPECT_LT((Vec3(place[3 * i], place[3 * i + 1], place[3 * i + 2]) - eye).norm(), 1e-6);
+    const Eigen::Quaternionf q(turned[4 * i + 3], turned[4 * i], turned[4 * i + 1], turned[4 * i + 2]);
+    const Eigen::Vector3f ahead = q * -Eigen::Vector3f::UnitZ();
+    EXPECT_LT((ahead.cast<double>() - Vec3(-eye.x(), 0, -eye.z()).normalized()).norm(), 1e-6) << i;
+    EXPECT_GE(q.dot(before), 0) << i;
+    before = q;
+  }
+}
+
+TEST(Glb, ACameraThatStandsStillHasNone) {
+  Scene scene = ball_at(Vec3(0, 0, 0));
+  KeyedMotion motion;
+  for (int i = 0; i < 3; ++i) {
+    motion.times.push_back(i);
+    motion.position.push_back({0, 0, static_cast<float>(i)});
+    motion.cameras.push_back({.eye = Vec3(0, 1, 5), .target = Vec3(0, 1, 0)});
+  }
+  EXPECT_EQ(json_of(glb(scene, motion))["animations"][0]["channels"].size(), 1U);
+}
+
 TEST(Glb, RotationsTurnTheAxesWhereTheyShould) {
   const Vec3 x = Vec3(1, 2, -0.5).normalized(), z = x.cross(Vec3(0.3, 1, 4)).normalized(), y = z.cross(x);
   for (const auto& [a, b, c] :

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "physics/world.h"
+#include "raster/outline.h"
 #include "render/eye.h"
 #include "render/scenes.h"
 #include "scene/scene.h"

@@ -303,7 +303,7 @@ TEST(MeshErrors, FitAndMeshNeedOneAnother) {
             "     |          ^\n"
             "     = expected `fit`: sphere, cylinder or box, the tightest one around the mesh\n");
   EXPECT_EQ(errors_of(start + "obstacles: {a: {fit: box, position: [0, 0, 0]}}\n"),
-            "scene.yaml:3:17: error: obstacle `a` has a `fit` but no `mesh`\n"
+            "scene.yaml:3:17: error: obstacle `a` has `fit` but no `mesh`\n"
             "   3 | obstacles: {a: {fit: box, position: [0, 0, 0]}}\n"
             "     |                 ^~~\n"
             "     = expected `mesh`: the path of a file, relative to the folder of the scene\n");

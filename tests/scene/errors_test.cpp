@@ -15,11 +15,11 @@ TEST(SceneErrors, MisspeltKeyNamesTheNearOne) {
 }
 
 TEST(SceneErrors, KeyOfAnotherPlaceNamesWhereItBelongs) {
-  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1, fov: 3}\n"),
-            "scene.yaml:2:25: error: unknown key `fov` in `simulate`\n"
-            "   2 | simulate: {duration: 1, fov: 3}\n"
+  EXPECT_EQ(errors_of("scene: 1\nsimulate: {duration: 1, far: 3}\n"),
+            "scene.yaml:2:25: error: unknown key `far` in `simulate`\n"
+            "   2 | simulate: {duration: 1, far: 3}\n"
             "     |                         ^~~\n"
-            "     = `fov` is a key of `camera`\n"
+            "     = `far` is a key of `camera`\n"
             "     = expected duration, engine, step, as_printed, rest_speed, max_collisions, integrator, contact or "
             "tolerance\n");
 }

@@ -1,6 +1,7 @@
 // Consistency of the table of fields.
 #include "scene/fields.h"
 
+#include <algorithm>
 #include <set>
 
 #include "scene/scenes_in_text.h"
@@ -23,8 +24,11 @@ TEST(Fields, EveryRowIsComplete) {
       for (const std::string_view rival : rivals(field)) {
         const Field* other = find_field(kind, rival);
         ASSERT_NE(other, nullptr) << kind.name << "." << field.key;
-        EXPECT_EQ(other->one_of, field.one_of);
+        const std::vector<std::string_view> its = rivals(*other);
+        EXPECT_NE(std::find(its.begin(), its.end(), field.key), its.end())
+            << kind.name << ": " << rival << " does not exclude " << field.key;
       }
+      for (const std::string_view key : parts_of(field.spared_by)) EXPECT_NE(find_field(kind, key), nullptr) << key;
       const bool is_map = field.type == Type::part || field.type == Type::part_or_flag || field.type == Type::named ||
                           field.type == Type::list;
       if (is_map) {

@@ -197,7 +197,22 @@ output:
   flights: true
 )",
           "{scene: 1, simulate: {duration: 1, engine: book, as_printed: true}}",
-          "{scene: 1, simulate: {duration: 1}, output: {video: {file: b.mp4, fps: 16, size: square}}}"};
+          "{scene: 1, simulate: {duration: 1}, output: {video: {file: b.mp4, fps: 16, size: square}}}",
+          "{scene: 1, simulate: {duration: 1}, camera: {fit: motion, fov: 30}}",
+          R"(
+scene: 1
+balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
+planes: {text: {point: [0, 0, 0], normal: [0, 1, 0]}}
+simulate: {duration: 1}
+camera: {follow: red, eye: [0, 3, -5], target: [0, 1, 0], near: 0.5}
+)",
+          R"(
+scene: 1
+simulate: {duration: 1}
+camera:
+  up: [0, 1, 0.1]
+  path: [{at: 0, eye: [0, 3, -5], target: [0, 0, 0]}, {at: 0.5, eye: [5, 3, 0], target: [0, 0, 1], fov: 30}]
+)"};
 }
 
 std::vector<Variation> vary(const std::string& scene, std::set<std::string>& visited) {

@@ -80,6 +80,7 @@ Cost cost_of(int balls) {
   const Scene scene = cloud(balls);
   Renderer renderer(scene, picture, 4);
   State state = scene.initial;
+  PngEncoder png;
   std::vector<double> draws, writes;
   renderer.draw(state);
   for (int i = 0; i < 15; ++i) {
@@ -87,7 +88,8 @@ Cost cost_of(int balls) {
     const double start = processor_ms();
     const Image& image = renderer.draw(state);
     const double drawn = processor_ms();
-    const std::string png = encode_png(image, PngEffort::fast);
+    png.take(image);
+    png.encode();
     draws.push_back(drawn - start);
     writes.push_back(processor_ms() - drawn);
   }
@@ -130,11 +132,13 @@ long peak_kb() {
 
 void print_peaks(const Scene& scene, int pictures, Size size) {
   Renderer renderer(scene, size, 4);
+  PngEncoder png;
   State state = scene.initial;
   fmt::print("pictures,peak_kB\n");
   for (int i = 1; i <= pictures; ++i) {
     move(state, i);
-    encode_png(renderer.draw(state), PngEffort::fast);
+    png.take(renderer.draw(state));
+    png.encode();
     if (i % std::max(1, pictures / 10) == 0) fmt::print("{},{}\n", i, peak_kb());
   }
 }
@@ -155,7 +159,7 @@ int run(int argc, char** argv) {
     std::ofstream(what) << json_of(scene);
   } else if (what.ends_with(".png")) {
     Renderer renderer(scene, picture, 4);
-    std::ofstream(what, std::ios::binary) << encode_png(renderer.draw(scene.initial), PngEffort::fast);
+    std::ofstream(what, std::ios::binary) << encode_png(renderer.draw(scene.initial));
   } else {
     print_peaks(scene, std::atoi(argv[2]), argc == 5 ? Size{std::atoi(argv[3]), std::atoi(argv[4])} : picture);
   }

@@ -1,0 +1,52 @@
+// The picture is no part of the run: its folder's manifest does not name it, and the run stays up to date.
+#include "commands/still.h"
+
+#include <fmt/format.h>
+
+#include <new>
+
+#include "commands/interrupt.h"
+#include "commands/run_one.h"
+#include "commands/text.h"
+#include "export/png.h"
+#include "files/open_folder.h"
+#include "run/still.h"
+#include "scene/scene.h"
+#include "yaml/values.h"
+
+namespace carom {
+namespace {
+
+std::string draw(const PlannedScene& planned, double time, bool quiet) {
+  const Scene& scene = *planned.scene;
+  EngineChoice engine = planned.engine;
+  const std::function<std::unique_ptr<Simulator>(const Scene&)> replay = replay_of(planned, quiet);
+  if (!replay) settle_steps(scene, engine, stop_if_interrupted);
+  const auto motion = [&] { return replay ? replay(scene) : make_simulator(scene, {}, engine.steps); };
+  const std::string picture = encode_png(draw_still(scene, time, motion, stop_if_interrupted));
+
+  OpenFolder folder(planned.folder);
+  OutputFile file(folder.place(), fmt::format("still_{}s.png", shortest(time)));
+  file.write(picture);
+  file.publish();
+  folder.keep();
+  return file.record().name;
+}
+
+}  // namespace
+
+SceneOutcome still_of(const PlannedScene& planned, const Options& options) {
+  try {
+    SceneOutcome outcome = without_run(planned, scene_status::done);
+    const std::string name = draw(planned, *options.at, options.quiet);
+    outcome.entry["files"] = {name};
+    outcome.out = fmt::format("{}/{}\n", printable(planned.folder), printable(name));
+    return outcome;
+  } catch (const std::bad_alloc&) {
+    return run_failed(planned, "not enough memory");
+  } catch (const std::exception& error) {
+    return run_failed(planned, error.what());
+  }
+}
+
+}  // namespace carom

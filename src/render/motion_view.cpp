@@ -1,0 +1,161 @@
+// A motion leaves four numbers (frustum.h) for the bodies that stay, and four for each that may be flying away. Only
+// the motion's end shows which of these return.
+#include "render/motion_view.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "physics/body_now.h"
+
+namespace carom {
+namespace {
+
+/// A body is a dot if it is lower than this part of the picture.
+constexpr double dot = 0.01;
+
+bool meet(const Extent& a, const Extent& b) {
+  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
+}
+
+void join(Extent& to, const Extent& other) {
+  to.low = to.low.cwiseMin(other.low);
+  to.high = to.high.cwiseMax(other.high);
+}
+
+std::array<Vec3, 4> corners(const Wall& wall) {
+  const Vec3 right = wall.half_width * wall.right, up = wall.half_height * wall.up;
+  return {wall.center - right - up, wall.center + right - up, wall.center + right + up, wall.center - right + up};
+}
+
+bool is_drawn(const Scene& scene, std::size_t fixed) {
+  return fixed >= scene.roster.fixed.size() || scene.roster.fixed[fixed].visible;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+void MotionView::Content::add(const Content& other) {
+  for (std::size_t i = 0; i < reach.size(); ++i) reach[i].add(other.reach[i]);
+  join(bodies, other.bodies);
+  join(near, other.near);
+}
+
+void MotionView::add(const State& state) {
+  const bool first = departures_.empty();
+  departures_.resize(state.position.size());
+  if (first && !state.position.empty()) {
+    for (const Vec3& position : state.position) middle_ += position;
+    middle_ /= static_cast<double>(state.position.size());
+    time_ = state.time;
+  }
+  const double since = state.time - std::exchange(time_, state.time);
+  for (Entity body = 0; body < state.position.size(); ++body) {
+    Departure& departure = departures_[body];
+    const Vec3& position = state.position[body];
+    const double distance2 = (position - middle_).squaredNorm();
+    const double before = std::exchange(departure.distance2, distance2);
+    const bool part = is_part_of_another(state, body);
+    const bool departs = !part && before >= 0 && distance2 > before;
+    if (!departs && !departure.content.empty()) core_.add(std::exchange(departure.content, {}));
+    if (part) continue;
+    const Volume volume = volume_now(scene_.world, state, body);
+    Content& content = departs ? departure.content : core_;
+    add(content, position, volume);
+    // Straight back to what the body has met since the previous instant.
+    content.near.include(position, 3 * volume.half);
+    content.near.include(position - since * state.velocity[body], 3 * volume.half);
+  }
+}
+
+void MotionView::add(Content& content, const Vec3& center, const Volume& volume) const {
+  for (std::size_t i = 0; i < directions_.size(); ++i) directions_[i].add(content.reach[i], center, volume);
+  content.bodies.include(center, volume.half);
+}
+
+MotionView::Content MotionView::without_the_leaving(const Frustum& frustum, std::size_t direction) const {
+  // The width of a view is proportional to the depth of one point.
+  const Vec3 middle = core_.bodies.middle();
+  const auto depth = [&](const Content& content) { return frustum.depth(content.reach[direction], middle); };
+  std::vector<std::pair<double, std::size_t>> leaving;  // by depth
+  for (std::size_t body = 0; body < departures_.size(); ++body) {
+    if (departures_[body].content.empty()) continue;
+    Content with = core_;
+    with.add(departures_[body].content);
+    leaving.emplace_back(depth(with), body);
+  }
+  if (leaving.empty()) return core_;
+  std::sort(leaving.begin(), leaving.end());
+
+  const double largest_dot = dot * frustum.height(1) / (2 * median(scene_.world.radius));  // per m of depth
+  Content content = core_;
+  std::size_t in_view = departures_.size() - leaving.size();
+  double with_half = depth(core_);
+  for (const auto& [alone, body] : leaving) {
+    Content with = content;
+    with.add(departures_[body].content);
+    const double deep = depth(with);
+    const bool has_half = 2 * in_view >= departures_.size();
+    if (has_half && deep > 2 * with_half && deep * largest_dot > 1) break;
+    content = with;
+    ++in_view;
+    if (!has_half) with_half = deep;
+  }
+  return content;
+}
+
+void MotionView::add_surroundings(Content& content) const {
+  const World& world = scene_.world;
+  const Extent bodies = content.bodies;
+  const double size = (bodies.high - bodies.low).norm();
+  for (std::size_t i = 0; i < world.planes.size(); ++i) {
+    const Plane& plane = world.planes[i];
+    const double above = plane.normal.dot(bodies.middle() - plane.point);
+    const bool is_floor = plane.normal.dot(directions_[0].up()) > 0.5;
+    if (is_drawn(scene_, i) && is_floor && above > 0 && above < 3 * size)
+      add(content, bodies.middle() - above * plane.normal, {});
+  }
+  for (std::size_t i = 0; i < world.walls.size(); ++i) {
+    const Wall& wall = world.walls[i];
+    if (!is_drawn(scene_, world.planes.size() + i) || 2 * std::max(wall.half_width, wall.half_height) > size) continue;
+    Extent box;
+    for (const Vec3& corner : corners(wall)) box.include(corner);
+    if (!meet(box, content.near)) continue;
+    for (const Vec3& corner : corners(wall)) add(content, corner, {});
+  }
+  for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
+    const Obstacle& obstacle = world.obstacles[i];
+    const bool drawn = is_drawn(scene_, world.planes.size() + world.walls.size() + i);
+    if (!drawn || 2 * obstacle.volume.half.maxCoeff() > size) continue;
+    Extent box;
+    box.include(obstacle.center, obstacle.volume.half);
+    if (meet(box, content.near)) add(content, obstacle.center, obstacle.volume);
+  }
+  content.bodies = bodies;
+}
+
+void MotionView::add_fixed_things(Content& content) const {
+  for (const Plane& plane : scene_.world.planes) add(content, plane.point, {});
+  for (const Wall& wall : scene_.world.walls)
+    for (const Vec3& corner : corners(wall)) add(content, corner, {});
+  for (const Obstacle& obstacle : scene_.world.obstacles) add(content, obstacle.center, obstacle.volume);
+  if (content.empty()) add(content, Vec3::Zero(), {});
+}
+
+MotionView::Content MotionView::content(std::size_t direction) const {
+  Content content;
+  if (departures_.empty()) {
+    add_fixed_things(content);
+  } else {
+    content = without_the_leaving(directions_[direction], direction);
+    add_surroundings(content);
+  }
+  return content;
+}
+
+}  // namespace carom

@@ -1,0 +1,169 @@
+// Cameras that frame the motion, of real scenes: by a simulation in advance, only where one is needed.
+#include "run/survey.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "export/picture_streams.h"
+#include "physics/world.h"
+#include "render/camera.h"
+#include "render/mesh.h"
+#include "run/engine.h"
+#include "run/run_scene.h"
+#include "scene/load.h"
+#include "scene/scene.h"
+
+namespace carom {
+namespace {
+
+namespace fs = std::filesystem;
+
+Scene scene_at(const std::string& path) {
+  LoadOptions options;
+  options.mesh_points = [](const std::string& mesh) { return read_mesh_points(mesh); };
+  return load_scene(path, options);
+}
+
+/// A folder of its own for each test.
+class Place {
+ public:
+  Place() {
+    std::string pattern = (fs::temp_directory_path() / "carom-survey-XXXXXX").string();
+    path_ = ::mkdtemp(pattern.data());
+  }
+  ~Place() { fs::remove_all(path_); }
+  std::string operator/(const std::string& name) const { return path_ / name; }
+  Scene scene(const std::string& yaml) const {
+    std::ofstream(path_ / "scene.yaml") << yaml;
+    return scene_at(path_ / "scene.yaml");
+  }
+
+ private:
+  fs::path path_;
+};
+
+Camera surveyed(const Scene& scene, Size size = {1280, 720}) {
+  MovingCamera camera(scene, size);
+  MovingCamera* const cameras[] = {&camera};
+  survey(cameras, *make_simulator(scene), [] {});
+  return camera.at(scene.initial);
+}
+
+/// How far bodies extend at all instants of pictures: the largest part of half the picture's width or height.
+double filled(const Scene& scene, const Camera& camera, Size size = {1280, 720}) {
+  const CameraFrame view = view_of(camera, size);
+  const double tan_x = std::tan(view.fov_x * M_PI / 360), tan_y = std::tan(view.fov_y * M_PI / 360);
+  const auto part = [](double across, double depth, double radius, double tangent) {
+    return std::tan(std::atan2(std::abs(across), depth) + std::asin(radius / std::hypot(across, depth))) / tangent;
+  };
+  double most = 0;
+  const auto simulator = make_simulator(scene);
+  const PictureStreams plan = plan_pictures(scene);
+  for (std::int64_t i = plan.ticks.front().first(); i <= plan.ticks.front().last(); ++i) {
+    carry_to(*simulator, plan.ticks.front().at(i), scene.simulate.duration, [] {});
+    const State& state = simulator->state();
+    for (Entity body = 0; body < scene.world.body_count(); ++body) {
+      const Vec3 p = state.position[body] - camera.eye;
+      const double x = view.right.dot(p), y = view.up.dot(p), z = view.forward.dot(p);
+      const double radius = scene.world.radius[body];
+      EXPECT_TRUE(z - radius > camera.near && z + radius < camera.far);
+      most = std::max({most, part(x, z, radius, tan_x), part(y, z, radius, tan_y)});
+    }
+  }
+  return most;
+}
+
+class SceneWithoutCamera : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SceneWithoutCamera, HasAllBodiesInViewAtAllPicturesAndFillsThem) {
+  Scene scene = scene_at(SCENES_DIR "/" + std::string(GetParam()) + ".yaml");
+  scene.camera.reset();
+  const double most = filled(scene, surveyed(scene));
+  EXPECT_LT(most, 1);
+  EXPECT_GT(most, 0.75);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SceneWithoutCamera,
+                         ::testing::Values("bouncing_ball", "billiard_break", "ten_pins", "wall_fly_over", "gust",
+                                           "clay", "raindrops", "two_bowling_balls", "restitution_row",
+                                           "newtons_cradle_gap", "gas_in_a_room", "crates"),
+                         [](const auto& scene) { return std::string(scene.param); });
+
+const std::string marble_run =
+    "scene: 1\nballs: {marble: {mass: 0.01, radius: 0.02, position: [-1.5, 1.62, 0], velocity: [0.8, 0, 0], "
+    "restitution: 0.6}}\nobstacles:\n  first: {box: [0.6, 0.04, 0.3], position: [-1.3, 1.5, 0]}\n"
+    "  second: {box: [0.6, 0.04, 0.3], position: [-0.6, 1.2, 0]}\n  third: {box: [0.6, 0.04, 0.3], position: [0.1, "
+    "0.9, "
+    "0]}\nplanes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\nsimulate: {duration: 4}\n";
+
+TEST(Survey, AMarbleRunIsInViewToItsEndWithWhatTheMarbleMeets) {
+  const Place place;
+  const Scene scene = place.scene(marble_run + "output: {video: true}\n");
+  const Camera camera = surveyed(scene);
+  const double most = filled(scene, camera);
+  EXPECT_LT(most, 1);
+  EXPECT_GT(most, 0.8);
+  const CameraFrame view = view_of(camera, {1280, 720});
+  for (const Obstacle& step : scene.world.obstacles)
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+      EXPECT_TRUE(is_sphere_in_view(camera, view, step.center + step.volume.half.cwiseProduct(sign), 1e-9));
+    }
+}
+
+TEST(Survey, FramesTheWindowsThatAreShown) {
+  const Place place;
+  const Scene early = place.scene(marble_run + "output: {video: {until: 0.5}}\n");
+  const Scene whole = place.scene(marble_run + "output: {video: true}\n");
+  EXPECT_LT((surveyed(early).eye - surveyed(early).target).norm(),
+            0.5 * (surveyed(whole).eye - surveyed(whole).target).norm());
+  const Scene both = place.scene(marble_run + "output: {video: {from: 0, until: 0.5}, frames: {from: 0.5}}\n");
+  EXPECT_NEAR((surveyed(both).eye - surveyed(whole).eye).norm(), 0, 1e-12);
+}
+
+TEST(Survey, DoesNotDependOnWhichOutputsAreLeft) {
+  const Place place;
+  Scene scene = place.scene(marble_run + "output: {video: {until: 0.5}, frames: {fps: 7}}\n");
+  const Camera camera = surveyed(scene);
+  scene.output.frames.reset();
+  EXPECT_EQ(surveyed(scene), camera);
+}
+
+TEST(Survey, AMotionThatFailsIsFramedAsFarAsItGoes) {
+  const Place place;
+  const Scene scene = place.scene(marble_run + "output: {video: true}\n");
+  Scene failing = scene;
+  failing.simulate.max_collisions = 1;
+  const Camera camera = surveyed(failing);
+  EXPECT_TRUE(camera.eye.allFinite());
+  EXPECT_LT((camera.eye - camera.target).norm(), (surveyed(scene).eye - surveyed(scene).target).norm());
+}
+
+/// How many simulators a run of the marble makes.
+int simulators_of(const std::string& more) {
+  const Place place;
+  const Scene scene = place.scene(marble_run + "\n" + more);
+  int made = 0;
+  RunSettings settings;
+  settings.simulator = [&](const Scene& of) {
+    ++made;
+    return make_simulator(of);
+  };
+  run_scene({&scene, place / "run", 0, nullptr}, choose_engine(scene), settings, {[] {}, [](double, auto, auto) {}});
+  return made;
+}
+
+TEST(Survey, IsMadeOnlyForPicturesByACameraThatFramesTheMotion) {
+  const std::string picture = "output: {frames: {size: [32, 18], until: 0}}\n";
+  EXPECT_EQ(simulators_of("output: {energy: true}\n"), 1);
+  EXPECT_EQ(simulators_of("camera: {fit: motion}\noutput: {vtk: {every: 4}}\n"), 1);
+  EXPECT_EQ(simulators_of("camera: {eye: [0, 1, 5], target: [0, 1, 0]}\n" + picture), 1);
+  EXPECT_EQ(simulators_of(picture), 2);
+  EXPECT_EQ(simulators_of("output: {gltf: {fps: 1}}\n"), 2);
+}
+
+}  // namespace
+}  // namespace carom
