@@ -1,9 +1,11 @@
 // CPU time of a picture of 1280 x 720 by number of balls, on one thread: drawing, and the same with its PNG. Balls fly
 // above a floor, as many as fit into a cube at a tenth of its volume, so that their size falls with their number.
 //
-//    carom_pictures              the table, as CSV
-//    carom_pictures N FILE.png   one picture of N balls
-//    carom_pictures N PICTURES   so many pictures of N balls, and the peak of memory after each tenth of them
+//    carom_pictures                              the table, as CSV
+//    carom_pictures N                            its row of N balls
+//    carom_pictures N FILE.png                   one picture of N balls
+//    carom_pictures N FILE.json                  the scene of N balls, for other programs
+//    carom_pictures N PICTURES [WIDTH HEIGHT]    so many pictures of N balls, and the peak of memory after each tenth
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <time.h>
@@ -12,16 +14,21 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "export/png.h"
 #include "physics/world.h"
+#include "render/camera.h"
+#include "render/lighting.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
 
 namespace carom {
 namespace {
+
+constexpr Size picture{1280, 720};
 
 double processor_ms() {
   timespec now{};
@@ -61,8 +68,8 @@ Scene cloud(int balls) {
   return scene;
 }
 
-void move(State& state, int picture) {
-  for (Vec3& p : state.position) p.y() += (picture % 2 ? -1 : 1) * 1e-3;
+void move(State& state, int number) {
+  for (Vec3& p : state.position) p.y() += (number % 2 ? -1 : 1) * 1e-3;
 }
 
 struct Cost {
@@ -71,8 +78,9 @@ struct Cost {
 
 Cost cost_of(int balls) {
   const Scene scene = cloud(balls);
-  Renderer renderer(scene, {1280, 720}, 4);
+  Renderer renderer(scene, picture, 4);
   State state = scene.initial;
+  PngEncoder png;
   std::vector<double> draws, writes;
   renderer.draw(state);
   for (int i = 0; i < 15; ++i) {
@@ -80,7 +88,8 @@ Cost cost_of(int balls) {
     const double start = processor_ms();
     const Image& image = renderer.draw(state);
     const double drawn = processor_ms();
-    const std::string png = encode_png(image);
+    png.take(image);
+    png.encode();
     draws.push_back(drawn - start);
     writes.push_back(processor_ms() - drawn);
   }
@@ -91,36 +100,68 @@ Cost cost_of(int balls) {
   return {median(draws), median(writes)};
 }
 
+void print_row(int balls) {
+  const Cost cost = cost_of(balls);
+  fmt::print("{},{:.2f},{:.2f},{:.2f}\n", balls, cost.draw, cost.write, cost.draw + cost.write);
+  std::fflush(stdout);
+}
+
+std::string json_of(const Scene& scene) {
+  const auto triple = [](const auto& v) { return nlohmann::json{v[0], v[1], v[2]}; };
+  const auto color = [&](const Color& c) { return triple(linear(c)); };
+  const Camera camera = camera_of(scene);
+  const KeyLight light = default_light(view_of(camera, picture));
+  nlohmann::json json = {{"size", {picture.width, picture.height}},
+                         {"eye", triple(camera.eye)},
+                         {"target", triple(camera.target)},
+                         {"fov", camera.fov},
+                         {"towards_light", triple(light.towards)},
+                         {"light", triple(light.radiance)},
+                         {"floor", color(scene.roster.fixed[0].color)}};
+  for (std::size_t i = 0; i < scene.world.radius.size(); ++i)
+    json["balls"].push_back(
+        {triple(scene.initial.position[i]), scene.world.radius[i], color(scene.roster.bodies[i].color)});
+  return json.dump();
+}
+
 long peak_kb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return usage.ru_maxrss;
 }
 
-int run(int argc, char** argv) {
-  setenv("LP_NUM_THREADS", "0", 1);
-  if (argc == 1) {
-    fmt::print("balls,draw_ms,png_ms,picture_ms\n");
-    for (const int balls : {1, 100, 1000, 10000, 100000}) {
-      const Cost cost = cost_of(balls);
-      fmt::print("{},{:.1f},{:.1f},{:.1f}\n", balls, cost.draw, cost.write, cost.draw + cost.write);
-    }
-    return 0;
-  }
-  if (argc != 3) return 2;
-  const Scene scene = cloud(std::max(1, std::atoi(argv[1])));
-  Renderer renderer(scene, {1280, 720}, 4);
-  const std::string what = argv[2];
-  if (what.ends_with(".png")) {
-    std::ofstream(what, std::ios::binary) << encode_png(renderer.draw(scene.initial));
-    return 0;
-  }
-  const int pictures = std::atoi(argv[2]);
+void print_peaks(const Scene& scene, int pictures, Size size) {
+  Renderer renderer(scene, size, 4);
+  PngEncoder png;
   State state = scene.initial;
+  fmt::print("pictures,peak_kB\n");
   for (int i = 1; i <= pictures; ++i) {
     move(state, i);
-    encode_png(renderer.draw(state));
-    if (i % std::max(1, pictures / 10) == 0) fmt::print("{} pictures, {} kB\n", i, peak_kb());
+    png.take(renderer.draw(state));
+    png.encode();
+    if (i % std::max(1, pictures / 10) == 0) fmt::print("{},{}\n", i, peak_kb());
+  }
+}
+
+int run(int argc, char** argv) {
+  setenv("LP_NUM_THREADS", "0", 1);
+  if (argc <= 2) {
+    fmt::print("balls,draw_ms,png_ms,picture_ms\n");
+    if (argc == 2) print_row(std::atoi(argv[1]));
+    for (const int balls : {1, 100, 1000, 10000, 100000})
+      if (argc == 1) print_row(balls);
+    return 0;
+  }
+  if (argc != 3 && argc != 5) return 2;
+  const Scene scene = cloud(std::max(1, std::atoi(argv[1])));
+  const std::string what = argv[2];
+  if (what.ends_with(".json")) {
+    std::ofstream(what) << json_of(scene);
+  } else if (what.ends_with(".png")) {
+    Renderer renderer(scene, picture, 4);
+    std::ofstream(what, std::ios::binary) << encode_png(renderer.draw(scene.initial));
+  } else {
+    print_peaks(scene, std::atoi(argv[2]), argc == 5 ? Size{std::atoi(argv[3]), std::atoi(argv[4])} : picture);
   }
   return 0;
 }

@@ -1,0 +1,267 @@
+#!/usr/bin/python3
+"""The scene of an animation.glb, at one of its keyframes, as a scene of POV-Ray with radiosity.
+
+    povray_scene.py ANIMATION.glb TIME DISTANCE > SCENE.pov
+
+A picture of it shows what carom's approximates: the same camera, bodies, surfaces, key light and sky, with light that is
+passed on from surface to surface. Balls, boxes and cylinders are exact, and planes are endless. Colours are linear, and
+half as bright as they are, so that 16 bits hold what is brighter than white: see look.py.
+"""
+
+import json
+import math
+import struct
+import sys
+
+# As in src/render/lighting.cpp and src/raster/light.inc.
+SOFTNESS = 0.03  # tangent of half the angle of the key light
+AMBIENT = (0.26, 0.28, 0.31)
+HORIZON, ABOVE, BELOW = (0.66, 0.69, 0.72), (0.30, 0.38, 0.47), (0.36, 0.37, 0.39)
+USUAL = math.pi * 683  # lux of a light of intensity 1
+EXPOSURE = 0.5
+
+
+def add(a, b):
+    return [x + y for x, y in zip(a, b)]
+
+
+def scaled(s, a):
+    return [s * x for x in a]
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def unit(a):
+    return scaled(1 / math.hypot(*a), a)
+
+
+def text(a):
+    return '<' + ', '.join(f'{x:.9g}' for x in a) + '>'
+
+
+def rgb(a):
+    return 'rgb ' + text(a)
+
+
+def fresnel(cosine):
+    """The part of the light that a surface with a refractive index of 1.5 mirrors."""
+    g = math.sqrt(1.5**2 - 1 + cosine**2)
+    a, b = (g - cosine) / (g + cosine), (cosine * (g + cosine) - 1) / (cosine * (g - cosine) + 1)
+    return 0.5 * a**2 * (1 + b**2)
+
+
+def turned(q, v):
+    """v, turned by the quaternion q."""
+    t = scaled(2, cross(q[:3], v))
+    return add(add(v, scaled(q[3], t)), cross(q[:3], t))
+
+
+class Model:
+    """What a file of carom's has, at one time."""
+
+    def __init__(self, path, time):
+        with open(path, 'rb') as file:
+            data = file.read()
+        size = struct.unpack_from('<I', data, 12)[0]
+        self.json = json.loads(data[20:20 + size])
+        self.binary = data[28 + size:]
+        nodes = self.json['nodes']
+        # The root has children, and nothing else.
+        self.nodes = [dict(node) for node in nodes if 'children' not in node]
+        moved = {id(old): new for old, new in zip([n for n in nodes if 'children' not in n], self.nodes)}
+        for animation in self.json.get('animations', []):
+            for channel in animation['channels']:
+                sampler = animation['samplers'][channel['sampler']]
+                times = [row[0] for row in self.rows(sampler['input'])]
+                values = self.rows(sampler['output'])
+                path = channel['target']['path']
+                if path == 'translation':
+                    key = min(range(len(times)), key=lambda i: abs(times[i] - time))
+                    if abs(times[key] - time) > 1e-4:
+                        sys.exit(f'povray_scene: no keyframe at {time} s')
+                else:
+                    key = max((i for i in range(len(times)) if times[i] <= time + 1e-4), default=0)
+                moved[id(nodes[channel['target']['node']])][path] = values[key]
+
+    def rows(self, number):
+        accessor = self.json['accessors'][number]
+        view = self.json['bufferViews'][accessor['bufferView']]
+        count = {'SCALAR': 1, 'VEC2': 2, 'VEC3': 3, 'VEC4': 4}[accessor['type']]
+        letter, size = {5121: ('B', 1), 5123: ('H', 2), 5125: ('I', 4), 5126: ('f', 4)}[accessor['componentType']]
+        start = view.get('byteOffset', 0) + accessor.get('byteOffset', 0)
+        step = view.get('byteStride', 0) or count * size
+        return [struct.unpack_from(f'<{count}{letter}', self.binary, start + i * step) for i in range(accessor['count'])]
+
+    def mesh(self, node):
+        """Name, material, places, normals, triangles."""
+        mesh = self.json['meshes'][node['mesh']]
+        part = mesh['primitives'][0]
+        numbers = [row[0] for row in self.rows(part['indices'])]
+        return (mesh['name'], self.json['materials'][part['material']], self.rows(part['attributes']['POSITION']),
+                self.rows(part['attributes']['NORMAL']), [numbers[i:i + 3] for i in range(0, len(numbers), 3)])
+
+
+class Picture:
+    """Lines of a scene of POV-Ray."""
+
+    def __init__(self, model):
+        self.model = model
+        self.planes = []  # point, normal, colour
+        self.reaches = []  # of the bodies, m
+        self.meshes = {}
+        self.looks = set()
+        self.lines = []
+        eye = next(node for node in model.nodes if 'camera' in node)
+        self.lens = model.json['cameras'][eye['camera']]['perspective']
+        self.eye = eye['translation']
+        turn = eye.get('rotation', [0, 0, 0, 1])
+        self.right, self.up, back = (turned(turn, axis) for axis in ([1, 0, 0], [0, 1, 0], [0, 0, 1]))
+        self.ahead = scaled(-1, back)
+
+    def scene(self, target_distance):
+        for node in self.model.nodes:
+            if 'mesh' in node:
+                self.add_thing(node)
+        self.add_planes(target_distance)
+        for node in self.model.nodes:
+            if 'extensions' in node:
+                self.add_light(node, target_distance)
+        return self.head() + self.lines
+
+    def head(self):
+        tall = 2 * math.tan(self.lens['yfov'] / 2)
+        sky = ''.join(f'    [{0.5 + 0.5 * s * u:.4f} {rgb(scaled(EXPOSURE, self.sky(s, u)))}]\n'
+                      for s, u in [(-1, 1 - i / 16) for i in range(16)] + [(1, i / 16) for i in range(17)])
+        return ['#version 3.7;',
+                'global_settings {', '  assumed_gamma 1', '  max_trace_level 5',
+                '  radiosity { pretrace_start 0.08 pretrace_end 0.01 count 120 nearest_count 8 error_bound 0.5',
+                '    recursion_limit 2 low_error_factor 0.6 gray_threshold 0 minimum_reuse 0.012 brightness 1 }', '}',
+                'camera {', '  perspective',
+                f'  location {text(self.eye)} direction {text(self.ahead)}',
+                f'  right {text(scaled(tall * self.lens["aspectRatio"], self.right))} up {text(scaled(tall, self.up))}', '}',
+                # The sky that is seen, and the one that lights: carom's ambient light is a colour of its own.
+                '#declare Bare = finish { ambient 0 diffuse 0 emission 1 }',
+                'sphere { 0, 1 hollow no_shadow no_radiosity',
+                f'  pigment {{ gradient y color_map {{\n{sky}  }} translate -0.5 * y scale 2 }}',
+                f'  finish {{ Bare }} scale 1e5 translate {text(self.eye)} }}',
+                'sphere { 0, 1 hollow no_shadow no_image no_reflection',
+                f'  pigment {{ {rgb(scaled(EXPOSURE, AMBIENT))} }} finish {{ Bare }} scale 9e4 translate {text(self.eye)} }}',
+                '#declare Matt = finish { ambient 0 diffuse 1 }',
+                '#declare Glossy = finish { ambient 0 diffuse 1 specular 0.35 roughness 1 / 64',
+                '  reflection { 0, 1 fresnel on } conserve_energy }']
+
+    @staticmethod
+    def sky(side, up):
+        t = min(max(up / 0.75, 0), 1)
+        share = t * t * (3 - 2 * t)
+        return add(scaled(1 - share, HORIZON), scaled(share, ABOVE if side > 0 else BELOW))
+
+    def add_thing(self, node):
+        name, material, places, normals, triangles = self.model.mesh(node)
+        color = material['pbrMetallicRoughness']['baseColorFactor'][:3]
+        at, size = list(node.get('translation', [0, 0, 0])), list(node.get('scale', [1, 1, 1]))
+        look = self.look(color)
+        kind = name.split(' ')[0] if ' ' in name else 'still'
+        if max(size) == 0:
+            return
+        if kind == 'still' and all(n == normals[0] for n in normals) and not material.get('doubleSided'):
+            self.planes.append((add(at, places[0]), list(normals[0]), color))
+            return
+        if kind == 'ball':
+            self.reaches.append(size[0])
+            self.lines.append(f'sphere {{ {text(at)}, {size[0]:.9g} {look} }}')
+        elif kind == 'box':
+            self.reaches.append(math.hypot(*size))
+            self.lines.append(f'box {{ {text(add(at, scaled(-1, size)))}, {text(add(at, size))} {look} }}')
+        elif kind == 'cylinder':
+            self.reaches.append(math.hypot(*size[:2]))
+            ends = [text(add(at, [0, s * size[1], 0])) for s in (-1, 1)]
+            self.lines.append(f'cylinder {{ {ends[0]}, {ends[1]}, {size[0]:.9g} {look} }}')
+        else:
+            if kind == 'mesh':
+                self.reaches.append(max(math.hypot(*p) for p in places))
+            self.lines.append(f'object {{ {self.mesh_name(node["mesh"], places, normals, triangles)} scale {text(size)} '
+                              f'translate {text(at)} {look} }}')
+
+    def look(self, color):
+        """The name of the texture of a colour: what the surface mirrors does not reach its matt part."""
+        name = 'Look' + ''.join(f'_{round(1e6 * c)}' for c in color)
+        if name not in self.looks:
+            self.looks.add(name)
+            # The pattern aoi is 1 - angle / pi.
+            angles = [math.pi / 2 * (1 - i / 16) for i in range(17)]
+            rows = ''.join(f'[{1 - a / math.pi:.6f} {rgb(scaled(1.04 - fresnel(math.cos(a)), color))}]' for a in angles)
+            self.lines.append(f'#declare {name} = texture {{ pigment {{ aoi color_map {{ {rows} }} }} finish {{ Glossy }} }}')
+        return f'texture {{ {name} }} interior {{ ior 1.5 }}'
+
+    def mesh_name(self, number, places, normals, triangles):
+        if number not in self.meshes:
+            self.meshes[number] = f'Mesh{number}'
+            rows = [', '.join(text(row) for row in rows) for rows in (places, normals, triangles)]
+            self.lines.append(f'#declare Mesh{number} = mesh2 {{\n  vertex_vectors {{ {len(places)}, {rows[0]} }}\n'
+                              f'  normal_vectors {{ {len(normals)}, {rows[1]} }}\n'
+                              f'  face_indices {{ {len(triangles)}, {rows[2]} }} }}')
+        return self.meshes[number]
+
+    def square(self, distance):
+        """The side of the squares, as in src/render/surfaces.cpp."""
+        width = 2 * distance * math.tan(self.lens['yfov'] / 2) * self.lens['aspectRatio']
+        middle = sorted(self.reaches)[len(self.reaches) // 2] if self.reaches else 0
+        wanted = min(max(8 * middle, width / 12), width / 2)
+        power = 10 ** math.floor(math.log10(wanted))
+        return next(digit * power for digit in (5, 2, 1) if digit * power <= wanted * (1 + 1e-12))
+
+    def add_planes(self, distance):
+        side = self.square(distance)
+        for i, (point, normal, color) in enumerate(self.planes):
+            height = dot(normal, point)
+            # carom shows planes from their free side alone, and they take no light from other things.
+            if dot(normal, self.eye) <= height:
+                continue
+            along = [0, 1, 0] if abs(normal[1]) < 0.999 else [0, 0, -1]
+            right = unit(cross(along, normal))
+            up = cross(normal, right)
+            rows = ', '.join(f'{x:.9g}' for x in [*right, *normal, *up, *scaled(height, normal)])
+            others = ' '.join(f'plane {{ {text(scaled(-1, n))}, {-dot(n, p) + 1e-9:.9g} }}'
+                              for k, (p, n, _) in enumerate(self.planes) if k != i)
+            cut = f'clipped_by {{ intersection {{ {others} }} }}' if others.count('plane') > 1 else \
+                  f'clipped_by {{ {others} }}' if others else ''
+            self.lines.append(
+                f'plane {{ {text(normal)}, {height:.9g} no_shadow {cut} finish {{ Matt }}\n  pigment {{ checker '
+                f'{rgb(scaled(0.9, color))}, {rgb(color)} translate 0.5 * y scale {side:.9g} matrix <{rows}> }} }}')
+
+    def add_light(self, node, distance):
+        lights = self.model.json['extensions']['KHR_lights_punctual']['lights']
+        light = lights[node['extensions']['KHR_lights_punctual']['light']]
+        if light['type'] == 'directional':
+            towards = turned(node.get('rotation', [0, 0, 0, 1]), [0, 0, 1])
+            at, radiance = add(self.eye, scaled(1e4 * distance, towards)), light['intensity'] / USUAL
+            away = 1e4 * distance
+        else:
+            at = node['translation']
+            target = add(self.eye, scaled(distance, self.ahead))
+            towards = unit(add(at, scaled(-1, target)))
+            away = math.dist(at, target)
+            radiance = light['intensity'] / USUAL / away**2
+        right = unit(cross([0, 1, 0] if abs(towards[1]) < 0.9 else [1, 0, 0], towards))
+        side = 2 * SOFTNESS * away
+        self.lines.append(f'light_source {{ {text(at)}, {rgb(scaled(EXPOSURE * radiance, light["color"]))}\n'
+                          f'  area_light {text(scaled(side, right))}, {text(scaled(side, cross(towards, right)))}, 9, 9'
+                          ' adaptive 2 jitter circular orient }')
+
+
+def main():
+    if len(sys.argv) != 4:
+        sys.exit('usage: povray_scene.py ANIMATION.glb TIME DISTANCE, of the camera from its target')
+    model = Model(sys.argv[1], float(sys.argv[2]))
+    print('\n'.join(Picture(model).scene(float(sys.argv[3]))))
+
+
+if __name__ == '__main__':
+    main()
