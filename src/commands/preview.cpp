@@ -1,4 +1,4 @@
-// Tests the initial bodies against the camera's frustum. No picture is drawn, so check needs no OpenGL.
+// Tests the initial bodies against the camera's frustum. No picture is drawn, so check needs no renderer.
 #include "commands/preview.h"
 
 #include <algorithm>

@@ -7,24 +7,18 @@
 #include <cmath>
 #include <cstddef>
 
+#include "numerics/srgb.h"
+
 namespace carom {
 namespace {
 
 constexpr double most = 65535;
 
-double linear_part(double srgb) {
-  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
-}
-
-double srgb_part(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
-
 const std::array<std::uint16_t, 256>& light_of_bytes() {
   static const auto table = [] {
     std::array<std::uint16_t, 256> values{};
     for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = static_cast<std::uint16_t>(std::lround(most * linear_part(static_cast<double>(i) / 255)));
+      values[i] = static_cast<std::uint16_t>(std::lround(most * light_of_srgb(static_cast<double>(i) / 255)));
     return values;
   }();
   return table;
@@ -34,7 +28,7 @@ const std::vector<std::uint8_t>& bytes_of_light() {
   static const auto table = [] {
     std::vector<std::uint8_t> values(65536);
     for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = static_cast<std::uint8_t>(std::lround(255 * srgb_part(static_cast<double>(i) / most)));
+      values[i] = static_cast<std::uint8_t>(std::lround(255 * srgb_of_light(static_cast<double>(i) / most)));
     return values;
   }();
   return table;

@@ -45,7 +45,6 @@ class Wire {
     stroke.to = point;
     stroke.from_radius = stroke.to_radius = radius_;
     stroke.color = steel;
-    stroke.lit = true;
     strokes_.push_back(stroke);
     at_ = point;
   }

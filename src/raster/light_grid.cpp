@@ -18,19 +18,6 @@ constexpr int most_cells = 512;
 // Light at a smaller slope is too weak on a plane to cast shadows.
 constexpr float least_slope = 0.03F;
 
-float dot(const Float3& a, const Float3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Float3 cross(const Float3& a, const Float3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Float3 unit(const Float3& a) {
-  const float length = std::sqrt(dot(a, a));
-  return {a[0] / length, a[1] / length, a[2] / length};
-}
-
 /// Half the width of a solid along a unit direction.
 float half_width_of_others(const Shot& shot, const Solid& s, const Float3& d);
 inline float half_width(const Shot& shot, const Solid& s, const Float3& d) {
@@ -194,10 +181,9 @@ void LightGrid::fill(const Shot& shot) {
   for (LightCells* cells : {&balls, &others}) cells->members.clear(), cells->start.assign(1, 0);
   if (shot.solids.empty()) return;
   const Lamp& key = shot.lighting.lamps[0];
-  const Float3 aside = std::abs(key.vector[0]) < 0.7F ? Float3{1, 0, 0} : Float3{0, 1, 0};
   if (!key.near) {
-    extent.u = unit(cross(key.vector, aside));
-    extent.v = cross(key.vector, extent.u);
+    const Across sides = across(key.vector);
+    extent.u = sides.u, extent.v = sides.v;
   }
   measure(shot);
   towards_light.resize(shot.solids.size());

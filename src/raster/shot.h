@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace carom::raster {
+#include "raster/float3.h"
 
-using Float3 = std::array<float, 3>;
+namespace carom::raster {
 
 enum class SolidKind : std::int32_t { ball, box, cylinder, wall, mesh };
 
@@ -64,7 +64,7 @@ struct OutlineLevels {
 };
 
 struct MeshOutlines {
-  Float3 across_u{}, across_v{};  // unit, along rows and columns
+  Across across{};  // along rows and columns
   std::vector<OutlineLevels> of_files;
 };
 
@@ -123,7 +123,7 @@ struct Shot {
   std::vector<Solid> solids;
   std::vector<WallAxes> walls;
   std::vector<MeshShadow> meshes;
-  MeshOutlines outlines;
+  const MeshOutlines* outlines = nullptr;  // where a MeshShadow has one
   const MeshPixels* mesh_pixels = nullptr;
 };
 

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "numerics/processor.h"
+#include "numerics/srgb.h"
 #include "raster/tile_data.h"
 
 #ifdef __x86_64__
@@ -25,13 +26,17 @@ struct Encoding {
   std::array<std::uint8_t, steps + 1> bytes{};
   Encoding() {
     for (int i = 0; i <= steps; ++i) {
-      const double root = static_cast<double>(i) / steps, x = root * root;
-      const double y = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-      bytes[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(255 * y));
+      const double root = static_cast<double>(i) / steps;
+      bytes[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::lround(255 * srgb_of_light(root * root)));
     }
   }
 };
-const Encoding encoding;
+
+/// Computed for the first picture: it takes as long as a small run.
+const Encoding& encoding() {
+  static const Encoding bytes;
+  return bytes;
+}
 
 }  // namespace
 
@@ -82,11 +87,6 @@ std::vector<TileKernel> tile_kernels() {
 void draw_tile(const Picture& picture, TileMemory& memory, int tile) {
   static const TileKernel widest = tile_kernels().back();
   widest(picture, memory.data(), tile);
-}
-
-std::uint8_t srgb_byte(float light) {
-  const float root = std::sqrt(std::min(std::max(light, 0.0F), 1.0F));
-  return encoding.bytes[static_cast<std::size_t>(std::lround(root * Encoding::steps))];
 }
 
 }  // namespace carom::raster

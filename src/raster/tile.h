@@ -57,7 +57,4 @@ std::vector<TileKernel> tile_kernels();
 /// Draws the tile by the widest one.
 void draw_tile(const Picture& picture, TileMemory& memory, int tile);
 
-/// The byte of a share of light, by the sRGB curve (IEC 61966-2-1).
-std::uint8_t srgb_byte(float light);
-
 }  // namespace carom::raster

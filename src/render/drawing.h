@@ -16,7 +16,6 @@ struct Stroke {
   Color color;              // sRGB
   double from_opacity = 1;  // 0: invisible
   double to_opacity = 1;
-  bool lit = false;  // takes light and casts none; false: its colour is seen as it is
 };
 
 struct Drawing {

@@ -12,7 +12,7 @@ namespace {
 [[noreturn]] void fail() {
   const char* const reason = dlerror();
   throw RenderError(
-      fmt::format("cannot load OSMesa for pictures: {}. Remedy: install libosmesa6 22.3 or later (Debian: "
+      fmt::format("cannot load OSMesa for meshes in pictures: {}. Remedy: install libosmesa6 22.3 or later (Debian: "
                   "apt-get install libosmesa6), or run without frames, video and sheet.",
                   reason ? reason : "no reason given"));
 }

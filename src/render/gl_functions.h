@@ -1,6 +1,6 @@
 #pragma once
 // The functions of OpenGL 4.5 and OSMesa that the render passes use, by their names without gl and OSMesa.
-// They are loaded when the first picture is needed. The library and its compiler are large, and a run without pictures
+// They are loaded for the first mesh of a picture. The library and its compiler are large, and a run without meshes
 // does not need them.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/osmesa.h>

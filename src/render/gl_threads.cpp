@@ -3,18 +3,17 @@
 #include "render/gl_threads.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <future>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <thread>
 #include <vector>
 
+#include "raster/threads.h"
 #include "render/renderer.h"
 
 namespace carom::gl {
@@ -26,14 +25,9 @@ constexpr unsigned most_threads = 16;
 constexpr auto patience = std::chrono::seconds(2);
 
 unsigned thread_count() {
-  const char* const text = std::getenv(variable);
-  const std::string_view words = text ? text : "";
-  unsigned count = 0;
-  if (std::from_chars(words.data(), words.data() + words.size(), count).ec != std::errc()) {
-    const unsigned processors = std::thread::hardware_concurrency();
-    count = processors > 1 ? processors : 0;
-  }
-  return std::min(count, most_threads);
+  const int count = raster::drawing_threads();
+  // The caller draws where there is one alone.
+  return count > 1 ? std::min(static_cast<unsigned>(count), most_threads) : 0;
 }
 
 /// Whether the system can provide so many threads at once.

@@ -23,7 +23,6 @@
 #include "render/glb_nodes.h"
 #include "render/lighting.h"
 #include "render/renderer.h"
-#include "render/shapes.h"
 #include "render/still_things.h"
 #include "scene/scene.h"
 

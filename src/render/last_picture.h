@@ -20,7 +20,7 @@ inline bool same(const Color& a, const Color& b) {
 inline bool same(const Stroke& a, const Stroke& b) {
   return a.from == b.from && a.to == b.to && a.from_radius == b.from_radius && a.to_radius == b.to_radius &&
          a.least_width == b.least_width && same(a.color, b.color) && a.from_opacity == b.from_opacity &&
-         a.to_opacity == b.to_opacity && a.lit == b.lit;
+         a.to_opacity == b.to_opacity;
 }
 
 template <typename T>

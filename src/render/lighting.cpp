@@ -1,24 +1,18 @@
-// The lights of a scene in the camera's shot. A matt surface that faces a light of intensity 1 has its own colour.
+// The lights of a scene in the camera's frame. A matt surface that faces a light of intensity 1 has its own colour.
 // Light does not weaken with distance.
 #include "render/lighting.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "numerics/srgb.h"
 #include "scene/scene.h"
 
 namespace carom {
-namespace {
-
-double decode(double c) {
-  c = std::clamp(c, 0.0, 1.0);
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-}
-
-}  // namespace
 
 std::array<float, 3> linear(const Color& srgb) {
-  return {static_cast<float>(decode(srgb.r)), static_cast<float>(decode(srgb.g)), static_cast<float>(decode(srgb.b))};
+  const auto light = [](double c) { return static_cast<float>(light_of_srgb(std::clamp(c, 0.0, 1.0))); };
+  return {light(srgb.r), light(srgb.g), light(srgb.b)};
 }
 
 KeyLight default_light(const CameraFrame& view) {

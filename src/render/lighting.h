@@ -17,7 +17,7 @@ struct KeyLight {
   Vec3 towards;                   // unit, in the world's frame
   std::array<float, 3> radiance;  // linear
 };
-/// The light of a scene without lights: from above, left of and behind the camera, in the world's upright shot. The
+/// The light of a scene without lights: from above, left of and behind the camera, in the world's upright frame. The
 /// sun then stays high for a steep camera.
 KeyLight default_light(const CameraFrame& view);
 

@@ -73,15 +73,6 @@ float f(double x) {
   return static_cast<float>(x);
 }
 
-raster::Float3 cross(const raster::Float3& a, const raster::Float3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-raster::Float3 unit(const raster::Float3& a) {
-  const float length = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-  return {a[0] / length, a[1] / length, a[2] / length};
-}
-
 void set_axes(const gl::Program& program, const raster::Shot& shot) {
   std::array<float, 9> axes{};
   for (std::size_t i = 0; i < 9; ++i) axes[i] = shot.lens.axes[i / 3][i % 3];
@@ -141,16 +132,15 @@ MeshSize Meshes::size_of(const MeshUse& use, std::size_t file) const {
 
 void Meshes::draw_outlines(raster::Shot& shot) {
   const raster::Float3& l = shot.lighting.lamps[0].vector;
-  shot.outlines.across_u = unit(cross(l, std::abs(l[0]) < 0.7F ? raster::Float3{1, 0, 0} : raster::Float3{0, 1, 0}));
-  shot.outlines.across_v = cross(l, shot.outlines.across_u);
   const std::array<raster::Float3, 4> now{l, shot.lens.axes[0], shot.lens.axes[1], shot.lens.axes[2]};
-  if (outlines_.empty() || now != outlined_) {
+  if (outlines_.of_files.empty() || now != outlined_) {
     outlined_ = now;
-    outlines_.assign(shapes_.count(), {});
+    outlines_.across = raster::across(l);
+    outlines_.of_files.assign(shapes_.count(), {});
     outline_program_.use();
     set_axes(outline_program_, shot);
-    gl::Uniform3fv(outline_program_.at("across_u"), 1, shot.outlines.across_u.data());
-    gl::Uniform3fv(outline_program_.at("across_v"), 1, shot.outlines.across_v.data());
+    gl::Uniform3fv(outline_program_.at("across_u"), 1, outlines_.across.u.data());
+    gl::Uniform3fv(outline_program_.at("across_v"), 1, outlines_.across.v.data());
     shapes_.fill_instances(std::array<float, Shapes::row>{});
     const gl::Texture texture = gl::make_texture(GL_R32F, outline_side, outline_side);
     const gl::Framebuffer framebuffer = gl::make_framebuffer(std::array{texture.name()}, 0);
@@ -161,14 +151,15 @@ void Meshes::draw_outlines(raster::Shot& shot) {
       gl::ClearBufferfv(GL_COLOR, 0, nothing);
       gl::Uniform1f(outline_program_.at("reach"), f(reach_of(shapes_, i)));
       shapes_.draw(i, 0, 1);
-      outlines_[i].side = outline_side;
-      outlines_[i].levels.emplace_back(std::size_t{outline_side} * outline_side);
-      gl::ReadPixels(0, 0, outline_side, outline_side, GL_RED, GL_FLOAT, outlines_[i].levels[0].data());
-      add_levels(outlines_[i]);
+      raster::OutlineLevels& outline = outlines_.of_files[i];
+      outline.side = outline_side;
+      outline.levels.emplace_back(std::size_t{outline_side} * outline_side);
+      gl::ReadPixels(0, 0, outline_side, outline_side, GL_RED, GL_FLOAT, outline.levels[0].data());
+      add_levels(outline);
     }
     gl::check("drawing the meshes' outlines");
   }
-  shot.outlines.of_files = outlines_;
+  shot.outlines = &outlines_;
 }
 
 void Meshes::draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, const std::vector<Rect>& bounds) {

@@ -46,7 +46,7 @@ class Meshes {
   gl::Texture what_, depth_;
   gl::Framebuffer buffer_;
   raster::MeshPixels pixels_;
-  std::vector<raster::OutlineLevels> outlines_;
+  raster::MeshOutlines outlines_;
   std::array<raster::Float3, 4> outlined_{};  // key light and axes of these outlines
   std::vector<std::uint32_t> what_read_;
   std::vector<float> depth_read_;

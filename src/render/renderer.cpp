@@ -1,4 +1,4 @@
-// Places what a picture shows in the camera's shot, and draws the tiles of the picture by several threads. Meshes are
+// Places what a picture shows in the camera's frame, and draws the tiles of the picture by several threads. Meshes are
 // drawn by OSMesa before, into a picture of places and normals. A picture equal to the last one is not drawn again.
 #include "render/renderer.h"
 
@@ -105,9 +105,9 @@ void Renderer::Impl::draw(const State& state, const Drawing& drawing) {
   if (meshes) meshes->draw(things.meshes(), eye, shot);
   if (!threads) threads.emplace(raster::drawing_threads());
   prepare();
-  std::vector<Stroke> strokes = edges;
-  strokes.insert(strokes.end(), drawing.strokes.begin(), drawing.strokes.end());
-  lines.fill(strokes, eye);
+  lines.begin(size);
+  lines.add(edges, eye);
+  lines.add(drawing.strokes, eye);
   const raster::Picture picture{&shot,          &silhouettes,        &bins,         &lights, &lines.all,
                                 &lines.by_tile, image.pixels.data(), image.channels};
   threads->draw(picture);

@@ -10,9 +10,6 @@
 
 namespace carom {
 
-/// The cube from -1 to 1.
-Mesh unit_box();
-
 class Shapes {
  public:
   /// Reads the files. Throws RenderError.

@@ -9,7 +9,6 @@
 
 #include "physics/world.h"
 #include "render/renderer.h"
-#include "render/shapes.h"
 #include "render/surfaces.h"
 #include "scene/scene.h"
 
@@ -131,6 +130,21 @@ class Collector {
 
 std::vector<StillThing> still_things(const Scene& scene, const Extent& seen) {
   return Collector(scene, seen).collect();
+}
+
+Mesh unit_box() {
+  Mesh mesh;
+  for (int face = 0; face < 6; ++face) {
+    const int axis = face / 2;
+    const Vec3 normal = (face % 2 ? 1 : -1) * Vec3::Unit(axis), u = Vec3::Unit((axis + 1) % 3), v = normal.cross(u);
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const auto& [a, b] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+      mesh.vertices.push_back(normal + a * u + b * v);
+      mesh.normals.push_back(normal);
+    }
+    for (const std::uint32_t k : {0U, 1U, 2U, 0U, 2U, 3U}) mesh.triangles.push_back(first + k);
+  }
+  return mesh;
 }
 
 Mesh round_ball() {

@@ -15,6 +15,8 @@ struct Scene;
 /// that cannot be read.
 std::vector<StillThing> still_things(const Scene& scene, const Extent& seen);
 
+/// The cube from -1 to 1.
+Mesh unit_box();
 /// The ball of radius 1 as 2048 triangles, with corners on the sphere and its normals.
 Mesh round_ball();
 /// The upright cylinder of radius 1 and half height 1 with 64 sides. Their edges lie on it.

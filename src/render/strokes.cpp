@@ -8,13 +8,24 @@
 
 namespace carom {
 
-void Lines::fill(const std::vector<Stroke>& strokes, const Eye& eye) {
-  const auto [width, height] = eye.size;
-  const int columns = (width + raster::tile_side - 1) / raster::tile_side;
-  const int rows = (height + raster::tile_side - 1) / raster::tile_side;
-  by_tile.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+namespace {
+
+int tiles_along(int pixels) {
+  return (pixels + raster::tile_side - 1) / raster::tile_side;
+}
+
+}  // namespace
+
+void Lines::begin(Size picture) {
+  by_tile.resize(static_cast<std::size_t>(tiles_along(picture.width)) *
+                 static_cast<std::size_t>(tiles_along(picture.height)));
   for (auto& tile : by_tile) tile.clear();
   all.clear();
+}
+
+void Lines::add(const std::vector<Stroke>& strokes, const Eye& eye) {
+  const auto [width, height] = eye.size;
+  const int columns = tiles_along(width), rows = tiles_along(height);
   const Stroke* last = nullptr;
   for (const Stroke& stroke : strokes) {
     const bool joined = last && last->to == stroke.from;

@@ -13,8 +13,10 @@ struct Lines {
   std::vector<raster::Line> all;
   std::vector<std::vector<std::uint32_t>> by_tile;  // numbers, in order
 
+  /// Empties them.
+  void begin(Size picture);
   /// Strokes before the near plane are cut off there. A stroke that begins where the last one ends is joined to it.
-  void fill(const std::vector<Stroke>& strokes, const Eye& eye);
+  void add(const std::vector<Stroke>& strokes, const Eye& eye);
 };
 
 }  // namespace carom

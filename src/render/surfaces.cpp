@@ -1,4 +1,4 @@
-// Planes in the camera's shot. Coordinates are computed in double precision, and only differences from the eye become
+// Planes in the camera's frame. Coordinates are computed in double precision, and only differences from the eye become
 // floats.
 #include "render/surfaces.h"
 
@@ -49,9 +49,7 @@ double pattern_unit(const Scene& scene, const Eye& eye) {
 /// The floor is the level plane below the eye that is nearest to it.
 void find_floor(const Eye& eye, raster::Shot& shot) {
   const raster::Float3 up = floats(eye.direction(Vec3(0, 1, 0)));
-  const auto dot = [](const raster::Float3& a, const raster::Float3& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  };
+  using raster::dot;
   shot.floor.present = false;
   for (const raster::Ground& g : shot.grounds) {
     if (g.height <= 0 || dot(g.normal, up) < 0.7F || (shot.floor.present && g.height >= shot.floor.height)) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// The visible planes of a scene in the camera's shot, and their pattern.
+// The visible planes of a scene in the camera's frame, and their pattern.
 #include <cstddef>
 
 #include "raster/shot.h"

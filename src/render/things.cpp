@@ -1,4 +1,4 @@
-// Places bodies, obstacles and walls in the camera's shot. Things outside the picture stay, since they may cast
+// Places bodies, obstacles and walls in the camera's frame. Things outside the picture stay, since they may cast
 // shadows into it.
 #include "render/things.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// The bodies, obstacles and walls of a picture, placed in the camera's shot.
+// The bodies, obstacles and walls of a picture, placed in the camera's frame.
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -45,7 +45,7 @@ class PictureSeries {
   std::string run_;
   MovingCamera camera_;
   Shutter shutter_;
-  // Made for the first picture. A scene without pictures needs no OpenGL context and reads no mesh.
+  // Made for the first picture. A scene without pictures needs no renderer and reads no mesh.
   std::unique_ptr<Renderer> renderer_;
   std::optional<DrawingMaker> maker_;
   std::optional<Inscription> inscription_;

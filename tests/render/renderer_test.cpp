@@ -51,7 +51,7 @@ TEST(Bytes, LeaveNothingToTheNextPicture) {
   drawing.camera.eye += Vec3(1, 1, -1);
   drawing.body_colors.assign(205, test::blue);
   drawing.glow.assign(205, 1);
-  drawing.strokes.push_back({Vec3(-3, -3, 0), Vec3(3, 3, 0), 0.1, 0.2, 1, test::green, 1, 0.5, false});
+  drawing.strokes.push_back({Vec3(-3, -3, 0), Vec3(3, 3, 0), 0.1, 0.2, 1, test::green, 1, 0.5});
   State moved = scene.initial;
   for (Vec3& p : moved.position) p.y() += 0.7;
   EXPECT_NE(hash_of(renderer.draw(moved, drawing)), first);
@@ -64,8 +64,8 @@ TEST(Strokes, AreSeenWhereTheyAreAndHiddenBehindBodies) {
   Drawing drawing;
   drawing.camera = camera_of(scene);
   // One behind the ball, 0.2 m wide, and one before it, a pixel wide.
-  drawing.strokes.push_back({Vec3(-2, 0, -1), Vec3(2, 0, -1), 0.1, 0.1, 1, test::green, 1, 1, false});
-  drawing.strokes.push_back({Vec3(0, -2, 1), Vec3(0, 2, 1), 0, 0, 1, test::blue, 1, 1, false});
+  drawing.strokes.push_back({Vec3(-2, 0, -1), Vec3(2, 0, -1), 0.1, 0.1, 1, test::green, 1, 1});
+  drawing.strokes.push_back({Vec3(0, -2, 1), Vec3(0, 2, 1), 0, 0, 1, test::blue, 1, 1});
   Renderer renderer(scene, {201, 201}, 4);
   const Image& image = renderer.draw(scene.initial, drawing);
   const auto channel = [&](int x, int y, int c) { return int{image.row(y)[3 * x + c]}; };
@@ -87,8 +87,8 @@ TEST(Strokes, ThatAreJoinedAreAsOpaqueAtTheirJointsAsBetweenThem) {
   // Of one colour, then of a colour that changes.
   for (const Color& end : {test::green, Color{0, 0.9, 0}}) {
     drawing.strokes.clear();
-    drawing.strokes.push_back({Vec3(-2, 0, 0), Vec3(0, 0, 0), 0.2, 0.2, 1, test::green, 0.5, 0.5, false});
-    drawing.strokes.push_back({Vec3(0, 0, 0), Vec3(2, 0, 0), 0.2, 0.2, 1, end, 0.5, 0.5, false});
+    drawing.strokes.push_back({Vec3(-2, 0, 0), Vec3(0, 0, 0), 0.2, 0.2, 1, test::green, 0.5, 0.5});
+    drawing.strokes.push_back({Vec3(0, 0, 0), Vec3(2, 0, 0), 0.2, 0.2, 1, end, 0.5, 0.5});
     Renderer renderer(scene, {201, 201}, 4);
     const Image& image = renderer.draw(scene.initial, drawing);
     const auto light = [&](int x) { return int{image.row(100)[3 * x + 1]}; };
