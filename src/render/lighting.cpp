@@ -25,6 +25,8 @@ KeyLight default_light(const CameraFrame& view) {
 
 void add_lights(const Scene& scene, const Eye& eye, raster::Shot& shot) {
   shot.lighting.lamps.clear();
+  // A camera that moves leaves the lights as they are at time 0.
+  const Camera at_start = camera_of(scene);
   for (const Light& light : scene.lights) {
     raster::Float3 radiance = linear(light.color);
     for (float& c : radiance) c *= static_cast<float>(light.intensity);
@@ -32,10 +34,10 @@ void add_lights(const Scene& scene, const Eye& eye, raster::Shot& shot) {
     const Vec3 vector = near ? eye.point(*light.position) : Vec3(-eye.direction(light.direction->normalized()));
     shot.lighting.lamps.push_back({floats(vector), near, radiance});
     if (near && shot.lighting.lamps.size() == 1)
-      shot.lighting.lamp_radius = static_cast<float>(softness * (eye.point(eye.camera.target) - vector).norm());
+      shot.lighting.lamp_radius = static_cast<float>(softness * (at_start.target - *light.position).norm());
   }
   if (scene.lights.empty()) {
-    const KeyLight light = default_light(eye.view);
+    const KeyLight light = default_light(view_of(at_start, eye.size));
     shot.lighting.lamps.push_back({floats(eye.direction(light.towards)), false, light.radiance});
   }
   shot.lighting.softness = static_cast<float>(softness);

@@ -124,6 +124,14 @@ TEST(Survey, FramesTheWindowsThatAreShown) {
   EXPECT_NEAR((surveyed(both).eye - surveyed(whole).eye).norm(), 0, 1e-12);
 }
 
+TEST(Survey, OfSlowMotionFramesItsInstants) {
+  const Place place;
+  const Scene scene = place.scene(marble_run + "output: {video: {speed: 0.125, until: 0.5}}\n");
+  const double most = filled(scene, surveyed(scene));
+  EXPECT_LT(most, 1);
+  EXPECT_GT(most, 0.75);
+}
+
 TEST(Survey, DoesNotDependOnWhichOutputsAreLeft) {
   const Place place;
   Scene scene = place.scene(marble_run + "output: {video: {until: 0.5}, frames: {fps: 7}}\n");
