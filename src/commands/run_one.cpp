@@ -25,7 +25,7 @@ RunSettings settings_of(const PlannedScene& planned, bool quiet) {
   if (!planned.former) return settings;
   const FormerRun& former = *planned.former;
   settings.warnings = former.manifest.warnings;
-  settings.simulator = replay_of(planned, quiet);
+  settings.simulator = replay_of(planned, overlay_needs(*planned.scene), quiet);
   settings.measure = [&former](const Scene&, const State&, const Summary& summary) {
     if (summary.collisions != former.manifest.collisions)
       throw ExportError(
@@ -37,9 +37,9 @@ RunSettings settings_of(const PlannedScene& planned, bool quiet) {
 
 }  // namespace
 
-std::function<std::unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedScene& planned, bool quiet) {
+std::function<std::unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedScene& planned,
+                                                                  const OverlayNeeds& needs, bool quiet) {
   const FormerRun& former = *planned.former;
-  const OverlayNeeds needs = overlay_needs(*planned.scene);
   const bool collisions = needs.collisions || needs.collision_counts;
   if (former.has_flights() && !collisions) return [&former](const Scene& scene) { return former.motion(scene); };
   if (!quiet)

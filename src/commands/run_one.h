@@ -5,6 +5,7 @@
 
 #include "commands/progress.h"
 #include "commands/scene_outcome.h"
+#include "overlay/history.h"
 
 namespace carom {
 
@@ -13,6 +14,7 @@ SceneOutcome run_one(const PlannedScene& planned, const Options& options, const 
 
 /// A function that makes a simulator of the recorded motion of a planned run. Empty: it has no record, and is simulated
 /// again, which is said unless `quiet`.
-std::function<std::unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedScene& planned, bool quiet);
+std::function<std::unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedScene& planned,
+                                                                  const OverlayNeeds& needs, bool quiet);
 
 }  // namespace carom

@@ -21,9 +21,10 @@ namespace {
 std::string draw(const PlannedScene& planned, double time, bool quiet) {
   const Scene& scene = *planned.scene;
   EngineChoice engine = planned.engine;
-  const std::function<std::unique_ptr<Simulator>(const Scene&)> replay = replay_of(planned, quiet);
+  const std::function<std::unique_ptr<Simulator>(const Scene&)> replay =
+      replay_of(planned, picture_needs(scene), quiet);
   if (!replay) settle_steps(scene, engine, stop_if_interrupted);
-  const OverlayNeeds needs = overlay_needs(scene);
+  const OverlayNeeds needs = picture_needs(scene);
   const auto motion = [&] {
     return replay ? replay(scene) : make_simulator(scene, {needs.collisions, needs.paths}, engine.steps);
   };

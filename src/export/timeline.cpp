@@ -151,7 +151,7 @@ int Ticks::decimals() const {
   for (int i = 0; i <= most; ++i, power *= 10)
     if (is_whole(at(first_) * power) && is_whole(at(last_) * power) && (count() < 2 || is_whole(interval * power)))
       return i;
-  return std::clamp(1 - static_cast<int>(std::floor(std::log10(interval))), 0, 17);
+  return count() < 2 ? most : std::clamp(1 - static_cast<int>(std::floor(std::log10(interval))), 0, 17);
 }
 
 Timeline::Timeline(double duration) : duration_(duration) {}

@@ -21,7 +21,10 @@ bool colors_by_collisions(const Scene& scene) {
 }  // namespace
 
 OverlayNeeds overlay_needs(const Scene& scene) {
-  if (!scene.output.pictures()) return {};
+  return scene.output.pictures() ? picture_needs(scene) : OverlayNeeds{};
+}
+
+OverlayNeeds picture_needs(const Scene& scene) {
   const Overlay& overlay = scene.overlay;
   const bool trails = overlay.trails.has_value();
   const bool parabolas = trails && goes_along_parabolas(scene.world, scene.simulate);
@@ -33,7 +36,7 @@ OverlayNeeds overlay_needs(const Scene& scene) {
   return needs;
 }
 
-History::History(const Scene& scene) : scene_(scene), needs_(overlay_needs(scene)) {
+History::History(const Scene& scene, const OverlayNeeds& needs) : scene_(scene), needs_(needs) {
   const Entity bodies = scene.world.body_count();
   const bool by_collisions = needs_.collisions && colors_by_collisions(scene);
   if (by_collisions) counts_.assign(bodies, 0);

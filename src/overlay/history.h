@@ -16,20 +16,22 @@ namespace carom {
 
 struct Scene;
 
-/// What the pictures of a scene need of its simulator besides states.
+/// What pictures need of a simulator besides states.
 struct OverlayNeeds {
   bool collisions = false;        // each of them, recorded
   bool collision_counts = false;  // of the tally
   bool paths = false;             // recorded
   bool states = false;            // at times of History::next_sample(), because paths are not recorded
 };
-/// Nothing, if the scene has no pictures.
+/// Of any picture of the scene.
+OverlayNeeds picture_needs(const Scene& scene);
+/// Of those that the scene requests; nothing, if it requests none.
 OverlayNeeds overlay_needs(const Scene& scene);
 
 class History {
  public:
   /// `scene` must outlive this object.
-  explicit History(const Scene& scene);
+  History(const Scene& scene, const OverlayNeeds& needs);
 
   /// Take what has been recorded since the last call, in order.
   void record(std::span<const Collision> collisions);

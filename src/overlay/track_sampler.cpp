@@ -5,6 +5,7 @@
 #include "overlay/track_sampler.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "physics/force.h"
 #include "physics/world.h"
@@ -43,42 +44,45 @@ void TrackSampler::record(std::span<const Collision> collisions) {
   }
 }
 
-void TrackSampler::add_path(Entity body, Known& known, double time, const Vec3& x, const Vec3& v, const Vec3& a) {
+std::size_t TrackSampler::add_path(Entity body, const Known& known, double time, const Known& now, bool ends) {
   if (known.impacts.empty()) {
-    tracks_.add(body, hermite(time_, time, known.x, known.v, x, v));
-    return;
+    tracks_.add(body, hermite(time_, time, known.x, known.v, now.x, now.v));
+    return 1;
   }
   const double first = known.impacts.front(), last = known.impacts.back();
   const TrackPiece before = parabola(time_, first, time_, known.x, known.v, known.a);
   tracks_.add(body, before);
-  if (known.ended) return;
-  const TrackPiece after = parabola(last, time, time, x, v, a);
+  if (ends) return 1;
+  const TrackPiece after = parabola(last, time, time, now.x, now.v, now.a);
   if (last > first) {
     // Between kinks that are known by their times alone, the path is taken as straight.
-    const Vec3 corner = before.position(first);
-    tracks_.add(body,
-                parabola(first, last, first, corner, (after.position(last) - corner) / (last - first), Vec3::Zero()));
+    const Vec3 corner = before.position(first), way = after.position(last) - corner;
+    tracks_.add(body, parabola(first, last, first, corner, way / (last - first), Vec3::Zero()));
   }
   tracks_.add(body, after);
+  return last > first ? 3 : 2;
 }
 
 void TrackSampler::sample(const State& state) {
-  if (started_ && !(state.time > time_)) return;
+  const bool own = !(state.time < next_);
   double step = longest_part * seconds_;
   for (const Entity body : tracks_.bodies()) {
     Known& known = known_[body];
     if (known.ended) continue;
-    known.ended = !state.part_of.empty() && state.part_of[body] != body;
-    const Vec3 &x = state.position[body], &v = state.velocity[body];
-    const Vec3 a = free_acceleration(world_, body, state.time, x, v);
-    if (started_) add_path(body, known, state.time, x, v, a);
-    known.x = x;
-    known.v = v;
-    known.a = a;
-    known.impacts.clear();
-    const double rate = force_rate(world_, body, x, v);
+    tracks_.remove(body, std::exchange(known.tip, 0));
+    const bool ends = !state.part_of.empty() && state.part_of[body] != body;
+    Known now{state.position[body], state.velocity[body], Vec3::Zero(), {}, ends, 0};
+    now.a = free_acceleration(world_, body, state.time, now.x, now.v);
+    const std::size_t pieces = started_ && state.time > time_ ? add_path(body, known, state.time, now, ends) : 0;
+    if (!own) {
+      known.tip = pieces;
+      continue;
+    }
+    const double rate = force_rate(world_, body, now.x, now.v);
     if (rate > 0) step = std::min(step, 1 / (4 * rate));
+    known = std::move(now);
   }
+  if (!own) return;
   started_ = true;
   time_ = state.time;
   next_ = time_ + std::max(step, shortest_part * seconds_);

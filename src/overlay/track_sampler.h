@@ -19,17 +19,20 @@ class TrackSampler {
   double next() const { return next_; }  // s: take a state at this time or before
   /// Takes the collisions since the last state, in order.
   void record(std::span<const Collision> collisions);
-  /// Adds the paths since the last state.
+  /// Adds the paths since the last state of its own times next(). Those until another time are replaced by the next
+  /// call, so that paths do not depend on the times of pictures.
   void sample(const State& state);
 
  private:
   struct Known {
-    Vec3 x, v, a;                 // at the last state
+    Vec3 x, v, a;                 // at the last state of an own time
     std::vector<double> impacts;  // s, times of collisions since then
     bool ended = false;           // has become part of another body
+    std::size_t tip = 0;          // pieces until a time that is not an own one
   };
 
-  void add_path(Entity body, Known& known, double time, const Vec3& x, const Vec3& v, const Vec3& a);
+  /// Returns the number of pieces. `ends`: the body has become part of another.
+  std::size_t add_path(Entity body, const Known& known, double time, const Known& now, bool ends);
 
   const World& world_;
   Tracks& tracks_;

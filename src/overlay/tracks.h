@@ -1,5 +1,6 @@
 #pragma once
 // The recent paths of bodies, as pieces of polynomials.
+#include <cstddef>
 #include <limits>
 #include <span>
 #include <vector>
@@ -44,6 +45,8 @@ class Tracks {
   void add(std::span<const PathPiece> pieces);
   /// Adds a piece of a body's path, which begins where its last one ends, or later.
   void add(Entity body, const TrackPiece& piece);
+  /// Removes the last `count` pieces of a body, which were added and whose predecessor ended by itself.
+  void remove(Entity body, std::size_t count) { pieces_[body].resize(pieces_[body].size() - count); }
   bool has(Entity body) const { return wanted_[body]; }
 
  private:

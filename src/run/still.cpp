@@ -13,7 +13,7 @@ namespace carom {
 Image draw_still(const Scene& scene, const std::string& run, double time,
                  const std::function<std::unique_ptr<Simulator>()>& motion, const std::function<void()>& stop_check) {
   const PictureStream stream = still_stream(scene, time);
-  History history(scene);
+  History history(scene, picture_needs(scene));
   PictureSeries series(scene, stream, history, run);
   if (series.camera().frames_motion()) {
     MovingCamera* const cameras[] = {&series.camera()};

@@ -53,6 +53,32 @@ TEST(Overlay, ThatShowsCollisionsIsSimulatedAgain) {
   }
 }
 
+TEST(Overlay, OfAStillIsThatOfTheFrameAtItsTime) {
+  const Workplace here;
+  for (const std::string& more :
+       {std::string("trails: {seconds: 0.3}\nshutter: 0.5\narrows: [force]\ncaption: \"{time} s in {run}\"\n"),
+        std::string("flash: true\ncaption: \"{collisions}, {time} s\"\n"),
+        std::string("trails: true\nforces: [{drag: {quadratic: 0.1}}]\ncaption: \"{time} s\"\n")}) {
+    here.write("balls.yaml", two_balls(more + "camera: {eye: [0, 0.5, -3], target: [0, 0, 0]}\n"
+                                              "output: {frames: {fps: 10, size: [96, 54], samples: 1}}\n"));
+    ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", "run", "--force"}).code, 0);
+    const Finished still = here.carom({"render", "run", "--at", "0.5"});
+    ASSERT_EQ(still.code, 0) << still.err;
+    EXPECT_TRUE(here.read("run/still_0.5s.png") == here.read("run/frames/frame_00005.png")) << more;
+  }
+}
+
+TEST(Overlay, OfAStillIsDrawnAlsoForASceneWithoutPictures) {
+  const Workplace here;
+  const std::string shown = "trails: true\nflash: true\ncamera: {eye: [0, 0.5, -3], target: [0, 0, 0]}\n";
+  here.write("none.yaml", two_balls(shown + "output: {flights: true}\n"));
+  here.write("frames.yaml", two_balls(shown + "output: {frames: {fps: 2}}\n"));
+  ASSERT_EQ(here.carom({"run", "none.yaml"}).code, 0);
+  ASSERT_EQ(here.carom({"run", "frames.yaml"}).code, 0);
+  ASSERT_EQ(here.carom({"render", "output/none", "--at", "0.5"}).code, 0);
+  EXPECT_TRUE(here.read("output/none/still_0.5s.png") == here.read("output/frames/frames/frame_00001.png"));
+}
+
 TEST(Overlay, OfASweepHasTheValuesAndTheNameOfEachRun) {
   const Workplace here;
   // The two values are equal, so that their runs would be copies of one another.

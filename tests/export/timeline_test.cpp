@@ -162,6 +162,7 @@ TEST(Ticks, AreWrittenWithAllTheirDecimalsOrToATwentiethOfTheirInterval) {
   EXPECT_EQ(Ticks::rate(30, 0, 9).decimals(), 3);   // 0.0333... s
   EXPECT_EQ(Ticks::rate(240, 0, 9).decimals(), 4);  // 0.0041666... s
   EXPECT_EQ(Ticks::rate(30, 0.5, 0.5).decimals(), 1);
+  EXPECT_EQ(Ticks::even(1, 0.12345678, 0.12345678).decimals(), 6);
   EXPECT_EQ(Ticks::even(12, 0, 2.8).decimals(), 2);  // 0.2545... s
   EXPECT_EQ(Ticks::even(5, 0, 2).decimals(), 1);
   EXPECT_EQ(Ticks::film(25, 0.125, 0.5, 2).decimals(), 3);  // 0.005 s

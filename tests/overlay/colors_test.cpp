@@ -57,7 +57,7 @@ TEST(ColourMap, BecomesLighterAllAlongForPrintWithoutColours) {
 
 TEST(BodyColours, AreTheEndsOfTheMapAtMinAndMaxAndBeyond) {
   const Scene scene = load_text(scene_by("by: speed, min: 2, max: 3"));
-  const History history(scene);
+  const History history(scene, picture_needs(scene));
   const std::vector<Color> colors = BodyColors(scene).at(scene.initial, history);
   EXPECT_EQ(colors[0], viridis(0));  // 2 m/s
   EXPECT_EQ(colors[1], viridis(1));  // 3 m/s
@@ -67,7 +67,7 @@ TEST(BodyColours, AreTheEndsOfTheMapAtMinAndMaxAndBeyond) {
 
 TEST(BodyColours, FollowTheStateBetweenTheEnds) {
   const Scene scene = load_text(scene_by("by: kinetic, min: 0, max: 20, map: plasma"));
-  const History history(scene);
+  const History history(scene, picture_needs(scene));
   State state = scene.initial;
   state.velocity[0] = Vec3(0, 6, 0);  // 18 J
   const std::vector<Color> colors = BodyColors(scene).at(state, history);
@@ -79,7 +79,7 @@ TEST(BodyColours, FollowTheStateBetweenTheEnds) {
 TEST(BodyColours, ByMassAndRadiusSpanThoseOfTheScene) {
   for (const char* by : {"mass", "radius"}) {
     const Scene scene = load_text(scene_by(std::string("by: ") + by));
-    const std::vector<Color> colors = BodyColors(scene).at(scene.initial, History(scene));
+    const std::vector<Color> colors = BodyColors(scene).at(scene.initial, History(scene, picture_needs(scene)));
     EXPECT_EQ(colors[0], viridis(0)) << by;
     EXPECT_EQ(colors[2], viridis(1)) << by;
   }
@@ -87,7 +87,7 @@ TEST(BodyColours, ByMassAndRadiusSpanThoseOfTheScene) {
 
 TEST(BodyColours, ByCollisionsCountEachImpactOfABody) {
   const Scene scene = load_text(scene_by("by: collisions, max: 4"));
-  History history(scene);
+  History history(scene, picture_needs(scene));
   const std::vector<Collision> first = {hit(0.1, 0, 1), hit(0.2, 0, 2), hit(0.3, 0, 9, CollisionKind::rest)};
   history.record(first);
   const std::vector<Color> colors = BodyColors(scene).at(scene.initial, history);
@@ -97,7 +97,7 @@ TEST(BodyColours, ByCollisionsCountEachImpactOfABody) {
 
 TEST(BodyColours, OfATrailAreThoseOfItsTime) {
   const Scene scene = load_text(scene_by("by: collisions, max: 4", "trails: {seconds: 1}\n"));
-  History history(scene);
+  History history(scene, picture_needs(scene));
   const std::vector<Collision> hits = {hit(0.1, 0, 1), hit(0.2, 0, 2)};
   history.record(hits);
   const BodyColors colors(scene);
@@ -107,7 +107,7 @@ TEST(BodyColours, OfATrailAreThoseOfItsTime) {
 
 TEST(BodyColours, OfASceneWithoutAQuantityAreNotMade) {
   const Scene scene = load_text(start + "balls: {red: {mass: 1, radius: 0.1, position: [0, 0, 0]}}\n");
-  const History history(scene);
+  const History history(scene, picture_needs(scene));
   const Drawing drawing = DrawingMaker(scene, history, {64, 36}).at(scene.initial, camera_of(scene));
   EXPECT_TRUE(drawing.body_colors.empty() && drawing.glow.empty() && drawing.strokes.empty());
 }
@@ -115,7 +115,7 @@ TEST(BodyColours, OfASceneWithoutAQuantityAreNotMade) {
 TEST(Flash, LastsATenthOfASecondOfTheFilm) {
   const Scene scene = load_text(scene_by("by: mass", "flash: true\n"));
   for (const double speed : {1.0, 0.125}) {
-    History history(scene);
+    History history(scene, picture_needs(scene));
     const std::vector<Collision> one = {hit(0.5, 0, 2)};
     history.record(one);
     const DrawingMaker maker(scene, history, {64, 36}, speed);

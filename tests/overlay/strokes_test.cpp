@@ -51,7 +51,7 @@ double pixels_off(const Vec3& point, const std::vector<Stroke>& strokes, const E
 
 TEST(Trail, LiesWithinAQuarterPixelOfTheParabola) {
   const Scene scene = load_text(ball_scene("trails: {seconds: 0.8}\n"));
-  History history(scene);
+  History history(scene, picture_needs(scene));
   const PathPiece path = piece(0, {-1, 0, 0}, {1, 4, 0.5}, {0, -9.80665, 0});
   history.record_paths({&path, 1});
   State state = scene.initial;
@@ -70,7 +70,7 @@ TEST(Trail, LiesWithinAQuarterPixelOfTheParabola) {
 
 TEST(Trail, FadesWithAgeAndIsOneLine) {
   const Scene scene = load_text(ball_scene("trails: {seconds: 2, width: 0.04}\n"));
-  History history(scene);
+  History history(scene, picture_needs(scene));
   const PathPiece path = piece(0, {0, 0, 0}, {1, 2, 0}, {0, -9.80665, 0});
   history.record_paths({&path, 1});
   State state = scene.initial;
@@ -89,7 +89,7 @@ TEST(Trail, FadesWithAgeAndIsOneLine) {
 
 TEST(Trail, TurnsWhereItsBodyBounces) {
   const Scene scene = load_text(ball_scene("trails: {seconds: 2}\n"));
-  History history(scene);
+  History history(scene, picture_needs(scene));
   const PathPiece pieces[] = {piece(0, {0, 0, 0}, {1, -2, 0}, Vec3::Zero()),
                               piece(0.5, {0.5, -1, 0}, {1, 2, 0}, Vec3::Zero())};
   history.record_paths(pieces);
@@ -104,7 +104,7 @@ TEST(Trail, TurnsWhereItsBodyBounces) {
 
 TEST(Trail, OfManyShortStepsHasNoStrokesShorterThanAnEighthOfAPixel) {
   const Scene scene = load_text(ball_scene("trails: {seconds: 2}\n"));
-  History history(scene);
+  History history(scene, picture_needs(scene));
   for (int i = 0; i < 10000; ++i) {
     const PathPiece step = piece(1e-4 * i, {1e-6 * i, 0, 0}, {0.01, 0, 0}, Vec3::Zero());
     history.record_paths({&step, 1});
@@ -118,7 +118,7 @@ TEST(Trail, OfManyShortStepsHasNoStrokesShorterThanAnEighthOfAPixel) {
 
 TEST(Trail, EndsWhereABodyBecomesPartOfAnother) {
   const Scene scene = load_text(ball_scene("trails: {seconds: 2}\n"));
-  History history(scene);
+  History history(scene, picture_needs(scene));
   PathPiece pieces[] = {piece(0, {0, 0, 0}, {1, 0, 0}, Vec3::Zero()), piece(0.5, {9, 9, 9}, {1, 2, 0}, Vec3::Zero())};
   pieces[1].part_of = 3;
   history.record_paths(pieces);
@@ -134,7 +134,7 @@ TEST(Trail, IsOfTheNamedBodiesAlone) {
       "scene: 1\nsimulate: {duration: 1}\noutput: {frames: true}\ndefaults: {ball: {mass: 1, radius: 0.1}}\n"
       "balls: {red: {position: [0, 0, 0]}, blue: {position: [1, 0, 0]}, green: {position: [2, 0, 0]}}\n"
       "trails: {on: [green, red]}\n");
-  const History history(scene);
+  const History history(scene, picture_needs(scene));
   EXPECT_EQ(history.tracks()->bodies(), (std::vector<Entity>{0, 2}));
 }
 
@@ -143,7 +143,7 @@ TEST(Trail, FromStatesFollowsAnOscillationWithinAQuarterPixel) {
   const Scene scene = load_text(
       ball_scene("gravity: [0, 0, 0]\ntrails: {seconds: 3}\nforces: [{spring: {anchor: [0, 0, 0], stiffness: 72}}]\n"));
   EXPECT_TRUE(overlay_needs(scene).states && overlay_needs(scene).collisions && !overlay_needs(scene).paths);
-  History history(scene);
+  History history(scene, picture_needs(scene));
   const auto at = [&](double time) {
     State state = scene.initial;
     state.time = time;
@@ -162,10 +162,35 @@ TEST(Trail, FromStatesFollowsAnOscillationWithinAQuarterPixel) {
   EXPECT_LT(samples, 60);  // 48, at most 1/24 s apart
 }
 
+TEST(Trail, FromStatesDoesNotDependOnThePicturesBefore) {
+  const Scene scene =
+      load_text(ball_scene("trails: {seconds: 3}\nforces: [{spring: {anchor: [0, 0, 0], stiffness: 72}}]\n"));
+  const auto at = [&](double time) {
+    State state = scene.initial;
+    state.time = time;
+    state.position[0] = Vec3(std::cos(6 * time), 0, 0);
+    state.velocity[0] = Vec3(-6 * std::sin(6 * time), 0, 0);
+    return state;
+  };
+  const auto strokes = [&](double interval) {
+    History history(scene, picture_needs(scene));
+    double picture = interval;
+    for (double time = 0; time < 1; time = std::min(picture, history.next_sample())) {
+      history.sample(at(time));
+      if (time == picture) picture += interval;
+    }
+    history.sample(at(1));
+    return trails_of(scene, history, at(1));
+  };
+  const std::vector<Stroke> few = strokes(2), many = strokes(0.013);
+  ASSERT_EQ(few.size(), many.size());
+  for (std::size_t i = 0; i < few.size(); ++i) EXPECT_TRUE(few[i].from == many[i].from && few[i].to == many[i].to);
+}
+
 TEST(Trail, FromStatesHasItsKinkAtTheTimeOfTheCollision) {
   const Scene scene = load_text(ball_scene("trails: {seconds: 3}\nforces: [{drag: {quadratic: 1.0e-9}}]\n"));
   ASSERT_TRUE(overlay_needs(scene).states);
-  History history(scene);
+  History history(scene, picture_needs(scene));
   State state = scene.initial;
   const Vec3 g(0, -9.80665, 0), corner(0.1, -0.4, 0), before(0.5, -3, 0), after(0.5, 2, 0);
   const auto sample = [&](double t) {  // the collision is at 1 s
@@ -187,7 +212,7 @@ TEST(Trail, FromStatesHasItsKinkAtTheTimeOfTheCollision) {
 
 TEST(Spring, BeginsAtItsAnchorAndEndsAtItsBody) {
   const Scene scene = load_text(ball_scene("forces: [{spring: {anchor: [0, 2, 0], stiffness: 40, rest_length: 1}}]\n"));
-  const History history(scene);
+  const History history(scene, picture_needs(scene));
   for (const Vec3& x : {Vec3(0, 0, 0), Vec3(0.5, 0.3, -0.4), Vec3(-1, 3, 1)}) {
     State state = scene.initial;
     state.position[0] = x;
@@ -204,7 +229,7 @@ TEST(Spring, BeginsAtItsAnchorAndEndsAtItsBody) {
 
 TEST(Spring, HasTheSameTurnsHoweverItIsStretched) {
   const Scene scene = load_text(ball_scene("forces: [{spring: {anchor: [0, 2, 0], stiffness: 40, rest_length: 1}}]\n"));
-  const History history(scene);
+  const History history(scene, picture_needs(scene));
   const DrawingMaker maker(scene, history, size);
   const auto turns = [&](const Vec3& x) {
     State state = scene.initial;
@@ -227,7 +252,7 @@ TEST(Spring, ThatIsNotVisibleOrNotActingIsNotDrawn) {
   const std::string spring = "spring: {anchor: [0, 2, 0], stiffness: 40}";
   for (const std::string& more : {spring + ", visible: false", spring + ", from: 5", spring + ", until: 0.5"}) {
     const Scene scene = load_text(ball_scene("forces: [{" + more + "}]\n"));
-    const History history(scene);
+    const History history(scene, picture_needs(scene));
     State state = scene.initial;
     state.time = 1;
     EXPECT_TRUE(DrawingMaker(scene, history, size).at(state, camera_of(scene)).strokes.empty()) << more;
@@ -236,7 +261,7 @@ TEST(Spring, ThatIsNotVisibleOrNotActingIsNotDrawn) {
 
 TEST(Arrows, StartAtTheSurfaceAndAreAsLongAsTheirLegend) {
   const Scene scene = load_text(ball_scene("gravity: [0, 0, 0]\narrows: [velocity]\n"));
-  const History history(scene);
+  const History history(scene, picture_needs(scene));
   const std::vector<ArrowScale> scales = arrow_scales(scene);
   ASSERT_EQ(scales.size(), 1u);
   EXPECT_EQ(scales[0].typical, 2.5);  // sqrt(5) m/s, rounded up
@@ -251,7 +276,7 @@ TEST(Arrows, StartAtTheSurfaceAndAreAsLongAsTheirLegend) {
 
 TEST(Arrows, OfForceAreGravityAndForcesTogether) {
   const Scene scene = load_text(ball_scene("gravity: [0, -10, 0]\nforces: [{uniform: [15, 0, 0]}]\narrows: [force]\n"));
-  const History history(scene);
+  const History history(scene, picture_needs(scene));
   const std::vector<Stroke> strokes = DrawingMaker(scene, history, size).at(scene.initial, camera_of(scene)).strokes;
   ASSERT_EQ(strokes.size(), 2u);
   // 2 kg: (15, -20) N, 25 N in all, as long as six radii.
@@ -262,7 +287,7 @@ TEST(Arrows, StartAtTheSurfaceOfABox) {
   const Scene scene = load_text(
       "scene: 1\nsimulate: {duration: 1}\noutput: {frames: true}\ngravity: [0, 0, 0]\narrows: [velocity]\n"
       "bodies: {box: {mass: 1, box: [0.4, 0.2, 0.2], position: [0, 0, 0], velocity: [1, 1, 0]}}\n");
-  const History history(scene);
+  const History history(scene, picture_needs(scene));
   const std::vector<Stroke> strokes = DrawingMaker(scene, history, size).at(scene.initial, camera_of(scene)).strokes;
   EXPECT_LT((strokes.front().from - Vec3(0.1, 0.1, 0)).norm(), 1e-15);
 }

@@ -62,7 +62,7 @@ double worst_error(const Scene& scene, const History& history, double from, doub
 TEST(Tracks, OfRecordedPathsAreThePositionsOfTheRun) {
   const Scene scene = load_text(bouncing + floor_plane + "trails: {seconds: 1.5}\noutput: {frames: true}\n");
   ASSERT_TRUE(overlay_needs(scene).paths);
-  History history(scene);
+  History history(scene, picture_needs(scene));
   play(scene, history, 2);
   EXPECT_LT(worst_error(scene, history, 0.5, 2), 1e-15);
 }
@@ -73,7 +73,7 @@ TEST(Tracks, OfOtherEnginesAndForcesAreThePositionsOfTheRunToAQuarterPixel) {
         std::string("forces: [{spring: {anchor: [0, 2, 0], stiffness: 30, damping: 1}}]\n")}) {
     const Scene scene = load_text(bouncing + floor_plane + more + "trails: {seconds: 1.5}\noutput: {frames: true}\n");
     ASSERT_TRUE(overlay_needs(scene).states);
-    History history(scene);
+    History history(scene, picture_needs(scene));
     play(scene, history, 2);
     // A pixel of 1280 x 720 is 4.6 mm at 4 m.
     EXPECT_LT(worst_error(scene, history, 0.5, 2), 0.0011) << more;  // 1.4e-5
@@ -126,7 +126,7 @@ struct Taken {
   std::vector<Image> pictures;
 };
 Taken pictures_of(const Scene& scene, const std::vector<double>& times, double interval) {
-  History history(scene);
+  History history(scene, picture_needs(scene));
   const auto simulator = make_simulator(scene);
   PictureSeries series(scene, {{320, 180}, 4, 0, interval, 1, 2}, history, "here");
   Taken taken;
