@@ -8,6 +8,7 @@
 #include "commands/explain.h"
 #include "commands/gather.h"
 #include "commands/new.h"
+#include "commands/plot.h"
 #include "commands/render.h"
 #include "commands/run.h"
 #include "commands/schema.h"
@@ -18,10 +19,11 @@ namespace carom {
 
 const std::vector<Command>& commands() {
   static const std::vector<Command> all = {
-      {run_text(), run_command},       {check_text(), check_command},   {sweep_text(), sweep_command},
-      {gather_text(), gather_command}, {submit_text(), submit_command}, {compare_text(), compare_command},
-      {diff_text(), diff_command},     {render_text(), render_command}, {bench_text(), bench_command},
-      {new_text(), new_command},       {schema_text(), schema_command}, {explain_text(), explain_command},
+      {run_text(), run_command},         {check_text(), check_command},   {sweep_text(), sweep_command},
+      {gather_text(), gather_command},   {submit_text(), submit_command}, {compare_text(), compare_command},
+      {diff_text(), diff_command},       {render_text(), render_command}, {plot_text(), plot_command},
+      {bench_text(), bench_command},     {new_text(), new_command},       {schema_text(), schema_command},
+      {explain_text(), explain_command},
   };
   return all;
 }

@@ -100,8 +100,7 @@ std::string row_text(const FieldPlaces& row, const Palette& palette, std::size_t
   block.line("stands at", listed(row.paths, row.paths.size()));
   const Kind* held = held_kind(field);
   if (held == nullptr) return block.text();
-  const bool one = field.type == Type::part || field.type == Type::part_or_flag;
-  block.line("keys", one ? "those below" : fmt::format("of each {}, those below", held->name));
+  block.line("keys", holds_map(field) ? "those below" : fmt::format("of each {}, those below", held->name));
   return block.text() + keys_text(*held, width);
 }
 

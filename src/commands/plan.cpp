@@ -89,6 +89,20 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
 
 }  // namespace
 
+std::vector<PlannedScene> planned_folders(const Options& options) {
+  std::vector<PlannedScene> runs;
+  for (const std::string& folder : options.operands) {
+    PlannedScene& run = runs.emplace_back();
+    run.file = folder;
+    while (run.file.size() > 1 && run.file.ends_with('/')) run.file.pop_back();
+    run.name = name_of_folder(folder);
+    run.folder = !options.output                ? run.file
+                 : options.operands.size() == 1 ? *options.output
+                                                : (fs::path(*options.output) / run.name).string();
+  }
+  return runs;
+}
+
 LoadOptions load_options(const Options& options, bool lifted) {
   LoadOptions load;
   load.set = options.set;

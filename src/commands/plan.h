@@ -41,6 +41,10 @@ std::vector<PlannedScene> plan_scenes(const Options& options, Purpose purpose = 
 std::vector<PlannedScene> plan_scenes(std::vector<PlannedScene> scenes,
                                       const std::function<void(PlannedScene&)>& check);
 
+/// The runs that the operands name by their folders, each with the folder that is to be written: the run's own, that of
+/// --output, or for several runs one in it.
+std::vector<PlannedScene> planned_folders(const Options& options);
+
 /// Options to load scenes of a command line. `lifted`: no limit on pictures and rows; hold_to_budget checks these.
 LoadOptions load_options(const Options& options, bool lifted);
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 
 #include "commands/idle_settings.h"
 #include "commands/plan.h"
@@ -17,6 +16,7 @@
 #include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/publication.h"
+#include "files/series_folders.h"
 #include "scene/motion_text.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -24,8 +24,6 @@
 #include "yaml/values.h"
 
 namespace carom {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -63,7 +61,8 @@ class Planner {
     LoadOptions load = load_options(options_, true);
     load.set.clear();
     SceneFile file(path, load);
-    auto former = std::make_shared<FormerRun>(read_former_run(planned.file, file));
+    auto former = std::make_shared<FormerRun>(
+        read_former_run(planned.file, file, [](const FormerRun&, std::string_view name) { return is_picture(name); }));
     if (is_same_folder(planned.folder, planned.file)) planned.folder = planned.file;
     std::vector<Setting> settings;
     for (const std::string& set : options_.set) settings.push_back({set, ""});
@@ -139,6 +138,11 @@ class Planner {
     if (outputs_text(kept) != outputs_text(restricted(former.scene.output, tables)))
       throw ExportError(fmt::format("--set changes one of {}, which render leaves as they are\n  carom run writes them",
                                     joined(tables, ", ")));
+    if (kept.plots && planned.scene->title != former.scene.title)
+      throw ExportError(
+          fmt::format("--set changes the title, which the charts in {}/ show and render leaves as they are\n"
+                      "  render to another folder with -o",
+                      plot_files.folder));
     for (const OutputKind& kind : output_kinds())
       if (kind.asked(output)) kind.member.add(kept, output);
     output = kept;
@@ -187,21 +191,12 @@ const CommandText& render_text() {
 int render_command(const Options& options) {
   refuse_tables(options);
   if (options.at && options.only) throw UsageError("--at draws one picture: leave out --only");
-  std::vector<PlannedScene> runs;
-  for (const std::string& folder : options.operands) {
-    PlannedScene& run = runs.emplace_back();
-    run.file = folder;
-    while (run.file.size() > 1 && run.file.ends_with('/')) run.file.pop_back();
-    run.name = name_of_folder(folder);
-    run.folder = !options.output                ? run.file
-                 : options.operands.size() == 1 ? *options.output
-                                                : (fs::path(*options.output) / run.name).string();
-  }
   const Planner planner(options);
-  runs = plan_scenes(std::move(runs), [&](PlannedScene& planned) { planner.check(planned); });
-  SceneWork still;
-  if (options.at) still = [&](const PlannedScene& planned) { return still_of(planned, options); };
-  return run_planned(options, "render", std::move(runs), still);
+  std::vector<PlannedScene> runs =
+      plan_scenes(planned_folders(options), [&](PlannedScene& planned) { planner.check(planned); });
+  if (!options.at) return run_planned(options, "render", std::move(runs));
+  return run_planned(options, "render", std::move(runs),
+                     [&](const PlannedScene& planned, const Style&, Progress&) { return still_of(planned, options); });
 }
 
 }  // namespace carom

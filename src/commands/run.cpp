@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <utility>
 
 #include "commands/batch.h"
 #include "commands/outcome_list.h"
@@ -59,6 +60,13 @@ int run_command(const Options& options) {
   return run_planned(options, "run", plan_scenes(options));
 }
 
+int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes) {
+  return run_planned(options, command, std::move(scenes),
+                     [&](const PlannedScene& planned, const Style& style, Progress& progress) {
+                       return run_one(planned, options, style, progress);
+                     });
+}
+
 int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes,
                 const SceneWork& work) {
   refuse_other_content(scenes, options);
@@ -74,10 +82,9 @@ int run_planned(const Options& options, std::string_view command, std::vector<Pl
   };
   batch.up_to_date = [&](const PlannedScene& planned) { return run_up_to_date(planned, style); };
   batch.run = [&](const PlannedScene& planned, ProgressChoice choice) {
-    if (work) return work(planned);
     Progress progress(choice, uses_color(options.color, STDERR_FILENO), label(scenes, planned),
                       planned.scene->simulate.duration, planned.forecast.frames);
-    return run_one(planned, options, style, progress);
+    return work(planned, style, progress);
   };
   batch.settle = [&](SceneOutcome outcome) { list.add(std::move(outcome)); };
   const int code = run_batch(batch, scenes, options, command);

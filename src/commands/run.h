@@ -6,6 +6,7 @@
 
 #include "commands/command_line.h"
 #include "commands/plan.h"
+#include "commands/progress.h"
 #include "commands/scene_outcome.h"
 
 namespace carom {
@@ -14,12 +15,14 @@ const CommandText& run_text();
 /// The program's exit code. Throws UsageError, Interrupted.
 int run_command(const Options& options);
 
-/// What becomes of a planned scene. Throws Interrupted.
-using SceneWork = std::function<SceneOutcome(const PlannedScene&)>;
+/// Settles one planned scene. May throw Interrupted.
+using SceneWork = std::function<SceneOutcome(const PlannedScene&, const Style&, Progress&)>;
 
-/// Runs planned scenes and reports them; `command`: for the document of --json. Returns the program's exit code.
-/// `work`: done in place of a run. May be empty.
+/// Settles planned scenes, each by `work`, and reports them; `command`: for the document of --json.
+/// Returns the program's exit code.
 int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes,
-                const SceneWork& work = {});
+                const SceneWork& work);
+/// The same by running them.
+int run_planned(const Options& options, std::string_view command, std::vector<PlannedScene> scenes);
 
 }  // namespace carom

@@ -7,6 +7,7 @@
 
 #include "commands/interrupt.h"
 #include "commands/text.h"
+#include "overlay/history.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -38,8 +39,13 @@ RunSettings settings_of(const PlannedScene& planned, bool quiet) {
 
 std::function<std::unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedScene& planned, bool quiet) {
   const FormerRun& former = *planned.former;
-  if (former.has_flights()) return [&former](const Scene& scene) { return former.motion(scene); };
-  if (!quiet) write_err(fmt::format("{}: no flights are stored: simulating again\n", printable(former.folder)));
+  const OverlayNeeds needs = overlay_needs(*planned.scene);
+  const bool collisions = needs.collisions || needs.collision_counts;
+  if (former.has_flights() && !collisions) return [&former](const Scene& scene) { return former.motion(scene); };
+  if (!quiet)
+    write_err(fmt::format(
+        "{}: {}: simulating again\n", printable(former.folder),
+        former.has_flights() ? "the pictures show collisions, which flights do not hold" : "no flights are stored"));
   return {};
 }
 

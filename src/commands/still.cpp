@@ -10,6 +10,7 @@
 #include "commands/text.h"
 #include "export/png.h"
 #include "files/open_folder.h"
+#include "overlay/history.h"
 #include "run/still.h"
 #include "scene/scene.h"
 #include "yaml/values.h"
@@ -22,8 +23,12 @@ std::string draw(const PlannedScene& planned, double time, bool quiet) {
   EngineChoice engine = planned.engine;
   const std::function<std::unique_ptr<Simulator>(const Scene&)> replay = replay_of(planned, quiet);
   if (!replay) settle_steps(scene, engine, stop_if_interrupted);
-  const auto motion = [&] { return replay ? replay(scene) : make_simulator(scene, {}, engine.steps); };
-  const std::string picture = encode_png(draw_still(scene, time, motion, stop_if_interrupted));
+  const OverlayNeeds needs = overlay_needs(scene);
+  const auto motion = [&] {
+    return replay ? replay(scene) : make_simulator(scene, {needs.collisions, needs.paths}, engine.steps);
+  };
+  const std::string picture =
+      encode_png(draw_still(scene, name_of_folder(planned.folder), time, motion, stop_if_interrupted));
 
   OpenFolder folder(planned.folder);
   OutputFile file(folder.place(), fmt::format("still_{}s.png", shortest(time)));

@@ -14,6 +14,7 @@
 #include "files/stored_file.h"
 #include "physics/world.h"
 #include "render/mesh.h"
+#include "run/stored_trajectory.h"
 #include "scene/load.h"
 #include "scene/scene.h"
 
@@ -139,16 +140,6 @@ MotionColumns motion_columns(const StoredTable& trajectory, const std::vector<st
   for (const std::string& body : bodies)
     columns.first.push_back(trajectory.find(fmt::format("{}.{}", body, name_of(Quantity::x))).value_or(0));
   return columns;
-}
-
-bool read_motion(const std::vector<std::string_view>& cells, std::size_t first, Vec3& position, Vec3& velocity) {
-  if (first + motion_size > cells.size()) return false;
-  for (std::size_t k = 0; k < motion_size; ++k) {
-    const auto number = number_in(cells[first + k]);
-    if (!number) return false;
-    (k < 3 ? position : velocity)[static_cast<int>(k % 3)] = *number;
-  }
-  return true;
 }
 
 std::vector<EndMotion> end_of_trajectory(const RunRecord& run) {

@@ -43,9 +43,6 @@ struct MotionColumns {
 /// `bodies`: names as in trajectory.csv.
 MotionColumns motion_columns(const StoredTable& trajectory, const std::vector<std::string>& bodies);
 
-/// Reads six numbers from cell `first` on. False: a cell is empty, because the body has merged into another.
-bool read_motion(const std::vector<std::string_view>& cells, std::size_t first, Vec3& position, Vec3& velocity);
-
 /// The motion of a body at the end of a run.
 struct EndMotion {
   std::string body;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "files/stored_file.h"
+#include "run/stored_trajectory.h"
 
 namespace carom {
 namespace {

@@ -10,6 +10,7 @@
 #include "export/film.h"
 #include "export/frame_files.h"
 #include "export/picture_streams.h"
+#include "export/plot.h"
 #include "export/png.h"
 #include "export/sheet.h"
 #include "export/tables.h"
@@ -43,7 +44,7 @@ void append(std::vector<FileRecord>& to, const std::vector<FileRecord>& records)
 struct Exports::Impl {
   struct OpenWriter {
     std::unique_ptr<Writer> writer;
-    int timeline_stream;  // -1: it writes no states
+    std::vector<int> timeline_streams;  // empty: it writes no states
   };
 
   // Refuse what can be refused here, before the folder is changed.
@@ -58,16 +59,20 @@ struct Exports::Impl {
     const std::vector<MeshCopy> meshes = read_meshes(scene);
     std::optional<FilmTools> tools;
     if (output.video) tools = find_film_tools();
+    if (renewed != nullptr) kept = kept_files(*renewed);
+    if (draws_plots()) find_gnuplot();
 
     folder.emplace(path, durability);
-    if (renewed != nullptr) kept = kept_files(*renewed);
     first_records = renewed != nullptr ? folder->renew(scene, meshes) : folder->begin(scene, meshes);
     for (const OutputKind& kind : output_kinds()) {
       const WriterKind* writer = writer_named(kind.name);
       if (writer == nullptr || !kind.asked(output) || keeps(kind)) continue;
-      const int ticks =
-          kind.is_sampled() ? timeline.add(Ticks::every(kind.every(output), scene.simulate.duration)) : -1;
-      writers.push_back({writer->open(*folder, scene, makers), ticks});
+      OpenWriter& open = writers.emplace_back();
+      if (kind.is_sampled())
+        open.timeline_streams = {timeline.add(Ticks::every(kind.every(output), scene.simulate.duration))};
+      if (writer->ticks != nullptr)
+        for (const Ticks& ticks : writer->ticks(scene)) open.timeline_streams.push_back(timeline.add(ticks));
+      open.writer = writer->open(*folder, scene, makers);
     }
     if (output.frames) frames.emplace(*folder, share_of_processors());
     if (output.video) film.emplace(folder->place(), *output.video, std::move(*tools));
@@ -87,8 +92,16 @@ struct Exports::Impl {
   bool keeps(const OutputKind& kind) const {
     return std::any_of(kept.begin(), kept.end(), [&](const FileRecord& file) { return output_of(file.name) == &kind; });
   }
+  bool draws_plots() const {
+    return scene.output.plots &&
+           std::none_of(output_kinds().begin(), output_kinds().end(),
+                        [&](const OutputKind& kind) { return kind.series.folder == plot_files.folder && keeps(kind); });
+  }
 
-  bool due(int stream) const { return stream >= 0 && timeline.due(stream); }
+  bool due(const OpenWriter& open) const {
+    return std::any_of(open.timeline_streams.begin(), open.timeline_streams.end(),
+                       [&](int stream) { return timeline.due(stream).has_value(); });
+  }
 
   const Scene& scene;
   const ModelMakers makers;
@@ -119,15 +132,16 @@ Timeline& Exports::timeline() {
 
 bool Exports::needs_state() const {
   const auto& streams = impl_->plan.streams;
-  const auto due = [&](const auto& stream) { return impl_->due(stream.timeline_stream); };
-  return std::any_of(impl_->writers.begin(), impl_->writers.end(), due) ||
-         std::any_of(streams.begin(), streams.end(), due);
+  return std::any_of(impl_->writers.begin(), impl_->writers.end(),
+                     [&](const Impl::OpenWriter& open) { return impl_->due(open); }) ||
+         std::any_of(streams.begin(), streams.end(), [&](const PictureStream& stream) {
+           return impl_->timeline.due(stream.timeline_stream).has_value();
+         });
 }
 
 bool Exports::needs_contacts() const {
-  return std::any_of(impl_->writers.begin(), impl_->writers.end(), [&](const Impl::OpenWriter& open) {
-    return impl_->due(open.timeline_stream) && open.writer->needs_contacts();
-  });
+  return std::any_of(impl_->writers.begin(), impl_->writers.end(),
+                     [&](const Impl::OpenWriter& open) { return impl_->due(open) && open.writer->needs_contacts(); });
 }
 
 void Exports::record(std::span<const Collision> collisions) {
@@ -141,7 +155,7 @@ void Exports::record_paths(std::span<const PathPiece> pieces) {
 void Exports::sample(const State& state, std::span<const ContactForce> contacts) {
   const double time = impl_->timeline.time();
   for (const Impl::OpenWriter& open : impl_->writers)
-    if (impl_->due(open.timeline_stream)) open.writer->add(time, state, contacts);
+    if (impl_->due(open)) open.writer->add(time, state, contacts);
 }
 
 const std::vector<PictureStream>& Exports::pictures() const {

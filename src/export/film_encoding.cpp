@@ -1,8 +1,8 @@
 // Every film has a fixed number of threads and no version numbers, so that the same pictures give the same bytes.
 //
-// H.264 has the preset veryfast. Against medium at crf 18 it took 2.5 times less CPU (4 to 11 ms a picture of 1280 x
-// 720), with files from 23 % smaller to 6 % larger and 1.3 to 2.3 dB less (44.8 to 52.4 dB; the first scene, the
-// billiard break, the ten pins and the gas). superfast saves no more, and its files are 1.6 to 4 times as large.
+// H.264 has the preset veryfast. Against medium at crf 18 it took 0.4 to 0.7 of the CPU (4 to 10 ms a picture of
+// 1280 x 720), with files from 16 % smaller to 4 % larger and 1.3 to 2.4 dB less (45.6 to 56.4 dB; the first scene, the
+// billiard break, the ten pins and the gas). superfast saves little more, and its files are 1.6 to 2.8 times as large.
 //
 // A GIF takes two runs. The palette depends on all pictures, and ffmpeg alone would keep all of them in memory: 5 MB
 // for each one of 1280 x 720. The first run stores them without loss and makes the palette, the second one applies it.

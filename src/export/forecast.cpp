@@ -32,6 +32,8 @@ constexpr double sample_s = 3e-9;
 constexpr double png_pixel_s = 4e-9;
 // For a pixel of a film.
 constexpr double film_pixel_s = 8e-9;
+// For the charts of plots/.
+constexpr double plots_s = 0.35;
 // For a byte of a table.
 constexpr double table_byte_s = 1e-8;
 
@@ -57,7 +59,7 @@ Forecast forecast(const Scene& scene) {
     if (const WriterKind* writer = writer_named(kind.name)) bytes += writer->bytes(scene, instants(kind));
     if (kind.name == "trajectory") rows += instants(kind) * bodies;
   }
-  double seconds = 0.005 + bytes * table_byte_s;
+  double seconds = 0.005 + bytes * table_byte_s + (output.plots ? plots_s : 0);
   const PictureStreams plan = plan_pictures(scene);
   for (std::size_t i = 0; i < plan.streams.size(); ++i) {
     const auto count = static_cast<double>(plan.ticks[i].count());

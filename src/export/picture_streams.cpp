@@ -6,6 +6,7 @@
 
 #include "export/sheet.h"
 #include "files/run_folder.h"
+#include "scene/film_format.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -27,10 +28,21 @@ Ticks ticks_of(const SheetOutput& sheet, double duration) {
   return Ticks::even(std::int64_t{sheet.columns} * sheet.rows, sheet.from, end_of(sheet.until, duration));
 }
 
-void add(PictureStreams& plan, Size size, int samples, const Ticks& ticks, const PictureUse& use) {
-  plan.streams.push_back({size, samples, static_cast<int>(plan.streams.size())});
+void add(PictureStreams& plan, Size size, const PictureOutput& model, double speed, const Ticks& ticks,
+         const PictureUse& use) {
+  const int number = static_cast<int>(plan.streams.size());
+  plan.streams.push_back({size, model.samples, number, speed / model.fps, speed, ticks.decimals()});
   plan.uses.push_back(use);
   plan.ticks.push_back(ticks);
+}
+
+/// Whether the pictures of the frames are those of the film.
+bool shows_film(const Scene& scene, const PictureStream& frames, const Ticks& of_frames, const Ticks& of_film) {
+  const VideoOutput& video = *scene.output.video;
+  const bool same_flashes = !scene.overlay.flash || frames.speed == video.speed;
+  const bool same_blur = scene.overlay.shutter == 0 || frames.interval == video.speed / video.fps;
+  return frames.size == video.size && frames.samples == video.samples && of_frames.has_times_of(of_film) &&
+         same_flashes && same_blur;
 }
 
 }  // namespace
@@ -38,6 +50,12 @@ void add(PictureStreams& plan, Size size, int samples, const Ticks& ticks, const
 PictureOutput sheet_model(const Output& output) {
   if (output.frames) return *output.frames;
   return output.video ? static_cast<const PictureOutput&>(*output.video) : PictureOutput{};
+}
+
+PictureStream still_stream(const Scene& scene, double time) {
+  const PictureOutput model = sheet_model(scene.output);
+  const double speed = scene.output.frames || !scene.output.video ? 1 : scene.output.video->speed;
+  return {model.size, model.samples, 0, speed / model.fps, speed, Ticks::even(1, time, time).decimals()};
 }
 
 std::vector<Ticks> shown_instants(const Scene& scene) {
@@ -56,22 +74,24 @@ PictureStreams plan_pictures(const Scene& scene) {
   const double duration = scene.simulate.duration;
   PictureStreams plan;
   if (const auto& frames = output.frames)
-    add(plan, frames->size, frames->samples, ticks_of(*frames, duration), {true, false, false});
+    add(plan, frames->size, *frames, 1, ticks_of(*frames, duration), {true, false, false});
   if (const auto& video = output.video) {
     const Ticks ticks = ticks_of(*video, duration);
     if (ticks.count() < 1)
       throw ExportError("cannot make " + video->file + ": no picture falls between `from` and `until`");
-    const auto& frames = output.frames;
-    if (frames && frames->size == video->size && frames->samples == video->samples &&
-        plan.ticks.front().has_times_of(ticks))
-      plan.uses.front().film = true;
+    if (scene.transparent && film_format(video->file) == FilmFormat::mp4)
+      throw ExportError("cannot make " + video->file + ": an MP4 has no transparency, and `background` is `none`; " +
+                        "write frames, a .gif or a .webp, or give the background a colour");
+    if (plan.streams.empty() || !shows_film(scene, plan.streams.front(), plan.ticks.front(), ticks))
+      add(plan, video->size, *video, video->speed, ticks, {false, true, false});
     else
-      add(plan, video->size, video->samples, ticks, {false, true, false});
+      plan.uses.front().film = true;
   }
   if (output.sheet) {
     const PictureOutput model = sheet_model(output);
     const Sheet sheet(*output.sheet, model.size);
-    add(plan, sheet.picture_size(), model.samples, ticks_of(*output.sheet, duration), {false, false, true});
+    const double speed = output.frames || !output.video ? 1 : output.video->speed;
+    add(plan, sheet.picture_size(), model, speed, ticks_of(*output.sheet, duration), {false, false, true});
   }
   return plan;
 }

@@ -14,6 +14,9 @@ struct PictureStream {
   Size size;
   int samples = 4;
   int timeline_stream = 0;
+  double interval = 1.0 / 30;  // s, simulated, from picture to picture of a film
+  double speed = 1;            // simulated seconds a second of a film
+  int decimals = 3;            // with which times of pictures are written
 };
 
 /// The uses of one PictureStream.
@@ -31,6 +34,9 @@ struct PictureStreams {
 /// One stream for frames and film if they agree in size, quality and instants, so that each picture is drawn once.
 /// Throws ExportError for a film or a sheet that is impossible.
 PictureStreams plan_pictures(const Scene& scene);
+
+/// One picture at `time` (s) as a frame shows it, or without frames the film.
+PictureStream still_stream(const Scene& scene, double time);
 
 /// The instants of all pictures that the scene requests, whichever of them --only leaves. If it requests none, those of
 /// the pictures that --only adds, else the keyframes of gltf.

@@ -52,7 +52,9 @@ void write_name(OutputFile& file, const Roster& roster, Entity bodies, Entity en
   }
 }
 
-std::string_view kind_name(CollisionKind kind) {
+}  // namespace
+
+std::string_view name_of(CollisionKind kind) {
   switch (kind) {
     case CollisionKind::body_body:
       return "body-body";
@@ -66,7 +68,12 @@ std::string_view kind_name(CollisionKind kind) {
   return "";
 }
 
-}  // namespace
+std::optional<CollisionKind> collision_kind_named(std::string_view name) {
+  for (const CollisionKind kind :
+       {CollisionKind::body_body, CollisionKind::body_fixed, CollisionKind::rest, CollisionKind::merge})
+    if (name_of(kind) == name) return kind;
+  return std::nullopt;
+}
 
 TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
     : scene_(scene), file_(place, "trajectory.csv"), blocks_([this](Block& block) { write(block); }, blocks_alone) {
@@ -186,7 +193,7 @@ void CollisionTable::write(std::vector<Collision>& collisions) {
   for (const Collision& collision : collisions) {
     file_.written(put_number(file_.room(number_size), collision.time));
     file_.write(",");
-    file_.write(kind_name(collision.kind));
+    file_.write(name_of(collision.kind));
     for (const Entity entity : {collision.a, collision.b}) write_name(file_, roster_, bodies_, entity);
     char* to = put_motion(file_.room(motion_size + 5 * (number_size + 1) + 1), collision.position, collision.normal);
     for (const double value : {collision.approach_speed, collision.separation_speed, collision.restitution,

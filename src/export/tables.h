@@ -1,7 +1,9 @@
 #pragma once
 // The CSV files of a run. Each is made only if the scene requests it.
 // Long tables format their numbers on a background thread.
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "export/writer.h"
@@ -16,6 +18,11 @@ struct Scene;
 struct World;
 
 struct Summary;
+
+/// As in the column `kind` of collisions.csv.
+std::string_view name_of(CollisionKind kind);
+/// None: no kind has this name.
+std::optional<CollisionKind> collision_kind_named(std::string_view name);
 
 /// trajectory.csv. Long form: a row for each body and instant, by time then body.
 /// Wide form: a row for each instant, six columns for each body:

@@ -142,6 +142,18 @@ bool Ticks::has_times_of(const Ticks& other) const {
          (count() == 0 || (at(first_) == other.at(other.first_) && at(last_) == other.at(other.last_)));
 }
 
+int Ticks::decimals() const {
+  constexpr int most = 6;
+  double interval = numerator_ / denominator_;
+  if (count() < 2 || !(interval > 0)) interval = 1;
+  const auto is_whole = [](double x) { return std::abs(x - std::round(x)) < 1e-6; };
+  double power = 1;
+  for (int i = 0; i <= most; ++i, power *= 10)
+    if (is_whole(at(first_) * power) && is_whole(at(last_) * power) && (count() < 2 || is_whole(interval * power)))
+      return i;
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(interval))), 0, 17);
+}
+
 Timeline::Timeline(double duration) : duration_(duration) {}
 
 int Timeline::add(const Ticks& ticks) {
@@ -169,6 +181,11 @@ bool Timeline::advance() {
 std::optional<std::int64_t> Timeline::due(int stream) const {
   const Stream& s = streams_.at(static_cast<std::size_t>(stream));
   return s.due ? std::optional(s.next) : std::nullopt;
+}
+
+std::optional<double> Timeline::next(int stream) const {
+  const Stream& s = streams_.at(static_cast<std::size_t>(stream));
+  return s.next <= s.ticks.last() ? std::optional(s.ticks.at(s.next)) : std::nullopt;
 }
 
 }  // namespace carom

@@ -24,6 +24,9 @@ class Ticks {
   std::int64_t last() const { return last_; }  // first() - 1: none
   std::int64_t count() const { return last_ - first_ + 1; }
   double at(std::int64_t i) const;  // s
+  /// The decimals with which times of ticks are written: all of them, if these are at most 6. Else so many that
+  /// rounding is at most a twentieth of the interval.
+  int decimals() const;
   /// Whether both have the same instants, with any numbers.
   bool has_times_of(const Ticks& other) const;
 
@@ -47,6 +50,8 @@ class Timeline {
   double time() const { return time_; }  // s
   /// The tick's number if this stream is due.
   std::optional<std::int64_t> due(int stream) const;
+  /// The time (s) of the stream's next tick, which may be due. None: none is left.
+  std::optional<double> next(int stream) const;
 
  private:
   struct Stream {

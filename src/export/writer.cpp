@@ -3,6 +3,7 @@
 
 #include "export/flights_file.h"
 #include "export/gltf.h"
+#include "export/plots_writer.h"
 #include "export/tables.h"
 #include "export/vtk.h"
 #include "export/xyz.h"
@@ -28,6 +29,9 @@ constexpr double collision_bytes = 260;
 constexpr double contact_bytes = 40;
 // A piece of a path in flights.bin.
 constexpr double path_bytes = 100;
+
+// The files of plots/.
+constexpr double plots_bytes = 5e5;
 
 template <typename Table>
 std::unique_ptr<Writer> open(OpenFolder& folder, const Scene& scene, const ModelMakers&) {
@@ -67,6 +71,11 @@ constexpr WriterKind all_kinds[] = {
     // The number of pieces is unknown. Three for each body are assumed.
     {"flights", open<FlightsFile>,
      [](const Scene& scene, double) { return 3 * path_bytes * scene.world.body_count(); }},
+    {"plots",
+     [](OpenFolder& folder, const Scene& scene, const ModelMakers&) -> std::unique_ptr<Writer> {
+       return std::make_unique<PlotsWriter>(folder, scene);
+     },
+     [](const Scene&, double) { return plots_bytes; }, PlotsWriter::ticks},
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "export/timeline.h"
 #include "files/open_folder.h"
 #include "files/output_file.h"
 #include "physics/collision.h"
@@ -47,6 +48,8 @@ struct WriterKind {
   std::unique_ptr<Writer> (*open)(OpenFolder& folder, const Scene& scene, const ModelMakers& makers);
   /// An estimate of the bytes of all its files at this number of instants.
   double (*bytes)(const Scene& scene, double instants);
+  /// The instants at which it takes states, if not those of OutputKind::every.
+  std::vector<Ticks> (*ticks)(const Scene& scene) = nullptr;
 };
 
 /// In the order of output_kinds().

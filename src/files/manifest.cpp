@@ -3,6 +3,8 @@
 // The depth of brackets is checked before parsing.
 #include "files/manifest.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +12,7 @@
 
 #include "files/hash.h"
 #include "files/mesh_copies.h"
+#include "files/run_folder.h"
 #include "files/series_folders.h"
 #include "files/stored_file.h"
 #include "scene/output_kinds.h"
@@ -71,6 +74,13 @@ std::optional<FileRecord> file_record(const Json& json) {
   return record;
 }
 
+Json files_json(const std::vector<FileRecord>& files) {
+  Json list = Json::array();
+  for (const FileRecord& file : files)
+    list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
+  return list;
+}
+
 std::string whole_text(const Json& of_scene, const std::string& outputs, const Json& meshes, const std::string& facts,
                        const std::vector<FileRecord>& files) {
   Json json;
@@ -80,10 +90,7 @@ std::string whole_text(const Json& of_scene, const std::string& outputs, const J
   json["outputs"] = json_of_text(outputs);
   json.update(meshes);
   json.update(json_of_text(facts));
-  Json list = Json::array();
-  for (const FileRecord& file : files)
-    list.push_back({{"name", file.name}, {"bytes", file.bytes}, {"sha256", file.sha256}});
-  json["files"] = std::move(list);
+  json["files"] = files_json(files);
   return text_of_json(json, 2) + "\n";
 }
 
@@ -122,6 +129,23 @@ std::string manifest_text(const Scene& scene, const Summary& summary, const RunF
   for (const Warning& warning : summary.warnings)
     json["warnings"].push_back({{"code", warning.code}, {"text", warning.text}});
   return manifest_text(scene, outputs_text(scene.output), text_of_json(json), files);
+}
+
+std::string changed_manifest(const std::string& text, const Scene& scene, const std::vector<FileRecord>& files) {
+  const Output& output = scene.output;
+  Json json = json_of_text(text);
+  if (!json.is_object()) throw ExportError("the run's manifest.json cannot be read");
+  json["scene"]["sha256"] = sha256(scene.resolved);
+  json["outputs"] = outputs_json(output);
+  json["files"] = files_json(files);
+  if (!output.pictures() && json.contains("counts")) json["counts"]["frames"] = 0;
+  Json left_out = Json::object();
+  if (const auto found = json.find("left_out"); found != json.end() && found->is_object())
+    for (const auto& [file, why] : found->items())
+      if (const OutputKind* kind = output_of(file); kind != nullptr && kind->asked(output)) left_out[file] = why;
+  json.erase("left_out");
+  if (!left_out.empty()) json["left_out"] = std::move(left_out);
+  return text_of_json(json, 2) + "\n";
 }
 
 std::optional<Manifest> read_manifest(int folder, const std::string& name) {
@@ -169,6 +193,9 @@ std::vector<std::string> run_files(const Scene& scene, const Output& output) {
     if (!mesh.copy.empty()) names.push_back(mesh.copy);
   }
   for (std::string& name : output_files(output)) names.push_back(std::move(name));
+  for (const OutputKind& kind : output_kinds())
+    for (const std::string_view name : parts_of(kind.series.names))
+      if (kind.asked(output)) names.push_back(fmt::format("{}/{}", kind.series.folder, name));
   return names;
 }
 

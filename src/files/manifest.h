@@ -51,6 +51,11 @@ std::string manifest_text(const std::string& outputs, const std::string& facts, 
 std::string manifest_text(const Scene& scene, const Summary& summary, const RunFacts& facts,
                           const std::vector<FileRecord>& files);
 
+/// The text of a run's manifest with the outputs of `scene`, which has the same motion, and with other files.
+/// The number of pictures and the files given up remain as far as the outputs have them, and all else remains.
+/// Throws ExportError for a text that is no manifest.
+std::string changed_manifest(const std::string& text, const Scene& scene, const std::vector<FileRecord>& files);
+
 /// A manifest that this program wrote.
 /// None if the file is absent, incomplete, another program's, or names files that no run writes.
 std::optional<Manifest> read_manifest(int folder, const std::string& name);
@@ -61,7 +66,7 @@ inline constexpr std::array<const char*, 3> bench_files = {"bench.csv", "bench.p
 /// Whether a run may write a file of this name: a plain one, or one of a series: frames/frame_<digits>.png.
 bool is_run_file(std::string_view name);
 
-/// The files of a run of this scene with these outputs, without series.
+/// The files of a run of this scene with these outputs, without numbered ones.
 std::vector<std::string> run_files(const Scene& scene, const Output& output);
 
 /// The text with invalid UTF-8 replaced.

@@ -100,10 +100,10 @@ bool is_whole_since(const std::string& path, const std::string& mark) {
   return all_files(folder.get(), *manifest, unchanged);
 }
 
-std::string wrong_file(int folder, const Manifest& manifest) {
+std::string wrong_file(int folder, const Manifest& manifest, const std::function<bool(std::string_view name)>& spared) {
   SeriesFolders folders(folder);
   for (const FileRecord& file : manifest.files) {
-    if (is_picture(file.name)) continue;
+    if (spared(file.name)) continue;
     const FileSpot spot = folders.spot(file.name);
     if (spot.folder < 0 || !has_size(spot, file) || !has_hash(spot, file)) return file.name;
   }
@@ -134,7 +134,15 @@ FoundFolder find_folder(const std::string& path) {
 }
 
 FolderContent inspect_folder(const std::string& path, const Scene& scene) {
-  return inspect_folder(path, scene, outputs_text(scene.output), run_files(scene, scene.output));
+  const std::vector<std::string> files = run_files(scene, scene.output);
+  const FolderContent content = inspect_folder(path, scene, outputs_text(scene.output), files);
+  const bool changed = content == FolderContent::incomplete || content == FolderContent::more;
+  if (!changed || scene.output.plots) return content;
+  // Charts that were added to a run leave it whole.
+  Output charted = scene.output;
+  charted.plots = true;
+  return inspect_folder(path, scene, outputs_text(charted), files) == FolderContent::this_run ? FolderContent::this_run
+                                                                                              : content;
 }
 
 FolderContent inspect_folder(const std::string& path, const Scene& scene, const std::string& outputs,

@@ -1,7 +1,9 @@
 #pragma once
 // The folder that a run writes: its present content, and whether files in it are complete.
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "files/output_file.h"
@@ -46,8 +48,8 @@ bool is_whole_since(const std::string& folder, const std::string& mark);
 
 struct Manifest;
 
-/// The first of the manifest's files, pictures excluded, that lacks its size or hash. Empty: none.
-std::string wrong_file(int folder, const Manifest& manifest);
+/// The first of the manifest's files that lacks its size or hash. Empty: none. `spared`: files that may.
+std::string wrong_file(int folder, const Manifest& manifest, const std::function<bool(std::string_view name)>& spared);
 
 /// A folder as found.
 struct FoundFolder {
@@ -60,7 +62,7 @@ struct FoundFolder {
 /// Throws ExportError if the folder exists and cannot be opened.
 FoundFolder find_folder(const std::string& folder);
 
-/// The content of `folder`, from its manifest.json. Changes nothing.
+/// The content of `folder`, from its manifest.json. Changes nothing. A run with charts besides is this_run too.
 FolderContent inspect_folder(const std::string& folder, const Scene& scene);
 /// The same for a folder that is not a run's. `outputs`: as in its manifest. `files`: those it must have.
 FolderContent inspect_folder(const std::string& folder, const Scene& scene, const std::string& outputs,

@@ -6,8 +6,12 @@
 
 namespace carom {
 
-std::string Series::put(std::int64_t number, std::string_view bytes) {
-  OutputFile file(place_, files_.name(number));
+std::string Series::put(const std::string& name, std::string_view bytes) {
+  return put(static_cast<std::int64_t>(records_.size()), name, bytes);
+}
+
+std::string Series::put(std::int64_t number, const std::string& file_name, std::string_view bytes) {
+  OutputFile file(place_, file_name);
   // In one piece, so that a large file starts no thread of its own.
   char* const to = file.room(bytes.size());
   std::memcpy(to, bytes.data(), bytes.size());

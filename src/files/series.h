@@ -1,5 +1,5 @@
 #pragma once
-// Numbered files in a folder of their own (frames/, vtk/). Each file is complete when its name appears.
+// Files of one output in a folder of their own (frames/, vtk/, plots/). Each file is complete when its name appears.
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -17,11 +17,15 @@ class Series {
   /// Makes the folder. Both arguments must outlive this object. Throws ExportError, as all functions of this class do.
   Series(OpenFolder& folder, const FileSeries& files) : folder_(folder), files_(files), place_(folder.series(files)) {}
   /// Returns the file's name relative to the run's folder. May be called by several threads.
-  std::string put(std::int64_t number, std::string_view bytes);
-  /// In the order of the numbers; names relative to the run's folder.
+  std::string put(std::int64_t number, std::string_view bytes) { return put(number, files_.name(number), bytes); }
+  /// `name`: one of the series' names. From one thread.
+  std::string put(const std::string& name, std::string_view bytes);
+  /// In the order of the numbers, or of the calls; names relative to the run's folder.
   std::vector<FileRecord> records() const;
 
  private:
+  std::string put(std::int64_t number, const std::string& name, std::string_view bytes);
+
   OpenFolder& folder_;
   const FileSeries& files_;
   FilePlace place_;

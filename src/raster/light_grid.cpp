@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <tuple>
 
 namespace carom::raster {
 namespace {
@@ -191,36 +190,6 @@ void LightGrid::sort_into_cells(const Shot& shot) {
   }
 }
 
-/// Copies the balls of each cell to packs.
-void LightGrid::pack_balls(const Shot& shot) {
-  constexpr std::size_t wide = std::tuple_size_v<decltype(BallPack::x)>;
-  packs.first.resize(cells() + 1);
-  std::uint32_t count = 0;
-  for (std::size_t cell = 0; cell < cells(); ++cell) {
-    packs.first[cell] = count;
-    count += static_cast<std::uint32_t>((balls.of(cell).size() + wide - 1) / wide);
-  }
-  packs.first.back() = count;
-  packs.packs.resize(count), packs.last_place.resize(count);
-  for (std::size_t cell = 0; cell < cells(); ++cell) {
-    std::span<const std::uint32_t> left = balls.of(cell);
-    for (std::uint32_t k = packs.first[cell]; k < packs.first[cell + 1]; ++k) {
-      BallPack& to = packs.packs[k];
-      const std::span<const std::uint32_t> members = left.first(std::min(left.size(), wide));
-      left = left.subspan(members.size());
-      for (std::size_t i = 0; i < members.size(); ++i) {
-        const Solid& s = shot.solids[members[i]];
-        to.x[i] = s.center[0], to.y[i] = s.center[1], to.z[i] = s.center[2], to.radius[i] = s.radius;
-        to.solid[i] = static_cast<std::int32_t>(members[i]);
-      }
-      for (std::size_t i = members.size(); i < wide; ++i)
-        to.x[i] = to.y[i] = to.z[i] = to.radius[i] = 0, to.solid[i] = -1;
-      packs.last_place[k] =
-          members.size() == wide ? towards_light[members.back()] : std::numeric_limits<float>::infinity();
-    }
-  }
-}
-
 void LightGrid::fill(const Shot& shot) {
   for (LightCells* cells : {&balls, &others}) cells->members.clear(), cells->start.assign(1, 0);
   if (shot.solids.empty()) return;
@@ -240,7 +209,7 @@ void LightGrid::fill(const Shot& shot) {
   order_.sort(towards_light);
   find_rects(shot);
   sort_into_cells(shot);
-  pack_balls(shot);
+  packs.fill(shot, balls, towards_light);
 }
 
 }  // namespace carom::raster

@@ -1,38 +1,14 @@
 #pragma once
 // The solids that may shade a point, by a grid of the directions across the key light.
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
+#include "raster/ball_packs.h"
 #include "raster/radix_sort.h"
 #include "raster/shot.h"
 
 namespace carom::raster {
-
-/// Solids by cell, in each cell from the farthest to the light to the nearest.
-struct LightCells {
-  std::vector<std::size_t> start;
-  std::vector<std::uint32_t> members;
-  std::span<const std::uint32_t> of(std::size_t cell) const {
-    return {members.data() + start[cell], start[cell + 1] - start[cell]};
-  }
-};
-
-/// Sixteen balls of a cell, for a test of all of them at a time. Radius 0: there are fewer.
-struct BallPack {
-  alignas(64) std::array<float, 16> x, y, z, radius;  // m
-  std::array<std::int32_t, 16> solid;                 // number
-};
-
-/// The balls of all cells, in the order of LightCells.
-struct BallPacks {
-  std::vector<std::uint32_t> first;  // by cell, and one more
-  std::vector<BallPack> packs;
-  /// The largest LightGrid::towards_light of a full pack; of others infinity.
-  std::vector<float> last_place;
-};
 
 /// Where the cells of a face are.
 struct LightExtent {
@@ -45,6 +21,8 @@ struct LightExtent {
 /// Parallel light has one plane grid, a lamp the six faces of a cube around it.
 class LightGrid {
  public:
+  /// Sorts the solids into the cells of the key light, the first of at least one lamp. The memory of the last picture
+  /// is used again.
   void fill(const Shot& shot);
 
   bool empty() const { return balls.members.empty() && others.members.empty(); }
@@ -69,7 +47,6 @@ class LightGrid {
   double find_blurs(const Shot& shot);
   void find_rects(const Shot& shot);
   void sort_into_cells(const Shot& shot);
-  void pack_balls(const Shot& shot);
 
   std::vector<float> blur_;                          // m, the most by solid
   std::vector<CellRect> rects_;                      // of all solids

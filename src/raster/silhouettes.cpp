@@ -1,104 +1,14 @@
-// Computes outlines. A ball has an ellipse, by which its edge is smooth and its depth free of cancellation. A box, a
-// cylinder and a wall have the convex hull of their corners, cut at the near plane. A cylinder's rims are polygons so
-// fine that they deviate by less than a twentieth of a pixel.
+// Computes outlines. A ball has an ellipse, by which its edge is smooth and its depth free of cancellation.
 #include "raster/silhouettes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <utility>
 
 #include "raster/outline.h"
+#include "raster/polygon.h"
 
 namespace carom::raster {
 namespace {
-
-/// In the plane z = 1.
-struct PlanePoint {
-  double x, y;
-};
-
-double side(const PlanePoint& a, const PlanePoint& b, const PlanePoint& p) {
-  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-}
-
-/// The convex hull, counterclockwise, by the monotone chain (Andrew 1979).
-std::vector<PlanePoint> hull_of(std::vector<PlanePoint> points) {
-  if (points.size() < 3) return {};
-  std::sort(points.begin(), points.end(),
-            [](const PlanePoint& a, const PlanePoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  std::vector<PlanePoint> hull;
-  for (int half = 0; half < 2; ++half) {
-    const std::size_t start = hull.size();
-    for (const PlanePoint& p : points) {
-      while (hull.size() >= start + 2 && side(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
-
-Vec3 vec(const Float3& v) {
-  return {v[0], v[1], v[2]};
-}
-
-/// Collects the projections of a polyhedron's edges, as far as they are before the near plane.
-class Projection {
- public:
-  explicit Projection(double near) : near_(near) {}
-  void add(Vec3 a, Vec3 b) {
-    if (a.z() < b.z()) std::swap(a, b);
-    if (a.z() <= near_) return;
-    points_.push_back({a.x() / a.z(), a.y() / a.z()});
-    if (b.z() <= near_) b = a + (a.z() - near_) / (a.z() - b.z()) * (b - a);
-    const double z = std::max(b.z(), near_);
-    points_.push_back({b.x() / z, b.y() / z});
-  }
-  std::vector<PlanePoint> hull() { return hull_of(std::move(points_)); }
-
- private:
-  double near_;
-  std::vector<PlanePoint> points_;
-};
-
-void project_box(const Lens& lens, const Solid& solid, Projection& to) {
-  const auto corner = [&](int k) {
-    Vec3 p = vec(solid.center);
-    for (std::size_t i = 0; i < 3; ++i) p += (k >> i & 1 ? 1 : -1) * double{solid.half[i]} * vec(lens.axes[i]);
-    return p;
-  };
-  for (int k = 0; k < 8; ++k)
-    for (int i = 0; i < 3; ++i)
-      if (!(k >> i & 1)) to.add(corner(k), corner(k | 1 << i));
-}
-
-void project_wall(const Solid& solid, const WallAxes& axes, Projection& to) {
-  const Vec3 c = vec(solid.center);
-  const Vec3 u = double{solid.half[0]} * vec(axes.right), v = double{solid.half[1]} * vec(axes.up);
-  const Vec3 corners[4] = {c - u - v, c + u - v, c + u + v, c - u + v};
-  for (int k = 0; k < 4; ++k) to.add(corners[k], corners[(k + 1) % 4]);
-}
-
-void project_cylinder(const Lens& lens, const Solid& solid, Projection& to) {
-  const Vec3 c = vec(solid.center), h = double{solid.half[1]} * vec(lens.axes[1]);
-  const Vec3 u = double{solid.half[0]} * vec(lens.axes[0]), v = double{solid.half[0]} * vec(lens.axes[2]);
-  // A regular polygon of n corners deviates from its circle by r pi^2 / (2 n^2).
-  const double z = std::max(c.z() - solid.radius, double{lens.near});
-  const double pixels = solid.half[0] / (z * lens.pixel);
-  const int corners = std::clamp(static_cast<int>(std::ceil(std::numbers::pi * std::sqrt(10 * pixels))), 12, 512);
-  // The polygon of the circle's area.
-  const double step = 2 * std::numbers::pi / corners, wide = std::sqrt(step / std::sin(step));
-  Vec3 last = c + wide * u;
-  for (int k = 1; k <= corners; ++k) {
-    const Vec3 next = c + wide * (std::cos(step * k) * u + std::sin(step * k) * v);
-    to.add(last - h, next - h);
-    to.add(last + h, next + h);
-    to.add(next - h, next + h);
-    last = next;
-  }
-}
 
 /// Bounds in the plane z = 1 as pixels, with a margin of half a pixel around.
 PixelBounds pixels(const Lens& lens, double left, double right, double bottom, double top) {
@@ -161,11 +71,7 @@ PixelBounds bounds_of_ball(const Lens& lens, const Float3& center, float radius)
 
 PixelBounds Silhouettes::add_polygon(const Shot& shot, const Solid& solid, Silhouette& to) {
   const Lens& lens = shot.lens;
-  Projection projection(lens.near);
-  if (solid.kind == SolidKind::box) project_box(lens, solid, projection);
-  if (solid.kind == SolidKind::cylinder) project_cylinder(lens, solid, projection);
-  if (solid.kind == SolidKind::wall) project_wall(solid, shot.walls[solid.part], projection);
-  const std::vector<PlanePoint> hull = projection.hull();
+  const std::vector<PlanePoint> hull = outline_polygon(shot, solid);
   if (hull.size() < 3) return {};
 
   to.first_edge = static_cast<std::int32_t>(edges_.size());

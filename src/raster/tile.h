@@ -20,7 +20,7 @@ struct Line {
   float depth0, depth1;      // 1 / z at its ends, 1 / m
   Float3 color;              // linear
   float opacity0, opacity1;  // 0 to 1
-  bool joined;               // begins where the last one ends, and is of one colour with it
+  bool joined;               // begins where the last one ends
 };
 
 /// What one tile needs of a picture.

@@ -50,8 +50,9 @@ struct TileLayers {
 /// Linear light by pixel.
 struct TilePixels {
   alignas(64) std::array<float, tile_pixels> red, green, blue, alpha;
-  alignas(64) std::array<float, tile_pixels> inverse;  // 1 / z of what has the largest share
-  alignas(64) std::array<float, tile_pixels> line;     // share of a line
+  alignas(64) std::array<float, tile_pixels> inverse;                          // 1 / z of what has the largest share
+  alignas(64) std::array<float, tile_pixels> line;                             // share of joined lines
+  alignas(64) std::array<float, tile_pixels> line_red, line_green, line_blue;  // of the one with this share
 };
 
 /// Parts of layers that do not fill a block, to be lit together.

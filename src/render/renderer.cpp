@@ -21,6 +21,9 @@ namespace {
 
 constexpr int largest_side = 16384;
 
+/// To prepare fewer solids takes less time than to wake a thread up.
+constexpr std::size_t worth_sharing = 1000;
+
 Size checked(Size size, int samples) {
   if (size.width < 1 || size.height < 1 || size.width > largest_side || size.height > largest_side)
     throw RenderError(fmt::format("a picture of {} x {} pixels cannot be drawn: each side can be 1 to {}", size.width,
@@ -41,11 +44,14 @@ struct Renderer::Impl {
       meshes.emplace(things.files(), size, shot.lens.smooth);
       things.measure([&](const MeshUse& use, std::size_t file) { return meshes->size_of(use, file); });
     }
+    shot.backdrop.none = scene.transparent;
     image.width = size.width, image.height = size.height;
-    image.pixels.resize(3 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
+    image.channels = scene.transparent ? 4 : 3;
+    image.pixels.resize(static_cast<std::size_t>(size.height) * image.row_size());
   }
 
   void place_camera(const Eye& eye);
+  void prepare();
   void draw(const State& state, const Drawing& drawing);
 
   const Scene& scene;
@@ -75,6 +81,20 @@ void Renderer::Impl::place_camera(const Eye& eye) {
   add_surfaces(scene, eye, shot);
 }
 
+/// Sorts the solids for the tiles and for the light, which do not depend on each other.
+void Renderer::Impl::prepare() {
+  const auto part = [&](int i) {
+    if (i == 1) return lights.fill(shot);
+    silhouettes.fill(shot);
+    bins.fill(shot, silhouettes);
+  };
+  if (shot.solids.size() < worth_sharing) {
+    part(0), part(1);
+  } else {
+    threads->run(2, [&](raster::TileMemory&, int i) { part(i); });
+  }
+}
+
 void Renderer::Impl::draw(const State& state, const Drawing& drawing) {
   if (drawn > 0 && last.is_of(state, drawing)) return;
   const Eye eye(drawing.camera, size);
@@ -83,15 +103,13 @@ void Renderer::Impl::draw(const State& state, const Drawing& drawing) {
   ++drawn;
   things.place(state, drawing, eye, shot);
   if (meshes) meshes->draw(things.meshes(), eye, shot);
-  silhouettes.fill(shot);
-  bins.fill(shot, silhouettes);
-  lights.fill(shot);
+  if (!threads) threads.emplace(raster::drawing_threads());
+  prepare();
   std::vector<Stroke> strokes = edges;
   strokes.insert(strokes.end(), drawing.strokes.begin(), drawing.strokes.end());
   lines.fill(strokes, eye);
-  if (!threads) threads.emplace(raster::drawing_threads());
-  const raster::Picture picture{&shot,          &silhouettes,        &bins, &lights, &lines.all,
-                                &lines.by_tile, image.pixels.data(), 3};
+  const raster::Picture picture{&shot,          &silhouettes,        &bins,         &lights, &lines.all,
+                                &lines.by_tile, image.pixels.data(), image.channels};
   threads->draw(picture);
 }
 

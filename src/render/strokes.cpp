@@ -17,8 +17,7 @@ void Lines::fill(const std::vector<Stroke>& strokes, const Eye& eye) {
   all.clear();
   const Stroke* last = nullptr;
   for (const Stroke& stroke : strokes) {
-    const bool joined = last && last->to == stroke.from && last->color.r == stroke.color.r &&
-                        last->color.g == stroke.color.g && last->color.b == stroke.color.b;
+    const bool joined = last && last->to == stroke.from;
     last = nullptr;
     Vec3 a = eye.point(stroke.from), b = eye.point(stroke.to);
     const double near = eye.camera.near;

@@ -1,5 +1,5 @@
-// Accepts a run only if its manifest, its scene and its files (pictures excluded) agree by hash, so that a changed
-// folder is never rendered.
+// Accepts a run only if its manifest, its scene and its files (except those to be drawn anew) agree by hash, so that a
+// changed folder is never rendered.
 #include "run/former_run.h"
 
 #include <fcntl.h>
@@ -57,7 +57,7 @@ std::string former_scene_file(const std::string& folder) {
   return file;
 }
 
-FormerRun read_former_run(const std::string& folder, SceneFile& file) {
+FormerRun read_former_run(const std::string& folder, SceneFile& file, const SparedFile& spared) {
   FormerRun run;
   run.folder = folder;
   const Descriptor opened = open_folder(AT_FDCWD, folder, true);
@@ -73,7 +73,9 @@ FormerRun read_former_run(const std::string& folder, SceneFile& file) {
   run.scene.output = restricted(run.scene.output, output_names_of(*manifest));
   if (outputs_text(run.scene.output) != manifest->outputs)
     refuse("it holds no run", "name a folder that carom run has written");
-  if (const std::string wrong = wrong_file(opened.get(), *manifest); !wrong.empty())
+  if (const std::string wrong =
+          wrong_file(opened.get(), *manifest, [&](std::string_view name) { return spared(run, name); });
+      !wrong.empty())
     refuse_damaged(folder, fmt::format("{} is missing or has changed", wrong));
   run.scene.file = manifest->scene_file;
   return run;

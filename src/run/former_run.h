@@ -1,7 +1,9 @@
 #pragma once
 // A finished run in a folder, for rendering its motion again.
+#include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "files/manifest.h"
 #include "scene/load.h"
@@ -23,10 +25,11 @@ struct FormerRun {
   std::unique_ptr<Simulator> motion(const Scene& scene) const;
 };
 
-/// The run in `folder`. It must be complete except for its pictures, and of this version of the program.
-/// `file`: its scene.yaml, from which the scene is read.
+/// The run in `folder`, of this version of the program. `file`: its scene.yaml, from which the scene is read.
+/// It must be complete, except for the files that are `spared`, given the run without its scene.
 /// Throws SceneError, and ExportError with a text that names the remedy.
-FormerRun read_former_run(const std::string& folder, SceneFile& file);
+using SparedFile = std::function<bool(const FormerRun& run, std::string_view name)>;
+FormerRun read_former_run(const std::string& folder, SceneFile& file, const SparedFile& spared);
 
 /// The path of a run's scene.yaml. Throws ExportError if the folder cannot be that of a complete run.
 std::string former_scene_file(const std::string& folder);

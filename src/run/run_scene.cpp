@@ -38,13 +38,14 @@ class Run {
     }
     const Stopwatch stopwatch(simulate_s_);
     if (!settings.simulator) settle_steps(scene(), engine_, watch_.stop_check);
-    const bool collisions =
-        std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.collisions; });
-    const bool paths =
-        std::any_of(shows.begin(), shows.end(), [](const Show& show) { return show.scene->output.flights; });
     frame_motion();
-    simulator_ =
-        settings.simulator ? settings.simulator(scene()) : make_simulator(scene(), {collisions, paths}, engine_.steps);
+    Recording recording;
+    for (const Show& show : shows) {
+      const OverlayNeeds needs = overlay_needs(*show.scene);
+      recording.collisions = recording.collisions || show.scene->output.needs_collisions() || needs.collisions;
+      recording.paths = recording.paths || show.scene->output.flights || needs.paths;
+    }
+    simulator_ = settings.simulator ? settings.simulator(scene()) : make_simulator(scene(), recording, engine_.steps);
     record({}, simulator_->paths());
     start_ = stored_energy(scene(), simulator_->state());
   }
@@ -102,7 +103,7 @@ class Run {
   std::optional<double> next_instant() const {
     std::optional<double> next;
     for (const auto& stage : stages_)
-      if (stage && stage->more && !(next && *next <= stage->time())) next = stage->time();
+      if (stage && stage->more) next = std::min(next.value_or(stage->time()), stage->time());
     return next;
   }
 
@@ -136,8 +137,7 @@ class Run {
       if (!stages_[i]) continue;
       guarded(i, [&] {
         const Stopwatch watch(stages_[i]->facts.export_s);
-        stages_[i]->exports.record(collisions);
-        stages_[i]->exports.record_paths(paths);
+        stages_[i]->record(collisions, paths);
       });
     }
   }

@@ -1,6 +1,10 @@
-// Writes what is due at an instant, then draws what is due.
-// The state is computed only if an output is due.
+// Writes what is due at an instant, then draws what is due. Between the instants of the timeline there are those of a
+// picture with motion blur, and those of states for trails.
+// The state is computed only if something is due.
 #include "run/stage.h"
+
+#include <algorithm>
+#include <filesystem>
 
 #include "render/camera.h"
 #include "render/glb.h"
@@ -8,55 +12,109 @@
 #include "run/stopwatch.h"
 
 namespace carom {
+namespace {
+
+/// The scene, if the font of its pictures is there.
+const Scene& with_font(const Scene& scene) {
+  check_font(scene);
+  return scene;
+}
+
+std::string name_of_folder(const std::string& folder) {
+  const std::filesystem::path path = std::filesystem::path(folder).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
+}  // namespace
 
 Stage::Stage(const Show& show, Durability durability)
-    : scene(*show.scene),
+    : scene(with_font(*show.scene)),
       exports(scene, show.folder, durability,
               {still_things, glb, [this](const State& state) { return of_model_.at(state); }}, show.renewed),
+      history_(scene),
       of_model_(scene, picture_size(scene.output)) {
-  for (const PictureStream& stream : exports.pictures()) shots_.emplace_back(scene, stream.size, stream.samples);
   facts.load_s = show.load_s;
+  for (const PictureStream& stream : exports.pictures())
+    series_.emplace_back(scene, stream, history_, name_of_folder(show.folder));
   more = exports.timeline().advance();
+  aim();
+}
+
+void Stage::aim() {
+  for (std::size_t i = 0; i < series_.size(); ++i)
+    series_[i].aim(exports.timeline().next(exports.pictures()[i].timeline_stream));
+}
+
+bool Stage::is_picture_due(std::size_t stream) {
+  return exports.timeline().due(exports.pictures()[stream].timeline_stream).has_value();
+}
+
+double Stage::time() {
+  double next = std::min(exports.timeline().time(), history_.next_sample());
+  for (const PictureSeries& series : series_) next = std::min(next, series.next_instant());
+  return next;
+}
+
+void Stage::record(std::span<const Collision> collisions, std::span<const PathPiece> paths) {
+  exports.record(collisions);
+  exports.record_paths(paths);
+  history_.record(collisions);
+  history_.record_paths(paths);
+}
+
+bool Stage::needs_state(double time) {
+  return (exports.timeline().time() <= time && exports.needs_state()) || history_.next_sample() <= time ||
+         std::any_of(series_.begin(), series_.end(),
+                     [&](const PictureSeries& series) { return series.next_instant() <= time; });
 }
 
 std::vector<MovingCamera*> Stage::cameras() {
   std::vector<MovingCamera*> cameras;
-  for (Shot& shot : shots_) cameras.push_back(&shot.camera);
+  for (PictureSeries& series : series_) cameras.push_back(&series.camera());
   if (scene.output.gltf) cameras.push_back(&of_model_);
   return cameras;
 }
 
 void Stage::sample(Simulator& simulator, const StageWatch& watch) {
-  if (exports.needs_state()) {
+  const double time = simulator.time();
+  const bool on_timeline = exports.timeline().time() <= time;
+  if (needs_state(time)) {
     const State& state = simulator.state();
-    {
+    history_.sample(state);
+    if (on_timeline && exports.needs_state()) {
       const Stopwatch stopwatch(facts.export_s);
       exports.sample(state, exports.needs_contacts() ? simulator.contacts() : std::span<const ContactForce>{});
     }
-    draw_what_is_due(state, watch);
+    for (std::size_t i = 0; i < series_.size(); ++i) {
+      if (on_timeline && is_picture_due(i))
+        draw(i, simulator, watch);
+      else if (series_[i].next_instant() <= time)
+        expose(i, state, watch);
+    }
   }
+  if (!on_timeline) return;
   more = exports.timeline().advance();
+  aim();
 }
 
-void Stage::draw_what_is_due(const State& state, const StageWatch& watch) {
-  const std::vector<PictureStream>& streams = exports.pictures();
-  for (std::size_t i = 0; i < streams.size(); ++i) {
-    if (!exports.timeline().due(streams[i].timeline_stream)) continue;
-    watch.stop_check();
-    const Image* image = nullptr;
-    bool again = false;
-    {
-      const Stopwatch stopwatch(facts.render_s);
-      const std::uint64_t before = shots_[i].drawn();
-      image = &shots_[i].draw(state);
-      again = shots_[i].drawn() == before;
-    }
-    {
-      const Stopwatch stopwatch(facts.export_s);
-      exports.picture(i, *image, again);
-    }
-    watch.report_progress();
+void Stage::expose(std::size_t stream, const State& state, const StageWatch& watch) {
+  watch.stop_check();
+  const Stopwatch stopwatch(facts.render_s);
+  series_[stream].expose(state);
+}
+
+void Stage::draw(std::size_t stream, Simulator& simulator, const StageWatch& watch) {
+  watch.stop_check();
+  const Image* image = nullptr;
+  {
+    const Stopwatch stopwatch(facts.render_s);
+    image = &series_[stream].picture(simulator.state(), simulator.tally());
   }
+  {
+    const Stopwatch stopwatch(facts.export_s);
+    exports.picture(stream, *image, series_[stream].is_repeated());
+  }
+  watch.report_progress();
 }
 
 }  // namespace carom

@@ -1,12 +1,15 @@
 #pragma once
 // One output folder during a run: its exports, and the pictures that are due for them.
 #include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "export/exports.h"
+#include "overlay/history.h"
 #include "render/moving_camera.h"
-#include "run/shot.h"
+#include "run/picture_series.h"
 #include "simulate/simulator.h"
 
 namespace carom {
@@ -32,7 +35,7 @@ struct StageWatch {
 
 class Stage {
  public:
-  /// Opens the folder. Throws ExportError.
+  /// Opens the folder. Throws ExportError, RenderError.
   Stage(const Show& show, Durability durability);
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
@@ -40,7 +43,10 @@ class Stage {
   /// The cameras of what is drawn. Those that frame the motion must have been given it before the first sample.
   std::vector<MovingCamera*> cameras();
 
-  double time() { return exports.timeline().time(); }  // s, of its next instant
+  double time();  // s, of its next instant
+
+  /// Takes what the simulator has recorded since the last call.
+  void record(std::span<const Collision> collisions, std::span<const PathPiece> paths);
 
   /// Writes and draws what is due at the next instant, which must be the simulator's time.
   /// Throws ExportError, RenderError.
@@ -52,10 +58,15 @@ class Stage {
   bool more = false;  // whether a next instant exists
 
  private:
-  void draw_what_is_due(const State& state, const StageWatch& watch);
+  void aim();
+  bool is_picture_due(std::size_t stream);
+  bool needs_state(double time);
+  void expose(std::size_t stream, const State& state, const StageWatch& watch);
+  void draw(std::size_t stream, Simulator& simulator, const StageWatch& watch);
 
-  std::vector<Shot> shots_;  // by picture stream
-  MovingCamera of_model_;    // of gltf
+  History history_;
+  std::vector<PictureSeries> series_;  // by picture stream
+  MovingCamera of_model_;              // of gltf
 };
 
 }  // namespace carom

@@ -1,23 +1,46 @@
 #include "run/still.h"
 
+#include <algorithm>
+
 #include "export/picture_streams.h"
-#include "run/shot.h"
+#include "overlay/history.h"
+#include "run/picture_series.h"
 #include "run/survey.h"
 #include "scene/scene.h"
 
 namespace carom {
 
-Image draw_still(const Scene& scene, double time, const std::function<std::unique_ptr<Simulator>()>& motion,
-                 const std::function<void()>& stop_check) {
-  const PictureOutput model = sheet_model(scene.output);
-  Shot shot(scene, model.size, model.samples);
-  if (shot.camera.frames_motion()) {
-    MovingCamera* const cameras[] = {&shot.camera};
+Image draw_still(const Scene& scene, const std::string& run, double time,
+                 const std::function<std::unique_ptr<Simulator>()>& motion, const std::function<void()>& stop_check) {
+  const PictureStream stream = still_stream(scene, time);
+  History history(scene);
+  PictureSeries series(scene, stream, history, run);
+  if (series.camera().frames_motion()) {
+    MovingCamera* const cameras[] = {&series.camera()};
     survey(cameras, *motion(), stop_check);
   }
   const auto simulator = motion();
-  carry_to(*simulator, time, scene.simulate.duration, stop_check);
-  return shot.draw(simulator->state());
+  const auto record = [&] {
+    history.record(simulator->collisions());
+    history.record_paths(simulator->paths());
+  };
+  record();
+  series.aim(time);
+  const double piece = scene.simulate.duration / 1000;
+  for (;;) {
+    // States before that of the picture are needed for motion blur and trails.
+    const double next = std::min({time, history.next_sample(), series.next_instant()});
+    while (simulator->time() < next) {
+      stop_check();
+      const double soon = std::min(next, simulator->time() + piece);
+      simulator->advance_to(soon > simulator->time() ? soon : next);
+      record();
+    }
+    history.sample(simulator->state());
+    if (next >= time) break;
+    if (series.next_instant() <= next) series.expose(simulator->state());
+  }
+  return series.picture(simulator->state(), simulator->tally());
 }
 
 }  // namespace carom

@@ -209,6 +209,9 @@ class Checker : ValueChecker {
         return file(value, field);
       case Type::text:
         return text(value, name, required);
+      case Type::text_or_flag:
+        return text(value, name,
+                    value.is(Node::Kind::map) ? required + "\na text that begins with a brace needs quotes" : required);
       case Type::choice:
         return choice(value, field, name);
       case Type::vector:
@@ -228,6 +231,11 @@ class Checker : ValueChecker {
       case Type::name:
         if (!value.is(Node::Kind::scalar)) wrong_type(value, name, required);
         return;
+      case Type::color_or_none:
+        if (!(value.is(Node::Kind::scalar) && value.text == "none")) color(value, name);
+        return;
+      case Type::color_or_part:
+        return value.is(Node::Kind::map) ? part(value, field, key, partial) : color(value, name);
       case Type::two_names:
       case Type::names:
         return names(value, field, name, required);

@@ -3,7 +3,9 @@
 // Each function adds the errors that the table of fields cannot express.
 // These are contradictory values, unknown names and overlaps.
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -66,6 +68,10 @@ void decode_camera(const Node& root, const Inventory& inventory, Scene& scene, D
 void decode_requests(const Node& root, const Inventory& inventory, const Budget& budget, Scene& scene,
                      Diagnostics& diagnostics);
 
+/// Decodes caption, trails, flash, arrows and shutter, and checks the colourings of bodies.
+/// The bodies must be decoded before.
+void decode_overlay(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
+
 /// Adds an error where places, sizes, speeds or forces exceed what doubles can represent.
 /// All but the members of groups must be decoded before, without an error.
 void check_reach(const Node& root, const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics);
@@ -80,6 +86,10 @@ void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics
 /// The numbers of a named thing: a body, group, member, fixed thing, the room or one of its sides.
 /// None: an error was reported, here or before.
 std::optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Diagnostics& diagnostics);
+/// The bodies in a list of names, in order. An empty list: all bodies. None: no body at all, or an error was reported.
+/// `use`: what a fixed thing cannot have, such as "no force acts on it".
+std::optional<std::vector<Entity>> find_bodies(const Node* names, const Inventory& inventory, std::string_view use,
+                                               Diagnostics& diagnostics);
 
 /// The default direction of a wall's height: y, or z for a level wall.
 Vec3 default_up(const Vec3& unit_normal);

@@ -47,9 +47,10 @@ class Bodies {
       const View each = body.group ? member_view(root_, view) : view;
       const auto keys = filled<BodyKeys>(each);
       const std::optional<Form> form = forms_.of(keys);
+      const Color chosen = body_color(scene_.roster.bodies.size());
+      const BodyColor color = keys.color.value_or(BodyColor{chosen, std::nullopt});
       scene_.roster.bodies.push_back({body.key->text, body.first, static_cast<Entity>(body.count), body.group,
-                                      keys.color.value_or(body_color(scene_.roster.bodies.size())),
-                                      form ? form->mesh : std::nullopt});
+                                      color.by ? chosen : color.plain, form ? form->mesh : std::nullopt, color.by});
       const std::optional<double> mass = form ? mass_of(keys, form->volume, each) : std::nullopt;
       if (!mass) continue;
       common(keys, *mass, form->volume, body);

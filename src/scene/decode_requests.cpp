@@ -25,7 +25,7 @@ class Requests {
   void run() {
     simulate();
     lights();
-    scene_.background = View(&root_, kind_named("scene"), Place{}).color("background");
+    background();
     output();
     if (budget_.enforced) check_budget();
   }
@@ -58,6 +58,12 @@ class Requests {
     }
   }
 
+  void background() {
+    const View whole(&root_, kind_named("scene"), Place{});
+    scene_.background = whole.color("background");
+    scene_.transparent = whole.text("background") == "none";
+  }
+
   void output() {
     Output& out = scene_.output;
     const Node* node = root_.find("output");
@@ -72,6 +78,9 @@ class Requests {
     fill(&out, view);
     if (out.frames) check_window(view.part("frames", "frames"), out.frames->from, out.frames->until);
     if (out.video) check_video(view.part("video", "video"), *out.video);
+    if (out.video && scene_.transparent && film_format(out.video->file) == FilmFormat::mp4)
+      diagnostics_.add(view.place("video"), "an MP4 has no transparency, and `background` is `none`",
+                       "expected a `file` ending in .gif or .webp, `frames` or `sheet`, or a colour for `background`");
     if (out.sheet) check_window(view.part("sheet", "sheet"), out.sheet->from, out.sheet->until);
     flights(view);
   }

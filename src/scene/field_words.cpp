@@ -142,6 +142,7 @@ const Kind* held_kind(const Field& field) {
   switch (field.type) {
     case Type::part:
     case Type::part_or_flag:
+    case Type::color_or_part:
     case Type::named:
     case Type::list:
       return &kind_named(field.of);
@@ -150,6 +151,10 @@ const Kind* held_kind(const Field& field) {
     default:
       return nullptr;
   }
+}
+
+bool holds_map(const Field& field) {
+  return field.type == Type::part || field.type == Type::part_or_flag || field.type == Type::color_or_part;
 }
 
 std::string listed(const std::vector<std::string_view>& words) {
@@ -176,6 +181,8 @@ std::string expected(const Field& field) {
       return "true or false";
     case Type::text:
       return "a text";
+    case Type::text_or_flag:
+      return "true, false or a text";
     case Type::choice:
       return listed(choices(field));
     case Type::vector:
@@ -189,6 +196,10 @@ std::string expected(const Field& field) {
                          unit, listed(choices(field)));
     case Type::color:
       return "a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
+    case Type::color_or_none:
+      return "none or a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
+    case Type::color_or_part:
+      return "a colour (a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1), or a map of keys";
     case Type::file:
       return "the path of a file, relative to the folder of the scene";
     case Type::name:

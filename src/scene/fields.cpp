@@ -39,7 +39,12 @@ constexpr Field scene_fields[] = {
     {.key = "simulate", .type = Type::part, .of = "simulate", .needed = true, .doc = "Duration, engine and accuracy.", .example = "{duration: 2}"},
     {.key = "camera", .type = Type::part, .of = "camera", .doc = "Camera of the pictures. Default: {fit: motion}.", .example = "{eye: [0, 3, -5], target: [0, 0, 0]}"},
     {.key = "lights", .type = Type::named, .of = "light", .doc = "Lights by name, and `ambient`, the colour of the ambient light.", .example = "{sun: {direction: [1, -2, 1]}, ambient: dimgray}"},
-    {.key = "background", .type = Type::color, .doc = "Background colour.", .example = "skyblue"},
+    {.key = "background", .type = Type::color_or_none, .doc = "Background colour; none: transparent, in PNG, GIF and WebP.", .example = "skyblue"},
+    {.key = "caption", .type = Type::text_or_flag, .doc = "A text in each picture. Names in braces become values: {title}, {time} in s, {run} (the name of the run's folder), {collisions} (so far), and paths into the scene, such as {restitution.default}. Two braces are one. true: the title and the time.", .example = "\"{title}, t = {time} s\"", .title = "Text in the pictures"},
+    {.key = "trails", .type = Type::part_or_flag, .of = "trails", .doc = "The paths of bodies during the last seconds, which fade with age.", .example = "{seconds: 0.5}"},
+    {.key = "flash", .type = Type::flag, .doc = "Whether bodies that collide flash: for 0.1 s of the film, from bright to their own colour.", .example = "true", .title = "Flash of collisions"},
+    {.key = "arrows", .type = Type::names, .of = "velocity|force", .doc = "Arrows at the bodies. velocity; force: gravity and `forces`, without contact. The legend has their scale.", .example = "[velocity]"},
+    {.key = "shutter", .type = Type::number, .range = {0, 1}, .doc = "Motion blur: a picture is the mean of the light during this part of the interval between pictures, until its time. At most 32 instants make a picture.", .example = "0.5", .title = "Open part of the interval between pictures"},
     {.key = "output", .type = Type::part, .of = "output", .doc = "What the run writes. Default: trajectory, collisions and energy, no pictures.", .example = "{trajectory: {every: 0.01}, collisions: true, energy: true}"},
 };
 
@@ -74,13 +79,14 @@ constexpr Field radius{.key = "radius", .type = Type::number, .unit = "m", .rang
 constexpr Field ball_velocity{.key = "velocity", .type = Type::vector, .unit = "m/s", .doc = "Velocity at time 0.", .example = "[2, 0, 0]", .member = fills<BodyKeys, &BodyKeys::velocity>};
 constexpr Field ball_restitution{.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution; above 1 adds energy. Default: restitution.default.", .example = "0.9", .member = fills<BodyKeys, &BodyKeys::restitution>};
 constexpr Field impulse{.key = "impulse", .type = Type::vector, .unit = "N s", .doc = "Impulse at time 0.", .example = "[-20, 0, 0]", .member = fills_if_given<BodyKeys, &BodyKeys::impulse>};
+constexpr Field body_color_field{.key = "color", .type = Type::color_or_part, .of = "coloring", .doc = "Colour in pictures, or colours by a quantity. Default: one is chosen.", .example = "crimson", .member = fills_if_given<BodyKeys, &BodyKeys::color>};
 template <typename Keys> constexpr Field color{.key = "color", .type = Type::color, .doc = "Colour in pictures. Default: one is chosen.", .example = "crimson", .member = fills_if_given<Keys, &Keys::color>};
 constexpr Field mesh{.key = "mesh", .type = Type::file, .doc = "Mesh file, drawn scaled to the ball.", .example = "meshes/duck.obj", .member = fills<BodyKeys, &BodyKeys::mesh>};
 constexpr Field ball_position{.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre at time 0.", .example = "[3, 1, 0]", .member = fills<BodyKeys, &BodyKeys::position>};
 
 constexpr Field ball_fields[] = {
     mass, density, radius,
-    ball_position, ball_velocity, ball_restitution, impulse, color<BodyKeys>, mesh,
+    ball_position, ball_velocity, ball_restitution, impulse, body_color_field, mesh,
 };
 
 constexpr std::string_view volumes = "radius|cylinder|box|fit";
@@ -95,7 +101,7 @@ template <typename Keys> constexpr Field mesh_of{.key = "mesh", .type = Type::fi
 
 constexpr Field body_fields[] = {
     mass, density, radius_of<BodyKeys>, cylinder<BodyKeys>, box<BodyKeys>, mesh_of<BodyKeys>, fit<BodyKeys>,
-    ball_position, ball_velocity, ball_restitution, impulse, color<BodyKeys>,
+    ball_position, ball_velocity, ball_restitution, impulse, body_color_field,
 };
 
 constexpr Field cylinder_fields[] = {
@@ -103,7 +109,7 @@ constexpr Field cylinder_fields[] = {
     {.key = "height", .type = Type::number, .unit = "m", .range = above_0, .needed = true, .doc = "Height, along y.", .example = "1", .member = fills<CylinderKeys, &CylinderKeys::height>},
 };
 
-constexpr Field member_fields[] = {mass, density, radius, ball_velocity, ball_restitution, impulse, color<BodyKeys>, mesh};
+constexpr Field member_fields[] = {mass, density, radius, ball_velocity, ball_restitution, impulse, body_color_field, mesh};
 
 constexpr Field group_fields[] = {
     {.key = "count", .type = Type::whole, .range = from_0, .needed = true, .doc = "Number of balls: name.0, name.1, ...", .example = "20", .member = fills<GroupKeys, &GroupKeys::count>},
@@ -160,6 +166,7 @@ constexpr Field force_fields[] = {
     {.key = "on", .type = Type::names, .doc = "Balls, bodies, groups and members that it acts on. Default: all.", .example = "[red, gas.3]", .title = "Bodies that it acts on", .pattern = reference, .member = fills<ForceKeys, &ForceKeys::on>},
     {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "When the force starts.", .example = "0.5", .title = "Start", .member = fills<ForceKeys, &ForceKeys::from>},
     {.key = "until", .type = Type::number, .unit = "s", .range = above_0, .doc = "When the force ends. Default: never.", .example = "1.5", .title = "End", .member = fills_if_given<ForceKeys, &ForceKeys::until>},
+    {.key = "visible", .type = Type::flag, .doc = "Whether the spring is drawn. Default: true.", .example = "false", .with = "spring", .member = fills_if_given<ForceKeys, &ForceKeys::visible>},
 };
 
 constexpr Field drag_fields[] = {
@@ -214,6 +221,19 @@ constexpr Field keyframe_fields[] = {
     {.key = "fov", .type = Type::number, .unit = "degrees", .range = {0, 180, true, true}, .doc = "Field of view. Default: that of the camera.", .example = "30", .title = "Field of view", .member = fills<KeyframeKeys, &KeyframeKeys::fov>},
 };
 
+constexpr Field coloring_fields[] = {
+    {.key = "by", .type = Type::choice, .of = quantity_names, .needed = true, .doc = "The quantity. speed in m/s; kinetic: the kinetic energy in J; collisions: their number so far; mass in kg; radius in m; group: a colour for each ball, body or group.", .example = "speed", .title = "Quantity", .member = fills<Coloring, &Coloring::by>},
+    {.key = "min", .type = Type::number, .doc = "The quantity at the start of the map; smaller values have the same colour. Default: 0; of mass and radius the least.", .example = "0", .title = "Start of the scale", .member = fills<Coloring, &Coloring::min>},
+    {.key = "max", .type = Type::number, .doc = "The quantity at the end of the map; greater values have the same colour. Default of speed and kinetic: what a body has at time 0 or reaches by falling from there, rounded up; of collisions 10; of mass and radius the greatest.", .example = "5", .title = "End of the scale", .member = fills<Coloring, &Coloring::max>},
+    {.key = "map", .type = Type::choice, .of = color_map_names, .doc = "Colours from the start to the end of the scale.", .example = "cividis", .title = "Colour map", .member = fills<Coloring, &Coloring::map>},
+};
+
+constexpr Field trails_fields[] = {
+    {.key = "seconds", .type = Type::number, .unit = "s", .range = above_0, .doc = "Length of a trail in time.", .example = "0.5", .title = "Length in time", .member = fills<TrailKeys, &TrailKeys::seconds>},
+    {.key = "width", .type = Type::number, .unit = "m", .range = above_0, .doc = "Width of a trail. Default: half the radius of its body.", .example = "0.02", .member = fills<TrailKeys, &TrailKeys::width>},
+    {.key = "on", .type = Type::names, .doc = "Balls, bodies, groups and members that have a trail. Default: all.", .example = "[red, gas.3]", .title = "Bodies that have a trail", .pattern = reference, .member = fills<TrailKeys, &TrailKeys::on>},
+};
+
 constexpr Field ambient{.key = "ambient", .type = Type::color, .doc = "Colour of the ambient light, which comes from all directions.", .example = "dimgray"};
 
 constexpr Field light_fields[] = {
@@ -250,6 +270,8 @@ constexpr Kind kinds_of_scenes[] = {
     {"camera", "", "Camera of the pictures.", camera_fields},
     {"keyframe", "a", "A view at a time.", keyframe_fields},
     {"light", "a", "A light.", light_fields, &ambient},
+    {"coloring", "", "Colours of bodies by a quantity, with a legend in the picture.", coloring_fields},
+    {"trails", "", "Trails of bodies.", trails_fields},
 };
 
 /// The row of an output in the map `output`.

@@ -14,19 +14,22 @@
 namespace carom {
 
 enum class Type : std::uint8_t {
-  number,     // finite
-  whole,      // >= 0
-  flag,       // true or false
-  text,       // one line
-  choice,     // one of Field::of, separated by |
-  vector,     // [x, y, z], numbers
-  direction,  // [x, y, z], not all zero; any length
-  extent,     // [width, height], numbers in range
-  pixels,     // [width, height], wholes in range, or one of Field::of, separated by |
-  color,      // CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1
-  file,       // path, from the scene file's folder
-  name,       // of a body or a fixed thing
-  two_names,  // [name, name] of bodies or fixed things
+  number,         // finite
+  whole,          // >= 0
+  flag,           // true or false
+  text,           // one line
+  text_or_flag,   // one line, true or false
+  choice,         // one of Field::of, separated by |
+  vector,         // [x, y, z], numbers
+  direction,      // [x, y, z], not all zero; any length
+  extent,         // [width, height], numbers in range
+  pixels,         // [width, height], wholes in range, or one of Field::of, separated by |
+  color,          // CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1
+  color_or_none,  // a colour, or the word none
+  color_or_part,  // a colour, or a map of kind Field::of
+  file,           // path, from the scene file's folder
+  name,           // of a body or a fixed thing
+  two_names,      // [name, name] of bodies or fixed things
   /// A list of names, at least one. If Field::of is given, they are from it, separated by |.
   names,
   part,  // a map of kind Field::of
@@ -172,6 +175,8 @@ std::string title_of(const Field& field);
 
 /// The kind of the map, or of the maps in a list or named map. Null: the value holds none.
 const Kind* held_kind(const Field& field);
+/// Whether a value of this field can be one map of kind Field::of.
+bool holds_map(const Field& field);
 
 /// "a", "a or b", "a, b or c"
 std::string listed(const std::vector<std::string_view>& words);

@@ -11,7 +11,8 @@ enum class FilmFormat : unsigned char { mp4, gif, webp };
 /// By the ending: .mp4, .gif or .webp. None: another one.
 std::optional<FilmFormat> film_format(std::string_view file);
 
-/// The rate of a GIF whose scene names none, in 1/s: the 30 of other films is no whole number of hundredths of a second.
+/// The rate of a GIF whose scene names none, in 1/s: the 30 of other films is no whole number of hundredths of a
+/// second.
 inline constexpr double gif_fps = 25;
 
 /// Whether the format can show each picture for exactly 1/fps. A GIF stores whole hundredths of a second, at least 2:

@@ -46,6 +46,8 @@ std::string value_text(const Field& field) {
       return "a map: " + link;
     case Type::part_or_flag:
       return "`true`, `false` or a map: " + link;
+    case Type::color_or_part:
+      return "a colour (a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1) or a map: " + link;
     case Type::named:
       return "by name: " + link;
     case Type::list:

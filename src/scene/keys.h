@@ -13,6 +13,7 @@
 #include "physics/volume.h"
 #include "physics/world.h"
 #include "scene/colors.h"
+#include "scene/overlay.h"
 #include "scene/scene.h"
 #include "yaml/document.h"
 
@@ -32,6 +33,12 @@ struct VolumeKeys {
   const Node* mesh = nullptr;  // a file
 };
 
+/// A colour, or the rule that makes one from a quantity.
+struct BodyColor {
+  Color plain;
+  std::optional<Coloring> by;
+};
+
 /// A ball, a body or the ball of a group.
 struct BodyKeys : VolumeKeys {
   std::optional<double> mass;                    // kg
@@ -40,7 +47,7 @@ struct BodyKeys : VolumeKeys {
   std::optional<Vec3> velocity = Vec3(0, 0, 0);  // m/s; none: a wrong value
   std::optional<double> restitution;             // none: that of the scene
   Vec3 impulse = Vec3(0, 0, 0);                  // N s
-  std::optional<Color> color;                    // none: by its place in the file
+  std::optional<BodyColor> color;                // none: by its place in the file
 };
 
 struct BoxKeys {
@@ -108,6 +115,13 @@ struct ForceKeys {
   const Node* on = nullptr;                                // names; null: all bodies
   double from = 0;                                         // s
   double until = std::numeric_limits<double>::infinity();  // s
+  bool visible = true;                                     // whether its springs are drawn
+};
+
+struct TrailKeys {
+  double seconds = 1;
+  std::optional<double> width;  // m; none: half a body's radius
+  const Node* on = nullptr;     // names; null: all bodies
 };
 
 enum class FitTo : std::uint8_t { motion };

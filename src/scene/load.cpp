@@ -75,6 +75,7 @@ struct SceneFile::Impl {
     decode_requests(tree, inventory, options.budget, scene, diagnostics);
     if (inventory.fits) decode_bodies(tree, inventory, forms, scene, diagnostics);
     decode_camera(tree, inventory, scene, diagnostics);
+    if (inventory.fits) decode_overlay(tree, inventory, scene, diagnostics);
     check_engine(tree, scene, diagnostics);
     if (diagnostics.empty() && options.budget.enforced) check_steps(tree, scene, options.budget, diagnostics);
     stop_if_wrong(diagnostics, options);

@@ -77,6 +77,13 @@ bool take(const View& view, const Field& field, Color& value) {
   return put(as_color(view.find(field)), value);
 }
 
+bool take(const View& view, const Field& field, BodyColor& value) {
+  const Node* node = view.find(field);
+  if (node == nullptr || !node->is(Node::Kind::map)) return put(as_color(node), value.plain);
+  if (!node->bad) value.by = filled<Coloring>(view.part(field.key, field.of));
+  return !node->bad;
+}
+
 std::optional<std::size_t> choice_of(const View& view, const Field& field) {
   const std::optional<std::string> text = as_text(view.find(field));
   const std::vector<std::string_view> all = choices(field);
@@ -106,6 +113,10 @@ Json json_value(const Field&, const Node* value) {
 
 Json json_value(const Field&, const Color& value) {
   return Json::array({value.r, value.g, value.b});
+}
+
+Json json_value(const Field& field, const BodyColor& value) {
+  return value.by ? json_of(kind_named(field.of), &*value.by) : json_value(field, value.plain);
 }
 
 std::string yaml_of(double value) {

@@ -30,6 +30,7 @@ bool take(const View& view, const Field& field, Vec3& value);
 bool take(const View& view, const Field& field, Size& value);
 bool take(const View& view, const Field& field, Rectangle& value);
 bool take(const View& view, const Field& field, Color& value);
+bool take(const View& view, const Field& field, BodyColor& value);
 /// The value with its place, bad or not: names, a file.
 bool take(const View& view, const Field& field, const Node*& value);
 /// The index of a choice.
@@ -41,6 +42,7 @@ nlohmann::ordered_json json_value(const Field& field, const Vec3& value);
 nlohmann::ordered_json json_value(const Field& field, const Size& value);
 nlohmann::ordered_json json_value(const Field& field, const Rectangle& value);
 nlohmann::ordered_json json_value(const Field& field, const Color& value);
+nlohmann::ordered_json json_value(const Field& field, const BodyColor& value);
 nlohmann::ordered_json json_value(const Field& field, const Node* value);
 std::string yaml_of(double value);
 std::string yaml_of(const Vec3& value);

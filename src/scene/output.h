@@ -60,6 +60,11 @@ struct GltfOutput {
   double fps = 30;
 };
 
+/// The intervals of the tables of which `plots` shows the rows, in s. None: the scene lists no such table.
+struct PlotIntervals {
+  std::optional<double> energy, trajectory;
+};
+
 /// The outputs of a run. An absent one is not written, and nothing is constructed for it.
 /// summary, manifest and scene.yaml are always written.
 struct Output {
@@ -75,6 +80,10 @@ struct Output {
   std::optional<GltfOutput> gltf;
   /// Only of an engine that moves bodies along parabolas.
   bool flights = false;
+  bool plots = false;
+  /// Those of tables that --only leaves out.
+  PlotIntervals left_out_tables;
+  bool needs_collisions() const { return collisions || plots; }
   bool pictures() const { return frames || video || sheet; }
 };
 

@@ -129,6 +129,14 @@ constexpr OutputMember pictures = {[](const Output& output) { return (output.*me
                                    },
                                    nullptr, fills_if_given<Output, member>};
 
+/// The charts show the rows of tables, whether these are written or not.
+constexpr OutputMember charts = {[](const Output& output) { return output.plots; },
+                                 [](Output& to, const Output& requested) {
+                                   to.plots = true;
+                                   to.left_out_tables = plot_intervals(requested);
+                                 },
+                                 nullptr, fills<Output, &Output::plots>};
+
 /// An output without settings, either present or absent.
 template <auto member, const Member& key>
 constexpr OutputMember flag = {[](const Output& output) { return output.*member; },
@@ -227,6 +235,11 @@ constexpr OutputKind all_kinds[] = {
      .example = "true",
      .member = flag<&Output::flights, fills_if_given<Output, &Output::flights>>,
      .files = "flights.bin"},
+    {.name = "plots",
+     .doc = "plots/energy.svg and so on: charts of energy, heights, speeds and collisions, by gnuplot.",
+     .example = "true",
+     .member = charts,
+     .series = plot_files},
 };
 
 /// In the order of size_names.
@@ -245,6 +258,10 @@ std::string FileSeries::name(std::int64_t number) const {
 }
 
 bool FileSeries::has(std::string_view name) const {
+  if (!names.empty()) {
+    const std::vector<std::string_view> all = parts_of(names);
+    return std::find(all.begin(), all.end(), name) != all.end();
+  }
   constexpr std::size_t digits = 5;
   if (!name.starts_with(stem) || !name.ends_with(ending) || name.size() < stem.size() + digits + ending.size())
     return false;
@@ -283,6 +300,13 @@ Output with_all(const Output& requested) {
   Output output;
   for (const OutputKind& kind : all_kinds) kind.member.add(output, requested);
   return output;
+}
+
+PlotIntervals plot_intervals(const Output& output) {
+  PlotIntervals intervals = output.left_out_tables;
+  if (output.energy) intervals.energy = output.energy->every;
+  if (output.trajectory) intervals.trajectory = output.trajectory->every;
+  return intervals;
 }
 
 std::vector<std::string> output_files(const Output& output) {

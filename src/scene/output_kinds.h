@@ -12,20 +12,27 @@
 
 namespace carom {
 
-/// Numbered files in a folder of their own: <folder>/<stem>00000<ending>, five digits or more.
+/// Files in a folder of their own: numbered ones, <folder>/<stem>00000<ending>, five digits or more, or those of
+/// `names`.
 struct FileSeries {
   std::string_view folder, stem, ending;
   /// The words for one file and for several: "picture", "pictures".
   std::string_view what, whats;
+  /// Separated by |. Empty: the files are numbered.
+  std::string_view names = {};
 
   /// "frame_00012.png".
   std::string name(std::int64_t number) const;
-  /// Whether name() can produce this name.
+  /// Whether name() can produce this name, or `names` has it.
   bool has(std::string_view name) const;
 };
 
 inline constexpr FileSeries frame_files{"frames", "frame_", ".png", "picture", "pictures"};
 inline constexpr FileSeries vtk_files{"vtk", "bodies_", ".vtp", "instant", "instants"};
+inline constexpr FileSeries plot_files{
+    "plots", "",
+    "",      "plot",
+    "plots", "energy.svg|energy.png|heights.svg|heights.png|speeds.svg|speeds.png|collisions.svg|collisions.png"};
 
 /// The member of Output that holds a scene's request for one output.
 struct OutputMember {
@@ -82,6 +89,9 @@ bool holds_all(const Output& requested, const std::vector<std::string>& only);
 
 /// All outputs: requested ones with their settings, the others with default ones.
 Output with_all(const Output& requested);
+
+/// The intervals of the samples for the charts of `plots`, in s.
+PlotIntervals plot_intervals(const Output& output);
 
 /// The files of these outputs, without series.
 std::vector<std::string> output_files(const Output& output);

@@ -22,8 +22,7 @@ const Field* field_at(std::string_view path) {
       field = find_field(*kind, word);
       if (field == nullptr) return nullptr;
       name_next = field->type == Type::named || field->type == Type::list;
-      const bool is_part = name_next || field->type == Type::part || field->type == Type::part_or_flag;
-      kind = is_part ? &kind_named(field->of) : nullptr;
+      kind = name_next || holds_map(*field) ? &kind_named(field->of) : nullptr;
     }
   }
   return field;

@@ -65,6 +65,7 @@ class Resolver {
     camera();
     lights();
     if (const Node* background = root_.find("background")) line("background", flow_text(*background));
+    overlay();
     output();
     return std::move(out_);
   }
@@ -172,14 +173,29 @@ class Resolver {
     }
   }
 
+  void overlay() {
+    const Overlay& overlay = scene_.overlay;
+    const View whole(&root_, kind_named("scene"), Place{});
+    if (!overlay.caption.empty()) line("caption", in_quotes(overlay.caption));
+    if (overlay.trails) line("trails", flow(whole.part("trails", "trails")));
+    if (overlay.flash) line("flash", "true");
+    if (const Node* arrows = root_.find("arrows")) line("arrows", flow_text(*arrows));
+    if (const Node* shutter = root_.find("shutter")) line("shutter", flow_text(*shutter));
+  }
+
   void output() {
     const View view(root_.find("output"), kind_named("output"), Place{});
     heading("output", false);
     for (const OutputKind& kind : output_kinds()) {
       if (!kind.keys.empty() && kind.asked(scene_.output)) entry(kind.name, output_text(view, kind));
-      if (kind.keys.empty() && (kind.name != "flights" || flights_matter()))
-        entry(kind.name, kind.asked(scene_.output) ? "true" : "false");
+      if (kind.keys.empty() && is_said(kind)) entry(kind.name, kind.asked(scene_.output) ? "true" : "false");
     }
+  }
+
+  /// Whether the text of a scene has this flag. `plots` is absent unless it is true, as an output with settings is.
+  bool is_said(const OutputKind& kind) const {
+    if (kind.name == "flights") return flights_matter();
+    return kind.name != "plots" || kind.asked(scene_.output);
   }
 
   std::string output_text(const View& view, const OutputKind& kind) const {

@@ -11,6 +11,7 @@
 #include "physics/world.h"
 #include "scene/colors.h"
 #include "scene/output.h"
+#include "scene/overlay.h"
 #include "scene/simulate_settings.h"
 
 namespace carom {
@@ -39,6 +40,7 @@ struct BodyRange {
   bool group = false;
   Color color;
   std::optional<MeshUse> mesh = std::nullopt;
+  std::optional<Coloring> coloring = std::nullopt;  // takes the place of `color` in pictures
 };
 
 struct FixedName {
@@ -119,6 +121,8 @@ struct Scene {
   std::vector<Light> lights;         // empty: the renderer's default lights
   std::optional<Color> ambient;
   std::optional<Color> background;
+  bool transparent = false;  // there is no background
+  Overlay overlay;
   Output output;
   /// The outputs of the file, whichever of them --only leaves in `output`.
   Output requested;

@@ -14,21 +14,6 @@
 namespace carom {
 namespace {
 
-std::string text_of(const Node& node) {
-  if (node.is(Node::Kind::scalar)) {
-    const auto number = node.quoted ? std::nullopt : parse_number(node.text);
-    return number ? shortest(*number) : node.text;
-  }
-  std::string text;
-  for (std::size_t i = 0; i < node.items.size(); ++i) {
-    if (i > 0) text += ", ";
-    if (node.is(Node::Kind::map)) text += node.keys[i].text + ": ";
-    text += text_of(node.items[i]);
-  }
-  if (node.is(Node::Kind::sequence)) return "[" + text + "]";
-  return node.is(Node::Kind::map) ? "{" + text + "}" : text;
-}
-
 class Flattener {
  public:
   void map(const std::string& path, const Node& node, const Kind& kind) {
@@ -50,6 +35,7 @@ class Flattener {
     switch (field.type) {
       case Type::part:
       case Type::part_or_flag:
+      case Type::color_or_part:
         return map(path, node, kind_named(field.of));
       case Type::named:
         if (!node.is(Node::Kind::map)) return leaf(path, node, {});
@@ -80,11 +66,26 @@ class Flattener {
   }
 
   void leaf(const std::string& path, const Node& node, std::string_view unit) {
-    found.push_back({path, text_of(node), std::string(unit), node.place.offset});
+    found.push_back({path, text_of_value(node), std::string(unit), node.place.offset});
   }
 };
 
 }  // namespace
+
+std::string text_of_value(const Node& node) {
+  if (node.is(Node::Kind::scalar)) {
+    const auto number = node.quoted ? std::nullopt : parse_number(node.text);
+    return number ? shortest(*number) : node.text;
+  }
+  std::string text;
+  for (std::size_t i = 0; i < node.items.size(); ++i) {
+    if (i > 0) text += ", ";
+    if (node.is(Node::Kind::map)) text += node.keys[i].text + ": ";
+    text += text_of_value(node.items[i]);
+  }
+  if (node.is(Node::Kind::sequence)) return "[" + text + "]";
+  return node.is(Node::Kind::map) ? "{" + text + "}" : text;
+}
 
 std::vector<SceneValue> scene_values(const std::string& name, const std::string& text) {
   std::vector<Source> sources = {{name, text}};

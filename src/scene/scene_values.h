@@ -6,6 +6,11 @@
 
 namespace carom {
 
+struct Node;
+
+/// A number with its shortest digits, any other value as written.
+std::string text_of_value(const Node& node);
+
 struct SceneValue {
   std::string path;  // as --set takes it: "balls.red.position.z", "forces.0.acceleration.x"
   /// A number with its shortest digits, any other value as written.

@@ -131,6 +131,7 @@ Json value_schema(const Field& field) {
       return {{"type", "boolean"}};
     case Type::text:
     case Type::name:
+    case Type::text_or_flag:
     case Type::file:
       return text_schema(field);
     case Type::choice:
@@ -148,6 +149,10 @@ Json value_schema(const Field& field) {
       return {{"anyOf", Json::array({array_schema(whole_schema(field.range), 2), choice_schema(field)})}};
     case Type::color:
       return {{"allOf", Json::array({reference("color")})}};
+    case Type::color_or_none:
+      return {{"anyOf", Json::array({reference("color"), {{"const", "none"}}})}};
+    case Type::color_or_part:
+      return {{"anyOf", Json::array({reference("color"), reference(field.of)})}};
     case Type::two_names:
       return array_schema(text_schema(field), 2);
     case Type::names:
@@ -260,7 +265,7 @@ Json kind_schema(const Kind& kind) {
   schema["properties"] = properties;
   if (!keys.empty()) schema["required"] = keys;
   schema["additionalProperties"] = false;
-  if (const Json excluded = exclusions(kind); !excluded.empty()) schema["dependencies"] = excluded;
+  if (const Json all = exclusions(kind); !all.empty()) schema["dependencies"] = all;
   if (!rules.empty()) schema["allOf"] = rules;
   return schema;
 }

@@ -101,8 +101,7 @@ class Walk {
     }
     node_ = child;
     field_ = field;
-    const bool is_part = field->type == Type::part || field->type == Type::part_or_flag;
-    kind_ = is_part ? &kind_named(field->of) : nullptr;
+    kind_ = holds_map(*field) ? &kind_named(field->of) : nullptr;
     return true;
   }
 

@@ -18,7 +18,7 @@ constexpr Field sweep_fields[] = {
     grid, zip, list, skip,
     {.key = "runs", .type = Type::list, .of = "block", .doc = "A list of blocks, each with grid, zip, list and skip of its own, instead of these keys.", .example = "[{grid: {balls.red.mass: [1, 2]}}, {list: [{balls.red.mass: 9}]}]", .needs_entries = true},
     {.key = "repeat", .type = Type::part, .of = "repeat", .doc = "Runs each combination several times, with other seeds.", .example = "{seeds: 10}"},
-    {.key = "only", .type = Type::names, .of = "trajectory|collisions|energy|contacts|frames|video|sheet|vtk|xyz|gltf|flights", .doc = "The outputs to write. Default: those of the base.", .example = "[collisions, energy]"},
+    {.key = "only", .type = Type::names, .of = "trajectory|collisions|energy|contacts|frames|video|sheet|vtk|xyz|gltf|flights|plots", .doc = "The outputs to write. Default: those of the base.", .example = "[collisions, energy]"},
     {.key = "compare", .type = Type::part, .of = "compare", .doc = "What the comparison shows.", .example = "{measures: [energy_lost_J]}"},
 };
 

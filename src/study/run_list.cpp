@@ -125,7 +125,7 @@ void name_all(std::vector<ListedRun>& runs) {
 }
 
 bool is_parameter(const std::string& path) {
-  return path != "scene" && path != "title" && !path.starts_with("output.");
+  return path != "scene" && path != "title" && path != "caption" && !path.starts_with("output.");
 }
 
 /// The numbers of these runs in a sweep, by their ids. Empty if one does not belong to it.

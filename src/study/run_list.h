@@ -32,7 +32,8 @@ std::string digest_of(
 /// Runs and their varied values.
 class RunSet {
  public:
-  /// The values in which their scenes differ, found with one scene in memory. Title and outputs are not parameters.
+  /// The values in which their scenes differ, found with one scene in memory. Title, caption and outputs are not
+  /// parameters.
   explicit RunSet(
       std::vector<ListedRun> runs, const std::function<void()>& stop_check = [] {});
   /// The values that the sweep of these runs varied, according to its file.

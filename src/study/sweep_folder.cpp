@@ -21,6 +21,7 @@
 #include "files/manifest.h"
 #include "files/open_folder.h"
 #include "files/publication.h"
+#include "files/series_folders.h"
 #include "files/stored_file.h"
 #include "scene/path_field.h"
 #include "scene/scene.h"
@@ -47,7 +48,7 @@ std::optional<Manifest> read_sweep_manifest(int folder) {
 }
 
 bool is_whole(int folder, const std::string& path, const Sweep& sweep, const Manifest& manifest) {
-  if (manifest.version != CAROM_VERSION || !wrong_file(folder, manifest).empty()) return false;
+  if (manifest.version != CAROM_VERSION || !wrong_file(folder, manifest, is_picture).empty()) return false;
   const std::string mark = path + "/" + manifest_name;
   const std::set<std::string> failed(manifest.failed.begin(), manifest.failed.end());
   for (std::size_t number = 0; number < sweep.size(); ++number) {

@@ -24,6 +24,7 @@
 #include "files/publication.h"
 #include "run/engine.h"
 #include "run/run_scene.h"
+#include "scene/caption.h"
 #include "scene/motion_text.h"
 #include "scene/scene.h"
 #include "study/sweep_folder.h"
@@ -120,8 +121,9 @@ std::string SweepJob::examine(std::size_t first, std::size_t last) {
     PlannedRun run;
     try {
       const Scene its = scene(number);
-      // The text contains only the names of meshes.
-      run.scene = digest(its.resolved + meshes_text(its));
+      // The text contains only the names of meshes. Pictures with the run's name are not those of another run.
+      const bool named = its.output.pictures() && has_name(its.overlay.caption, "run");
+      run.scene = digest(its.resolved + meshes_text(its) + (named ? sweep_.id(number) : ""));
       run.motion = digest(motion_text(its));
       const std::string folder = run_folder(number);
       settle_folder(folder);
@@ -186,14 +188,15 @@ std::optional<std::size_t> SweepJob::other_content() const {
 
 std::vector<std::string> SweepJob::idle_paths() const {
   constexpr std::size_t most = 20'000;  // runs that are examined
-  constexpr std::array<std::string_view, 5> picture_keys = {"camera", "lights", "background", "output", "title"};
+  constexpr std::array<std::string_view, 10> picture_keys = {"camera",  "lights", "background", "output", "title",
+                                                             "caption", "trails", "flash",      "arrows", "shutter"};
   std::vector<std::string> idle;
   for (std::size_t p = 0; p < sweep_.paths.size(); ++p) {
     const std::string& path = sweep_.paths[p];
     const std::string_view head = std::string_view(path).substr(0, path.find('.'));
     const std::string_view tail = std::string_view(path).substr(path.rfind('.') + 1);
-    if (std::find(picture_keys.begin(), picture_keys.end(), head) != picture_keys.end() || tail == "color" ||
-        tail == "visible" || tail == "mesh")
+    if (std::find(picture_keys.begin(), picture_keys.end(), head) != picture_keys.end() ||
+        path.find(".color.") != std::string::npos || tail == "color" || tail == "visible" || tail == "mesh")
       continue;
     std::map<std::string, std::size_t> first;  // by the other values
     std::size_t pairs = 0, alike = 0;

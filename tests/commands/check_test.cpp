@@ -159,9 +159,9 @@ TEST(Check, DoesNotGuessAtAMotionThatTakesLong) {
              "scene: 1\ngravity: [0, 0, 0]\nroom: {min: [0, 0, 0], max: [2, 2, 2]}\n"
              "groups: {gas: {count: 3000, ball: {mass: 1, radius: 0.05}, in: {min: [0, 0, 0], max: [2, 2, 2]}, "
              "arrange: lattice, speed: 5}}\nsimulate: {duration: 1000}\noutput: {frames: {fps: 5}}\n");
-  const Json camera = Json::parse(here.carom({"check", "gas.yaml", "--json"}).out).at("scenes").at(0).at("camera");
-  EXPECT_EQ(camera.at("out_of_view"), nullptr);
-  EXPECT_EQ(camera.at("plus_x"), "right");
+  const Json seen = Json::parse(here.carom({"check", "gas.yaml", "--json"}).out).at("scenes").at(0).at("camera");
+  EXPECT_EQ(seen.at("out_of_view"), nullptr);
+  EXPECT_EQ(seen.at("plus_x"), "right");
   EXPECT_NE(here.carom({"check", "gas.yaml"})
                 .out.find("  unseen      not known: the camera frames the motion, which takes longer to simulate\n"),
             std::string::npos);

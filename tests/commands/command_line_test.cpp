@@ -88,12 +88,12 @@ TEST(CommandLine, ValuesAreCheckedBeforeAnySceneIsRead) {
   EXPECT_EQ(complaint({"run", "a.yaml", "--seed", "1", "--seed", "2"}), "carom run: --seed is given 2 times" + end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--only", "frmes"}),
             "carom run: --only takes trajectory, collisions, energy, contacts, frames, video, sheet, vtk, xyz, gltf, "
-            "flights, not `frmes`; "
+            "flights, plots, not `frmes`; "
             "did you mean `frames`?" +
                 end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--only", "energy,"}),
             "carom run: --only takes trajectory, collisions, energy, contacts, frames, video, sheet, vtk, xyz, gltf, "
-            "flights, not ``" +
+            "flights, plots, not ``" +
                 end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--color", "sometimes"}),
             "carom run: --color takes auto, always, never, not `sometimes`" + end);

@@ -19,11 +19,6 @@ using Words = std::vector<std::string>;
 const std::string frames = "output: {collisions: true, frames: {fps: 4, size: [64, 36], samples: 1}}\n";
 const std::string near_camera = "camera: {eye: [0, 0.5, -3], target: [0, 0, 0]}\n";
 
-Files without_manifest(Files files) {
-  files.erase("manifest.json");
-  return files;
-}
-
 /// carom run of a scene of scenes/, small and few pictures, into the folder `to`.
 void run_scene_of_ours(const Workplace& here, const std::string& scene, const std::string& to, const Words& more = {}) {
   Words words = {"run",     SCENES_DIR "/" + scene + ".yaml",

@@ -287,7 +287,8 @@ TEST(Film, OpacityStaysInAGifAndAWebp) {
     for (int i = 0; i < 3; ++i) {
       Image image{32, 32, {}, 4};
       for (int k = 0; k < 32 * 32; ++k)
-        for (const int c : {200, 40 * i, 50, k % 16 < 8 ? 0 : 255}) image.pixels.push_back(static_cast<std::uint8_t>(c));
+        for (const int c : {200, 40 * i, 50, k % 16 < 8 ? 0 : 255})
+          image.pixels.push_back(static_cast<std::uint8_t>(c));
       film.add(image);
     }
     EXPECT_EQ(error_of([&] { film.complete(); }), "no error") << name;

@@ -8,6 +8,7 @@
 #include "export/export_testing.h"
 #include "export/frame_files.h"
 #include "export/picture_streams.h"
+#include "export/sheet.h"
 #include "files/hash.h"
 #include "scene/scene.h"
 
@@ -235,6 +236,47 @@ TEST(Frames, AFrameThatCannotBeWrittenIsNamedWhateverTheThreads) {
       EXPECT_TRUE(decode(read(temp / "run/" + frame_files.folder.data() + ("/" + frame_files.name(i)))).pixels ==
                   picture({64, 36}, i).pixels);
   }
+}
+
+TEST(Sheet, OfTransparentPicturesIsTransparentBetweenThem) {
+  Sheet sheet({2, 1}, {48, 32});
+  Image clear{sheet.picture_size().width, sheet.picture_size().height, {}, 4};
+  clear.pixels.assign(static_cast<std::size_t>(clear.height) * clear.row_size(), 99);
+  sheet.put(0, clear);
+  sheet.put(1, clear);
+  const Image& whole = sheet.image();
+  ASSERT_EQ(whole.channels, 4);
+  EXPECT_EQ(whole.row(0)[3], 0);
+  EXPECT_EQ(whole.row(8)[4 * 8 + 3], 99);
+}
+
+TEST(Film, OfTransparentPicturesIsNoMp4) {
+  TempFolder temp;
+  Scene scene = small_scene();
+  scene.transparent = true;
+  scene.output.video.emplace();
+  EXPECT_EQ(error_of([&] { Exports(scene, temp / "run"); }),
+            "cannot make animation.mp4: an MP4 has no transparency, and `background` is `none`; write frames, a .gif "
+            "or a .webp, or give the background a colour");
+  EXPECT_EQ(names_in(temp.path()), std::vector<std::string>());
+  scene.output.video->file = "animation.webp";
+  EXPECT_NO_THROW(plan_pictures(scene));
+}
+
+TEST(PictureStreams, OfFramesAndASlowFilmAreOneUnlessTheirFlashesDiffer) {
+  Scene scene = small_scene();
+  scene.simulate.duration = 1;
+  scene.output.frames.emplace().fps = 240;
+  scene.output.video.emplace().speed = 0.125;  // at 30 a second: the same times
+  EXPECT_EQ(plan_pictures(scene).streams.size(), 1U);
+  scene.overlay.shutter = 0.5;
+  EXPECT_EQ(plan_pictures(scene).streams.size(), 1U);
+  scene.overlay.flash = true;
+  const PictureStreams plan = plan_pictures(scene);
+  ASSERT_EQ(plan.streams.size(), 2U);
+  EXPECT_EQ(plan.streams[0].interval, 1.0 / 240);
+  EXPECT_EQ(plan.streams[1].interval, 0.125 / 30);
+  EXPECT_EQ(plan.streams[1].speed, 0.125);
 }
 
 }  // namespace

@@ -155,6 +155,33 @@ TEST(Ticks, EvenOnesIncludeBothEnds) {
   EXPECT_EQ(times(Ticks::even(1, 0.5, 1.5)), (std::vector<double>{1.5}));
 }
 
+TEST(Ticks, AreWrittenWithAllTheirDecimalsOrToATwentiethOfTheirInterval) {
+  EXPECT_EQ(Ticks::rate(1, 0, 9).decimals(), 0);
+  EXPECT_EQ(Ticks::rate(25, 0, 9).decimals(), 2);
+  EXPECT_EQ(Ticks::rate(40, 0, 9).decimals(), 3);
+  EXPECT_EQ(Ticks::rate(30, 0, 9).decimals(), 3);   // 0.0333... s
+  EXPECT_EQ(Ticks::rate(240, 0, 9).decimals(), 4);  // 0.0041666... s
+  EXPECT_EQ(Ticks::rate(30, 0.5, 0.5).decimals(), 1);
+  EXPECT_EQ(Ticks::even(12, 0, 2.8).decimals(), 2);  // 0.2545... s
+  EXPECT_EQ(Ticks::even(5, 0, 2).decimals(), 1);
+  EXPECT_EQ(Ticks::film(25, 0.125, 0.5, 2).decimals(), 3);  // 0.005 s
+  EXPECT_EQ(Ticks::film(30, 0.1, 0, 2).decimals(), 4);      // 0.00333... s
+  for (const double fps : {24.0, 30.0, 60.0, 240.0, 144.0}) {
+    const Ticks ticks = Ticks::rate(fps, 0, 3);
+    const double unit = std::pow(10, -ticks.decimals());
+    EXPECT_LE(0.5 * unit, 0.05 / fps) << fps;
+  }
+}
+
+TEST(Timeline, KnowsTheNextTickOfAStream) {
+  Timeline timeline(0.5);
+  const int a = timeline.add(Ticks::rate(10, 0.1, 0.3));
+  EXPECT_EQ(timeline.next(a), 0.1);
+  std::vector<double> next;
+  while (timeline.advance()) next.push_back(timeline.next(a).value_or(-1));
+  EXPECT_EQ(next, (std::vector<double>{0.1, 0.2, 0.3, -1}));
+}
+
 TEST(Timeline, WithoutOutputsItStillEndsAtTheDuration) {
   Timeline timeline(3);
   EXPECT_TRUE(timeline.advance());

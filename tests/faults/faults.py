@@ -62,6 +62,7 @@ COMMANDS = {
     "film": Command("run film.yaml -o out --progress none", draws=True),
     "render": Command("render out --set camera.eye.y=5 --progress none", ["run film.yaml -o out"], draws=True),
     "still": Command("render out --at 0.25 --progress none", ["run film.yaml -o out"]),
+    "plot": Command("plot out --progress none", ["run tables.yaml -o out"]),
     "sweep": Command("sweep sweep.yaml -o out -j 2 --progress none", forks=True),
     "gather": Command("gather out --progress none", ["sweep sweep.yaml -o out --shard 1/2",
                                                      "sweep sweep.yaml -o out --shard 2/2"], forks=True),

@@ -1,5 +1,6 @@
 // The pages against the program: their commands run, their printed output printed, their tables complete, their numbers
 // measured.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <png.h>
 #include <sys/wait.h>
@@ -16,6 +17,7 @@
 #include <sstream>
 
 #include "bench/bench.h"
+#include "export/run_charts.h"
 #include "physics/energy.h"
 #include "physics/restitution.h"
 #include "physics/world.h"
@@ -169,14 +171,15 @@ TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
       }
     }
   }
-  EXPECT_EQ(run, 28);
+  EXPECT_EQ(run, 31);
   EXPECT_EQ(compared, 2);
   for (const char* file :
        {"two_bowling_balls/animation.mp4", "two_bowling_balls/frames/frame_00084.png",
         "two_bowling_balls/still_1.25s.png", "half/collisions.csv", "two_bowling_balls.sweep/summary.csv",
         "two_bowling_balls.sweep/comparison.xlsx", "two_bowling_balls.sweep/runs/r0006/energy.csv",
         "billiard_break/animation.mp4", "pi_by_collisions/energy.csv", "raindrops.bench/bench.svg", "gas_2/energy.csv",
-        "comparison/comparison.xlsx", "rest/bouncing_ball/trajectory.csv", "first.yaml", "scene.schema.json"}) {
+        "gas/plots/speeds.png", "charts/plots/collisions.svg", "comparison/comparison.xlsx",
+        "rest/bouncing_ball/trajectory.csv", "first.yaml", "scene.schema.json"}) {
     EXPECT_TRUE(fs::exists(clone / (std::string("output/") + file))) << file;
   }
   EXPECT_FALSE(fs::exists(clone / "output/two_bowling_balls.sweep/runs/r0007"));
@@ -313,6 +316,16 @@ TEST(ReadmeScenes, DescribeEveryKey) {
   }
 }
 
+TEST(ReadmeScenes, TheExampleOfColoursAndTextIsAScene) {
+  const std::vector<std::string> blocks = page_at("scenes/README.md").blocks("yaml");
+  const auto block = std::find_if(blocks.begin(), blocks.end(),
+                                  [](const std::string& text) { return text.find("caption:") != std::string::npos; });
+  ASSERT_NE(block, blocks.end());
+  const Scene scene = scene_of("scene: 1\nsimulate: {duration: 1}\nballs: {red: {position: [0, 0, 0]}}\n" + *block);
+  EXPECT_EQ(scene.overlay.caption, "{title}, t = {time} s, e = 1");
+  EXPECT_EQ(scene.roster.bodies[0].coloring->by, ColorQuantity::speed);
+}
+
 TEST(ReadmeScenes, RulesOfRestitutionGiveTheTablesNumbers) {
   const std::map<std::string, Combine> rules = {{"| `average` (default) | ", Combine::average},
                                                 {"| `minimum` | ", Combine::minimum},
@@ -351,6 +364,18 @@ TEST(ReadmeFiles, TheResolvedSceneGivesTheSameBytes) {
   for (const char* name : {"/trajectory.csv", "/collisions.csv"}) {
     EXPECT_EQ(read_file(clone / (std::string("first") + name)), read_file(clone / (std::string("second") + name)));
   }
+}
+
+TEST(ReadmeCharts, HaveTheLimitsOfTheProgram) {
+  const std::string text = page_at("output/README.md").section("Charts of a run");
+  for (const RunChart& chart : run_charts())
+    EXPECT_NE(text.find("| `" + std::string(chart.name) + "` | "), std::string::npos) << chart.name;
+  for (const std::string& stated :
+       {fmt::format("SVG\nof {} x {} pixels", plot_width, plot_height),
+        fmt::format("at most {} bodies", HeightsChart::most_lines),
+        fmt::format("otherwise {} equal steps", plot_instants - 1), fmt::format("in {} columns", ThinnedLine::columns),
+        fmt::format("fewer than {} bodies", SpeedsChart::least_bodies)})
+    EXPECT_NE(text.find(stated), std::string::npos) << stated;
 }
 
 TEST(ReadmeOptions, AreThoseOfTheHelp) {

@@ -80,6 +80,23 @@ TEST(Strokes, AreSeenWhereTheyAreAndHiddenBehindBodies) {
   EXPECT_NEAR(wide, 0.2 / 6 * 100.5 / std::tan(22.5 * M_PI / 180), 1);
 }
 
+TEST(Strokes, ThatAreJoinedAreAsOpaqueAtTheirJointsAsBetweenThem) {
+  Scene scene = test::flat_scene(Vec3(0, 0, 5), Vec3::Zero());
+  Drawing drawing;
+  drawing.camera = camera_of(scene);
+  // Of one colour, then of a colour that changes.
+  for (const Color& end : {test::green, Color{0, 0.9, 0}}) {
+    drawing.strokes.clear();
+    drawing.strokes.push_back({Vec3(-2, 0, 0), Vec3(0, 0, 0), 0.2, 0.2, 1, test::green, 0.5, 0.5, false});
+    drawing.strokes.push_back({Vec3(0, 0, 0), Vec3(2, 0, 0), 0.2, 0.2, 1, end, 0.5, 0.5, false});
+    Renderer renderer(scene, {201, 201}, 4);
+    const Image& image = renderer.draw(scene.initial, drawing);
+    const auto light = [&](int x) { return int{image.row(100)[3 * x + 1]}; };
+    EXPECT_GT(light(60), 150);
+    for (int x = 60; x <= 140; ++x) EXPECT_TRUE(light(x) == light(60) || light(x) == light(140)) << x;
+  }
+}
+
 TEST(Bytes, WhatIsAsInTheLastPictureIsNotDrawnAgain) {
   Scene scene = test::gas(60);
   test::add_body(scene, Vec3(0, 0, 0), Volume::box(Vec3(1, 0.7, 0.5)), {0.8, 0.2, 0.5});

@@ -29,9 +29,7 @@ TEST(Fields, EveryRowIsComplete) {
             << kind.name << ": " << rival << " does not exclude " << field.key;
       }
       for (const std::string_view key : parts_of(field.spared_by)) EXPECT_NE(find_field(kind, key), nullptr) << key;
-      const bool is_map = field.type == Type::part || field.type == Type::part_or_flag || field.type == Type::named ||
-                          field.type == Type::list;
-      if (is_map) {
+      if (holds_map(field) || field.type == Type::named || field.type == Type::list) {
         EXPECT_EQ(kind_named(field.of).name, field.of);
       }
       if (field.type == Type::choice) {

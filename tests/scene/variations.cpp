@@ -16,7 +16,7 @@ std::vector<Json> values_for(const Field& field, bool few) {
   static const Json many = json_of_yaml(R"([
       ~, true, 0, -0.0, 1, -1, 0.5, 16, 1e300, 18446744073709551615, '', text, '4', Red, '#12g', '#aBc', -a.mp4, "a\nb",
       [], [1], [16, 17], [1, 2, 3], [0, -0.0, 0], [0.1, 0.2, 0.3], [1, 2, x], [1, 2, ~], [1, 2, 3, 4], [-99, 2, 3],
-      [0, 3, -5], [red, floor], [red, red], [fence, floor], [fence], [{}], {}, {zzz: 1}, {mass: 1}, {red: ~}])");
+      [0, 3, -5], none, group, [red, floor], [red, red], [fence, floor], [fence], [{}], {}, {zzz: 1}, {mass: 1}, {red: ~}])");
   std::vector<Json> values(few ? one_each.begin() : many.begin(), few ? one_each.end() : many.end());
   const bool chosen = field.type == Type::choice || field.type == Type::pixels;
   for (const std::string_view choice : chosen ? choices(field) : std::vector<std::string_view>())
@@ -113,7 +113,8 @@ class Varying {
 }  // namespace
 
 std::vector<std::string> right_scenes() {
-  return {R"(
+  return {"{scene: 1, simulate: {duration: 1}, background: gray, output: {video: {file: b.mp4}}}",
+          R"(
 scene: 1
 title: Balls
 seed: 3
@@ -124,9 +125,13 @@ walls: {fence: {center: [20, 1, 0], normal: [0.1, 0.2, 0.3], up: [0, 1, 0], size
 balls:
   red: {mass: 1, radius: 0.1, position: [0, 1, 0], velocity: [1, 0, 0], restitution: 0.5, impulse: [0, 1, 0],
         color: crimson, mesh: box.stl}
-  blue: {density: 700, radius: 0.1, position: [1, 1, 0]}
+  blue: {density: 700, radius: 0.1, position: [1, 1, 0], color: {by: speed, min: 1, max: 16, map: magma}}
 simulate: {duration: 1, engine: exact, rest_speed: 0.1, max_collisions: 9, contact: merge}
-background: '#fff'
+caption: "{title}, {time}, {run}, {collisions}, e = {restitution.default}"
+trails: {seconds: 0.5, width: 0.01, on: [red]}
+flash: true
+arrows: [velocity, force]
+shutter: 0.5
 )",
           R"(
 scene: 1
@@ -170,7 +175,7 @@ forces:
   - {uniform: [1, 0, 0], on: [red], from: 0.5, until: 0.75}
   - {acceleration: [1, 0, 0]}
   - {drag: {linear: 1, quadratic: 2, wind: [1, 0, 0]}}
-  - {spring: {anchor: [0, 2, 0], stiffness: 1, rest_length: 1, damping: 1}}
+  - {spring: {anchor: [0, 2, 0], stiffness: 1, rest_length: 1, damping: 1}, visible: false}
   - {attractor: {center: [0, 2, 0], strength: 1, softening: 1}}
 planes: {fence: {point: [0, -9, 0], normal: [0, 1, 0]}}
 simulate: {duration: 1, engine: stepped, step: 0.1, integrator: verlet}
@@ -181,6 +186,7 @@ simulate: {duration: 1, tolerance: 0.1, engine: auto}
 defaults: {plane: {color: tan}, wall: {color: tan}, group: {speed: 1}}
 planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}
 walls: {fence: {center: [20, 1, 0], normal: [-1, 0, 0], size: [1, 1]}}
+background: skyblue
 camera: {eye: [0, 3, -5], target: [0, 0, 0], up: [0, 1, 0.1], fov: 40, fov_axis: horizontal, near: 1, far: 100}
 lights: {sun: {direction: [1, -2, 1], color: white, intensity: 0.5}, lamp: {position: [0, 5, 0]}, ambient: dimgray}
 output:
@@ -195,6 +201,7 @@ output:
   xyz: {every: 0.1}
   gltf: {fps: 2}
   flights: true
+  plots: true
 )",
           "{scene: 1, simulate: {duration: 1, engine: book, as_printed: true}}",
           "{scene: 1, simulate: {duration: 1}, output: {video: {file: b.mp4, fps: 16, size: square}}}",

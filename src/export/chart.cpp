@@ -1,0 +1,52 @@
+// Names that are too long for the picture are cut, because gnuplot would draw beyond its edge.
+#include "export/chart.h"
+
+#include <filesystem>
+
+#include "export/plot_axis.h"
+#include "files/manifest.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+namespace {
+
+// In letters, as far as the picture has room.
+constexpr std::size_t longest_title = 70, longest_name = 16;
+/// Lines of more instants have no marks.
+constexpr std::uint64_t most_marks = 40;
+
+}  // namespace
+
+std::string shortened(const std::string& text, std::size_t most) {
+  if (letters_of(text) <= most) return text;
+  std::string start = text;
+  // Bytes are removed up to a whole letter.
+  while (letters_of(start) >= most) start.pop_back();
+  return start + "…";
+}
+
+Plot chart_of(const Scene& scene, std::string_view subtitle) {
+  Plot plot;
+  const std::string title = scene.title.empty() ? std::filesystem::path(scene.file).stem().string() : scene.title;
+  plot.title = shortened(valid_utf8(title), longest_title);
+  plot.subtitle = subtitle;
+  plot.scale = PlotScale::linear;
+  return plot;
+}
+
+Plot chart_over_time(const Scene& scene, std::string_view subtitle) {
+  Plot plot = chart_of(scene, subtitle);
+  plot.x_label = "time";
+  plot.x_unit = "s";
+  plot.x_from = 0;
+  plot.x_to = scene.simulate.duration;
+  return plot;
+}
+
+PlotSeries chart_line(std::string_view name, std::size_t style, const ThinnedLine& line, std::uint64_t instants) {
+  return {shortened(std::string(name), longest_name), style, line.points(),
+          instants <= most_marks ? PlotForm::marks : PlotForm::line};
+}
+
+}  // namespace carom

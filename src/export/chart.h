@@ -1,0 +1,30 @@
+#pragma once
+// What all charts of a run have in common.
+#include <string>
+#include <string_view>
+
+#include "export/plot.h"
+#include "export/thinned_line.h"
+
+namespace carom {
+
+struct Scene;
+
+/// Indices of plot styles by their colours.
+namespace chart_color {
+inline constexpr std::size_t vermillion = 0, orange = 1, blue = 3, purple = 4, sky = 5, black = 6;
+}
+
+/// A linear plot with the scene's title, without data.
+Plot chart_of(const Scene& scene, std::string_view subtitle);
+
+/// The same over the time of the run.
+Plot chart_over_time(const Scene& scene, std::string_view subtitle);
+
+/// A line of a chart with so many instants. If they are few each has a mark, which shows when the run was sampled.
+PlotSeries chart_line(std::string_view name, std::size_t style, const ThinnedLine& line, std::uint64_t instants);
+
+/// The text, cut to at most so many letters.
+std::string shortened(const std::string& text, std::size_t most);
+
+}  // namespace carom

@@ -1,0 +1,40 @@
+#pragma once
+// The chart of collisions per second over time, by kind.
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "export/histogram.h"
+#include "physics/collision.h"
+
+namespace carom {
+
+struct Scene;
+
+class CollisionsChart {
+ public:
+  explicit CollisionsChart(const Scene& scene) : scene_(scene) {}
+  /// At a time (s). The end of bounces (CollisionKind::rest) is no collision and is not counted.
+  void add(double time, CollisionKind kind);
+  /// The collisions of one kind over time (s).
+  Histogram histogram(CollisionKind kind) const;
+  Plot plot() const;
+
+ private:
+  /// Collisions are counted in so many intervals, and joined afterwards, when their number is known.
+  static constexpr std::size_t intervals = 120;
+  using Counts = std::array<std::uint64_t, intervals>;
+  struct Row {
+    CollisionKind kind;
+    std::string_view name;
+    std::size_t style;
+  };
+  static const std::array<Row, 3> rows;
+  std::uint64_t total() const;
+  int joined() const;
+
+  const Scene& scene_;
+  std::array<Counts, 3> counts_{};  // by row
+};
+
+}  // namespace carom

@@ -1,0 +1,20 @@
+#pragma once
+// The chart of a run's energy over time.
+#include "export/chart.h"
+
+namespace carom {
+
+class EnergyChart {
+ public:
+  explicit EnergyChart(const Scene& scene);
+  /// By ascending time (s); J.
+  void add(double time, double kinetic, double potential);
+  Plot plot() const;
+
+ private:
+  const Scene& scene_;
+  std::uint64_t instants_ = 0;
+  ThinnedLine kinetic_, potential_, total_;
+};
+
+}  // namespace carom

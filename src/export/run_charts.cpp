@@ -1,0 +1,70 @@
+// Instants are compared exactly: a timeline computes each from its number, so that equal ones are equal to the bit.
+#include "export/run_charts.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+
+#include "physics/energy.h"
+#include "scene/output_kinds.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+namespace {
+
+Ticks ticks_of(const std::optional<double>& every, double duration) {
+  return every ? Ticks::every(*every, duration) : Ticks::even(plot_instants, 0, duration);
+}
+
+constexpr RunChart all_charts[] = {
+    {"energy", [](const RunCharts& charts) { return charts.energy.plot(); }},
+    {"heights", [](const RunCharts& charts) { return charts.heights.plot(); }},
+    {"speeds", [](const RunCharts& charts) { return charts.speeds.plot(); }},
+    {"collisions", [](const RunCharts& charts) { return charts.collisions.plot(); }},
+};
+
+}  // namespace
+
+RunCharts::RunCharts(const Scene& scene)
+    : energy(scene),
+      heights(scene),
+      speeds(scene),
+      collisions(scene),
+      energy_ticks(ticks_of(plot_intervals(scene.output).energy, scene.simulate.duration)),
+      height_ticks(ticks_of(plot_intervals(scene.output).trajectory, scene.simulate.duration)),
+      scene_(scene),
+      next_energy_(energy_ticks.first()),
+      next_heights_(height_ticks.first()) {}
+
+void RunCharts::sample(double time, const State& state) {
+  if (next_energy_ <= energy_ticks.last() && energy_ticks.at(next_energy_) == time) {
+    ++next_energy_;
+    energy.add(time, kinetic_energy(scene_.world, state), potential_energy(scene_.world, state));
+  }
+  if (next_heights_ > height_ticks.last() || height_ticks.at(next_heights_) != time) return;
+  if (next_heights_++ == height_ticks.last()) speeds.add(state);
+  heights.add(time, state);
+}
+
+std::span<const RunChart> run_charts() {
+  return all_charts;
+}
+
+std::vector<ChartFile> draw_charts(std::span<const std::string_view> names, const RunCharts& charts,
+                                   const std::string& gnuplot) {
+  std::vector<Plot> plots;
+  for (const std::string_view name : names)
+    for (const RunChart& chart : all_charts)
+      if (chart.name == name) plots.push_back(chart.plot(charts));
+  std::vector<PlotPictures> pictures = draw_plots(plots, gnuplot);
+  std::vector<ChartFile> files;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    files.push_back({fmt::format("{}.svg", names[i]), std::move(pictures[i].svg)});
+    files.push_back({fmt::format("{}.png", names[i]), std::move(pictures[i].png)});
+  }
+  return files;
+}
+
+}  // namespace carom

@@ -1,0 +1,59 @@
+#pragma once
+// The charts of a run, gathered from its states and collisions, or from its tables. Memory depends on the number of
+// bodies, not on that of instants.
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "export/collisions_chart.h"
+#include "export/energy_chart.h"
+#include "export/heights_chart.h"
+#include "export/speeds_chart.h"
+#include "export/timeline.h"
+
+namespace carom {
+
+struct Scene;
+
+/// All charts of a run. Fill each member, or let sample() do it.
+struct RunCharts {
+  /// `scene` must outlive this object.
+  explicit RunCharts(const Scene& scene);
+
+  /// Takes what the charts show of a state at its time (s). Times ascend, and are those of `instants`, or others.
+  void sample(double time, const State& state);
+
+  EnergyChart energy;
+  HeightsChart heights;
+  SpeedsChart speeds;
+  CollisionsChart collisions;
+  /// When states are sampled for the energy, and for the heights: as for energy.csv and trajectory.csv, where the scene
+  /// lists these, else at plot_instants even ones.
+  Ticks energy_ticks, height_ticks;
+
+ private:
+  const Scene& scene_;
+  std::int64_t next_energy_, next_heights_;
+};
+
+inline constexpr std::int64_t plot_instants = 501;
+
+/// One chart as a row of a table.
+struct RunChart {
+  std::string_view name;  // of its files: plots/<name>.svg and plots/<name>.png
+  Plot (*plot)(const RunCharts& charts);
+};
+
+/// In the order of plot_files.names (scene/output_kinds.h).
+std::span<const RunChart> run_charts();
+
+/// A file of plots/.
+struct ChartFile {
+  std::string name, bytes;
+};
+/// Draws the named charts, each as two files. Throws ExportError.
+std::vector<ChartFile> draw_charts(std::span<const std::string_view> names, const RunCharts& charts,
+                                   const std::string& gnuplot);
+
+}  // namespace carom

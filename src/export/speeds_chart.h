@@ -1,0 +1,42 @@
+#pragma once
+// The chart of the bodies' speeds at the end of a run, beside Maxwell's distribution.
+#include <map>
+#include <vector>
+
+#include "export/histogram.h"
+#include "physics/maxwell.h"
+#include "physics/state.h"
+
+namespace carom {
+
+struct Scene;
+
+class SpeedsChart {
+ public:
+  /// Fewer bodies have no distribution to compare.
+  static constexpr std::size_t least_bodies = 30;
+
+  explicit SpeedsChart(const Scene& scene) : scene_(scene) {}
+  /// A body at the end of the run; kg, m/s.
+  void add(double mass, const Vec3& velocity);
+  void add(const State& end);
+
+  Histogram histogram() const;
+  /// Maxwell's distribution with the kinetic energy and the directions of all bodies: how many of them an interval of
+  /// this width (m/s) at a speed (m/s) holds. Bodies of several masses have one temperature, and the curve is the sum
+  /// of theirs.
+  double maxwell(double speed, double width) const;
+  /// Whether that is drawn: bodies move, there are at least least_bodies, and they do not merge.
+  bool has_maxwell() const;
+  Plot plot() const;
+
+ private:
+  PlotSeries maxwell_curve(const Histogram& bars) const;
+
+  const Scene& scene_;
+  std::vector<double> speeds_;            // m/s
+  std::map<double, std::size_t> masses_;  // kg, and the number of bodies
+  EnergyByDirection energy_;
+};
+
+}  // namespace carom

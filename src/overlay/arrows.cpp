@@ -1,0 +1,122 @@
+// The scale is constant in time, so that the lengths of a film can be compared. It comes from the scene at time 0.
+#include "overlay/arrows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "physics/force.h"
+#include "scene/color_scale.h"
+
+namespace carom {
+namespace {
+
+constexpr double longest = 6;                           // median radii, of a typical arrow
+constexpr double shaft_radius = 0.1;                    // median radii
+constexpr double head_radius = 0.3, head_length = 0.9;  // median radii
+constexpr double least_width = 2;                       // pixels
+constexpr double usual_gravity = 9.80665;               // m/s^2
+
+double median_radius(const World& world) {
+  std::vector<double> radii = world.radius;
+  if (radii.empty()) return 1;
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return *middle;
+}
+
+/// The force (N) of gravity and the scene's forces.
+Vec3 force_on(const Moment& moment, Entity body) {
+  const double mass = moment.state.mass.empty() ? moment.scene.world.mass[body] : moment.state.mass[body];
+  return mass * free_acceleration(moment.scene.world, body, moment.state.time, moment.state.position[body],
+                                  moment.state.velocity[body]);
+}
+
+double greatest_force(const Scene& scene) {
+  const World& world = scene.world;
+  double greatest = 0, heaviest = 0;
+  for (Entity i = 0; i < world.body_count(); ++i) {
+    const Vec3 a = free_acceleration(world, i, 0, scene.initial.position[i], scene.initial.velocity[i]);
+    greatest = std::max(greatest, world.mass[i] * a.norm());
+    heaviest = std::max(heaviest, world.mass[i]);
+  }
+  return greatest > 0 ? greatest : heaviest * usual_gravity;
+}
+
+/// The distance (m) from the centre to the surface along a unit vector.
+double way_out(const Volume& volume, const Vec3& along) {
+  const auto through = [&](int axis) {
+    const double part = std::abs(along[axis]);
+    return part > 0 ? volume.half[axis] / part : std::numeric_limits<double>::infinity();
+  };
+  switch (volume.shape) {
+    case Shape::sphere:
+      return volume.half.x();
+    case Shape::cylinder: {
+      const double across = std::hypot(along.x(), along.z());
+      return across > 0 ? std::min(volume.half.x() / across, through(1)) : through(1);
+    }
+    case Shape::box:
+      return std::min({through(0), through(1), through(2)});
+  }
+  return 0;
+}
+
+void add_arrow(const Vec3& start, const Vec3& arrow, double size, const Color& color, std::vector<Stroke>& strokes) {
+  const double length = arrow.norm();
+  // A short arrow is a head alone, in proportion.
+  const double head = std::min(head_length * size, length), scale = head / (head_length * size);
+  const Vec3 neck = start + (length - head) / length * arrow;
+  const auto add = [&](const Vec3& from, const Vec3& to, double from_radius, double to_radius) {
+    Stroke stroke;
+    stroke.from = from;
+    stroke.to = to;
+    stroke.from_radius = from_radius;
+    stroke.to_radius = to_radius;
+    stroke.least_width = least_width;
+    stroke.color = color;
+    strokes.push_back(stroke);
+  };
+  if (length > head) add(start, neck, shaft_radius * size, shaft_radius * size);
+  add(neck, start + arrow, scale * head_radius * size, 0);
+}
+
+}  // namespace
+
+Color ArrowScale::color() const {
+  return from_rgb(kind == Kind::velocity ? 0x2b7bba : 0xd9541e);
+}
+
+std::vector<ArrowScale> arrow_scales(const Scene& scene) {
+  std::vector<ArrowScale> scales;
+  const double size = median_radius(scene.world);
+  if (scene.overlay.velocity_arrows) {
+    double greatest = 0;
+    for (Entity i = 0; i < scene.world.body_count(); ++i) greatest = std::max(greatest, expected_speed(scene, i));
+    scales.push_back({ArrowScale::Kind::velocity, rounded_up(greatest), longest * size, size});
+  }
+  if (scene.overlay.force_arrows)
+    scales.push_back({ArrowScale::Kind::force, rounded_up(greatest_force(scene)), longest * size, size});
+  return scales;
+}
+
+void add_arrows(const Moment& moment, const std::vector<ArrowScale>& scales, std::vector<Stroke>& strokes) {
+  if (scales.empty()) return;
+  const World& world = moment.scene.world;
+  for (Entity body = 0; body < world.body_count(); ++body) {
+    if (moment.is_part(body)) continue;
+    const Vec3& x = moment.state.position[body];
+    for (const ArrowScale& scale : scales) {
+      const bool is_force = scale.kind == ArrowScale::Kind::force;
+      const Vec3 arrow =
+          scale.length / scale.typical * (is_force ? force_on(moment, body) : moment.state.velocity[body]);
+      const double length = arrow.norm();
+      if (length < 0.25 * moment.pixel_at(x)) continue;
+      const Vec3 along = arrow / length;
+      const Volume volume = moment.state.volume.empty() ? world.volume_of(body) : moment.state.volume[body];
+      add_arrow(x + way_out(volume, along) * along, arrow, scale.size, scale.color(), strokes);
+    }
+  }
+}
+
+}  // namespace carom

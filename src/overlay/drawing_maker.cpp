@@ -1,0 +1,52 @@
+// What a scene does not request is not computed: a Drawing of it has a camera and nothing else.
+#include "overlay/drawing_maker.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "overlay/moment.h"
+#include "overlay/springs.h"
+#include "overlay/trails.h"
+#include "physics/world.h"
+#include "scene/scene.h"
+
+namespace carom {
+namespace {
+
+bool has_springs(const World& world) {
+  return std::any_of(world.forces.begin(), world.forces.end(),
+                     [](const Force& force) { return std::holds_alternative<Spring>(force.law); });
+}
+
+}  // namespace
+
+DrawingMaker::DrawingMaker(const Scene& scene, const History& history, Size size, double speed)
+    : scene_(scene),
+      history_(history),
+      size_(size),
+      flash_(flash_length * speed),
+      colors_(scene),
+      arrows_(arrow_scales(scene)),
+      strokes_(scene.overlay.trails || !arrows_.empty() || has_springs(scene.world)) {}
+
+Drawing DrawingMaker::at(const State& state, const Camera& camera) const {
+  Drawing drawing;
+  drawing.camera = camera;
+  drawing.body_colors = colors_.at(state, history_);
+  if (scene_.overlay.flash) drawing.glow = glow(state.time);
+  if (!strokes_) return drawing;
+  const Moment moment{scene_, state, history_, colors_, Eye(drawing.camera, size_)};
+  add_trails(moment, drawing.strokes);
+  add_springs(moment, drawing.strokes);
+  add_arrows(moment, arrows_, drawing.strokes);
+  return drawing;
+}
+
+std::vector<float> DrawingMaker::glow(double time) const {
+  std::vector<float> values(scene_.world.body_count());
+  for (Entity i = 0; i < values.size(); ++i)
+    values[i] = static_cast<float>(std::max(0.0, 1 - (time - history_.last_collision(i)) / flash_));
+  return values;
+}
+
+}  // namespace carom

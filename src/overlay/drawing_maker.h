@@ -1,0 +1,37 @@
+#pragma once
+// The Drawing of an instant: the camera, and what a picture shows besides the bodies.
+#include <vector>
+
+#include "overlay/arrows.h"
+#include "overlay/body_colors.h"
+#include "overlay/history.h"
+#include "render/drawing.h"
+#include "scene/output.h"
+
+namespace carom {
+
+/// A flash lasts so long (s) in a film.
+inline constexpr double flash_length = 0.1;
+
+class DrawingMaker {
+ public:
+  /// For pictures of this size, in which a second of the film is `speed` simulated seconds.
+  /// `scene` and `history` must outlive this object.
+  DrawingMaker(const Scene& scene, const History& history, Size size, double speed = 1);
+
+  /// `state`: at the time that `history` has reached. `camera`: that of its picture.
+  Drawing at(const State& state, const Camera& camera) const;
+
+ private:
+  std::vector<float> glow(double time) const;
+
+  const Scene& scene_;
+  const History& history_;
+  Size size_;
+  double flash_;  // s, simulated
+  BodyColors colors_;
+  std::vector<ArrowScale> arrows_;
+  bool strokes_;  // whether there may be any
+};
+
+}  // namespace carom

@@ -1,0 +1,53 @@
+#pragma once
+// Text as coverage of pixels, by FreeType, in the typeface DejaVu Sans.
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace carom {
+
+/// How much of each pixel is covered, 0 to 255, top row first.
+struct Coverage {
+  Coverage(int w, int h) : width(w), height(h), values(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
+  std::uint8_t& at(int x, int y) {
+    return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+  }
+  std::uint8_t at(int x, int y) const {
+    return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+  }
+
+  int width, height;  // pixels
+  std::vector<std::uint8_t> values;
+};
+
+/// The file of the typeface, from the system's folders of fonts. Throws RenderError with the remedy.
+std::string find_font();
+
+class Font {
+ public:
+  /// Letters of `size` pixels (em), without hinting, so that the same text has the same pixels everywhere.
+  /// `file`: that of find_font(). Throws RenderError.
+  Font(const std::string& file, double size);
+  ~Font();
+  Font(const Font&) = delete;
+  Font& operator=(const Font&) = delete;
+
+  double size() const { return size_; }
+  // Pixels, of any letter of Latin script: above and below the base line.
+  double ascent() const;
+  double descent() const;
+  double line() const { return 1.2 * (ascent() + descent()); }  // pixels from line to line
+  double width(std::string_view text) const;                    // pixels; text: UTF-8
+  /// Adds the text. Its base line starts at (x, y), in pixels from the upper left corner. What lies outside is left
+  /// out.
+  void draw(std::string_view text, double x, double y, Coverage& to) const;
+
+ private:
+  struct Face;
+  double size_;
+  std::unique_ptr<Face> face_;
+};
+
+}  // namespace carom

@@ -1,0 +1,63 @@
+#pragma once
+// What pictures show of the past: collisions of each body, and paths. Only what a scene requests is kept.
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "overlay/track_sampler.h"
+#include "overlay/tracks.h"
+#include "physics/collision.h"
+#include "physics/path_piece.h"
+#include "physics/state.h"
+
+namespace carom {
+
+struct Scene;
+
+/// What the pictures of a scene need of its simulator besides states.
+struct OverlayNeeds {
+  bool collisions = false;        // each of them, recorded
+  bool collision_counts = false;  // of the tally
+  bool paths = false;             // recorded
+  bool states = false;            // at times of History::next_sample(), because paths are not recorded
+};
+/// Nothing, if the scene has no pictures.
+OverlayNeeds overlay_needs(const Scene& scene);
+
+class History {
+ public:
+  /// `scene` must outlive this object.
+  explicit History(const Scene& scene);
+
+  /// Take what has been recorded since the last call, in order.
+  void record(std::span<const Collision> collisions);
+  void record_paths(std::span<const PathPiece> pieces);
+  /// The time (s) at which the next state is due, at the latest. Infinity: none.
+  double next_sample() const;
+  /// Takes a state. Call it before each picture, too.
+  void sample(const State& state);
+
+  /// Collisions of a body until `time` (s), which is no older than the trails.
+  std::uint64_t collisions_of(Entity body, double time = std::numeric_limits<double>::infinity()) const;
+  /// The time (s) of a body's last collision. Minus infinity: none.
+  double last_collision(Entity body) const { return last_.empty() ? no_collision : last_[body]; }
+  /// Null: no trails are requested.
+  const Tracks* tracks() const { return tracks_ ? &*tracks_ : nullptr; }
+
+  static constexpr double no_collision = -std::numeric_limits<double>::infinity();
+
+ private:
+  void count(Entity body, double time);
+
+  const Scene& scene_;
+  OverlayNeeds needs_;
+  std::vector<std::uint64_t> counts_;        // by body; empty: not needed
+  std::vector<double> last_;                 // s, by body; empty: not needed
+  std::vector<std::vector<double>> recent_;  // s, by body, for trails with colours by collisions; empty: not needed
+  std::optional<Tracks> tracks_;
+  std::optional<TrackSampler> sampler_;
+};
+
+}  // namespace carom

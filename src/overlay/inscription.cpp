@@ -1,0 +1,62 @@
+// A caption has the upper two fifths of a picture, and legends have the lower three, so that they do not meet.
+#include "overlay/inscription.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/scene.h"
+
+namespace carom {
+namespace {
+
+constexpr double letters = 1.0 / 28;                     // of the picture's height
+constexpr double legend_letters = 0.75;                  // of a caption's letters
+constexpr double caption_part = 0.4, legend_part = 0.6;  // of the picture's height
+
+double letters_of(Size size) {
+  return std::max(size.height * letters, 2 * TextBlock::least_size);
+}
+
+bool has_text(const Scene& scene) {
+  return scene.output.pictures() && (!scene.overlay.caption.empty() || !legends_of(scene).empty());
+}
+
+}  // namespace
+
+void check_font(const Scene& scene) {
+  if (has_text(scene)) find_font();
+}
+
+Inscription::Inscription(const Scene& scene, Size size)
+    : scene_(scene),
+      size_(size),
+      margin_(static_cast<int>(0.4 * letters_of(size))),
+      captioned_(!scene.overlay.caption.empty()) {
+  const std::vector<Legend> legends = legends_of(scene);
+  if (!captioned_ && legends.empty()) return;
+  font_file_ = find_font();
+  if (legends.empty()) return;
+  legends_ =
+      std::make_unique<LegendBlock>(font_file_, legends, legend_letters * letters_of(size), size.width - 2 * margin_,
+                                    static_cast<int>(legend_part * size.height) - margin_);
+  if (legends_->canvas() == nullptr) legends_.reset();
+}
+
+int Inscription::legends_top() const {
+  return size_.height - margin_ - legends_->canvas()->height();
+}
+
+void Inscription::write(const CaptionValues& values, Image& image) {
+  if (captioned_) {
+    std::string text = caption_text(scene_.overlay.caption, values);
+    if (caption_ == nullptr || text != text_) {
+      text_ = std::move(text);
+      caption_ = std::make_unique<TextBlock>(font_file_, text_, letters_of(size_), size_.width - 2 * margin_,
+                                             static_cast<int>(caption_part * size_.height) - margin_);
+    }
+    if (caption_->canvas() != nullptr) caption_->canvas()->lay_onto(image, margin_, margin_);
+  }
+  if (legends_ != nullptr) legends_->canvas()->lay_onto(image, margin_, legends_top());
+}
+
+}  // namespace carom

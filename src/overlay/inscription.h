@@ -1,0 +1,45 @@
+#pragma once
+// The text of the pictures of one size: a caption at the upper left, and legends at the lower left.
+#include <memory>
+#include <string>
+
+#include "overlay/legend_block.h"
+#include "overlay/text_block.h"
+#include "render/image.h"
+#include "scene/caption.h"
+#include "scene/output.h"
+
+namespace carom {
+
+struct Scene;
+
+/// Throws RenderError with the remedy, if the scene's pictures have text and its font is missing.
+void check_font(const Scene& scene);
+
+class Inscription {
+ public:
+  /// `scene` must outlive this object. Letters of a caption have 1/28 of the picture's height, those of legends 3/4 of
+  /// that, and less where the text would not fit. Throws RenderError.
+  Inscription(const Scene& scene, Size size);
+
+  bool any() const { return captioned_ || legends_ != nullptr; }
+  /// Writes onto a picture of this size.
+  void write(const CaptionValues& values, Image& image);
+
+  /// Pixels from the upper left corner of the picture.
+  int margin() const { return margin_; }
+  const LegendBlock* legends() const { return legends_.get(); }
+  int legends_top() const;
+
+ private:
+  const Scene& scene_;
+  Size size_;
+  int margin_;
+  bool captioned_;
+  std::string font_file_;
+  std::string text_;                    // of the caption below
+  std::unique_ptr<TextBlock> caption_;  // of the last picture
+  std::unique_ptr<LegendBlock> legends_;
+};
+
+}  // namespace carom

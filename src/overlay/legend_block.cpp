@@ -1,0 +1,108 @@
+// Lays legends out once to measure them, and once more to draw them, by the same functions.
+#include "overlay/legend_block.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "overlay/text_block.h"
+
+namespace carom {
+namespace {
+
+constexpr double strip_width = 9, strip_height = 0.7;  // of the size of letters
+constexpr double swatch = 0.75;                        // of the size of letters
+constexpr double shrink = 0.9;
+const Color white{1, 1, 1};
+
+/// The pen moves down the block. Without a canvas it only measures.
+class LegendPen {
+ public:
+  LegendPen(const Font& font, double padding, Canvas* canvas, std::vector<PixelBox>* strips)
+      : font_(font), left_(padding), y_(padding), canvas_(canvas), strips_(strips) {
+    if (canvas != nullptr) coverage_.emplace(canvas->width(), canvas->height());
+  }
+
+  void add(const std::vector<Legend>& legends) {
+    for (const Legend& legend : legends) {
+      if (&legend != &legends.front()) y_ += 0.6 * font_.size();
+      if (!legend.title.empty()) line(legend.title, 0);
+      if (legend.entries.empty()) strip(legend);
+      for (const Legend::Entry& entry : legend.entries) item(entry);
+    }
+    if (coverage_) canvas_->add(*coverage_, white);
+  }
+
+  double width() const { return width_; }  // pixels, from the left edge
+  double height() const { return y_; }     // pixels, from the upper edge
+
+ private:
+  /// A line of text, `x` pixels from the left.
+  void line(const std::string& text, double x) {
+    write(text, left_ + x);
+    y_ += font_.line();
+  }
+
+  void write(const std::string& text, double x) {
+    width_ = std::max(width_, x + font_.width(text));
+    if (coverage_) font_.draw(text, x, y_ + font_.ascent(), *coverage_);
+  }
+
+  /// The strip, and below it the numbers of its ends.
+  void strip(const Legend& legend) {
+    const double numbers = font_.width(legend.min) + font_.width(legend.max) + font_.size();
+    const PixelBox box{static_cast<int>(left_), static_cast<int>(std::ceil(y_)),
+                       static_cast<int>(std::max(strip_width * font_.size(), numbers)),
+                       std::max(2, static_cast<int>(strip_height * font_.size()))};
+    width_ = std::max(width_, static_cast<double>(box.left + box.width));
+    if (canvas_ != nullptr)
+      for (int x = 0; x < box.width; ++x)
+        fill({box.left + x, box.top, 1, box.height},
+             color_in(legend.map, static_cast<double>(x) / std::max(box.width - 1, 1)));
+    if (strips_ != nullptr) strips_->push_back(box);
+    y_ = box.top + box.height + 0.15 * font_.size();
+    write(legend.min, left_);
+    write(legend.max, box.left + box.width - font_.width(legend.max));
+    y_ += font_.line();
+  }
+
+  void item(const Legend::Entry& entry) {
+    const int side = std::max(2, static_cast<int>(swatch * font_.size()));
+    const double middle = y_ + (font_.ascent() + font_.descent()) / 2;
+    if (canvas_ != nullptr)
+      fill({static_cast<int>(left_), static_cast<int>(std::max(0.0, middle - 0.5 * side)), side, side}, entry.color);
+    line(entry.name, 1.4 * side);
+  }
+
+  void fill(const PixelBox& box, const Color& color) {
+    for (int y = box.top; y < box.top + box.height; ++y)
+      for (int x = box.left; x < box.left + box.width; ++x) canvas_->add(x, y, color);
+  }
+
+  const Font& font_;
+  double left_, y_, width_ = 0;
+  Canvas* canvas_;
+  std::vector<PixelBox>* strips_;
+  std::optional<Coverage> coverage_;
+};
+
+}  // namespace
+
+LegendBlock::LegendBlock(const std::string& font_file, const std::vector<Legend>& legends, double size, int width,
+                         int height) {
+  if (legends.empty()) return;
+  for (; size >= TextBlock::least_size; size *= shrink) {
+    const Font font(font_file, size);
+    const double padding = std::ceil(TextBlock::padding_of(size));
+    LegendPen measure(font, padding, nullptr, nullptr);
+    measure.add(legends);
+    const int needed_width = static_cast<int>(std::ceil(measure.width() + padding));
+    const int needed_height = static_cast<int>(std::ceil(measure.height() + padding));
+    if (needed_width > width || needed_height > height) continue;
+    canvas_ = std::make_unique<Canvas>(needed_width, needed_height);
+    canvas_->add_plate(padding);
+    LegendPen(font, padding, canvas_.get(), &strips_).add(legends);
+    return;
+  }
+}
+
+}  // namespace carom

@@ -1,0 +1,33 @@
+#pragma once
+// Legends as a picture.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "overlay/canvas.h"
+#include "overlay/legend.h"
+
+namespace carom {
+
+/// A rectangle of pixels of a canvas.
+struct PixelBox {
+  int left = 0, top = 0, width = 0, height = 0;
+};
+
+/// Legends one below another on a plate.
+class LegendBlock {
+ public:
+  /// At most `width` times `height` pixels: letters of `size` pixels, or smaller ones where the legends do not fit.
+  /// Throws RenderError.
+  LegendBlock(const std::string& font_file, const std::vector<Legend>& legends, double size, int width, int height);
+
+  const Canvas* canvas() const { return canvas_.get(); }  // null: letters would be below 5 pixels
+  /// By legend: its strip of colours. The first and the last column have the colours of the map's ends.
+  const std::vector<PixelBox>& strips() const { return strips_; }
+
+ private:
+  std::unique_ptr<Canvas> canvas_;
+  std::vector<PixelBox> strips_;
+};
+
+}  // namespace carom

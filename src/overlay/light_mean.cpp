@@ -1,0 +1,82 @@
+// sRGB bytes become linear light of 16 bits by a table, and the mean becomes bytes by another (IEC 61966-2-1). Sixteen
+// bits tell all bytes apart: the darkest two differ by 20.
+#include "overlay/light_mean.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace carom {
+namespace {
+
+constexpr double most = 65535;
+
+double linear_part(double srgb) {
+  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+}
+
+double srgb_part(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+const std::array<std::uint16_t, 256>& light_of_bytes() {
+  static const auto table = [] {
+    std::array<std::uint16_t, 256> values{};
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = static_cast<std::uint16_t>(std::lround(most * linear_part(static_cast<double>(i) / 255)));
+    return values;
+  }();
+  return table;
+}
+
+const std::vector<std::uint8_t>& bytes_of_light() {
+  static const auto table = [] {
+    std::vector<std::uint8_t> values(65536);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i] = static_cast<std::uint8_t>(std::lround(255 * srgb_part(static_cast<double>(i) / most)));
+    return values;
+  }();
+  return table;
+}
+
+}  // namespace
+
+void LightMean::add(const Image& image) {
+  if (count_++ == 0) {
+    mean_.width = image.width;
+    mean_.height = image.height;
+    mean_.channels = image.channels;
+    sums_.assign(image.pixels.size(), 0);
+  }
+  const std::array<std::uint16_t, 256>& light = light_of_bytes();
+  if (image.channels == 3) {
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) sums_[i] += light[image.pixels[i]];
+    return;
+  }
+  for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
+    const std::uint32_t opacity = image.pixels[i + 3];
+    for (std::size_t c = 0; c < 3; ++c) sums_[i + c] += (light[image.pixels[i + c]] * opacity + 127) / 255;
+    sums_[i + 3] += opacity;
+  }
+}
+
+const Image& LightMean::take() {
+  const auto count = static_cast<std::uint32_t>(std::max(count_, 1));
+  const std::vector<std::uint8_t>& bytes = bytes_of_light();
+  mean_.pixels.resize(sums_.size());
+  if (mean_.channels == 3) {
+    for (std::size_t i = 0; i < sums_.size(); ++i) mean_.pixels[i] = bytes[(sums_[i] + count / 2) / count];
+  } else {
+    for (std::size_t i = 0; i < sums_.size(); i += 4) {
+      const double whole = std::max(sums_[i + 3] / 255.0, 1e-9);
+      for (std::size_t c = 0; c < 3; ++c)
+        mean_.pixels[i + c] = bytes[static_cast<std::size_t>(std::min(most, std::round(sums_[i + c] / whole)))];
+      mean_.pixels[i + 3] = static_cast<std::uint8_t>((sums_[i + 3] + count / 2) / count);
+    }
+  }
+  count_ = 0;
+  return mean_;
+}
+
+}  // namespace carom

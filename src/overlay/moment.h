@@ -1,0 +1,31 @@
+#pragma once
+// What the lines of one picture are made from.
+#include <algorithm>
+
+#include "overlay/body_colors.h"
+#include "overlay/history.h"
+#include "physics/state.h"
+#include "physics/world.h"
+#include "render/eye.h"
+#include "scene/scene.h"
+
+namespace carom {
+
+struct Moment {
+  const Scene& scene;
+  const State& state;
+  const History& history;
+  const BodyColors& colors;
+  Eye eye;
+
+  double pixel_at(const Vec3& x) const {  // m, the side of a pixel at a point in front of the camera
+    return eye.pixel * std::max(eye.point(x).z(), eye.camera.near);
+  }
+  double radius_of(Entity body) const {  // m
+    return state.radius.empty() ? scene.world.radius[body] : state.radius[body];
+  }
+  /// Whether a body is a part of another, and not seen.
+  bool is_part(Entity body) const { return !state.part_of.empty() && state.part_of[body] != body; }
+};
+
+}  // namespace carom

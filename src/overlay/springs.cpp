@@ -1,0 +1,96 @@
+// The helix stands between two straight ends, outside of the body. Chords of a turn are off its circle of radius c by
+// c (1 - cos(pi / n)), which is at most a quarter of a pixel.
+#include "overlay/springs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+#include "physics/force.h"
+
+namespace carom {
+namespace {
+
+constexpr double coil_radius = 0.4;   // of the body's radius
+constexpr double wire_radius = 0.15;  // of the coil's
+constexpr double lead = 0.08;         // of a spring's length, straight at the anchor and at the body
+constexpr double pitch = 1.5;         // of the coil's radius, at rest
+constexpr double fewest_turns = 4, most_turns = 24;
+constexpr double most_chords = 48;    // of a turn
+constexpr double chord_error = 0.25;  // pixels
+const Color steel = from_rgb(0xa7adb5);
+
+/// A frame whose third axis is `along`. It turns smoothly with `along`, except where this is opposite to a direction
+/// that no spring of a scene is likely to have.
+Eigen::Quaterniond frame_along(const Vec3& along) {
+  const Vec3 usual = Vec3(-0.48, -0.6, -0.64);
+  return Eigen::Quaterniond::FromTwoVectors(usual, along) * Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), usual);
+}
+
+double turns_of(const Spring& spring, double coil, double start_length) {
+  const double length = spring.rest_length > 0 ? spring.rest_length : start_length;
+  return std::clamp(std::round(length / (pitch * coil)), fewest_turns, most_turns);
+}
+
+/// Appends strokes through points.
+class Wire {
+ public:
+  Wire(double radius, const Vec3& start, std::vector<Stroke>& strokes)
+      : radius_(radius), at_(start), strokes_(strokes) {}
+
+  void go_to(const Vec3& point) {
+    Stroke stroke;
+    stroke.from = at_;
+    stroke.to = point;
+    stroke.from_radius = stroke.to_radius = radius_;
+    stroke.color = steel;
+    stroke.lit = true;
+    strokes_.push_back(stroke);
+    at_ = point;
+  }
+
+ private:
+  double radius_;
+  Vec3 at_;
+  std::vector<Stroke>& strokes_;
+};
+
+void add_spring(const Moment& moment, const Spring& spring, Entity body, std::vector<Stroke>& strokes) {
+  const Vec3 end = moment.state.position[body], whole = end - spring.anchor;
+  const double length = whole.norm(), reach = moment.radius_of(body);
+  if (!(length > 0)) return;
+  const Vec3 along = whole / length;
+  const double coil = coil_radius * reach, from = lead * length, until = length - reach - lead * length;
+  Wire wire(wire_radius * coil, spring.anchor, strokes);
+  const double error = chord_error * std::min(moment.pixel_at(spring.anchor), moment.pixel_at(end));
+  if (until > from && coil > 2 * error) {
+    const double turns = turns_of(spring, coil, (moment.scene.initial.position[body] - spring.anchor).norm());
+    const double chords = std::clamp(std::ceil(std::numbers::pi / std::acos(1 - error / coil)), 6.0, most_chords);
+    const Eigen::Quaterniond frame = frame_along(along);
+    wire.go_to(spring.anchor + from * along);
+    const double count = turns * chords;
+    for (double i = 0; i <= count; ++i) {
+      const double angle = 2 * std::numbers::pi * i / chords, height = from + i / count * (until - from);
+      wire.go_to(spring.anchor + frame * Vec3(coil * std::cos(angle), coil * std::sin(angle), height));
+    }
+    wire.go_to(spring.anchor + until * along);
+  }
+  wire.go_to(end);
+}
+
+}  // namespace
+
+void add_springs(const Moment& moment, std::vector<Stroke>& strokes) {
+  const World& world = moment.scene.world;
+  const std::vector<std::size_t>& hidden = moment.scene.overlay.hidden_springs;
+  for (std::size_t k = 0; k < world.forces.size(); ++k) {
+    const Force& force = world.forces[k];
+    const Spring* spring = std::get_if<Spring>(&force.law);
+    if (spring == nullptr || std::find(hidden.begin(), hidden.end(), k) != hidden.end()) continue;
+    for (Entity body = 0; body < world.body_count(); ++body)
+      if (acts(force, body, moment.state.time) && !moment.is_part(body)) add_spring(moment, *spring, body, strokes);
+  }
+}
+
+}  // namespace carom

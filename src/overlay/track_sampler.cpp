@@ -1,0 +1,87 @@
+// Between two states without a collision the path is Hermite's polynomial of degree 3 through positions and velocities.
+// Its error is |x''''| h^4 / 384. Forces change at most at the rate r (force_rate), so |x''''| is about r^4 times the
+// extent of the motion, and h = 1 / (4 r) leaves 1e-5 of that extent. A collision is a kink at a known time: the path
+// before it is followed from the state before, and the path after it back from the state after.
+#include "overlay/track_sampler.h"
+
+#include <algorithm>
+
+#include "physics/force.h"
+#include "physics/world.h"
+
+namespace carom {
+namespace {
+
+// Of a track's length: the longest time between states, which limits what kinks leave out, and the shortest.
+constexpr double longest_part = 1.0 / 64, shortest_part = 1.0 / 4096;
+
+TrackPiece hermite(double from, double until, const Vec3& x0, const Vec3& v0, const Vec3& x1, const Vec3& v1) {
+  const double h = until - from;
+  const Vec3 mean = (x1 - x0) / h;
+  return {.from = from,
+          .until = until,
+          .start = {from, 0},
+          .x = x0,
+          .v = v0,
+          .a = (6 * mean - 4 * v0 - 2 * v1) / h,
+          .jerk = 6 * (v0 + v1 - 2 * mean) / (h * h)};
+}
+
+TrackPiece parabola(double from, double until, double at, const Vec3& x, const Vec3& v, const Vec3& a) {
+  return {.from = from, .until = until, .start = {at, 0}, .x = x, .v = v, .a = a};
+}
+
+}  // namespace
+
+TrackSampler::TrackSampler(const World& world, Tracks& tracks, double seconds)
+    : world_(world), tracks_(tracks), seconds_(seconds), known_(world.body_count()) {}
+
+void TrackSampler::record(std::span<const Collision> collisions) {
+  for (const Collision& collision : collisions) {
+    for (const Entity e : {collision.a, collision.b})
+      if (world_.is_body(e) && tracks_.has(e)) known_[e].impacts.push_back(collision.time);
+  }
+}
+
+void TrackSampler::add_path(Entity body, Known& known, double time, const Vec3& x, const Vec3& v, const Vec3& a) {
+  if (known.impacts.empty()) {
+    tracks_.add(body, hermite(time_, time, known.x, known.v, x, v));
+    return;
+  }
+  const double first = known.impacts.front(), last = known.impacts.back();
+  const TrackPiece before = parabola(time_, first, time_, known.x, known.v, known.a);
+  tracks_.add(body, before);
+  if (known.ended) return;
+  const TrackPiece after = parabola(last, time, time, x, v, a);
+  if (last > first) {
+    // Between kinks that are known by their times alone, the path is taken as straight.
+    const Vec3 corner = before.position(first);
+    tracks_.add(body,
+                parabola(first, last, first, corner, (after.position(last) - corner) / (last - first), Vec3::Zero()));
+  }
+  tracks_.add(body, after);
+}
+
+void TrackSampler::sample(const State& state) {
+  if (started_ && !(state.time > time_)) return;
+  double step = longest_part * seconds_;
+  for (const Entity body : tracks_.bodies()) {
+    Known& known = known_[body];
+    if (known.ended) continue;
+    known.ended = !state.part_of.empty() && state.part_of[body] != body;
+    const Vec3 &x = state.position[body], &v = state.velocity[body];
+    const Vec3 a = free_acceleration(world_, body, state.time, x, v);
+    if (started_) add_path(body, known, state.time, x, v, a);
+    known.x = x;
+    known.v = v;
+    known.a = a;
+    known.impacts.clear();
+    const double rate = force_rate(world_, body, x, v);
+    if (rate > 0) step = std::min(step, 1 / (4 * rate));
+  }
+  started_ = true;
+  time_ = state.time;
+  next_ = time_ + std::max(step, shortest_part * seconds_);
+}
+
+}  // namespace carom

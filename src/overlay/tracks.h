@@ -1,0 +1,59 @@
+#pragma once
+// The recent paths of bodies, as pieces of polynomials.
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "numerics/compensated.h"
+#include "numerics/vec3.h"
+#include "physics/path_piece.h"
+
+namespace carom {
+
+/// x + v s + a s^2/2 + j s^3/6, with s the time since `start`, from `from` until `until`.
+struct TrackPiece {
+  double from = 0;  // s
+  double until = std::numeric_limits<double>::infinity();
+  DoubleDouble start{0, 0};  // s
+  Vec3 x = Vec3::Zero();     // m, at start
+  Vec3 v = Vec3::Zero();     // m/s, at start
+  Vec3 a = Vec3::Zero();     // m/s^2, at start
+  Vec3 jerk = Vec3::Zero();  // m/s^3
+
+  double since(double time) const { return (time - start.hi) - start.lo; }  // s
+  Vec3 position(double time) const {
+    const double s = since(time);
+    return x + s * (v + s * (a / 2 + s / 6 * jerk));
+  }
+  Vec3 velocity(double time) const {
+    const double s = since(time);
+    return v + s * (a + s / 2 * jerk);
+  }
+  Vec3 acceleration(double time) const { return a + since(time) * jerk; }
+};
+
+class Tracks {
+ public:
+  /// The paths of `on` (empty: of all bodies) during the last `seconds`.
+  Tracks(Entity bodies, const std::vector<Entity>& on, double seconds);
+
+  const std::vector<Entity>& bodies() const { return bodies_; }  // those with tracks, ascending
+  std::span<const TrackPiece> of(Entity body) const { return pieces_[body]; }
+
+  /// Adds pieces of recorded paths, in order. A body that becomes part of another has no further path.
+  void add(std::span<const PathPiece> pieces);
+  /// Adds a piece of a body's path, which begins where its last one ends, or later.
+  void add(Entity body, const TrackPiece& piece);
+  bool has(Entity body) const { return wanted_[body]; }
+
+ private:
+  void end(Entity body, double time);
+  void forget(Entity body, double before);
+
+  double seconds_;
+  std::vector<Entity> bodies_;
+  std::vector<bool> wanted_;                     // by body
+  std::vector<std::vector<TrackPiece>> pieces_;  // by body, in order of time
+};
+
+}  // namespace carom

@@ -1,0 +1,71 @@
+// Decodes what pictures show besides the bodies. Colours by a quantity are checked here, after all bodies, because the
+// ends of a scale may follow from these.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/caption.h"
+#include "scene/color_scale.h"
+#include "scene/decode.h"
+#include "scene/member.h"
+#include "scene/scene.h"
+#include "yaml/values.h"
+
+namespace carom {
+namespace {
+
+std::optional<Trails> decode_trails(const View& whole, const Inventory& inventory, Diagnostics& diagnostics) {
+  if (!whole.wants("trails")) return std::nullopt;
+  const auto keys = filled<TrailKeys>(whole.part("trails", "trails"));
+  std::optional<std::vector<Entity>> on = find_bodies(keys.on, inventory, "it has no trail", diagnostics);
+  if (!on) return std::nullopt;
+  return Trails{keys.seconds, keys.width, std::move(*on)};
+}
+
+bool lists(const Node* names, std::string_view name) {
+  return names != nullptr && !names->bad &&
+         std::any_of(names->items.begin(), names->items.end(), [&](const Node& item) { return item.text == name; });
+}
+
+void check_coloring(const View& body, const Coloring& coloring, const Scene& scene, Diagnostics& diagnostics) {
+  if (!coloring.by || !(coloring.min || coloring.max)) return;
+  const View view = body.part("color", "coloring");
+  const char* const key = coloring.max ? "max" : "min";
+  if (coloring.by == ColorQuantity::group) {
+    diagnostics.add(view.place(key), fmt::format("`{}` has no meaning for groups", key),
+                    "remove it: each ball, body or group has a colour of its own");
+    return;
+  }
+  const ColorScale scale = scale_of(scene, coloring);
+  if (scale.min < scale.max) return;
+  const bool both = coloring.min && coloring.max;
+  diagnostics.add(
+      view.place(key),
+      fmt::format("the scale of colours ends at {}, and starts at {}", shortest(scale.max), shortest(scale.min)),
+      both ? "expected min < max" : "expected min < max, both given");
+}
+
+void check_colors(const Node& root, const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < std::min(inventory.bodies.size(), scene.roster.bodies.size()); ++i) {
+    const std::optional<Coloring>& coloring = scene.roster.bodies[i].coloring;
+    if (!coloring) continue;
+    const View view = body_view(root, inventory.bodies[i]);
+    check_coloring(inventory.bodies[i].group ? member_view(root, view) : view, *coloring, scene, diagnostics);
+  }
+}
+
+}  // namespace
+
+void decode_overlay(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
+  const View whole(&root, kind_named("scene"), Place{});
+  Overlay& overlay = scene.overlay;
+  overlay.caption = decode_caption(root, diagnostics);
+  overlay.trails = decode_trails(whole, inventory, diagnostics);
+  overlay.flash = whole.flag("flash").value_or(false);
+  overlay.velocity_arrows = lists(whole.find("arrows"), "velocity");
+  overlay.force_arrows = lists(whole.find("arrows"), "force");
+  overlay.shutter = whole.number("shutter").value_or(0);
+  if (diagnostics.empty()) check_colors(root, inventory, scene, diagnostics);
+}
+
+}  // namespace carom

@@ -1,0 +1,68 @@
+// Names of things in a scene file to their numbers.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/decode.h"
+#include "yaml/values.h"
+
+namespace carom {
+
+std::optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Diagnostics& diagnostics) {
+  if (name.bad || !name.is(Node::Kind::scalar)) return std::nullopt;
+  if (const auto it = inventory.names.find(name.text); it != inventory.names.end()) return it->second;
+  // A group's member such as gas.3.
+  const std::size_t dot = name.text.rfind('.');
+  if (dot != std::string::npos) {
+    const std::string group = name.text.substr(0, dot);
+    const auto it = std::find_if(inventory.bodies.begin(), inventory.bodies.end(),
+                                 [&](const BodyEntry& b) { return b.group && b.key->text == group; });
+    const std::optional<std::uint64_t> member = parse_index(std::string_view(name.text).substr(dot + 1));
+    if (it != inventory.bodies.end()) {
+      if (member && *member < it->count) return Inventory::Range{it->first + static_cast<Entity>(*member), 1};
+      diagnostics.add(
+          name.place,
+          fmt::format("the group {} has no member {}", in_backticks(group), in_backticks(name.text.substr(dot + 1))),
+          it->count == 0 ? "it has none" : fmt::format("expected {}.0 to {}.{}", group, group, it->count - 1));
+      return std::nullopt;
+    }
+  }
+  std::vector<std::string> all;
+  for (const BodyEntry& body : inventory.bodies) all.push_back(body.key->text);
+  for (const FixedEntry& fixed : inventory.fixed) {
+    all.push_back(fixed.key->text);
+    for (const char* side : {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"}) {
+      if (fixed.count == 6) all.push_back(fixed.key->text + "." + side);
+    }
+  }
+  const std::string near = nearest(name.text, std::vector<std::string_view>(all.begin(), all.end()));
+  diagnostics.add(name.place, fmt::format("nothing is named {}", in_backticks(name.text)),
+                  near.empty() ? "expected a ball, body, group, member (gas.3) or fixed thing, such as room.y_min"
+                               : fmt::format("did you mean {}?", in_backticks(near)));
+  return std::nullopt;
+}
+
+std::optional<std::vector<Entity>> find_bodies(const Node* on, const Inventory& inventory, std::string_view use,
+                                               Diagnostics& diagnostics) {
+  if (on == nullptr) return std::vector<Entity>{};
+  if (on->bad) return std::nullopt;
+  std::vector<Entity> bodies;
+  bool good = true;
+  for (const Node& item : on->items) {
+    const auto range = find_range(item, inventory, diagnostics);
+    good = good && range;
+    if (!range) continue;
+    if (range->first >= inventory.body_count && range->count > 0) {
+      diagnostics.add(item.place, fmt::format("{} never moves: {}", in_backticks(item.text), use),
+                      "expected balls, bodies, groups or members (gas.3)");
+      good = false;
+      continue;
+    }
+    for (Entity i = 0; i < range->count; ++i) bodies.push_back(range->first + i);
+  }
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+  return good && !bodies.empty() ? std::optional(std::move(bodies)) : std::nullopt;
+}
+
+}  // namespace carom

@@ -1,0 +1,136 @@
+// Follows a path through the views of the tree, which know defaults. settings.cpp follows paths to change the tree.
+#include "scene/value_at.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "scene/check.h"
+#include "scene/scene_values.h"
+#include "scene/view.h"
+#include "yaml/diagnostics.h"
+#include "yaml/values.h"
+
+namespace carom {
+namespace {
+
+/// The place of a path's start in the tree, advanced by steps.
+class PathWalk {
+ public:
+  explicit PathWalk(const Node& root)
+      : root_(root), view_(std::in_place, &root, kind_named("scene"), Place{}), node_(&root) {}
+
+  /// Returns false, with a problem and a remedy in `found`, if the step leads nowhere.
+  bool step(std::string_view step, ValueAtPath& found) {
+    found_ = &found;
+    const bool moved = view_ ? to_key(step) : into_value(step);
+    before_ = step;
+    return moved;
+  }
+
+  bool at_map() const {
+    return view_ || (field_ != nullptr && (field_->type == Type::named || field_->type == Type::list));
+  }
+  const Node* node() const { return node_; }
+
+ private:
+  bool fail(std::string problem, std::string remedy = "") {
+    found_->problem = std::move(problem);
+    found_->remedy = std::move(remedy);
+    return false;
+  }
+
+  bool to_key(std::string_view step) {
+    const Field* field = find_field(view_->kind(), step);
+    if (field == nullptr)
+      return fail(fmt::format("unknown key {} in {}", in_backticks(step),
+                              view_->kind().name == "scene" ? "the scene" : in_backticks(view_->kind().name)),
+                  suggest_key(step, view_->kind()));
+    field_ = field;
+    node_ = view_->find(*field);
+    const bool absent = node_ == nullptr || !node_->is(Node::Kind::map);
+    if (holds_map(*field) && !(absent && field->type == Type::color_or_part)) return to_part(*field, absent);
+    view_.reset();
+    return node_ != nullptr || fail(fmt::format("{} has no value in this scene", in_backticks(step)));
+  }
+
+  bool to_part(const Field& field, bool absent) {
+    const Kind& kind = kind_named(field.of);
+    const bool needs = std::any_of(kind.fields.begin(), kind.fields.end(), [](const Field& f) { return f.needed; });
+    const bool wanted = field.type == Type::part_or_flag ? view_->wants(field.key) : field.type == Type::part && !needs;
+    if (absent && !wanted) return fail(fmt::format("this scene has no {}", in_backticks(field.key)));
+    const View part = view_->part(field.key, field.of);
+    // A ball of a group has the defaults of balls. Of other parts, View::part knows the layers.
+    view_ = kind.defaults.empty() ? part : View(node_, kind, part.where(), defaults_for(root_, kind));
+    return true;
+  }
+
+  bool into_value(std::string_view step) {
+    if (field_->type == Type::named || field_->type == Type::list) return to_entry(step);
+    const bool numbers = node_->is(Node::Kind::sequence);
+    for (const auto& names : {std::vector<std::string_view>{"x", "y", "z"}, {"width", "height"}}) {
+      if (!numbers || names.size() != node_->items.size()) continue;
+      const auto at = std::find(names.begin(), names.end(), step);
+      if (at == names.end()) break;
+      node_ = &node_->items[static_cast<std::size_t>(at - names.begin())];
+      return true;
+    }
+    return fail(fmt::format("{} has no part {}", in_backticks(before_), in_backticks(step)), "end the path before it");
+  }
+
+  bool to_entry(std::string_view step) {
+    const Kind& kind = kind_named(field_->of);
+    const Node* entry = nullptr;
+    if (field_->type == Type::named) {
+      entry = node_->find(step);
+    } else if (const auto index = parse_index(step); index && *index < node_->items.size()) {
+      entry = &node_->items[static_cast<std::size_t>(*index)];
+    }
+    if (entry == nullptr) {
+      std::vector<std::string_view> names;
+      for (const Key& key : node_->keys) names.push_back(key.text);
+      const std::string near = nearest(step, names);
+      return fail(fmt::format("there is no {} {}", kind.name, in_backticks(step)),
+                  near.empty() ? "" : fmt::format("did you mean {}?", in_backticks(near)));
+    }
+    node_ = entry;
+    field_ = nullptr;
+    if (kind.also != nullptr && step == kind.also->key)
+      field_ = kind.also;
+    else
+      view_.emplace(entry, kind, entry->place, defaults_for(root_, kind));
+    return true;
+  }
+
+  const Node& root_;
+  /// The map that the path has reached. None: it has reached the value node_ of field_.
+  std::optional<View> view_;
+  const Node* node_;
+  const Field* field_ = nullptr;
+  std::string before_ = "the scene";
+  ValueAtPath* found_ = nullptr;
+};
+
+}  // namespace
+
+ValueAtPath value_at(const Node& root, std::string_view path) {
+  ValueAtPath found;
+  PathWalk walk(root);
+  for (std::size_t i = 0; i <= path.size();) {
+    const std::size_t end = std::min(path.find('.', i), path.size());
+    if (!walk.step(path.substr(i, end - i), found)) return found;
+    i = end + 1;
+  }
+  if (walk.at_map()) {
+    found.problem = fmt::format("{} holds several values", in_backticks(path));
+    found.remedy = "name one of them";
+  } else if (walk.node()->bad) {
+    found.text = "?";  // an error was reported at its own place
+  } else {
+    found.text = text_of_value(*walk.node());
+  }
+  return found;
+}
+
+}  // namespace carom

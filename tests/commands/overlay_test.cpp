@@ -1,0 +1,99 @@
+// What pictures show besides bodies, by the real program: rendering again, sweeps, and what is refused.
+#include <gtest/gtest.h>
+
+#include "commands/program.h"
+
+namespace carom::testing {
+namespace {
+
+using Files = std::map<std::string, std::string>;
+using Words = std::vector<std::string>;
+
+const std::string small_frames =
+    "camera: {eye: [0, 0.5, -3], target: [0, 0, 0]}\n"
+    "output: {frames: {fps: 4, size: [96, 54], samples: 1}}\n";
+
+Files frames_of(const Workplace& here, const std::string& folder) {
+  Files frames;
+  for (const auto& [name, bytes] : here.files(folder))
+    if (name.find("frame_") != std::string::npos) frames[name.substr(name.rfind('/') + 1)] = bytes;
+  return frames;
+}
+
+TEST(Overlay, RenderedFromFlightsHasTheBytesOfTheRun) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(small_frames));
+  const Words shown = {"--set", "trails={seconds: 0.3}",      "--set", "shutter=0.5",
+                       "--set", "arrows=[velocity]",          "--set", "caption=at {time} s",
+                       "--set", "balls.red.color={by: speed}"};
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", "a/run"}).code, 0);
+  Words render = {"render", "a/run", "-o", "b/run"}, run = {"run", "balls.yaml", "-o", "c/run"};
+  render.insert(render.end(), shown.begin(), shown.end());
+  run.insert(run.end(), shown.begin(), shown.end());
+  const Finished rendered = here.carom(render);
+  EXPECT_EQ(rendered.code, 0);
+  EXPECT_EQ(rendered.err, "");
+  ASSERT_EQ(here.carom(run).code, 0);
+  EXPECT_EQ(frames_of(here, "b/run").size(), 5u);
+  EXPECT_EQ(frames_of(here, "b/run"), frames_of(here, "c/run"));
+  EXPECT_NE(frames_of(here, "a/run"), frames_of(here, "b/run"));
+}
+
+TEST(Overlay, ThatShowsCollisionsIsSimulatedAgain) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls(small_frames));
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", "run"}).code, 0);
+  for (const std::string& set : {std::string("caption=\"{collisions} so far\""), std::string("flash=true"),
+                                 std::string("balls.red.color={by: collisions}")}) {
+    const Finished rendered = here.carom({"render", "run", "--set", set, "-o", "b", "--force", "--progress", "none"});
+    EXPECT_EQ(rendered.code, 0) << rendered.err;
+    EXPECT_EQ(rendered.err, "run: the pictures show collisions, which flights do not hold: simulating again\n") << set;
+    ASSERT_EQ(here.carom({"run", "balls.yaml", "--set", set, "-o", "c", "--force"}).code, 0);
+    EXPECT_EQ(frames_of(here, "b"), frames_of(here, "c")) << set;
+  }
+}
+
+TEST(Overlay, OfASweepHasTheValuesAndTheNameOfEachRun) {
+  const Workplace here;
+  // The two values are equal, so that their runs would be copies of one another.
+  here.write("balls.yaml", two_balls("caption: \"{run}, {balls.red.mass} kg\"\n" + small_frames));
+  const Finished sweep = here.carom({"sweep", "balls.yaml", "--grid", "balls.red.mass=1,1.0,2", "-o", "s", "--quiet"});
+  ASSERT_EQ(sweep.code, 0) << sweep.err;
+  EXPECT_NE(here.read("s/runs/r0001/scene.yaml").find("caption: \"{run}, 1 kg\"\n"), std::string::npos);
+  EXPECT_NE(here.read("s/runs/r0003/scene.yaml").find("caption: \"{run}, 2 kg\"\n"), std::string::npos);
+  EXPECT_NE(frames_of(here, "s/runs/r0001"), frames_of(here, "s/runs/r0002"));
+  const Finished again = here.carom({"run", "s/runs/r0002/scene.yaml", "-o", "x/r0002"});
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(frames_of(here, "x/r0002"), frames_of(here, "s/runs/r0002"));
+}
+
+TEST(Overlay, OfASweepIsDrawnOnceForEqualRunsWithoutTheirNames) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("caption: \"{balls.red.mass} kg\"\n" + small_frames));
+  ASSERT_EQ(here.carom({"sweep", "balls.yaml", "--grid", "balls.red.mass=1,1.0", "-o", "s", "--quiet"}).code, 0);
+  EXPECT_EQ(frames_of(here, "s/runs/r0001"), frames_of(here, "s/runs/r0002"));
+}
+
+TEST(Overlay, OfATransparentSceneHasNoMp4) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("background: none\n" + small_frames));
+  const Finished film = here.carom({"run", "balls.yaml", "--only", "video"});
+  EXPECT_EQ(film.code, 2);
+  EXPECT_NE(film.err.find("an MP4 has no transparency, and `background` is `none`; write frames, a .gif or a .webp, or "
+                          "give the background a colour"),
+            std::string::npos)
+      << film.err;
+}
+
+TEST(Overlay, WithoutItsFontEndsTheRunBeforeItsFolderIsMade) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("caption: true\n" + small_frames));
+  const Finished run =
+      here.shell("HOME=/nowhere XDG_DATA_HOME=/nowhere XDG_DATA_DIRS=/nowhere \"$CAROM\" run balls.yaml -o out");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.err.find("apt install fonts-dejavu-core"), std::string::npos) << run.err;
+  EXPECT_FALSE(here.has("out"));
+}
+
+}  // namespace
+}  // namespace carom::testing

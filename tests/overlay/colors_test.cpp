@@ -1,0 +1,136 @@
+// Colours of bodies by a quantity, and flashes.
+#include <limits>
+
+#include "overlay/body_colors.h"
+#include "overlay/drawing_maker.h"
+#include "scene/scenes_in_text.h"
+
+namespace carom {
+namespace {
+
+std::string scene_by(const std::string& coloring, const std::string& more = "") {
+  return "scene: 1\nsimulate: {duration: 1}\ngravity: [0, 0, 0]\noutput: {frames: true}\n"
+         "defaults: {ball: {color: {" +
+         coloring + "}}}\nballs:\n  a: {mass: 1, radius: 0.1, position: [0, 0, 0], velocity: [2, 0, 0]}\n" +
+         "  b: {mass: 4, radius: 0.2, position: [1, 0, 0], velocity: [0, 0, -3]}\n" +
+         "  c: {mass: 9, radius: 0.5, position: [3, 0, 0]}\n" +
+         "  plain: {mass: 1, radius: 0.1, position: [5, 0, 0], color: gold}\n" + more;
+}
+
+Collision hit(double time, Entity a, Entity b, CollisionKind kind = CollisionKind::body_body) {
+  return {time, kind, a, b, Vec3::Zero(), Vec3::UnitX(), 1, 1, 1, 1, 0};
+}
+
+Color viridis(double at) {
+  return color_in(ColorMap::viridis, at);
+}
+
+TEST(ColourMap, EndsWithTheColoursOfItsTable) {
+  const std::pair<ColorMap, std::pair<std::string, std::string>> ends[] = {{ColorMap::viridis, {"#440154", "#fde725"}},
+                                                                           {ColorMap::cividis, {"#00224e", "#fee838"}},
+                                                                           {ColorMap::magma, {"#000004", "#fcfdbf"}},
+                                                                           {ColorMap::plasma, {"#0d0887", "#f0f921"}},
+                                                                           {ColorMap::inferno, {"#000004", "#fcffa4"}}};
+  for (const auto& [map, colors] : ends) {
+    EXPECT_EQ(hex_text(color_in(map, 0)), colors.first);
+    EXPECT_EQ(hex_text(color_in(map, 1)), colors.second);
+    EXPECT_EQ(color_in(map, -5), color_in(map, 0));
+    EXPECT_EQ(color_in(map, 7), color_in(map, 1));
+  }
+  // Number 136 of 256 of viridis: 0x1f988b (colormaps.py).
+  EXPECT_EQ(hex_text(viridis(136.0 / 255)), "#1f988b");
+}
+
+TEST(ColourMap, BecomesLighterAllAlongForPrintWithoutColours) {
+  for (const ColorMap map :
+       {ColorMap::viridis, ColorMap::cividis, ColorMap::magma, ColorMap::plasma, ColorMap::inferno}) {
+    double before = -1;
+    for (int i = 0; i <= 100; ++i) {
+      const Color c = color_in(map, i / 100.0);
+      const auto linear = [](double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); };
+      const double luminance = 0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b);
+      EXPECT_GT(luminance, before) << static_cast<int>(map) << " at " << i;
+      before = luminance;
+    }
+  }
+}
+
+TEST(BodyColours, AreTheEndsOfTheMapAtMinAndMaxAndBeyond) {
+  const Scene scene = load_text(scene_by("by: speed, min: 2, max: 3"));
+  const History history(scene);
+  const std::vector<Color> colors = BodyColors(scene).at(scene.initial, history);
+  EXPECT_EQ(colors[0], viridis(0));  // 2 m/s
+  EXPECT_EQ(colors[1], viridis(1));  // 3 m/s
+  EXPECT_EQ(colors[2], viridis(0));  // 0, below the scale
+  EXPECT_EQ(colors[3], parse_color("gold"));
+}
+
+TEST(BodyColours, FollowTheStateBetweenTheEnds) {
+  const Scene scene = load_text(scene_by("by: kinetic, min: 0, max: 20, map: plasma"));
+  const History history(scene);
+  State state = scene.initial;
+  state.velocity[0] = Vec3(0, 6, 0);  // 18 J
+  const std::vector<Color> colors = BodyColors(scene).at(state, history);
+  EXPECT_EQ(colors[0], color_in(ColorMap::plasma, 0.9));
+  EXPECT_EQ(colors[1], color_in(ColorMap::plasma, 0.9));  // 4 kg at 3 m/s
+  EXPECT_EQ(colors[2], color_in(ColorMap::plasma, 0));
+}
+
+TEST(BodyColours, ByMassAndRadiusSpanThoseOfTheScene) {
+  for (const char* by : {"mass", "radius"}) {
+    const Scene scene = load_text(scene_by(std::string("by: ") + by));
+    const std::vector<Color> colors = BodyColors(scene).at(scene.initial, History(scene));
+    EXPECT_EQ(colors[0], viridis(0)) << by;
+    EXPECT_EQ(colors[2], viridis(1)) << by;
+  }
+}
+
+TEST(BodyColours, ByCollisionsCountEachImpactOfABody) {
+  const Scene scene = load_text(scene_by("by: collisions, max: 4"));
+  History history(scene);
+  const std::vector<Collision> first = {hit(0.1, 0, 1), hit(0.2, 0, 2), hit(0.3, 0, 9, CollisionKind::rest)};
+  history.record(first);
+  const std::vector<Color> colors = BodyColors(scene).at(scene.initial, history);
+  EXPECT_EQ(colors[0], viridis(0.5));
+  EXPECT_EQ(colors[1], viridis(0.25));
+}
+
+TEST(BodyColours, OfATrailAreThoseOfItsTime) {
+  const Scene scene = load_text(scene_by("by: collisions, max: 4", "trails: {seconds: 1}\n"));
+  History history(scene);
+  const std::vector<Collision> hits = {hit(0.1, 0, 1), hit(0.2, 0, 2)};
+  history.record(hits);
+  const BodyColors colors(scene);
+  EXPECT_EQ(colors.of(0, 0.15, Vec3::Zero(), scene.initial, history), viridis(0.25));
+  EXPECT_EQ(colors.of(0, 0.25, Vec3::Zero(), scene.initial, history), viridis(0.5));
+}
+
+TEST(BodyColours, OfASceneWithoutAQuantityAreNotMade) {
+  const Scene scene = load_text(start + "balls: {red: {mass: 1, radius: 0.1, position: [0, 0, 0]}}\n");
+  const History history(scene);
+  const Drawing drawing = DrawingMaker(scene, history, {64, 36}).at(scene.initial, camera_of(scene));
+  EXPECT_TRUE(drawing.body_colors.empty() && drawing.glow.empty() && drawing.strokes.empty());
+}
+
+TEST(Flash, LastsATenthOfASecondOfTheFilm) {
+  const Scene scene = load_text(scene_by("by: mass", "flash: true\n"));
+  for (const double speed : {1.0, 0.125}) {
+    History history(scene);
+    const std::vector<Collision> one = {hit(0.5, 0, 2)};
+    history.record(one);
+    const DrawingMaker maker(scene, history, {64, 36}, speed);
+    State state = scene.initial;
+    const auto glow_at = [&](double time, std::size_t body) {
+      state.time = time;
+      return maker.at(state, camera_of(scene)).glow[body];
+    };
+    EXPECT_EQ(glow_at(0.5, 0), 1);
+    EXPECT_FLOAT_EQ(glow_at(0.5 + 0.05 * speed, 0), 0.5F);
+    EXPECT_GT(glow_at(0.5 + 0.099 * speed, 2), 0);
+    EXPECT_EQ(glow_at(0.5 + 0.1001 * speed, 2), 0);
+    EXPECT_EQ(glow_at(0.5, 1), 0);  // did not collide
+  }
+}
+
+}  // namespace
+}  // namespace carom

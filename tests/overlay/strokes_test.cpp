@@ -1,0 +1,272 @@
+// Trails, springs and arrows, as strokes.
+#include <cmath>
+#include <numbers>
+
+#include "numerics/compensated.h"
+#include "overlay/drawing_maker.h"
+#include "overlay/moment.h"
+#include "overlay/springs.h"
+#include "overlay/trails.h"
+#include "scene/scenes_in_text.h"
+
+namespace carom {
+namespace {
+
+constexpr Size size{1280, 720};
+
+std::string ball_scene(const std::string& more) {
+  return "scene: 1\nsimulate: {duration: 9}\nbackground: black\noutput: {frames: true}\n"
+         "balls: {red: {mass: 2, radius: 0.1, position: [0, 0, 0], velocity: [1, 2, 0], color: gold}}\n"
+         "camera: {eye: [0, 0, 5], target: [0, 0, 0]}\n" +
+         more;
+}
+
+PathPiece piece(double from, const Vec3& x, const Vec3& v, const Vec3& a) {
+  return {.body = 0, .from = from, .start = {from, 0}, .x = x, .v = v, .a = a};
+}
+
+std::vector<Stroke> trails_of(const Scene& scene, const History& history, const State& state) {
+  const BodyColors colors(scene);
+  const DrawingMaker maker(scene, history, size);
+  std::vector<Stroke> strokes;
+  add_trails({scene, state, history, colors, Eye(camera_of(scene), size)}, strokes);
+  return strokes;
+}
+
+/// The distance in pixels from a point to the nearest stroke.
+double pixels_off(const Vec3& point, const std::vector<Stroke>& strokes, const Eye& eye) {
+  const auto place = [&](const Vec3& x) {
+    const Vec3 p = eye.point(x);
+    return Vec3(p.x() / p.z() / eye.pixel, p.y() / p.z() / eye.pixel, 0);
+  };
+  double nearest = 1e9;
+  const Vec3 p = place(point);
+  for (const Stroke& stroke : strokes) {
+    const Vec3 a = place(stroke.from), ab = place(stroke.to) - a;
+    const double t = ab.squaredNorm() > 0 ? std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0) : 0;
+    nearest = std::min(nearest, (p - a - t * ab).norm());
+  }
+  return nearest;
+}
+
+TEST(Trail, LiesWithinAQuarterPixelOfTheParabola) {
+  const Scene scene = load_text(ball_scene("trails: {seconds: 0.8}\n"));
+  History history(scene);
+  const PathPiece path = piece(0, {-1, 0, 0}, {1, 4, 0.5}, {0, -9.80665, 0});
+  history.record_paths({&path, 1});
+  State state = scene.initial;
+  state.time = 1;
+  const std::vector<Stroke> strokes = trails_of(scene, history, state);
+  const Eye eye(*scene.camera, size);
+  const auto exact = [&](double t) { return Vec3(path.x + t * (path.v + t / 2 * path.a)); };
+  double worst = 0;
+  for (int i = 0; i <= 300; ++i) worst = std::max(worst, pixels_off(exact(0.2 + 0.8 * i / 300), strokes, eye));
+  EXPECT_LT(worst, 0.25);  // 0.115
+  EXPECT_GT(strokes.size(), 10u);
+  EXPECT_LT(strokes.size(), 100u);  // 30
+  EXPECT_EQ(strokes.front().from, exact(1 - 0.8));
+  EXPECT_EQ(strokes.back().to, exact(1));
+}
+
+TEST(Trail, FadesWithAgeAndIsOneLine) {
+  const Scene scene = load_text(ball_scene("trails: {seconds: 2, width: 0.04}\n"));
+  History history(scene);
+  const PathPiece path = piece(0, {0, 0, 0}, {1, 2, 0}, {0, -9.80665, 0});
+  history.record_paths({&path, 1});
+  State state = scene.initial;
+  state.time = 1;
+  const std::vector<Stroke> strokes = trails_of(scene, history, state);
+  EXPECT_EQ(strokes.front().from_opacity, 0.5);  // 1 s of 2 s
+  EXPECT_EQ(strokes.back().to_opacity, 1);
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    EXPECT_EQ(strokes[i].from_radius, 0.02);
+    EXPECT_EQ(strokes[i].color, parse_color("gold"));
+    if (i == 0) continue;
+    EXPECT_EQ(strokes[i].from, strokes[i - 1].to);
+    EXPECT_EQ(strokes[i].from_opacity, strokes[i - 1].to_opacity);
+  }
+}
+
+TEST(Trail, TurnsWhereItsBodyBounces) {
+  const Scene scene = load_text(ball_scene("trails: {seconds: 2}\n"));
+  History history(scene);
+  const PathPiece pieces[] = {piece(0, {0, 0, 0}, {1, -2, 0}, Vec3::Zero()),
+                              piece(0.5, {0.5, -1, 0}, {1, 2, 0}, Vec3::Zero())};
+  history.record_paths(pieces);
+  State state = scene.initial;
+  state.time = 1;
+  const std::vector<Stroke> strokes = trails_of(scene, history, state);
+  ASSERT_EQ(strokes.size(), 2u);
+  EXPECT_EQ(strokes[0].to, Vec3(0.5, -1, 0));
+  EXPECT_EQ(strokes[1].from, Vec3(0.5, -1, 0));
+  EXPECT_EQ(strokes[1].to, Vec3(1, 0, 0));
+}
+
+TEST(Trail, OfManyShortStepsHasNoStrokesShorterThanAnEighthOfAPixel) {
+  const Scene scene = load_text(ball_scene("trails: {seconds: 2}\n"));
+  History history(scene);
+  for (int i = 0; i < 10000; ++i) {
+    const PathPiece step = piece(1e-4 * i, {1e-6 * i, 0, 0}, {0.01, 0, 0}, Vec3::Zero());
+    history.record_paths({&step, 1});
+  }
+  State state = scene.initial;
+  state.time = 1;
+  const std::vector<Stroke> strokes = trails_of(scene, history, state);
+  EXPECT_LT(strokes.size(), 20u);  // 0.01 m are 1.7 pixels: 14
+  EXPECT_GT(strokes.size(), 5u);
+}
+
+TEST(Trail, EndsWhereABodyBecomesPartOfAnother) {
+  const Scene scene = load_text(ball_scene("trails: {seconds: 2}\n"));
+  History history(scene);
+  PathPiece pieces[] = {piece(0, {0, 0, 0}, {1, 0, 0}, Vec3::Zero()), piece(0.5, {9, 9, 9}, {1, 2, 0}, Vec3::Zero())};
+  pieces[1].part_of = 3;
+  history.record_paths(pieces);
+  State state = scene.initial;
+  state.time = 1;
+  const std::vector<Stroke> strokes = trails_of(scene, history, state);
+  ASSERT_EQ(strokes.size(), 1u);
+  EXPECT_EQ(strokes[0].to, Vec3(0.5, 0, 0));
+}
+
+TEST(Trail, IsOfTheNamedBodiesAlone) {
+  const Scene scene = load_text(
+      "scene: 1\nsimulate: {duration: 1}\noutput: {frames: true}\ndefaults: {ball: {mass: 1, radius: 0.1}}\n"
+      "balls: {red: {position: [0, 0, 0]}, blue: {position: [1, 0, 0]}, green: {position: [2, 0, 0]}}\n"
+      "trails: {on: [green, red]}\n");
+  const History history(scene);
+  EXPECT_EQ(history.tracks()->bodies(), (std::vector<Entity>{0, 2}));
+}
+
+TEST(Trail, FromStatesFollowsAnOscillationWithinAQuarterPixel) {
+  // x'' = -36 x: 6 rad/s, and a spring has no recorded paths.
+  const Scene scene = load_text(
+      ball_scene("gravity: [0, 0, 0]\ntrails: {seconds: 3}\nforces: [{spring: {anchor: [0, 0, 0], stiffness: 72}}]\n"));
+  EXPECT_TRUE(overlay_needs(scene).states && overlay_needs(scene).collisions && !overlay_needs(scene).paths);
+  History history(scene);
+  const auto at = [&](double time) {
+    State state = scene.initial;
+    state.time = time;
+    state.position[0] = Vec3(std::cos(6 * time), 0.7 * std::sin(6 * time), 0);
+    state.velocity[0] = Vec3(-6 * std::sin(6 * time), 4.2 * std::cos(6 * time), 0);
+    return state;
+  };
+  int samples = 0;
+  for (double time = 0; time < 2; time = history.next_sample(), ++samples) history.sample(at(time));
+  history.sample(at(2));
+  const std::vector<Stroke> strokes = trails_of(scene, history, at(2));
+  const Eye eye(*scene.camera, size);
+  double worst = 0;
+  for (int i = 0; i <= 200; ++i) worst = std::max(worst, pixels_off(at(0.01 * i).position[0], strokes, eye));
+  EXPECT_LT(worst, 0.25);  // 0.09
+  EXPECT_LT(samples, 60);  // 48, at most 1/24 s apart
+}
+
+TEST(Trail, FromStatesHasItsKinkAtTheTimeOfTheCollision) {
+  const Scene scene = load_text(ball_scene("trails: {seconds: 3}\nforces: [{drag: {quadratic: 1.0e-9}}]\n"));
+  ASSERT_TRUE(overlay_needs(scene).states);
+  History history(scene);
+  State state = scene.initial;
+  const Vec3 g(0, -9.80665, 0), corner(0.1, -0.4, 0), before(0.5, -3, 0), after(0.5, 2, 0);
+  const auto sample = [&](double t) {  // the collision is at 1 s
+    state.time = t;
+    const Vec3& v = t < 1 ? before : after;
+    state.position[0] = corner + (t - 1) * v + (t - 1) * (t - 1) / 2 * g;
+    state.velocity[0] = v + (t - 1) * g;
+    history.sample(state);
+  };
+  sample(0.99);
+  const Collision hit{1, CollisionKind::body_fixed, 0, 1, corner, -Vec3::UnitY(), 3, 2, 1, 1, 0};
+  history.record({&hit, 1});
+  sample(1.02);
+  const std::vector<Stroke> strokes = trails_of(scene, history, state);
+  double nearest = 1e9;
+  for (const Stroke& stroke : strokes) nearest = std::min(nearest, (stroke.to - corner).norm());
+  EXPECT_LT(nearest, 1e-6);
+}
+
+TEST(Spring, BeginsAtItsAnchorAndEndsAtItsBody) {
+  const Scene scene = load_text(ball_scene("forces: [{spring: {anchor: [0, 2, 0], stiffness: 40, rest_length: 1}}]\n"));
+  const History history(scene);
+  for (const Vec3& x : {Vec3(0, 0, 0), Vec3(0.5, 0.3, -0.4), Vec3(-1, 3, 1)}) {
+    State state = scene.initial;
+    state.position[0] = x;
+    const std::vector<Stroke> strokes = DrawingMaker(scene, history, size).at(state, camera_of(scene)).strokes;
+    ASSERT_GT(strokes.size(), 40u);
+    EXPECT_EQ(strokes.front().from, Vec3(0, 2, 0));
+    EXPECT_EQ(strokes.back().to, x);
+    for (std::size_t i = 1; i < strokes.size(); ++i) EXPECT_EQ(strokes[i].from, strokes[i - 1].to);
+    // The wire stays within its coil, 0.4 of the body's radius from the axis.
+    const Vec3 along = (x - Vec3(0, 2, 0)).normalized();
+    for (const Stroke& stroke : strokes) EXPECT_LT((stroke.to - Vec3(0, 2, 0)).cross(along).norm(), 0.04 + 1e-12);
+    EXPECT_TRUE(strokes.front().lit);
+  }
+}
+
+TEST(Spring, HasTheSameTurnsHoweverItIsStretched) {
+  const Scene scene = load_text(ball_scene("forces: [{spring: {anchor: [0, 2, 0], stiffness: 40, rest_length: 1}}]\n"));
+  const History history(scene);
+  const DrawingMaker maker(scene, history, size);
+  const auto turns = [&](const Vec3& x) {
+    State state = scene.initial;
+    state.position[0] = x;
+    int crossings = 0;
+    double before = 0;
+    for (const Stroke& stroke : maker.at(state, camera_of(scene)).strokes) {
+      const double side = stroke.to.x();
+      if (std::abs(side) < 1e-9) continue;
+      crossings += before * side < 0;
+      before = side;
+    }
+    return crossings / 2;
+  };
+  EXPECT_NEAR(turns({0, 1, 0}), 17, 1);  // 1 m / (1.5 x 0.04 m)
+  EXPECT_NEAR(turns({0, 0, 0}), turns({0, 1, 0}), 1);
+}
+
+TEST(Spring, ThatIsNotVisibleOrNotActingIsNotDrawn) {
+  const std::string spring = "spring: {anchor: [0, 2, 0], stiffness: 40}";
+  for (const std::string& more : {spring + ", visible: false", spring + ", from: 5", spring + ", until: 0.5"}) {
+    const Scene scene = load_text(ball_scene("forces: [{" + more + "}]\n"));
+    const History history(scene);
+    State state = scene.initial;
+    state.time = 1;
+    EXPECT_TRUE(DrawingMaker(scene, history, size).at(state, camera_of(scene)).strokes.empty()) << more;
+  }
+}
+
+TEST(Arrows, StartAtTheSurfaceAndAreAsLongAsTheirLegend) {
+  const Scene scene = load_text(ball_scene("gravity: [0, 0, 0]\narrows: [velocity]\n"));
+  const History history(scene);
+  const std::vector<ArrowScale> scales = arrow_scales(scene);
+  ASSERT_EQ(scales.size(), 1u);
+  EXPECT_EQ(scales[0].typical, 2.5);  // sqrt(5) m/s, rounded up
+  EXPECT_DOUBLE_EQ(scales[0].length, 0.6);
+  const std::vector<Stroke> strokes = DrawingMaker(scene, history, size).at(scene.initial, camera_of(scene)).strokes;
+  ASSERT_EQ(strokes.size(), 2u);
+  const Vec3 v(1, 2, 0);
+  EXPECT_LT((strokes.front().from - 0.1 * v.normalized()).norm(), 1e-15);
+  EXPECT_LT((strokes.back().to - strokes.front().from - 0.6 / 2.5 * v).norm(), 1e-15);
+  EXPECT_EQ(strokes.back().to_radius, 0);
+}
+
+TEST(Arrows, OfForceAreGravityAndForcesTogether) {
+  const Scene scene = load_text(ball_scene("gravity: [0, -10, 0]\nforces: [{uniform: [15, 0, 0]}]\narrows: [force]\n"));
+  const History history(scene);
+  const std::vector<Stroke> strokes = DrawingMaker(scene, history, size).at(scene.initial, camera_of(scene)).strokes;
+  ASSERT_EQ(strokes.size(), 2u);
+  // 2 kg: (15, -20) N, 25 N in all, as long as six radii.
+  EXPECT_LT((strokes.back().to - strokes.front().from - 0.6 * Vec3(0.6, -0.8, 0)).norm(), 1e-12);
+}
+
+TEST(Arrows, StartAtTheSurfaceOfABox) {
+  const Scene scene = load_text(
+      "scene: 1\nsimulate: {duration: 1}\noutput: {frames: true}\ngravity: [0, 0, 0]\narrows: [velocity]\n"
+      "bodies: {box: {mass: 1, box: [0.4, 0.2, 0.2], position: [0, 0, 0], velocity: [1, 1, 0]}}\n");
+  const History history(scene);
+  const std::vector<Stroke> strokes = DrawingMaker(scene, history, size).at(scene.initial, camera_of(scene)).strokes;
+  EXPECT_LT((strokes.front().from - Vec3(0.1, 0.1, 0)).norm(), 1e-15);
+}
+
+}  // namespace
+}  // namespace carom

@@ -1,0 +1,202 @@
+// Whole runs of scenes whose pictures show more than bodies: what is recorded, at which instants, and the same results.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "overlay/history.h"
+#include "overlay/inscription.h"
+#include "run/engine.h"
+#include "run/picture_series.h"
+#include "run/run_scene.h"
+#include "scene/scenes_in_text.h"
+#include "simulate/simulator.h"
+
+namespace carom {
+namespace {
+
+const std::string bouncing =
+    "scene: 1\ntitle: A ball\nsimulate: {duration: 2}\n"
+    "balls: {red: {mass: 1, radius: 0.1, position: [0, 1.1, 0], velocity: [0.5, 0, 0], restitution: 0.8}}\n"
+    "camera: {eye: [0.5, 1, 4], target: [0.5, 0.6, 0]}\n";
+const std::string floor_plane = "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n";
+
+void carry(Simulator& simulator, History& history, double time) {
+  while (simulator.time() < time) {
+    simulator.advance_to(time);
+    history.record(simulator.collisions());
+    history.record_paths(simulator.paths());
+  }
+}
+
+/// The history of a run until `time`, which ends with a state.
+void play(const Scene& scene, History& history, double time) {
+  const OverlayNeeds needs = overlay_needs(scene);
+  const auto simulator = make_simulator(scene, {needs.collisions, needs.paths});
+  history.record_paths(simulator->paths());
+  for (double next = 0; next < time; next = std::min(history.next_sample(), time)) {
+    carry(*simulator, history, next);
+    history.sample(simulator->state());
+  }
+  carry(*simulator, history, time);
+  history.sample(simulator->state());
+}
+
+/// The greatest distance (m) between a track and the simulator's own positions.
+double worst_error(const Scene& scene, const History& history, double from, double until) {
+  const auto simulator = make_simulator(scene);
+  double worst = 0;
+  for (int i = 0; i <= 400; ++i) {
+    const double time = from + i * (until - from) / 400;
+    while (simulator->time() < time) simulator->advance_to(time);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const TrackPiece& piece : history.tracks()->of(0))
+      if (piece.from <= time && time <= piece.until)
+        nearest = std::min(nearest, (piece.position(time) - simulator->state().position[0]).norm());
+    worst = std::max(worst, nearest);
+  }
+  return worst;
+}
+
+TEST(Tracks, OfRecordedPathsAreThePositionsOfTheRun) {
+  const Scene scene = load_text(bouncing + floor_plane + "trails: {seconds: 1.5}\noutput: {frames: true}\n");
+  ASSERT_TRUE(overlay_needs(scene).paths);
+  History history(scene);
+  play(scene, history, 2);
+  EXPECT_LT(worst_error(scene, history, 0.5, 2), 1e-15);
+}
+
+TEST(Tracks, OfOtherEnginesAndForcesAreThePositionsOfTheRunToAQuarterPixel) {
+  for (const std::string& more :
+       {std::string("forces: [{drag: {linear: 0.5}}]\n"), std::string("forces: [{drag: {quadratic: 0.5}}]\n"),
+        std::string("forces: [{spring: {anchor: [0, 2, 0], stiffness: 30, damping: 1}}]\n")}) {
+    const Scene scene = load_text(bouncing + floor_plane + more + "trails: {seconds: 1.5}\noutput: {frames: true}\n");
+    ASSERT_TRUE(overlay_needs(scene).states);
+    History history(scene);
+    play(scene, history, 2);
+    // A pixel of 1280 x 720 is 4.6 mm at 4 m.
+    EXPECT_LT(worst_error(scene, history, 0.5, 2), 0.0011) << more;  // 1.4e-5
+  }
+}
+
+TEST(Needs, AreNoneWithoutPictures) {
+  const std::string all = "trails: true\nflash: true\ncaption: \"{collisions}\"\n";
+  const OverlayNeeds none = overlay_needs(load_text(bouncing + all));
+  EXPECT_FALSE(none.collisions || none.collision_counts || none.paths || none.states);
+  const OverlayNeeds some = overlay_needs(load_text(bouncing + all + "output: {sheet: true}\n"));
+  EXPECT_TRUE(some.collisions && some.collision_counts && some.paths && !some.states);
+}
+
+std::string read(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Runs a scene into a folder of the test.
+std::string run_of(const std::string& text, const std::string& name) {
+  const std::string folder = test_folder() + "/" + name;
+  Scene scene = load_scene(write_file(text, name + ".yaml"));
+  const RunWatch watch{[] {}, [](double, std::uint64_t, std::uint64_t) {}};
+  RunSettings settings;
+  settings.durability = Durability::deferred;
+  run_scene({&scene, folder}, choose_engine(scene), settings, watch);
+  return folder;
+}
+
+TEST(Run, WithAnOverlayHasTheTablesOfARunWithoutIt) {
+  const std::string output =
+      "output: {trajectory: true, collisions: true, frames: {fps: 3, size: [64, 36], samples: 1}}\n";
+  for (const std::string& more : {std::string(), std::string("forces: [{drag: {quadratic: 0.5}}]\n")}) {
+    const std::string plain = run_of(bouncing + floor_plane + more + output, "plain");
+    const std::string shown =
+        run_of(bouncing + floor_plane + more + output +
+                   "trails: true\nflash: true\narrows: [force]\nshutter: 1\ncaption: \"{collisions}, {time} s\"\n",
+               "shown");
+    for (const char* table : {"/trajectory.csv", "/collisions.csv", "/summary.csv"})
+      EXPECT_EQ(read(plain + table), read(shown + table)) << table << more;
+    EXPECT_NE(read(plain + "/frames/frame_00003.png"), read(shown + "/frames/frame_00003.png"));
+    std::filesystem::remove_all(test_folder());
+  }
+}
+
+/// Draws the pictures of one stream at some times as Stage does, and returns the states that were asked for.
+struct Taken {
+  std::vector<double> instants;
+  std::vector<Image> pictures;
+};
+Taken pictures_of(const Scene& scene, const std::vector<double>& times, double interval) {
+  History history(scene);
+  const auto simulator = make_simulator(scene);
+  PictureSeries series(scene, {{320, 180}, 4, 0, interval, 1, 2}, history, "here");
+  Taken taken;
+  for (const double time : times) {
+    series.aim(time);
+    while (series.next_instant() < time) {
+      taken.instants.push_back(series.next_instant());
+      carry(*simulator, history, series.next_instant());
+      series.expose(simulator->state());
+    }
+    carry(*simulator, history, time);
+    taken.pictures.push_back(series.picture(simulator->state(), simulator->tally()));
+  }
+  return taken;
+}
+
+const std::string across =
+    "scene: 1\nsimulate: {duration: 2}\ngravity: [0, 0, 0]\n"
+    "balls: {red: {mass: 1, radius: 0.2, position: [-1, 0, 0], velocity: [2, 0, 0], color: white}}\n"
+    "camera: {eye: [0, 0, 4], target: [0, 0, 0]}\nbackground: black\noutput: {frames: true}\n";
+
+TEST(Shutter, OfABallThatMovesTakesAnInstantForEachPixel) {
+  const Taken taken = pictures_of(load_text(across + "shutter: 0.5\n"), {0, 0.2, 0.4}, 0.2);
+  // 2 m/s x 0.1 s are 0.2 m; at 4 m a picture is 3.3 m high, so that this is 10.9 pixels: 11 instants, from the opening
+  // to the picture's own time.
+  ASSERT_EQ(taken.instants.size(), 22u);
+  EXPECT_DOUBLE_EQ(taken.instants[0], 0.1);
+  EXPECT_DOUBLE_EQ(taken.instants[1], 0.1 + 0.1 / 11);
+  EXPECT_DOUBLE_EQ(taken.instants[10], 0.2 - 0.1 / 11);
+  EXPECT_DOUBLE_EQ(taken.instants[11], 0.3);
+}
+
+TEST(Shutter, BlursAlongTheMotionUntilThePicturesTime) {
+  const Image sharp = pictures_of(load_text(across), {0.4}, 0.2).pictures[0];
+  const Image blurred = pictures_of(load_text(across + "shutter: 0.5\n"), {0.4}, 0.2).pictures[0];
+  const auto ends = [](const Image& image) {
+    std::pair<int, int> found{image.width, -1};
+    for (int x = 0; x < image.width; ++x)
+      if (image.row(90)[3 * x] > 8) found = {std::min(found.first, x), std::max(found.second, x)};
+    return found;
+  };
+  // It has come from the left by 10.9 pixels. Its right end is that of the picture's time.
+  EXPECT_NEAR(ends(sharp).first - ends(blurred).first, 10, 1.5);
+  EXPECT_NEAR(ends(sharp).second - ends(blurred).second, 0, 1);
+}
+
+TEST(Shutter, OfAStillSceneDrawsItOnce) {
+  std::string still = across;
+  still.replace(still.find("[2, 0, 0]"), 9, "[0, 0, 0]");
+  const Taken taken = pictures_of(load_text(still + "shutter: 1\n"), {0, 0.2, 0.4}, 0.2);
+  EXPECT_EQ(taken.instants.size(), 2u);  // the openings
+}
+
+TEST(Caption, HasTheExactTimeAndCountOfItsPicture) {
+  const Scene scene =
+      load_text(bouncing + floor_plane + "caption: \"{time} s, {collisions} in {run}\"\noutput: {frames: true}\n");
+  // The ball of 0.8 falls 1 m: impacts at sqrt(2 / g) = 0.4516 s, then after 0.8 x 0.9032 s and 0.64 x 0.9032 s.
+  const std::pair<double, std::string> expected[] = {{0.45, "0.45 s, 0 in here"},
+                                                     {0.46, "0.46 s, 1 in here"},
+                                                     {1.1725, "1.17 s, 1 in here"},
+                                                     {1.18, "1.18 s, 2 in here"}};
+  for (const auto& [time, text] : expected) {
+    const Image picture = pictures_of(scene, {time}, 0.1).pictures[0];
+    Scene plain = load_text(bouncing + floor_plane + "output: {frames: true}\n");
+    Image written = pictures_of(plain, {time}, 0.1).pictures[0];
+    plain.overlay.caption = text;
+    Inscription(plain, {320, 180}).write({}, written);
+    EXPECT_TRUE(picture.pixels == written.pixels) << text;
+  }
+}
+
+}  // namespace
+}  // namespace carom
