@@ -128,13 +128,13 @@ TEST(Render, SlowMotionIsDrawnFromTheRecordedPaths) {
   const Workplace here;
   here.write("balls.yaml", two_balls(near_camera + "output: {video: {fps: 10, size: [64, 36]}}\n"));
   here.carom({"run", "balls.yaml", "-o", "run"});
-  const auto frames = [&](const std::string& film) {
+  const auto packets = [&](const std::string& film) {
     return here.shell("ffprobe -v error -count_packets -show_entries stream=nb_read_packets -of csv=p=0 " + film).out;
   };
-  EXPECT_EQ(frames("run/animation.mp4"), "11\n");
+  EXPECT_EQ(packets("run/animation.mp4"), "11\n");
   const Finished render = here.carom({"render", "run", "--set", "output.video.speed=0.125", "-o", "slow"});
   EXPECT_EQ(render.code, 0) << render.err;
-  EXPECT_EQ(frames("slow/animation.mp4"), "81\n");
+  EXPECT_EQ(packets("slow/animation.mp4"), "81\n");
 }
 
 TEST(Render, ASettingThatChangesNothingIsSaid) {
