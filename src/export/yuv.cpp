@@ -15,8 +15,9 @@ constexpr std::int64_t one = std::int64_t{1} << bits;
 /// More than the error of the sum of three products of at most 1020, and less than the distance of other values to 1/2.
 constexpr std::int64_t nudge = 4096;
 
+/// The nearest whole number; of a positive factor.
 constexpr std::int64_t fixed(double factor) {
-  return static_cast<std::int64_t>(factor * static_cast<double>(one) + 0.5);
+  return static_cast<std::int64_t>(factor * static_cast<double>(2 * one) + 1) / 2;
 }
 
 /// `level` + 1/2, for rounding.

@@ -86,7 +86,7 @@ void draw_tile(const Picture& picture, TileMemory& memory, int tile) {
 
 std::uint8_t srgb_byte(float light) {
   const float root = std::sqrt(std::min(std::max(light, 0.0F), 1.0F));
-  return encoding.bytes[static_cast<std::size_t>(root * Encoding::steps + 0.5F)];
+  return encoding.bytes[static_cast<std::size_t>(std::lround(root * Encoding::steps))];
 }
 
 }  // namespace carom::raster
