@@ -77,6 +77,8 @@ def main():
     carom, scenes, folder = sys.argv[1:4]
     os.makedirs(folder, exist_ok=True)
     chosen = sys.argv[4:] or list(SCENES)
+    if unknown := set(chosen) - set(SCENES):
+        sys.exit(f'look: no scene {", ".join(sorted(unknown))}; the scenes are {", ".join(SCENES)}')
     for scene in chosen:
         print(scene, flush=True)
         pictures(carom, scenes, folder, scene, *SCENES[scene])
