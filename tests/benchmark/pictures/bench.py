@@ -229,10 +229,16 @@ class Bench:
         table(['peak memory, MiB', 'after 1/10', 'after half', 'after all'], rows)
 
     def write(self):
-        with open(os.path.join(self.folder, 'pictures.csv'), 'w', encoding='utf-8', newline='') as file:
+        """Replaces the rows of the parts that were measured."""
+        path = os.path.join(self.folder, 'pictures.csv')
+        kept, new = [], {row[0] for row in self.measured}
+        if os.path.exists(path):
+            with open(path, encoding='utf-8', newline='') as file:
+                kept = [row for row in list(csv.reader(file))[1:] if row[0] not in new]
+        with open(path, 'w', encoding='utf-8', newline='') as file:
             writer = csv.writer(file, lineterminator='\n')
             writer.writerow(['part', 'case', 'program', 'quantity', 'value', 'unit'])
-            writer.writerows(self.measured)
+            writer.writerows(kept + self.measured)
 
 
 def forget(files):

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Ten scenes as drawn by carom and by POV-Ray with radiosity, one by one and on one sheet.
+"""Ten scenes as drawn by carom and, to the right of it, by POV-Ray with radiosity: one by one and on one sheet.
 
     look.py CAROM SCENES_FOLDER OUTPUT_FOLDER [SCENE...]
 
-Makes SCENE_carom.png and SCENE_povray.png of each scene in the output folder, and sheet.png with carom's on the left.
+Makes SCENE_carom.png and SCENE_povray.png of each scene in the output folder, and sheet.png with two scenes a row.
 """
 
 import math
@@ -64,8 +64,9 @@ def pictures(carom, scenes, folder, scene, time, *settings):
 def sheet(folder, scenes):
     files = [os.path.join(folder, f'{scene}_{program}.png') for scene in scenes for program in ('carom', 'povray')]
     small = ''.join(f'[{i}]scale=640:-2:flags=area[s{i}];' for i in range(len(files)))
-    places = '|'.join(f'{640 * (i % 2)}_{360 * (i // 2)}' for i in range(len(files)))
-    stack = ''.join(f'[s{i}]' for i in range(len(files))) + f'xstack=inputs={len(files)}:layout={places}'
+    columns = min(4, len(files))
+    places = '|'.join(f'{640 * (i % columns)}_{360 * (i // columns)}' for i in range(len(files)))
+    stack = ''.join(f'[s{i}]' for i in range(len(files))) + f'xstack=inputs={len(files)}:layout={places}:fill=white'
     ffmpeg(*[word for file in files for word in ('-i', file)], '-filter_complex', small + stack,
            os.path.join(folder, 'sheet.png'))
 
@@ -76,6 +77,8 @@ def main():
     carom, scenes, folder = sys.argv[1:4]
     os.makedirs(folder, exist_ok=True)
     chosen = sys.argv[4:] or list(SCENES)
+    if unknown := set(chosen) - set(SCENES):
+        sys.exit(f'look: no scene {", ".join(sorted(unknown))}; the scenes are {", ".join(SCENES)}')
     for scene in chosen:
         print(scene, flush=True)
         pictures(carom, scenes, folder, scene, *SCENES[scene])

@@ -7,7 +7,6 @@
 //    carom_pictures N FILE.json                  the scene of N balls, for other programs
 //    carom_pictures N PICTURES [WIDTH HEIGHT]    so many pictures of N balls, and the peak of memory after each tenth
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <time.h>
 
 #include <algorithm>
@@ -124,10 +123,15 @@ std::string json_of(const Scene& scene) {
   return json.dump();
 }
 
+/// Since this program's start. getrusage() would count what the parent process had before it.
 long peak_kb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss;
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  while (status >> word && word != "VmHWM:") {
+  }
+  long peak = 0;
+  status >> peak;
+  return peak;
 }
 
 void print_peaks(const Scene& scene, int pictures, Size size) {
