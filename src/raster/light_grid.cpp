@@ -13,7 +13,6 @@ namespace {
 
 // Balls that may shade one point, on average.
 constexpr float most_shades = 16;
-constexpr float narrowest = 0.25F;
 constexpr int most_cells = 512;
 // Light at a smaller slope is too weak on a plane to cast shadows.
 constexpr float least_slope = 0.03F;
@@ -100,7 +99,7 @@ double LightGrid::find_blurs(const Shot& shot) {
       }
       blur = shot.lighting.softness * std::max(way, 0.0F);
     }
-    blur_[i] = std::min(blur, widest_blur * s.radius);
+    blur_[i] = std::clamp(blur, narrowest * s.radius, widest_blur * s.radius);
     if (s.kind == SolidKind::wall) continue;
     width += s.radius + blur_[i];
     ++count;

@@ -15,6 +15,9 @@ enum class SolidKind : std::int32_t { ball, box, cylinder, wall, mesh };
 /// A shadow whose blur is so many radii of its ball wide is gone.
 inline constexpr float faintest = 8;
 
+/// A blur may be as wide as the part of the edge that a pixel shows, up to so many radii.
+inline constexpr float narrowest = 0.25F;
+
 /// The number of a solid in a picture is its index. Opaque solids are sorted by the picture, not by the caller.
 struct Solid {
   Float3 center{};
