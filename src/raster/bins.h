@@ -14,9 +14,9 @@ namespace carom::raster {
 inline constexpr int tile_side = 32;  // pixels
 
 /// A sphere takes cos(angle) (r / d)^2 of an even sky's light. Less than this share darkens nothing.
-inline constexpr float least_taken = 0.1F;
+inline constexpr float least_taken = 1.0F / 7;
 /// Within so many radii of its centre a ball takes that share: 1 / sqrt(least_taken).
-inline constexpr float closeness = 3.1623F;
+inline constexpr float closeness = 2.6458F;
 
 /// A ball around a solid that takes light of the sky from what is close to it. Radius 0: it takes none that is seen.
 struct BallAround {

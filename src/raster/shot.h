@@ -107,8 +107,8 @@ struct Lighting {
 struct FloorLight {
   bool present = false;
   Float3 normal{};
-  float height = 0;  // m, of the eye above it
-  Float3 light{};    // what it sends up
+  float height = 0;     // m, of the eye above it
+  Float3 sky{}, key{};  // what it sends up, of the key light and of all other light
 };
 
 struct Pattern {

@@ -57,10 +57,13 @@ void find_floor(const Eye& eye, raster::Shot& shot) {
     shot.floor.normal = g.normal;
     shot.floor.height = g.height;
     for (std::size_t i = 0; i < 3; ++i) {
-      float light = shot.lighting.ambient[i];
-      for (const raster::Lamp& lamp : shot.lighting.lamps)
-        light += lamp.radiance[i] * (lamp.near ? 0.7F : std::max(dot(g.normal, lamp.vector), 0.0F));
-      shot.floor.light[i] = 0.9F * g.color[i] * light;
+      const auto sent = [&](const raster::Lamp& lamp) {
+        return lamp.radiance[i] * (lamp.near ? 0.7F : std::max(dot(g.normal, lamp.vector), 0.0F));
+      };
+      float other = shot.lighting.ambient[i];
+      for (std::size_t k = 1; k < shot.lighting.lamps.size(); ++k) other += sent(shot.lighting.lamps[k]);
+      shot.floor.sky[i] = 0.9F * g.color[i] * other;
+      shot.floor.key[i] = 0.9F * g.color[i] * sent(shot.lighting.lamps[0]);
     }
   }
 }

@@ -178,8 +178,62 @@ TEST(Shadow, WhereABallTouchesTheFloorItIsDarkWithoutAnyKeyLight) {
   const double dark = grey(renderer.draw(scene.initial), x, y);
   State away = scene.initial;
   away.position[0] = Vec3(3, 0.5, 0);
-  // Of the sky cos (r / d)^2 = 0.305 is hidden; by the formula of shadow.inc 0.807 of the light is left.
-  EXPECT_NEAR(dark / grey(renderer.draw(away), x, y), std::pow(0.807, 1 / 2.4), 0.02);
+  // Of the sky cos (r / d)^2 = 0.304 is hidden. By the formula of surround.inc 0.741 of its light is left, and the ball
+  // sends 0.074 of red.
+  EXPECT_NEAR(dark / grey(renderer.draw(away), x, y), (std::pow(0.815, 1 / 2.4) + 2 * std::pow(0.741, 1 / 2.4)) / 3,
+              0.01);
+}
+
+TEST(Surround, ALitRedBallColoursTheFloorOnItsLitSide) {
+  Scene scene = floor_scene(Vec3(0, 0.5, 0));
+  scene.lights.push_back({"sun", Vec3(3, -1, 0), {}, {1, 1, 1}, 0.8});
+  const Size size{400, 400};
+  Renderer renderer(scene, size, 4);
+  const Image& image = renderer.draw(scene.initial);
+  const auto redness = [&](const Vec3& at) {
+    const auto [x, y] = pixel_of(scene, size, at);
+    const std::uint8_t* p = image.row(y) + 3 * x;
+    return static_cast<double>(p[0]) / p[1];
+  };
+  EXPECT_NEAR(redness(Vec3(-3, 0, 0)), 1, 0.01);
+  EXPECT_GT(redness(Vec3(-0.6, 0, 0)), 1.04);
+  EXPECT_GT(redness(Vec3(-0.6, 0, 0)), redness(Vec3(-0.9, 0, 0)) + 0.01);
+}
+
+TEST(Surround, ANeighbourHidesTheSkyThatABallMirrors) {
+  // Black balls show nothing but what they mirror.
+  Scene scene;
+  for (const double x : {0.0, 1.01}) test::add_ball(scene, Vec3(x, 0, 0), 0.5, {0, 0, 0});
+  scene.lights.push_back({"none", Vec3(0, -1, 0), {}, {0, 0, 0}, 0});
+  Camera camera;
+  camera.eye = Vec3(0, 0, 8);
+  camera.target = Vec3::Zero();
+  scene.camera = camera;
+  const Size size{400, 400};
+  Renderer renderer(scene, size, 4);
+  const Image& image = renderer.draw(scene.initial);
+  // There the normal is 45 degrees from the line of sight: the way that is mirrored goes to the side.
+  const auto [lx, ly] = pixel_of(scene, size, Vec3(-0.35, 0, 0.35));
+  const auto [rx, ry] = pixel_of(scene, size, Vec3(0.35, 0, 0.35));
+  EXPECT_GT(grey(image, lx, ly), 30);
+  EXPECT_LT(grey(image, rx, ry), 0.3 * grey(image, lx, ly));
+}
+
+TEST(Surround, TheFloorLightsAWallThatTheSunDoesNotReach) {
+  const auto wall = [](double floor) {
+    Scene scene;
+    scene.world.planes.clear();
+    test::add_plane(scene, Vec3::Zero(), Vec3(0, 1, 0), {floor, floor, floor});
+    test::add_plane(scene, Vec3(0, 0, -2), Vec3(0, 0, 1), {0.5, 0.5, 0.5});
+    scene.lights.push_back({"sun", Vec3(0, -1, 0.2), {}, {1, 1, 1}, 0.8});
+    Camera camera;
+    camera.eye = Vec3(0, 1, 4);
+    camera.target = Vec3(0, 1, 0);
+    scene.camera = camera;
+    Renderer renderer(scene, {200, 200}, 4);
+    return grey(renderer.draw(scene.initial), 100, 90);
+  };
+  EXPECT_GT(wall(0.8), 1.1 * wall(0.1));
 }
 
 }  // namespace
