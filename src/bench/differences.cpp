@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "numerics/compensated.h"
+#include "physics/body_now.h"
 #include "physics/force.h"
-#include "physics/world.h"
 
 namespace carom {
 
@@ -99,7 +99,7 @@ namespace {
 
 /// In J: kinetic energy, and potential energy in the World.
 double body_energy(const World& world, const State& state, Entity body) {
-  const double mass = state.mass.empty() ? world.mass[body] : state.mass[body];
+  const double mass = mass_now(world, state, body);
   return 0.5 * mass * state.velocity[body].squaredNorm() + potential(world, body, state.position[body]);
 }
 

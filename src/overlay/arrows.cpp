@@ -17,17 +17,9 @@ constexpr double head_radius = 0.3, head_length = 0.9;  // median radii
 constexpr double least_width = 2;                       // pixels
 constexpr double usual_gravity = 9.80665;               // m/s^2
 
-double median_radius(const World& world) {
-  std::vector<double> radii = world.radius;
-  if (radii.empty()) return 1;
-  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-  std::nth_element(radii.begin(), middle, radii.end());
-  return *middle;
-}
-
 /// The force (N) of gravity and the scene's forces.
 Vec3 force_on(const Moment& moment, Entity body) {
-  const double mass = moment.state.mass.empty() ? moment.scene.world.mass[body] : moment.state.mass[body];
+  const double mass = mass_now(moment.scene.world, moment.state, body);
   return mass * free_acceleration(moment.scene.world, body, moment.state.time, moment.state.position[body],
                                   moment.state.velocity[body]);
 }
@@ -89,6 +81,7 @@ Color ArrowScale::color() const {
 
 std::vector<ArrowScale> arrow_scales(const Scene& scene) {
   std::vector<ArrowScale> scales;
+  if (scene.world.body_count() == 0) return scales;
   const double size = median_radius(scene.world);
   if (scene.overlay.velocity_arrows) {
     double greatest = 0;
@@ -113,7 +106,7 @@ void add_arrows(const Moment& moment, const std::vector<ArrowScale>& scales, std
       const double length = arrow.norm();
       if (length < 0.25 * moment.pixel_at(x)) continue;
       const Vec3 along = arrow / length;
-      const Volume volume = moment.state.volume.empty() ? world.volume_of(body) : moment.state.volume[body];
+      const Volume volume = volume_now(world, moment.state, body);
       add_arrow(x + way_out(volume, along) * along, arrow, scale.size, scale.color(), strokes);
     }
   }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "physics/world.h"
+#include "physics/body_now.h"
 
 namespace carom {
 
@@ -55,7 +55,7 @@ std::vector<Color> BodyColors::at(const State& state, const History& history) co
 Color BodyColors::of(Entity body, double time, const Vec3& velocity, const State& state, const History& history) const {
   if (rule_.empty() || rule_[body] == plain) return color_[body];
   const ColorRule& rule = rules_[rule_[body]];
-  const double mass = state.mass.empty() ? scene_.world.mass[body] : state.mass[body];
+  const double mass = mass_now(scene_.world, state, body);
   switch (rule.coloring.by.value_or(ColorQuantity::group)) {
     case ColorQuantity::speed:
       return rule.color_of(velocity.norm());
@@ -66,7 +66,7 @@ Color BodyColors::of(Entity body, double time, const Vec3& velocity, const State
     case ColorQuantity::mass:
       return rule.color_of(mass);
     case ColorQuantity::radius:
-      return rule.color_of(state.radius.empty() ? scene_.world.radius[body] : state.radius[body]);
+      return rule.color_of(radius_now(scene_.world, state, body));
     case ColorQuantity::group:
       break;
   }

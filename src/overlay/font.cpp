@@ -115,10 +115,16 @@ struct Font::Face {
   FT_Face face = nullptr;
 };
 
-Font::Font(const std::string& file, double size) : size_(size), face_(std::make_unique<Face>()) {
-  if (FT_Init_FreeType(&face_->library) != 0 || FT_New_Face(face_->library, file.c_str(), 0, &face_->face) != 0 ||
-      FT_Set_Char_Size(face_->face, 0, std::lround(size * 64), 72, 72) != 0)
+Font::Font(const std::string& file, double size) : face_(std::make_unique<Face>()) {
+  if (FT_Init_FreeType(&face_->library) != 0 || FT_New_Face(face_->library, file.c_str(), 0, &face_->face) != 0)
     throw RenderError(fmt::format("cannot read the font {}: install fonts-dejavu-core again", file));
+  resize(size);
+}
+
+void Font::resize(double size) {
+  if (FT_Set_Char_Size(face_->face, 0, std::lround(size * 64), 72, 72) != 0)
+    throw RenderError(fmt::format("the font has no letters of {} pixels: install fonts-dejavu-core again", size));
+  size_ = size;
 }
 
 Font::~Font() = default;

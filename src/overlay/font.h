@@ -27,14 +27,15 @@ std::string find_font();
 
 class Font {
  public:
-  /// Letters of `size` pixels (em), without hinting, so that the same text has the same pixels everywhere.
-  /// `file`: that of find_font(). Throws RenderError.
-  Font(const std::string& file, double size);
+  /// Letters without hinting, so that the same text has the same pixels everywhere. `file`: that of find_font().
+  /// `size`: pixels (em). Throws RenderError.
+  explicit Font(const std::string& file, double size = 12);
   ~Font();
   Font(const Font&) = delete;
   Font& operator=(const Font&) = delete;
 
   double size() const { return size_; }
+  void resize(double size);  // pixels. Throws RenderError.
   // Pixels, of any letter of Latin script: above and below the base line.
   double ascent() const;
   double descent() const;
@@ -46,7 +47,7 @@ class Font {
 
  private:
   struct Face;
-  double size_;
+  double size_ = 0;
   std::unique_ptr<Face> face_;
 };
 

@@ -34,11 +34,10 @@ Inscription::Inscription(const Scene& scene, Size size)
       captioned_(!scene.overlay.caption.empty()) {
   const std::vector<Legend> legends = legends_of(scene);
   if (!captioned_ && legends.empty()) return;
-  font_file_ = find_font();
+  font_ = std::make_unique<Font>(find_font());
   if (legends.empty()) return;
-  legends_ =
-      std::make_unique<LegendBlock>(font_file_, legends, legend_letters * letters_of(size), size.width - 2 * margin_,
-                                    static_cast<int>(legend_part * size.height) - margin_);
+  legends_ = std::make_unique<LegendBlock>(*font_, legends, legend_letters * letters_of(size), size.width - 2 * margin_,
+                                           static_cast<int>(legend_part * size.height) - margin_);
   if (legends_->canvas() == nullptr) legends_.reset();
 }
 
@@ -51,7 +50,7 @@ void Inscription::write(const CaptionValues& values, Image& image) {
     std::string text = caption_text(scene_.overlay.caption, values);
     if (caption_ == nullptr || text != text_) {
       text_ = std::move(text);
-      caption_ = std::make_unique<TextBlock>(font_file_, text_, letters_of(size_), size_.width - 2 * margin_,
+      caption_ = std::make_unique<TextBlock>(*font_, text_, letters_of(size_), size_.width - 2 * margin_,
                                              static_cast<int>(caption_part * size_.height) - margin_);
     }
     if (caption_->canvas() != nullptr) caption_->canvas()->lay_onto(image, margin_, margin_);

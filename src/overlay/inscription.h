@@ -36,7 +36,7 @@ class Inscription {
   Size size_;
   int margin_;
   bool captioned_;
-  std::string font_file_;
+  std::unique_ptr<Font> font_;          // null: there is no text
   std::string text_;                    // of the caption below
   std::unique_ptr<TextBlock> caption_;  // of the last picture
   std::unique_ptr<LegendBlock> legends_;

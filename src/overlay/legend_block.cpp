@@ -87,11 +87,10 @@ class LegendPen {
 
 }  // namespace
 
-LegendBlock::LegendBlock(const std::string& font_file, const std::vector<Legend>& legends, double size, int width,
-                         int height) {
+LegendBlock::LegendBlock(Font& font, const std::vector<Legend>& legends, double size, int width, int height) {
   if (legends.empty()) return;
   for (; size >= TextBlock::least_size; size *= shrink) {
-    const Font font(font_file, size);
+    font.resize(size);
     const double padding = std::ceil(TextBlock::padding_of(size));
     LegendPen measure(font, padding, nullptr, nullptr);
     measure.add(legends);

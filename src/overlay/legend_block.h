@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "overlay/canvas.h"
+#include "overlay/font.h"
 #include "overlay/legend.h"
 
 namespace carom {
@@ -18,8 +19,8 @@ struct PixelBox {
 class LegendBlock {
  public:
   /// At most `width` times `height` pixels: letters of `size` pixels, or smaller ones where the legends do not fit.
-  /// Throws RenderError.
-  LegendBlock(const std::string& font_file, const std::vector<Legend>& legends, double size, int width, int height);
+  /// Changes the font's size. Throws RenderError.
+  LegendBlock(Font& font, const std::vector<Legend>& legends, double size, int width, int height);
 
   const Canvas* canvas() const { return canvas_.get(); }  // null: letters would be below 5 pixels
   /// By legend: its strip of colours. The first and the last column have the colours of the map's ends.

@@ -4,8 +4,7 @@
 
 #include "overlay/body_colors.h"
 #include "overlay/history.h"
-#include "physics/state.h"
-#include "physics/world.h"
+#include "physics/body_now.h"
 #include "render/eye.h"
 #include "scene/scene.h"
 
@@ -22,10 +21,10 @@ struct Moment {
     return eye.pixel * std::max(eye.point(x).z(), eye.camera.near);
   }
   double radius_of(Entity body) const {  // m
-    return state.radius.empty() ? scene.world.radius[body] : state.radius[body];
+    return radius_now(scene.world, state, body);
   }
   /// Whether a body is a part of another, and not seen.
-  bool is_part(Entity body) const { return !state.part_of.empty() && state.part_of[body] != body; }
+  bool is_part(Entity body) const { return is_part_of_another(state, body); }
 };
 
 }  // namespace carom

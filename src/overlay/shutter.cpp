@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/world.h"
+#include "physics/body_now.h"
 #include "scene/scene.h"
 
 namespace carom {
@@ -31,11 +31,12 @@ bool meets(double a, double b, double radius, double half) {
 int exposures_of(const Scene& scene, const State& state, double open, const Eye& opening, const Eye& closing) {
   double most = 1;
   for (std::size_t i = 0; i < state.position.size(); ++i) {
+    if (is_part_of_another(state, static_cast<Entity>(i))) continue;
     const Vec3 &x = state.position[i], &v = state.velocity[i];
     const Projected from = projected(opening, x), to = projected(closing, x + open * v);
     const double nearest = std::min(from.z, to.z);
     if (!(nearest > opening.camera.near)) continue;
-    const double radius = scene.world.radius[i] / (nearest * opening.pixel);
+    const double radius = radius_now(scene.world, state, static_cast<Entity>(i)) / (nearest * opening.pixel);
     if (meets(from.x, to.x, radius, 0.5 * opening.size.width) && meets(from.y, to.y, radius, 0.5 * opening.size.height))
       most = std::max(most, std::hypot(to.x - from.x, to.y - from.y));
   }

@@ -67,10 +67,10 @@ std::string shortened(const Font& font, const std::string& text, double width) {
   return best;
 }
 
-TextBlock::TextBlock(const std::string& font_file, const std::string& text, double size, int width, int height)
+TextBlock::TextBlock(Font& font, const std::string& text, double size, int width, int height)
     : size_(std::max(size, least_size)) {
   for (;; size_ = std::max(least_size, shrink * size_)) {
-    const Font font(font_file, size_);
+    font.resize(size_);
     const double padding = padding_of(size_), space = width - 2 * padding - 1;
     const double one = font.ascent() + font.descent();
     const double most = std::floor((height - 2 * padding - one - 1) / font.line()) + 1;

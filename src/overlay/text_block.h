@@ -1,5 +1,6 @@
 #pragma once
 // Text in lines that fit into a given space.
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -22,13 +23,13 @@ std::string shortened(const Font& font, const std::string& text, double width);
 class TextBlock {
  public:
   /// At most `width` times `height` pixels: letters of `size` pixels, or smaller ones where the lines do not fit.
-  /// Below 5 pixels text is cut off. Throws RenderError.
-  TextBlock(const std::string& font_file, const std::string& text, double size, int width, int height);
+  /// Below 5 pixels text is cut off. Changes the font's size. Throws RenderError.
+  TextBlock(Font& font, const std::string& text, double size, int width, int height);
 
   const Canvas* canvas() const { return canvas_.get(); }  // null: there is no text, or no space for a line
   double size() const { return size_; }                   // pixels, of letters
-  double padding() const { return padding_of(size_); }    // pixels, between the canvas' edge and the text
 
+  /// Pixels between the canvas' edge and the text.
   static double padding_of(double size) { return 0.35 * size; }
   static constexpr double least_size = 5;  // pixels
 

@@ -1,5 +1,9 @@
 #pragma once
-// The properties of a body at an instant. Bodies that merge change.
+// The properties of a body at an instant, since bodies that merge change, and of all bodies.
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
 #include "physics/state.h"
 #include "physics/world.h"
 
@@ -14,9 +18,22 @@ inline double mass_now(const World& world, const State& state, Entity body) {  /
   return state.mass.empty() ? world.mass[body] : state.mass[body];
 }
 
+inline double radius_now(const World& world, const State& state, Entity body) {  // m
+  return state.radius.empty() ? world.radius[body] : state.radius[body];
+}
+
 inline Volume volume_now(const World& world, const State& state, Entity body) {
   if (!state.volume.empty()) return state.volume[body];
   return state.radius.empty() ? world.volume_of(body) : Volume::sphere(state.radius[body]);
+}
+
+/// m; 0: there are no bodies.
+inline double median_radius(const World& world) {
+  std::vector<double> radii = world.radius;
+  if (radii.empty()) return 0;
+  const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+  std::nth_element(radii.begin(), middle, radii.end());
+  return *middle;
 }
 
 }  // namespace carom

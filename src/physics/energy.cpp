@@ -3,23 +3,17 @@
 #include "physics/energy.h"
 
 #include "numerics/compensated.h"
+#include "physics/body_now.h"
 #include "physics/force.h"
-#include "physics/world.h"
 
 namespace carom {
 
-namespace {
-
-double mass_of(const World& world, const State& state, Entity i) {
-  return state.mass.empty() ? world.mass[i] : state.mass[i];
-}
-
-}  // namespace
+namespace {}  // namespace
 
 double kinetic_energy(const World& world, const State& state) {
   Sum sum;
   for (Entity i = 0; i < world.body_count(); ++i)
-    sum.add(0.5 * mass_of(world, state, i) * state.velocity[i].squaredNorm());
+    sum.add(0.5 * mass_now(world, state, i) * state.velocity[i].squaredNorm());
   return sum.value();
 }
 
@@ -33,7 +27,7 @@ double potential_energy(const World& world, const State& state) {
 Vec3 momentum(const World& world, const State& state) {
   Sum sum[3];
   for (Entity i = 0; i < world.body_count(); ++i)
-    for (int k = 0; k < 3; ++k) sum[k].add(mass_of(world, state, i) * state.velocity[i][k]);
+    for (int k = 0; k < 3; ++k) sum[k].add(mass_now(world, state, i) * state.velocity[i][k]);
   return {sum[0].value(), sum[1].value(), sum[2].value()};
 }
 

@@ -23,6 +23,7 @@ struct Volume {
   double size() const;
   /// The extent of the volume from its centre along the unit vector n (m): its support function.
   double support(const Vec3& n) const;
+  friend bool operator==(const Volume&, const Volume&) = default;
 };
 
 }  // namespace carom

@@ -108,7 +108,7 @@ struct FloorLight {
   bool present = false;
   Float3 normal{};
   float height = 0;     // m, of the eye above it
-  Float3 sky{}, key{};  // what it sends up, of the key light and of all other light
+  Float3 sky{}, key{};  // what it sends up, of the sky and of the key light
 };
 
 struct Pattern {

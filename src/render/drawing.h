@@ -16,6 +16,7 @@ struct Stroke {
   Color color;              // sRGB
   double from_opacity = 1;  // 0: invisible
   double to_opacity = 1;
+  friend bool operator==(const Stroke&, const Stroke&) = default;
 };
 
 struct Drawing {
@@ -23,6 +24,7 @@ struct Drawing {
   std::vector<Color> body_colors;  // by body; empty: those of the scene
   std::vector<float> glow;         // by body, 0 to 1: how much of its own colour it sends out; empty: none does
   std::vector<Stroke> strokes;
+  friend bool operator==(const Drawing&, const Drawing&) = default;
 };
 
 }  // namespace carom

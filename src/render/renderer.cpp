@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <utility>
 
 #include "raster/threads.h"
 #include "render/last_picture.h"
@@ -45,6 +46,7 @@ struct Renderer::Impl {
       things.measure([&](const MeshUse& use, std::size_t file) { return meshes->size_of(use, file); });
     }
     shot.backdrop.none = scene.transparent;
+    shot.pattern.unit = static_cast<float>(pattern_unit(s, size));
     image.width = size.width, image.height = size.height;
     image.channels = scene.transparent ? 4 : 3;
     image.pixels.resize(static_cast<std::size_t>(size.height) * image.row_size());
@@ -52,7 +54,7 @@ struct Renderer::Impl {
 
   void place_camera(const Eye& eye);
   void prepare();
-  void draw(const State& state, const Drawing& drawing);
+  void draw(const State& state, Drawing drawing);
 
   const Scene& scene;
   const Size size;
@@ -95,11 +97,10 @@ void Renderer::Impl::prepare() {
   }
 }
 
-void Renderer::Impl::draw(const State& state, const Drawing& drawing) {
+void Renderer::Impl::draw(const State& state, Drawing drawing) {
   if (drawn > 0 && last.is_of(state, drawing)) return;
   const Eye eye(drawing.camera, size);
-  if (drawn == 0 || !same(last.drawing.camera, drawing.camera)) place_camera(eye);
-  last.take(state, drawing);
+  if (drawn == 0 || last.drawing.camera != drawing.camera) place_camera(eye);
   ++drawn;
   things.place(state, drawing, eye, shot);
   if (meshes) meshes->draw(things.meshes(), eye, shot);
@@ -111,13 +112,14 @@ void Renderer::Impl::draw(const State& state, const Drawing& drawing) {
   const raster::Picture picture{&shot,          &silhouettes,        &bins,         &lights, &lines.all,
                                 &lines.by_tile, image.pixels.data(), image.channels};
   threads->draw(picture);
+  last.take(state, std::move(drawing));
 }
 
 Renderer::Renderer(const Scene& scene, Size size, int samples) : impl_(std::make_unique<Impl>(scene, size, samples)) {}
 Renderer::~Renderer() = default;
 
-const Image& Renderer::draw(const State& state, const Drawing& drawing) {
-  impl_->draw(state, drawing);
+const Image& Renderer::draw(const State& state, Drawing drawing) {
+  impl_->draw(state, std::move(drawing));
   return impl_->image;
 }
 
@@ -125,7 +127,7 @@ const Image& Renderer::draw(const State& state) {
   if (!impl_->own_camera) impl_->own_camera = camera_of(impl_->scene);
   Drawing drawing;
   drawing.camera = *impl_->own_camera;
-  return draw(state, drawing);
+  return draw(state, std::move(drawing));
 }
 
 std::uint64_t Renderer::drawn() const {

@@ -29,7 +29,7 @@ class Renderer {
 
   /// Draws the bodies of `state`, the still things and the strokes. It draws nothing if all is as in the last picture.
   /// The picture is valid until the next draw.
-  const Image& draw(const State& state, const Drawing& drawing);
+  const Image& draw(const State& state, Drawing drawing);
   /// The same by the scene's camera (camera_of) and nothing besides.
   const Image& draw(const State& state);
   std::uint64_t drawn() const;  // pictures so far, repetitions of the last one excluded

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "physics/world.h"
+#include "physics/body_now.h"
 #include "render/lighting.h"
 #include "scene/scene.h"
 
@@ -28,22 +27,6 @@ double round_below(double x) {
   for (const double digit : {5.0, 2.0})
     if (digit * power <= x * (1 + 1e-12)) return digit * power;
   return power;
-}
-
-/// Half the median body's size, m; 0: there are no bodies.
-double body_radius(const World& world) {
-  std::vector<double> sizes(world.radius.begin(), world.radius.end());
-  if (sizes.empty()) return 0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle;
-}
-
-/// The side of the pattern's squares: several bodies wide, between a twelfth and half of the picture at the target.
-double pattern_unit(const Scene& scene, const Eye& eye) {
-  const double distance = std::max((eye.camera.target - eye.camera.eye).norm(), 1e-6);
-  const double width = 2 * distance * eye.tan_x;
-  return round_below(std::clamp(8 * body_radius(scene.world), width / 12, width / 2));
 }
 
 /// The floor is the level plane below the eye that is nearest to it.
@@ -70,6 +53,13 @@ void find_floor(const Eye& eye, raster::Shot& shot) {
 
 }  // namespace
 
+double pattern_unit(const Scene& scene, Size size) {
+  const Eye eye(camera_of(scene), size);
+  const double distance = std::max((eye.camera.target - eye.camera.eye).norm(), 1e-6);
+  const double width = 2 * distance * eye.tan_x;
+  return round_below(std::clamp(8 * median_radius(scene.world), width / 12, width / 2));
+}
+
 const FixedName& name_of_fixed(const Scene& scene, std::size_t fixed) {
   static const FixedName unnamed{"", {0.8, 0.8, 0.8}, true};
   return fixed < scene.roster.fixed.size() ? scene.roster.fixed[fixed] : unnamed;
@@ -83,9 +73,8 @@ void add_surfaces(const Scene& scene, const Eye& eye, raster::Shot& shot) {
   double reach = (eye.camera.target - eye.camera.eye).norm();
   for (const Vec3& p : scene.initial.position) reach = std::max(reach, (p - eye.camera.eye).norm());
   reach = std::clamp(reach, 1e-6, 1e12);
-  const double unit = pattern_unit(scene, eye);
   shot.pattern.reach = static_cast<float>(reach);
-  shot.pattern.unit = static_cast<float>(unit);
+  const double unit = double{shot.pattern.unit};
 
   shot.grounds.clear();
   for (std::size_t i = 0; i < scene.world.planes.size(); ++i) {

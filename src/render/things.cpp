@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/world.h"
+#include "physics/body_now.h"
 #include "render/lighting.h"
 #include "render/surfaces.h"
 #include "scene/scene.h"
@@ -110,11 +110,11 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
   meshes_.clear();
   const World& world = scene_.world;
   for (std::uint32_t i = 0; i < world.body_count(); ++i) {
-    if (!state.part_of.empty() && state.part_of[i] != i) continue;
-    Volume volume = world.volume.empty() ? Volume::sphere(world.radius[i]) : world.volume[i];
+    if (is_part_of_another(state, i)) continue;
+    Volume volume = world.volume_of(i);
     double radius = world.radius[i];
     bool mesh = looks_[i].mesh.has_value();
-    if (!state.volume.empty() && (state.volume[i].shape != volume.shape || state.volume[i].half != volume.half)) {
+    if (!state.volume.empty() && state.volume[i] != volume) {
       // This is a joint body.
       volume = state.volume[i];
       radius = volume.reach();

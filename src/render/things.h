@@ -45,8 +45,13 @@ class Things {
   /// Sets the sizes of meshes. Call it after the files have been read.
   template <typename SizeOf>
   void measure(SizeOf size_of) {
-    for (Look& look : looks_)
-      if (look.mesh) look.size = size_of(*look.mesh, look.file);
+    const Look* last = nullptr;
+    for (Look& look : looks_) {
+      if (!look.mesh) continue;
+      // Bodies of a group look alike.
+      look.size = last && *last->mesh == *look.mesh ? last->size : size_of(*look.mesh, look.file);
+      last = &look;
+    }
   }
 
   /// Fills the solids of a picture with the bodies of `state`, the obstacles and the walls. A body that is part of

@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "physics/world.h"
+#include "physics/body_now.h"
 #include "scene/scene.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
@@ -183,8 +183,8 @@ double value_of(const Measure& measure, const Scene& scene, const State& state, 
   } catch (const MeasureError&) {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  if (!state.part_of.empty() && state.part_of[body] != body) return std::numeric_limits<double>::quiet_NaN();
-  const double mass = state.mass.empty() ? scene.world.mass[body] : state.mass[body];
+  if (is_part_of_another(state, body)) return std::numeric_limits<double>::quiet_NaN();
+  const double mass = mass_now(scene.world, state, body);
   return quantity_of(measure.quantity, state.position[body], state.velocity[body], mass);
 }
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <tuple>
 #include <utility>
 
 #include "scene/scene.h"
@@ -42,7 +41,8 @@ const Image& PictureSeries::draw(const State& state) {
 void PictureSeries::expose(const State& state) {
   if (shutter_.opens()) {
     const Eye opening(camera_.at(state), stream_.size);
-    const Eye closing(camera_.at(later(state, shutter_.length())), stream_.size);
+    const Eye closing =
+        camera_.stands_still() ? opening : Eye(camera_.at(later(state, shutter_.length())), stream_.size);
     shutter_.open_for(exposures_of(scene_, state, shutter_.length(), opening, closing));
     return;
   }

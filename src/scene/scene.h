@@ -21,6 +21,7 @@ struct MeshUse {
   std::string file;            // relative to the working folder
   Vec3 center = Vec3::Zero();  // in the file's own units
   double scale = 1;            // m per unit of the file
+  friend bool operator==(const MeshUse&, const MeshUse&) = default;
 };
 
 /// A mesh file of the scene. The run's folder keeps a copy that the resolved text names.

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "physics/world.h"
+#include "physics/body_now.h"
 #include "simulate/touching.h"
 
 namespace carom {
@@ -41,10 +41,8 @@ void Neighbours::start(const std::vector<Vec3>& x) {
     low = low.cwiseMin(at);
     high = high.cwiseMax(at);
   }
-  std::vector<double> radii = world_.radius;
-  std::nth_element(radii.begin(), radii.begin() + n / 2, radii.end());
   // Most regions are then the widest of an octave.
-  unit_ = (1 + first_room) * (1 + 0x1p-18) * radii[n / 2];
+  unit_ = (1 + first_room) * (1 + 0x1p-18) * median_radius(world_);
   origin_ = 0.5 * low + 0.5 * high;
   grid_.start(around(low, 0), around(high, 0));
 

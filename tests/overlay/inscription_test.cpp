@@ -115,13 +115,13 @@ TEST(Caption, LeavesTheRestOfThePictureAlone) {
 }
 
 TEST(Caption, NeverLeavesThePicture) {
-  const std::string file = find_font();
+  Font font(find_font());
   std::string text = "a";
   for (int i = 0; i < 60; ++i) text += i % 7 == 0 ? " Donaudampfschifffahrt" : " bounces of a ball";
   for (const auto& [width, height] :
        {std::pair(16, 16), {32, 18}, {64, 36}, {480, 20}, {20, 480}, {640, 360}, {1280, 720}}) {
     for (const std::string& its : {text, std::string(500, 'W'), std::string("x")}) {
-      const TextBlock block(file, its, std::max(height / 28.0, 10.0), width, height);
+      const TextBlock block(font, its, std::max(height / 28.0, 10.0), width, height);
       if (block.canvas() == nullptr) continue;
       EXPECT_LE(block.canvas()->width(), width) << width << " x " << height;
       EXPECT_LE(block.canvas()->height(), height) << width << " x " << height;
@@ -132,15 +132,15 @@ TEST(Caption, NeverLeavesThePicture) {
 }
 
 TEST(Caption, BreaksAtSpacesAndShrinksBeforeItIsCutOff) {
-  const std::string file = find_font();
-  const Font font(file, 20);
+  const Font font(find_font(), 20);
+  Font other(find_font());
   EXPECT_EQ(wrapped(font, "one two", 1000).lines, std::vector<std::string>{"one two"});
   EXPECT_EQ(wrapped(font, "one   two", font.width("one  t")).lines, (std::vector<std::string>{"one", "two"}));
-  EXPECT_EQ(TextBlock(file, "one two", 20, 1000, 100).size(), 20);
-  const TextBlock small(file, std::string(40, 'm'), 20, 400, 100);
+  EXPECT_EQ(TextBlock(other, "one two", 20, 1000, 100).size(), 20);
+  const TextBlock small(other, std::string(40, 'm'), 20, 400, 100);
   EXPECT_LT(small.size(), 20);
   EXPECT_GT(small.size(), TextBlock::least_size);
-  EXPECT_EQ(TextBlock(file, std::string(400, 'm'), 20, 400, 100).size(), TextBlock::least_size);
+  EXPECT_EQ(TextBlock(other, std::string(400, 'm'), 20, 400, 100).size(), TextBlock::least_size);
   EXPECT_EQ(shortened(font, "abc", 1000), "abc");
   EXPECT_EQ(shortened(font, "abcdef", font.width("ab\u2026")), "ab\u2026");
 }
@@ -241,8 +241,9 @@ TEST(Legend, OfManyNamesEndsWithTheNumberOfTheOthers) {
 
 TEST(Legend, NeverLeavesThePicture) {
   const std::vector<Legend> legends(4, {"kinetic energy (J)", ColorMap::magma, "0", "1200", {}});
+  Font font(find_font());
   for (const auto& [width, height] : {std::pair(16, 16), {64, 36}, {100, 200}, {640, 360}}) {
-    const LegendBlock block(find_font(), legends, 20, width, height);
+    const LegendBlock block(font, legends, 20, width, height);
     if (block.canvas() == nullptr) continue;
     EXPECT_LE(block.canvas()->width(), width);
     EXPECT_LE(block.canvas()->height(), height);
