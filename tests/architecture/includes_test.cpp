@@ -36,6 +36,7 @@ const std::map<std::string, std::vector<std::string>> library_words = {
     {"assimp", {"assimp/"}},
     {"FreeType", {"freetype/"}},
     {"nettle", {"nettle/"}},
+    {"ISA-L", {"isa-l/"}},
     {"libxlsxwriter", {"xlsxwriter"}},
     {"minizip", {"minizip/"}},
     {"CLI11", {"CLI/"}},
