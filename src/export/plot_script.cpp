@@ -11,6 +11,7 @@
 
 #include "export/plot_axis.h"
 #include "yaml/joined.h"
+#include "yaml/letters.h"
 
 namespace carom {
 
