@@ -111,6 +111,7 @@ LoadOptions load_options(const Options& options, bool lifted) {
   load.seed = options.seed;
   load.budget.enforced = !options.force;
   if (lifted) load.budget = load.budget.without_outputs();
+  load.chooses_outputs = lifted;
   load.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
   load.color = !options.json && uses_color(options.color, STDERR_FILENO);
   return load;

@@ -78,6 +78,12 @@ std::array<char, 16> digest(std::string_view text) {
   return out;
 }
 
+LoadOptions load_options(const Sweep& sweep, LoadOptions load) {
+  const auto is_film = [](const SweepValue& output) { return output.text == "video"; };
+  load.chooses_outputs = !sweep.only.empty() && std::none_of(sweep.only.begin(), sweep.only.end(), is_film);
+  return load;
+}
+
 }  // namespace
 
 bool may_have_meshes(const Sweep& sweep, const std::string& base_text) {
@@ -88,7 +94,7 @@ SweepJob::SweepJob(Sweep sweep, std::string folder, SweepSettings settings)
     : sweep_(std::move(sweep)),
       folder_(std::move(folder)),
       settings_(std::move(settings)),
-      base_(sweep_.base, settings_.load),
+      base_(sweep_.base, load_options(sweep_, settings_.load)),
       runs_(sweep_.size()) {
   if (sweep_.seeds == 0 || sweep_.first_seed) return;
   Sweep once = sweep_;
