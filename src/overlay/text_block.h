@@ -1,5 +1,6 @@
 #pragma once
 // Text in lines that fit into a given space.
+#include <memory>
 #include <string>
 #include <vector>
 
