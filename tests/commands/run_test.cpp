@@ -466,7 +466,7 @@ TEST(Run, FailedRunDoesNotStopTheNext) {
   EXPECT_TRUE(here.has("taken/b/manifest.json"));
 }
 
-// OSMesa's library is loaded with the program, but making a context costs memory and starts llvmpipe's threads.
+// OSMesa is loaded for the first mesh of a picture. Its library and its context cost memory.
 TEST(Run, NoMeshInAPictureNoOpenGl) {
   const Workplace here;
   here.write("balls.yaml", two_balls(small_pictures));
