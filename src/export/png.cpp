@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "files/run_folder.h"
+#include "numerics/processor.h"
 
 namespace carom {
 namespace {
@@ -103,6 +104,8 @@ const std::string& PngEncoder::encode() {
     file_.append(reinterpret_cast<const char*>(room_.get()), size);
   });
   put_chunk(file_, "IEND", [] {});
+  // ISA-L 2.30 does not. With it a picture of 100,000 balls is drawn in 88 ms, else in 98 ms.
+  end_wide_vectors();
   return file_;
 }
 
