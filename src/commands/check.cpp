@@ -79,14 +79,14 @@ struct Findings {
   std::optional<CameraPreview> camera;  // none: the scene has neither pictures nor a camera
 };
 
-/// How the camera moves; empty: it stands still.
-std::string camera_text(const Scene& scene) {
-  if (!scene.camera || scene.camera->fit) return "frames the motion; ";
-  if (const auto& follow = scene.camera->follow) {
-    const BodyRange& range = scene.roster.range_of(follow->first);
-    return fmt::format("follows {}; ", follow->count == range.count ? range.name : scene.roster.name(follow->first));
-  }
-  return scene.camera->path.empty() ? "" : counted(scene.camera->path.size(), "keyframe", "keyframes") + "; ";
+/// How the camera moves; empty: it stands still. `kind`: as in CameraPreview.
+std::string camera_text(const Scene& scene, std::string_view kind) {
+  if (kind == "still") return "";
+  if (kind == "fit") return "frames the motion; ";
+  if (kind == "path") return counted(scene.camera->path.size(), "keyframe", "keyframes") + "; ";
+  const auto& follow = scene.camera->follow;
+  const BodyRange& range = scene.roster.range_of(follow->first);
+  return fmt::format("follows {}; ", follow->count == range.count ? range.name : scene.roster.name(follow->first));
 }
 
 std::string plus_x_text(const std::string& direction) {
@@ -211,9 +211,10 @@ std::string as_text(const PlannedScene& planned, const Findings& findings, const
   block.line("first hit", first_collision_text(planned, findings.foresight));
   if (!findings.foresight.failure.empty()) block.line("trouble", "a run would stop: " + findings.foresight.failure);
   if (findings.camera) {
-    block.line("camera",
-               fmt::format("{}{}; fields of view {:.4g} x {:.4g} degrees", camera_text(*planned.scene),
-                           plus_x_text(findings.camera->plus_x), findings.camera->fov_x, findings.camera->fov_y));
+    block.line(
+        "camera",
+        fmt::format("{}{}; fields of view {:.4g} x {:.4g} degrees", camera_text(*planned.scene, findings.camera->kind),
+                    plus_x_text(findings.camera->plus_x), findings.camera->fov_x, findings.camera->fov_y));
     block.line("unseen", out_of_view_text(planned, *findings.camera));
     block.line("in and out", crossings_text(planned, findings));
   } else {

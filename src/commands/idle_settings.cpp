@@ -1,5 +1,6 @@
 // A setting of an output that is not written may still matter: a video takes values of `frames`. The outputs with and
-// without the setting answer that. The appearance matters only to outputs that are drawn.
+// without the setting answer that. Keys for pictures alone matter only to outputs that are drawn. A mesh is one of them
+// unless it has `fit`, which gives the body the mesh's volume: the motions with and without the setting then differ.
 #include "commands/idle_settings.h"
 
 #include <fmt/format.h>
@@ -10,37 +11,21 @@
 
 #include "commands/text.h"
 #include "files/manifest.h"
-#include "scene/fields.h"
+#include "scene/motion_text.h"
 #include "scene/output_kinds.h"
+#include "scene/path_field.h"
 
 namespace carom {
 namespace {
 
-/// Keys of the scene on which pictures depend and the motion does not.
-constexpr std::string_view appearance = "camera|lights|background";
-
-/// The words of the path of "path=value".
-std::vector<std::string_view> words_of(std::string_view setting) {
-  std::vector<std::string_view> words;
-  std::string_view rest = setting.substr(0, setting.find('='));
-  for (std::size_t dot = 0; dot != std::string_view::npos; rest.remove_prefix(dot + 1)) {
-    dot = rest.find('.');
-    words.push_back(rest.substr(0, dot));
-    if (dot == std::string_view::npos) break;
-  }
-  return words;
-}
-
-const OutputKind* output_set(const std::vector<std::string_view>& words) {
-  if (words.size() < 2 || words[0] != "output") return nullptr;
+const OutputKind* output_set(std::string_view path) {
+  constexpr std::string_view outputs = "output.";
+  if (!path.starts_with(outputs)) return nullptr;
+  path.remove_prefix(outputs.size());
+  const std::string_view name = path.substr(0, path.find('.'));
   const auto kinds = output_kinds();
-  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const OutputKind& k) { return k.name == words[1]; });
+  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const OutputKind& k) { return k.name == name; });
   return found == kinds.end() ? nullptr : &*found;
-}
-
-bool sets_appearance(const std::vector<std::string_view>& words) {
-  const std::vector<std::string_view> keys = parts_of(appearance);
-  return words.back() == "color" || std::find(keys.begin(), keys.end(), words.front()) != keys.end();
 }
 
 bool draws(const Output& output) {
@@ -50,26 +35,31 @@ bool draws(const Output& output) {
 
 }  // namespace
 
-std::vector<std::string> idle_settings(const std::vector<std::string>& set, const Output& written,
-                                       const std::function<Output(const std::vector<std::string>& set)>& written_with) {
+std::vector<std::string> idle_settings(const std::vector<std::string>& set, const Scene& written,
+                                       const std::function<Scene(const std::vector<std::string>& set)>& written_with) {
   std::vector<std::string> found;
   const auto report = [&](const std::string& setting, std::string_view why) {
     found.push_back(fmt::format("--set {} changes nothing: {}", printable(setting), why));
   };
+  // Whether a text of the scene is the same without an option.
+  const auto is_same_without = [&](std::size_t option, const std::function<std::string(const Scene&)>& text) {
+    std::vector<std::string> others = set;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(option));
+    try {
+      return text(written_with(others)) == text(written);
+    } catch (const std::exception&) {
+      // Without it the scene is wrong, so it matters.
+      return false;
+    }
+  };
   for (std::size_t i = 0; i < set.size(); ++i) {
-    const std::vector<std::string_view> words = words_of(set[i]);
-    if (const OutputKind* kind = output_set(words); kind != nullptr && !kind->asked(written)) {
-      std::vector<std::string> others = set;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-      try {
-        if (outputs_text(written_with(others)) != outputs_text(written)) continue;
-      } catch (const std::exception&) {
-        // Without it the scene is wrong, so it matters.
-        continue;
-      }
-      report(set[i], fmt::format("the output `{}` is not written", kind->name));
-    } else if (sets_appearance(words) && !draws(written)) {
-      report(set[i], "no output is drawn");
+    const std::string_view path = std::string_view(set[i]).substr(0, set[i].find('='));
+    if (const OutputKind* kind = output_set(path); kind != nullptr && !kind->asked(written.output)) {
+      if (is_same_without(i, [](const Scene& scene) { return outputs_text(scene.output); }))
+        report(set[i], fmt::format("the output `{}` is not written", kind->name));
+    } else if (is_drawn(path) && !draws(written.output)) {
+      if (!path.ends_with(".mesh") || is_same_without(i, [](const Scene& scene) { return motion_text(scene); }))
+        report(set[i], "no output is drawn");
     }
   }
   return found;

@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "scene/output.h"
+#include "scene/scene.h"
 
 namespace carom {
 
-/// One sentence for each of them: "--set output.frames.from=1 changes nothing: frames are not written".
-/// `set`: the options, each valid. `written`: the outputs with all of them.
-/// `written_with`: the outputs with these options alone; it may throw. It is called only if no cheaper answer exists.
-std::vector<std::string> idle_settings(const std::vector<std::string>& set, const Output& written,
-                                       const std::function<Output(const std::vector<std::string>& set)>& written_with);
+/// One sentence for each of them: "--set output.frames.from=1 changes nothing: the output `frames` is not written".
+/// `set`: the options, each valid. `written`: the scene with all of them, and the outputs that are written.
+/// `written_with`: the same with these options alone; it may throw. It is called only if no cheaper answer exists.
+std::vector<std::string> idle_settings(const std::vector<std::string>& set, const Scene& written,
+                                       const std::function<Scene(const std::vector<std::string>& set)>& written_with);
 
 }  // namespace carom

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 
 #include "commands/text.h"
 #include "scene/output_kinds.h"
@@ -39,36 +40,38 @@ Choice chosen(const Words& words, std::string_view option, std::span<const std::
   return static_cast<Choice>(found - names.begin());
 }
 
+/// None: the text is no such number, or has more than it.
+template <typename Number>
+std::optional<Number> parsed(std::string_view text) {
+  Number value{};
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && stop == end ? std::optional(value) : std::nullopt;
+}
+
 std::uint64_t whole(const Words& words, std::string_view option, std::uint64_t least, std::uint64_t most) {
   const std::string& word = single(words, option);
-  std::uint64_t value = 0;
-  const char* end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, value);
-  if (error != std::errc() || stop != end || value < least || value > most) {
+  const auto value = parsed<std::uint64_t>(word);
+  if (!value || *value < least || *value > most)
     throw UsageError(
         fmt::format("{} takes a whole number from {} to {}, not {}", option, least, most, in_backticks(word)));
-  }
-  return value;
+  return *value;
 }
 
 /// A positive number.
 double number(const std::string& word, std::string_view option) {
-  double value = 0;
-  const char* end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, value);
-  if (error != std::errc() || stop != end || !(value > 0) || !std::isfinite(value))
+  const auto value = parsed<double>(word);
+  if (!value || !(*value > 0) || !std::isfinite(*value))
     throw UsageError(fmt::format("{} takes a number above 0, not {}", option, in_backticks(word)));
-  return value;
+  return *value;
 }
 
 /// A time of a run, in s.
 double time_of(const std::string& word, std::string_view option) {
-  double value = 0;
-  const char* end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, value);
-  if (error != std::errc() || stop != end || !(value >= 0) || !std::isfinite(value))
+  const auto value = parsed<double>(word);
+  if (!value || !(*value >= 0) || !std::isfinite(*value))
     throw UsageError(fmt::format("{} takes a time in seconds, such as 1.25, not {}", option, in_backticks(word)));
-  return value;
+  return *value;
 }
 
 void read_set(Options& options, const Words& words) {
@@ -145,16 +148,13 @@ std::string_view only_help() {
 
 /// "2/5"
 Shard read_shard(const std::string& word) {
-  Shard shard;
-  const std::size_t slash = word.find('/');
-  const auto part = [&](std::string_view text, std::size_t& value) {
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && stop == text.data() + text.size() && !text.empty();
-  };
-  if (slash == std::string::npos || !part(std::string_view(word).substr(0, slash), shard.index) ||
-      !part(std::string_view(word).substr(slash + 1), shard.count) || shard.index < 1 || shard.index > shard.count)
+  const std::string_view text = word;
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto index = parsed<std::size_t>(text.substr(0, slash));
+  const auto count = parsed<std::size_t>(text.substr(std::min(slash + 1, text.size())));
+  if (!index || !count || *index < 1 || *index > *count)
     throw UsageError(fmt::format("--shard takes I/N, such as 1/4 to 4/4, not {}", in_backticks(word)));
-  return shard;
+  return {*index, *count};
 }
 
 constexpr std::array<std::string_view, 4> progress_names = {"auto", "bar", "lines", "none"};

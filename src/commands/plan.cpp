@@ -59,10 +59,12 @@ void check(PlannedScene& planned, const Options& options, Purpose purpose) {
   const Output requested = planned.scene->output;
   const auto written = [&](const Output& all) { return options.only ? restricted(all, *options.only) : all; };
   planned.scene->output = written(requested);
-  planned.notes = idle_settings(options.set, planned.scene->output, [&](const std::vector<std::string>& set) {
+  planned.notes = idle_settings(options.set, *planned.scene, [&](const std::vector<std::string>& set) {
     LoadOptions load = load_options(options, true);
     load.set = set;
-    return written(load_scene(planned.file, load).output);
+    Scene scene = load_scene(planned.file, load);
+    scene.output = written(scene.output);
+    return scene;
   });
   check_flights(*planned.scene);
   planned.load_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -109,6 +111,7 @@ LoadOptions load_options(const Options& options, bool lifted) {
   load.seed = options.seed;
   load.budget.enforced = !options.force;
   if (lifted) load.budget = load.budget.without_outputs();
+  load.chooses_outputs = lifted;
   load.mesh_points = [](const std::string& path) { return read_mesh_points(path); };
   load.color = !options.json && uses_color(options.color, STDERR_FILENO);
   return load;

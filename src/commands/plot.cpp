@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <new>
+#include <optional>
 
 #include "commands/interrupt.h"
 #include "commands/plan.h"
@@ -53,10 +53,12 @@ class PlotPlanner {
     SceneFile file(former_scene_file(planned.file), load);
     if (is_same_folder(planned.folder, planned.file)) planned.folder = planned.file;
     const bool in_place = planned.folder == planned.file;
+    std::optional<PossibleCharts> charts;
     auto former = std::make_shared<FormerRun>(
         read_former_run(planned.file, file, [&](const FormerRun& run, std::string_view name) {
+          if (!charts) charts = possible_charts(run);
           // In another folder pictures are not needed. In the run's own they stay, and must be right.
-          return is_drawn_by(possible_charts(run), name) || (!in_place && is_picture(name));
+          return is_drawn_by(*charts, name) || (!in_place && is_picture(name));
         }));
     planned.scene = std::make_unique<Scene>(file.scene());
     if (const auto settings = settings_of_tables(*planned.scene, *former); !in_place && !settings.empty())

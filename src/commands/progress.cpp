@@ -10,6 +10,7 @@
 
 #include "commands/text.h"
 #include "numerics/whole.h"
+#include "yaml/letters.h"
 
 namespace carom {
 
@@ -49,12 +50,12 @@ void Progress::draw_bar(double done, const std::string& counts, const std::strin
   const std::size_t width = terminal_width(STDERR_FILENO) - 1;
   constexpr std::size_t bar_width = 20;
   std::string text = fmt::format("{} ", name_);
-  if (columns_of(text) + bar_width + 24 < width) {
+  if (letters_of(text) + bar_width + 24 < width) {
     const auto full = static_cast<std::size_t>(whole_below(std::clamp(done, 0.0, 1.0) * bar_width));
     const Palette palette(color_);
     std::string rest = fmt::format(" {:3.0f} % ", std::min(99.0, done * 100));
-    const std::size_t taken = columns_of(text) + bar_width + 2 + rest.size();
-    rest += taken + columns_of(counts) <= width ? counts : left;
+    const std::size_t taken = letters_of(text) + bar_width + 2 + rest.size();
+    rest += taken + letters_of(counts) <= width ? counts : left;
     text += fmt::format("[{}{}{}{:{}}]{}", palette.green, std::string(full, '='), palette.reset, "", bar_width - full,
                         rest);
   } else {

@@ -70,7 +70,7 @@ class Planner {
     refuse_other_motion(file, *former, *planned.scene, path);
     if (!options_.at) {
       choose_outputs(planned, *former);
-      planned.notes = idle_settings(options_.set, planned.scene->output, [&](const std::vector<std::string>& set) {
+      planned.notes = idle_settings(options_.set, *planned.scene, [&](const std::vector<std::string>& set) {
         std::vector<Setting> others;
         for (const std::string& text : set) others.push_back({text, ""});
         PlannedScene other;
@@ -78,7 +78,7 @@ class Planner {
         other.folder = planned.folder;
         other.scene = std::make_unique<Scene>(file.scene(others));
         choose_outputs(other, *former);
-        return other.scene->output;
+        return std::move(*other.scene);
       });
     }
     planned.scene->file = former->scene.file;

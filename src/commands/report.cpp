@@ -15,6 +15,7 @@
 #include "files/open_folder.h"
 #include "files/series_folders.h"
 #include "scene/output_kinds.h"
+#include "yaml/letters.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -86,7 +87,7 @@ Json number_or_null(double value) {
 
 void Block::heading(std::string_view name, std::string_view title) {
   text_ += fmt::format("{}{}{}", palette_.bold, printable(name), palette_.reset);
-  if (!title.empty() && title != name) text_ += ": " + wrapped(printable(title), columns_of(name) + 2, width_);
+  if (!title.empty() && title != name) text_ += ": " + wrapped(printable(title), letters_of(name) + 2, width_);
   text_ += '\n';
 }
 
@@ -103,11 +104,11 @@ void Block::warning(std::string_view label, std::string_view text) {
 void Block::table(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths(rows.front().size(), 0);
   for (const auto& row : rows)
-    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], columns_of(row[k]));
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], letters_of(row[k]));
   for (const auto& row : rows) {
     std::string line;
     for (std::size_t k = 0; k < row.size(); ++k) {
-      const std::string gap(widths[k] - columns_of(row[k]), ' ');
+      const std::string gap(widths[k] - letters_of(row[k]), ' ');
       line += k == 0 ? row[k] + gap : "  " + gap + row[k];
     }
     line.erase(line.find_last_not_of(' ') + 1);

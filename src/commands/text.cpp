@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 
-#include "files/open_folder.h"
+#include "yaml/letters.h"
 
 namespace carom {
 
@@ -58,11 +57,6 @@ std::string listed(const std::vector<std::string>& names, std::size_t most) {
   return text;
 }
 
-std::size_t columns_of(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
-
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width) {
   std::string result;
   // The caller writes the beginning of the first line.
@@ -70,7 +64,7 @@ std::string wrapped(std::string_view text, std::size_t indent, std::size_t width
   while (!text.empty()) {
     const std::size_t end = std::min(text.find(' '), text.size());
     const std::string_view word = text.substr(0, end);
-    const std::size_t length = columns_of(word);
+    const std::size_t length = letters_of(word);
     if (column > indent && column + 1 + length > width) {
       result += '\n' + std::string(indent, ' ');
       column = indent;
@@ -100,12 +94,6 @@ std::string shell_word(const std::string& word) {
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return out + "'";
-}
-
-std::string name_of_folder(const std::string& folder) {
-  namespace fs = std::filesystem;
-  const fs::path path = fs::path(absolute(folder)).lexically_normal();
-  return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 
 }  // namespace carom

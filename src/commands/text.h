@@ -23,12 +23,7 @@ std::string wait_text(double seconds);
 std::string listed(const std::vector<std::string>& names, std::size_t most = 10);
 /// Breaks `text` at spaces so that no line is longer than `width` columns; further lines begin with `indent` spaces.
 std::string wrapped(std::string_view text, std::size_t indent, std::size_t width);
-/// Columns that UTF-8 `text` takes, a code point counted as one.
-std::size_t columns_of(std::string_view text);
 /// A word for a shell: quoted if necessary, unprintable characters by their bytes.
 std::string shell_word(const std::string& word);
-
-/// The last name of a folder's path: "half" of "output/half/", the name of the working folder of ".".
-std::string name_of_folder(const std::string& folder);
 
 }  // namespace carom

@@ -13,6 +13,7 @@
 #include "files/manifest.h"
 #include "files/run_folder.h"
 #include "files/stored_table.h"
+#include "yaml/letters.h"
 
 namespace carom {
 namespace {
@@ -20,23 +21,6 @@ namespace {
 constexpr std::size_t longest_text = 32'767;  // characters of a cell
 constexpr lxw_color_t tint = 0xFFF2CC, header_tint = 0xD9E1F2, swept_header_tint = 0xF4B183, grey = 0x595959;
 constexpr lxw_color_t doubtful_tint = 0xFFE699, failed_tint = 0xF8CBAD;
-
-/// The first `most` characters. A cut is marked with an ellipsis.
-std::string shortened(std::string_view text, std::size_t most) {
-  std::size_t characters = 0, end = 0, last = 0;
-  for (; end < text.size(); ++end) {
-    if ((static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) continue;
-    if (++characters == most) last = end;
-    if (characters > most) break;
-  }
-  return end == text.size() ? std::string(text) : std::string(text.substr(0, last)) + "…";
-}
-
-/// The number of characters, with a code point counted as one.
-std::size_t length_of(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
-}
 
 /// The library returns null when it is out of memory.
 template <typename Made>
@@ -121,7 +105,7 @@ void Worksheet::widen(std::size_t column, std::size_t characters, CellStyle styl
 void Worksheet::text(std::size_t row, std::size_t column, std::string_view text, CellStyle style) {
   if (text.empty() && style == CellStyle::plain) return;
   const std::string shown = shortened(text, longest_text);
-  widen(column, length_of(shown), style);
+  widen(column, letters_of(shown), style);
   must(worksheet_write_string(sheet_, static_cast<lxw_row_t>(row), static_cast<lxw_col_t>(column), shown.c_str(),
                               style == CellStyle::plain ? nullptr : format(style)));
 }

@@ -3,9 +3,9 @@
 
 #include <filesystem>
 
-#include "export/plot_axis.h"
 #include "files/manifest.h"
 #include "scene/scene.h"
+#include "yaml/letters.h"
 
 namespace carom {
 
@@ -17,14 +17,6 @@ constexpr std::size_t longest_title = 70, longest_name = 16;
 constexpr std::uint64_t most_marks = 40;
 
 }  // namespace
-
-std::string shortened(const std::string& text, std::size_t most) {
-  if (letters_of(text) <= most) return text;
-  std::string start = text;
-  // Bytes are removed up to a whole letter.
-  while (letters_of(start) >= most) start.pop_back();
-  return start + "…";
-}
 
 Plot chart_of(const Scene& scene, std::string_view subtitle) {
   Plot plot;
@@ -45,7 +37,7 @@ Plot chart_over_time(const Scene& scene, std::string_view subtitle) {
 }
 
 PlotSeries chart_line(std::string_view name, std::size_t style, const ThinnedLine& line, std::uint64_t instants) {
-  return {shortened(std::string(name), longest_name), style, line.points(),
+  return {shortened(name, longest_name), style, line.points(),
           instants <= most_marks ? PlotForm::marks : PlotForm::line};
 }
 

@@ -24,7 +24,4 @@ Plot chart_over_time(const Scene& scene, std::string_view subtitle);
 /// A line of a chart with so many instants. If they are few each has a mark, which shows when the run was sampled.
 PlotSeries chart_line(std::string_view name, std::size_t style, const ThinnedLine& line, std::uint64_t instants);
 
-/// The text, cut to at most so many letters.
-std::string shortened(const std::string& text, std::size_t most);
-
 }  // namespace carom

@@ -26,6 +26,9 @@
 namespace carom {
 namespace {
 
+/// Of frames. They make 2,000 pictures of 1280 x 720 a second, more than are drawn, and each holds several in memory.
+constexpr std::size_t most_encoders = 8;
+
 /// The film's name is given by the scene and must not be another file's.
 void check_film_name(const Scene& scene) {
   const Output& output = scene.output;
@@ -74,7 +77,7 @@ struct Exports::Impl {
         for (const Ticks& ticks : writer->ticks(scene)) open.timeline_streams.push_back(timeline.add(ticks));
       open.writer = writer->open(*folder, scene, makers);
     }
-    if (output.frames) frames.emplace(*folder, share_of_processors());
+    if (output.frames) frames.emplace(*folder, std::min(share_of_processors(), most_encoders));
     if (output.video) film.emplace(folder->place(), *output.video, std::move(*tools));
     if (output.sheet) sheet.emplace(*output.sheet, sheet_model(output).size);
     for (std::size_t i = 0; i < plan.streams.size(); ++i) plan.streams[i].timeline_stream = timeline.add(plan.ticks[i]);

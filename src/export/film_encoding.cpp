@@ -11,8 +11,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "export/yuv.h"
 #include "scene/film_format.h"
 
@@ -21,11 +19,6 @@ namespace {
 
 constexpr int largest_crf = 51;
 
-std::string decimal(double value) {
-  char text[32];
-  return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
-}
-
 void add(FfmpegRun& run, std::initializer_list<std::string_view> arguments) {
   for (const std::string_view argument : arguments) run.emplace_back(argument);
 }
@@ -33,7 +26,7 @@ void add(FfmpegRun& run, std::initializer_list<std::string_view> arguments) {
 FfmpegRun raw_input(const VideoOutput& video, std::string_view pixels, int width, int height) {
   FfmpegRun run;
   add(run, {"-f", "rawvideo", "-pixel_format", pixels, "-video_size", fmt::format("{}x{}", width, height), "-framerate",
-            decimal(video.fps), "-i", "pipe:0"});
+            fmt::format("{}", video.fps), "-i", "pipe:0"});
   return run;
 }
 
@@ -43,7 +36,7 @@ void add_reproducible(FfmpegRun& run) {
 }
 
 FilmEncoding mp4(const VideoOutput& video, const Image& picture) {
-  const YuvSize size = yuv_size(picture);
+  const Size size = yuv_size(picture);
   FfmpegRun run = raw_input(video, "yuv420p", size.width, size.height);
   for (std::string& argument : h264_output(video.crf)) run.push_back(std::move(argument));
   return {{std::move(run)}, h264_file};

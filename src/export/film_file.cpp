@@ -15,6 +15,7 @@
 #include "files/open_folder.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
+#include "scene/film_format.h"
 
 namespace carom {
 namespace {
@@ -28,13 +29,13 @@ std::string complaint(const std::string& text) {
   return tail.empty() ? "no message" : tail;
 }
 
-/// The properties of a film's only stream as printed by ffprobe, separated by commas.
-std::string probed(const FilmTools& tools, int folder, const std::string& name, bool counted,
-                   const std::string& entries, std::string& error) {
-  std::vector<std::string> arguments = {tools.ffprobe, "-v", "error", "-select_streams", "v:0"};
-  if (counted) arguments.emplace_back("-count_packets");
-  arguments.insert(arguments.end(), {"-show_entries", "stream=" + entries, "-of", "csv=p=0", "file:" + name});
-  Child probe(arguments, folder, false);
+/// The properties of a film's only stream as printed by ffprobe, separated by commas, in ffprobe's own order.
+/// ffprobe counts the pictures, because a GIF does not store their number.
+std::string probed(const FilmTools& tools, int folder, const std::string& name, const std::string& entries,
+                   std::string& error) {
+  Child probe({tools.ffprobe, "-v", "error", "-select_streams", "v:0", "-count_packets", "-show_entries",
+               "stream=" + entries, "-of", "csv=p=0", "file:" + name},
+              folder, false);
   const auto code = probe.wait(std::chrono::minutes(10));
   if (!code || *code != 0) error = "ffprobe cannot read it: " + complaint(probe.errors());
   return probe.output();
@@ -48,9 +49,8 @@ std::uint64_t take_number(std::string_view& text) {
   return value;
 }
 
-/// ffprobe counts them, because a GIF does not store their number.
 std::uint64_t counted_frames(const FilmTools& tools, int folder, const std::string& name, std::string& error) {
-  const std::string counted = probed(tools, folder, name, true, "nb_read_packets", error);
+  const std::string counted = probed(tools, folder, name, "nb_read_packets", error);
   std::string_view text = counted;
   return take_number(text);
 }
@@ -135,8 +135,9 @@ void FilmFile::end_run() {
 void FilmFile::complete(const std::string& made, std::uint64_t frames, double fps) {
   end_run();
   std::string error;
-  const std::uint64_t found = made.ends_with(".webp") ? webp_frames(workshop(), made, fps).value_or(frames)
-                                                      : counted_frames(tools_, workshop_.get(), made, error);
+  const std::uint64_t found = film_format(made) == FilmFormat::webp
+                                  ? webp_frames(workshop(), made, fps).value_or(frames)
+                                  : counted_frames(tools_, workshop_.get(), made, error);
   if (!error.empty()) fail_with(error);
   if (found != frames) fail_with("ffmpeg wrote " + std::to_string(found) + " of " + std::to_string(frames) + " frames");
 
@@ -150,7 +151,7 @@ void FilmFile::complete(const std::string& made, std::uint64_t frames, double fp
 
 FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const std::string& name) {
   std::string error;
-  const std::string output = probed(tools, place.folder, name, false, "width,height,r_frame_rate", error);
+  const std::string output = probed(tools, place.folder, name, "width,height,r_frame_rate,nb_read_packets", error);
   if (!error.empty()) fail("read the film", place, name, error);
   std::string_view text = output;
   FilmFacts facts;
@@ -158,8 +159,7 @@ FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const std::
   facts.height = static_cast<int>(take_number(text));
   facts.rate = take_number(text);
   facts.per = take_number(text);
-  facts.frames = counted_frames(tools, place.folder, name, error);
-  if (!error.empty()) fail("read the film", place, name, error);
+  facts.frames = take_number(text);
   if (facts.width == 0 || facts.height == 0 || facts.rate == 0 || facts.per == 0 || facts.frames == 0)
     fail("read the film", place, name, "ffprobe finds no pictures in it");
   return facts;

@@ -8,8 +8,7 @@ namespace carom {
 
 FrameFiles::FrameFiles(OpenFolder& folder, std::size_t threads)
     : series_(folder, frame_files),
-      frames_([this](Frame& frame) { series_.put(frame.number, frame.png.encode()); },
-              threads > 1 ? 0 : Conveyor<Frame>::no_thread, threads) {}
+      frames_([this](Frame& frame) { series_.put(frame.number, frame.png.encode()); }, 0, threads > 1 ? threads : 0) {}
 
 FrameFiles::~FrameFiles() {
   try {

@@ -36,6 +36,11 @@ void add(PictureStreams& plan, Size size, const PictureOutput& model, double spe
   plan.ticks.push_back(ticks);
 }
 
+/// The speed of sheet_model().
+double model_speed(const Output& output) {
+  return output.frames || !output.video ? 1 : output.video->speed;
+}
+
 /// Whether the pictures of the frames are those of the film.
 bool shows_film(const Scene& scene, const PictureStream& frames, const Ticks& of_frames, const Ticks& of_film) {
   const VideoOutput& video = *scene.output.video;
@@ -54,7 +59,7 @@ PictureOutput sheet_model(const Output& output) {
 
 PictureStream still_stream(const Scene& scene, double time) {
   const PictureOutput model = sheet_model(scene.output);
-  const double speed = scene.output.frames || !scene.output.video ? 1 : scene.output.video->speed;
+  const double speed = model_speed(scene.output);
   return {model.size, model.samples, 0, speed / model.fps, speed, Ticks::even(1, time, time).decimals()};
 }
 
@@ -90,8 +95,8 @@ PictureStreams plan_pictures(const Scene& scene) {
   if (output.sheet) {
     const PictureOutput model = sheet_model(output);
     const Sheet sheet(*output.sheet, model.size);
-    const double speed = output.frames || !output.video ? 1 : output.video->speed;
-    add(plan, sheet.picture_size(), model, speed, ticks_of(*output.sheet, duration), {false, false, true});
+    add(plan, sheet.picture_size(), model, model_speed(output), ticks_of(*output.sheet, duration),
+        {false, false, true});
   }
   return plan;
 }

@@ -85,9 +85,11 @@ std::string find_gnuplot() {
 
 std::vector<PlotPictures> draw_plots(std::span<const Plot> plots, const std::string& gnuplot) {
   std::vector<std::unique_ptr<PlotDrawing>> drawings;
-  for (const Plot& plot : plots)
+  for (const Plot& plot : plots) {
+    const std::string script = plot_script(plot);
     for (const std::string& terminal : {terminal_of_png(), terminal_of_svg()})
-      drawings.push_back(std::make_unique<PlotDrawing>(gnuplot, plot_script(plot, terminal)));
+      drawings.push_back(std::make_unique<PlotDrawing>(gnuplot, fmt::format("set terminal {}\n{}", terminal, script)));
+  }
   std::vector<PlotPictures> pictures(plots.size());
   for (std::size_t i = 0; i < plots.size(); ++i)
     pictures[i] = {drawings[2 * i]->picture(), drawings[2 * i + 1]->picture()};

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "yaml/letters.h"
+
 namespace carom {
 namespace {
 
@@ -86,11 +88,6 @@ std::string PlotAxis::label(const std::string& what, const std::string& unit) co
   const std::string power = exponent == 0 ? "" : "10" + superscript(exponent);
   if (power.empty() && unit.empty()) return what;
   return fmt::format("{} ({}{}{})", what, power, power.empty() || unit.empty() ? "" : " ", unit);
-}
-
-std::size_t letters_of(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 std::size_t PlotAxis::tick_letters() const {

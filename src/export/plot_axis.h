@@ -38,9 +38,6 @@ PlotAxis log_axis(double low, double high);
 /// Equal ends, or such up to rounding, are moved apart.
 PlotAxis linear_axis(double low, double high, int most_ticks, double least_step = 0);
 
-/// The letters of a text in UTF-8.
-std::size_t letters_of(const std::string& text);
-
 /// The axes that show all of a plot.
 struct PlotAxes {
   PlotAxis x, y;

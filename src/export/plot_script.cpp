@@ -11,6 +11,7 @@
 
 #include "export/plot_axis.h"
 #include "yaml/joined.h"
+#include "yaml/letters.h"
 
 namespace carom {
 
@@ -175,18 +176,18 @@ class PlotLayers {
 
 }  // namespace
 
-std::string plot_script(const Plot& plot, const std::string& terminal) {
+std::string plot_script(const Plot& plot) {
   const PlotAxes axes = axes_of(plot);
   const PlotFrame frame = frame_of(plot, axes);
   return fmt::format(
-             "set terminal {}\nset encoding utf8\n"
+             "set encoding utf8\n"
              "{}{}set tics nomirror scale 0.8,0.4\n"
              "set grid xtics ytics linetype 1 linecolor '#E4E4E4' linewidth 1\n"
              "set border 3 linecolor '#606060' linewidth 1.2\n"
              "set lmargin at screen {:.6g}\nset rmargin at screen {:.6g}\n"
              "set bmargin at screen {:.6g}\nset tmargin at screen {:.6g}\n"
              "set key at screen {:.6g}, graph 0.98 left top vertical Left reverse noenhanced spacing 1.5 samplen 2.5\n",
-             terminal, axes.x.commands('x'), axes.y.commands('y'), frame.left, frame.right, frame.bottom, frame.top,
+             axes.x.commands('x'), axes.y.commands('y'), frame.left, frame.right, frame.bottom, frame.top,
              frame.legend) +
          fmt::format(
              "set label 1 {} at screen {:.6g}, screen 0.95 left font ',17' noenhanced\n"

@@ -6,7 +6,7 @@
 
 namespace carom {
 
-/// `terminal`: the arguments of gnuplot's `set terminal`.
-std::string plot_script(const Plot& plot, const std::string& terminal);
+/// gnuplot's `set terminal` must precede it.
+std::string plot_script(const Plot& plot);
 
 }  // namespace carom

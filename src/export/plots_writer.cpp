@@ -24,8 +24,8 @@ std::vector<OutputFile*> PlotsWriter::files() {
 }
 
 std::vector<Ticks> PlotsWriter::ticks(const Scene& scene) {
-  const RunCharts charts(scene);
-  return {charts.energy_ticks, charts.height_ticks};
+  const ChartTicks ticks(scene);
+  return {ticks.energy, ticks.heights};
 }
 
 }  // namespace carom

@@ -1,12 +1,18 @@
 // Writes PNG (ISO/IEC 15948) by the filter `sub`: a pixel becomes its difference to the one on its left.
 // Of the five filters it gives the smallest files of rendered pictures, and a loop that compilers turn into vectors.
+//
+// ISA-L compresses. Its bytes are the same with SSE4.2, AVX2 and AVX-512, by its functions for each of them. Without
+// SSE4.2 it has another hash, and so other bytes.
 #include "export/png.h"
+
+#include <isa-l/crc.h>
+#include <isa-l/igzip_lib.h>
 
 #include <algorithm>
 #include <string_view>
 
-#include "export/checksums.h"
 #include "files/run_folder.h"
+#include "numerics/processor.h"
 
 namespace carom {
 namespace {
@@ -28,7 +34,7 @@ void put_chunk(std::string& file, std::string_view type, const Data& put_data) {
   std::string number;
   put_number(number, static_cast<std::uint32_t>(length));
   file.replace(begin, number.size(), number);
-  put_number(file, crc32({reinterpret_cast<const std::uint8_t*>(file.data()) + begin + 4, length + 4}));
+  put_number(file, crc32_gzip_refl(0, reinterpret_cast<const std::uint8_t*>(file.data()) + begin + 4, length + 4));
 }
 
 /// The row's difference to itself, moved by one pixel. `to` is another memory.
@@ -58,6 +64,31 @@ void PngEncoder::take(const Image& image) {
   }
 }
 
+std::size_t PngEncoder::compress() {
+  // Rows that do not shrink are stored, in blocks of up to 65535 bytes with 5 more each.
+  constexpr std::size_t block = 65535, block_head = 5, head_and_checksum = 6;
+  const std::size_t most = rows_.size() + block_head * (rows_.size() / block + 1) + head_and_checksum;
+  if (most > room_size_) {
+    room_ = std::make_unique_for_overwrite<std::uint8_t[]>(most);
+    room_size_ = most;
+  }
+  work_.resize(ISAL_DEF_LVL1_DEFAULT);
+  isal_zstream stream;
+  isal_deflate_stateless_init(&stream);
+  stream.level = 1;
+  stream.level_buf = work_.data();
+  stream.level_buf_size = static_cast<std::uint32_t>(work_.size());
+  stream.gzip_flag = IGZIP_ZLIB;
+  stream.end_of_stream = 1;
+  stream.next_in = rows_.data();
+  stream.avail_in = static_cast<std::uint32_t>(rows_.size());
+  stream.next_out = room_.get();
+  // Not the room that is left of a larger picture: the bytes may depend on this size.
+  stream.avail_out = static_cast<std::uint32_t>(most);
+  if (isal_deflate_stateless(&stream) != COMP_OK) throw ExportError("cannot compress a picture");
+  return stream.total_out;
+}
+
 const std::string& PngEncoder::encode() {
   file_ = "\x89PNG\r\n\x1a\n";
   put_chunk(file_, "IHDR", [&] {
@@ -68,8 +99,13 @@ const std::string& PngEncoder::encode() {
     file_ += std::string_view("\0\0\0", 3);     // deflate, the five filters, rows in order
   });
   put_chunk(file_, "sRGB", [&] { file_ += '\0'; });  // perceptual
-  put_chunk(file_, "IDAT", [&] { deflater_.compress(rows_, static_cast<std::size_t>(channels_), file_); });
+  put_chunk(file_, "IDAT", [&] {
+    const std::size_t size = compress();
+    file_.append(reinterpret_cast<const char*>(room_.get()), size);
+  });
   put_chunk(file_, "IEND", [] {});
+  // ISA-L 2.30 does not. With it a picture of 100,000 balls is drawn in 88 ms, else in 98 ms.
+  end_wide_vectors();
   return file_;
 }
 

@@ -27,24 +27,27 @@ constexpr RunChart all_charts[] = {
 
 }  // namespace
 
+ChartTicks::ChartTicks(const Scene& scene)
+    : energy(ticks_of(plot_intervals(scene.output).energy, scene.simulate.duration)),
+      heights(ticks_of(plot_intervals(scene.output).trajectory, scene.simulate.duration)) {}
+
 RunCharts::RunCharts(const Scene& scene)
     : energy(scene),
       heights(scene),
       speeds(scene),
       collisions(scene),
-      energy_ticks(ticks_of(plot_intervals(scene.output).energy, scene.simulate.duration)),
-      height_ticks(ticks_of(plot_intervals(scene.output).trajectory, scene.simulate.duration)),
+      ticks(scene),
       scene_(scene),
-      next_energy_(energy_ticks.first()),
-      next_heights_(height_ticks.first()) {}
+      next_energy_(ticks.energy.first()),
+      next_heights_(ticks.heights.first()) {}
 
 void RunCharts::sample(double time, const State& state) {
-  if (next_energy_ <= energy_ticks.last() && energy_ticks.at(next_energy_) == time) {
+  if (next_energy_ <= ticks.energy.last() && ticks.energy.at(next_energy_) == time) {
     ++next_energy_;
     energy.add(time, kinetic_energy(scene_.world, state), potential_energy(scene_.world, state));
   }
-  if (next_heights_ > height_ticks.last() || height_ticks.at(next_heights_) != time) return;
-  if (next_heights_++ == height_ticks.last()) speeds.add(state);
+  if (next_heights_ > ticks.heights.last() || ticks.heights.at(next_heights_) != time) return;
+  if (next_heights_++ == ticks.heights.last()) speeds.add(state);
   heights.add(time, state);
 }
 

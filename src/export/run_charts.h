@@ -16,6 +16,13 @@ namespace carom {
 
 struct Scene;
 
+/// When states are sampled for the energy, and for the heights: as for energy.csv and trajectory.csv, where the scene
+/// lists these, else at plot_instants even ones.
+struct ChartTicks {
+  explicit ChartTicks(const Scene& scene);
+  Ticks energy, heights;
+};
+
 /// All charts of a run. Fill each member, or let sample() do it.
 struct RunCharts {
   /// `scene` must outlive this object.
@@ -28,9 +35,7 @@ struct RunCharts {
   HeightsChart heights;
   SpeedsChart speeds;
   CollisionsChart collisions;
-  /// When states are sampled for the energy, and for the heights: as for energy.csv and trajectory.csv, where the scene
-  /// lists these, else at plot_instants even ones.
-  Ticks energy_ticks, height_ticks;
+  ChartTicks ticks;
 
  private:
   const Scene& scene_;

@@ -2,7 +2,6 @@
 #include "export/thinned_line.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace carom {
 

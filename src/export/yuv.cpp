@@ -86,12 +86,12 @@ class RgbRows {
 
 }  // namespace
 
-YuvSize yuv_size(const Image& image) {
+Size yuv_size(const Image& image) {
   return {image.width + image.width % 2, image.height + image.height % 2};
 }
 
 void to_yuv420p(const Image& image, std::vector<std::uint8_t>& planes) {
-  const YuvSize size = yuv_size(image);
+  const Size size = yuv_size(image);
   const auto width = static_cast<std::size_t>(size.width), height = static_cast<std::size_t>(size.height);
   planes.resize(width * height * 3 / 2);
   std::uint8_t* y = planes.data();

@@ -4,14 +4,12 @@
 #include <vector>
 
 #include "render/image.h"
+#include "scene/output.h"
 
 namespace carom {
 
 /// The size of a picture in yuv420p: both sides are even.
-struct YuvSize {
-  int width = 0, height = 0;  // pixels
-};
-YuvSize yuv_size(const Image& image);
+Size yuv_size(const Image& image);
 
 /// Fills `planes` with the picture as yuv420p, BT.709, limited range: the plane of Y', then those of Cb and Cr at half
 /// the width and height. An odd side repeats its last pixel. A picture with opacity is shown on black.

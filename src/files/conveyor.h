@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
-#include <limits>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -19,14 +18,15 @@ namespace carom {
 template <typename Item>
 class Conveyor {
  public:
-  /// `alone` of a conveyor whose sender does all the work.
-  static constexpr std::uint64_t no_thread = std::numeric_limits<std::uint64_t>::max();
-
   /// `use` is called once for each item sent, and leaves the item ready to be filled again.
   /// The sender calls it for the first `alone` items, so that little work starts no thread.
-  /// The threads call it for the others: one of them in order, several at the same time.
+  /// The threads call it for the others: one of them in order, several at the same time. Without any the sender does.
   Conveyor(std::function<void(Item&)> use, std::uint64_t alone, std::size_t threads = 1)
-      : use_(std::move(use)), alone_(alone), most_threads_(threads), items_(threads + spare), busy_(items_.size()) {}
+      : use_(std::move(use)),
+        alone_(alone),
+        most_threads_(threads),
+        items_(threads == 0 ? 1 : threads + spare),
+        busy_(items_.size()) {}
   /// Items that were sent and not yet used are dropped.
   ~Conveyor() {
     {
@@ -48,7 +48,7 @@ class Conveyor {
   /// Passes the item on and waits until the next one is free. Throws what `use` threw for an item, the first sent of
   /// several.
   void send() {
-    if (threads_.empty() && (sent_ < alone_ || !start())) {
+    if (most_threads_ == 0 || (threads_.empty() && (sent_ < alone_ || !start()))) {
       use_(item());
       ++sent_;
       ++taken_;

@@ -85,6 +85,11 @@ std::string absolute(const std::string& path) {
   return whole.string();
 }
 
+std::string name_of_folder(const std::string& folder) {
+  const std::filesystem::path path = std::filesystem::path(absolute(folder)).lexically_normal();
+  return (path.has_filename() ? path : path.parent_path()).filename().string();
+}
+
 bool lock_folder(const FilePlace& place, LockKind kind) {
   int code = 0;
   do code = flock(place.folder, (kind == LockKind::alone ? LOCK_EX : LOCK_SH) | LOCK_NB);

@@ -32,6 +32,10 @@ std::string canonical(const std::string& path);
 /// The absolute path. Throws ExportError if that cannot be determined.
 std::string absolute(const std::string& path);
 
+/// The last name of a folder's path: "half" of "output/half/", the name of the working folder of ".".
+/// Throws ExportError if that cannot be determined.
+std::string name_of_folder(const std::string& folder);
+
 enum class LockKind { alone, shared };
 /// Locks a folder. Returns false if the lock is held elsewhere. Throws ExportError.
 /// On a file system without locks, such as some network ones, it returns true without a lock.

@@ -35,4 +35,11 @@ inline bool has_avx512() {
 #endif
 }
 
+/// After a library's wide vectors: it may leave the upper parts of registers in use, which slows narrow instructions.
+inline void end_wide_vectors() {
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx")) __asm__ volatile("vzeroupper");
+#endif
+}
+
 }  // namespace carom

@@ -2,7 +2,6 @@
 #include "overlay/inscription.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "scene/scene.h"
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 
 #include "overlay/arrows.h"
 #include "overlay/body_colors.h"

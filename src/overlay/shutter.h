@@ -1,7 +1,5 @@
 #pragma once
 // Motion blur: the instants of which a picture is the mean.
-#include <limits>
-#include <vector>
 
 #include "physics/state.h"
 #include "render/eye.h"

@@ -1,6 +1,6 @@
 #pragma once
 // The camera as numbers: its direction and its field of view. It needs no renderer, so that `check` can use it too.
-#include "physics/state.h"
+#include "numerics/vec3.h"
 #include "scene/scene.h"
 
 namespace carom {

@@ -3,6 +3,7 @@
 // of four linear inequalities. Boxes around things would be looser in perspective.
 #include "render/frustum.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

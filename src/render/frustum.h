@@ -1,6 +1,5 @@
 #pragma once
 // A view of fixed direction and angles: from where does it hold given things?
-#include <algorithm>
 #include <array>
 
 #include "physics/volume.h"

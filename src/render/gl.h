@@ -1,10 +1,8 @@
 #pragma once
 // The part of OpenGL that the render passes use: an off-screen context, and objects that free themselves.
 #include <array>
-#include <cstddef>
 #include <initializer_list>
 #include <span>
-#include <string>
 #include <string_view>
 #include <utility>
 

@@ -3,7 +3,6 @@
 #include "render/lighting.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "numerics/srgb.h"
 #include "scene/scene.h"

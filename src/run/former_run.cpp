@@ -81,9 +81,13 @@ FormerRun read_former_run(const std::string& folder, SceneFile& file, const Spar
   return run;
 }
 
-bool FormerRun::has_flights() const {
+bool FormerRun::has(std::string_view name) const {
   return std::any_of(manifest.files.begin(), manifest.files.end(),
-                     [](const FileRecord& file) { return file.name == flights_name; });
+                     [&](const FileRecord& file) { return file.name == name; });
+}
+
+bool FormerRun::has_flights() const {
+  return has(flights_name);
 }
 
 std::unique_ptr<Simulator> FormerRun::motion(const Scene& of) const {

@@ -1,5 +1,5 @@
 #pragma once
-// A finished run in a folder, for rendering its motion again.
+// A finished run in a folder, to be drawn again or plotted without simulating it.
 #include <functional>
 #include <memory>
 #include <string>
@@ -18,6 +18,8 @@ struct FormerRun {
   /// From its scene.yaml, with the outputs that the folder has.
   Scene scene;
 
+  /// Whether its manifest has a file of this name.
+  bool has(std::string_view file) const;
   /// Whether the run stored the paths of its bodies (export/flights_file.h).
   bool has_flights() const;
   /// A simulator that follows these paths. `scene` must have the same motion and outlive it.

@@ -4,8 +4,8 @@
 #include "run/stage.h"
 
 #include <algorithm>
-#include <filesystem>
 
+#include "files/open_folder.h"
 #include "render/camera.h"
 #include "render/glb.h"
 #include "render/still_things.h"
@@ -18,11 +18,6 @@ namespace {
 const Scene& with_font(const Scene& scene) {
   check_font(scene);
   return scene;
-}
-
-std::string name_of_folder(const std::string& folder) {
-  const std::filesystem::path path = std::filesystem::path(folder).lexically_normal();
-  return (path.has_filename() ? path : path.parent_path()).filename().string();
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #pragma once
 // One output folder during a run: its exports, and the pictures that are due for them.
 #include <functional>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>

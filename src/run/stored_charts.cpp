@@ -31,11 +31,6 @@ constexpr ChartSource chart_sources[] = {{"energy", "energy.csv", "energy", true
                                          {"speeds", "trajectory.csv", "trajectory", true},
                                          {"collisions", "collisions.csv", "collisions", false}};
 
-bool has_table(const FormerRun& former, std::string_view name) {
-  const auto& files = former.manifest.files;
-  return std::any_of(files.begin(), files.end(), [&](const FileRecord& file) { return file.name == name; });
-}
-
 /// Rows between two calls of the watch.
 constexpr std::uint64_t rows_between = 1000;
 
@@ -45,19 +40,19 @@ class ChartReader {
       : former_(former), scene_(scene), charts_(charts), watch_(watch) {}
 
   void go() {
-    if (has_table(former_, "collisions.csv")) collisions();
+    if (former_.has("collisions.csv")) collisions();
     ++parts_done_;
     if (former_.has_flights()) return paths();
-    if (has_table(former_, "energy.csv")) energy();
+    if (former_.has("energy.csv")) energy();
     ++parts_done_;
-    if (has_table(former_, "trajectory.csv")) trajectory();
+    if (former_.has("trajectory.csv")) trajectory();
   }
 
  private:
   void paths() {
     const std::unique_ptr<Simulator> motion = former_.motion(scene_);
     Timeline timeline(scene_.simulate.duration);
-    for (const Ticks& ticks : {charts_.energy_ticks, charts_.height_ticks}) timeline.add(ticks);
+    for (const Ticks& ticks : {charts_.ticks.energy, charts_.ticks.heights}) timeline.add(ticks);
     while (timeline.advance()) {
       do {
         watch_(share(motion->time()));
@@ -143,7 +138,7 @@ class ChartReader {
 PossibleCharts possible_charts(const FormerRun& former) {
   PossibleCharts charts;
   for (const ChartSource& source : chart_sources) {
-    if (has_table(former, source.table) || (source.follows_paths && former.has_flights()))
+    if (former.has(source.table) || (source.follows_paths && former.has_flights()))
       charts.names.push_back(source.chart);
     else
       charts.missing.push_back(

@@ -1,6 +1,7 @@
 // Rows are in the order of time and of bodies, so that a body's name is found by going on from the previous one.
 #include "run/stored_trajectory.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "files/run_folder.h"

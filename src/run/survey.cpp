@@ -4,7 +4,6 @@
 #include "run/survey.h"
 
 #include <algorithm>
-#include <memory>
 #include <vector>
 
 #include "export/picture_streams.h"

@@ -64,8 +64,8 @@ void decode_bodies(const Node& root, const Inventory& inventory, Forms& forms, S
 void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes the camera. Bodies must be decoded before.
 void decode_camera(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
-/// Decodes simulate, lights, background and output. Checks that frames and rows are within `budget`.
-void decode_requests(const Node& root, const Inventory& inventory, const Budget& budget, Scene& scene,
+/// Decodes simulate, lights, background and output. Checks that frames and rows are within the budget.
+void decode_requests(const Node& root, const Inventory& inventory, const LoadOptions& options, Scene& scene,
                      Diagnostics& diagnostics);
 
 /// Decodes caption, trails, flash, arrows and shutter, and checks the colourings of bodies.

@@ -19,8 +19,14 @@ namespace {
 
 class Requests {
  public:
-  Requests(const Node& root, const Inventory& inventory, const Budget& budget, Scene& scene, Diagnostics& diagnostics)
-      : root_(root), inventory_(inventory), budget_(budget), scene_(scene), diagnostics_(diagnostics) {}
+  Requests(const Node& root, const Inventory& inventory, const LoadOptions& options, Scene& scene,
+           Diagnostics& diagnostics)
+      : root_(root),
+        inventory_(inventory),
+        budget_(options.budget),
+        chooses_outputs_(options.chooses_outputs),
+        scene_(scene),
+        diagnostics_(diagnostics) {}
 
   void run() {
     simulate();
@@ -78,7 +84,7 @@ class Requests {
     fill(&out, view);
     if (out.frames) check_window(view.part("frames", "frames"), out.frames->from, out.frames->until);
     if (out.video) check_video(view.part("video", "video"), *out.video);
-    if (out.video && scene_.transparent && film_format(out.video->file) == FilmFormat::mp4)
+    if (out.video && !chooses_outputs_ && scene_.transparent && film_format(out.video->file) == FilmFormat::mp4)
       diagnostics_.add(view.place("video"), "an MP4 has no transparency, and `background` is `none`",
                        "expected a `file` ending in .gif or .webp, `frames` or `sheet`, or a colour for `background`");
     if (out.sheet) check_window(view.part("sheet", "sheet"), out.sheet->from, out.sheet->until);
@@ -195,6 +201,7 @@ class Requests {
   const Node& root_;
   const Inventory& inventory_;
   const Budget& budget_;
+  bool chooses_outputs_;
   Scene& scene_;
   Diagnostics& diagnostics_;
 };
@@ -228,9 +235,9 @@ void check_steps(const Node& root, const Scene& scene, const Budget& budget, Dia
                          "`step` or a shorter duration, or --force to allow it");
 }
 
-void decode_requests(const Node& root, const Inventory& inventory, const Budget& budget, Scene& scene,
+void decode_requests(const Node& root, const Inventory& inventory, const LoadOptions& options, Scene& scene,
                      Diagnostics& diagnostics) {
-  Requests(root, inventory, budget, scene, diagnostics).run();
+  Requests(root, inventory, options, scene, diagnostics).run();
 }
 
 }  // namespace carom

@@ -37,14 +37,14 @@ constexpr Field scene_fields[] = {
     {.key = "obstacles", .type = Type::named, .of = "obstacle", .doc = "Bodies that never move.", .example = "{post: {cylinder: {radius: 0.1, height: 1}, position: [-3, 1, 0]}}"},
     {.key = "forces", .type = Type::list, .of = "force", .doc = "Forces on bodies, in addition to gravity.", .example = "[{drag: {linear: 0.1}}]"},
     {.key = "simulate", .type = Type::part, .of = "simulate", .needed = true, .doc = "Duration, engine and accuracy.", .example = "{duration: 2}"},
-    {.key = "camera", .type = Type::part, .of = "camera", .doc = "Camera of the pictures. Default: {fit: motion}.", .example = "{eye: [0, 3, -5], target: [0, 0, 0]}"},
-    {.key = "lights", .type = Type::named, .of = "light", .doc = "Lights by name, and `ambient`, the colour of the ambient light.", .example = "{sun: {direction: [1, -2, 1]}, ambient: dimgray}"},
-    {.key = "background", .type = Type::color_or_none, .doc = "Background colour; none: transparent, in PNG, GIF and WebP.", .example = "skyblue"},
-    {.key = "caption", .type = Type::text_or_flag, .doc = "A text in each picture. Names in braces become values: {title}, {time} in s, {run} (the name of the run's folder), {collisions} (so far), and paths into the scene, such as {restitution.default}. Two braces are one. true: the title and the time.", .example = "\"{title}, t = {time} s\"", .title = "Text in the pictures"},
-    {.key = "trails", .type = Type::part_or_flag, .of = "trails", .doc = "The paths of bodies during the last seconds, which fade with age.", .example = "{seconds: 0.5}"},
-    {.key = "flash", .type = Type::flag, .doc = "Whether bodies that collide flash: for 0.1 s of the film, from bright to their own colour.", .example = "true", .title = "Flash of collisions"},
-    {.key = "arrows", .type = Type::names, .of = "velocity|force", .doc = "Arrows at the bodies. velocity; force: gravity and `forces`, without contact. The legend has their scale.", .example = "[velocity]"},
-    {.key = "shutter", .type = Type::number, .range = {0, 1}, .doc = "Motion blur: a picture is the mean of the light during this part of the interval between pictures, until its time. At most 32 instants make a picture.", .example = "0.5", .title = "Open part of the interval between pictures"},
+    {.key = "camera", .type = Type::part, .of = "camera", .doc = "Camera of the pictures. Default: {fit: motion}.", .example = "{eye: [0, 3, -5], target: [0, 0, 0]}", .drawn = true},
+    {.key = "lights", .type = Type::named, .of = "light", .doc = "Lights by name, and `ambient`, the colour of the ambient light.", .example = "{sun: {direction: [1, -2, 1]}, ambient: dimgray}", .drawn = true},
+    {.key = "background", .type = Type::color_or_none, .doc = "Background colour; none: transparent, in PNG, GIF and WebP.", .example = "skyblue", .drawn = true},
+    {.key = "caption", .type = Type::text_or_flag, .doc = "A text in each picture. Names in braces become values: {title}, {time} in s, {run} (the name of the run's folder), {collisions} (so far), and paths into the scene, such as {restitution.default}. Two braces are one. true: the title and the time.", .example = "\"{title}, t = {time} s\"", .title = "Text in the pictures", .drawn = true},
+    {.key = "trails", .type = Type::part_or_flag, .of = "trails", .doc = "The paths of bodies during the last seconds, which fade with age.", .example = "{seconds: 0.5}", .drawn = true},
+    {.key = "flash", .type = Type::flag, .doc = "Whether bodies that collide flash: for 0.1 s of the film, from bright to their own colour.", .example = "true", .title = "Flash of collisions", .drawn = true},
+    {.key = "arrows", .type = Type::names, .of = "velocity|force", .doc = "Arrows at the bodies. velocity; force: gravity and `forces`, without contact. The legend has their scale.", .example = "[velocity]", .drawn = true},
+    {.key = "shutter", .type = Type::number, .range = {0, 1}, .doc = "Motion blur: a picture is the mean of the light during this part of the interval between pictures, until its time. At most 32 instants make a picture.", .example = "0.5", .title = "Open part of the interval between pictures", .drawn = true},
     {.key = "output", .type = Type::part, .of = "output", .doc = "What the run writes. Default: trajectory, collisions and energy, no pictures.", .example = "{trajectory: {every: 0.01}, collisions: true, energy: true}"},
 };
 
@@ -79,9 +79,9 @@ constexpr Field radius{.key = "radius", .type = Type::number, .unit = "m", .rang
 constexpr Field ball_velocity{.key = "velocity", .type = Type::vector, .unit = "m/s", .doc = "Velocity at time 0.", .example = "[2, 0, 0]", .member = fills<BodyKeys, &BodyKeys::velocity>};
 constexpr Field ball_restitution{.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution; above 1 adds energy. Default: restitution.default.", .example = "0.9", .member = fills<BodyKeys, &BodyKeys::restitution>};
 constexpr Field impulse{.key = "impulse", .type = Type::vector, .unit = "N s", .doc = "Impulse at time 0.", .example = "[-20, 0, 0]", .member = fills_if_given<BodyKeys, &BodyKeys::impulse>};
-constexpr Field body_color_field{.key = "color", .type = Type::color_or_part, .of = "coloring", .doc = "Colour in pictures, or colours by a quantity. Default: one is chosen.", .example = "crimson", .member = fills_if_given<BodyKeys, &BodyKeys::color>};
-template <typename Keys> constexpr Field color{.key = "color", .type = Type::color, .doc = "Colour in pictures. Default: one is chosen.", .example = "crimson", .member = fills_if_given<Keys, &Keys::color>};
-constexpr Field mesh{.key = "mesh", .type = Type::file, .doc = "Mesh file, drawn scaled to the ball.", .example = "meshes/duck.obj", .member = fills<BodyKeys, &BodyKeys::mesh>};
+constexpr Field body_color_field{.key = "color", .type = Type::color_or_part, .of = "coloring", .doc = "Colour in pictures, or colours by a quantity. Default: one is chosen.", .example = "crimson", .drawn = true, .member = fills_if_given<BodyKeys, &BodyKeys::color>};
+template <typename Keys> constexpr Field color{.key = "color", .type = Type::color, .doc = "Colour in pictures. Default: one is chosen.", .example = "crimson", .drawn = true, .member = fills_if_given<Keys, &Keys::color>};
+constexpr Field mesh{.key = "mesh", .type = Type::file, .doc = "Mesh file, drawn scaled to the ball.", .example = "meshes/duck.obj", .drawn = true, .member = fills<BodyKeys, &BodyKeys::mesh>};
 constexpr Field ball_position{.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre at time 0.", .example = "[3, 1, 0]", .member = fills<BodyKeys, &BodyKeys::position>};
 
 constexpr Field ball_fields[] = {
@@ -97,7 +97,7 @@ template <typename Keys> constexpr Field radius_of{.key = "radius", .type = Type
 template <typename Keys> constexpr Field cylinder{.key = "cylinder", .type = Type::part, .of = "cylinder", .one_of = volumes, .doc = "An upright cylinder, its axis along y.", .example = "{radius: 0.1, height: 1}", .member = fills<Keys, &Keys::cylinder>};
 template <typename Keys> constexpr Field box{.key = "box", .type = Type::vector, .unit = "m", .range = above_0, .one_of = volumes, .doc = "An axis-aligned box: its full edge lengths.", .example = "[0.4, 0.3, 0.4]", .member = fills<Keys, &Keys::box>};
 template <typename Keys> constexpr Field fit{.key = "fit", .type = Type::choice, .of = "sphere|cylinder|box", .one_of = volumes, .doc = "The tightest such volume around the mesh; position is its centre.", .example = "box", .with = "mesh", .member = fills<Keys, &Keys::fit>};
-template <typename Keys> constexpr Field mesh_of{.key = "mesh", .type = Type::file, .doc = "Mesh file: in its own size with `fit`, else drawn scaled into the volume.", .example = "meshes/pin.obj", .member = fills<Keys, &Keys::mesh>};
+template <typename Keys> constexpr Field mesh_of{.key = "mesh", .type = Type::file, .doc = "Mesh file: in its own size with `fit`, else drawn scaled into the volume.", .example = "meshes/pin.obj", .drawn = true, .member = fills<Keys, &Keys::mesh>};
 
 constexpr Field body_fields[] = {
     mass, density, radius_of<BodyKeys>, cylinder<BodyKeys>, box<BodyKeys>, mesh_of<BodyKeys>, fit<BodyKeys>,
@@ -127,7 +127,7 @@ constexpr Field in_fields[] = {
 };
 
 template <typename Keys> constexpr Field fixed_restitution{.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution. Default: the moving body's.", .example = "0.5", .member = fills<Keys, &Keys::restitution>};
-template <typename Keys> constexpr Field visible{.key = "visible", .type = Type::flag, .doc = "Whether it is drawn.", .example = "false", .member = fills<Keys, &Keys::visible>};
+template <typename Keys> constexpr Field visible{.key = "visible", .type = Type::flag, .doc = "Whether it is drawn.", .example = "false", .drawn = true, .member = fills<Keys, &Keys::visible>};
 
 constexpr Field plane_fields[] = {
     {.key = "point", .type = Type::vector, .unit = "m", .needed = true, .doc = "Any point of the plane.", .example = "[0, 0, 0]", .title = "A point of the plane", .member = fills<PlaneKeys, &PlaneKeys::point>},
@@ -166,7 +166,7 @@ constexpr Field force_fields[] = {
     {.key = "on", .type = Type::names, .doc = "Balls, bodies, groups and members that it acts on. Default: all.", .example = "[red, gas.3]", .title = "Bodies that it acts on", .pattern = reference, .member = fills<ForceKeys, &ForceKeys::on>},
     {.key = "from", .type = Type::number, .unit = "s", .range = from_0, .doc = "When the force starts.", .example = "0.5", .title = "Start", .member = fills<ForceKeys, &ForceKeys::from>},
     {.key = "until", .type = Type::number, .unit = "s", .range = above_0, .doc = "When the force ends. Default: never.", .example = "1.5", .title = "End", .member = fills_if_given<ForceKeys, &ForceKeys::until>},
-    {.key = "visible", .type = Type::flag, .doc = "Whether the spring is drawn. Default: true.", .example = "false", .with = "spring", .member = fills_if_given<ForceKeys, &ForceKeys::visible>},
+    {.key = "visible", .type = Type::flag, .doc = "Whether the spring is drawn. Default: true.", .example = "false", .with = "spring", .drawn = true, .member = fills_if_given<ForceKeys, &ForceKeys::visible>},
 };
 
 constexpr Field drag_fields[] = {

@@ -90,6 +90,8 @@ struct Field {
   std::string_view pattern = {};
   bool needs_entries = false;  // a list must not be empty
   bool own = false;            // never taken from Kind::beneath
+  /// Pictures depend on the key and on all below it, and the motion does not. (On a mesh with `fit` it does.)
+  bool drawn = false;
   /// Absent: the decoder reads the key itself (keys of the whole scene; lists; a group's ball, which has defaults).
   Member member = {};
 };

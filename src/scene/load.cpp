@@ -72,7 +72,7 @@ struct SceneFile::Impl {
     decode_laws(tree, inventory, scene, diagnostics);
     Forms forms(folder, options, diagnostics);
     decode_fixed(tree, inventory, forms, scene, diagnostics);
-    decode_requests(tree, inventory, options.budget, scene, diagnostics);
+    decode_requests(tree, inventory, options, scene, diagnostics);
     if (inventory.fits) decode_bodies(tree, inventory, forms, scene, diagnostics);
     decode_camera(tree, inventory, scene, diagnostics);
     if (inventory.fits) decode_overlay(tree, inventory, scene, diagnostics);

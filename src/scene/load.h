@@ -17,6 +17,8 @@ struct LoadOptions {
   std::vector<std::string> set;       // "path=value", in order
   std::optional<std::uint64_t> seed;  // overrides the file's
   Budget budget;
+  /// Whether the caller chooses among the outputs. One that the scene cannot have is then no error of the file.
+  bool chooses_outputs = false;
   bool color = false;  // colour in the texts of errors
 
   /// Reads the vertices of a mesh file, in the file's own units.

@@ -3,12 +3,16 @@
 #include "scene/path_field.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace carom {
 
-const Field* field_at(std::string_view path) {
+namespace {
+
+/// The fields along the path. Empty: no such field.
+std::vector<const Field*> fields_along(std::string_view path) {
+  std::vector<const Field*> fields;
   const Kind* kind = &kind_named("scene");
-  const Field* field = nullptr;
   // The next word is a name or a number, not a key.
   bool name_next = false;
   for (std::size_t i = 0; i <= path.size();) {
@@ -19,13 +23,26 @@ const Field* field_at(std::string_view path) {
       name_next = false;
       kind = kind->also != nullptr && word == kind->also->key ? nullptr : kind;
     } else if (kind != nullptr) {
-      field = find_field(*kind, word);
-      if (field == nullptr) return nullptr;
+      const Field* field = find_field(*kind, word);
+      if (field == nullptr) return {};
+      fields.push_back(field);
       name_next = field->type == Type::named || field->type == Type::list;
       kind = name_next || holds_map(*field) ? &kind_named(field->of) : nullptr;
     }
   }
-  return field;
+  return fields;
+}
+
+}  // namespace
+
+const Field* field_at(std::string_view path) {
+  const std::vector<const Field*> fields = fields_along(path);
+  return fields.empty() ? nullptr : fields.back();
+}
+
+bool is_drawn(std::string_view path) {
+  const std::vector<const Field*> fields = fields_along(path);
+  return std::any_of(fields.begin(), fields.end(), [](const Field* field) { return field->drawn; });
 }
 
 }  // namespace carom

@@ -9,4 +9,7 @@ namespace carom {
 /// The field at the end of a path such as balls.red.position.z, or the one that it leads into. Null: no such field.
 const Field* field_at(std::string_view path);
 
+/// Whether the path leads to a key for pictures alone, or below one (Field::drawn).
+bool is_drawn(std::string_view path);
+
 }  // namespace carom

@@ -26,6 +26,7 @@
 #include "run/run_scene.h"
 #include "scene/caption.h"
 #include "scene/motion_text.h"
+#include "scene/path_field.h"
 #include "scene/scene.h"
 #include "study/sweep_folder.h"
 #include "yaml/value_json.h"
@@ -77,6 +78,12 @@ std::array<char, 16> digest(std::string_view text) {
   return out;
 }
 
+LoadOptions load_options(const Sweep& sweep, LoadOptions load) {
+  const auto is_film = [](const SweepValue& output) { return output.text == "video"; };
+  load.chooses_outputs = !sweep.only.empty() && std::none_of(sweep.only.begin(), sweep.only.end(), is_film);
+  return load;
+}
+
 }  // namespace
 
 bool may_have_meshes(const Sweep& sweep, const std::string& base_text) {
@@ -87,7 +94,7 @@ SweepJob::SweepJob(Sweep sweep, std::string folder, SweepSettings settings)
     : sweep_(std::move(sweep)),
       folder_(std::move(folder)),
       settings_(std::move(settings)),
-      base_(sweep_.base, settings_.load),
+      base_(sweep_.base, load_options(sweep_, settings_.load)),
       runs_(sweep_.size()) {
   if (sweep_.seeds == 0 || sweep_.first_seed) return;
   Sweep once = sweep_;
@@ -188,16 +195,11 @@ std::optional<std::size_t> SweepJob::other_content() const {
 
 std::vector<std::string> SweepJob::idle_paths() const {
   constexpr std::size_t most = 20'000;  // runs that are examined
-  constexpr std::array<std::string_view, 10> picture_keys = {"camera",  "lights", "background", "output", "title",
-                                                             "caption", "trails", "flash",      "arrows", "shutter"};
   std::vector<std::string> idle;
   for (std::size_t p = 0; p < sweep_.paths.size(); ++p) {
     const std::string& path = sweep_.paths[p];
     const std::string_view head = std::string_view(path).substr(0, path.find('.'));
-    const std::string_view tail = std::string_view(path).substr(path.rfind('.') + 1);
-    if (std::find(picture_keys.begin(), picture_keys.end(), head) != picture_keys.end() ||
-        path.find(".color.") != std::string::npos || tail == "color" || tail == "visible" || tail == "mesh")
-      continue;
+    if (head == "output" || head == "title" || is_drawn(path)) continue;
     std::map<std::string, std::size_t> first;  // by the other values
     std::size_t pairs = 0, alike = 0;
     for (std::size_t number = 0; number < std::min(runs_.size(), most); ++number) {

@@ -339,6 +339,34 @@ TEST(Run, ASettingThatChangesNothingOfWhatIsWrittenIsSaid) {
             "carom: balls.yaml: --set balls.red.color=blue changes nothing: no output is drawn\n");
   EXPECT_EQ(errors("energy", "balls.red.restitution=0.5"), "");
   EXPECT_EQ(errors("frames", "balls.red.color=blue"), "");
+  const std::string mesh = SCENES_DIR "/meshes/duck.obj";
+  for (const std::string& drawn :
+       {std::string("trails={seconds: 0.5}"), std::string("caption=true"), std::string("flash=true"),
+        std::string("arrows=[velocity]"), std::string("shutter=0.5"), std::string("balls.red.color={by: speed}"),
+        std::string("camera={fit: motion}"), std::string("lights={ambient: dimgray}"), "balls.red.mesh=" + mesh}) {
+    EXPECT_EQ(errors("energy", drawn), "carom: balls.yaml: --set " + drawn + " changes nothing: no output is drawn\n");
+    EXPECT_EQ(errors("frames", drawn), "");
+  }
+}
+
+TEST(Run, ASettingOfAMeshThatIsTheBodysVolumeChangesTheMotion) {
+  const Workplace here;
+  here.write("duck.yaml",
+             "scene: 1\n"
+             "bodies: {duck: {mass: 1, mesh: " SCENES_DIR
+             "/meshes/duck.obj, fit: box, position: [0, 1, 0]}}\n"
+             "planes: {visible: {point: [0, -9, 0], normal: [0, 1, 0]}}\n"
+             "simulate: {duration: 0.1}\noutput: {energy: true}\n");
+  const auto errors = [&](const std::string& setting) {
+    const Finished run = here.carom({"run", "duck.yaml", "--force", "--set", setting});
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.err;
+  };
+  EXPECT_EQ(errors("bodies.duck.mesh=" SCENES_DIR "/meshes/pin.obj"), "");
+  // A thing with the name of a key is no key.
+  EXPECT_EQ(errors("planes.visible.restitution=0.5"), "");
+  EXPECT_EQ(errors("planes.visible.visible=false"),
+            "carom: duck.yaml: --set planes.visible.visible=false changes nothing: no output is drawn\n");
 }
 
 TEST(Run, JsonIsOneDocumentWithTheSummarysFields) {
@@ -438,7 +466,7 @@ TEST(Run, FailedRunDoesNotStopTheNext) {
   EXPECT_TRUE(here.has("taken/b/manifest.json"));
 }
 
-// OSMesa's library is loaded with the program, but making a context costs memory and starts llvmpipe's threads.
+// OSMesa is loaded for the first mesh of a picture. Its library and its context cost memory.
 TEST(Run, NoMeshInAPictureNoOpenGl) {
   const Workplace here;
   here.write("balls.yaml", two_balls(small_pictures));

@@ -58,10 +58,6 @@ TEST(Text, LinesBreakAtSpacesBeforeTheWidth) {
   EXPECT_EQ(wrapped("", 2, 9), "");
 }
 
-TEST(Text, WidthCountsCharactersNotBytes) {
-  EXPECT_EQ(columns_of("Kugelstoß"), 9u);
-}
-
 TEST(Text, ControlCharactersDoNotReachTheTerminal) {
   EXPECT_EQ(printable("a\x1b[2Jb\n"), "a\\x1b[2Jb\\x0a");
   EXPECT_EQ(printable("\xff \xc2\x9b ü"), "\\xff \\u009b ü");

@@ -241,15 +241,15 @@ TEST(Charts, AreThoseOfTheTableOfOutputs) {
 TEST(Charts, ShowTheRowsOfTheTablesThatTheSceneLists) {
   Scene scene = small_scene();
   scene.output.plots = true;
-  EXPECT_EQ(RunCharts(scene).energy_ticks.count(), plot_instants);
+  EXPECT_EQ(RunCharts(scene).ticks.energy.count(), plot_instants);
   scene.output.energy = EnergyOutput{0.1};
   scene.output.trajectory = TrajectoryOutput{0.05};
-  EXPECT_EQ(RunCharts(scene).energy_ticks.count(), 3);
-  EXPECT_EQ(RunCharts(scene).height_ticks.count(), 5);
+  EXPECT_EQ(RunCharts(scene).ticks.energy.count(), 3);
+  EXPECT_EQ(RunCharts(scene).ticks.heights.count(), 5);
   // Also of tables that --only leaves out.
   scene.output = restricted(scene.output, {"plots"});
   EXPECT_FALSE(scene.output.energy);
-  EXPECT_EQ(RunCharts(scene).energy_ticks.count(), 3);
+  EXPECT_EQ(RunCharts(scene).ticks.energy.count(), 3);
 }
 
 TEST(Charts, OfARunAreFilesOfItsFolderWithTheSameBytesEachTime) {

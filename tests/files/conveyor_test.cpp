@@ -111,9 +111,10 @@ TEST(Conveyor, OfSeveralFailuresTheFirstItemsIsThrown) {
 
 TEST(Conveyor, OneForTheSenderAloneStartsNoThread) {
   int used = 0;
-  Conveyor<int> conveyor([&](int&) { ++used; }, Conveyor<int>::no_thread);
+  Conveyor<int> conveyor([&](int&) { ++used; }, 0, 0);
   for (int i = 0; i < 100; ++i) conveyor.send();
   EXPECT_FALSE(conveyor.started());
+  EXPECT_EQ(conveyor.items(), 1U);
   EXPECT_EQ(used, 100);
 }
 

@@ -15,6 +15,7 @@
 #include "files/failed_run.h"
 #include "files/hash.h"
 #include "files/manifest.h"
+#include "files/open_folder.h"
 #include "files/stored_file.h"
 #include "scene/scene.h"
 
@@ -55,6 +56,18 @@ TEST(Exports, TheResolvedSceneIsKeptToTheByte) {
   TempFolder temp;
   run(small_scene(), temp / "run");
   EXPECT_EQ(read(temp / "run/scene.yaml"), "scene: 1\ntitle: Small\n");
+}
+
+TEST(Folder, HasTheLastNameOfItsPath) {
+  const fs::path here = fs::current_path();
+  EXPECT_EQ(name_of_folder("half"), "half");
+  EXPECT_EQ(name_of_folder("output/half/"), "half");
+  EXPECT_EQ(name_of_folder("output/half//"), "half");
+  EXPECT_EQ(name_of_folder("output/./other/../half/."), "half");
+  EXPECT_EQ(name_of_folder("."), here.filename());
+  EXPECT_EQ(name_of_folder("./"), here.filename());
+  EXPECT_EQ(name_of_folder(".."), here.parent_path().filename());
+  EXPECT_EQ(name_of_folder("../"), here.parent_path().filename());
 }
 
 TEST(Exports, StateIsNeededOnlyWhenAnOutputIsDue) {

@@ -1,5 +1,6 @@
 // Consistency of the table of fields.
 #include "scene/fields.h"
+#include "scene/path_field.h"
 
 #include <algorithm>
 #include <set>
@@ -103,6 +104,17 @@ TEST(Booleans, AreTrueAndFalseOnly) {
               std::string::npos)
         << text;
   }
+}
+
+TEST(Fields, OfPicturesAloneAreKnownByTheirPaths) {
+  for (const char* path :
+       {"camera", "camera.eye.y", "lights.sun.direction", "lights.ambient", "background", "caption", "trails.seconds",
+        "arrows", "flash", "shutter", "balls.red.color", "balls.red.color.by", "groups.gas.ball.color",
+        "defaults.ball.color.map", "planes.floor.visible", "forces.0.visible", "bodies.duck.mesh"})
+    EXPECT_TRUE(is_drawn(path)) << path;
+  for (const char* path : {"", "title", "output.frames.fps", "balls.color.mass", "balls.mesh", "planes.visible.normal",
+                           "forces.0.drag.linear", "simulate.duration", "no_key"})
+    EXPECT_FALSE(is_drawn(path)) << path;
 }
 
 }  // namespace
