@@ -147,7 +147,7 @@ std::set<std::string> columns_in(const Page& page, const std::string& head) {
 /// A command adapted for the test: the longest pictures are smaller, and `man` need not be installed.
 std::string shortened(std::string command) {
   if (command == "./dev run scenes/two_bowling_balls.yaml") command += " --set output.frames.size=[64,64]";
-  if (command.ends_with(" --only video")) command += " --set output.video.size=[64,64]";
+  if (command.ends_with(" --only video,flights")) command += " --set output.video.size=[64,64]";
   return command.substr(0, command.find(" | man "));
 }
 
