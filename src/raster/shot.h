@@ -25,7 +25,7 @@ struct Solid {
   Float3 half{};     // m, along the world's axes; walls: half width, half height, 0
   SolidKind kind = SolidKind::ball;
   Float3 color{1, 1, 1};
-  float glow = 0;            // 0 to 1: the share of its colour that it sends out
+  float glow = 0;            // 0 to 1: the share of its light that is its own, which is white
   std::uint32_t part = 0;    // walls, meshes: index into Shot::walls, Shot::meshes
   bool shadow_only = false;  // out of view
 };

@@ -22,7 +22,7 @@ struct Stroke {
 struct Drawing {
   Camera camera;
   std::vector<Color> body_colors;  // by body; empty: those of the scene
-  std::vector<float> glow;         // by body, 0 to 1: how much of its own colour it sends out; empty: none does
+  std::vector<float> glow;         // by body, 0 to 1: the share of white light that it sends out; empty: none does
   std::vector<Stroke> strokes;
   friend bool operator==(const Drawing&, const Drawing&) = default;
 };

@@ -184,6 +184,19 @@ TEST(Shadow, WhereABallTouchesTheFloorItIsDarkWithoutAnyKeyLight) {
               0.01);
 }
 
+TEST(Glow, OfADarkBodyIsAsBrightAsOfALightOne) {
+  for (const Color& color : {Color{0, 0, 0.5}, Color{0.9, 0.9, 0.9}}) {
+    Scene scene;
+    test::add_ball(scene, Vec3::Zero(), 0.5, color);
+    Drawing drawing;
+    drawing.camera = camera_of(scene);
+    drawing.glow = {1};
+    Renderer renderer(scene, {100, 100}, 4);
+    const Image& image = renderer.draw(scene.initial, drawing);
+    EXPECT_NEAR(grey(image, 50, 50), encode(0.85), 1);  // white, by the tone curve
+  }
+}
+
 TEST(Surround, ALitRedBallColoursTheFloorOnItsLitSide) {
   Scene scene = floor_scene(Vec3(0, 0.5, 0));
   scene.lights.push_back({"sun", Vec3(3, -1, 0), {}, {1, 1, 1}, 0.8});
