@@ -19,6 +19,11 @@ raster::SolidKind kind_of(Shape shape) {
                                     : raster::SolidKind::ball;
 }
 
+/// Where something else is drawn in place of the mesh, it has the mean of the mesh's colours.
+void take_mean(const Look& look, raster::Solid& solid) {
+  if (look.size.mean && solid.kind != raster::SolidKind::mesh) solid.color = look.size.mean->with(solid.color);
+}
+
 }  // namespace
 
 Things::Things(const Scene& scene) : scene_(scene) {
@@ -39,8 +44,9 @@ Things::Things(const Scene& scene) : scene_(scene) {
 Look Things::look_of(const Color& color, const std::optional<MeshUse>& mesh) {
   Look look{linear(color), mesh, 0, {}};
   if (mesh) {
-    look.file = static_cast<std::size_t>(std::find(files_.begin(), files_.end(), mesh->file) - files_.begin());
-    if (look.file == files_.size()) files_.push_back(mesh->file);
+    const DrawnFile file{mesh->file, mesh->own_colors};
+    look.file = static_cast<std::size_t>(std::find(files_.begin(), files_.end(), file) - files_.begin());
+    if (look.file == files_.size()) files_.push_back(file);
   }
   return look;
 }
@@ -122,6 +128,7 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
     }
     add(state.position[i], volume, radius, looks_[i], mesh, eye, shot);
     if (!drawing.body_colors.empty()) shot.solids.back().color = linear(drawing.body_colors[i]);
+    take_mean(looks_[i], shot.solids.back());
     if (!drawing.glow.empty()) shot.solids.back().glow = drawing.glow[i];
   }
   std::size_t look = world.body_count();
@@ -129,6 +136,7 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
     const Obstacle& obstacle = world.obstacles[i];
     add(obstacle.center, obstacle.volume, obstacle.volume.reach(), looks_[look], looks_[look].mesh.has_value(), eye,
         shot);
+    take_mean(looks_[look], shot.solids.back());
     ++look;
   }
   add_walls(eye, shot);
