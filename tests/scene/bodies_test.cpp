@@ -303,6 +303,7 @@ TEST(Meshes, WithMaterialsBesideThemAreNotCopied) {
   const Scene scene = load_with_meshes(start + "balls: {a: " + ball + "}}\n");
   ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.meshes[0].copy, "");
+  write_file("v 0 0 0\nmtllib pin.mtl\n", "pin.obj");
   // In a colour of the scene it needs no materials.
   EXPECT_EQ(load_with_meshes(start + "balls: {a: " + ball + ", color: red}}\n").meshes[0].copy, "pin.obj");
 }
