@@ -253,8 +253,7 @@ void Meshes::draw_outlines(raster::Shot& shot) {
   shot.outlines = &outlines_;
 }
 
-void Meshes::draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, const std::vector<Rect>& bounds,
-                       const raster::Shot& shot) {
+void Meshes::draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, const std::vector<Rect>& bounds) {
   used_ = {tile.right, tile.bottom, tile.left, tile.top};
   std::vector<std::size_t> inside;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -275,9 +274,8 @@ void Meshes::draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, 
   std::vector<float> rows;
   for (const std::size_t i : inside) {
     const PlacedMesh& m = meshes[i];
-    const raster::Float3& own = shot.solids[static_cast<std::size_t>(m.solid)].color;
-    rows.insert(rows.end(), {f(m.middle.x()), f(m.middle.y()), f(m.middle.z()), f(m.solid + 1), f(m.scale), own[0],
-                             own[1], own[2]});
+    rows.insert(rows.end(), {f(m.middle.x()), f(m.middle.y()), f(m.middle.z()), f(m.solid + 1), f(m.scale), m.plain[0],
+                             m.plain[1], m.plain[2]});
   }
   shapes_.fill_instances(rows);
 
@@ -402,7 +400,7 @@ void Meshes::draw(const std::vector<PlacedMesh>& meshes, const Eye& eye, raster:
   for (int y = 0; y < size_.height; y += tile_side)
     for (int x = 0; x < size_.width; x += tile_side) {
       const Rect tile{x, y, std::min(x + tile_side, size_.width), std::min(y + tile_side, size_.height)};
-      draw_tile(tile, meshes, bounds, shot);
+      draw_tile(tile, meshes, bounds);
       resolve(tile, shot);
     }
 }

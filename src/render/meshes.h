@@ -49,8 +49,7 @@ class Meshes {
 
   void draw_outlines(raster::Shot& shot);
   void draw_outline(std::size_t file) const;
-  void draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, const std::vector<Rect>& bounds,
-                 const raster::Shot& shot);
+  void draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, const std::vector<Rect>& bounds);
   /// Draws the files in colours of their own, of `rows` by file.
   void draw_colored(const std::vector<FileRows>& rows, const std::array<float, 4>& to_tile);
   void resolve(const Rect& tile, const raster::Shot& shot);

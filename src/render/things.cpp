@@ -19,11 +19,6 @@ raster::SolidKind kind_of(Shape shape) {
                                     : raster::SolidKind::ball;
 }
 
-/// Where something else is drawn in place of the mesh, it has the mean of the mesh's colours.
-void take_mean(const Look& look, raster::Solid& solid) {
-  if (look.size.mean && solid.kind != raster::SolidKind::mesh) solid.color = look.size.mean->with(solid.color);
-}
-
 }  // namespace
 
 Things::Things(const Scene& scene) : scene_(scene) {
@@ -90,6 +85,14 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, cons
   shot.solids.push_back(solid);
 }
 
+void Things::take_mean(const Look& look, raster::Shot& shot) {
+  if (!look.size.mean) return;
+  raster::Float3& color = shot.solids.back().color;
+  if (!meshes_.empty() && meshes_.back().solid == static_cast<std::int32_t>(shot.solids.size()) - 1)
+    meshes_.back().plain = color;
+  color = look.size.mean->with(color);
+}
+
 void Things::add_walls(const Eye& eye, raster::Shot& shot) const {
   const World& world = scene_.world;
   for (std::size_t i = 0; i < world.walls.size(); ++i) {
@@ -128,7 +131,7 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
     }
     add(state.position[i], volume, radius, looks_[i], mesh, eye, shot);
     if (!drawing.body_colors.empty()) shot.solids.back().color = linear(drawing.body_colors[i]);
-    take_mean(looks_[i], shot.solids.back());
+    take_mean(looks_[i], shot);
     if (!drawing.glow.empty()) shot.solids.back().glow = drawing.glow[i];
   }
   std::size_t look = world.body_count();
@@ -136,7 +139,7 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
     const Obstacle& obstacle = world.obstacles[i];
     add(obstacle.center, obstacle.volume, obstacle.volume.reach(), looks_[look], looks_[look].mesh.has_value(), eye,
         shot);
-    take_mean(looks_[look], shot.solids.back());
+    take_mean(looks_[look], shot);
     ++look;
   }
   add_walls(eye, shot);

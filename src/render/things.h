@@ -51,6 +51,7 @@ struct PlacedMesh {
   Vec3 middle;  // m, camera's frame
   double scale;
   std::int32_t solid;
+  raster::Float3 plain{};  // linear; of the parts without a colour, if it has colours of its own
 };
 
 class Things {
@@ -80,6 +81,8 @@ class Things {
   Look look_of(const Color& color, const std::optional<MeshUse>& mesh);
   void add(const Vec3& position, const Volume& volume, double radius, const Look& look, bool mesh, const Eye& eye,
            raster::Shot& shot);
+  /// Gives the last solid the mean of its mesh's own colours, for the light that it sends and where it is tiny.
+  void take_mean(const Look& look, raster::Shot& shot);
   void add_walls(const Eye& eye, raster::Shot& shot) const;
 
   const Scene& scene_;

@@ -130,6 +130,20 @@ TEST(MeshColors, AColorOfTheSceneTakesTheirPlace) {
   for (const Rgb& shown : quarters(square_scene(file, false, green))) EXPECT_EQ(shown, plain(green));
 }
 
+TEST(MeshColors, APartWithoutAMaterialHasTheBodysColor) {
+  const MeshFolder folder;
+  folder.write("a.mtl", "newmtl paper\nKd 0 1 0\n");
+  const std::string file = folder.write("a.obj",
+                                        "mtllib a.mtl\nv -1 -1 0\nv 0 -1 0\nv 0 1 0\nv -1 1 0\nv 1 -1 0\nv 1 1 0\n"
+                                        "usemtl paper\nf 1 2 3 4\nusemtl missing\nf 2 5 6 3\n");
+  const auto shown = quarters(square_scene(file, true, blue));
+  EXPECT_EQ(shown[0], plain(green));
+  EXPECT_EQ(shown[1], plain(blue));
+  const raster::Float3 mean = mean_color(read_painted_mesh(file)).with({0, 0, 1});
+  EXPECT_NEAR(mean[1], 0.5, 1e-6);
+  EXPECT_NEAR(mean[2], 0.5, 1e-6);
+}
+
 TEST(MeshColors, AFileWithoutMaterialsIsDrawnInTheBodysColorToTheByte) {
   const MeshFolder folder;
   GltfSquare bare{""};
