@@ -16,8 +16,10 @@ constexpr int outline_side = 1024;  // a power of two
 // Of a mesh in colours of its own, `number` has this bit.
 constexpr std::uint32_t colored_bit = 1U << 31U;
 
-// The shaders are compiled without and with COLORS.
+// The shaders are compiled without and with COLORS. Only those with HOLES drop points: without, OpenGL tests the depth
+// before it computes a colour.
 const char* const with_colors = "#define COLORS\n";
+const char* const with_holes = "#define HOLES\n";
 
 const char* const vertex_shader = R"(
 layout(location = 0) in vec3 vertex;
@@ -80,7 +82,9 @@ void main() {
   what = uvec2(number, q.x | q.y << 10 | q.z << 20);
 #ifdef COLORS
   vec4 c = texture(picture, uv) * factor;
+#ifdef HOLES
   if (c.a < cutoff) discard;
+#endif
   // Roots of light, so that steps are equally small to the eye in the dark.
   uvec3 root = uvec3(sqrt(clamp(mix(c.rgb * tint, own, plain), 0, 1)) * 1023 + 0.5);
   color = root.x | root.y << 10 | root.z << 20;
@@ -190,6 +194,7 @@ Meshes::Meshes(const std::vector<DrawnFile>& files, Size size, bool smooth)
   gl::Texture color = gl::make_texture(GL_R32UI, tile_side * fine_, tile_side * fine_);
   gl::Framebuffer both = gl::make_framebuffer(std::array{what_.name(), color.name()}, depth_.name());
   colored_.emplace(Colored{gl::Program({with_colors, vertex_shader}, {with_colors, fragment_shader}),
+                           gl::Program({with_colors, vertex_shader}, {with_colors, with_holes, fragment_shader}),
                            gl::Program({with_colors, outline_vertex_shader}, {with_colors, outline_fragment_shader}),
                            std::move(color),
                            std::move(both),
@@ -268,9 +273,11 @@ void Meshes::draw_tile(const Rect& tile, const std::vector<PlacedMesh>& meshes, 
     used_ = {};
     return;
   }
-  // Meshes of one file are together.
-  std::stable_sort(inside.begin(), inside.end(),
-                   [&](std::size_t a, std::size_t b) { return meshes[a].file < meshes[b].file; });
+  // Meshes of one file are together. Those in colours of their own hide the farther ones before these are coloured.
+  std::stable_sort(inside.begin(), inside.end(), [&](std::size_t a, std::size_t b) {
+    const PlacedMesh &m = meshes[a], &n = meshes[b];
+    return m.file != n.file ? m.file < n.file : shapes_.colors(m.file) && m.middle.z() < n.middle.z();
+  });
   std::vector<float> rows;
   for (const std::size_t i : inside) {
     const PlacedMesh& m = meshes[i];
@@ -310,13 +317,17 @@ void Meshes::draw_colored(const std::vector<FileRows>& rows, const std::array<fl
   colored_->used = !rows.empty();
   if (rows.empty()) return;
   gl::BindFramebuffer(GL_FRAMEBUFFER, colored_->buffer.name());
-  const gl::Program& program = colored_->program;
-  program.use();
-  gl::Uniform4f(program.at("to_tile"), to_tile[0], to_tile[1], to_tile[2], to_tile[3]);
+  for (const gl::Program* program : {&colored_->program, &colored_->holes_program}) {
+    program->use();
+    gl::Uniform4f(program->at("to_tile"), to_tile[0], to_tile[1], to_tile[2], to_tile[3]);
+  }
   for (const FileRows& of_file : rows) {
     const MeshColors& colors = *shapes_.colors(of_file.file);
-    shapes_.draw_parts(of_file.file, of_file.first, of_file.count,
-                       [&](const MeshPart& part) { set_part(program, colors, part); });
+    shapes_.draw_parts(of_file.file, of_file.first, of_file.count, [&](const MeshPart& part) {
+      const gl::Program& program = part.cutoff > 0 ? colored_->holes_program : colored_->program;
+      program.use();
+      set_part(program, colors, part);
+    });
   }
 }
 
@@ -384,8 +395,9 @@ void Meshes::draw(const std::vector<PlacedMesh>& meshes, const Eye& eye, raster:
   }
   std::fill(pixels_.depth.begin(), pixels_.depth.end(), 0.0F);
   shot.mesh_pixels = &pixels_;
-  for (const gl::Program* program : {&program_, colored_ ? &colored_->program : nullptr}) {
-    if (!program) continue;
+  std::vector<const gl::Program*> programs{&program_};
+  if (colored_) programs.insert(programs.end(), {&colored_->program, &colored_->holes_program});
+  for (const gl::Program* program : programs) {
     program->use();
     set_axes(*program, shot);
     gl::Uniform2f(program->at("tangent"), f(eye.tan_x), f(eye.tan_y));

@@ -39,7 +39,7 @@ class Meshes {
   };
   /// What draws meshes in colours of their own. A run without them does not need it.
   struct Colored {
-    gl::Program program, outline_program;
+    gl::Program program, holes_program, outline_program;
     gl::Texture color;
     gl::Framebuffer buffer;
     std::vector<std::uint32_t> read;
