@@ -11,6 +11,7 @@
 #include "render/colored_meshes.h"
 #include "render/glb.h"
 #include "render/glb_nodes.h"
+#include "render/scenes.h"
 #include "render/still_things.h"
 #include "scene/scene.h"
 
@@ -169,6 +170,21 @@ TEST(Glb, HasTheColorsAndTexturesOfMeshes) {
   scene.roster.bodies[0].mesh->own_colors = false;
   EXPECT_TRUE(read_mesh(folder.write("c.glb", glb(scene, motion))).paint.parts.empty());
   EXPECT_FALSE(json_of(glb(scene, motion)).contains("textures"));
+}
+
+TEST(Glb, BodiesShareAMeshOfSeveralMaterials) {
+  const test::MeshFolder folder;
+  folder.write("a.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
+  const std::string file = folder.write(
+      "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 2 4\n");
+  Scene scene;
+  for (const double scale : {1.0, 2.0, 1.0}) {
+    const Entity e = test::add_ball(scene, Vec3(3.0 * scene.world.body_count(), 0, 0), 1, {1, 1, scale / 2});
+    scene.roster.bodies[e].mesh = MeshUse{file, Vec3::Zero(), scale, true};
+  }
+  const Json gltf = json_of(glb(scene, KeyedMotion{}));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(gltf["nodes"][i + 1]["mesh"], i == 1 ? 1 : 0);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(gltf["meshes"][i]["primitives"].size(), 2U);
 }
 
 /// The floats of an accessor, in order.
