@@ -91,10 +91,10 @@ Vertices make_vertices() {
   return Vertices(made(gl::GenVertexArrays));
 }
 
-Texture make_texture(GLenum format, int width, int height) {
+Texture make_texture(GLenum format, int width, int height, int levels) {
   Texture texture(made(gl::GenTextures));
   gl::BindTexture(GL_TEXTURE_2D, texture.name());
-  gl::TexStorage2D(GL_TEXTURE_2D, 1, format, width, height);
+  gl::TexStorage2D(GL_TEXTURE_2D, levels, format, width, height);
   gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   return texture;

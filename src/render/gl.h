@@ -68,8 +68,8 @@ using Vertices = Handle<release_vertices>;
 
 Buffer make_buffer();
 Vertices make_vertices();
-/// A texture without mipmaps.
-Texture make_texture(GLenum format, int width, int height);
+/// A texture with so many levels, of which the finest is shown, without interpolation.
+Texture make_texture(GLenum format, int width, int height, int levels = 1);
 /// Draws into `colors` in this order, and tests against `depth` (0: none). Throws RenderError.
 Framebuffer make_framebuffer(std::span<const GLuint> colors, GLuint depth);
 

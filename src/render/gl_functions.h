@@ -14,8 +14,8 @@
   CAROM(DrawBuffers) CAROM(DrawElementsInstancedBaseInstance) CAROM(Enable) CAROM(EnableVertexAttribArray) \
   CAROM(FramebufferTexture2D) CAROM(GenBuffers) CAROM(GenFramebuffers) CAROM(GenTextures) CAROM(GenVertexArrays) \
   CAROM(GetError) CAROM(GetProgramInfoLog) CAROM(GetProgramiv) CAROM(GetShaderInfoLog) CAROM(GetShaderiv) \
-  CAROM(GetUniformLocation) CAROM(LinkProgram) CAROM(PixelStorei) CAROM(ReadPixels) CAROM(ShaderSource) \
-  CAROM(TexParameteri) CAROM(TexStorage2D) CAROM(Uniform1f) CAROM(Uniform2f) CAROM(Uniform3fv) CAROM(Uniform4f) \
+  CAROM(GetUniformLocation) CAROM(LinkProgram) CAROM(PixelStorei) CAROM(ReadBuffer) CAROM(ReadPixels) CAROM(ShaderSource) \
+  CAROM(TexParameteri) CAROM(TexStorage2D) CAROM(TexSubImage2D) CAROM(Uniform1f) CAROM(Uniform2f) CAROM(Uniform3fv) CAROM(Uniform4f) \
   CAROM(UniformMatrix3fv) CAROM(UseProgram) CAROM(VertexAttribDivisor) CAROM(VertexAttribPointer) CAROM(Viewport)
 #define CAROM_OSMESA_FUNCTIONS(CAROM) \
   CAROM(CreateContextAttribs) CAROM(DestroyContext) CAROM(MakeCurrent)

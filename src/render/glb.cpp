@@ -3,7 +3,6 @@
 // nodes. Volumes of one shape and colour share a mesh of half size 1, scaled by the node.
 #include "render/glb.h"
 
-#include <assimp/material.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
@@ -11,15 +10,14 @@
 #include <array>
 #include <assimp/Exporter.hpp>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <numbers>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 #include "physics/world.h"
 #include "render/camera.h"
+#include "render/glb_meshes.h"
 #include "render/glb_nodes.h"
 #include "render/lighting.h"
 #include "render/renderer.h"
@@ -42,66 +40,18 @@ aiVector3D vector_of(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-aiMesh* mesh_of(const Mesh& mesh, std::size_t material, const std::string& name) {
-  auto out = std::make_unique<aiMesh>();
-  out->mName = name;
-  out->mMaterialIndex = static_cast<unsigned>(material);
-  out->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
-  out->mNumVertices = static_cast<unsigned>(mesh.vertices.size());
-  out->mVertices = new aiVector3D[mesh.vertices.size()];
-  std::transform(mesh.vertices.begin(), mesh.vertices.end(), out->mVertices, vector_of);
-  out->mNormals = new aiVector3D[mesh.normals.size()];
-  std::transform(mesh.normals.begin(), mesh.normals.end(), out->mNormals,
-                 [](const Vec3& n) { return vector_of(n.isZero(0) ? Vec3(0, 1, 0) : n); });
-  out->mNumFaces = static_cast<unsigned>(mesh.triangles.size() / 3);
-  out->mFaces = new aiFace[out->mNumFaces];
-  for (std::size_t i = 0; i < out->mNumFaces; ++i) {
-    out->mFaces[i].mNumIndices = 3;
-    out->mFaces[i].mIndices = new unsigned[3];
-    std::copy_n(&mesh.triangles[3 * i], 3, out->mFaces[i].mIndices);
-  }
-  return out.release();
-}
-
 // A matt surface that faces a light of intensity 1 has its own colour: pi W/m^2, and 683 lm/W.
 constexpr double usual = std::numbers::pi * 683;  // lux
-
-using Srgb = std::array<double, 3>;
-
-Srgb srgb_of(const Color& color) {
-  return {color.r, color.g, color.b};
-}
-
-aiMaterial* material_of(const Color& color, bool two_sided, const std::string& name) {
-  auto out = std::make_unique<aiMaterial>();
-  const auto c = linear(color);
-  const aiString named(name);
-  const aiColor4D base(c[0], c[1], c[2], 1);
-  const float metallic = 0, roughness = 0.6F;
-  const int sides = two_sided ? 1 : 0;
-  out->AddProperty(&named, AI_MATKEY_NAME);
-  out->AddProperty(&base, 1, AI_MATKEY_BASE_COLOR);
-  out->AddProperty(&metallic, 1, AI_MATKEY_METALLIC_FACTOR);
-  out->AddProperty(&roughness, 1, AI_MATKEY_ROUGHNESS_FACTOR);
-  out->AddProperty(&sides, 1, AI_MATKEY_TWOSIDED);
-  return out.release();
-}
 
 class GlbBuilder {
  public:
   GlbBuilder(const Scene& scene, const KeyedMotion& motion)
       : scene_(scene), motion_(motion), out_(std::make_unique<aiScene>()) {}
-  ~GlbBuilder() {
-    for (aiMesh* mesh : meshes_) delete mesh;
-    for (aiMaterial* material : materials_) delete material;
-  }
-  GlbBuilder(const GlbBuilder&) = delete;
-  GlbBuilder& operator=(const GlbBuilder&) = delete;
 
   std::string build() {
     for (const BodyRange& range : scene_.roster.bodies)
       for (Entity body = range.first; body < range.first + range.count; ++body) add_body(range, body);
-    for (const StillThing& thing : still_things(scene_, motion_.extent)) add_still(thing);
+    for (const StillThing& thing : still_things(scene_, motion_.extent, true)) add_still(thing);
     if (meshes_.empty()) throw RenderError("the scene has nothing to show in animation.glb");
     add_camera_and_lights();
     animate();
@@ -109,38 +59,6 @@ class GlbBuilder {
   }
 
  private:
-  std::size_t material(const Color& color, bool two_sided) {
-    const auto [found, is_new] = material_numbers_.try_emplace({srgb_of(color), two_sided}, materials_.size());
-    if (is_new) materials_.push_back(material_of(color, two_sided, name_of(color) + (two_sided ? ", two-sided" : "")));
-    return found->second;
-  }
-
-  static std::string name_of(const Color& color) {
-    const auto byte = [](double part) { return static_cast<int>(std::lround(255 * part)); };
-    return fmt::format("#{:02x}{:02x}{:02x}", byte(color.r), byte(color.g), byte(color.b));
-  }
-
-  /// A volume of half size 1, in a colour.
-  std::size_t volume_mesh(Shape shape, const Color& color) {
-    const auto [found, is_new] = volume_meshes_.try_emplace({shape, srgb_of(color)}, meshes_.size());
-    if (is_new) {
-      const Mesh mesh = shape == Shape::sphere     ? round_ball()
-                        : shape == Shape::cylinder ? round_cylinder()
-                                                   : unit_box();
-      constexpr const char* names[] = {"ball", "cylinder", "box"};
-      meshes_.push_back(mesh_of(mesh, material(color, false),
-                                fmt::format("{} {}", names[static_cast<std::size_t>(shape)], name_of(color))));
-    }
-    return found->second;
-  }
-
-  std::size_t file_mesh(const MeshUse& use, const Color& color) {
-    const std::array<double, 4> how = {use.center.x(), use.center.y(), use.center.z(), use.scale};
-    const auto [found, is_new] = file_meshes_.try_emplace({use.file, how, srgb_of(color)}, meshes_.size());
-    if (is_new) meshes_.push_back(mesh_of(drawn_mesh(use), material(color, false), "mesh " + name_of(color)));
-    return found->second;
-  }
-
   /// A free name for the camera or a light. A thing may already have the name.
   std::string free_name(const std::string& name) const {
     std::string free = name;
@@ -152,7 +70,7 @@ class GlbBuilder {
   void add_body(const BodyRange& range, Entity body) {
     const Volume volume = scene_.world.volume_of(body);
     GlbNode node{scene_.roster.name(body), scene_.initial.position[body]};
-    node.mesh = range.mesh ? file_mesh(*range.mesh, range.color) : volume_mesh(volume.shape, range.color);
+    node.meshes = range.mesh ? meshes_.file(*range.mesh, range.color) : meshes_.volume(volume.shape, range.color);
     if (!range.mesh) node.scale = volume.half;
     nodes_.push_back(std::move(node));
   }
@@ -162,9 +80,8 @@ class GlbBuilder {
     Extent extent;
     for (const Vec3& vertex : thing.mesh.vertices) extent.include(vertex);
     GlbNode node{thing.name, 0.5 * (extent.low + extent.high)};
-    node.mesh = meshes_.size();
-    meshes_.push_back(mesh_of(placed(thing.mesh, Vec3::Ones(), -node.translation),
-                              material(thing.color, thing.two_sided), thing.name));
+    node.meshes =
+        meshes_.single(placed(thing.mesh, Vec3::Ones(), -node.translation), thing.color, thing.two_sided, thing.name);
     nodes_.push_back(std::move(node));
   }
 
@@ -286,13 +203,14 @@ class GlbBuilder {
       auto* child = new aiNode(exported_name(i));
       children.push_back(child);
       child->mParent = out_->mRootNode;
-      if (!nodes_[i].mesh) continue;
-      child->mNumMeshes = 1;
-      child->mMeshes = new unsigned[1]{static_cast<unsigned>(*nodes_[i].mesh)};
+      const std::vector<unsigned>& meshes = nodes_[i].meshes;
+      if (meshes.empty()) continue;
+      child->mNumMeshes = static_cast<unsigned>(meshes.size());
+      child->mMeshes = new unsigned[meshes.size()];
+      std::copy(meshes.begin(), meshes.end(), child->mMeshes);
     }
     hand_over(children, out_->mRootNode->mChildren, out_->mRootNode->mNumChildren);
-    hand_over(meshes_, out_->mMeshes, out_->mNumMeshes);
-    hand_over(materials_, out_->mMaterials, out_->mNumMaterials);
+    meshes_.hand_over(*out_);
     Assimp::Exporter exporter;
     const aiExportDataBlob* blob = exporter.ExportToBlob(out_.get(), "glb2");
     if (blob == nullptr) throw RenderError(fmt::format("cannot make animation.glb: {}", exporter.GetErrorString()));
@@ -304,11 +222,7 @@ class GlbBuilder {
   std::unique_ptr<aiScene> out_;
   std::vector<GlbNode> nodes_;  // the bodies first
   std::size_t camera_node_ = 0;
-  std::vector<aiMesh*> meshes_;
-  std::vector<aiMaterial*> materials_;
-  std::map<std::pair<Srgb, bool>, std::size_t> material_numbers_;
-  std::map<std::pair<Shape, Srgb>, std::size_t> volume_meshes_;
-  std::map<std::tuple<std::string, std::array<double, 4>, Srgb>, std::size_t> file_meshes_;
+  GlbMeshes meshes_;
 };
 
 }  // namespace

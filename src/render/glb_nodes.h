@@ -28,7 +28,7 @@ struct GlbNode {
   Vec3 translation = Vec3::Zero();                // m
   std::array<double, 4> rotation = {0, 0, 0, 1};  // quaternion: x, y, z, w
   Vec3 scale = Vec3::Ones();
-  std::optional<std::size_t> mesh = std::nullopt;  // of assimp's scene
+  std::vector<unsigned> meshes = {};  // of assimp's scene
   std::optional<GlbCamera> camera = std::nullopt;
   std::optional<GlbLight> light = std::nullopt;
 };

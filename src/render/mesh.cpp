@@ -120,15 +120,39 @@ void send_trouble(int pipe, const char* text) {
   send(pipe, text, head.text);
 }
 
-[[noreturn]] void run_child(int pipe, const std::string& path, const std::string& ending, const MeshLimits& limits) {
+template <typename Item>
+void send(int pipe, const std::vector<Item>& items) {
+  send(pipe, items.data(), items.size() * sizeof(Item));
+}
+
+void send_paint(int pipe, const MeshPaint& paint) {
+  send(pipe, paint.parts);
+  send(pipe, paint.uv);
+  send(pipe, paint.tint);
+  for (const MeshTexture& texture : paint.textures) {
+    for (const std::uint32_t side : {texture.width, texture.height}) send(pipe, &side, sizeof side);
+    send(pipe, texture.rgba);
+  }
+}
+
+/// What is read, and how.
+struct MeshRequest {
+  std::string path, ending;
+  bool painted;
+  const MeshLimits& limits;
+};
+
+[[noreturn]] void run_child(int pipe, const MeshRequest& request) {
   try {
-    const ImportedMesh mesh = import_mesh(path, ending, limits);
-    const MeshReplyHead head{static_cast<std::uint32_t>(mesh.vertices.size() / 3),
-                             static_cast<std::uint32_t>(mesh.triangles.size() / 3), 0};
+    const ImportedMesh mesh = import_mesh(request.path, request.ending, request.painted, request.limits);
+    const auto count = [](std::size_t size) { return static_cast<std::uint32_t>(size); };
+    const MeshReplyHead head{count(mesh.vertices.size() / 3), count(mesh.triangles.size() / 3), 0,
+                             count(mesh.paint.parts.size()), count(mesh.paint.textures.size())};
     send(pipe, &head, sizeof head);
-    send(pipe, mesh.vertices.data(), mesh.vertices.size() * sizeof(float));
-    send(pipe, mesh.normals.data(), mesh.normals.size() * sizeof(float));
-    send(pipe, mesh.triangles.data(), mesh.triangles.size() * sizeof(std::uint32_t));
+    send(pipe, mesh.vertices);
+    send(pipe, mesh.normals);
+    send(pipe, mesh.triangles);
+    if (head.parts > 0) send_paint(pipe, mesh.paint);
   } catch (const std::bad_alloc&) {
     send_trouble(pipe, "reading it takes too much memory");
   } catch (const std::exception& error) {
@@ -145,15 +169,16 @@ void send_trouble(int pipe, const char* text) {
 /// A child process and the pipe from it. The process is killed when this object goes out of scope.
 class MeshReader {
  public:
-  MeshReader(const std::string& path, const std::string& ending, const MeshLimits& limits)
-      : deadline_(Clock::now() + std::chrono::seconds(3 * limits.seconds)) {
+  explicit MeshReader(const MeshRequest& request)
+      : deadline_(Clock::now() + std::chrono::seconds(3 * request.limits.seconds)) {
+    const std::string& path = request.path;
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) fail(path, std::strerror(errno));
     const pid_t parent = getpid();
     id_ = fork();
     if (id_ == 0) {
-      confine(limits, parent);
-      run_child(ends[1], path, ending, limits);
+      confine(request.limits, parent);
+      run_child(ends[1], request);
     }
     const int error = errno;
     close(ends[1]);
@@ -222,15 +247,9 @@ class MeshReader {
   bool late_ = false;
 };
 
-}  // namespace
-
-void check_while_reading(std::function<void()> function) {
-  stop_check() = std::move(function);
-}
-
-Mesh read_mesh(const std::string& path, const MeshLimits& limits) {
-  const std::string ending = check_file(path, limits);
-  MeshReader reader(path, ending, limits);
+Mesh read(const std::string& path, bool painted, const MeshLimits& limits) {
+  const MeshRequest request{path, check_file(path, limits), painted, limits};
+  MeshReader reader(request);
   try {
     return receive_mesh({[&](void* bytes, std::size_t size) { return reader.receive(bytes, size); },
                          [&] { return reader.trouble(limits); }},
@@ -238,6 +257,20 @@ Mesh read_mesh(const std::string& path, const MeshLimits& limits) {
   } catch (const std::runtime_error& error) {
     fail(path, error.what());
   }
+}
+
+}  // namespace
+
+void check_while_reading(std::function<void()> function) {
+  stop_check() = std::move(function);
+}
+
+Mesh read_mesh(const std::string& path, const MeshLimits& limits) {
+  return read(path, false, limits);
+}
+
+Mesh read_painted_mesh(const std::string& path, const MeshLimits& limits) {
+  return read(path, true, limits);
 }
 
 std::vector<Vec3> read_mesh_points(const std::string& path, const MeshLimits& limits) {

@@ -11,12 +11,14 @@ namespace carom {
 struct ImportedMesh {
   std::vector<float> vertices, normals;  // three for each vertex
   std::vector<std::uint32_t> triangles;
+  MeshPaint paint;
 };
 
 /// The endings of supported files, in lower case, without the dot.
 const std::vector<std::string>& mesh_endings();
 
-/// Throws std::exception with the fault. It may also crash, or never return.
-ImportedMesh import_mesh(const std::string& path, const std::string& ending, const MeshLimits& limits);
+/// `painted`: with the file's colours, where it has any. Throws std::exception with the fault. It may also crash, or
+/// never return.
+ImportedMesh import_mesh(const std::string& path, const std::string& ending, bool painted, const MeshLimits& limits);
 
 }  // namespace carom

@@ -3,6 +3,7 @@
 #include "render/mesh_reply.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <stdexcept>
@@ -25,6 +26,63 @@ std::vector<Vec3> vectors(std::span<const float> values) {
   return result;
 }
 
+[[noreturn]] void refuse() {
+  throw std::runtime_error("it is damaged");
+}
+
+template <typename Item>
+void receive(const MeshReplySource& source, std::vector<Item>& items) {
+  if (!source.receive(items.data(), items.size() * sizeof(Item))) throw std::runtime_error(source.trouble());
+}
+
+bool is_share(float x) {
+  return x >= 0 && x <= 1;
+}
+
+void check_part(const MeshPart& part, std::uint32_t textures) {
+  const auto is_wrap = [](Wrap wrap) { return wrap <= Wrap::mirror; };
+  if (part.texture > textures || part.sharp > 1 || part.colored > 1 || !std::isfinite(part.cutoff) || part.cutoff < 0 ||
+      !std::all_of(part.wrap.begin(), part.wrap.end(), is_wrap) ||
+      !std::all_of(part.factor.begin(), part.factor.end(), is_share))
+    refuse();
+}
+
+MeshTexture receive_texture(const MeshReplySource& source, std::uint64_t& bytes_left) {
+  std::array<std::uint32_t, 2> sides{};
+  if (!source.receive(sides.data(), sizeof sides)) throw std::runtime_error(source.trouble());
+  for (const std::uint32_t side : sides)
+    if (side == 0 || side > longest_texture_side) refuse();
+  const std::uint64_t bytes = std::uint64_t{4} * sides[0] * sides[1];
+  if (bytes > bytes_left) refuse();
+  bytes_left -= bytes;
+  MeshTexture texture{sides[0], sides[1], std::vector<std::uint8_t>(bytes)};
+  receive(source, texture.rgba);
+  return texture;
+}
+
+MeshPaint receive_paint(const MeshReplySource& source, const MeshReplyHead& head, const MeshLimits& limits) {
+  MeshPaint paint;
+  paint.parts.resize(head.parts);
+  receive(source, paint.parts);
+  std::uint64_t triangles = 0;
+  for (const MeshPart& part : paint.parts) {
+    check_part(part, head.textures);
+    triangles += part.triangles;
+  }
+  if (triangles != head.triangles) refuse();
+  paint.uv.resize(head.vertices);
+  receive(source, paint.uv);
+  for (const auto& uv : paint.uv)
+    if (!std::isfinite(uv[0]) || !std::isfinite(uv[1])) refuse();
+  paint.tint.resize(head.vertices);
+  receive(source, paint.tint);
+  for (const auto& tint : paint.tint)
+    if (!std::all_of(tint.begin(), tint.end(), is_share)) refuse();
+  std::uint64_t bytes_left = limits.texture_bytes;
+  for (std::uint32_t i = 0; i < head.textures; ++i) paint.textures.push_back(receive_texture(source, bytes_left));
+  return paint;
+}
+
 }  // namespace
 
 Mesh receive_mesh(const MeshReplySource& source, const MeshLimits& limits) {
@@ -35,15 +93,14 @@ Mesh receive_mesh(const MeshReplySource& source, const MeshLimits& limits) {
     source.receive(text.data(), text.size());
     throw std::runtime_error(printable(text));
   }
-  if (head.vertices > limits.vertices || head.triangles > limits.triangles || head.triangles == 0)
-    throw std::runtime_error("it is damaged");
+  if (head.vertices > limits.vertices || head.triangles > limits.triangles || head.triangles == 0) refuse();
+  if (head.parts > limits.parts || head.textures > limits.parts) refuse();
   std::vector<float> positions(3 * std::size_t{head.vertices}), normals(positions.size());
   Mesh mesh;
   mesh.triangles.resize(3 * std::size_t{head.triangles});
-  if (!source.receive(positions.data(), positions.size() * sizeof(float)) ||
-      !source.receive(normals.data(), normals.size() * sizeof(float)) ||
-      !source.receive(mesh.triangles.data(), mesh.triangles.size() * sizeof(std::uint32_t)))
-    throw std::runtime_error(source.trouble());
+  receive(source, positions);
+  receive(source, normals);
+  receive(source, mesh.triangles);
   const auto finite = [](float x) { return std::isfinite(x); };
   if (!std::all_of(positions.begin(), positions.end(), finite) || !std::all_of(normals.begin(), normals.end(), finite))
     throw std::runtime_error("a vertex is not finite");
@@ -51,6 +108,7 @@ Mesh receive_mesh(const MeshReplySource& source, const MeshLimits& limits) {
     if (i >= head.vertices) throw std::runtime_error("a triangle refers to a missing vertex");
   mesh.vertices = vectors(positions);
   mesh.normals = vectors(normals);
+  if (head.parts > 0) mesh.paint = receive_paint(source, head, limits);
   return mesh;
 }
 

@@ -10,14 +10,16 @@
 
 namespace carom {
 
-/// The start of the message. A mesh follows as its vertices and normals (floats), then its triangles. An error follows
-/// as its text.
+/// The start of the message. A mesh follows as its vertices and normals (floats), then its triangles. If it has parts,
+/// its paint follows: the parts, `uv` and `tint` by vertex, then each texture as its two sides and its bytes. An error
+/// follows as its text.
 struct MeshReplyHead {
   std::uint32_t vertices = 0, triangles = 0;
-  std::uint32_t text = 0;  // bytes; above 0: no mesh follows
+  std::uint32_t text = 0;                 // bytes; above 0: no mesh follows
+  std::uint32_t parts = 0, textures = 0;  // no parts: no paint
 };
 
-inline constexpr std::uint32_t longest_mesh_trouble = 300;  // bytes
+inline constexpr std::uint32_t longest_mesh_trouble = 400;  // bytes
 
 /// The receiving end of the pipe.
 struct MeshReplySource {

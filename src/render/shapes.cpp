@@ -10,11 +10,11 @@
 #include "render/renderer.h"
 
 namespace carom {
-Shapes::Shapes(const std::vector<std::string>& files) : instances_(gl::make_buffer()) {
-  for (const std::string& file : files) {
+Shapes::Shapes(const std::vector<DrawnFile>& files) : instances_(gl::make_buffer()) {
+  for (const DrawnFile& file : files) {
     Mesh mesh;
     try {
-      mesh = read_mesh(file);
+      mesh = file.own_colors ? read_painted_mesh(file.path) : read_mesh(file.path);
     } catch (const std::runtime_error& error) {
       throw RenderError(error.what());
     }
@@ -58,6 +58,10 @@ void Shapes::upload(const Mesh& mesh) {
   attribute(2, 4, row, 0);
   attribute(3, 4, row, 4);
   for (const GLuint index : {2U, 3U}) gl::VertexAttribDivisor(index, 1);
+  if (!mesh.paint.parts.empty()) {
+    shape.colors.emplace(mesh);
+    shape.mean = mean_color(mesh);
+  }
   gl::BindVertexArray(0);
   shapes_.push_back(std::move(shape));
 }
@@ -77,6 +81,20 @@ void Shapes::draw(std::size_t shape, std::size_t first, std::size_t count) const
   gl::BindVertexArray(shapes_[shape].array.name());
   gl::DrawElementsInstancedBaseInstance(GL_TRIANGLES, shapes_[shape].indices, GL_UNSIGNED_INT, nullptr,
                                         static_cast<GLsizei>(count), static_cast<GLuint>(first));
+}
+
+void Shapes::draw_parts(std::size_t shape, std::size_t first, std::size_t count,
+                        const std::function<void(const MeshPart& part)>& prepare) const {
+  gl::BindVertexArray(shapes_[shape].array.name());
+  std::size_t from = 0;
+  for (const MeshPart& part : shapes_[shape].colors->parts()) {
+    const std::size_t indices = std::size_t{3} * part.triangles;
+    prepare(part);
+    gl::DrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(indices), GL_UNSIGNED_INT,
+                                          reinterpret_cast<const void*>(from * sizeof(std::uint32_t)),
+                                          static_cast<GLsizei>(count), static_cast<GLuint>(first));
+    from += indices;
+  }
 }
 
 }  // namespace carom

@@ -40,7 +40,10 @@ std::vector<Vec3> rectangle(const Vec3& center, const Vec3& right, const Vec3& u
 
 class Collector {
  public:
-  Collector(const Scene& scene, const Extent& seen) : scene_(scene), world_(scene.world) { find_cube(seen); }
+  Collector(const Scene& scene, const Extent& seen, bool painted)
+      : scene_(scene), world_(scene.world), painted_(painted) {
+    find_cube(seen);
+  }
 
   std::vector<StillThing> collect() {
     for (std::size_t i = 0; i < world_.planes.size(); ++i)
@@ -103,7 +106,11 @@ class Collector {
   Mesh obstacle_mesh(const Obstacle& obstacle, const FixedName& name) {
     if (!name.visible) return {};
     const Volume& volume = obstacle.volume;
-    if (name.mesh) return placed(drawn_mesh(*name.mesh), Vec3::Ones(), obstacle.center);
+    if (name.mesh) {
+      MeshUse use = *name.mesh;
+      use.own_colors = use.own_colors && painted_;
+      return placed(drawn_mesh(use), Vec3::Ones(), obstacle.center);
+    }
     const auto known = shapes_.find(volume.shape);
     const Mesh& mesh =
         known != shapes_.end() ? known->second : shapes_.emplace(volume.shape, shape(volume.shape)).first->second;
@@ -120,6 +127,7 @@ class Collector {
 
   const Scene& scene_;
   const World& world_;
+  const bool painted_;
   Vec3 center_;      // m, centre of the cube
   double half_ = 0;  // m, half of its edge
   std::map<Shape, Mesh> shapes_;
@@ -128,8 +136,8 @@ class Collector {
 
 }  // namespace
 
-std::vector<StillThing> still_things(const Scene& scene, const Extent& seen) {
-  return Collector(scene, seen).collect();
+std::vector<StillThing> still_things(const Scene& scene, const Extent& seen, bool painted) {
+  return Collector(scene, seen, painted).collect();
 }
 
 Mesh unit_box() {
@@ -214,7 +222,8 @@ Mesh placed(const Mesh& mesh, const Vec3& scale, const Vec3& middle) {
 
 Mesh drawn_mesh(const MeshUse& use) {
   try {
-    return placed(read_mesh(use.file), Vec3::Constant(use.scale), -use.scale * use.center);
+    return placed(use.own_colors ? read_painted_mesh(use.file) : read_mesh(use.file), Vec3::Constant(use.scale),
+                  -use.scale * use.center);
   } catch (const std::runtime_error& error) {
     throw RenderError(error.what());
   }

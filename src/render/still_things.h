@@ -13,7 +13,8 @@ struct Scene;
 /// The visible planes, walls and obstacles, in the order of the file. A plane is cut off at a cube around `seen`, the
 /// walls and the obstacles. It is also cut off where it is behind other visible planes. Throws RenderError for a mesh
 /// that cannot be read.
-std::vector<StillThing> still_things(const Scene& scene, const Extent& seen);
+/// `painted`: obstacles drawn as meshes have the colours of their files.
+std::vector<StillThing> still_things(const Scene& scene, const Extent& seen, bool painted);
 
 /// The cube from -1 to 1.
 Mesh unit_box();
@@ -25,7 +26,8 @@ Mesh round_cylinder();
 /// A mesh with its vertices p at `middle` + scale * p (by axis), and normals to match.
 Mesh placed(const Mesh& mesh, const Vec3& scale, const Vec3& middle);
 
-/// The mesh that is drawn in place of a volume about the origin. Throws RenderError.
+/// The mesh that is drawn in place of a volume about the origin, with paint if it has colours of its own. Throws
+/// RenderError.
 Mesh drawn_mesh(const MeshUse& use);
 
 }  // namespace carom

@@ -39,8 +39,9 @@ Things::Things(const Scene& scene) : scene_(scene) {
 Look Things::look_of(const Color& color, const std::optional<MeshUse>& mesh) {
   Look look{linear(color), mesh, 0, {}};
   if (mesh) {
-    look.file = static_cast<std::size_t>(std::find(files_.begin(), files_.end(), mesh->file) - files_.begin());
-    if (look.file == files_.size()) files_.push_back(mesh->file);
+    const DrawnFile file{mesh->file, mesh->own_colors};
+    look.file = static_cast<std::size_t>(std::find(files_.begin(), files_.end(), file) - files_.begin());
+    if (look.file == files_.size()) files_.push_back(file);
   }
   return look;
 }
@@ -84,6 +85,14 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, cons
   shot.solids.push_back(solid);
 }
 
+void Things::take_mean(const Look& look, raster::Shot& shot) {
+  if (!look.size.mean) return;
+  raster::Float3& color = shot.solids.back().color;
+  if (!meshes_.empty() && meshes_.back().solid == static_cast<std::int32_t>(shot.solids.size()) - 1)
+    meshes_.back().plain = color;
+  color = look.size.mean->with(color);
+}
+
 void Things::add_walls(const Eye& eye, raster::Shot& shot) const {
   const World& world = scene_.world;
   for (std::size_t i = 0; i < world.walls.size(); ++i) {
@@ -122,6 +131,7 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
     }
     add(state.position[i], volume, radius, looks_[i], mesh, eye, shot);
     if (!drawing.body_colors.empty()) shot.solids.back().color = linear(drawing.body_colors[i]);
+    take_mean(looks_[i], shot);
     if (!drawing.glow.empty()) shot.solids.back().glow = drawing.glow[i];
   }
   std::size_t look = world.body_count();
@@ -129,6 +139,7 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
     const Obstacle& obstacle = world.obstacles[i];
     add(obstacle.center, obstacle.volume, obstacle.volume.reach(), looks_[look], looks_[look].mesh.has_value(), eye,
         shot);
+    take_mean(looks_[look], shot);
     ++look;
   }
   add_walls(eye, shot);

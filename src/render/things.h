@@ -13,11 +13,28 @@
 
 namespace carom {
 
+/// The mean colour by area of a mesh with colours of its own, linear.
+struct MeanColor {
+  raster::Float3 colored{};  // of the parts with a colour, times their share of the area
+  float plain = 0;           // share of the parts without
+  raster::Float3 with(const raster::Float3& color) const {
+    return {colored[0] + plain * color[0], colored[1] + plain * color[1], colored[2] + plain * color[2]};
+  }
+};
+
 /// A mesh as it is drawn, m.
 struct MeshSize {
   double radius = 0;           // of a ball about the body's position
   Vec3 middle = Vec3::Zero();  // from the position, along the world's axes
   double reach = 0;            // half the side of its shadow's outline; 0: it casts its volume's shadow
+  std::optional<MeanColor> mean = std::nullopt;  // if it is drawn in colours of its own
+};
+
+/// A file of meshes, as it is read.
+struct DrawnFile {
+  std::string path;
+  bool own_colors;  // with the colours of the file, where it has any
+  friend bool operator==(const DrawnFile&, const DrawnFile&) = default;
 };
 
 /// The constant look of a body or obstacle.
@@ -34,6 +51,7 @@ struct PlacedMesh {
   Vec3 middle;  // m, camera's frame
   double scale;
   std::int32_t solid;
+  raster::Float3 plain{};  // linear; of the parts without a colour, if it has colours of its own
 };
 
 class Things {
@@ -41,7 +59,7 @@ class Things {
   explicit Things(const Scene& scene);
 
   /// The files of the meshes, without repetitions.
-  const std::vector<std::string>& files() const { return files_; }
+  const std::vector<DrawnFile>& files() const { return files_; }
   /// Sets the sizes of meshes. Call it after the files have been read.
   template <typename SizeOf>
   void measure(SizeOf size_of) {
@@ -63,12 +81,14 @@ class Things {
   Look look_of(const Color& color, const std::optional<MeshUse>& mesh);
   void add(const Vec3& position, const Volume& volume, double radius, const Look& look, bool mesh, const Eye& eye,
            raster::Shot& shot);
+  /// Gives the last solid the mean of its mesh's own colours, for the light that it sends and where it is tiny.
+  void take_mean(const Look& look, raster::Shot& shot);
   void add_walls(const Eye& eye, raster::Shot& shot) const;
 
   const Scene& scene_;
   std::vector<Look> looks_;               // of the bodies, then of obstacles_
   std::vector<std::uint32_t> obstacles_;  // those that are visible
-  std::vector<std::string> files_;
+  std::vector<DrawnFile> files_;
   std::vector<PlacedMesh> meshes_;
 };
 

@@ -25,7 +25,9 @@ const Scene& with_font(const Scene& scene) {
 Stage::Stage(const Show& show, Durability durability)
     : scene(with_font(*show.scene)),
       exports(scene, show.folder, durability,
-              {still_things, glb, [this](const State& state) { return of_model_.at(state); }}, show.renewed),
+              {[](const Scene& of, const Extent& seen) { return still_things(of, seen, false); }, glb,
+               [this](const State& state) { return of_model_.at(state); }},
+              show.renewed),
       history_(scene, overlay_needs(scene)),
       of_model_(scene, picture_size(scene.output)) {
   facts.load_s = show.load_s;

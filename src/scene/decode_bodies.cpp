@@ -46,7 +46,7 @@ class Bodies {
       const View view = body_view(root_, body);
       const View each = body.group ? member_view(root_, view) : view;
       const auto keys = filled<BodyKeys>(each);
-      const std::optional<Form> form = forms_.of(keys);
+      const std::optional<Form> form = forms_.of(keys, keys.color.has_value());
       const Color chosen = body_color(scene_.roster.bodies.size());
       const BodyColor color = keys.color.value_or(BodyColor{chosen, std::nullopt});
       scene_.roster.bodies.push_back({body.key->text, body.first, static_cast<Entity>(body.count), body.group,

@@ -57,9 +57,10 @@ void add_wall(const View& view, const std::string& name, Scene& scene, Diagnosti
   scene.roster.fixed.push_back({name, wall.color, wall.visible});
 }
 
-void add_obstacle(const ObstacleKeys& obstacle, const std::string& name, Forms& forms, Scene& scene) {
+void add_obstacle(const View& view, const std::string& name, Forms& forms, Scene& scene) {
+  const auto obstacle = filled<ObstacleKeys>(view);
   // The volume of an obstacle with errors is empty.
-  const Form form = forms.of(obstacle).value_or(Form{});
+  const Form form = forms.of(obstacle, view.find("color") != nullptr).value_or(Form{});
   scene.world.obstacles.push_back({obstacle.position, form.volume, obstacle.restitution});
   scene.roster.fixed.push_back({name, obstacle.color, obstacle.visible, form.mesh});
 }
@@ -82,7 +83,7 @@ void decode_fixed(const Node& root, const Inventory& inventory, Forms& forms, Sc
     if (entry.kind->name == "plane") add_plane(filled<PlaneKeys>(view), name, scene);
     if (entry.kind->name == "room") add_room(view, name, scene, diagnostics);
     if (entry.kind->name == "wall") add_wall(view, name, scene, diagnostics);
-    if (entry.kind->name == "obstacle") add_obstacle(filled<ObstacleKeys>(view), name, forms, scene);
+    if (entry.kind->name == "obstacle") add_obstacle(view, name, forms, scene);
   }
 }
 

@@ -79,9 +79,9 @@ constexpr Field radius{.key = "radius", .type = Type::number, .unit = "m", .rang
 constexpr Field ball_velocity{.key = "velocity", .type = Type::vector, .unit = "m/s", .doc = "Velocity at time 0.", .example = "[2, 0, 0]", .member = fills<BodyKeys, &BodyKeys::velocity>};
 constexpr Field ball_restitution{.key = "restitution", .type = Type::number, .range = from_0, .doc = "Coefficient of restitution; above 1 adds energy. Default: restitution.default.", .example = "0.9", .member = fills<BodyKeys, &BodyKeys::restitution>};
 constexpr Field impulse{.key = "impulse", .type = Type::vector, .unit = "N s", .doc = "Impulse at time 0.", .example = "[-20, 0, 0]", .member = fills_if_given<BodyKeys, &BodyKeys::impulse>};
-constexpr Field body_color_field{.key = "color", .type = Type::color_or_part, .of = "coloring", .doc = "Colour in pictures, or colours by a quantity. Default: one is chosen.", .example = "crimson", .drawn = true, .member = fills_if_given<BodyKeys, &BodyKeys::color>};
+constexpr Field body_color_field{.key = "color", .type = Type::color_or_part, .of = "coloring", .doc = "Colour in pictures, or colours by a quantity. Default: those of the mesh file, or one is chosen.", .example = "crimson", .drawn = true, .member = fills_if_given<BodyKeys, &BodyKeys::color>};
 template <typename Keys> constexpr Field color{.key = "color", .type = Type::color, .doc = "Colour in pictures. Default: one is chosen.", .example = "crimson", .drawn = true, .member = fills_if_given<Keys, &Keys::color>};
-constexpr Field mesh{.key = "mesh", .type = Type::file, .doc = "Mesh file, drawn scaled to the ball.", .example = "meshes/duck.obj", .drawn = true, .member = fills<BodyKeys, &BodyKeys::mesh>};
+constexpr Field mesh{.key = "mesh", .type = Type::file, .doc = "Mesh file, drawn scaled to the ball. Without `color` it has the colours and textures of the file.", .example = "meshes/duck.obj", .drawn = true, .member = fills<BodyKeys, &BodyKeys::mesh>};
 constexpr Field ball_position{.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre at time 0.", .example = "[3, 1, 0]", .member = fills<BodyKeys, &BodyKeys::position>};
 
 constexpr Field ball_fields[] = {
@@ -97,7 +97,7 @@ template <typename Keys> constexpr Field radius_of{.key = "radius", .type = Type
 template <typename Keys> constexpr Field cylinder{.key = "cylinder", .type = Type::part, .of = "cylinder", .one_of = volumes, .doc = "An upright cylinder, its axis along y.", .example = "{radius: 0.1, height: 1}", .member = fills<Keys, &Keys::cylinder>};
 template <typename Keys> constexpr Field box{.key = "box", .type = Type::vector, .unit = "m", .range = above_0, .one_of = volumes, .doc = "An axis-aligned box: its full edge lengths.", .example = "[0.4, 0.3, 0.4]", .member = fills<Keys, &Keys::box>};
 template <typename Keys> constexpr Field fit{.key = "fit", .type = Type::choice, .of = "sphere|cylinder|box", .one_of = volumes, .doc = "The tightest such volume around the mesh; position is its centre.", .example = "box", .with = "mesh", .member = fills<Keys, &Keys::fit>};
-template <typename Keys> constexpr Field mesh_of{.key = "mesh", .type = Type::file, .doc = "Mesh file: in its own size with `fit`, else drawn scaled into the volume.", .example = "meshes/pin.obj", .drawn = true, .member = fills<Keys, &Keys::mesh>};
+template <typename Keys> constexpr Field mesh_of{.key = "mesh", .type = Type::file, .doc = "Mesh file: in its own size with `fit`, else drawn scaled into the volume. Without `color` it has the colours and textures of the file.", .example = "meshes/pin.obj", .drawn = true, .member = fills<Keys, &Keys::mesh>};
 
 constexpr Field body_fields[] = {
     mass, density, radius_of<BodyKeys>, cylinder<BodyKeys>, box<BodyKeys>, mesh_of<BodyKeys>, fit<BodyKeys>,
@@ -149,10 +149,12 @@ constexpr Field room_fields[] = {
     fixed_restitution<RoomKeys>, color<RoomKeys>, visible<RoomKeys>,
 };
 
+constexpr Field obstacle_color{.key = "color", .type = Type::color, .doc = "Colour in pictures. Default: those of the mesh file, or one is chosen.", .example = "crimson", .drawn = true, .member = fills_if_given<ObstacleKeys, &ObstacleKeys::color>};
+
 constexpr Field obstacle_fields[] = {
     radius_of<ObstacleKeys>, cylinder<ObstacleKeys>, box<ObstacleKeys>, mesh_of<ObstacleKeys>, fit<ObstacleKeys>,
     {.key = "position", .type = Type::vector, .unit = "m", .needed = true, .doc = "Centre.", .example = "[-3, 1, 0]", .member = fills<ObstacleKeys, &ObstacleKeys::position>},
-    fixed_restitution<ObstacleKeys>, color<ObstacleKeys>, visible<ObstacleKeys>,
+    fixed_restitution<ObstacleKeys>, obstacle_color, visible<ObstacleKeys>,
 };
 
 constexpr std::string_view forces = "uniform|acceleration|drag|spring|attractor";

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <stdexcept>
 
@@ -46,16 +47,35 @@ std::optional<Volume> given_volume(const VolumeKeys& thing) {
   return Volume::cylinder(*thing.cylinder->radius, *thing.cylinder->height);
 }
 
-/// A .gltf refers to files beside it, which would have to be copied too.
-bool has_further_files(const std::filesystem::path& name) {
-  std::string ending = name.extension().string();
+/// Whether a line of a Wavefront file names a file of materials.
+bool names_materials(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  while (std::getline(in, line)) {
+    const std::size_t start = line.find_first_not_of(" \t");
+    if (start != std::string::npos && line.compare(start, 6, "mtllib") == 0) return true;
+  }
+  return false;
+}
+
+/// A .gltf, or an .obj with materials, refers to files beside it, which would have to be copied too.
+bool has_further_files(const std::filesystem::path& file, bool own_colors) {
+  std::string ending = file.extension().string();
   for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
-  return ending == ".gltf";
+  return ending == ".gltf" || (ending == ".obj" && own_colors && names_materials(file));
 }
 
 }  // namespace
 
-std::optional<Form> Forms::of(const VolumeKeys& thing) {
+std::optional<Form> Forms::of(const VolumeKeys& thing, bool colored) {
+  std::optional<Form> form = plain(thing);
+  if (!form || !form->mesh || colored) return form;
+  form->mesh->own_colors = true;
+  own_colors_.insert(form->mesh->file);
+  return form;
+}
+
+std::optional<Form> Forms::plain(const VolumeKeys& thing) {
   const Node* mesh = thing.mesh;
   if (mesh != nullptr && mesh->bad) return std::nullopt;
   if (thing.fit) return mesh == nullptr ? std::nullopt : fitted(*thing.fit, *mesh);
@@ -133,7 +153,7 @@ std::vector<MeshFile> Forms::files(const std::string& film) const {
   std::set<std::string> used;
   for (const std::string& path : order_) {
     const std::filesystem::path name = std::filesystem::path(path).filename();
-    if (has_further_files(name)) {
+    if (has_further_files(path, own_colors_.contains(path))) {
       out.push_back({path, ""});
       continue;
     }

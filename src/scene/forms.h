@@ -2,6 +2,7 @@
 // The volumes of bodies and obstacles. A mesh is drawn in place of a volume, or a volume is fitted around it.
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,12 +30,14 @@ class Forms {
 
   /// The form of a ball, a group's ball, a body or an obstacle.
   /// None: its volume or its mesh has an error, which was reported.
-  std::optional<Form> of(const VolumeKeys& thing);
+  /// `colored`: the scene gives its colour. Otherwise a mesh has the colours of its file.
+  std::optional<Form> of(const VolumeKeys& thing, bool colored);
 
   /// The mesh files in the order of their first use. `film`: the file name of the film, which no copy may take.
   std::vector<MeshFile> files(const std::string& film) const;
 
  private:
+  std::optional<Form> plain(const VolumeKeys& thing);
   std::optional<Form> fitted(Shape shape, const Node& mesh);
   std::optional<Form> drawn(const Volume& volume, const Node& mesh);
   const std::vector<Vec3>* points(const Node& mesh);
@@ -48,6 +51,7 @@ class Forms {
   std::map<std::string, std::vector<Vec3>> points_;
   std::map<std::pair<std::string, Shape>, std::optional<Fit>> fits_;  // none: unusable
   std::vector<std::string> order_;                                    // paths
+  std::set<std::string> own_colors_;                                  // paths of meshes with the file's colours
 };
 
 }  // namespace carom

@@ -81,6 +81,12 @@ class Resolver {
 
   std::string default_restitution() const { return flow_text(*scene_part(root_, "restitution").find("default")); }
 
+  /// Writes the colour that was chosen. With one, a mesh would not have the colours of its file.
+  static void add_color(const View& view, const Color& chosen, const std::optional<MeshUse>& mesh,
+                        Overrides& overrides) {
+    if (view.find("color") == nullptr && !mesh) overrides["color"] = in_quotes(hex_text(chosen));
+  }
+
   /// Sets the key `mesh` to the copy in the run's folder, or to the absolute path of a file without a copy.
   void name_copy(const std::optional<MeshUse>& mesh, Overrides& overrides) const {
     for (const MeshFile& file : scene_.meshes) {
@@ -98,7 +104,7 @@ class Resolver {
       const View view = body_view(root_, body);
       const View each = body.group ? member_view(root_, view) : view;
       if (each.find("restitution") == nullptr) overrides["restitution"] = default_restitution();
-      if (each.find("color") == nullptr) overrides["color"] = in_quotes(hex_text(scene_.roster.bodies[i].color));
+      add_color(each, scene_.roster.bodies[i].color, scene_.roster.bodies[i].mesh, overrides);
       name_copy(scene_.roster.bodies[i].mesh, overrides);
       if (!body.group) {
         entry(body.key->text, flow(each, overrides));
@@ -124,7 +130,7 @@ class Resolver {
     const View view = fixed_view(root_, thing);
     const FixedName& known = scene_.roster.fixed[thing.first];
     Overrides overrides;
-    if (view.find("color") == nullptr) overrides["color"] = in_quotes(hex_text(known.color));
+    add_color(view, known.color, known.mesh, overrides);
     if (thing.kind->name == "wall" && view.find("up") == nullptr)
       overrides["up"] = yaml_of(default_up(scene_.world.wall(inventory_.body_count + thing.first).normal));
     name_copy(known.mesh, overrides);

@@ -21,6 +21,7 @@ struct MeshUse {
   std::string file;            // relative to the working folder
   Vec3 center = Vec3::Zero();  // in the file's own units
   double scale = 1;            // m per unit of the file
+  bool own_colors = false;     // the scene gives no colour: those of the file, where it has any
   friend bool operator==(const MeshUse&, const MeshUse&) = default;
 };
 
@@ -29,7 +30,7 @@ struct MeshUse {
 struct MeshFile {
   std::string file;  // as in MeshUse
   /// A plain file name, distinct from every other output's.
-  /// Empty: a .gltf, which is not copied because it refers to further files.
+  /// Empty: a .gltf, or an .obj with materials, which is not copied because it refers to further files.
   std::string copy;
 };
 

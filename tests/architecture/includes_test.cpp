@@ -34,6 +34,8 @@ const std::map<std::string, std::vector<std::string>> library_words = {
     {"yaml-cpp", {"yaml-cpp/"}},
     {"OSMesa/OpenGL", {"GL/", "KHR/", "EGL/"}},
     {"assimp", {"assimp/"}},
+    {"libpng", {"png.h"}},
+    {"libjpeg", {"jpeglib.h", "jerror.h"}},
     {"FreeType", {"freetype/"}},
     {"nettle", {"nettle/"}},
     {"ISA-L", {"isa-l/"}},

@@ -22,6 +22,24 @@ const OwnFolder& folder() {
   return own;
 }
 
+void hold(const MeshPaint& paint, std::size_t vertices, std::size_t triangles) {
+  if (paint.parts.empty()) return;
+  if (paint.uv.size() != vertices || paint.tint.size() != vertices) throw Finding("a paint of other vertices");
+  std::size_t in_parts = 0;
+  for (const MeshPart& part : paint.parts) {
+    in_parts += part.triangles;
+    if (part.texture > paint.textures.size()) throw Finding("a part has a texture that is not there");
+    for (const float x : part.factor)
+      if (!(x >= 0 && x <= 1)) throw Finding("a colour is not between 0 and 1");
+  }
+  if (in_parts != triangles) throw Finding("parts of other triangles");
+  for (const auto& uv : paint.uv)
+    if (!std::isfinite(uv[0]) || !std::isfinite(uv[1])) throw Finding("a place in a texture is not finite");
+  for (const MeshTexture& texture : paint.textures)
+    if (texture.width == 0 || texture.rgba.size() != std::size_t{4} * texture.width * texture.height)
+      throw Finding("a texture has other pixels");
+}
+
 void hold(const Mesh& mesh) {
   if (mesh.normals.size() != mesh.vertices.size()) throw Finding("normals of other vertices");
   if (mesh.triangles.empty() || mesh.triangles.size() % 3 != 0) throw Finding("no whole triangles");
@@ -30,6 +48,7 @@ void hold(const Mesh& mesh) {
   for (const auto* vectors : {&mesh.vertices, &mesh.normals})
     for (const Vec3& v : *vectors)
       if (!v.allFinite()) throw Finding("a mesh has a vector that is not finite");
+  hold(mesh.paint, mesh.vertices.size(), mesh.triangles.size() / 3);
 }
 
 template <typename T>
@@ -94,6 +113,7 @@ std::string manifest(const Output& output) {
 void read_mesh_reply_bytes(std::string_view bytes) {
   MeshLimits limits;
   limits.vertices = limits.triangles = 10'000;
+  limits.texture_bytes = 100'000;
   std::string_view left = bytes;
   const auto receive = [&](void* to, std::size_t size) {
     if (size > left.size()) return false;
@@ -111,12 +131,18 @@ void read_mesh_reply_bytes(std::string_view bytes) {
 }
 
 std::vector<std::string> mesh_reply_seeds() {
-  std::string mesh, trouble;
-  put<std::uint32_t>(mesh, {3, 1, 0});
+  std::string mesh, painted, trouble;
+  put<std::uint32_t>(mesh, {3, 1, 0, 0, 0});
   put<float>(mesh, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1});
   put<std::uint32_t>(mesh, {0, 1, 2});
-  put<std::uint32_t>(trouble, {0, 0, 13});
-  return {mesh, trouble + "it is damaged"};
+  put<std::uint32_t>(painted, {3, 1, 0, 1, 1});
+  painted += mesh.substr(sizeof(MeshReplyHead));
+  put<MeshPart>(painted, {{1, 1, {Wrap::mirror, Wrap::clamp}, 1, 1, 0.5F, {1, 0.5F, 0, 1}}});
+  put<float>(painted, {0, 0, 1, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0.5F, 0.5F, 0.5F});
+  put<std::uint32_t>(painted, {1, 2});
+  painted += std::string(8, '\x7f');
+  put<std::uint32_t>(trouble, {0, 0, 13, 0, 0});
+  return {mesh, painted, trouble + "it is damaged"};
 }
 
 /// The first byte chooses the ending.
@@ -128,7 +154,7 @@ void read_mesh_bytes(std::string_view bytes) {
   limits.seconds = 3;
   limits.vertices = limits.triangles = 10'000;
   try {
-    const Mesh mesh = read_mesh(folder().path() + "/" + name, limits);
+    const Mesh mesh = read_painted_mesh(folder().path() + "/" + name, limits);
     hold(mesh);
     for (const Vec3& n : mesh.normals)
       if (n != Vec3::Zero() && !(std::abs(n.norm() - 1) < 1e-5)) throw Finding("a normal is not a unit vector");
@@ -147,6 +173,7 @@ std::vector<std::string> mesh_seeds() {
       if (const std::string bytes = bytes_of(path); bytes.size() < 20'000) seeds.push_back(first + bytes);
   seeds.push_back(std::string(1, '\0') +
                   "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvn 0 0 1\nf 1//1 2//1 3//1\nf 1 2 4\nf 1 2 3 4\n");
+  seeds.push_back(std::string(1, '\0') + "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n");
   seeds.push_back(std::string(1, '\1') +
                   "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
                   "0\nendloop\nendfacet\nendsolid a\n");

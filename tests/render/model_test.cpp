@@ -8,8 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "physics/world.h"
+#include "render/colored_meshes.h"
 #include "render/glb.h"
 #include "render/glb_nodes.h"
+#include "render/scenes.h"
 #include "render/still_things.h"
 #include "scene/scene.h"
 
@@ -56,7 +58,7 @@ Json json_of(const std::string& file) {
 TEST(StillThings, SidesOfARoomEndWhereTheyMeet) {
   Extent seen;
   seen.include(Vec3(1, 1, 1));
-  const std::vector<StillThing> things = still_things(room(), seen);
+  const std::vector<StillThing> things = still_things(room(), seen, false);
   ASSERT_EQ(things.size(), 6U);
   for (const StillThing& thing : things) EXPECT_EQ(thing.mesh.vertices.size(), 4U) << thing.name;
   const Extent floor = extent_of(things[2].mesh);
@@ -70,7 +72,7 @@ TEST(StillThings, APlaneReachesBeyondTheMotionAndNotForEver) {
   scene.roster.fixed = {{"floor", {}, true}};
   Extent seen;
   seen.include(Vec3(-2, 0, -1)), seen.include(Vec3(2, 3, 1));
-  const std::vector<StillThing> things = still_things(scene, seen);
+  const std::vector<StillThing> things = still_things(scene, seen, false);
   ASSERT_EQ(things.size(), 1U);
   const Extent floor = extent_of(things[0].mesh);
   EXPECT_TRUE((floor.low.array() <= Vec3(-2, -1, -1).array()).all());
@@ -80,7 +82,7 @@ TEST(StillThings, APlaneReachesBeyondTheMotionAndNotForEver) {
 }
 
 TEST(StillThings, TrianglesFaceTheFreeSide) {
-  for (const StillThing& thing : still_things(room(), {})) {
+  for (const StillThing& thing : still_things(room(), {}, false)) {
     const Mesh& mesh = thing.mesh;
     for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
       const Vec3 &a = mesh.vertices[mesh.triangles[t]], &b = mesh.vertices[mesh.triangles[t + 1]],
@@ -93,7 +95,7 @@ TEST(StillThings, TrianglesFaceTheFreeSide) {
 TEST(StillThings, WhatIsNotVisibleIsNotThere) {
   Scene scene = room();
   for (FixedName& name : scene.roster.fixed) name.visible = false;
-  EXPECT_TRUE(still_things(scene, {}).empty());
+  EXPECT_TRUE(still_things(scene, {}, false).empty());
 }
 
 TEST(StillThings, RoundVolumesHaveTheirCornersOnThem) {
@@ -138,6 +140,51 @@ TEST(Glb, KeepsWhatAssimpLoses) {
   EXPECT_EQ(animation["samplers"][0]["interpolation"], "LINEAR");
   EXPECT_EQ(animation["channels"][1]["target"]["path"], "scale");
   EXPECT_EQ(animation["samplers"][1]["interpolation"], "STEP");
+}
+
+TEST(Glb, HasTheColorsAndTexturesOfMeshes) {
+  const test::MeshFolder folder;
+  test::GltfSquare square{test::data_uri(test::four_opacities)};
+  square.material = R"(, "alphaMode": "MASK", "alphaCutoff": 0.25)";
+  square.metallic = R"("baseColorFactor": [0.5, 0.25, 1, 1])";
+  square.sampler = R"("magFilter": 9728, "wrapS": 33071, "wrapT": 33648)";
+  square.vertex_colors = true;
+  Scene scene = ball_at(Vec3::Zero());
+  scene.roster.bodies[0].mesh = MeshUse{folder.write("a.gltf", square.text()), Vec3::Zero(), 1, true};
+  KeyedMotion motion;
+  const std::string file = folder.write("b.glb", glb(scene, motion));
+  const Mesh before = read_painted_mesh(scene.roster.bodies[0].mesh->file), after = read_painted_mesh(file);
+  EXPECT_EQ(after.vertices, before.vertices);
+  EXPECT_EQ(after.triangles, before.triangles);
+  EXPECT_EQ(after.paint.uv, before.paint.uv);
+  EXPECT_EQ(after.paint.tint, before.paint.tint);
+  ASSERT_EQ(after.paint.parts.size(), 1U);
+  const MeshPart &a = after.paint.parts[0], &b = before.paint.parts[0];
+  EXPECT_EQ(a.factor, b.factor);
+  EXPECT_EQ(a.cutoff, b.cutoff);
+  EXPECT_EQ(a.wrap, b.wrap);
+  EXPECT_EQ(a.sharp, b.sharp);
+  ASSERT_EQ(after.paint.textures.size(), 1U);
+  EXPECT_EQ(after.paint.textures[0].rgba, before.paint.textures[0].rgba);
+  // In a colour of the scene it has none of these.
+  scene.roster.bodies[0].mesh->own_colors = false;
+  EXPECT_TRUE(read_mesh(folder.write("c.glb", glb(scene, motion))).paint.parts.empty());
+  EXPECT_FALSE(json_of(glb(scene, motion)).contains("textures"));
+}
+
+TEST(Glb, BodiesShareAMeshOfSeveralMaterials) {
+  const test::MeshFolder folder;
+  folder.write("a.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
+  const std::string file = folder.write(
+      "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl red\nf 1 2 3\nusemtl blue\nf 1 2 4\n");
+  Scene scene;
+  for (const double scale : {1.0, 2.0, 1.0}) {
+    const Entity e = test::add_ball(scene, Vec3(3.0 * scene.world.body_count(), 0, 0), 1, {1, 1, scale / 2});
+    scene.roster.bodies[e].mesh = MeshUse{file, Vec3::Zero(), scale, true};
+  }
+  const Json gltf = json_of(glb(scene, KeyedMotion{}));
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(gltf["nodes"][i + 1]["mesh"], i == 1 ? 1 : 0);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(gltf["meshes"][i]["primitives"].size(), 2U);
 }
 
 /// The floats of an accessor, in order.

@@ -278,6 +278,36 @@ TEST(Meshes, OfTheResolvedSceneAreTheCopiesBesideIt) {
   EXPECT_EQ(again.world.radius, scene.world.radius);
 }
 
+TEST(Meshes, HaveTheirOwnColorsUnlessTheSceneGivesOne) {
+  const std::string ball = "{mass: 1, radius: 1, mesh: pin.stl, position: ";
+  const Scene scene = load_with_meshes(start + "balls:\n  a: " + ball + "[0, 0, 0]}\n  b: " + ball +
+                                       "[9, 0, 0], color: red}\n  c: " + ball + "[20, 0, 0], color: {by: speed}}\n" +
+                                       "obstacles:\n  d: {mesh: pin.stl, fit: box, position: [30, 0, 0]}\n"
+                                       "  e: {mesh: pin.stl, fit: box, position: [40, 0, 0], color: red}\n");
+  const auto own = [&](std::size_t body) { return scene.roster.bodies[body].mesh->own_colors; };
+  EXPECT_TRUE(own(0));
+  EXPECT_FALSE(own(1));
+  EXPECT_FALSE(own(2));
+  EXPECT_TRUE(scene.roster.fixed[0].mesh->own_colors);
+  EXPECT_FALSE(scene.roster.fixed[1].mesh->own_colors);
+  // The resolved scene gives them none either.
+  const Scene again = load_with_meshes(scene.resolved);
+  EXPECT_EQ(again.resolved, scene.resolved);
+  EXPECT_TRUE(again.roster.bodies[0].mesh->own_colors && again.roster.fixed[0].mesh->own_colors);
+  EXPECT_EQ(again.roster.bodies[0].color, scene.roster.bodies[0].color);
+}
+
+TEST(Meshes, WithMaterialsBesideThemAreNotCopied) {
+  write_file("v 0 0 0\nmtllib pin.mtl\n", "pin.obj");
+  const std::string ball = "{mass: 1, radius: 1, mesh: pin.obj, position: [0, 0, 0]";
+  const Scene scene = load_with_meshes(start + "balls: {a: " + ball + "}}\n");
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  EXPECT_EQ(scene.meshes[0].copy, "");
+  write_file("v 0 0 0\nmtllib pin.mtl\n", "pin.obj");
+  // In a colour of the scene it needs no materials.
+  EXPECT_EQ(load_with_meshes(start + "balls: {a: " + ball + ", color: red}}\n").meshes[0].copy, "pin.obj");
+}
+
 TEST(MeshErrors, NameTheFileAndWhatIsWrongWithIt) {
   EXPECT_EQ(mesh_errors(start + "bodies: {a: {mass: 1, mesh: torn.stl, fit: box, position: [0, 0, 0]}}\n"),
             "scene.yaml:3:29: error: the mesh `torn.stl` cannot be used: it ends within a triangle\n"

@@ -1,0 +1,195 @@
+// Opens files for the import of a mesh. Links are resolved before the comparison with the folder, so that a link does
+// not lead out of it. Texts of Wavefront files are changed on the way to assimp: it looks each name of a group up among
+// all others, which takes minutes for tens of thousands, and takes grey for a colour that a material does not give.
+#include "render/mesh_files.h"
+
+#include <assimp/MemoryIOWrapper.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+namespace carom {
+namespace {
+
+constexpr std::size_t most_changes = 1000;
+
+std::string remedy(const char* way) {
+  return fmt::format("Remedy: {}, or give the body a `color`", way);
+}
+
+/// Calls `use` with the place of each line's first word and the line from there on.
+template <typename Use>
+void for_lines(std::string_view text, Use use) {
+  for (std::size_t i = 0; i < text.size();) {
+    while (i < text.size() && (text[i] == ' ' || text[i] == '\t')) ++i;
+    std::size_t end = i;
+    while (end < text.size() && text[end] != '\n' && text[end] != '\r') ++end;
+    use(i, text.substr(i, end - i));
+    i = end;
+    while (i < text.size() && (text[i] == '\n' || text[i] == '\r')) ++i;
+  }
+}
+
+/// Whether this is the first word of the line.
+bool opens(std::string_view line, std::string_view word) {
+  return line.starts_with(word) && (line.size() == word.size() || line[word.size()] <= ' ');
+}
+
+std::string after(std::string_view line, std::string_view word) {
+  line.remove_prefix(word.size());
+  while (!line.empty() && line.front() <= ' ') line.remove_prefix(1);
+  while (!line.empty() && line.back() <= ' ') line.remove_suffix(1);
+  return std::string(line);
+}
+
+std::size_t words(std::string_view line) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) count += line[i] > ' ' && (i == 0 || line[i - 1] <= ' ');
+  return count;
+}
+
+WavefrontNames names_of(std::string_view text) {
+  WavefrontNames names;
+  for_lines(text, [&](std::size_t, std::string_view line) {
+    if (opens(line, "mtllib")) names.libraries.push_back(after(line, "mtllib"));
+    if (opens(line, "usemtl")) ++names.changes;
+    if (!names.vertex_colors && opens(line, "v")) names.vertex_colors = words(line) == 7;
+  });
+  return names;
+}
+
+/// Turns lines that name groups, and materials unless `painted`, into comments. They have no effect on the shape.
+void drop_names(std::string& text, bool painted) {
+  for_lines(text, [&](std::size_t at, std::string_view line) {
+    if (opens(line, "g") || opens(line, "o") || (!painted && (opens(line, "usemtl") || opens(line, "mtllib"))))
+      text[at] = '#';
+  });
+}
+
+/// Makes materials white that give no colour: a texture alone then has its own.
+std::string with_white(const std::string& text, std::set<std::string>& defined) {
+  std::string out;
+  for_lines(text, [&](std::size_t, std::string_view line) {
+    out.append(line) += '\n';
+    if (!opens(line, "newmtl")) return;
+    out += "Kd 1 1 1\n";
+    defined.insert(after(line, "newmtl"));
+  });
+  return out;
+}
+
+std::string whole(Assimp::IOStream& stream) {
+  std::string text(stream.FileSize(), '\0');
+  text.resize(stream.Read(text.data(), 1, text.size()));
+  return text;
+}
+
+std::string whole(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Assimp::IOStream* stream_of(const std::string& text) {
+  auto bytes = std::make_unique<std::uint8_t[]>(text.size());
+  std::copy(text.begin(), text.end(), bytes.get());
+  return new Assimp::MemoryIOStream(bytes.release(), text.size(), true);
+}
+
+int hex_digit(char c) {
+  return c >= '0' && c <= '9'   ? c - '0'
+         : c >= 'a' && c <= 'f' ? c - 'a' + 10
+         : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                : -1;
+}
+
+/// The file name in a URI ("my%20wood.png"), with the separators of this system.
+std::string name_in(const std::string& uri) {
+  std::string name;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const int high = i + 2 < uri.size() ? hex_digit(uri[i + 1]) : -1, low = high < 0 ? -1 : hex_digit(uri[i + 2]);
+    if (uri[i] == '%' && low >= 0 && 16 * high + low > 0) {
+      name += static_cast<char>(16 * high + low);
+      i += 2;
+    } else {
+      name += uri[i] == '\\' ? '/' : uri[i];
+    }
+  }
+  return name;
+}
+
+std::filesystem::path folder_of(const std::string& file) {
+  const std::filesystem::path folder = std::filesystem::path(file).lexically_normal().parent_path();
+  return folder.empty() ? "." : folder;
+}
+
+}  // namespace
+
+MeshFiles::MeshFiles(const std::string& file, const std::string& ending, bool painted)
+    : file_(file), ending_(ending), painted_(painted), folder_(folder_of(file)) {}
+
+bool MeshFiles::within(const std::filesystem::path& file) const {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::canonical(folder_, error);
+  if (error) return false;
+  const std::filesystem::path real = std::filesystem::canonical(file, error);
+  if (error || std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first != folder.end())
+    return false;
+  return std::filesystem::is_regular_file(real, error);
+}
+
+bool MeshFiles::Exists(const char* file) const {
+  return (file == file_ || within(file)) && Assimp::DefaultIOSystem::Exists(file);
+}
+
+Assimp::IOStream* MeshFiles::Open(const char* file, const char* mode) {
+  const bool reads = std::string_view(mode).find_first_of("wa+") == std::string_view::npos;
+  if (!reads || !(file == file_ || within(file))) return nullptr;
+  std::unique_ptr<Assimp::IOStream> stream(Assimp::DefaultIOSystem::Open(file, mode));
+  if (!stream || ending_ != "obj") return stream.release();
+  std::string text = whole(*stream);
+  if (file != file_) return stream_of(with_white(text, defined_));
+  drop_names(text, painted_);
+  return stream_of(text);
+}
+
+bool MeshFiles::mentions_colors() const {
+  if (ending_ == "stl") return false;
+  const std::string text = whole(file_);
+  if (ending_ != "obj")
+    return text.find("\"materials\"") != std::string::npos || text.find("\"COLOR_0\"") != std::string::npos;
+  const WavefrontNames names = names_of(text);
+  if (names.changes == 0 || names.libraries.empty()) return names.vertex_colors;
+  if (names.changes > most_changes)
+    throw std::runtime_error(fmt::format("it changes its material more than {} times. {}", most_changes,
+                                         remedy("sort its faces by material")));
+  for (const std::string& name : names.libraries) found("material file", name);
+  return true;
+}
+
+std::filesystem::path MeshFiles::found(const std::string& what, const std::string& name) const {
+  for (const std::string& way : {name, name_in(name)}) {
+    const std::filesystem::path file = folder_ / way;
+    if (within(file)) return file;
+  }
+  std::error_code error;
+  const bool outside = std::filesystem::exists(folder_ / name_in(name), error);
+  throw std::runtime_error(
+      outside ? fmt::format("its {} {} is not a file in the mesh's folder. {}", what, name,
+                            remedy("copy it into that folder and name the copy"))
+              : fmt::format("its {} {} is not there. {}", what, name, remedy("put it beside the mesh")));
+}
+
+std::string MeshFiles::read(const std::string& what, const std::string& name, std::uint64_t most_bytes) const {
+  const std::filesystem::path file = found(what, name);
+  const std::uint64_t size = std::filesystem::file_size(file);
+  if (size > most_bytes)
+    throw std::runtime_error(fmt::format("its {} {} has {} bytes; at most {} are read", what, name, size, most_bytes));
+  return whole(file);
+}
+
+}  // namespace carom

@@ -1,0 +1,48 @@
+#pragma once
+// The files that the import of a mesh may open, in the child process only. They are the mesh itself and those in its
+// folder and below. What their text says about materials is found before assimp reads it.
+#include <assimp/DefaultIOSystem.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace carom {
+
+/// The lines of a Wavefront file that name materials.
+struct WavefrontNames {
+  std::vector<std::string> libraries;  // of mtllib
+  std::size_t changes = 0;             // of usemtl
+  bool vertex_colors = false;
+};
+
+class MeshFiles : public Assimp::DefaultIOSystem {
+ public:
+  /// `painted`: whether assimp sees the names of materials.
+  MeshFiles(const std::string& file, const std::string& ending, bool painted);
+
+  bool Exists(const char* file) const override;
+  /// Returns nullptr for a file that may not be opened, or written. The caller owns the stream.
+  Assimp::IOStream* Open(const char* file, const char* mode) override;
+
+  /// Whether the text of the mesh mentions colours or materials. Throws std::runtime_error if it names material files
+  /// that are not there, or changes its material too often.
+  bool mentions_colors() const;
+  /// Whether a material file that was opened defines this material.
+  bool defines(const std::string& material) const { return defined_.contains(material); }
+  /// The bytes of a file by the name that the mesh gives it. `what`: "texture", for the error. Throws
+  /// std::runtime_error.
+  std::string read(const std::string& what, const std::string& name, std::uint64_t most_bytes) const;
+
+ private:
+  bool within(const std::filesystem::path& file) const;
+  std::filesystem::path found(const std::string& what, const std::string& name) const;
+
+  std::string file_, ending_;
+  bool painted_;
+  std::filesystem::path folder_;
+  std::set<std::string> defined_;
+};
+
+}  // namespace carom
