@@ -71,14 +71,18 @@ class Checker : ValueChecker {
   void needed_beside(const View& view, Node& node, const std::string& what) {
     for (const Field& field : view.kind().fields) {
       if (field.with.empty() || view.given(field.key) == nullptr || view.given(field.with) != nullptr) continue;
-      const std::vector<std::string_view> sparing = parts_of(field.spared_by);
+      // A map without a needed key has an error about that already.
+      const Field& with = *find_field(view.kind(), field.with);
+      const std::vector<std::string_view> sparing = parts_of(field.spared_by), others = substitutes(with);
+      if (with.needed &&
+          std::none_of(others.begin(), others.end(), [&](auto key) { return view.given(key) != nullptr; }))
+        continue;
       if (std::any_of(sparing.begin(), sparing.end(), [&](auto key) { return view.given(key) != nullptr; })) continue;
       const Key* key = node.find_key(field.key);
       node.bad = true;
-      diagnostics_.add(
-          key == nullptr ? view.where() : key->place,
-          fmt::format("{} has {} but no {}", what, in_backticks(field.key), in_backticks(field.with)),
-          fmt::format("expected {}: {}", in_backticks(field.with), expected(*find_field(view.kind(), field.with))));
+      diagnostics_.add(key == nullptr ? view.where() : key->place,
+                       fmt::format("{} has {} but no {}", what, in_backticks(field.key), in_backticks(field.with)),
+                       fmt::format("expected {}: {}", in_backticks(field.with), expected(with)));
     }
   }
 

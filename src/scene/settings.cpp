@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scene/check.h"
 #include "scene/fields.h"
 #include "scene/view.h"
@@ -87,7 +89,7 @@ class Walk {
                                 kind_->name == "scene" ? "the scene" : in_backticks(kind_->name)),
                     suggest_key(step.text, *kind_));
     }
-    for (const std::string_view rival : rivals(*field)) erase(*node_, rival);
+    for (const std::string_view rival : rivals(*field)) replace(rival, *field);
     Node* child = node_->find(field->key);
     if (child == nullptr) {
       node_->keys.push_back({step.text, step.place});
@@ -103,6 +105,22 @@ class Walk {
     field_ = field;
     kind_ = holds_map(*field) ? &kind_named(field->of) : nullptr;
     return true;
+  }
+
+  /// Erases a key that `by` excludes, and those that stood beside it and have no place beside `by`.
+  void replace(std::string_view key, const Field& by) {
+    if (node_->find_key(key) == nullptr) return;
+    erase(*node_, key);
+    for (const Field& other : kind_->fields) {
+      std::vector<std::string_view> companions = parts_of(other.spared_by);
+      if (!other.with.empty()) companions.push_back(other.with);
+      const auto stays = [&](std::string_view companion) {
+        return companion == by.key || node_->find_key(companion) != nullptr;
+      };
+      const bool stood = std::find(companions.begin(), companions.end(), key) != companions.end();
+      if (stood && !other.with.empty() && std::none_of(companions.begin(), companions.end(), stays))
+        erase(*node_, other.key);
+    }
   }
 
   /// The initial value of a missing value that is set in part: that of the defaults, of the table, or nothing.

@@ -100,7 +100,6 @@ const std::vector<Beyond>& beyond_schemas() {
       {"the camera's target is where its eye is", "two vectors against one another"},
       {"the camera looks along its up direction", "vectors against one another"},
       {"there is nothing to follow", "what a name stands for"},
-      {"without an `eye`", "which other keys are absent, where a key has a default"},
       {"not later than the keyframe before", "two numbers against one another"},
       {"up is parallel to the normal", "two vectors against one another"},
       {"is not beyond near", "two numbers against one another"},
