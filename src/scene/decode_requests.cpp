@@ -12,6 +12,7 @@
 #include "scene/film_format.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "scene/sheet_layout.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -87,7 +88,7 @@ class Requests {
     if (out.video && !chooses_outputs_ && scene_.transparent && film_format(out.video->file) == FilmFormat::mp4)
       diagnostics_.add(view.place("video"), "an MP4 has no transparency, and `background` is `none`",
                        "expected a `file` ending in .gif or .webp, `frames` or `sheet`, or a colour for `background`");
-    if (out.sheet) check_window(view.part("sheet", "sheet"), out.sheet->from, out.sheet->until);
+    if (out.sheet) check_sheet(view, *out.sheet);
     flights(view);
   }
 
@@ -118,6 +119,16 @@ class Requests {
     }
     if (format == FilmFormat::gif) check_gif(part, video);
     check_window(part, video.from, video.until);
+  }
+
+  void check_sheet(const View& output, SheetOutput& sheet) {
+    const View part = output.part("sheet", "sheet");
+    check_window(part, sheet.from, sheet.until);
+    if (chooses_outputs_ || !diagnostics_.empty()) return;
+    const Output& out = scene_.output;
+    const Size shape = out.frames ? out.frames->size : out.video ? out.video->size : Size{};
+    if (const std::optional<SheetProblem> problem = problem_of(sheet, shape))
+      diagnostics_.add(sheet.size ? part.place("size") : output.place("sheet"), problem->message, problem->remedy);
   }
 
   void check_gif(const View& part, VideoOutput& video) {

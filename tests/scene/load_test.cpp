@@ -103,6 +103,25 @@ TEST(LoadScene, SizesHaveNames) {
       "     = expected [width, height], two whole numbers from 16 to 16384 in pixels, or 720p, 1080p, 4k or square\n");
 }
 
+TEST(LoadScene, ASheetThatCannotBeMadeNeedsAnotherSize) {
+  EXPECT_EQ(errors_of(start + "output: {sheet: {size: [64, 64]}}\n"),
+            "scene.yaml:3:24: error: a contact sheet of 4 x 3 pictures in 64 x 64 pixels: each would have 6 x 10\n"
+            "   3 | output: {sheet: {size: [64, 64]}}\n"
+            "     |                        ^\n"
+            "     = expected a `size` of at least [168, 128], or fewer columns or rows\n");
+  EXPECT_EQ(errors_of(start + "output: {sheet: {size: [168, 128]}}\n"), "");
+  EXPECT_EQ(
+      errors_of(start + "output: {frames: {size: [16, 16384]}, sheet: true}\n"),
+      "scene.yaml:3:46: error: a contact sheet of 4 x 3 pictures would have 1920 x 1443872 pixels\n"
+      "   3 | output: {frames: {size: [16, 16384]}, sheet: true}\n"
+      "     |                                              ^~~~\n"
+      "     = expected a `size` of the sheet, such as [1920, 1080]: without one, its pictures have the shape of 16 "
+      "x 16384\n");
+  EXPECT_EQ(errors_of(start + "output: {frames: {size: [16, 16384]}, sheet: {size: [1920, 1080]}}\n"), "");
+  EXPECT_NE(errors_of(start + "output: {sheet: {size: [16384, 16384]}}\n").find("at most 100000000 pixels in all"),
+            std::string::npos);
+}
+
 TEST(LoadScene, TheEndOfAFilmsNameIsItsFormat) {
   EXPECT_EQ(
       errors_of(start + "output: {video: {file: x.avi}}\n"),

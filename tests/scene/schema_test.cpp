@@ -109,6 +109,7 @@ const std::vector<Beyond>& beyond_schemas() {
       {"the limit is", "how much a run may write, which --force lifts"},
       {"paths have no closed form", "what an engine can do depends on forces, volumes and obstacles together"},
       {"`engine: book` has no", "what an engine can do depends on forces, volumes and obstacles together"},
+      {"a contact sheet of", "how many pictures a size holds"},
       {"a GIF cannot show", "the end of a name against a number"},
       {"parabolas from impact to impact", "what an engine can do depends on forces, volumes and obstacles together"},
   };
