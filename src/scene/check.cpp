@@ -236,8 +236,7 @@ class Checker : ValueChecker {
         if (!value.is(Node::Kind::scalar)) wrong_type(value, name, required);
         return;
       case Type::color_or_none:
-        if (!(value.is(Node::Kind::scalar) && value.text == "none")) color(value, name);
-        return;
+        return color(value, name, ColorWords::colors_and_none);
       case Type::color_or_part:
         return value.is(Node::Kind::map) ? part(value, field, key, partial) : color(value, name);
       case Type::two_names:

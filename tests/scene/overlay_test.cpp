@@ -142,6 +142,29 @@ TEST(Background, MayBeNoneInPicturesAlone) {
   EXPECT_EQ(errors_of(balls + "background: none\noutput: {video: {file: a.webp}}\n"), "");
 }
 
+TEST(Background, ThatIsNoColourMayBeMeantAsNone) {
+  const auto remedy = [](const std::string& background) {
+    const std::string errors = errors_of(balls + "background: " + background + "\n");
+    const std::size_t from = errors.find("     = ");
+    return from == std::string::npos ? errors : errors.substr(from + 7);
+  };
+  const std::string all = "expected none or a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1\n";
+  for (const char* none : {"nine", "None", "transparent"}) EXPECT_EQ(remedy(none), "did you mean `none`?\n");
+  EXPECT_EQ(remedy("bleu"), "did you mean `blue`?\n");
+  for (const char* wrong : {"true", "false", "perhaps", "[]", "[1]", "[1, 1, 1, 1]", "{r: 1}"})
+    EXPECT_EQ(remedy(wrong), all);
+  EXPECT_EQ(remedy(""), all + "     = a colour that begins with # needs quotes\n");
+  EXPECT_EQ(remedy("[1, 1, 2]"), "expected a number from 0 to 1\n");
+}
+
+TEST(Colours, OfAWrongNumberOfNumbersNeedThree) {
+  EXPECT_EQ(errors_of(balls + "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0], color: [1]}}\n"),
+            "scene.yaml:9:62: error: `color` has 1 number\n"
+            "   9 | planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0], color: [1]}}\n"
+            "     |                                                              ^\n"
+            "     = expected a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1\n");
+}
+
 TEST(ColourBy, StandsWhereverAColourOfBodiesGoes) {
   const std::string by = "color: {by: speed, max: 9, map: cividis}";
   const Scene scene =
