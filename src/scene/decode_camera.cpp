@@ -85,7 +85,7 @@ class CameraDecoder {
 
  private:
   void follow(const Node& name) {
-    const auto range = find_range(name, inventory_, diagnostics_);
+    const auto range = find_range(name, inventory_, Sought::bodies, diagnostics_);
     if (!range || !inventory_.fits) return;
     if (range->first >= inventory_.body_count || range->count == 0) {
       diagnostics_.add(name.place,

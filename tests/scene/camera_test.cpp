@@ -126,6 +126,12 @@ TEST(CameraErrors, WithoutAPlaceItNamesTheWaysToOne) {
 TEST(CameraErrors, WhatCannotBeFollowedIsNamed) {
   EXPECT_EQ(error_of("{follow: floor}"), "`floor` never moves: there is nothing to follow");
   EXPECT_EQ(error_of("{follow: rde}"), "nothing is named `rde`");
+  for (const std::string part :
+       {"camera: {follow: zz}\n", "trails: {on: [zz]}\n", "forces: [{uniform: [1, 0, 0], on: [zz]}]\n"})
+    EXPECT_NE(errors_of(bodies + part).find("     = expected a ball, body, group or member (gas.3)\n"),
+              std::string::npos)
+        << part;
+  EXPECT_EQ(errors_of(bodies + "camera: {follow: flor}\n").find("did you mean"), std::string::npos);
   EXPECT_EQ(error_of("{follow: gas.2}"), "the group `gas` has no member `2`");
   EXPECT_EQ(error_of("{follow: red, near: 1}"), "`camera` has `near` but no `eye`");
   EXPECT_EQ(error_of("{follow: red, eye: [1, 1, 0]}"), "the camera's target is where its eye is");
