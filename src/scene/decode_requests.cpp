@@ -204,8 +204,11 @@ class Requests {
     if (out.sheet) add(static_cast<double>(out.sheet->columns) * out.sheet->rows, "sheet");
     if (total > static_cast<double>(budget_.frames)) {
       const Key* key = view.own() == nullptr ? nullptr : view.own()->find_key(largest);
-      refuse(key == nullptr ? view.where() : view.part(largest, largest).place("fps"), total, "pictures",
-             budget_.frames, "a lower `fps` or a shorter duration");
+      const bool slow = largest == "video" && out.video->speed < 1;
+      const bool too_slow = slow && most * out.video->speed <= static_cast<double>(budget_.frames);
+      refuse(key == nullptr ? view.where() : view.part(largest, largest).place(too_slow ? "speed" : "fps"), total,
+             "pictures", budget_.frames,
+             slow ? "a higher `speed`, a lower `fps` or a shorter duration" : "a lower `fps` or a shorter duration");
     }
   }
 
