@@ -131,13 +131,22 @@ class Requests {
       diagnostics_.add(sheet.size ? part.place("size") : output.place("sheet"), problem->message, problem->remedy);
   }
 
+  /// A rate of the film's own stays as it is. That of frames, or the default, becomes one that a GIF keeps.
   void check_gif(const View& part, VideoOutput& video) {
-    if (part.given("fps") == nullptr) video.fps = gif_fps;
-    if (keeps_rate(FilmFormat::gif, video.fps)) return;
+    const Node* own = part.own() == nullptr ? nullptr : part.own()->find("fps");
+    if (own == nullptr) {
+      video.fps = gif_rate(video.fps);
+      return;
+    }
+    if (own->bad || keeps_rate(FilmFormat::gif, video.fps)) return;
+    // In the scene of a run every film has a rate. Then a setting must replace it.
+    const bool by_setting = place_of(*part.given("file")).source > own->place.source;
+    const std::string rates = by_setting ? fmt::format("--set output.video.fps={}, or", shortest(gif_rate(video.fps)))
+                                         : "50, 25, 20, 12.5, 10 or";
     diagnostics_.add(
-        part.place("fps"), fmt::format("a GIF cannot show {} pictures a second", shortest(video.fps)),
-        "expected 50, 25, 20, 12.5, 10 or another 100/n: a GIF shows each picture for whole hundredths of a "
-        "second, at least 2");
+        own->place, fmt::format("a GIF cannot show {} pictures a second", shortest(video.fps)),
+        fmt::format("expected {} another 100/n: a GIF shows each picture for whole hundredths of a second, at least 2",
+                    rates));
   }
 
   void check_window(const View& part, double from, std::optional<double>& until) {

@@ -142,13 +142,42 @@ TEST(LoadScene, AGifHasARateThatItCanKeep) {
     EXPECT_NE(errors_of(start + "output: {video: {file: x.gif, fps: " + fps + "}}\n").find("a GIF cannot show"),
               std::string::npos)
         << fps;
-  // That of frames, too.
-  EXPECT_EQ(errors_of(start + "output: {frames: {fps: 30}, video: {file: x.gif}}\n"),
-            "scene.yaml:3:24: error: a GIF cannot show 30 pictures a second\n"
-            "   3 | output: {frames: {fps: 30}, video: {file: x.gif}}\n"
-            "     |                        ^~\n"
+  EXPECT_EQ(errors_of(start + "output: {video: {file: x.gif, fps: 30}}\n"),
+            "scene.yaml:3:36: error: a GIF cannot show 30 pictures a second\n"
+            "   3 | output: {video: {file: x.gif, fps: 30}}\n"
+            "     |                                    ^~\n"
             "     = expected 50, 25, 20, 12.5, 10 or another 100/n: a GIF shows each picture for whole hundredths of a "
             "second, at least 2\n");
+  for (const std::string fps : {"foo", "100/3"}) {
+    const std::string errors = errors_of(start + "output: {video: {file: x.gif, fps: " + fps + "}}\n");
+    EXPECT_NE(errors.find("error: `" + fps + "` "), std::string::npos);
+    EXPECT_EQ(errors.find("a GIF cannot show"), std::string::npos);
+  }
+}
+
+TEST(LoadScene, AGifWithoutARateOfItsOwnHasTheHighestUpToThatOfFrames) {
+  for (const auto& [frames, film] :
+       {std::pair{30, 25.}, {60, 50.}, {25, 25.}, {24, 20.}, {1000, 50.}, {12, 100. / 9}}) {
+    const Scene scene =
+        load_text(start + "output: {frames: {fps: " + std::to_string(frames) + "}, video: {file: x.gif}}\n");
+    EXPECT_EQ(scene.output.video->fps, film);
+    EXPECT_EQ(scene.output.frames->fps, frames);
+    EXPECT_EQ(load_text(scene.resolved).output.video->fps, film);
+  }
+}
+
+TEST(LoadScene, ASettingThatMakesAGifOfAFilmWithARateNamesTheOtherSetting) {
+  const std::string text = start + "output: {video: {fps: 30}}\n", file = "output.video.file=x.gif";
+  EXPECT_EQ(
+      errors_with(text, file),
+      "scene.yaml:3:23: error: a GIF cannot show 30 pictures a second\n"
+      "   3 | output: {video: {fps: 30}}\n"
+      "     |                       ^~\n"
+      "     = expected --set output.video.fps=25, or another 100/n: a GIF shows each picture for whole hundredths "
+      "of a second, at least 2\n");
+  LoadOptions options;
+  options.set = {file, "output.video.fps=25"};
+  EXPECT_EQ(errors_of(text, options), "");
 }
 
 TEST(LoadScene, DensityMakesTheMass) {
