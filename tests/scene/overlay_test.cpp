@@ -88,6 +88,19 @@ TEST(Caption, ThatBeginsWithABraceNeedsQuotes) {
             "     |          ^\n"
             "     = expected true, false or a text\n"
             "     = a text that begins with a brace needs quotes\n");
+  EXPECT_EQ(errors_of(balls + "caption: {time} s of {collisions}\n"),
+            "scene.yaml:9:17: error: text goes on after the closing bracket\n"
+            "   9 | caption: {time} s of {collisions}\n"
+            "     |                 ^\n"
+            "     = a text that begins with a bracket or a brace needs quotes\n");
+  EXPECT_EQ(errors_with(balls, "caption={time} s of {collisions}"),
+            "--set caption={time} s of {collisions}: error: text goes on after the closing bracket\n"
+            "     | caption={time} s of {collisions}\n"
+            "     |                ^\n"
+            "     = a text that begins with a bracket or a brace needs quotes\n");
+  LoadOptions options;
+  options.set = {"caption='{time} s of {collisions}'"};
+  EXPECT_EQ(load_text(balls, options).overlay.caption, "{time} s of {collisions}");
 }
 
 TEST(Caption, FollowsPathsToForcesGroupsAndFilms) {
