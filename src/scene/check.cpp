@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 
 #include "scene/check_values.h"
@@ -296,7 +297,16 @@ class Checker : ValueChecker {
         else if (!field.of.empty())
           choice(item, field, "an entry of " + name);
       }
+      if (field.type == Type::names) distinct(value, name);
     }
+  }
+
+  void distinct(const Node& names, const std::string& name) {
+    std::set<std::string_view> found;
+    for (const Node& item : names.items)
+      if (!item.bad && !found.insert(item.text).second)
+        diagnostics_.add(item.place, fmt::format("{} has {} twice", name, in_backticks(item.text)),
+                         "remove one of them");
   }
 
   void list(Node& value, const Field& field, const std::string& name, const std::string& required) {

@@ -136,6 +136,17 @@ TEST(Arrows, AreOfVelocityAndForce) {
   EXPECT_NE(errors_of(balls + "arrows: [forces]\n").find("did you mean `force`?"), std::string::npos);
 }
 
+TEST(Names, InAListAreDistinct) {
+  EXPECT_EQ(errors_of(balls + "arrows: [velocity, velocity]\n"),
+            "scene.yaml:9:20: error: `arrows` has `velocity` twice\n"
+            "   9 | arrows: [velocity, velocity]\n"
+            "     |                    ^~~~~~~~\n"
+            "     = remove one of them\n");
+  EXPECT_NE(errors_of(balls + "trails: {on: [red, blue, red]}\n").find("`on` has `red` twice\n"), std::string::npos);
+  EXPECT_NE(errors_of(balls + "forces: [{uniform: [1, 0, 0], on: [red, red]}]\n").find("`on` has `red` twice\n"),
+            std::string::npos);
+}
+
 TEST(Shutter, IsAPartOfTheInterval) {
   EXPECT_EQ(load_text(balls + "shutter: 0.5\n").overlay.shutter, 0.5);
   EXPECT_EQ(load_text(balls).overlay.shutter, 0);
