@@ -50,6 +50,8 @@ class CaptionDecoder {
       if (part.kind == CaptionPart::Kind::text) out += with_double_braces(part.text);
       if (part.kind == CaptionPart::Kind::unclosed)
         diagnostics_.add(place_in(node_, part.at, 1), "a brace is not closed", "expected {name}, or {{ for a brace");
+      if (part.kind == CaptionPart::Kind::unopened)
+        diagnostics_.add(place_in(node_, part.at, 1), "a brace is not opened", "expected {name}, or }} for a brace");
       if (part.kind == CaptionPart::Kind::name) out += value_of(part);
     }
     return out;
@@ -87,6 +89,10 @@ std::vector<CaptionPart> parts_of_caption(std::string_view caption) {
   for (std::size_t i = 0; i < caption.size(); ++i) {
     const char c = caption[i];
     const bool twice = i + 1 < caption.size() && caption[i + 1] == c;
+    if (c == '}' && !twice) {
+      parts.push_back({CaptionPart::Kind::unopened, "}", i});
+      continue;
+    }
     if (c != '{' || twice) {
       add(c, i);
       if ((c == '{' || c == '}') && twice) ++i;

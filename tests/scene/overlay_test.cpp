@@ -81,6 +81,16 @@ TEST(Caption, WithAnUnknownNameIsAnErrorAtItsPlace) {
   EXPECT_NE(error_of("{time").find("scene.yaml:9:11: error: a brace is not closed\n"), std::string::npos);
 }
 
+TEST(Caption, WithABraceThatNothingOpensIsAnError) {
+  EXPECT_EQ(error_of("t = time} s"),
+            "scene.yaml:9:19: error: a brace is not opened\n"
+            "   9 | caption: \"t = time} s\"\n"
+            "     |                   ^\n"
+            "     = expected {name}, or }} for a brace\n");
+  EXPECT_NE(error_of("{time}}").find("scene.yaml:9:17: error: a brace is not opened\n"), std::string::npos);
+  EXPECT_EQ(error_of("{time}}}"), "");
+}
+
 TEST(Caption, ThatBeginsWithABraceNeedsQuotes) {
   EXPECT_EQ(errors_of(balls + "caption: {title}\n"),
             "scene.yaml:9:10: error: `caption` is a map of keys\n"
