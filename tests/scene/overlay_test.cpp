@@ -139,6 +139,15 @@ TEST(Trails, HaveDefaultsAndNames) {
   EXPECT_NE(errors_of(balls + "trails: {on: [blu]}\n").find("did you mean `blue`?"), std::string::npos);
 }
 
+TEST(Trails, ThatWouldCoverThePictureAreRefused) {
+  EXPECT_EQ(errors_of(balls + "trails: {width: 1e9}\n"),
+            "scene.yaml:9:17: error: trails of 1e+09 m are more than 1000 times as wide as the largest radius, 0.1 m\n"
+            "   9 | trails: {width: 1e9}\n"
+            "     |                 ^~~\n"
+            "     = expected less: such a trail covers the picture\n");
+  EXPECT_EQ(errors_of(balls + "trails: {width: 100}\n"), "");
+}
+
 TEST(Arrows, AreOfVelocityAndForce) {
   const Scene both = load_text(balls + "arrows: [force, velocity]\n");
   EXPECT_TRUE(both.overlay.velocity_arrows && both.overlay.force_arrows);

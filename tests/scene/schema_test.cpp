@@ -103,6 +103,7 @@ const std::vector<Beyond>& beyond_schemas() {
       {"not later than the keyframe before", "two numbers against one another"},
       {"up is parallel to the normal", "two vectors against one another"},
       {"is not beyond near", "two numbers against one another"},
+      {"as wide as the largest radius", "a width against the sizes of bodies"},
       {"but the scene ends at", "two numbers against one another"},
       {"but `from` is", "two numbers against one another"},
       {"times the smallest size", "how far and how fast things are against how small they are"},
