@@ -60,12 +60,14 @@ class CaptionDecoder {
  private:
   std::string value_of(const CaptionPart& part) {
     if (is_run_name(part.text)) return fmt::format("{{{}}}", part.text);
-    const ValueAtPath found = value_at(root_, part.text);
+    const ValueAtPath found =
+        part.text.empty() ? ValueAtPath{"", "there is no name between the braces", ""} : value_at(root_, part.text);
     if (found.problem.empty()) return with_double_braces(found.text);
     const std::string near = nearest(part.text, parts_of(caption_names));
-    const std::string remedy = !near.empty()          ? fmt::format("did you mean {}?", in_backticks(near))
-                               : found.remedy.empty() ? ""
-                                                      : found.remedy;
+    std::string remedy = near.empty() ? found.remedy : fmt::format("did you mean {}?", in_backticks(near));
+    // The keys of the whole scene are too many to help.
+    const std::size_t list = remedy.starts_with("expected ") ? 0 : remedy.find("\nexpected ");
+    if (part.text.find('.') == std::string::npos && list != std::string::npos) remedy.erase(list);
     diagnostics_.add(place_in(node_, part.at, part.text.size() + 2), found.problem,
                      remedy + (remedy.empty() ? "" : "\n") +
                          "expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}");

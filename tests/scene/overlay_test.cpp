@@ -77,7 +77,18 @@ TEST(Caption, WithAnUnknownNameIsAnErrorAtItsPlace) {
   EXPECT_NE(error_of("{camera.fov}").find("this scene has no `camera`"), std::string::npos);
   EXPECT_NE(error_of("{balls.red.color}").find("`color` has no value in this scene"), std::string::npos);
   EXPECT_NE(error_of("{balls.red.mass.x}").find("`mass` has no part `x`"), std::string::npos);
-  EXPECT_NE(error_of("{}").find("unknown key `` in the scene"), std::string::npos);
+  EXPECT_EQ(error_of("{foo}"),
+            "scene.yaml:9:11: error: unknown key `foo` in the scene\n"
+            "   9 | caption: \"{foo}\"\n"
+            "     |           ^~~~~\n"
+            "     = expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}\n");
+  EXPECT_NE(error_of("{fps}").find("     = `fps` is a key of `frames`, `video` or `gltf`\n     = expected {title}"),
+            std::string::npos);
+  EXPECT_EQ(error_of("{}"),
+            "scene.yaml:9:11: error: there is no name between the braces\n"
+            "   9 | caption: \"{}\"\n"
+            "     |           ^~\n"
+            "     = expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}\n");
   EXPECT_NE(error_of("{time").find("scene.yaml:9:11: error: a brace is not closed\n"), std::string::npos);
 }
 
