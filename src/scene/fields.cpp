@@ -222,9 +222,9 @@ constexpr Field keyframe_fields[] = {
 };
 
 constexpr Field coloring_fields[] = {
-    {.key = "by", .type = Type::choice, .of = quantity_names, .needed = true, .doc = "The quantity. speed in m/s; kinetic: the kinetic energy in J; collisions: their number so far; mass in kg; radius in m; group: a colour for each ball, body or group.", .example = "speed", .title = "Quantity", .member = fills<Coloring, &Coloring::by>},
-    {.key = "min", .type = Type::number, .doc = "The quantity at the start of the map; smaller values have the same colour. Default: 0; of mass and radius the least.", .example = "0", .title = "Start of the scale", .member = fills<Coloring, &Coloring::min>},
-    {.key = "max", .type = Type::number, .doc = "The quantity at the end of the map; greater values have the same colour. Default of speed and kinetic: what a body has at time 0 or reaches by falling from there, rounded up; of collisions 10; of mass and radius the greatest.", .example = "5", .title = "End of the scale", .member = fills<Coloring, &Coloring::max>},
+    {.key = "by", .type = Type::choice, .of = quantity_names, .needed = true, .doc = "The quantity. speed in m/s; kinetic: the kinetic energy in J; collisions: their number so far; mass in kg; radius in m, of a box or cylinder that of the ball around it; group: a colour for each ball, body or group.", .example = "speed", .title = "Quantity", .member = fills<Coloring, &Coloring::by>},
+    {.key = "min", .type = Type::number, .doc = "The quantity at the start of the map; smaller values have the same colour. Default: 0; of mass and radius the least, rounded down to two digits.", .example = "0", .title = "Start of the scale", .member = fills<Coloring, &Coloring::min>},
+    {.key = "max", .type = Type::number, .doc = "The quantity at the end of the map; greater values have the same colour. Default of speed and kinetic: what a body has at time 0 or reaches by falling from there, rounded up; of collisions 10; of mass and radius the greatest, rounded up to two digits.", .example = "5", .title = "End of the scale", .member = fills<Coloring, &Coloring::max>},
     {.key = "map", .type = Type::choice, .of = color_map_names, .doc = "Colours from the start to the end of the scale.", .example = "cividis", .title = "Colour map", .member = fills<Coloring, &Coloring::map>},
 };
 

@@ -291,6 +291,21 @@ TEST(ColourScale, OfMassAndRadiusIsThatOfTheBodies) {
   EXPECT_EQ(equal.min, 0);
   EXPECT_EQ(equal.max, 2);
   EXPECT_EQ(scale("by: collisions", two).max, 10);
+  EXPECT_EQ(scale("by: mass", "balls: {a: {position: [0, 0, 0], mass: 7}, b: {position: [1, 0, 0], mass: 45}}\n").max,
+            45);
+}
+
+TEST(ColourScale, OfMassAndRadiusIsRoundedToTwoDigits) {
+  // The ball around the box has the radius sqrt(0.2^2 + 0.3^2 + 0.2^2) / 2 = 0.206155.
+  const ColorScale radius = scale("by: radius",
+                                  "balls: {a: {position: [0, 0, 0]}}\nbodies: {b: {mass: 1, box: [0.2, 0.3, 0.2], "
+                                  "position: [1, 0, 0], color: {by: radius}}}\n");
+  EXPECT_EQ(radius.min, 0.1);
+  EXPECT_EQ(radius.max, 0.21);
+  const ColorScale mass =
+      scale("by: mass", "balls: {a: {position: [0, 0, 0], mass: 0.00123}, b: {position: [1, 0, 0], mass: 98765}}\n");
+  EXPECT_EQ(mass.min, 0.0012);
+  EXPECT_EQ(mass.max, 99000);
 }
 
 TEST(ColourScale, IsRoundedUpToFewDigits) {
