@@ -88,7 +88,8 @@ std::vector<ArrowScale> arrow_scales(const Scene& scene) {
     for (Entity i = 0; i < scene.world.body_count(); ++i) greatest = std::max(greatest, expected_speed(scene, i));
     scales.push_back({ArrowScale::Kind::velocity, rounded_up(greatest), longest * size, size});
   }
-  if (scene.overlay.force_arrows)
+  // Without gravity and forces no arrow is ever drawn.
+  if (scene.overlay.force_arrows && !(scene.world.gravity.isZero(0) && scene.world.forces.empty()))
     scales.push_back({ArrowScale::Kind::force, rounded_up(greatest_force(scene)), longest * size, size});
   return scales;
 }

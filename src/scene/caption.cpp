@@ -50,6 +50,8 @@ class CaptionDecoder {
       if (part.kind == CaptionPart::Kind::text) out += with_double_braces(part.text);
       if (part.kind == CaptionPart::Kind::unclosed)
         diagnostics_.add(place_in(node_, part.at, 1), "a brace is not closed", "expected {name}, or {{ for a brace");
+      if (part.kind == CaptionPart::Kind::unopened)
+        diagnostics_.add(place_in(node_, part.at, 1), "a brace is not opened", "expected {name}, or }} for a brace");
       if (part.kind == CaptionPart::Kind::name) out += value_of(part);
     }
     return out;
@@ -58,12 +60,14 @@ class CaptionDecoder {
  private:
   std::string value_of(const CaptionPart& part) {
     if (is_run_name(part.text)) return fmt::format("{{{}}}", part.text);
-    const ValueAtPath found = value_at(root_, part.text);
+    const ValueAtPath found =
+        part.text.empty() ? ValueAtPath{"", "there is no name between the braces", ""} : value_at(root_, part.text);
     if (found.problem.empty()) return with_double_braces(found.text);
     const std::string near = nearest(part.text, parts_of(caption_names));
-    const std::string remedy = !near.empty()          ? fmt::format("did you mean {}?", in_backticks(near))
-                               : found.remedy.empty() ? ""
-                                                      : found.remedy;
+    std::string remedy = near.empty() ? found.remedy : fmt::format("did you mean {}?", in_backticks(near));
+    // The keys of the whole scene are too many to help.
+    const std::size_t list = remedy.starts_with("expected ") ? 0 : remedy.find("\nexpected ");
+    if (part.text.find('.') == std::string::npos && list != std::string::npos) remedy.erase(list);
     diagnostics_.add(place_in(node_, part.at, part.text.size() + 2), found.problem,
                      remedy + (remedy.empty() ? "" : "\n") +
                          "expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}");
@@ -87,6 +91,10 @@ std::vector<CaptionPart> parts_of_caption(std::string_view caption) {
   for (std::size_t i = 0; i < caption.size(); ++i) {
     const char c = caption[i];
     const bool twice = i + 1 < caption.size() && caption[i + 1] == c;
+    if (c == '}' && !twice) {
+      parts.push_back({CaptionPart::Kind::unopened, "}", i});
+      continue;
+    }
     if (c != '{' || twice) {
       add(c, i);
       if ((c == '{' || c == '}') && twice) ++i;

@@ -18,7 +18,8 @@ inline constexpr std::string_view caption_names = "title|time|run|collisions";
 inline constexpr std::string_view usual_caption = "{title}   {time} s";
 
 struct CaptionPart {
-  enum class Kind { text, name, unclosed };  // unclosed: a brace without its end, and what follows
+  // unclosed: a brace without its end, and what follows; unopened: a brace without its start
+  enum class Kind { text, name, unclosed, unopened };
   Kind kind = Kind::text;
   std::string text;    // without braces; of a text, with its double braces made single
   std::size_t at = 0;  // bytes from the start of the template to the part

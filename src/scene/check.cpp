@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 
 #include "scene/check_values.h"
@@ -71,14 +72,18 @@ class Checker : ValueChecker {
   void needed_beside(const View& view, Node& node, const std::string& what) {
     for (const Field& field : view.kind().fields) {
       if (field.with.empty() || view.given(field.key) == nullptr || view.given(field.with) != nullptr) continue;
-      const std::vector<std::string_view> sparing = parts_of(field.spared_by);
+      // A map without a needed key has an error about that already.
+      const Field& with = *find_field(view.kind(), field.with);
+      const std::vector<std::string_view> sparing = parts_of(field.spared_by), others = substitutes(with);
+      if (with.needed &&
+          std::none_of(others.begin(), others.end(), [&](auto key) { return view.given(key) != nullptr; }))
+        continue;
       if (std::any_of(sparing.begin(), sparing.end(), [&](auto key) { return view.given(key) != nullptr; })) continue;
       const Key* key = node.find_key(field.key);
       node.bad = true;
-      diagnostics_.add(
-          key == nullptr ? view.where() : key->place,
-          fmt::format("{} has {} but no {}", what, in_backticks(field.key), in_backticks(field.with)),
-          fmt::format("expected {}: {}", in_backticks(field.with), expected(*find_field(view.kind(), field.with))));
+      diagnostics_.add(key == nullptr ? view.where() : key->place,
+                       fmt::format("{} has {} but no {}", what, in_backticks(field.key), in_backticks(field.with)),
+                       fmt::format("expected {}: {}", in_backticks(field.with), expected(with)));
     }
   }
 
@@ -232,8 +237,7 @@ class Checker : ValueChecker {
         if (!value.is(Node::Kind::scalar)) wrong_type(value, name, required);
         return;
       case Type::color_or_none:
-        if (!(value.is(Node::Kind::scalar) && value.text == "none")) color(value, name);
-        return;
+        return color(value, name, ColorWords::colors_and_none);
       case Type::color_or_part:
         return value.is(Node::Kind::map) ? part(value, field, key, partial) : color(value, name);
       case Type::two_names:
@@ -293,7 +297,16 @@ class Checker : ValueChecker {
         else if (!field.of.empty())
           choice(item, field, "an entry of " + name);
       }
+      if (field.type == Type::names) distinct(value, name);
     }
+  }
+
+  void distinct(const Node& names, const std::string& name) {
+    std::set<std::string_view> found;
+    for (const Node& item : names.items)
+      if (!item.bad && !found.insert(item.text).second)
+        diagnostics_.add(item.place, fmt::format("{} has {} twice", name, in_backticks(item.text)),
+                         "remove one of them");
   }
 
   void list(Node& value, const Field& field, const std::string& name, const std::string& required) {

@@ -13,6 +13,16 @@ ExpectedNumber expected_number(const Field& field) {
   return {field.key, field.unit, "expected " + expected(field)};
 }
 
+std::string wrong_count(const std::string& name, std::size_t count) {
+  return fmt::format("{} has {} number{}", name, count, count == 1 ? "" : "s");
+}
+
+bool means_none(std::string_view text) {
+  for (const char* word : {"None", "NONE", "transparent", "Transparent", "clear", "no"})
+    if (text == word) return true;
+  return false;
+}
+
 }  // namespace
 
 void ValueChecker::refuse(Node& node, std::string message, std::string remedy) {
@@ -79,7 +89,7 @@ bool ValueChecker::numbers(Node& value, const Field& field, const std::string& n
     return false;
   }
   if (value.items.size() != count) {
-    refuse(value, fmt::format("{} has {} number{}", name, value.items.size(), value.items.size() == 1 ? "" : "s"),
+    refuse(value, wrong_count(name, value.items.size()),
            "expected " + expected(field) +
                (value.items.size() > count ? "\nthe decimal point is a point: 1.5, not 1,5" : ""));
     return false;
@@ -115,19 +125,27 @@ void ValueChecker::choice(Node& value, const Field& field, const std::string& na
          near.empty() ? required : fmt::format("did you mean {}?\n{}", in_backticks(near), required));
 }
 
-void ValueChecker::color(Node& value, const std::string& name) {
+void ValueChecker::color(Node& value, const std::string& name, ColorWords words) {
   static constexpr Field component{.key = "color", .range = {0, 1}};
-  const std::string required = "expected a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1";
-  if (value.is(Node::Kind::sequence)) {
+  static constexpr Field plain{.key = "color", .type = Type::color},
+      or_none{.key = "color", .type = Type::color_or_none};
+  const bool may_be_none = words == ColorWords::colors_and_none;
+  const std::string required = "expected " + expected(may_be_none ? or_none : plain);
+  if (value.is(Node::Kind::sequence) && value.items.size() == 3) {
     numbers(value, component, name, 3);
+  } else if (value.is(Node::Kind::sequence)) {
+    refuse(value, wrong_count(name, value.items.size()), required);
   } else if (!value.is(Node::Kind::scalar)) {
     // An unquoted # begins a comment, so the value is lost.
     wrong_type(value, name,
                value.is(Node::Kind::null) ? required + "\na colour that begins with # needs quotes" : required);
-  } else if (!parse_color(value.text)) {
-    const std::string near = nearest(value.text, color_names());
+  } else if (!parse_color(value.text) && !(may_be_none && value.text == "none")) {
+    std::vector<std::string_view> all = color_names();
+    if (may_be_none) all.insert(all.begin(), "none");
+    const std::string near = may_be_none && means_none(value.text) ? "none" : nearest(value.text, all);
+    const bool is_flag = value.text == "true" || value.text == "false";
     refuse(value, fmt::format("{} is not a colour", in_backticks(value.text)),
-           near.empty() ? required : fmt::format("did you mean {}?", in_backticks(near)));
+           near.empty() || is_flag ? required : fmt::format("did you mean {}?", in_backticks(near)));
   }
 }
 

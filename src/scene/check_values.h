@@ -1,5 +1,6 @@
 #pragma once
 // Checks one value against its row of the table of fields.
+#include <cstdint>
 #include <string>
 
 #include "scene/fields.h"
@@ -7,6 +8,9 @@
 #include "yaml/document.h"
 
 namespace carom {
+
+/// The words that a value may have in place of numbers.
+enum class ColorWords : std::uint8_t { colors, colors_and_none };
 
 /// Each check that fails marks the value bad and adds an error. A value that is already bad adds no further error.
 /// `name`: the value's name in messages.
@@ -23,7 +27,7 @@ class ValueChecker {
   bool whole(Node& value, const Field& field, const std::string& name);
   bool numbers(Node& value, const Field& field, const std::string& name, std::size_t count);
   void choice(Node& value, const Field& field, const std::string& name);
-  void color(Node& value, const std::string& name);
+  void color(Node& value, const std::string& name, ColorWords words = ColorWords::colors);
 
   Diagnostics& diagnostics_;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "physics/world.h"
@@ -35,6 +36,18 @@ double way_to_lowest(const World& world, const Vec3& x, const Vec3& down) {
   for (const Obstacle& obstacle : world.obstacles)
     way = std::max(way, down.dot(obstacle.center - x) + obstacle.volume.support(down));
   return way;
+}
+
+enum class Rounding : std::uint8_t { down, up };
+
+/// `value` > 0, rounded to two digits: 0.206155 up to 0.21. Two digits keep most masses and radii of authors.
+double to_two_digits(double value, Rounding rounding) {
+  const int exponent = static_cast<int>(std::floor(std::log10(value))) - 1;
+  const double power = std::pow(10, std::abs(exponent));
+  const double units = exponent < 0 ? value * power : value / power;
+  // 0.3 / 0.01 is not 30.
+  const double whole = rounding == Rounding::up ? std::ceil(units * (1 - 1e-9)) : std::floor(units * (1 + 1e-9));
+  return exponent < 0 ? whole / power : whole * power;
 }
 
 /// Calls `use` with each body of this colouring.
@@ -75,7 +88,7 @@ ColorScale scale_from_scene(const Scene& scene, const Coloring& coloring) {
       return {0, 1};
   }
   if (!(greatest > 0)) return {0, 1};  // there are no bodies
-  return {least < greatest ? least : 0, greatest};
+  return {least < greatest ? to_two_digits(least, Rounding::down) : 0, to_two_digits(greatest, Rounding::up)};
 }
 
 }  // namespace

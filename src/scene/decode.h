@@ -83,9 +83,12 @@ void check_steps(const Node& root, const Scene& scene, const Budget& budget, Dia
 /// The whole scene must be decoded before.
 void check_engine(const Node& root, const Scene& scene, Diagnostics& diagnostics);
 
+/// What a name may stand for. The message about a name that does not exist lists these things alone.
+enum class Sought : std::uint8_t { bodies, anything };
 /// The numbers of a named thing: a body, group, member, fixed thing, the room or one of its sides.
-/// None: an error was reported, here or before.
-std::optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Diagnostics& diagnostics);
+/// A fixed thing is found even where bodies are sought. None: an error was reported, here or before.
+std::optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Sought sought,
+                                           Diagnostics& diagnostics);
 /// The bodies in a list of names, in order. An empty list: all bodies. None: no body at all, or an error was reported.
 /// `use`: what a fixed thing cannot have, such as "no force acts on it".
 std::optional<std::vector<Entity>> find_bodies(const Node* names, const Inventory& inventory, std::string_view use,

@@ -85,7 +85,7 @@ class CameraDecoder {
 
  private:
   void follow(const Node& name) {
-    const auto range = find_range(name, inventory_, diagnostics_);
+    const auto range = find_range(name, inventory_, Sought::bodies, diagnostics_);
     if (!range || !inventory_.fits) return;
     if (range->first >= inventory_.body_count || range->count == 0) {
       diagnostics_.add(name.place,
@@ -96,11 +96,6 @@ class CameraDecoder {
     }
     const bool has_eye = view_.given("eye") != nullptr;
     plan_.follow = {range->first, range->count, has_eye};
-    for (const char* key : {"near", "far"}) {
-      if (has_eye || view_.given(key) == nullptr) continue;
-      diagnostics_.add(view_.place(key), fmt::format("`{}` without an `eye`", key),
-                       "expected `eye`: without it, near and far follow from the bodies' size");
-    }
     // Positions are right only in a scene without errors.
     if (!diagnostics_.empty()) return;
     if (view_.given("target") == nullptr)

@@ -16,8 +16,8 @@ namespace {
 void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
   const auto [between, value] = filled<PairKeys>(View(&node, kind_named("pair"), node.place));
   if (between == nullptr || between->bad || between->items.size() != 2) return;
-  const auto a = find_range(between->items[0], inventory, diagnostics);
-  const auto b = find_range(between->items[1], inventory, diagnostics);
+  const auto a = find_range(between->items[0], inventory, Sought::anything, diagnostics);
+  const auto b = find_range(between->items[1], inventory, Sought::anything, diagnostics);
   if (!a || !b || !value) return;
   if (a->first >= inventory.body_count && b->first >= inventory.body_count && a->count > 0 && b->count > 0) {
     diagnostics.add(between->place,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "physics/world.h"
 #include "scene/caption.h"
 #include "scene/color_scale.h"
 #include "scene/decode.h"
@@ -14,9 +15,25 @@
 namespace carom {
 namespace {
 
-std::optional<Trails> decode_trails(const View& whole, const Inventory& inventory, Diagnostics& diagnostics) {
+/// A wider trail would cover the picture, and floats would not resolve its edge.
+constexpr double widest_trail = 1000;  // largest radii
+
+void check_width(const View& part, std::optional<double> width, const World& world, Diagnostics& diagnostics) {
+  if (!width || world.radius.empty()) return;
+  const double largest = *std::max_element(world.radius.begin(), world.radius.end());
+  if (*width <= widest_trail * largest) return;
+  diagnostics.add(part.place("width"),
+                  fmt::format("trails of {} m are more than {:g} times as wide as the largest radius, {} m",
+                              shortest(*width), widest_trail, shortest(largest)),
+                  "expected less: such a trail covers the picture");
+}
+
+std::optional<Trails> decode_trails(const View& whole, const Inventory& inventory, const World& world,
+                                    Diagnostics& diagnostics) {
   if (!whole.wants("trails")) return std::nullopt;
-  const auto keys = filled<TrailKeys>(whole.part("trails", "trails"));
+  const View part = whole.part("trails", "trails");
+  const auto keys = filled<TrailKeys>(part);
+  check_width(part, keys.width, world, diagnostics);
   std::optional<std::vector<Entity>> on = find_bodies(keys.on, inventory, "it has no trail", diagnostics);
   if (!on) return std::nullopt;
   return Trails{keys.seconds, keys.width, std::move(*on)};
@@ -60,7 +77,7 @@ void decode_overlay(const Node& root, const Inventory& inventory, Scene& scene, 
   const View whole(&root, kind_named("scene"), Place{});
   Overlay& overlay = scene.overlay;
   overlay.caption = decode_caption(root, diagnostics);
-  overlay.trails = decode_trails(whole, inventory, diagnostics);
+  overlay.trails = decode_trails(whole, inventory, scene.world, diagnostics);
   overlay.flash = whole.flag("flash").value_or(false);
   overlay.velocity_arrows = lists(whole.find("arrows"), "velocity");
   overlay.force_arrows = lists(whole.find("arrows"), "force");

@@ -12,6 +12,7 @@
 #include "scene/film_format.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
+#include "scene/sheet_layout.h"
 #include "yaml/values.h"
 
 namespace carom {
@@ -87,7 +88,7 @@ class Requests {
     if (out.video && !chooses_outputs_ && scene_.transparent && film_format(out.video->file) == FilmFormat::mp4)
       diagnostics_.add(view.place("video"), "an MP4 has no transparency, and `background` is `none`",
                        "expected a `file` ending in .gif or .webp, `frames` or `sheet`, or a colour for `background`");
-    if (out.sheet) check_window(view.part("sheet", "sheet"), out.sheet->from, out.sheet->until);
+    if (out.sheet) check_sheet(view, *out.sheet);
     flights(view);
   }
 
@@ -120,13 +121,32 @@ class Requests {
     check_window(part, video.from, video.until);
   }
 
+  void check_sheet(const View& output, SheetOutput& sheet) {
+    const View part = output.part("sheet", "sheet");
+    check_window(part, sheet.from, sheet.until);
+    if (chooses_outputs_ || !diagnostics_.empty()) return;
+    const Output& out = scene_.output;
+    const Size shape = out.frames ? out.frames->size : out.video ? out.video->size : Size{};
+    if (const std::optional<SheetProblem> problem = problem_of(sheet, shape))
+      diagnostics_.add(sheet.size ? part.place("size") : output.place("sheet"), problem->message, problem->remedy);
+  }
+
+  /// A rate of the film's own stays as it is. That of frames, or the default, becomes one that a GIF keeps.
   void check_gif(const View& part, VideoOutput& video) {
-    if (part.given("fps") == nullptr) video.fps = gif_fps;
-    if (keeps_rate(FilmFormat::gif, video.fps)) return;
+    const Node* own = part.own() == nullptr ? nullptr : part.own()->find("fps");
+    if (own == nullptr) {
+      video.fps = gif_rate(video.fps);
+      return;
+    }
+    if (own->bad || keeps_rate(FilmFormat::gif, video.fps)) return;
+    // In the scene of a run every film has a rate. Then a setting must replace it.
+    const bool by_setting = place_of(*part.given("file")).source > own->place.source;
+    const std::string rates = by_setting ? fmt::format("--set output.video.fps={}, or", shortest(gif_rate(video.fps)))
+                                         : "50, 25, 20, 12.5, 10 or";
     diagnostics_.add(
-        part.place("fps"), fmt::format("a GIF cannot show {} pictures a second", shortest(video.fps)),
-        "expected 50, 25, 20, 12.5, 10 or another 100/n: a GIF shows each picture for whole hundredths of a "
-        "second, at least 2");
+        own->place, fmt::format("a GIF cannot show {} pictures a second", shortest(video.fps)),
+        fmt::format("expected {} another 100/n: a GIF shows each picture for whole hundredths of a second, at least 2",
+                    rates));
   }
 
   void check_window(const View& part, double from, std::optional<double>& until) {
@@ -193,8 +213,11 @@ class Requests {
     if (out.sheet) add(static_cast<double>(out.sheet->columns) * out.sheet->rows, "sheet");
     if (total > static_cast<double>(budget_.frames)) {
       const Key* key = view.own() == nullptr ? nullptr : view.own()->find_key(largest);
-      refuse(key == nullptr ? view.where() : view.part(largest, largest).place("fps"), total, "pictures",
-             budget_.frames, "a lower `fps` or a shorter duration");
+      const bool slow = largest == "video" && out.video->speed < 1;
+      const bool too_slow = slow && most * out.video->speed <= static_cast<double>(budget_.frames);
+      refuse(key == nullptr ? view.where() : view.part(largest, largest).place(too_slow ? "speed" : "fps"), total,
+             "pictures", budget_.frames,
+             slow ? "a higher `speed`, a lower `fps` or a shorter duration" : "a lower `fps` or a shorter duration");
     }
   }
 

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <iterator>
 
 #include "scene/fields.h"
 
@@ -13,6 +15,12 @@ namespace {
 std::string capital(std::string text) {
   if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
   return text;
+}
+
+/// Without an exponent: 0.000001.
+std::string plain(double value) {
+  char buffer[400];
+  return {buffer, std::to_chars(buffer, std::end(buffer), value, std::chars_format::fixed).ptr};
 }
 
 }  // namespace
@@ -52,14 +60,16 @@ std::string limit_text(const Range& limits, std::string_view unit) {
 }
 
 std::string describe(const Range& range) {
-  if (range.min == range.max) return fmt::format("{}", range.min);
+  if (range.min == range.max) return plain(range.min);
   const bool low = range.min > Range{}.min, high = range.max < Range{}.max;
   if (low && high) {
-    return range.above_min || range.below_max ? fmt::format("between {} and {}", range.min, range.max)
-                                              : fmt::format("from {} to {}", range.min, range.max);
+    return range.above_min || range.below_max ? fmt::format("between {} and {}", plain(range.min), plain(range.max))
+                                              : fmt::format("from {} to {}", plain(range.min), plain(range.max));
   }
-  if (low) return range.above_min ? fmt::format("above {}", range.min) : fmt::format("of at least {}", range.min);
-  if (high) return fmt::format("of at most {}", range.max);
+  if (low)
+    return range.above_min ? fmt::format("above {}", plain(range.min))
+                           : fmt::format("of at least {}", plain(range.min));
+  if (high) return fmt::format("of at most {}", plain(range.max));
   return {};
 }
 

@@ -8,7 +8,8 @@
 
 namespace carom {
 
-std::optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Diagnostics& diagnostics) {
+std::optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Sought sought,
+                                           Diagnostics& diagnostics) {
   if (name.bad || !name.is(Node::Kind::scalar)) return std::nullopt;
   if (const auto it = inventory.names.find(name.text); it != inventory.names.end()) return it->second;
   // A group's member such as gas.3.
@@ -29,7 +30,9 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
   }
   std::vector<std::string> all;
   for (const BodyEntry& body : inventory.bodies) all.push_back(body.key->text);
+  const bool bodies_alone = sought == Sought::bodies;
   for (const FixedEntry& fixed : inventory.fixed) {
+    if (bodies_alone) break;
     all.push_back(fixed.key->text);
     for (const char* side : {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"}) {
       if (fixed.count == 6) all.push_back(fixed.key->text + "." + side);
@@ -37,8 +40,9 @@ std::optional<Inventory::Range> find_range(const Node& name, const Inventory& in
   }
   const std::string near = nearest(name.text, std::vector<std::string_view>(all.begin(), all.end()));
   diagnostics.add(name.place, fmt::format("nothing is named {}", in_backticks(name.text)),
-                  near.empty() ? "expected a ball, body, group, member (gas.3) or fixed thing, such as room.y_min"
-                               : fmt::format("did you mean {}?", in_backticks(near)));
+                  !near.empty()  ? fmt::format("did you mean {}?", in_backticks(near))
+                  : bodies_alone ? "expected a ball, body, group or member (gas.3)"
+                                 : "expected a ball, body, group, member (gas.3) or fixed thing, such as room.y_min");
   return std::nullopt;
 }
 
@@ -49,7 +53,7 @@ std::optional<std::vector<Entity>> find_bodies(const Node* on, const Inventory& 
   std::vector<Entity> bodies;
   bool good = true;
   for (const Node& item : on->items) {
-    const auto range = find_range(item, inventory, diagnostics);
+    const auto range = find_range(item, inventory, Sought::bodies, diagnostics);
     good = good && range;
     if (!range) continue;
     if (range->first >= inventory.body_count && range->count > 0) {

@@ -45,6 +45,7 @@ constexpr Field gltf_fields[] = {
 };
 
 constexpr Field fps{.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .doc = "Pictures a second.", .example = "25", .title = "Pictures a second"};
+constexpr Field film_fps{.key = "fps", .type = Type::number, .unit = "1/s", .range = above_0, .doc = "Pictures a second. A GIF can have 50, 25, 20 or another 100/n. Left out, its rate is the highest of these up to that of frames.", .example = "25", .title = "Pictures a second"};
 constexpr Field size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = image_side, .of = size_names, .doc = "Width and height of a picture.", .example = "[640, 360]", .title = "Width and height"};
 // A film stores colours for blocks of 2 x 2 pixels.
 constexpr Field film_size{.key = "size", .type = Type::pixels, .unit = "pixels", .range = {16, 16384, false, false, true}, .of = size_names, .doc = "Width and height of a picture, both even.", .example = "[640, 360]", .title = "Width and height"};
@@ -66,7 +67,7 @@ constexpr Field frames_fields[] = {
 constexpr Field video_fields[] = {
     {.key = "file", .type = Type::text, .doc = "Name of the file, ending in .mp4 (H.264), .gif or .webp.", .example = "break.mp4",
      .pattern = R"(^(?=.{5,200}$)(?![-.])[^/\\\u0000-\u001f]+\.(mp4|gif|webp)$)", .member = fills<VideoOutput, &VideoOutput::file>},
-    with(fps, fills<VideoOutput, &VideoOutput::fps>),
+    with(film_fps, fills<VideoOutput, &VideoOutput::fps>),
     with(film_size, fills<VideoOutput, &VideoOutput::size>),
     {.key = "crf", .type = Type::whole, .range = {0, 51}, .doc = "0: largest and best, 51: smallest and worst. Not of a GIF; quality 100 to 0 of a WebP.", .example = "23", .title = "Constant rate factor", .member = fills<VideoOutput, &VideoOutput::crf>},
     with(samples, fills<VideoOutput, &VideoOutput::samples>),
@@ -231,7 +232,9 @@ constexpr OutputKind all_kinds[] = {
     {.name = "flights",
      .doc =
          "flights.bin: the paths of the bodies, from which carom render draws other pictures. Only for paths that are "
-         "parabolas. Default: true with pictures.",
+         "parabolas. Default: true with pictures. With --only they are written only if it names them, as with `only` "
+         "of a "
+         "sweep.",
      .example = "true",
      .member = flag<&Output::flights, fills_if_given<Output, &Output::flights>>,
      .files = "flights.bin"},

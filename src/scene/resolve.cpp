@@ -207,8 +207,9 @@ class Resolver {
   std::string output_text(const View& view, const OutputKind& kind) const {
     const View part = view.part(kind.name, kind.name);
     Overrides overrides;
-    // The rate of a GIF is chosen by decoding.
-    if (kind.name == "video" && part.given("fps") == nullptr) overrides["fps"] = shortest(scene_.output.video->fps);
+    // Decoding may give a GIF another rate than that of frames.
+    if (kind.name == "video" && part.number("fps") != scene_.output.video->fps)
+      overrides["fps"] = shortest(scene_.output.video->fps);
     return flow(part, overrides);
   }
 

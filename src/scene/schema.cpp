@@ -156,8 +156,10 @@ Json value_schema(const Field& field) {
     case Type::two_names:
       return array_schema(text_schema(field), 2);
     case Type::names:
-      return {
-          {"type", "array"}, {"items", field.of.empty() ? text_schema(field) : choice_schema(field)}, {"minItems", 1}};
+      return {{"type", "array"},
+              {"items", field.of.empty() ? text_schema(field) : choice_schema(field)},
+              {"minItems", 1},
+              {"uniqueItems", true}};
     case Type::part:
       return {{"allOf", Json::array({reference(field.of)})}};
     case Type::part_or_flag:

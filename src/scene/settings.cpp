@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "scene/check.h"
 #include "scene/fields.h"
 #include "scene/view.h"
@@ -64,7 +67,15 @@ class Walk {
   }
 
  private:
+  /// Takes back what was changed on the way, so that the checks do not complain about it.
   bool refuse(const Step& step, std::string message, std::string remedy) {
+    if (changed_ != nullptr) {
+      erase(*changed_, new_key_);
+      for (auto& [key, value] : replaced_) {
+        changed_->keys.push_back(std::move(key));
+        changed_->items.push_back(std::move(value));
+      }
+    }
     diagnostics_.add(step.place, std::move(message), std::move(remedy));
     return false;
   }
@@ -87,9 +98,11 @@ class Walk {
                                 kind_->name == "scene" ? "the scene" : in_backticks(kind_->name)),
                     suggest_key(step.text, *kind_));
     }
-    for (const std::string_view rival : rivals(*field)) erase(*node_, rival);
+    for (const std::string_view rival : rivals(*field)) replace(rival, *field);
     Node* child = node_->find(field->key);
     if (child == nullptr) {
+      if (changed_ == nullptr) changed_ = node_;
+      if (changed_ == node_) new_key_ = step.text;
       node_->keys.push_back({step.text, step.place});
       node_->items.push_back(last ? Node{} : fallback(*field));
       child = &node_->items.back();
@@ -103,6 +116,29 @@ class Walk {
     field_ = field;
     kind_ = holds_map(*field) ? &kind_named(field->of) : nullptr;
     return true;
+  }
+
+  /// Erases a key that `by` excludes, and those that stood beside it and have no place beside `by`.
+  void replace(std::string_view key, const Field& by) {
+    if (node_->find_key(key) == nullptr) return;
+    take_out(key);
+    for (const Field& other : kind_->fields) {
+      if (other.with.empty()) continue;
+      std::vector<std::string_view> companions = parts_of(other.spared_by);
+      companions.push_back(other.with);
+      const bool stood = std::find(companions.begin(), companions.end(), key) != companions.end();
+      const bool stays = std::any_of(companions.begin(), companions.end(), [&](std::string_view companion) {
+        return companion == by.key || node_->find_key(companion) != nullptr;
+      });
+      if (stood && !stays) take_out(other.key);
+    }
+  }
+
+  void take_out(std::string_view key) {
+    if (node_->find_key(key) == nullptr) return;
+    if (changed_ == nullptr) changed_ = node_;
+    if (changed_ == node_) replaced_.emplace_back(*node_->find_key(key), *node_->find(key));
+    erase(*node_, key);
   }
 
   /// The initial value of a missing value that is set in part: that of the defaults, of the table, or nothing.
@@ -122,8 +158,11 @@ class Walk {
       case Type::list: {
         const std::optional<std::uint64_t> i = parse_index(step.text);
         if (!i || *i >= node_->items.size() || !node_->is(Node::Kind::sequence)) {
+          const std::size_t count = node_->items.size();
           return refuse(step, fmt::format("{} has no entry {}", in_backticks(before_), in_backticks(step.text)),
-                        fmt::format("it has {} entries, the first is 0", node_->items.size()));
+                        count == 0   ? fmt::format("it has none: set all of {}", in_backticks(before_))
+                        : count == 1 ? "its only entry is 0"
+                                     : fmt::format("its entries are 0 to {}", count - 1));
         }
         node_ = &node_->items[static_cast<std::size_t>(*i)];
         kind_ = &kind_named(field_->of);
@@ -180,6 +219,10 @@ class Walk {
   const Field* field_ = nullptr;
   bool done_ = false;  // node_ has no parts
   std::string before_ = "scene";
+  /// The first map that a step changed, the key that it got, and those that this key replaced. Null: no step did.
+  Node* changed_ = nullptr;
+  std::string new_key_;
+  std::vector<std::pair<Key, Node>> replaced_;
   Diagnostics& diagnostics_;
 };
 

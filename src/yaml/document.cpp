@@ -38,7 +38,11 @@ class DocumentBuilder : public YAML::EventHandler {
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents == 1) return;
-    if (!root.is(Node::Kind::map)) {
+    // A setting begins with its value. What follows a bracket shows that a text is meant.
+    const std::size_t first = text_.find_first_not_of(' ', base_);
+    if (source_ > 0 && first != std::string_view::npos && (text_[first] == '{' || text_[first] == '[')) {
+      refuse(at(mark), std::string(text_after_bracket), std::string(quotes_for_bracket));
+    } else if (!root.is(Node::Kind::map)) {
       refuse({source_, 0, 1}, "this is not a scene", "expected a map of keys, such as `scene: 1`");
     } else if (at(mark).offset == base_) {
       refuse(at(mark), "this is not a scene", "expected a map of keys, such as `scene: 1`");

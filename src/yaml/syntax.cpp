@@ -115,7 +115,8 @@ class ParseFailure {
 
   void explain() {
     const bool known = explain_by(causes_in_values) || explain_character() || explain_unpaired() ||
-                       explain_by(causes_in_brackets) || explain_map_value() || explain_by(causes_in_lines);
+                       explain_by(causes_in_brackets) || explain_map_value() || explain_text_after_bracket() ||
+                       explain_by(causes_in_lines);
     if (!known) add(detected_, fmt::format("this is not YAML: {}", complaint_), "expected `key: value`");
   }
 
@@ -166,6 +167,15 @@ class ParseFailure {
       add(unpaired.open, fmt::format("this {} is never closed", open),
           fmt::format("expected {} before the next key", in_backticks(closing)));
     }
+    return true;
+  }
+
+  bool explain_text_after_bracket() {
+    if (!complaint_has("end of map not found")) return false;
+    const std::string_view before = text_.substr(0, detected_);
+    const std::size_t last = before.find_last_not_of(' ');
+    if (last == std::string_view::npos || (before[last] != '}' && before[last] != ']')) return false;
+    add(detected_, std::string(text_after_bracket), std::string(quotes_for_bracket));
     return true;
   }
 

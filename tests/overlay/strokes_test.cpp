@@ -4,6 +4,7 @@
 
 #include "numerics/compensated.h"
 #include "overlay/drawing_maker.h"
+#include "overlay/legend.h"
 #include "overlay/moment.h"
 #include "overlay/springs.h"
 #include "overlay/trails.h"
@@ -281,6 +282,15 @@ TEST(Arrows, OfForceAreGravityAndForcesTogether) {
   ASSERT_EQ(strokes.size(), 2u);
   // 2 kg: (15, -20) N, 25 N in all, as long as six radii.
   EXPECT_LT((strokes.back().to - strokes.front().from - 0.6 * Vec3(0.6, -0.8, 0)).norm(), 1e-12);
+}
+
+TEST(Arrows, OfForceHaveNoScaleWhereNoForceIs) {
+  const std::string arrows = "gravity: [0, 0, 0]\narrows: [force]\n";
+  EXPECT_TRUE(arrow_scales(load_text(ball_scene(arrows))).empty());
+  EXPECT_TRUE(legends_of(load_text(ball_scene(arrows))).empty());
+  // A spring that is slack at time 0 pulls later.
+  const std::string spring = "forces: [{spring: {anchor: [0, 2, 0], stiffness: 40, rest_length: 2}}]\n";
+  EXPECT_EQ(arrow_scales(load_text(ball_scene(arrows + spring))).size(), 1u);
 }
 
 TEST(Arrows, StartAtTheSurfaceOfABox) {

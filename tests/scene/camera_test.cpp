@@ -85,6 +85,23 @@ TEST(CameraPlan, ASettingReplacesTheKeysThatItExcludes) {
   EXPECT_EQ(scene.camera->path[1].eye.y(), 7);
 }
 
+TEST(CameraPlan, ASettingTakesAwayTheKeysThatTheReplacedOnesNeed) {
+  const std::string path =
+      "camera: {near: 1, path: [{at: 0, eye: [0, 3, 5], target: [0, 0, 0]}, {at: 1, eye: [0, 3, 4], target: [0, 0, "
+      "0]}]}\n";
+  LoadOptions options;
+  options.set = {"camera.follow=red"};
+  // A resolved scene has near and far.
+  for (const std::string& text : {bodies + path, load_text(bodies + path).resolved}) {
+    const Scene scene = load_text(text, options);
+    EXPECT_TRUE(scene.camera->follow && !scene.camera->follow->has_eye);
+    EXPECT_EQ(scene.resolved.find("near:"), std::string::npos);
+  }
+  EXPECT_EQ(load_text(bodies + "camera: {eye: [0, 1, 9], target: [0, 0, 0], near: 2}\n", options).camera->near, 2);
+  options.set = {"camera.eye=[0, 1, 9]", "camera.target=[0, 0, 0]"};
+  EXPECT_EQ(load_text(bodies + path, options).camera->near, 1);
+}
+
 TEST(CameraErrors, KeysThatDoNotGoTogetherAreRefused) {
   for (const char* camera :
        {"{fit: motion, eye: [0, 1, 9]}", "{fit: motion, target: [0, 1, 9]}", "{fit: motion, near: 1}",
@@ -102,14 +119,21 @@ TEST(CameraErrors, WithoutAPlaceItNamesTheWaysToOne) {
             "     = or `fit`: motion\n"
             "     = or `path`: a list\n"
             "     = or `follow`: a name\n");
+  EXPECT_EQ(errors_of(start + "camera: {near: 1}\n").find("`camera` has `near`"), std::string::npos);
   EXPECT_EQ(error_of("{eye: [0, 0, 5]}"), "`camera` has `eye` but no `target`");
 }
 
 TEST(CameraErrors, WhatCannotBeFollowedIsNamed) {
   EXPECT_EQ(error_of("{follow: floor}"), "`floor` never moves: there is nothing to follow");
   EXPECT_EQ(error_of("{follow: rde}"), "nothing is named `rde`");
+  for (const std::string part :
+       {"camera: {follow: zz}\n", "trails: {on: [zz]}\n", "forces: [{uniform: [1, 0, 0], on: [zz]}]\n"})
+    EXPECT_NE(errors_of(bodies + part).find("     = expected a ball, body, group or member (gas.3)\n"),
+              std::string::npos)
+        << part;
+  EXPECT_EQ(errors_of(bodies + "camera: {follow: flor}\n").find("did you mean"), std::string::npos);
   EXPECT_EQ(error_of("{follow: gas.2}"), "the group `gas` has no member `2`");
-  EXPECT_EQ(error_of("{follow: red, near: 1}"), "`near` without an `eye`");
+  EXPECT_EQ(error_of("{follow: red, near: 1}"), "`camera` has `near` but no `eye`");
   EXPECT_EQ(error_of("{follow: red, eye: [1, 1, 0]}"), "the camera's target is where its eye is");
 }
 

@@ -54,7 +54,7 @@ TEST(ForceErrors, NamesThatMeanNothingOrNothingThatMoves) {
             "scene.yaml:8:50: error: nothing is named `pot`\n"
             "   8 |   - {uniform: [1, 0, 0], on: [rde, floor, gas.3, pot]}\n"
             "     |                                                  ^~~\n"
-            "     = expected a ball, body, group, member (gas.3) or fixed thing, such as room.y_min\n");
+            "     = expected a ball, body, group or member (gas.3)\n");
   EXPECT_EQ(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], on: []}\n"),
             "scene.yaml:8:30: error: `on` has 0 entries\n"
             "   8 |   - {uniform: [1, 0, 0], on: []}\n"

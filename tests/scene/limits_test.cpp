@@ -110,6 +110,19 @@ TEST(Limits, ADensityWhoseMassIsNoneIsRefused) {
   EXPECT_NE(text.find("a run takes numbers from 1e-60 to 1e+60 kg"), std::string::npos) << text;
 }
 
+TEST(Limits, AFilmTooSlowNeedsAHigherSpeed) {
+  EXPECT_EQ(errors_of(start + "output: {video: {speed: 1e-6, fps: 1}}\n"),
+            "scene.yaml:3:25: error: the run would write 1000001 pictures; the limit is 100000\n"
+            "   3 | output: {video: {speed: 1e-6, fps: 1}}\n"
+            "     |                         ^~~~\n"
+            "     = expected a higher `speed`, a lower `fps` or a shorter duration, or --force to allow it\n");
+  // At full speed there would be too many, too.
+  EXPECT_NE(errors_of(start + "output: {video: {speed: 0.5, fps: 1e6}}\n").find("scene.yaml:3:35: "),
+            std::string::npos);
+  EXPECT_NE(errors_of(start + "output: {video: {speed: 0}}\n").find("expected a number from 0.000001 to 1000000\n"),
+            std::string::npos);
+}
+
 TEST(Steps, MoreThanTheBudgetAreRefusedUnlessForced) {
   const std::string text =
       ball("mass: 1, radius: 0.5, position: [0, 0, 0]", "simulate: {duration: 1, engine: stepped, step: 1e-9}\n");

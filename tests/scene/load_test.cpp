@@ -103,6 +103,25 @@ TEST(LoadScene, SizesHaveNames) {
       "     = expected [width, height], two whole numbers from 16 to 16384 in pixels, or 720p, 1080p, 4k or square\n");
 }
 
+TEST(LoadScene, ASheetThatCannotBeMadeNeedsAnotherSize) {
+  EXPECT_EQ(errors_of(start + "output: {sheet: {size: [64, 64]}}\n"),
+            "scene.yaml:3:24: error: a contact sheet of 4 x 3 pictures in 64 x 64 pixels: each would have 6 x 10\n"
+            "   3 | output: {sheet: {size: [64, 64]}}\n"
+            "     |                        ^\n"
+            "     = expected a `size` of at least [168, 128], or fewer columns or rows\n");
+  EXPECT_EQ(errors_of(start + "output: {sheet: {size: [168, 128]}}\n"), "");
+  EXPECT_EQ(
+      errors_of(start + "output: {frames: {size: [16, 16384]}, sheet: true}\n"),
+      "scene.yaml:3:46: error: a contact sheet of 4 x 3 pictures would have 1920 x 1443872 pixels\n"
+      "   3 | output: {frames: {size: [16, 16384]}, sheet: true}\n"
+      "     |                                              ^~~~\n"
+      "     = expected a `size` of the sheet, such as [1920, 1080]: without one, its pictures have the shape of 16 "
+      "x 16384\n");
+  EXPECT_EQ(errors_of(start + "output: {frames: {size: [16, 16384]}, sheet: {size: [1920, 1080]}}\n"), "");
+  EXPECT_NE(errors_of(start + "output: {sheet: {size: [16384, 16384]}}\n").find("at most 100000000 pixels in all"),
+            std::string::npos);
+}
+
 TEST(LoadScene, TheEndOfAFilmsNameIsItsFormat) {
   EXPECT_EQ(
       errors_of(start + "output: {video: {file: x.avi}}\n"),
@@ -123,13 +142,42 @@ TEST(LoadScene, AGifHasARateThatItCanKeep) {
     EXPECT_NE(errors_of(start + "output: {video: {file: x.gif, fps: " + fps + "}}\n").find("a GIF cannot show"),
               std::string::npos)
         << fps;
-  // That of frames, too.
-  EXPECT_EQ(errors_of(start + "output: {frames: {fps: 30}, video: {file: x.gif}}\n"),
-            "scene.yaml:3:24: error: a GIF cannot show 30 pictures a second\n"
-            "   3 | output: {frames: {fps: 30}, video: {file: x.gif}}\n"
-            "     |                        ^~\n"
+  EXPECT_EQ(errors_of(start + "output: {video: {file: x.gif, fps: 30}}\n"),
+            "scene.yaml:3:36: error: a GIF cannot show 30 pictures a second\n"
+            "   3 | output: {video: {file: x.gif, fps: 30}}\n"
+            "     |                                    ^~\n"
             "     = expected 50, 25, 20, 12.5, 10 or another 100/n: a GIF shows each picture for whole hundredths of a "
             "second, at least 2\n");
+  for (const std::string fps : {"foo", "100/3"}) {
+    const std::string errors = errors_of(start + "output: {video: {file: x.gif, fps: " + fps + "}}\n");
+    EXPECT_NE(errors.find("error: `" + fps + "` "), std::string::npos);
+    EXPECT_EQ(errors.find("a GIF cannot show"), std::string::npos);
+  }
+}
+
+TEST(LoadScene, AGifWithoutARateOfItsOwnHasTheHighestUpToThatOfFrames) {
+  for (const auto& [frames, film] :
+       {std::pair{30, 25.}, {60, 50.}, {25, 25.}, {24, 20.}, {1000, 50.}, {12, 100. / 9}}) {
+    const Scene scene =
+        load_text(start + "output: {frames: {fps: " + std::to_string(frames) + "}, video: {file: x.gif}}\n");
+    EXPECT_EQ(scene.output.video->fps, film);
+    EXPECT_EQ(scene.output.frames->fps, frames);
+    EXPECT_EQ(load_text(scene.resolved).output.video->fps, film);
+  }
+}
+
+TEST(LoadScene, ASettingThatMakesAGifOfAFilmWithARateNamesTheOtherSetting) {
+  const std::string text = start + "output: {video: {fps: 30}}\n", file = "output.video.file=x.gif";
+  EXPECT_EQ(
+      errors_with(text, file),
+      "scene.yaml:3:23: error: a GIF cannot show 30 pictures a second\n"
+      "   3 | output: {video: {fps: 30}}\n"
+      "     |                       ^~\n"
+      "     = expected --set output.video.fps=25, or another 100/n: a GIF shows each picture for whole hundredths "
+      "of a second, at least 2\n");
+  LoadOptions options;
+  options.set = {file, "output.video.fps=25"};
+  EXPECT_EQ(errors_of(text, options), "");
 }
 
 TEST(LoadScene, DensityMakesTheMass) {

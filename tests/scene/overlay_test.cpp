@@ -77,8 +77,29 @@ TEST(Caption, WithAnUnknownNameIsAnErrorAtItsPlace) {
   EXPECT_NE(error_of("{camera.fov}").find("this scene has no `camera`"), std::string::npos);
   EXPECT_NE(error_of("{balls.red.color}").find("`color` has no value in this scene"), std::string::npos);
   EXPECT_NE(error_of("{balls.red.mass.x}").find("`mass` has no part `x`"), std::string::npos);
-  EXPECT_NE(error_of("{}").find("unknown key `` in the scene"), std::string::npos);
+  EXPECT_EQ(error_of("{foo}"),
+            "scene.yaml:9:11: error: unknown key `foo` in the scene\n"
+            "   9 | caption: \"{foo}\"\n"
+            "     |           ^~~~~\n"
+            "     = expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}\n");
+  EXPECT_NE(error_of("{fps}").find("     = `fps` is a key of `frames`, `video` or `gltf`\n     = expected {title}"),
+            std::string::npos);
+  EXPECT_EQ(error_of("{}"),
+            "scene.yaml:9:11: error: there is no name between the braces\n"
+            "   9 | caption: \"{}\"\n"
+            "     |           ^~\n"
+            "     = expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}\n");
   EXPECT_NE(error_of("{time").find("scene.yaml:9:11: error: a brace is not closed\n"), std::string::npos);
+}
+
+TEST(Caption, WithABraceThatNothingOpensIsAnError) {
+  EXPECT_EQ(error_of("t = time} s"),
+            "scene.yaml:9:19: error: a brace is not opened\n"
+            "   9 | caption: \"t = time} s\"\n"
+            "     |                   ^\n"
+            "     = expected {name}, or }} for a brace\n");
+  EXPECT_NE(error_of("{time}}").find("scene.yaml:9:17: error: a brace is not opened\n"), std::string::npos);
+  EXPECT_EQ(error_of("{time}}}"), "");
 }
 
 TEST(Caption, ThatBeginsWithABraceNeedsQuotes) {
@@ -88,6 +109,19 @@ TEST(Caption, ThatBeginsWithABraceNeedsQuotes) {
             "     |          ^\n"
             "     = expected true, false or a text\n"
             "     = a text that begins with a brace needs quotes\n");
+  EXPECT_EQ(errors_of(balls + "caption: {time} s of {collisions}\n"),
+            "scene.yaml:9:17: error: text goes on after the closing bracket\n"
+            "   9 | caption: {time} s of {collisions}\n"
+            "     |                 ^\n"
+            "     = a text that begins with a bracket or a brace needs quotes\n");
+  EXPECT_EQ(errors_with(balls, "caption={time} s of {collisions}"),
+            "--set caption={time} s of {collisions}: error: text goes on after the closing bracket\n"
+            "     | caption={time} s of {collisions}\n"
+            "     |                ^\n"
+            "     = a text that begins with a bracket or a brace needs quotes\n");
+  LoadOptions options;
+  options.set = {"caption='{time} s of {collisions}'"};
+  EXPECT_EQ(load_text(balls, options).overlay.caption, "{time} s of {collisions}");
 }
 
 TEST(Caption, FollowsPathsToForcesGroupsAndFilms) {
@@ -116,11 +150,31 @@ TEST(Trails, HaveDefaultsAndNames) {
   EXPECT_NE(errors_of(balls + "trails: {on: [blu]}\n").find("did you mean `blue`?"), std::string::npos);
 }
 
+TEST(Trails, ThatWouldCoverThePictureAreRefused) {
+  EXPECT_EQ(errors_of(balls + "trails: {width: 1e9}\n"),
+            "scene.yaml:9:17: error: trails of 1e+09 m are more than 1000 times as wide as the largest radius, 0.1 m\n"
+            "   9 | trails: {width: 1e9}\n"
+            "     |                 ^~~\n"
+            "     = expected less: such a trail covers the picture\n");
+  EXPECT_EQ(errors_of(balls + "trails: {width: 100}\n"), "");
+}
+
 TEST(Arrows, AreOfVelocityAndForce) {
   const Scene both = load_text(balls + "arrows: [force, velocity]\n");
   EXPECT_TRUE(both.overlay.velocity_arrows && both.overlay.force_arrows);
   EXPECT_FALSE(load_text(balls + "arrows: [force]\n").overlay.velocity_arrows);
   EXPECT_NE(errors_of(balls + "arrows: [forces]\n").find("did you mean `force`?"), std::string::npos);
+}
+
+TEST(Names, InAListAreDistinct) {
+  EXPECT_EQ(errors_of(balls + "arrows: [velocity, velocity]\n"),
+            "scene.yaml:9:20: error: `arrows` has `velocity` twice\n"
+            "   9 | arrows: [velocity, velocity]\n"
+            "     |                    ^~~~~~~~\n"
+            "     = remove one of them\n");
+  EXPECT_NE(errors_of(balls + "trails: {on: [red, blue, red]}\n").find("`on` has `red` twice\n"), std::string::npos);
+  EXPECT_NE(errors_of(balls + "forces: [{uniform: [1, 0, 0], on: [red, red]}]\n").find("`on` has `red` twice\n"),
+            std::string::npos);
 }
 
 TEST(Shutter, IsAPartOfTheInterval) {
@@ -140,6 +194,29 @@ TEST(Background, MayBeNoneInPicturesAlone) {
             "     = expected a `file` ending in .gif or .webp, `frames` or `sheet`, or a colour for `background`\n");
   EXPECT_TRUE(load_text(none.resolved).transparent);
   EXPECT_EQ(errors_of(balls + "background: none\noutput: {video: {file: a.webp}}\n"), "");
+}
+
+TEST(Background, ThatIsNoColourMayBeMeantAsNone) {
+  const auto remedy = [](const std::string& background) {
+    const std::string errors = errors_of(balls + "background: " + background + "\n");
+    const std::size_t from = errors.find("     = ");
+    return from == std::string::npos ? errors : errors.substr(from + 7);
+  };
+  const std::string all = "expected none or a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1\n";
+  for (const char* none : {"nine", "None", "transparent"}) EXPECT_EQ(remedy(none), "did you mean `none`?\n");
+  EXPECT_EQ(remedy("bleu"), "did you mean `blue`?\n");
+  for (const char* wrong : {"true", "false", "perhaps", "[]", "[1]", "[1, 1, 1, 1]", "{r: 1}"})
+    EXPECT_EQ(remedy(wrong), all);
+  EXPECT_EQ(remedy(""), all + "     = a colour that begins with # needs quotes\n");
+  EXPECT_EQ(remedy("[1, 1, 2]"), "expected a number from 0 to 1\n");
+}
+
+TEST(Colours, OfAWrongNumberOfNumbersNeedThree) {
+  EXPECT_EQ(errors_of(balls + "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0], color: [1]}}\n"),
+            "scene.yaml:9:62: error: `color` has 1 number\n"
+            "   9 | planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0], color: [1]}}\n"
+            "     |                                                              ^\n"
+            "     = expected a colour: a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1\n");
 }
 
 TEST(ColourBy, StandsWhereverAColourOfBodiesGoes) {
@@ -214,6 +291,21 @@ TEST(ColourScale, OfMassAndRadiusIsThatOfTheBodies) {
   EXPECT_EQ(equal.min, 0);
   EXPECT_EQ(equal.max, 2);
   EXPECT_EQ(scale("by: collisions", two).max, 10);
+  EXPECT_EQ(scale("by: mass", "balls: {a: {position: [0, 0, 0], mass: 7}, b: {position: [1, 0, 0], mass: 45}}\n").max,
+            45);
+}
+
+TEST(ColourScale, OfMassAndRadiusIsRoundedToTwoDigits) {
+  // The ball around the box has the radius sqrt(0.2^2 + 0.3^2 + 0.2^2) / 2 = 0.206155.
+  const ColorScale radius = scale("by: radius",
+                                  "balls: {a: {position: [0, 0, 0]}}\nbodies: {b: {mass: 1, box: [0.2, 0.3, 0.2], "
+                                  "position: [1, 0, 0], color: {by: radius}}}\n");
+  EXPECT_EQ(radius.min, 0.1);
+  EXPECT_EQ(radius.max, 0.21);
+  const ColorScale mass =
+      scale("by: mass", "balls: {a: {position: [0, 0, 0], mass: 0.00123}, b: {position: [1, 0, 0], mass: 98765}}\n");
+  EXPECT_EQ(mass.min, 0.0012);
+  EXPECT_EQ(mass.max, 99000);
 }
 
 TEST(ColourScale, IsRoundedUpToFewDigits) {

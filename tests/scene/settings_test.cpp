@@ -79,6 +79,20 @@ TEST(Settings, SeedOptionOverrulesTheFile) {
   EXPECT_NE(scene.resolved.find("\nseed: 9\n"), std::string::npos);
 }
 
+TEST(Settings, OfWhatTheSceneLacksAreOneErrorEach) {
+  EXPECT_EQ(errors_with(two, "forces.0.visible=false"),
+            "--set forces.0.visible=false: error: `forces` has no entry `0`\n"
+            "     | forces.0.visible=false\n"
+            "     |        ^\n"
+            "     = it has none: set all of `forces`\n");
+  const std::string forces = two + "forces: [{uniform: [1, 0, 0]}]\n";
+  EXPECT_NE(errors_with(forces, "forces.1.from=1").find("     = its only entry is 0\n"), std::string::npos);
+  for (const std::string set : {"walls.w.center.x=1", "camera.path.0.at=1", "trails.on.0=red"}) {
+    const std::string errors = errors_with(two, set);
+    EXPECT_EQ(errors.find("error: "), errors.rfind("error: ")) << errors;
+  }
+}
+
 TEST(Settings, ErrorsPointIntoTheOption) {
   EXPECT_EQ(errors_with(two, "balls.red.position.z=abc"),
             "--set balls.red.position.z=abc: error: `abc` is not a number\n"

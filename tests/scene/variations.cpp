@@ -196,7 +196,7 @@ output:
   contacts: {every: 0.1}
   frames: {fps: 2, size: [16, 17], samples: 1, from: 0.5, until: 0.75}
   video: {file: b.gif, fps: 4, size: [16, 16], crf: 20, samples: 2, from: 0.25, until: 1, speed: 0.5}
-  sheet: {columns: 2, rows: 2, size: [64, 48], from: 0.25, until: 1}
+  sheet: {columns: 2, rows: 2, size: [96, 88], from: 0.25, until: 1}
   vtk: {every: 0.1}
   xyz: {every: 0.1}
   gltf: {fps: 2}
