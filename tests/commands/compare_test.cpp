@@ -278,6 +278,23 @@ TEST(CompareCommand, FilmMixesGifsAndNamesTheRemedyForOthers) {
             "render runs/slow --set output.video.speed=1)\n");
 }
 
+// A sweep would refuse runs that were drawn again in their own folders.
+TEST(CompareCommand, RemedyForTheFilmsOfASweepWorksAndLeavesTheSweepAsItIs) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("camera: {eye: [0, 3, -5], target: [0, 0, 0]}\n"
+                                     "output: {video: {file: film.webp, fps: 4, size: [64, 48]}}\n"));
+  here.write("pair.yaml", "sweep: 1\nbase: balls.yaml\ngrid: {balls.red.restitution: [0.5, 1]}\n");
+  ASSERT_EQ(here.carom({"sweep", "pair.yaml", "-o", "pair", "-q"}).code, 0);
+  EXPECT_EQ(here.carom({"compare", "pair", "--video"}).err,
+            "carom: pair/runs/r0001 has a film that ffmpeg cannot read, film.webp: draw it as .mp4 (carom render "
+            "pair/runs/* -o OTHER --set output.video.file=animation.mp4, then carom compare OTHER/* --video)\n");
+  const Finished remedy = here.shell(
+      "$CAROM render pair/runs/* -o OTHER -q --set output.video.file=animation.mp4 && $CAROM compare OTHER/* --video");
+  EXPECT_EQ(remedy.code, 0) << remedy.err;
+  EXPECT_TRUE(here.has("output/comparison/comparison.mp4"));
+  EXPECT_NE(here.carom({"sweep", "pair.yaml", "-o", "pair"}).out.find("up to date"), std::string::npos);
+}
+
 TEST(CompareCommand, FilmOfTooManyRunsIsRefused) {
   const Workplace here;
   make_runs(here);
