@@ -172,7 +172,7 @@ const CommandText& render_text() {
        {"--set"},
        {"--only",
         "draw only these, of frames, video, sheet, vtk, xyz, gltf;\none that the scene lacks is drawn with default "
-        "settings"},
+        "settings;\nframes, video and sheet take theirs from each other"},
        {"--at",
         "draw one picture at this time, still_SECONDSs.png; size and\nquality are those of the frames, or of the film"},
        {"--jobs", "N runs at a time (1); changes no result"},

@@ -136,6 +136,7 @@ class Requests {
     const Node* own = part.own() == nullptr ? nullptr : part.own()->find("fps");
     if (own == nullptr) {
       video.fps = gif_rate(video.fps);
+      if (part.given("fps") == nullptr && scene_.output.frames) scene_.output.frames->fps = video.fps;
       return;
     }
     if (own->bad || keeps_rate(FilmFormat::gif, video.fps)) return;

@@ -180,6 +180,19 @@ TEST(LoadScene, ASettingThatMakesAGifOfAFilmWithARateNamesTheOtherSetting) {
   EXPECT_EQ(errors_of(text, options), "");
 }
 
+TEST(LoadScene, FramesAndVideoTakeRateSizeAndSamplesFromEachOther) {
+  const Output film =
+      load_text(start + "output: {video: {fps: 60, size: [64, 64], samples: 8, from: 0.5}, frames: {samples: 2}}\n")
+          .output;
+  EXPECT_EQ(*film.frames, (FramesOutput{60, {64, 64}, 2, 0, {}}));
+  const Output frames = load_text(start + "output: {frames: {fps: 60, until: 0.5}, video: {size: [64, 64]}}\n").output;
+  EXPECT_EQ(*frames.frames, (FramesOutput{60, {64, 64}, 4, 0, 0.5}));
+  EXPECT_EQ(frames.video->fps, 60);
+  EXPECT_EQ(frames.video->until, std::nullopt);
+  EXPECT_EQ(load_text(start + "output: {frames: true, video: {file: x.gif}}\n").output.frames->fps, 25);
+  EXPECT_EQ(load_text(start + "output: {frames: true}\n").output.frames->fps, 30);
+}
+
 TEST(LoadScene, DensityMakesTheMass) {
   // A steel ball: 7850 kg/m^3, 2 cm across. 4/3 pi r^3 rho = 0.0328820...
   const Scene scene = load_text(start + "balls: {a: {density: 7850, radius: 0.01, position: [0, 0, 0]}}\n");
