@@ -85,8 +85,13 @@ PictureStreams plan_pictures(const Scene& scene) {
   const Output& output = scene.output;
   const double duration = scene.simulate.duration;
   PictureStreams plan;
-  if (const auto& frames = output.frames)
-    add(plan, frames->size, *frames, 1, ticks_of(*frames, duration), {true, false, false});
+  if (const auto& frames = output.frames) {
+    const Ticks ticks = ticks_of(*frames, duration);
+    if (ticks.count() < 1)
+      throw ExportError(std::string("cannot make frames: no picture falls between `from` and `until`; ") +
+                        "a frame is at a whole multiple of 1/fps");
+    add(plan, frames->size, *frames, 1, ticks, {true, false, false});
+  }
   if (const auto& video = output.video) {
     const Ticks ticks = ticks_of(*video, duration);
     if (ticks.count() < 1)
