@@ -78,6 +78,10 @@ TEST(Render, InPlaceReplacesThePicturesAndKeepsTheTables) {
   const Finished done = here.carom(render);
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_NE(done.out.find("run: From above\n"), std::string::npos);
+  EXPECT_NE(done.out.find("  wrote       run: animation.glb, manifest.json, scene.yaml, summary.csv, surfaces.vtp,\n"
+                          "              trajectory.pvd, 4 pictures in frames/ and 31 instants in vtk/\n"),
+            std::string::npos)
+      << done.out << "not collisions.csv, energy.csv and flights.bin, which stay";
   Words fresh = {"run", "balls.yaml", "-o", "fresh"};
   fresh.insert(fresh.end(), set.begin(), set.end());
   here.carom(fresh);
