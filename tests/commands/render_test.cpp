@@ -190,6 +190,21 @@ TEST(Render, RefusesOtherTables) {
             "carom: 1 error; nothing was run\n");
 }
 
+TEST(Render, RefusesChartsAndNamesTheCommandThatDrawsThem) {
+  const Workplace here;
+  here.write("balls.yaml",
+             two_balls(near_camera + "output: {energy: {every: 0.5}, frames: {fps: 2, size: [64, 36]}}\n"));
+  here.carom({"run", "balls.yaml", "-o", "run"});
+  const Files before = here.files("run");
+  const Finished render = here.carom({"render", "run", "--set", "output.plots=true"});
+  EXPECT_EQ(render.code, 2);
+  EXPECT_EQ(render.err,
+            "run: --set output.plots=true: render makes no plots\n  carom plot run makes them\n"
+            "carom: 1 error; nothing was run\n");
+  EXPECT_EQ(here.files("run"), before);
+  EXPECT_NE(here.carom({"render", "run", "--only", "plots"}).err.find(": carom plot makes plots\n"), std::string::npos);
+}
+
 TEST(Render, RefusesWhatIsNoWholeRun) {
   const Workplace here;
   here.write("balls.yaml", two_balls(near_camera + frames));
